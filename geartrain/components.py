@@ -1,0 +1,299 @@
+"""The ordinary train of each carrier frame: exact relative ratios, and its loops with their witnesses.
+
+Seen from one carrier, the links that mesh form an ordinary train whose relative speeds are rational multiples of
+one unknown. One walk finds them all; a mesh that closes a loop either agrees (it is redundant) or locks the train
+to its carrier. What couples the components are the links they share, and that system is small in real trains.
+"""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from math import gcd
+
+from geartrain.circuits import Circuit
+from geartrain.errors import Loop
+from geartrain.exact import Row, add_into, coprime
+
+
+@dataclass(frozen=True, slots=True)
+class Components:
+    """All components of a train. A node is a link seen from a carrier; node arrays run in parallel.
+
+    node_link, node_carrier  link and carrier of each node, as indices into `links`
+    node_group               the component each node belongs to
+    numerator, denominator   its speed relative to the carrier, over that of its component's unknown
+    node_circuit             the circuit by which the walk reached it; -1 at the root
+    node_parent              the node it was reached from; -1 at the root
+    group_carrier            carrier of each component
+    nodes_of                 link -> its nodes
+    closing                  circuits that close a loop and agree: each is redundant
+    breaking                 circuits that close a loop and disagree: they lock their component
+    holding                  couplings of winding number 0: they hold the slot's component on its carrier
+    """
+
+    links: tuple[str, ...]
+    index: Mapping[str, int]
+    frame: int
+    circuits: Sequence[Circuit]
+    node_link: Sequence[int]
+    node_carrier: Sequence[int]
+    node_group: Sequence[int]
+    numerator: Sequence[int]
+    denominator: Sequence[int]
+    node_circuit: Sequence[int]
+    node_parent: Sequence[int]
+    group_carrier: Sequence[int]
+    nodes_of: Mapping[int, Sequence[int]]
+    closing: Sequence[int]
+    breaking: Sequence[int]
+    holding: Sequence[int]
+
+    def relative(self, node: int) -> Fraction:
+        """Speed of the node's link relative to its carrier, over the component's unknown."""
+        return coprime(self.numerator[node], self.denominator[node])
+
+    def node(self, link: int, carrier: int) -> int:
+        """The node of a link as seen from a carrier."""
+        return next(node for node in self.nodes_of[link] if self.node_carrier[node] == carrier)
+
+    def loop(self, circuit: int) -> Loop:
+        """The loop that a closing or breaking circuit completes, in order, with its ratio product."""
+        chord = self.circuits[circuit]
+        carrier = self.index[chord.carrier]
+        up, down = [self.node(self.index[link], carrier) for link in (chord.i, chord.j)]
+        left, right = self._ancestors(up), self._ancestors(down)
+        while len(left) > 1 and len(right) > 1 and left[-2] == right[-2]:
+            left.pop()
+            right.pop()
+        # walk: common ancestor -> ... -> i, over the chord to j, and back up to the ancestor
+        walk = left[::-1] + right[:-1]
+        pairs = [self.node_circuit[node] for node in left[-2::-1]] + [circuit]
+        pairs += [self.node_circuit[node] for node in right[:-1]]
+        step = Fraction(-chord.a, chord.b) * self.relative(up) / self.relative(down)
+        return Loop(
+            chord.carrier,
+            tuple(self.links[self.node_link[node]] for node in walk),
+            tuple(self.circuits[pair].id for pair in pairs),
+            step,
+        )
+
+    def _ancestors(self, node: int) -> list[int]:
+        chain = [node]
+        while self.node_parent[node] >= 0:
+            node = self.node_parent[node]
+            chain.append(node)
+        return chain
+
+    def path(self, nodes: Iterable[int]) -> list[int]:
+        """The circuits that join some nodes of one component: the part of the train that relates them."""
+        wanted = list(nodes)
+        chains = [self._ancestors(node) for node in wanted]
+        common = set(chains[0]).intersection(*chains[1:]) if chains else set()
+        used = {self.node_circuit[node]: None for chain in chains for node in chain if node not in common}
+        return [circuit for circuit in used if circuit >= 0]
+
+
+def find_components(
+    links: Sequence[str], frame: str, circuits: Sequence[Circuit], first: Iterable[str] = ()
+) -> Components:
+    """Walk every carrier's ordinary train once, breadth first, in integers.
+
+    first   links to start from where possible (the inputs): their component's unknown is then their own speed,
+            and no long number is ever multiplied by another
+    """
+    index = {link: at for at, link in enumerate(links)}
+    size = len(links)
+    node_of: dict[int, int] = {}
+    node_link: list[int] = []
+    node_carrier: list[int] = []
+    edges: list[list[tuple[int, int]]] = []
+    holding: list[int] = []
+
+    def node(link: int, carrier: int) -> int:
+        key = carrier * size + link
+        found = node_of.get(key)
+        if found is None:
+            found = node_of[key] = len(node_link)
+            node_link.append(link)
+            node_carrier.append(carrier)
+            edges.append([])
+        return found
+
+    for at, circuit in enumerate(circuits):
+        carrier = index[circuit.carrier]
+        i = node(index[circuit.i], carrier)
+        if circuit.b == 0:
+            holding.append(at)
+            continue
+        j = node(index[circuit.j], carrier)
+        edges[i].append((at, j))
+        edges[j].append((at, i))
+
+    nodes_of: dict[int, list[int]] = {}
+    for at, link in enumerate(node_link):
+        nodes_of.setdefault(link, []).append(at)
+
+    count = len(node_link)
+    group = [-1] * count
+    top = [0] * count
+    bottom = [1] * count
+    reached = [-1] * count
+    parent = [-1] * count
+    group_carrier: list[int] = []
+    seen = bytearray(len(circuits))
+    closing: list[int] = []
+    breaking: list[int] = []
+    for root in _starts(nodes_of, [index[link] for link in first if link in index], count):
+        if group[root] >= 0:
+            continue
+        this = len(group_carrier)
+        group_carrier.append(node_carrier[root])
+        group[root], top[root] = this, 1
+        queue = deque([root])
+        while queue:
+            here = queue.popleft()
+            link = node_link[here]
+            for at, there in edges[here]:
+                if seen[at]:
+                    continue
+                seen[at] = 1
+                circuit = circuits[at]
+                # a c_i + b c_j = 0 gives the far wheel's speed from the near one's
+                a, b = (circuit.a, circuit.b) if index[circuit.i] == link else (circuit.b, circuit.a)
+                n, d = _times(top[here], bottom[here], -a, b)
+                if group[there] < 0:
+                    group[there], top[there], bottom[there] = this, n, d
+                    reached[there], parent[there] = at, here
+                    queue.append(there)
+                elif (top[there], bottom[there]) == (n, d):
+                    closing.append(at)
+                else:
+                    breaking.append(at)
+    return Components(
+        tuple(links), index, index[frame], circuits, node_link, node_carrier, group, top, bottom, reached, parent,
+        group_carrier, nodes_of, closing, breaking, holding,
+    )  # fmt: skip
+
+
+def _starts(nodes_of: Mapping[int, Sequence[int]], first: Sequence[int], count: int) -> Iterator[int]:
+    for link in first:
+        yield from nodes_of.get(link, ())
+    yield from range(count)
+
+
+def _times(n: int, d: int, a: int, b: int) -> tuple[int, int]:
+    """n/d times a/b, reduced, denominator positive. n/d is reduced; a and b are tooth counts, so gcds stay cheap."""
+    if b < 0:
+        a, b = -a, -b
+    common = gcd(a, b)
+    if common > 1:
+        a //= common
+        b //= common
+    left = gcd(n, b)
+    if left > 1:
+        n //= left
+        b //= left
+    right = gcd(a, d)
+    if right > 1:
+        a //= right
+        d //= right
+    return n * a, d * b
+
+
+@dataclass(frozen=True, slots=True)
+class Reduced:
+    """What couples the components: unknown numbers, the form of every link in them, and the equations left.
+
+    Unknowns 0..g-1 are the components' own; above them, one for each carrier but the frame, and one for each link
+    that meshes with nothing. `origin` says what each equation states, for diagnoses: ("share", link, node) a link
+    seen from two carriers, ("loop", circuit, -1) a loop that does not close, ("hold", circuit, -1) a follower.
+    """
+
+    components: Components
+    unknowns: int
+    own: Mapping[int, int]
+    equations: tuple[Row, ...]
+    origin: tuple[tuple[str, int, int], ...]
+
+    def form(self, link: int) -> Row:
+        """The speed of a link as a linear form of the unknowns."""
+        parts = self.components
+        if link == parts.frame:
+            return {}
+        unknown = self.own.get(link)
+        if unknown is not None:
+            return {unknown: Fraction(1)}
+        return self.seen_from(parts.nodes_of[link][0])
+
+    def seen_from(self, node: int) -> Row:
+        """The speed of a node's link: its carrier's plus its own relative to it."""
+        parts = self.components
+        row: Row = {parts.node_group[node]: parts.relative(node)}
+        carrier = parts.node_carrier[node]
+        if carrier != parts.frame:
+            row[self.own[carrier]] = Fraction(1)
+        return row
+
+
+def reduce(parts: Components) -> Reduced:
+    """Collapse every component to its one unknown and write what remains to be solved."""
+    groups = len(parts.group_carrier)
+    carriers = dict.fromkeys(carrier for carrier in parts.group_carrier if carrier != parts.frame)
+    idle = (link for link in range(len(parts.links)) if link not in parts.nodes_of and link != parts.frame)
+    own = {link: groups + at for at, link in enumerate(dict.fromkeys([*carriers, *idle]))}
+    shell = Reduced(parts, groups + len(own), own, (), ())
+    equations: list[Row] = []
+    origin: list[tuple[str, int, int]] = []
+    for link, nodes in parts.nodes_of.items():
+        loose = nodes if link in own or link == parts.frame else nodes[1:]
+        for node in loose:
+            row = shell.form(link)
+            add_into(row, shell.seen_from(node), -1)
+            equations.append(row)
+            origin.append(("share", link, node))
+    still: set[int] = set()
+    for kind, chords in (("loop", parts.breaking), ("hold", parts.holding)):
+        for circuit in chords:
+            chord = parts.circuits[circuit]
+            group = parts.node_group[parts.node(parts.index[chord.i], parts.index[chord.carrier])]
+            if group not in still:  # a component that stands still cannot be stopped again
+                still.add(group)
+                equations.append({group: Fraction(1)})
+                origin.append((kind, circuit, -1))
+    return Reduced(parts, shell.unknowns, own, tuple(equations), tuple(origin))
+
+
+def prune(circuits: Sequence[Circuit], keep: Iterable[str]) -> list[Circuit]:
+    """The circuits that can matter to the links in `keep`.
+
+    A circuit with a link that no other circuit has and nobody asks for only serves to move that link: it goes,
+    and so on until none is left. Loops have no such end, so a locked train stays locked.
+    """
+    wanted = set(keep)
+    users: dict[str, set[int]] = {}
+    members: list[tuple[str, ...]] = []
+    for at, circuit in enumerate(circuits):
+        links = [circuit.i]
+        if circuit.b:
+            links.append(circuit.j)
+        if circuit.a + circuit.b:
+            links.append(circuit.carrier)
+        members.append(tuple(links))
+        for link in links:
+            users.setdefault(link, set()).add(at)
+    gone = set()
+    queue = deque(link for link, used in users.items() if len(used) == 1 and link not in wanted)
+    while queue:
+        link = queue.popleft()
+        if len(users[link]) != 1:
+            continue
+        (at,) = users[link]
+        gone.add(at)
+        for other in members[at]:
+            users[other].discard(at)
+            if len(users[other]) == 1 and other not in wanted:
+                queue.append(other)
+    return [circuit for at, circuit in enumerate(circuits) if at not in gone]

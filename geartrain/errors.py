@@ -1,0 +1,144 @@
+"""What can go wrong, said with place, what, why and what to do; and the verdict on a train, which is data."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Any, Literal
+
+
+Loc = tuple[str | int, ...]
+"""Where in a declaration: the keys and list positions that lead to a value."""
+
+Marks = Callable[[Loc], str]
+"""Turns a `Loc` into a place a reader can open, such as `file.yaml:12`."""
+
+
+def dotted(loc: Loc) -> str:
+    """The path of a declared value when no file is known: `gears[3].pair`."""
+    text = ""
+    for step in loc:
+        text += f"[{step}]" if isinstance(step, int) else f".{step}" if text else step
+    return text
+
+
+@dataclass(frozen=True, slots=True)
+class Problem:
+    """One thing that is wrong: place, what, why, what to do."""
+
+    what: str
+    why: str = ""
+    fix: str = ""
+    place: str = ""
+
+    def __str__(self) -> str:
+        head = f"{self.place}: {self.what}" if self.place else self.what
+        lines = [head]
+        if self.why:
+            lines.append(f"  why: {self.why}")
+        if self.fix:
+            lines.append(f"  fix: {self.fix}")
+        return "\n".join(lines)
+
+
+class GearTrainError(Exception):
+    """Input that cannot be read or used; carries every problem that could be collected."""
+
+    def __init__(self, problems: Problem | Iterable[Problem]) -> None:
+        self.problems = (problems,) if isinstance(problems, Problem) else tuple(problems)
+        super().__init__("\n".join(str(p) for p in self.problems))
+
+
+class DeclarationError(GearTrainError):
+    """The declaration cannot be read, or does not describe a gear train."""
+
+
+class QuestionError(GearTrainError):
+    """The train is sound, but it was asked for something it does not have."""
+
+
+class RangeError(GearTrainError):
+    """A method of calculation cannot answer within its range; another one can."""
+
+
+class MissingExtraError(GearTrainError):
+    """An optional library is not installed."""
+
+    def __init__(self, library: str, extra: str, purpose: str) -> None:
+        super().__init__(
+            Problem(
+                what=f"{library} is not installed",
+                why=f"{purpose} needs it, and it comes with an extra",
+                fix=f"pip install 'geartrain[{extra}]'",
+            )
+        )
+
+
+@dataclass(frozen=True, slots=True)
+class Loop:
+    """A closed loop of meshing wheels in one carrier's frame: links in order and the product of its ratios.
+
+    `product` is the speed with which the walk round the loop comes back, as a multiple of the speed it left
+    with: 1 closes (one mesh is redundant), anything else locks the loop to its carrier.
+    """
+
+    carrier: str
+    links: tuple[str, ...]
+    pairs: tuple[str, ...]
+    product: Fraction
+
+    @property
+    def closes(self) -> bool:
+        """True if the loop turns; its last mesh is then redundant."""
+        return self.product == 1
+
+    def __str__(self) -> str:
+        return f"loop {' - '.join(self.links)} (pairs {', '.join(self.pairs)}; ratio product {self.product})"
+
+    def to_dict(self) -> dict[str, Any]:
+        """Plain data for JSON."""
+        return {
+            "carrier": self.carrier,
+            "links": list(self.links),
+            "pairs": list(self.pairs),
+            "product": str(self.product),
+        }
+
+
+VerdictKind = Literal["determined", "free", "locked", "contradictory"]
+
+
+@dataclass(frozen=True, slots=True)
+class Verdict:
+    """What a train does with its inputs. A verdict is an answer, never an exception.
+
+    determined      every link's speed follows from the inputs
+    free            `links` are undetermined; prescribing `fixes` too would determine them
+    locked          the input cannot move: `loops`, or the brakes and clutches in `prescriptions`, hold it
+    contradictory   `prescriptions` cannot hold at once
+    """
+
+    kind: VerdictKind
+    text: str
+    links: tuple[str, ...] = ()
+    fixes: tuple[str, ...] = ()
+    prescriptions: tuple[str, ...] = ()
+    loops: tuple[Loop, ...] = ()
+
+    def __bool__(self) -> bool:
+        return self.kind == "determined"
+
+    def __str__(self) -> str:
+        return f"{self.kind}: {self.text}"
+
+    def to_dict(self) -> dict[str, Any]:
+        """Plain data for JSON."""
+        return {
+            "kind": self.kind,
+            "text": self.text,
+            "links": list(self.links),
+            "fixes": list(self.fixes),
+            "prescriptions": list(self.prescriptions),
+            "loops": [loop.to_dict() for loop in self.loops],
+        }

@@ -1,0 +1,186 @@
+"""The counting room: integers and Fractions. It knows no gears and imports the standard library only."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from fractions import Fraction
+from heapq import heapify, heappop, heappush
+
+PRIME = (1 << 61) - 1
+"""A Mersenne prime: rank modulo it is a lower bound that is exact but for accidents of probability 1e-18."""
+
+Row = dict[int, Fraction]
+"""A linear form: column -> coefficient. Columns >= 0 are unknowns, columns < 0 are symbols, kept and never solved for."""
+
+
+def coprime(numerator: int, denominator: int) -> Fraction:
+    """A Fraction from a reduced pair with a positive denominator, without the gcd that Fraction() would take.
+
+    The gcd of long integers costs the square of their length, and a walk along a train has reduced already.
+    """
+    value = Fraction()
+    value._numerator = numerator  # type: ignore[attr-defined]
+    value._denominator = denominator  # type: ignore[attr-defined]
+    return value
+
+
+def log10(value: Fraction) -> float:
+    """Decimal logarithm of |value| for numbers of any size; -inf for zero."""
+    if not value:
+        return -math.inf
+    return math.log10(abs(value.numerator)) - math.log10(value.denominator)
+
+
+def as_float(value: Fraction) -> float | None:
+    """The nearest float64, or None where float64 has none: a silent 0 or infinity would be a lie."""
+    try:
+        number = float(value)
+    except OverflowError:
+        return None
+    if value and abs(number) < 2.2250738585072014e-308:
+        return None
+    return number
+
+
+def decimal(value: Fraction, digits: int = 10) -> str:
+    """`value` in decimal, rounded to `digits` significant digits, for numbers of any size.
+
+    >>> decimal(Fraction(254, 19), 6), decimal(Fraction(-1, 3) ** 700, 4)
+    ('13.3684', '-9.648e-335')
+    """
+    number = as_float(value)
+    if number is not None:
+        return f"{number:.{digits}g}"
+    exponent = math.floor(log10(value))
+    scaled = abs(value) * Fraction(10) ** (digits - 1 - exponent)
+    mantissa = str(round(scaled))
+    exponent += len(mantissa) - digits
+    sign = "-" if value < 0 else ""
+    return f"{sign}{mantissa[0]}.{mantissa[1:digits]}e{exponent:+d}"
+
+
+@dataclass(frozen=True, slots=True)
+class Echelon:
+    """What elimination leaves: pivots in the order taken, conditions on symbols alone, redundant rows.
+
+    pivots      (column, rest): column = -(rest), rest free of all columns taken before it
+    conditions  rows without unknowns: each must vanish
+    redundant   indices of the rows that became 0 = 0
+    """
+
+    pivots: tuple[tuple[int, Row], ...]
+    conditions: tuple[Row, ...]
+    redundant: tuple[int, ...]
+
+    @property
+    def rank(self) -> int:
+        """Number of independent rows in the unknowns."""
+        return len(self.pivots)
+
+    def forms(self) -> dict[int, Row]:
+        """Every pivot column as a linear form of symbols and unknowns that stayed free."""
+        solved: dict[int, Row] = {}
+        for column, rest in reversed(self.pivots):
+            form: Row = {}
+            for other, coefficient in rest.items():
+                known = solved.get(other)
+                if known is None:
+                    add_into(form, {other: -coefficient}, 1)
+                else:
+                    add_into(form, known, -coefficient)
+            solved[column] = form
+        return solved
+
+
+class TooDenseError(Exception):
+    """Elimination passed its budget of operations; the caller has another way."""
+
+
+def add_into(row: Row, other: Mapping[int, Fraction], factor: Fraction | int) -> None:
+    """row += factor * other, dropping the entries that cancel."""
+    for column, coefficient in other.items():
+        value = row.get(column, 0) + factor * coefficient
+        if value:
+            row[column] = value  # type: ignore[assignment]
+        else:
+            row.pop(column, None)
+
+
+def eliminate(rows: Iterable[Mapping[int, Fraction]], budget: int | None = None, modulus: int = 0) -> Echelon:
+    """Sparse elimination over the rationals (or modulo a prime): shortest row first, rarest column in it.
+
+    rows      linear forms that vanish; columns < 0 are symbols
+    budget    the largest number of coefficient operations; beyond it `TooDenseError` is raised
+    modulus   0 for exact rationals, else a prime; coefficients must then be integers
+
+    Rows of one or two unknowns are plain substitutions, so chains, trees and cascades cost linear time;
+    fill appears only where circuits are truly coupled.
+    """
+    active = {index: dict(row) for index, row in enumerate(rows)}
+    users: dict[int, set[int]] = {}
+    for index, row in active.items():
+        for column in row:
+            if column >= 0:
+                users.setdefault(column, set()).add(index)
+    queue = [(sum(column >= 0 for column in row), index) for index, row in active.items()]
+    heapify(queue)
+    pivots: list[tuple[int, Row]] = []
+    conditions: list[Row] = []
+    redundant: list[int] = []
+    work = 0
+    while queue:
+        length, index = heappop(queue)
+        row = active.get(index, {})
+        unknowns = [column for column in row if column >= 0]
+        if index not in active or len(unknowns) != length:
+            continue
+        del active[index]
+        if not unknowns:
+            if row:
+                conditions.append(row)
+            else:
+                redundant.append(index)
+            continue
+        pivot = min(unknowns, key=lambda column: (len(users[column]), column))
+        lead = row.pop(pivot)
+        if modulus:
+            inverse = pow(int(lead), -1, modulus)
+            rest: Row = {column: value * inverse % modulus for column, value in row.items()}  # type: ignore[misc]
+        else:
+            rest = {column: value / lead for column, value in row.items()}
+        pivots.append((pivot, rest))
+        for column in unknowns:
+            users[column].discard(index)
+        for other in users.pop(pivot):
+            target = active[other]
+            factor = target.pop(pivot)
+            work += len(rest) + 1
+            for column, value in rest.items():
+                new = target.get(column, 0) - factor * value
+                if modulus:
+                    new %= modulus
+                if new:
+                    if column >= 0 and column not in target:
+                        users[column].add(other)
+                    target[column] = new  # type: ignore[assignment]
+                elif column in target:
+                    del target[column]
+                    if column >= 0:
+                        users[column].discard(other)
+            heappush(queue, (sum(column >= 0 for column in target), other))
+        if budget is not None and work > budget:
+            raise TooDenseError
+    return Echelon(tuple(pivots), tuple(conditions), tuple(redundant))
+
+
+def residues(row: Mapping[int, Fraction], modulus: int = PRIME) -> Row:
+    """A multiple of a rational row, in integers modulo a prime."""
+    scale = math.lcm(*(value.denominator for value in row.values()))
+    return {c: residue for c, value in row.items() if (residue := int(value * scale) % modulus)}  # type: ignore[misc]
+
+
+def rank_modulo(rows: Iterable[Mapping[int, Fraction]], modulus: int = PRIME) -> int:
+    """Rank of rational rows modulo a prime: never more than the true rank, and equal but for accidents."""
+    return eliminate((residues(row, modulus) for row in rows), modulus=modulus).rank

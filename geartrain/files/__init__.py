@@ -1,0 +1,8 @@
+"""The only door to disk: YAML in, with line marks and `extends` merged; finished text out, atomically."""
+
+from __future__ import annotations
+
+from geartrain.files.loading import load, shipped
+from geartrain.files.writing import write_text
+
+__all__ = ["load", "shipped", "write_text"]

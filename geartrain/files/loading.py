@@ -1,0 +1,158 @@
+"""From a path, a shipped name, text or plain data to a train that answers."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from difflib import get_close_matches
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+from geartrain.analysis import GearTrain
+from geartrain.errors import DeclarationError, Problem
+from geartrain.files.merging import merged
+from geartrain.files.nodes import Node, parse
+from geartrain.train import declare
+
+_MOST_BYTES = 64 * 2**20
+
+
+@cache
+def shipped() -> Mapping[str, Path]:
+    """The trains that come with geartrain, by name."""
+    package = Path(__file__).resolve().parent.parent
+    home = next(
+        (folder for folder in (package / "trains", package.parent / "trains") if folder.is_dir()), None
+    )
+    return {path.stem: path for path in sorted(home.rglob("*.yaml"))} if home else {}
+
+
+def load(source: str | Path | Mapping[str, Any]) -> GearTrain:
+    """A train from a YAML file, the name of a shipped train, YAML text (of several lines), or plain data.
+
+    All circuits are found here, so that whatever is wrong with the declaration is said at once, with its place.
+    Raises `DeclarationError`.
+    """
+    if isinstance(source, Mapping):
+        train = GearTrain.declare(source)
+    elif isinstance(source, str) and "\n" in source:
+        train = _build(parse(source, "text"), Path.cwd(), (), "train")
+    else:
+        path = _find(source)
+        train = _build(parse(_read(path), str(path)), path.parent, (path.resolve(),), path.stem)
+    _ = train.circuits
+    return train
+
+
+def _build(root: Node, folder: Path, chain: tuple[Path, ...], stem: str) -> GearTrain:
+    node = _with_parents(root, folder, chain)
+    data = node.plain()
+    data.setdefault("name", stem)
+    return GearTrain(declare(data, node.place_of))
+
+
+def _with_parents(child: Node, folder: Path, chain: tuple[Path, ...]) -> Node:
+    """The child laid over its parent, over its parent's parent, and so on."""
+    if "extends" not in child.mapping:
+        return child
+    place = child.place_of(("extends",))
+    name = child.mapping["extends"].text
+    path = _parent(name, folder, place)
+    if path.resolve() in chain:
+        loop = " -> ".join(step.name for step in (*chain, path))
+        raise DeclarationError(
+            Problem("`extends` goes round in a circle", loop, "let one of them stand alone", place)
+        )
+    parent = parse(_read(path), str(path))
+    return merged(_with_parents(parent, path.parent, (*chain, path.resolve())), child)
+
+
+def _parent(name: str, folder: Path, place: str) -> Path:
+    if not name:
+        raise DeclarationError(
+            Problem("`extends` names nothing", "it is the file or shipped train to change", "name one", place)
+        )
+    if (folder / name).is_file():
+        return folder / name
+    if name in shipped():
+        return shipped()[name]
+    siblings = [*shipped(), *(path.name for path in folder.glob("*.yaml"))]
+    raise DeclarationError(
+        Problem(
+            f"`extends` names '{name}'",
+            f"there is no such file in {folder} and no such shipped train",
+            _near(name, siblings),
+            place,
+        )
+    )
+
+
+def _find(source: str | Path) -> Path:
+    path = Path(source)
+    if path.exists():
+        return path
+    if str(source) in shipped():
+        return shipped()[str(source)]
+    within = next(
+        (found for found in shipped().values() if str(found).endswith(f"/{str(source).lstrip('./')}")), None
+    )
+    if within is not None:
+        return within
+    raise DeclarationError(
+        Problem(
+            "there is no such file",
+            f"and no shipped train is called '{path.stem}'",
+            _near(path.stem, shipped()),
+            str(source),
+        )
+    )
+
+
+def _near(name: str, known: Any) -> str:
+    close = get_close_matches(name, list(known), n=3, cutoff=0.5)
+    return (
+        f"did you mean {' or '.join(map(repr, close))}?"
+        if close
+        else "`geartrain list` shows the shipped trains"
+    )
+
+
+def _read(path: Path) -> str:
+    place = str(path)
+    try:
+        if path.stat().st_size > _MOST_BYTES:
+            raise DeclarationError(
+                Problem(
+                    "the file is too large",
+                    f"a declaration has at most {_MOST_BYTES >> 20} MB",
+                    "build the train in Python",
+                    place,
+                )
+            )
+        raw = path.read_bytes()
+    except IsADirectoryError:
+        raise DeclarationError(
+            Problem("this is a directory", "a declaration is a file", "name a .yaml file in it", place)
+        ) from None
+    except OSError as error:
+        raise DeclarationError(
+            Problem(
+                "the file cannot be read",
+                error.strerror or str(error),
+                "check its path and permissions",
+                place,
+            )
+        ) from None
+    try:
+        text = raw.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        raise DeclarationError(
+            Problem(
+                "this is not a text file", f"byte {error.start} is not UTF-8", "save it as UTF-8 text", place
+            )
+        ) from None
+    if "\0" in text:
+        raise DeclarationError(
+            Problem("this is not a text file", "it holds zero bytes", "name a YAML declaration", place)
+        )
+    return text

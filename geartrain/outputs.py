@@ -1,0 +1,261 @@
+"""Each output against what was expected, what a source prints, and what the sky does; and what one tooth changes."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Any
+
+from geartrain.circuits import Circuit, Tree
+from geartrain.exact import as_float, decimal
+from geartrain.periods import table
+from geartrain.train import Case, Output, Target, Train
+
+DAYS_PER_CENTURY = 36525
+Number = Fraction | float
+
+
+@dataclass(frozen=True, slots=True)
+class TargetResult:
+    """An output against one target. Compared by magnitude; a positive error is fast.
+
+    speed               the target's speed in the train's unit, positive
+    error               |output| / speed - 1
+    days_per_century    what the pointer gains in time, where the unit is a time
+    degrees_per_unit    what the pointer gains in angle while the unit passes once
+    met                 within the declared tolerance; None without one
+    """
+
+    label: str
+    speed: Fraction
+    error: Number
+    days_per_century: float | None
+    degrees_per_unit: float
+    met: bool | None
+
+    @property
+    def ppm(self) -> float:
+        """The error in parts per million."""
+        return float(self.error) * 1e6
+
+    def to_dict(self) -> dict[str, Any]:
+        """Plain data for JSON."""
+        return {
+            "target": self.label,
+            "speed": as_float(self.speed),
+            "ppm": self.ppm,
+            "days_per_century": self.days_per_century,
+            "degrees_per_unit": self.degrees_per_unit,
+            "met": self.met,
+        }
+
+
+@dataclass(frozen=True, slots=True)
+class OutputResult:
+    """One output: its exact speed and whether its declared expectations hold.
+
+    speed            exact, or a float where the train was solved in floats; None where undetermined
+    ratio            output over input, where there is exactly one non-zero input
+    expect_holds     None without an `expect`
+    published_holds  None without a `published`
+    bookkeeping      True for a sum of joint speeds over non-parallel axes, which is no rotation
+    """
+
+    name: str
+    output: Output
+    of: str
+    relative_to: str
+    speed: Number | None
+    ratio: Number | None
+    expect_holds: bool | None
+    published_holds: bool | None
+    targets: tuple[TargetResult, ...]
+    bookkeeping: bool
+
+    @property
+    def holds(self) -> bool:
+        """False if an `expect` or a `published` figure is not met."""
+        return self.expect_holds is not False and self.published_holds is not False
+
+    def to_dict(self) -> dict[str, Any]:
+        """Plain data for JSON."""
+        expect, published = self.output.expect, self.output.published
+        return {
+            **number(self.speed),
+            "of": self.of,
+            "relative_to": self.relative_to,
+            "output/input": str(self.ratio) if isinstance(self.ratio, Fraction) else self.ratio,
+            "expect": None if expect is None else {"value": str(expect.value), "holds": self.expect_holds},
+            "published": None
+            if published is None
+            else {
+                "value": str(published.value),
+                "as": published.as_,
+                "place": published.place,
+                "holds": self.published_holds,
+            },
+            "targets": [target.to_dict() for target in self.targets],
+        }
+
+
+def number(speed: Number | None) -> dict[str, Any]:
+    """`exact` and `value` of a speed for JSON; beyond the range of float64 `value` is null and `decimal` has it."""
+    if not isinstance(speed, Fraction):
+        return {"exact": None, "value": speed}
+    value = as_float(speed)
+    plain: dict[str, Any] = {"exact": str(speed), "value": value}
+    if value is None:
+        plain["decimal"] = decimal(speed)
+    return plain
+
+
+def judge_outputs(
+    train: Train,
+    tree: Tree,
+    case: Case,
+    speed_of: Callable[[str], Number | None],
+    oblique: frozenset[str],
+    signs: Mapping[str, int],
+) -> Iterator[OutputResult]:
+    """Evaluate every output of a case.
+
+    speed_of   link -> speed, None where undetermined
+    oblique    links whose speed is a sum over non-parallel joints
+    """
+    moving = [speed for speed in case.inputs.values() if speed]
+    for name, output in case.outputs.items():
+        of, base = output.of or name, output.relative_to or train.frame
+        speed = relative_speed(of, base, speed_of, signs)
+        ratio = speed / moving[0] if speed is not None and len(moving) == 1 else None
+        yield OutputResult(
+            name,
+            output,
+            of,
+            base,
+            speed,
+            ratio,
+            None if output.expect is None else speed is not None and output.expect.holds(Fraction(speed)),
+            _published_holds(output, speed, ratio),
+            tuple(_against(train, target, speed) for target in output.targets if speed is not None),
+            of in oblique and not _jointed(tree, of, base),
+        )
+
+
+def _jointed(tree: Tree, of: str, base: str) -> bool:
+    """True if the two links turn on one axis about each other: their relative speed is a rotation."""
+    return len(set(tree.path(of, base)[1])) <= 1
+
+
+def relative_speed(
+    of: str, base: str, speed_of: Callable[[str], Number | None], signs: Mapping[str, int]
+) -> Number | None:
+    """Speed of a link as seen from another, about the first one's axis."""
+    own, other = speed_of(of), speed_of(base)
+    if own is None or other is None:
+        return None
+    return own - other * signs.get(of, 1) * signs.get(base, 1)  # type: ignore[operator]
+
+
+def _published_holds(output: Output, speed: Number | None, ratio: Number | None) -> bool | None:
+    published = output.published
+    if published is None:
+        return None
+    value = speed if published.as_ == "speed" else ratio
+    if value is None or (published.as_ == "input/output" and not value):
+        return False
+    exact = Fraction(value)
+    bound = published.tolerance.value if published.tolerance else None
+    return published.value.holds(1 / exact if published.as_ == "input/output" else exact, bound)
+
+
+def target_speed(train: Train, target: Target) -> tuple[str, Fraction]:
+    """A target's label and its speed in the train's unit."""
+    turns = target.turns.value
+    if target.speed is not None:
+        return f"speed {target.speed}", abs(target.speed.value * turns)
+    days = train.unit_days or Fraction(1)
+    if target.period is not None:
+        return f"period {target.period}", turns * days / ((target.period.base or Fraction(1)) / 86400)
+    row = table()[target.name or ""]
+    label = row.name if turns == 1 else f"{turns} turns in {row.name}"
+    return label, abs(turns * (days / row.value if row.kind == "period" else row.value))
+
+
+def _against(train: Train, target: Target, speed: Number) -> TargetResult:
+    label, wanted = target_speed(train, target)
+    error = abs(speed) / wanted - 1
+    tolerance = target.tolerance.base if target.tolerance else None
+    return TargetResult(
+        label,
+        wanted,
+        error,
+        float(error) * DAYS_PER_CENTURY if train.unit_days is not None else None,
+        float(abs(speed) - wanted) * 360,
+        None if tolerance is None else abs(error) <= tolerance,
+    )
+
+
+@dataclass(frozen=True, slots=True)
+class Sensitivity:
+    """What one tooth fewer and one tooth more on an uncertain wheel do to an output, in ppm of its speed.
+
+    None stands for a train that no longer turns, or an output that stands still.
+    """
+
+    wheel: str
+    teeth: int
+    allowed: tuple[int, ...]
+    output: str
+    less: float | None
+    more: float | None
+
+
+def sensitivity(
+    train: Train,
+    outputs: Sequence[OutputResult],
+    solve_with: Callable[[Sequence[Circuit]], Callable[[str], Number | None]],
+    circuits: Sequence[Circuit],
+    signs: Mapping[str, int],
+) -> Iterator[Sensitivity]:
+    """Solve again, exactly, with each uncertain wheel one tooth off.
+
+    solve_with   circuits -> (link -> speed), for changed circuits
+    """
+    for name, wheel in train.uncertain_wheels():
+        teeth = wheel.count
+        if teeth is None or not any(name in circuit.wheels for circuit in circuits):
+            continue
+        changed = {
+            step: solve_with(list(_recut(circuits, name, teeth + step)))
+            for step in (-1, 1)
+            if teeth + step > 0
+        }
+        for result in outputs:
+            shift = {step: _shift(result, speed_of, signs) for step, speed_of in changed.items()}
+            if any(value != 0 for value in shift.values()):
+                allowed = wheel.doubt.allowed if wheel.doubt else ()
+                yield Sensitivity(name, teeth, allowed, result.name, shift.get(-1), shift.get(1))
+
+
+def _shift(
+    result: OutputResult, speed_of: Callable[[str], Number | None], signs: Mapping[str, int]
+) -> float | None:
+    speed = relative_speed(result.of, result.relative_to, speed_of, signs)
+    if speed is None or result.speed is None:
+        return None
+    if speed == result.speed:
+        return 0.0
+    return float(speed / result.speed - 1) * 1e6 if result.speed else None
+
+
+def _recut(circuits: Iterable[Circuit], wheel: str, teeth: int) -> Iterator[Circuit]:
+    """The circuits with another tooth count on one wheel."""
+    for circuit in circuits:
+        if circuit.kind == "gear" and wheel in circuit.wheels:
+            if circuit.wheels[0] == wheel:
+                yield circuit._replace(a=teeth if circuit.a > 0 else -teeth)
+            else:
+                yield circuit._replace(b=teeth if circuit.b > 0 else -teeth)
+        else:
+            yield circuit

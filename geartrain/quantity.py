@@ -1,0 +1,270 @@
+"""Numbers and quantities as people write them: "254/19", "1:30", "13.3684", "9.6 mm", "30 deg", "100 rpm"."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Annotated, Any
+
+from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler
+from pydantic_core import PydanticCustomError, core_schema
+
+TURN = "turn"
+RADIANS_PER_TURN = 6.283185307179586
+_MOST_DIGITS = 400  # longer numbers are slips or attacks, and squaring them would take minutes
+
+# unit -> (dimension, how many base units one of it is); every scale is exact
+UNITS: dict[str, tuple[str, Fraction]] = {
+    "m": ("length", Fraction(1)),
+    "cm": ("length", Fraction(1, 100)),
+    "mm": ("length", Fraction(1, 1000)),
+    "um": ("length", Fraction(1, 10**6)),
+    "in": ("length", Fraction(254, 10**4)),
+    "ft": ("length", Fraction(3048, 10**4)),
+    "km": ("length", Fraction(1000)),
+    "mile": ("length", Fraction(1609344, 1000)),
+    "turn": ("angle", Fraction(1)),
+    "deg": ("angle", Fraction(1, 360)),
+    "arcmin": ("angle", Fraction(1, 21600)),
+    "arcsec": ("angle", Fraction(1, 1296000)),
+    "s": ("time", Fraction(1)),
+    "min": ("time", Fraction(60)),
+    "h": ("time", Fraction(3600)),
+    "d": ("time", Fraction(86400)),
+    "rpm": ("speed", Fraction(1, 60)),
+    "turn/s": ("speed", Fraction(1)),
+    "turn/min": ("speed", Fraction(1, 60)),
+    "turn/h": ("speed", Fraction(1, 3600)),
+    "turn/d": ("speed", Fraction(1, 86400)),
+    "deg/s": ("speed", Fraction(1, 360)),
+    "N m": ("torque", Fraction(1)),
+    "N mm": ("torque", Fraction(1, 1000)),
+    "kN m": ("torque", Fraction(1000)),
+    "kg m2": ("inertia", Fraction(1)),
+    "kg mm2": ("inertia", Fraction(1, 10**6)),
+    "g mm2": ("inertia", Fraction(1, 10**9)),
+    "g cm2": ("inertia", Fraction(1, 10**7)),
+    "%": ("fraction", Fraction(1, 100)),
+    "ppm": ("fraction", Fraction(1, 10**6)),
+}
+# a radian is no rational part of a turn: these two scales are floats, and say so by being apart
+IRRATIONAL: dict[str, tuple[str, float]] = {
+    "rad": ("angle", 1 / RADIANS_PER_TURN),
+    "rad/s": ("speed", 1 / RADIANS_PER_TURN),
+}
+_SPELT = {
+    "Nm": "N m",
+    "N*m": "N m",
+    "N·m": "N m",
+    "Nmm": "N mm",
+    "°": "deg",
+    "µm": "um",
+    "μm": "um",
+    "feet": "ft",
+    "day": "d",
+    "days": "d",
+    "turns": "turn",
+    "rev": "turn",
+    "rev/s": "turn/s",
+    "rev/min": "rpm",
+    "kg m^2": "kg m2",
+    "g mm^2": "g mm2",
+    "kg*m^2": "kg m2",
+}
+
+_NUMBER = r"[+-]?(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][+-]?\d{1,3})?"
+_FIGURE = re.compile(rf"^\s*({_NUMBER})\s*(?:([/:])\s*({_NUMBER}))?\s*$")
+_QUANTITY = re.compile(rf"^\s*({_NUMBER}(?:\s*[/:]\s*\d+)?)\s*([^\d\s].*?)?\s*$")
+
+
+@dataclass(frozen=True, slots=True)
+class Figure:
+    """A number with the digits it was written with.
+
+    `half` is None for an integer or fraction (exact), else half a unit of the last decimal written.
+    """
+
+    value: Fraction
+    half: Fraction | None
+    text: str
+
+    def __str__(self) -> str:
+        return self.text
+
+    def holds(self, value: Fraction, tolerance: Fraction | None = None) -> bool:
+        """True if `value` agrees with what was written, at the digits written or within `tolerance`."""
+        bound = tolerance if tolerance is not None else self.half or Fraction(0)
+        return abs(value - self.value) <= bound
+
+    @classmethod
+    def parse(cls, raw: object) -> Figure:
+        """A figure from text or a Python number.
+
+        >>> Figure.parse("1:30").value, Figure.parse("13.3684").half
+        (Fraction(1, 30), Fraction(1, 20000))
+        """
+        if isinstance(raw, Figure):
+            return raw
+        if isinstance(raw, bool) or not isinstance(raw, str | int | float | Fraction):
+            raise _not_a_number(raw)
+        text = str(raw)
+        match = _FIGURE.match(text) if len(text) <= _MOST_DIGITS else None
+        if match is None:
+            raise _not_a_number(raw)
+        left, sign, right = match.groups()
+        value = Fraction(left)
+        if sign is not None:
+            below = Fraction(right)
+            if not below:
+                raise PydanticCustomError(
+                    "number",
+                    "'{text}' divides by zero",
+                    {"text": text, "fix": "write a denominator other than 0"},
+                )
+            return cls(value / below, None, text)
+        return cls(value, _half_unit(left), text)
+
+    @classmethod
+    def __get_pydantic_core_schema__(
+        cls, source: Any, handler: GetCoreSchemaHandler
+    ) -> core_schema.CoreSchema:
+        return core_schema.no_info_plain_validator_function(
+            cls.parse, serialization=core_schema.plain_serializer_function_ser_schema(str)
+        )
+
+    @classmethod
+    def __get_pydantic_json_schema__(cls, schema: Any, handler: GetJsonSchemaHandler) -> dict[str, Any]:
+        return {"type": ["number", "string"], "examples": ["254/19", "1:30", 13.3684]}
+
+
+def _not_a_number(raw: object) -> PydanticCustomError:
+    shown = repr(raw) if len(repr(raw)) <= 40 else repr(raw)[:37] + "..."
+    return PydanticCustomError(
+        "number",
+        "{shown} is not a number",
+        {"shown": shown, "fix": "write an integer, a fraction 254/19 or 1:30, or a decimal"},
+    )
+
+
+def _half_unit(text: str) -> Fraction | None:
+    mantissa, _, exponent = text.lower().partition("e")
+    if "." not in mantissa and not exponent:
+        return None
+    decimals = len(mantissa.partition(".")[2])
+    return Fraction(10) ** (int(exponent or 0) - decimals) / 2
+
+
+@dataclass(frozen=True, slots=True)
+class Quantity:
+    """A number with its unit as written; `unit` is None for a plain number.
+
+    `value` is exact in the unit written. `base` is exact in m, turn, s, turn/s, N m or kg m2, and None where
+    the unit is a radian, whose scale is irrational; `si` is a float in m, rad, s, rad/s, N m or kg m2.
+    """
+
+    value: Fraction
+    unit: str | None
+    text: str
+
+    def __str__(self) -> str:
+        return self.text
+
+    @property
+    def dimension(self) -> str | None:
+        """length, angle, time, speed, torque, inertia, fraction, or None for a plain number."""
+        if self.unit is None:
+            return None
+        return (UNITS.get(self.unit) or IRRATIONAL[self.unit])[0]
+
+    @property
+    def base(self) -> Fraction | None:
+        """Exact value in base units (angles in turns), or None for radians."""
+        if self.unit is None:
+            return self.value
+        return self.value * UNITS[self.unit][1] if self.unit in UNITS else None
+
+    @property
+    def si(self) -> float:
+        """Value in SI units, angles in radians."""
+        if self.unit in IRRATIONAL:
+            return float(self.value)
+        scale = RADIANS_PER_TURN if self.dimension in ("angle", "speed") else 1.0
+        return float(self.base or 0) * scale
+
+    @classmethod
+    def parse(cls, raw: object, dimension: str, plain: bool) -> Quantity:
+        """A quantity of one `dimension`; a plain number only where `plain` allows it."""
+        if isinstance(raw, Quantity):
+            return raw
+        text = str(raw)
+        match = _QUANTITY.match(text) if isinstance(raw, str) and len(text) <= _MOST_DIGITS else None
+        if match is None or match[2] is None:
+            figure = Figure.parse(raw)
+            if not plain:
+                raise _no_unit(text, dimension)
+            return cls(figure.value, None, text)
+        unit = " ".join(match[2].split())
+        unit = _SPELT.get(unit, unit)
+        if unit not in UNITS and unit not in IRRATIONAL:
+            raise PydanticCustomError(
+                "unit",
+                "'{text}' has an unknown unit",
+                {"text": text, "fix": f"use one of: {_units_of(dimension)}"},
+            )
+        quantity = cls(Figure.parse(match[1]).value, unit, text)
+        if quantity.dimension != dimension:
+            raise PydanticCustomError(
+                "unit",
+                "'{text}' is a {found}, and a {dimension} belongs here",
+                {
+                    "text": text,
+                    "found": quantity.dimension,
+                    "dimension": dimension,
+                    "fix": f"use one of: {_units_of(dimension)}",
+                },
+            )
+        return quantity
+
+
+def _no_unit(text: str, dimension: str) -> PydanticCustomError:
+    first = _units_of(dimension).split(", ")[0]
+    return PydanticCustomError(
+        "unit",
+        "'{text}' has no unit",
+        {"text": text, "fix": f"write for example '{text} {first}'; units: {_units_of(dimension)}"},
+    )
+
+
+def _units_of(dimension: str) -> str:
+    known = [*UNITS.items(), *IRRATIONAL.items()]
+    return ", ".join(unit for unit, (kind, _) in known if kind == dimension)
+
+
+@dataclass(frozen=True, slots=True)
+class Dimension:
+    """Pydantic annotation: this field is a quantity of one dimension."""
+
+    name: str
+    plain: bool = False
+
+    def __get_pydantic_core_schema__(
+        self, source: Any, handler: GetCoreSchemaHandler
+    ) -> core_schema.CoreSchema:
+        return core_schema.no_info_plain_validator_function(
+            lambda raw: Quantity.parse(raw, self.name, self.plain),
+            serialization=core_schema.plain_serializer_function_ser_schema(str),
+        )
+
+    def __get_pydantic_json_schema__(self, schema: Any, handler: GetJsonSchemaHandler) -> dict[str, Any]:
+        kinds = ["string", "number"] if self.plain else ["string"]
+        return {"type": kinds, "description": f"A {self.name} with its unit: {_units_of(self.name)}"}
+
+
+Length = Annotated[Quantity, Dimension("length", plain=True)]
+Angle = Annotated[Quantity, Dimension("angle")]
+Time = Annotated[Quantity, Dimension("time")]
+Speed = Annotated[Quantity, Dimension("speed", plain=True)]
+Torque = Annotated[Quantity, Dimension("torque", plain=True)]
+Inertia = Annotated[Quantity, Dimension("inertia")]
+Share = Annotated[Quantity, Dimension("fraction", plain=True)]

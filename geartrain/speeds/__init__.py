@@ -1,0 +1,30 @@
+"""From circuits to speeds: mobility and verdict decided exactly, speeds exact or in floats with their error."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from geartrain.speeds.exactly import EXACT_BUDGET, Mobility, Solution, exact_verdict, find_mobility, solve
+
+if TYPE_CHECKING:
+    from geartrain.speeds.floats import FloatSpeeds, solve_floats
+
+__all__ = [
+    "EXACT_BUDGET",
+    "FloatSpeeds",
+    "Mobility",
+    "Solution",
+    "exact_verdict",
+    "find_mobility",
+    "solve",
+    "solve_floats",
+]
+
+
+def __getattr__(name: str) -> Any:
+    """The float path brings numpy and scipy, so it is imported when it is used."""
+    if name in ("FloatSpeeds", "solve_floats"):
+        from geartrain.speeds import floats
+
+        return getattr(floats, name)
+    raise AttributeError(name)

@@ -1,0 +1,163 @@
+"""Why a train does not move as asked: names for loops, brakes and prescriptions, with a certificate.
+
+Every equation gets a symbol of its own, and elimination then says which of them add up to the contradiction.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from fractions import Fraction
+from math import gcd, lcm
+
+from geartrain.components import Reduced
+from geartrain.errors import Loop, Verdict
+from geartrain.exact import Row, add_into, eliminate
+from geartrain.train import Case
+
+Statement = tuple[str, str, Fraction]
+"""What one prescription says: its kind (input, fixed, lock), a text, and its value."""
+
+
+def diagnose(reduced: Reduced, case: Case, signs: Mapping[str, int]) -> Verdict | None:
+    """The verdict locked or contradictory with its witnesses, or None if the case holds together and can move."""
+    rows, statements = _tagged(reduced, case, signs)
+    structural = len(reduced.equations)
+    echelon = eliminate(rows)
+    worst: Verdict | None = None
+    for condition in echelon.conditions:
+        given = {-1 - column: value for column, value in condition.items()}
+        total = sum(
+            (value * statements[tag - structural][2] for tag, value in given.items() if tag >= structural),
+            Fraction(0),
+        )
+        if not total:
+            continue
+        verdict = _name(reduced, given, statements, structural)
+        if verdict.kind == "locked":
+            return verdict
+        worst = worst or verdict
+    if worst is not None:
+        return worst
+    freedom = reduced.unknowns - echelon.rank
+    moving = any(value for _, _, value in statements)
+    if freedom == 0 and not moving:
+        return _standing(reduced, case)
+    return None
+
+
+def _tagged(reduced: Reduced, case: Case, signs: Mapping[str, int]) -> tuple[list[Row], list[Statement]]:
+    """All equations, each with a symbol -1-t of its own, t counting structure first, then prescriptions."""
+    index = reduced.components.index
+    rows: list[Row] = [dict(row) for row in reduced.equations]
+    statements: list[Statement] = []
+    for link in case.fixed:
+        rows.append(dict(reduced.form(index[link])))
+        statements.append(("fixed", f"'{link}' is fixed", Fraction(0)))
+    for a, b in case.locks:
+        row = dict(reduced.form(index[a]))
+        add_into(row, reduced.form(index[b]), -1)
+        rows.append(row)
+        statements.append(("lock", f"'{a}' and '{b}' are locked together", Fraction(0)))
+    for link, speed in case.inputs.items():
+        rows.append(dict(reduced.form(index[link])))
+        statements.append(("input", f"{link} = {speed}", speed * signs.get(link, 1)))
+    for tag, row in enumerate(rows):
+        row[-1 - tag] = Fraction(-1)
+    return rows, statements
+
+
+def _name(
+    reduced: Reduced, given: Mapping[int, Fraction], statements: Sequence[Statement], structural: int
+) -> Verdict:
+    """One contradiction in words. `given` says how much of each equation goes into it."""
+    parts = reduced.components
+    used = [
+        (statements[tag - structural], value) for tag, value in sorted(given.items()) if tag >= structural
+    ]
+    inputs = [(text, value, speed) for (kind, text, speed), value in used if kind == "input"]
+    moving = [text for text, _, speed in inputs if speed]
+    held = [text for (kind, text, _), _ in used if kind != "input"]
+    prescriptions = tuple(text for (_, text, _), _ in used)
+    chords = [
+        reduced.origin[tag][1] for tag in given if tag < structural and reduced.origin[tag][0] == "loop"
+    ]
+    loops = tuple(parts.loop(chord) for chord in chords)
+    if loops:
+        text = f"{'; '.join(str(loop) for loop in loops)} {'does' if len(loops) == 1 else 'do'} not close, so {', '.join(moving)} cannot turn"
+        return Verdict("locked", text, prescriptions=prescriptions, loops=loops)
+    if len(inputs) == 1:
+        by = " and ".join(held) if held else f"the pairs {', '.join(_pairs(reduced, given, structural))}"
+        link = moving[0].split(" = ")[0]
+        return Verdict("locked", f"input '{link}' is locked to the frame: {by}", prescriptions=prescriptions)
+    scale = lcm(*(value.denominator for _, value, _ in inputs))
+    numbers = [int(value * scale) for _, value, _ in inputs]
+    common = gcd(*numbers) * (1 if numbers[0] > 0 else -1)
+    terms = " ".join(
+        f"{'-' if n < 0 else '+'} {abs(n)} {text.split(' = ')[0]}"
+        for n, (text, _, _) in zip([n // common for n in numbers], inputs, strict=True)
+    )
+    residue = sum((value * speed for _, value, speed in inputs), Fraction(0)) * scale / common
+    text = f"{', '.join(prescriptions)} contradict each other: {terms.removeprefix('+ ')} must be 0 and is {residue}"
+    return Verdict("contradictory", text, prescriptions=prescriptions)
+
+
+def _pairs(reduced: Reduced, given: Mapping[int, Fraction], structural: int) -> list[str]:
+    """The gear pairs that take part in a contradiction: the paths between the links its equations share."""
+    parts = reduced.components
+    touched: dict[int, set[int]] = {}
+    for tag in given:
+        if tag < structural and reduced.origin[tag][0] == "share":
+            _, link, _ = reduced.origin[tag]
+            for node in parts.nodes_of[link]:
+                touched.setdefault(parts.node_group[node], set()).add(node)
+    found = {circuit: None for nodes in touched.values() for circuit in parts.path(sorted(nodes))}
+    return [parts.circuits[circuit].id for circuit in found]
+
+
+def _standing(reduced: Reduced, case: Case) -> Verdict:
+    """Nothing is driven and nothing could be: the train itself, or its brakes, hold every link."""
+    parts = reduced.components
+    loops: tuple[Loop, ...] = tuple(parts.loop(circuit) for circuit in parts.breaking)
+    held = tuple(
+        [f"'{link}' is fixed" for link in case.fixed]
+        + [f"'{a}' and '{b}' are locked together" for a, b in case.locks]
+    )
+    if loops:
+        text = f"mobility 0: {loops[0]} does not close; every link is locked"
+    elif held:
+        text = f"mobility 0: {', '.join(held)}; every link stands still"
+    else:
+        text = "mobility 0: every link is locked"
+    links = tuple(link for link in parts.links if parts.index[link] != parts.frame)
+    return Verdict("locked", text, links=links, prescriptions=held, loops=loops)
+
+
+def free_verdict(
+    reduced: Reduced, case: Case, forms: Mapping[int, Row], undetermined: Sequence[str], freedom: int
+) -> Verdict:
+    """What is undetermined, and a least set of links whose speeds would settle it."""
+    index = reduced.components.index
+    rows: list[Row] = []
+    fixes: list[str] = []
+    for link in undetermined:
+        row: Row = {}
+        for column, coefficient in reduced.form(index[link]).items():
+            add_into(row, forms.get(column, {column: Fraction(1)}), coefficient)
+        loose = {column: value for column, value in row.items() if column >= 0}
+        if eliminate([*rows, loose]).rank > len(rows):
+            rows.append(loose)
+            fixes.append(link)
+        if len(fixes) == freedom:
+            break
+    given = len(case.inputs)
+    head = (
+        f"{given} of {given + freedom} degrees of freedom prescribed"
+        if given
+        else f"{freedom} degrees of freedom and no input"
+    )
+    shown = ", ".join(undetermined[:12]) + (
+        f" and {len(undetermined) - 12} more" if len(undetermined) > 12 else ""
+    )
+    more = "one more input" if freedom == 1 else f"{freedom} more inputs"
+    text = f"{head}: speeds of {shown} undetermined; give {more}, such as {', '.join(fixes[:12])}"
+    return Verdict("free", text, links=tuple(undetermined), fixes=tuple(fixes))

@@ -1,0 +1,235 @@
+"""Float64 speeds through a sparse LU, one refinement step with a doubly exact residual, and their error.
+
+The rows are integers, so the residual of a float solution can be had to twice the working precision by error-free
+products and sums; one step with it leaves every component within a rounding or two (docs/accuracy.md).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from geartrain.errors import Problem, RangeError
+from geartrain.exact import PRIME, eliminate
+from geartrain.labelled import Labelled, labelled
+from geartrain.system import Equation, System
+
+Floats = NDArray[np.float64]
+_UNIT_ROUNDOFF = 2.0**-53
+
+
+@dataclass(frozen=True, slots=True)
+class FloatSpeeds:
+    """Float64 speeds with an estimate of their error.
+
+    speeds     (link, case) in the train's unit
+    estimate   (link, case) absolute error to expect of each speed
+    condition  link -> component-wise condition number cond(A, x) of the first case, where asked for
+    """
+
+    speeds: Labelled
+    estimate: Labelled
+    condition: Mapping[str, float]
+
+    def __getitem__(self, link: str) -> float:
+        return float(self.speeds[link][0])
+
+
+def solve_floats(
+    system: System,
+    redundant: Sequence[str] = (),
+    inputs: Mapping[str, Sequence[float]] | None = None,
+    condition_of: Sequence[str] = (),
+    ordering: str = "COLAMD",
+    refine: bool = True,
+) -> FloatSpeeds:
+    """Solve a determined Willis system in float64.
+
+    redundant     labels of circuits known to add nothing (loops that close); they are left out
+    inputs        link -> speeds, one a case, in place of the speeds in the system: one factorisation serves all
+    condition_of  links whose component-wise condition is wanted, one transposed solve each
+    ordering      column ordering of the factorisation; COLAMD is the one that never turns quadratic
+    refine        one refinement step (else the raw LU, for comparison)
+
+    Raises `RangeError` where the system is not square and regular, or where a speed leaves the range of float64:
+    a silent 0 is never returned.
+    """
+    frame = next(row.terms[0][0] for row in system.equations if row.kind == "frame")
+    links = [link for link in system.links if link != frame]
+    rows = _independent(system, links, set(redundant))
+    matrix = _Rows(links, rows)
+    right, remainder = _right_sides(rows, inputs)
+    try:
+        lu = matrix.factorise(ordering)
+    except RuntimeError as error:
+        raise RangeError(_no_factors(len(rows), str(error))) from None
+    x = lu.solve(right)
+    if refine:
+        x = x + lu.solve(matrix.residual(x, right, remainder))
+    rest = matrix.residual(x, right, remainder)
+    _check_range(matrix, x, rest, rows)
+    estimate = 2 * np.abs(lu.solve(rest)) + _UNIT_ROUNDOFF * np.abs(x)
+    condition = {link: matrix.condition(lu, link, x[:, 0]) for link in condition_of}
+    return FloatSpeeds(_with_frame(system, frame, x), _with_frame(system, frame, estimate), condition)
+
+
+def _with_frame(system: System, frame: str, values: Floats) -> Labelled:
+    """One row a link in the order declared, the frame's being 0."""
+    at = system.links.index(frame)
+    return labelled(
+        np.insert(values, at, 0.0, axis=0),
+        link=system.links,
+        case=[str(case) for case in range(values.shape[1])],
+    )
+
+
+def _independent(system: System, links: Sequence[str], redundant: set[str]) -> list[Equation]:
+    """The rows without the frame's and those that add nothing; as many as there are moving links, or a `RangeError`."""
+    rows = [
+        row
+        for row in system.equations
+        if row.kind in ("input", "fixed", "lock") or (row.kind != "frame" and row.label not in redundant)
+    ]
+    if len(rows) > len(links):
+        at = {link: column for column, link in enumerate(links)}
+        forms = [{at[link]: c % PRIME for link, c in row.terms if link in at} for row in rows]
+        idle = set(eliminate(forms, modulus=PRIME).redundant)  # type: ignore[arg-type]
+        rows = [row for position, row in enumerate(rows) if position not in idle]
+    if len(rows) != len(links):
+        raise RangeError(
+            Problem(
+                f"{len(rows)} independent equations for {len(links)} moving links",
+                "a train that is free, locked or contradictory has no float solution",
+                "ask for the exact verdict first",
+            )
+        )
+    return rows
+
+
+def _right_sides(
+    rows: Sequence[Equation], inputs: Mapping[str, Sequence[float]] | None
+) -> tuple[Floats, Floats]:
+    """Right-hand sides as float plus the exact remainder that the float leaves."""
+    cases = len(next(iter(inputs.values()))) if inputs else 1
+    right = np.zeros((len(rows), cases))
+    remainder = np.zeros((len(rows), cases))
+    for at, row in enumerate(rows):
+        if row.kind != "input":
+            continue
+        if inputs is not None:
+            right[at] = inputs[row.terms[0][0]]
+            continue
+        try:
+            right[at] = float(row.right)
+        except OverflowError:
+            raise RangeError(_out_of_range(row.label)) from None
+        remainder[at] = float(row.right - Fraction(float(row.right)))
+    return right, remainder
+
+
+class _Rows:
+    """The integer rows as arrays, padded to a common number of terms."""
+
+    def __init__(self, links: Sequence[str], rows: Sequence[Equation]) -> None:
+        self.at = {link: column for column, link in enumerate(links)}
+        width = max(len(row.terms) for row in rows)
+        self.columns = np.zeros((len(rows), width), dtype=np.int64)
+        self.coefficients = np.zeros((len(rows), width))
+        for at, row in enumerate(rows):
+            for position, (link, coefficient) in enumerate(term for term in row.terms if term[0] in self.at):
+                self.columns[at, position] = self.at[link]
+                self.coefficients[at, position] = coefficient
+
+    def factorise(self, ordering: str) -> Any:
+        from scipy.sparse import csc_array
+        from scipy.sparse.linalg import splu
+
+        size, width = self.columns.shape
+        lines = np.repeat(np.arange(size), width)
+        used = self.coefficients.ravel() != 0
+        entries = (self.coefficients.ravel()[used], (lines[used], self.columns.ravel()[used]))
+        return splu(csc_array(entries, shape=(size, size)), permc_spec=ordering)
+
+    def residual(self, x: Floats, right: Floats, remainder: Floats) -> Floats:
+        """right - A x, accumulated to twice the working precision."""
+        total, low = right.copy(), remainder.copy()
+        for position in range(self.columns.shape[1]):
+            product, error = _two_product(-self.coefficients[:, position, None], x[self.columns[:, position]])
+            total, carry = _two_sum(total, product)
+            low = low + carry + error
+        return total + low
+
+    def size(self, x: Floats) -> Floats:
+        """|A| |x|, row by row."""
+        return np.einsum("rt,rtc->rc", np.abs(self.coefficients), np.abs(x[self.columns]))
+
+    def condition(self, lu: Any, link: str, x: Floats) -> float:
+        """cond(A, x) of one link: one transposed solve, (|y|, |A||x|) / |x_link|."""
+        column = self.at[link]
+        unit = np.zeros(len(x))
+        unit[column] = 1.0
+        y = lu.solve(unit, trans="T")
+        total = float(np.abs(y) @ self.size(x[:, None])[:, 0])
+        return total / abs(float(x[column])) if x[column] else float("inf")
+
+
+def _two_sum(a: Floats, b: Floats) -> tuple[Floats, Floats]:
+    """a + b = s + e exactly (Knuth)."""
+    s = a + b
+    part = s - a
+    return s, (a - (s - part)) + (b - part)
+
+
+def _two_product(a: Floats, b: Floats) -> tuple[Floats, Floats]:
+    """a b = p + e exactly, barring underflow (Dekker)."""
+    p = a * b
+    a_high, a_low = _split(a)
+    b_high, b_low = _split(b)
+    return p, ((a_high * b_high - p) + a_high * b_low + a_low * b_high) + a_low * b_low
+
+
+def _split(a: Floats) -> tuple[Floats, Floats]:
+    big = 134217729.0 * a  # 2^27 + 1
+    high = big - (big - a)
+    return high, a - high
+
+
+def _check_range(matrix: _Rows, x: Floats, rest: Floats, rows: Sequence[Equation]) -> None:
+    """Refuse a solution that overflowed, or sank below what float64 can hold on its way along the train.
+
+    One mesh changes a speed by a factor of 1e12 at most, so a speed that sank to 0 left others near the edge.
+    """
+    with np.errstate(invalid="ignore", over="ignore"):
+        size = matrix.size(x)
+        lost = (size < 1e-250) & (np.abs(rest) > 1e-8 * size)
+        wrong = ~(
+            np.abs(rest)
+            <= 1e-6 * np.maximum(size, np.abs(matrix.coefficients).sum(axis=1)[:, None] * np.abs(x).max())
+        )
+    sunk = ((x != 0) & (np.abs(x) < 1e-280))[matrix.columns].any(axis=1) & (matrix.coefficients != 0).any(
+        axis=1
+    )[:, None]
+    bad = (lost | wrong | sunk).any(axis=1)
+    if bad.any():
+        raise RangeError(_out_of_range(rows[int(np.argmax(bad))].label))
+
+
+def _out_of_range(label: str) -> Problem:
+    return Problem(
+        f"a speed leaves the range of float64 near '{label}'",
+        "ratios beyond 1e308 would come out as 0 or infinity",
+        "use the exact method",
+    )
+
+
+def _no_factors(size: int, message: str) -> Problem:
+    return Problem(
+        f"the {size} equations cannot be factorised in float64 ({message.strip()})",
+        "speeds beyond the range of float64 make a regular system look singular",
+        "use the exact method",
+    )

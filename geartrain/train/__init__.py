@@ -1,0 +1,50 @@
+"""The declaration of a train: frozen models, and the checks that need nothing but the declaration itself."""
+
+from __future__ import annotations
+
+from geartrain.train.declaration import Case, Train
+from geartrain.train.explain import declare
+from geartrain.train.parts import (
+    Axis,
+    Clutch,
+    Dial,
+    Erratum,
+    Expect,
+    GearPair,
+    Link,
+    Output,
+    Published,
+    Remove,
+    Revolute,
+    Source,
+    State,
+    Target,
+    Teeth,
+    Unit,
+    View,
+    Wheel,
+)
+
+__all__ = [
+    "Axis",
+    "Case",
+    "Clutch",
+    "Dial",
+    "Erratum",
+    "Expect",
+    "GearPair",
+    "Link",
+    "Output",
+    "Published",
+    "Remove",
+    "Revolute",
+    "Source",
+    "State",
+    "Target",
+    "Teeth",
+    "Train",
+    "Unit",
+    "View",
+    "Wheel",
+    "declare",
+]

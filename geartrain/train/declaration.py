@@ -1,0 +1,195 @@
+"""The train as declared, and its cases: one for each state."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cached_property
+from typing import Annotated, Any
+
+from pydantic import BeforeValidator, Field, PrivateAttr
+
+from geartrain.errors import Loc, Marks, dotted
+from geartrain.periods import table
+from geartrain.pins import Coupling
+from geartrain.quantity import Quantity, Speed, Torque
+from geartrain.teeth import ToothForm
+from geartrain.train.parts import (
+    Axis,
+    Clutch,
+    Declared,
+    Dial,
+    Erratum,
+    GearPair,
+    Id,
+    Link,
+    Nothing,
+    Output,
+    Remove,
+    Revolute,
+    Source,
+    State,
+    Unit,
+    View,
+    Wheel,
+)
+
+
+def _cited(raw: object) -> object:
+    return {"cite": raw} if isinstance(raw, str) else raw
+
+
+@dataclass(frozen=True, slots=True)
+class Case:
+    """What is prescribed when the train is run in one state; `state` is None for a train without states.
+
+    inputs are in `unit_name`; every prescription knows where it was declared.
+    """
+
+    state: str | None
+    inputs: Mapping[str, Fraction]
+    fixed: tuple[str, ...]
+    locks: tuple[tuple[str, str], ...]
+    outputs: Mapping[str, Output]
+    loc: Loc
+
+
+class Train(Declared):
+    """A gear train as declared: links, turning pairs, gear pairs, couplings, and what is asked of them."""
+
+    name: str = Field("train", description="A short name, best that of the file")
+    title: str = Field("", description="One line for a reader")
+    note: str | None = Field(None, description="A remark for the reader")
+    extends: str | None = Field(
+        None, description="The train this one changes: a file beside it, or a shipped train by name"
+    )
+    remove: Remove | None = Field(
+        None, description="What is taken away from the parent, before anything is added"
+    )
+    sources: dict[Id, Annotated[Source, BeforeValidator(_cited)]] = Field({}, description="Citations by key")
+    errata: tuple[Erratum, ...] = Field((), description="What the sources print that is not so")
+    frame: Id = Field("frame", description="The link whose speed is 0")
+    unit: Unit | None = Field(None, description="What a speed of 1 means; absent: plain numbers")
+    view: View = Field(View(), description="From where the train is seen, and which sense is positive")
+    links: dict[Id, Annotated[Link, Nothing]] = Field(description="Every link, with its wheels")
+    axes: dict[Id, Axis] = Field(
+        {}, description="Directions and positions of axes; without them all axes are parallel"
+    )
+    revolutes: tuple[Revolute, ...] = Field((), description="Turning pairs; together they form a tree")
+    gears: tuple[GearPair, ...] = Field((), description="Gear pairs")
+    couplings: tuple[Coupling, ...] = Field((), description="Pins in slots")
+    tooth_form: ToothForm | None = Field(
+        None, description="Form of the teeth of every pair that has none of its own"
+    )
+    inputs: dict[Id, Speed] = Field({}, description="Prescribed speeds by link")
+    crank: Id | None = Field(None, description="The link where power enters; default the inputs")
+    rate: Speed | None = Field(
+        None, description="Speed of the input in real time, where watts or impacts are asked"
+    )
+    fixed: tuple[Id, ...] = Field((), description="Links held to the frame")
+    locks: tuple[tuple[Id, Id], ...] = Field((), description="Pairs of links that turn together")
+    clutches: dict[Id, Clutch] = Field({}, description="Brakes and clutches by name, engaged by states")
+    loads: dict[Id, Torque] = Field({}, description="Torques on links; power into the train is positive")
+    solve_for: Id | None = Field(None, description="The link whose torque is unknown")
+    states: dict[Id, Annotated[State, Nothing]] = Field(
+        {}, description="Ways the train is run, each solved on its own"
+    )
+    dials: dict[Id, Annotated[Dial, Nothing]] = Field({}, description="Dials by name")
+    outputs: dict[Id, Annotated[Output, Nothing]] = Field(
+        {}, description="What the train is asked for, by name"
+    )
+
+    _marks: Marks | None = PrivateAttr(None)
+
+    def place(self, *loc: str | int) -> str:
+        """Where a declared thing was written: `file.yaml:12`, or its path if it came from no file."""
+        return self._marks(loc) if self._marks else dotted(loc)
+
+    @cached_property
+    def wheels(self) -> Mapping[str, tuple[str, Wheel]]:
+        """Every wheel by id, with its link."""
+        return {
+            name: (link, wheel) for link, part in self.links.items() for name, wheel in part.wheels.items()
+        }
+
+    @property
+    def cases(self) -> tuple[Case, ...]:
+        """What is prescribed in each state, or once for a train without states."""
+        return tuple(self.case(state) for state in self.states) if self.states else (self.case(None),)
+
+    def case(self, state: str | None) -> Case:
+        """What is prescribed in one state."""
+        own = self.states[state] if state is not None else State()
+        inputs = self.inputs if own.inputs is None else own.inputs
+        fixed = list(self.fixed if own.fixed is None else own.fixed)
+        locks = list(self.locks if own.locks is None else own.locks)
+        for name in own.engaged:
+            clutch = self.clutches[name]
+            if clutch.fixes is not None:
+                fixed.append(clutch.fixes)
+            if clutch.locks is not None:
+                locks.append(clutch.locks)
+        outputs = dict(self.outputs)
+        for name, output in own.outputs.items():
+            inherited = outputs.get(name)
+            update = {key: getattr(output, key) for key in output.model_fields_set}
+            outputs[name] = inherited.model_copy(update=update) if inherited else output
+        loc: Loc = (
+            ("states", state, "inputs") if state is not None and own.inputs is not None else ("inputs",)
+        )
+        return Case(state, self._speeds(inputs), tuple(dict.fromkeys(fixed)), tuple(locks), outputs, loc)
+
+    def _speeds(self, inputs: Mapping[str, Quantity]) -> dict[str, Fraction]:
+        """Input speeds in the train's unit; named units are counted in the first one's."""
+        scale = self._input_scale(inputs)
+        return {
+            link: (speed.base or speed.value) / scale if speed.unit else speed.value
+            for link, speed in inputs.items()
+        }
+
+    @staticmethod
+    def _input_scale(inputs: Mapping[str, Quantity]) -> Fraction:
+        first = next((speed for speed in inputs.values() if speed.unit), None)
+        if first is None or first.base is None:
+            return Fraction(1)
+        return first.base / first.value if first.value else Fraction(1)
+
+    @cached_property
+    def unit_days(self) -> Fraction | None:
+        """Length of the unit in days, where it is a time."""
+        if self.unit is None:
+            return None
+        row = table().get(self.unit.per)
+        if row is not None:
+            return row.value if row.kind == "period" else None
+        quantity = self.unit_quantity
+        return (
+            quantity.base / 86400
+            if quantity and quantity.dimension == "time" and quantity.base is not None
+            else None
+        )
+
+    @property
+    def unit_quantity(self) -> Quantity | None:
+        """The unit where it is declared as a quantity (a time or a length)."""
+        if self.unit is None or self.unit.per in table():
+            return None
+        for dimension in ("time", "length"):
+            try:
+                return Quantity.parse(self.unit.per, dimension, plain=False)
+            except ValueError:
+                continue
+        return None
+
+    @property
+    def unit_name(self) -> str:
+        """The unit of speeds, for a reader: `turns per year_tropical_J2000`, `rpm`, or nothing for plain numbers."""
+        if self.unit is not None:
+            return f"turns per {self.unit.per}"
+        groups = [self.inputs, *(state.inputs or {} for state in self.states.values())]
+        return next((speed.unit for group in groups for speed in group.values() if speed.unit), "")
+
+    def uncertain_wheels(self) -> Iterator[tuple[str, Wheel]]:
+        """Wheels whose tooth count is declared with a range or choices."""
+        return ((name, wheel) for name, (_, wheel) in self.wheels.items() if wheel.doubt)

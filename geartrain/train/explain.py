@@ -1,0 +1,118 @@
+"""From raw data to a `Train`, with every problem in words a person can act on."""
+
+from __future__ import annotations
+
+import types
+from collections.abc import Iterable, Iterator, Mapping
+from difflib import get_close_matches
+from typing import Annotated, Any, Union, get_args, get_origin
+
+from pydantic import BaseModel, ValidationError
+
+from geartrain.errors import DeclarationError, Loc, Marks, Problem, dotted
+from geartrain.train.declaration import Train
+from geartrain.train.references import find_problems
+
+
+def declare(data: Mapping[str, Any], marks: Marks | None = None) -> Train:
+    """A checked `Train` from plain data, the same keys as in YAML.
+
+    `marks` turns the path of a value into the place it was written at. Raises `DeclarationError` with every
+    problem that could be collected.
+    """
+    try:
+        train = Train.model_validate(data)
+    except ValidationError as error:
+        place = marks or dotted
+        raise DeclarationError(_explain(item, place) for item in error.errors(include_url=False)) from None
+    train._marks = marks
+    problems = tuple(find_problems(train))
+    if problems:
+        raise DeclarationError(problems)
+    return train
+
+
+def _explain(error: Mapping[str, Any], place: Marks) -> Problem:
+    loc: Loc = error["loc"]
+    kind, context = error["type"], error.get("ctx", {})
+    key = str(loc[-1]) if loc else ""
+    if kind == "extra_forbidden":
+        allowed = tuple(_keys_at(loc[:-1]))
+        return Problem(
+            f"unknown key '{key}'", f"{_where(loc[:-1])} has no such key", suggest(key, allowed), place(loc)
+        )
+    if kind == "missing":
+        return Problem(
+            f"key '{key}' is missing", f"{_where(loc[:-1])} needs it", f"add `{key}:`", place(loc[:-1])
+        )
+    if kind in ("union_tag_not_found", "union_tag_invalid"):
+        tag = context["discriminator"].strip("'")
+        fix = (
+            f"give `{tag}`: one of {context.get('expected_tags', '')}"
+            if "expected_tags" in context
+            else f"add `{tag}:`"
+        )
+        return Problem(error["msg"], f"{_where(loc)} comes in kinds", fix, place(loc))
+    what = f"{_where(loc)}: {error['msg'][0].lower()}{error['msg'][1:]}"
+    if "fix" in context:
+        return Problem(f"{_where(loc)}: {error['msg']}", "", context["fix"], place(loc))
+    shown = repr(error["input"])
+    return Problem(
+        what, f"got {shown if len(shown) <= 60 else shown[:57] + '...'}", "see `geartrain schema`", place(loc)
+    )
+
+
+def _where(loc: Loc) -> str:
+    return f"`{dotted(_real_steps(loc))}`" if loc else "the declaration"
+
+
+def _real_steps(loc: Loc) -> Loc:
+    """`loc` without the tags pydantic adds for unions, which are not in the file."""
+    tags = {"count", "doubt", "triangular", "ideal", "pin_and_slot", "pin_follower"}
+    return tuple(
+        step
+        for at, step in enumerate(loc)
+        if not (
+            step in tags
+            and at > 0
+            and loc[at - 1] in ("teeth", "tooth_form")
+            or (step in tags and at > 1 and loc[at - 2] == "couplings")
+        )
+    )
+
+
+def suggest(name: str, known: Iterable[str]) -> str:
+    """The nearest of the known names, or all of them if they are few."""
+    known = tuple(known)
+    close = get_close_matches(name, known, n=2, cutoff=0.6)
+    if close:
+        return f"did you mean {' or '.join(repr(found) for found in close)}?"
+    return f"use one of: {', '.join(known)}" if 0 < len(known) <= 30 else "correct the name"
+
+
+def _keys_at(loc: Loc) -> Iterator[str]:
+    """The keys a declaration may have at `loc`, found by walking the models."""
+    kinds: list[Any] = [Train]
+    for step in loc:
+        kinds = [after for kind in kinds for after in _step(kind, step)]
+    for kind in kinds:
+        for name, field in kind.model_fields.items():
+            yield field.alias or name
+
+
+def _step(kind: Any, step: str | int) -> Iterator[Any]:
+    """The models below `kind` after one step; a union's tag stays where it is."""
+    if isinstance(step, str) and step in kind.model_fields:
+        yield from _models_in(kind.model_fields[step].annotation)
+    else:
+        yield kind
+
+
+def _models_in(annotation: Any) -> Iterator[Any]:
+    if isinstance(annotation, type) and issubclass(annotation, BaseModel):
+        yield annotation
+    elif get_origin(annotation) is Annotated:
+        yield from _models_in(get_args(annotation)[0])
+    elif get_origin(annotation) in (Union, types.UnionType, dict, tuple):
+        for inner in get_args(annotation):
+            yield from _models_in(inner)

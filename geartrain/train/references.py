@@ -1,0 +1,312 @@
+"""Names that point nowhere, and statements of a declaration that contradict each other."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from difflib import get_close_matches
+
+from geartrain.errors import Loc, Problem
+from geartrain.periods import suggestion, table
+from geartrain.quantity import Quantity
+from geartrain.train.declaration import Train
+from geartrain.train.parts import Output, Target
+
+
+def find_problems(train: Train) -> Iterator[Problem]:
+    """Every reference that dangles and every mixture that has no meaning."""
+    yield from _links(train)
+    yield from _wheels(train)
+    yield from _couplings(train)
+    yield from _prescriptions(train)
+    yield from _outputs(train)
+    yield from _sources(train)
+    yield from _units(train)
+
+
+def _unknown(train: Train, kind: str, name: str, known: Iterable[str], *loc: str | int) -> Problem:
+    close = get_close_matches(name, tuple(known), n=2, cutoff=0.6)
+    fix = (
+        f"did you mean {' or '.join(repr(found) for found in close)}?"
+        if close
+        else f"declare the {kind}, or correct the name"
+    )
+    return Problem(
+        f"no {kind} '{name}'", f"`{'.'.join(str(step) for step in loc)}` names it", fix, train.place(*loc)
+    )
+
+
+def _links(train: Train) -> Iterator[Problem]:
+    links = train.links
+    if train.frame not in links:
+        yield _unknown(train, "link", train.frame, links, "frame")
+    labels = set()
+    for at, joint in enumerate(train.revolutes):
+        labels.add(joint.axis)
+        for link in joint.pair:
+            if link not in links:
+                yield _unknown(train, "link", link, links, "revolutes", at, "pair")
+        if joint.pair[0] == joint.pair[1]:
+            yield Problem(
+                f"turning pair of '{joint.pair[0]}' with itself",
+                "a joint joins two links",
+                "name the other link",
+                train.place("revolutes", at),
+            )
+    for label in train.axes:
+        if label not in labels:
+            yield _unknown(train, "turning pair with the axis", label, labels, "axes", label)
+
+
+def _wheels(train: Train) -> Iterator[Problem]:
+    owner: dict[str, str] = {}
+    for link, part in train.links.items():
+        for wheel in part.wheels:
+            if wheel in owner:
+                yield Problem(
+                    f"wheel '{wheel}' is declared twice",
+                    f"it stands on link '{owner[wheel]}' and on link '{link}'",
+                    "wheel ids are unique over the train: rename one",
+                    train.place("links", link, "wheels", wheel),
+                )
+            owner[wheel] = link
+    wheels, names = train.wheels, set()
+    for at, gear in enumerate(train.gears):
+        first, second = gear.pair
+        missing = [wheel for wheel in gear.pair if wheel not in wheels]
+        for wheel in missing:
+            yield _unknown(train, "wheel", wheel, wheels, "gears", at, "pair")
+        if gear.name in names:
+            yield _twice(train, "gear pair", gear.name, "gears", at)
+        names.add(gear.name)
+        if gear.driver is not None and gear.driver not in gear.pair:
+            yield _unknown(train, "wheel of this pair", gear.driver, gear.pair, "gears", at, "driver")
+        if missing:
+            continue
+        (link_1, wheel_1), (link_2, wheel_2) = wheels[first], wheels[second]
+        place = train.place("gears", at, "pair")
+        if link_1 == link_2:
+            yield Problem(
+                f"gear pair '{gear.name}' joins two wheels of one link",
+                f"'{first}' and '{second}' both stand on link '{link_1}', so they cannot turn against each other",
+                "put one of them on another link",
+                place,
+            )
+        elif wheel_1.internal and wheel_2.internal:
+            yield Problem(
+                f"gear pair '{gear.name}' joins two rings",
+                "teeth that both look inwards cannot meet",
+                "make one of them external",
+                place,
+            )
+        elif wheel_1.kind == wheel_2.kind == "worm" or (
+            "worm" in (wheel_1.kind, wheel_2.kind) and (wheel_1.internal or wheel_2.internal)
+        ):
+            yield Problem(
+                f"gear pair '{gear.name}' is no worm drive",
+                "a worm drives an external wheel",
+                "declare one worm and one external wheel",
+                place,
+            )
+    for at, coupling in enumerate(train.couplings):
+        if coupling.name in names:
+            yield _twice(train, "coupling", coupling.name, "couplings", at)
+        names.add(coupling.name)
+
+
+def _twice(train: Train, kind: str, name: str, *loc: str | int) -> Problem:
+    return Problem(
+        f"{kind} '{name}' is declared twice",
+        "pairs and couplings share one set of ids",
+        "give one of them another `id`",
+        train.place(*loc),
+    )
+
+
+def _couplings(train: Train) -> Iterator[Problem]:
+    for at, coupling in enumerate(train.couplings):
+        for key in ("pin", "slot"):
+            if (link := getattr(coupling, key)) not in train.links:
+                yield _unknown(train, "link", link, train.links, "couplings", at, key)
+        if coupling.pin == coupling.slot:
+            yield Problem(
+                f"coupling '{coupling.name}' joins '{coupling.pin}' to itself",
+                "pin and slot stand on two links",
+                "name the other link",
+                train.place("couplings", at),
+            )
+
+
+def _prescriptions(train: Train) -> Iterator[Problem]:
+    yield from _scope(train, train.inputs, train.fixed, train.locks, ())
+    yield from _named_links(train, train.loads, "loads")
+    for key in ("crank", "solve_for"):
+        if (link := getattr(train, key)) is not None and link not in train.links:
+            yield _unknown(train, "link", link, train.links, key)
+    for name, clutch in train.clutches.items():
+        for link in (*(clutch.locks or ()), *((clutch.fixes,) if clutch.fixes else ())):
+            if link not in train.links:
+                yield _unknown(train, "link", link, train.links, "clutches", name)
+    for name, state in train.states.items():
+        loc = ("states", name)
+        yield from _scope(train, state.inputs or {}, state.fixed or (), state.locks or (), loc)
+        yield from _named_links(train, state.loads or {}, *loc, "loads")
+        for at, clutch_name in enumerate(state.engaged):
+            if clutch_name not in train.clutches:
+                yield _unknown(train, "clutch", clutch_name, train.clutches, *loc, "engaged", at)
+
+
+def _scope(
+    train: Train,
+    inputs: Mapping[str, Quantity],
+    fixed: Iterable[str],
+    locks: Iterable[tuple[str, str]],
+    loc: Loc,
+) -> Iterator[Problem]:
+    yield from _named_links(train, inputs, *loc, "inputs")
+    yield from _named_links(train, fixed, *loc, "fixed")
+    for at, pair in enumerate(locks):
+        for link in pair:
+            if link not in train.links:
+                yield _unknown(train, "link", link, train.links, *loc, "locks", at)
+    if train.frame in inputs:
+        yield Problem(
+            f"the frame '{train.frame}' is an input",
+            "its speed is 0 by definition",
+            "prescribe the speed of another link",
+            train.place(*loc, "inputs"),
+        )
+    yield from _mixture(train, inputs, loc)
+
+
+def _mixture(train: Train, inputs: Mapping[str, Quantity], loc: Loc) -> Iterator[Problem]:
+    units = {speed.unit for speed in inputs.values()}
+    named = units - {None}
+    if None in units and named:
+        why = "some inputs are plain numbers and some have a unit"
+    elif named and train.unit is not None:
+        why = f"the train's unit is one turn per {train.unit.per}, and an input has a unit of its own"
+    elif "rad/s" in named and len(named) > 1:
+        why = "a radian is no rational part of a turn, so rad/s and other units do not mix exactly"
+    else:
+        return
+    yield Problem("inputs mix units", why, "write all inputs in one way", train.place(*loc, "inputs"))
+
+
+def _named_links(train: Train, names: Iterable[str], *loc: str | int) -> Iterator[Problem]:
+    for name in names:
+        if name not in train.links:
+            yield _unknown(train, "link", name, train.links, *loc)
+
+
+def _outputs(train: Train) -> Iterator[Problem]:
+    for name, output in train.outputs.items():
+        yield from _output(train, name, output, ("outputs", name))
+    for state, part in train.states.items():
+        for name, output in part.outputs.items():
+            inherited = name in train.outputs and output.of is None
+            yield from _output(train, name, output, ("states", state, "outputs", name), link_given=inherited)
+
+
+def _output(train: Train, name: str, output: Output, loc: Loc, link_given: bool = False) -> Iterator[Problem]:
+    link = output.of if output.of is not None else name
+    if not link_given and link not in train.links:
+        yield _unknown(train, "link", link, train.links, *loc)
+    if output.relative_to is not None and output.relative_to not in train.links:
+        yield _unknown(train, "link", output.relative_to, train.links, *loc, "relative_to")
+    if output.dial is not None and output.dial not in train.dials:
+        yield _unknown(train, "dial", output.dial, train.dials, *loc, "dial")
+    for at, target in enumerate(output.targets):
+        yield from _target(train, target, (*loc, "targets", at))
+
+
+def _target(train: Train, target: Target, loc: Loc) -> Iterator[Problem]:
+    place = train.place(*loc)
+    if target.name is not None:
+        row = table().get(target.name)
+        if row is None:
+            yield Problem(
+                f"no astronomical period '{target.name}'",
+                "the shipped table has no such row",
+                suggestion(target.name),
+                place,
+            )
+            return
+        if row.kind == "count":
+            yield Problem(
+                f"'{target.name}' is a count",
+                "a pointer shows a speed or a period",
+                "choose a row of kind period or speed",
+                place,
+            )
+            return
+        if row.kind == "speed" and not (train.unit and train.unit.per.startswith("year")):
+            yield Problem(
+                f"'{target.name}' is a speed per year",
+                "the train's unit is no year",
+                "declare a year as `unit`, or give a period",
+                place,
+            )
+            return
+    if target.speed is None and train.unit_days is None:
+        yield Problem(
+            "a period is no target here",
+            "the train's unit is not a time",
+            "declare `unit: {per: ...}` as a time",
+            place,
+        )
+
+
+def _sources(train: Train) -> Iterator[Problem]:
+    for link, part in train.links.items():
+        for name, wheel in part.wheels.items():
+            loc: Loc = ("links", link, "wheels", name)
+            yield from _source(train, wheel.source, *loc)
+            if not isinstance(wheel.teeth, int):
+                yield from _source(train, wheel.teeth.source, *loc, "teeth")
+    for at, gear in enumerate(train.gears):
+        yield from _source(train, gear.source, "gears", at)
+    for at, coupling in enumerate(train.couplings):
+        yield from _source(train, coupling.source, "couplings", at)
+    for name, output in train.outputs.items():
+        if output.published:
+            yield from _source(train, output.published.source, "outputs", name, "published")
+        for at, target in enumerate(output.targets):
+            yield from _source(train, target.source, "outputs", name, "targets", at)
+
+
+def _source(train: Train, key: str | None, *loc: str | int) -> Iterator[Problem]:
+    if key is not None and key not in train.sources:
+        yield _unknown(train, "source", key, train.sources, *loc)
+
+
+def _units(train: Train) -> Iterator[Problem]:
+    if train.unit is not None and train.unit.per not in table() and train.unit_quantity is None:
+        yield Problem(
+            f"'{train.unit.per}' is no unit",
+            "it is neither a row of the shipped table nor a time or length",
+            suggestion(train.unit.per),
+            train.place("unit"),
+        )
+    elif train.unit is not None and train.unit.per in table() and table()[train.unit.per].kind != "period":
+        yield Problem(
+            f"'{train.unit.per}' is no period",
+            "a unit is one turn per a time or a length",
+            "name a row of kind period",
+            train.place("unit"),
+        )
+    plain, named = [], []
+    for label, axis in train.axes.items():
+        for length in axis.position or ():
+            if length.value:
+                (plain if length.unit is None else named).append(("axes", label))
+    for at, coupling in enumerate(train.couplings):
+        for length in (coupling.pin_radius, coupling.offset):
+            if length is not None and length.value:
+                (plain if length.unit is None else named).append(("couplings", at))
+    if plain and named:
+        yield Problem(
+            "lengths mix plain numbers and units",
+            f"`{'.'.join(str(s) for s in named[0])}` has a unit, this has none",
+            "write all lengths in one way",
+            train.place(*plain[0]),
+        )

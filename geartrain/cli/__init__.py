@@ -1,0 +1,59 @@
+"""The command: one file a verb. Verbs import what they need when they run; only this room prints and exits."""
+
+from __future__ import annotations
+
+import os
+import sys
+from typing import Annotated
+
+import typer
+
+from geartrain.cli import bench, check, compare, equations, graph, listing, report, schema, solve
+from geartrain.cli.common import NOT_USABLE, complain
+from geartrain.errors import GearTrainError
+
+app = typer.Typer(
+    name="geartrain",
+    help="What does this gear train do? Exact speeds, named diagnoses and sources for any declared train.",
+    no_args_is_help=True,
+    pretty_exceptions_enable=False,
+    context_settings={"help_option_names": ["-h", "--help"]},
+    epilog="Exit codes: 0 determined and every expectation holds; 1 a verdict or a failed expectation; 2 unusable input.",
+)
+app.command("report")(report.run)
+app.command("compare")(compare.run)
+app.command("check")(check.run)
+app.command("solve")(solve.run)
+app.command("equations")(equations.run)
+app.command("graph")(graph.run)
+app.command("schema")(schema.run)
+app.command("list")(listing.trains)
+app.command("periods")(listing.periods)
+app.add_typer(bench.app, name="bench")
+
+
+def _version(wanted: bool) -> None:
+    if wanted:
+        from importlib.metadata import version
+
+        typer.echo(f"geartrain {version('geartrain')}")
+        raise typer.Exit
+
+
+@app.callback()
+def _root(
+    version: Annotated[bool, typer.Option("--version", callback=_version, is_eager=True, help="Print the version and exit.")] = False,
+) -> None:
+    pass
+
+
+def main() -> None:
+    """Run the command; whatever is wrong with the input is said on standard error, and the exit code is 2."""
+    try:
+        app()
+    except GearTrainError as error:
+        complain(error)
+        sys.exit(NOT_USABLE)
+    except BrokenPipeError:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        sys.exit(0)

@@ -1,0 +1,66 @@
+"""`geartrain check`: validate declarations and verify every expectation."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import typer
+
+from geartrain.cli.common import GOOD, NOT_USABLE, VERDICT, Files, complain
+from geartrain.errors import GearTrainError
+
+
+def run(
+    files: Files,
+    quiet: Annotated[bool, typer.Option("--quiet", "-q", help="Print only what is wrong.")] = False,
+) -> None:
+    """Validate trains and verify every `expect` and `published` figure; the worst finding is the exit code."""
+    worst = GOOD
+    for file in files:
+        worst = max(worst, _check(file, quiet))
+    raise typer.Exit(worst)
+
+
+def _check(file: str, quiet: bool) -> int:
+    from geartrain.files import load
+
+    try:
+        train = load(file)
+        answers = list(train.answers())
+    except GearTrainError as error:
+        complain(error)
+        return NOT_USABLE
+    good = GOOD
+    for answer in answers:
+        state = f" state {answer.state}" if answer.state is not None else ""
+        place = train.declaration.place(*train.declaration.case(answer.state).loc)
+        if not answer.verdict:
+            typer.echo(f"FAIL {file}{state}: {answer.verdict} ({place})")
+            good = VERDICT
+        for result in answer.failures:
+            place = train.declaration.place(*_place(answer.state, result.name, train.declaration.states))
+            typer.echo(f"FAIL {place}:{state} output '{result.name}' is {result.speed}{_wanted(result)}")
+            good = VERDICT
+    if good == GOOD and not quiet:
+        held = sum(result.expect_holds is not None for answer in answers for result in answer.outputs.values())
+        loops = f", {train.mobility.redundant} redundant circuits" if train.mobility.redundant else ""
+        typer.echo(f"ok   {file}: mobility {train.mobility.by_rank}{loops}, {held} expectations hold")
+    return good
+
+
+def _place(state: str | None, name: str, states: object) -> tuple[str, ...]:
+    own = isinstance(states, dict) and state is not None and name in states[state].outputs
+    return ("states", str(state), "outputs", name) if own else ("outputs", name)
+
+
+def _wanted(result: object) -> str:
+    from geartrain.outputs import OutputResult
+
+    if not isinstance(result, OutputResult):
+        return ""
+    words = []
+    if result.expect_holds is False and result.output.expect:
+        words.append(f"expected {result.output.expect.value}")
+    if result.published_holds is False and result.output.published:
+        words.append(f"published {result.output.published.value} as {result.output.published.as_}")
+    return "; " + ", ".join(words)

@@ -1,0 +1,65 @@
+"""What the verbs share: arguments, exit codes, where text goes."""
+
+from __future__ import annotations
+
+import json
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from geartrain.errors import GearTrainError
+
+if TYPE_CHECKING:
+    from geartrain.analysis import GearTrain
+
+GOOD, VERDICT, NOT_USABLE = 0, 1, 2
+
+File = Annotated[str, typer.Argument(help="A YAML declaration, or the name of a shipped train.", metavar="FILE")]
+Files = Annotated[list[str], typer.Argument(help="YAML declarations, or names of shipped trains.", metavar="FILE...")]
+Out = Annotated[Path | None, typer.Option("--output-file", "-o", help="Write to this file instead of the terminal.")]
+Json = Annotated[bool, typer.Option("--json", help="Print plain data as JSON.")]
+StateName = Annotated[str | None, typer.Option("--state", help="The state to solve; default all.")]
+
+
+def load_all(files: list[str]) -> list[GearTrain]:
+    """All trains, or one error that tells what is wrong with each of the files."""
+    from geartrain.files import load
+
+    trains, problems = [], []
+    for file in files:
+        try:
+            trains.append(load(file))
+        except GearTrainError as error:
+            problems += error.problems
+    if problems:
+        raise GearTrainError(problems)
+    return trains
+
+
+def complain(error: GearTrainError) -> None:
+    """Every problem on standard error."""
+    for problem in error.problems:
+        typer.echo(f"error: {problem}", err=True)
+
+
+def emit(text: str, out: Path | None = None) -> None:
+    """Text to a file, whole or not at all, or to standard output."""
+    if out is None:
+        typer.echo(text)
+        return
+    from geartrain.files import write_text
+
+    write_text(out, text if text.endswith("\n") else text + "\n")
+    typer.echo(f"wrote {out}", err=True)
+
+
+def as_json(data: Any) -> str:
+    """JSON as this command prints it."""
+    return json.dumps(data, indent=2, ensure_ascii=False, allow_nan=False)
+
+
+def on_terminal() -> bool:
+    """True if standard output is a terminal."""
+    return sys.stdout.isatty()

@@ -1,0 +1,29 @@
+"""`geartrain compare`: alternative reconstructions side by side."""
+
+from __future__ import annotations
+
+import typer
+
+from geartrain.cli.common import GOOD, VERDICT, Files, Json, Out, as_json, emit, load_all, on_terminal
+
+
+def run(files: Files, out: Out = None, json: Json = False) -> None:
+    """Put the outputs of several trains side by side, with their errors against the targets."""
+    from geartrain import report
+
+    trains = load_all(files)
+    sound = all(answer for train in trains for answer in train.answers())
+    suffix = out.suffix.lower() if out else ""
+    if json or suffix == ".json":
+        emit(as_json([report.train_data(train) for train in trains]), out)
+    else:
+        document = [report.compare_trains(trains)]
+        if suffix == ".html":
+            emit(report.to_html(document), out)
+        elif out is None and on_terminal():
+            from rich.console import Console
+
+            report.to_terminal(document, Console(highlight=False))
+        else:
+            emit(report.to_markdown(document), out)
+    raise typer.Exit(GOOD if sound else VERDICT)

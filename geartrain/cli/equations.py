@@ -1,0 +1,28 @@
+"""`geartrain equations`: the labelled Willis system."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import typer
+
+from geartrain.cli.common import File, Out, StateName, emit
+
+
+def run(
+    file: File,
+    state: StateName = None,
+    latex: Annotated[bool, typer.Option("--latex", help="As a LaTeX align environment.")] = False,
+    out: Out = None,
+) -> None:
+    """Print the Willis system of a train, one labelled equation a line, as text or LaTeX."""
+    from geartrain.files import load
+
+    train = load(file)
+    names = [state] if state is not None or not train.states else list(train.states)
+    blocks = []
+    for name in names:
+        system = train.equations(name)
+        head = [] if name is None else [f"{'%' if latex else '#'} state {name}"]
+        blocks.append("\n".join([*head, system.latex() if latex else system.text()]))
+    emit("\n\n".join(blocks), out)

@@ -1,0 +1,36 @@
+"""`geartrain graph`: the adjacency matrix, or the graph for other tools."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import typer
+
+from geartrain.cli.common import File, Out, as_json, emit
+
+_FORMS = ("labels", "matrix", "dot", "graphml", "json")
+
+
+def run(
+    file: File,
+    form: Annotated[str, typer.Option("--as", help=f"One of {', '.join(_FORMS)}.")] = "labels",
+    out: Out = None,
+) -> None:
+    """Print the graph: adjacency in letters (R(axis), G#) or numbers, Graphviz, GraphML, or JSON."""
+    from geartrain import graph
+    from geartrain.files import load
+    from geartrain.report import Document, Section, Table, to_markdown
+
+    if form not in _FORMS:
+        raise typer.BadParameter(f"'{form}' is not a form of graph; use {', '.join(_FORMS)}", param_hint="--as")
+    train = load(file)
+    if form == "matrix":
+        text = as_json(graph.adjacency_matrix(train.graph).to_dict())
+    elif form == "labels":
+        names = list(train.graph)
+        rows = [(name, *row) for name, row in zip(names, graph.adjacency_labels(train.graph), strict=True)]
+        table = Table(("", *names), rows, wide=True)
+        text = to_markdown([Document(f"Adjacency of {train.name}", (), (Section("Matrix", (), (table,)),))])
+    else:
+        text = {"dot": graph.to_dot, "graphml": graph.to_graphml, "json": graph.to_json}[form](train.graph)
+    emit(text, out)

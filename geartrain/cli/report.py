@@ -1,0 +1,32 @@
+"""`geartrain report`: structure, circuits, mobility, speeds, outputs, targets and doubts."""
+
+from __future__ import annotations
+
+import typer
+
+from geartrain.cli.common import GOOD, VERDICT, Files, Json, Out, as_json, emit, load_all, on_terminal
+
+
+def run(files: Files, out: Out = None, json: Json = False) -> None:
+    """Report on trains: Markdown to the terminal, or by the suffix of -o as .md, .html or .json."""
+    from geartrain import report
+
+    suffix = out.suffix.lower() if out else ""
+    if suffix not in ("", ".md", ".html", ".json"):
+        raise typer.BadParameter(f"'{suffix}' is not a form of report; use .md, .html or .json", param_hint="-o")
+    trains = load_all(files)
+    sound = all(answer for train in trains for answer in train.answers())
+    if json or suffix == ".json":
+        data = [report.train_data(train) for train in trains]
+        emit(as_json(data[0] if len(data) == 1 else data), out)
+    else:
+        documents = [report.report_train(train) for train in trains]
+        if suffix == ".html":
+            emit(report.to_html(documents), out)
+        elif out is None and on_terminal():
+            from rich.console import Console
+
+            report.to_terminal(documents, Console(highlight=False))
+        else:
+            emit(report.to_markdown(documents), out)
+    raise typer.Exit(GOOD if sound else VERDICT)

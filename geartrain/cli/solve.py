@@ -1,0 +1,63 @@
+"""`geartrain solve`: speeds, of everything or of one output."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from geartrain.cli.common import GOOD, VERDICT, File, Json, StateName, as_json, emit
+
+if TYPE_CHECKING:
+    from geartrain.analysis import Answer, GearTrain
+
+OutputName = Annotated[str | None, typer.Option("--output", help="An output or a link: only what drives it is solved.")]
+
+
+def run(
+    file: File,
+    output: OutputName = None,
+    state: StateName = None,
+    json: Json = False,
+    method: Annotated[str, typer.Option("--method", help="auto, exact or floats.")] = "auto",
+) -> None:
+    """Solve a train and print its speeds as fractions and decimals."""
+    from geartrain.files import load
+
+    if method not in ("auto", "exact", "floats"):
+        raise typer.BadParameter(f"'{method}' is not a method; use auto, exact or floats", param_hint="--method")
+    train = load(file)
+    states = [state] if state is not None or not train.states else list(train.states)
+    answers = [train.solve(name, output, method) for name in states]  # type: ignore[arg-type]
+    if json:
+        emit(as_json(_data(train, answers, output)))
+    else:
+        for answer in answers:
+            _print(answer, output)
+    raise typer.Exit(GOOD if all(answers) else VERDICT)
+
+
+def _data(train: GearTrain, answers: list[Answer], output: str | None) -> dict[str, Any]:
+    from geartrain.report.data import answers_data
+
+    if output is None and len(answers) == max(1, len(train.states)):
+        return answers_data(train, answers)
+    head = {"name": train.name, "unit": train.declaration.unit_name}
+    if len(answers) == 1:
+        return head | answers[0].to_dict()
+    return head | {"states": {answer.state: answer.to_dict() for answer in answers}}
+
+
+def _print(answer: Answer, output: str | None) -> None:
+    from geartrain.report.document import exact, figure
+
+    state = f" state {answer.state}" if answer.state is not None else ""
+    typer.echo(f"{answer.train}{state}: {answer.verdict}" + (f" ({answer.unit})" if answer.unit else ""))
+    rows = [(name, result.speed, "" if result.holds else "  FAILS") for name, result in answer.outputs.items()]
+    if output is None:
+        rows = [(link, speed, "") for link, speed in answer.speeds.items()] + [row for row in rows if row[0] not in answer.speeds or row[2]]
+    elif not rows:
+        rows = [(link, speed, "") for link, speed in answer.speeds.items()]
+    width = max((len(name) for name, _, _ in rows), default=0)
+    for name, speed, mark in rows:
+        typer.echo(f"  {name:<{width}}  {exact(speed):>20}  {figure(speed, 12)}{mark}")

@@ -1,0 +1,65 @@
+"""Alternative reconstructions side by side."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from geartrain.analysis import Answer, GearTrain
+from geartrain.report.document import Document, Section, Table, exact, figure, ppm
+
+
+def compare_trains(trains: Sequence[GearTrain]) -> Document:
+    """The outputs of several trains in columns: speeds, errors against targets, and tooth counts that differ."""
+    columns = [(_label(train, answer), train, answer) for train in trains for answer in train.answers()]
+    names = list(dict.fromkeys(name for _, _, answer in columns for name in answer.outputs))
+    header = ("output", *(label for label, _, _ in columns))
+    rows = [(name, *(_speed(answer, name) for _, _, answer in columns)) for name in names]
+    lead = [f"`{train.name}`: {train.declaration.title}." for train in trains]
+    units = dict.fromkeys(train.declaration.unit_name or "plain numbers" for train in trains)
+    lead.append(f"Speeds are in {' and '.join(units)}." + (" The units differ." if len(units) > 1 else ""))
+    sections = [Section("Outputs", ("An equals sign marks the same exact speed as in the first column.",), (Table(header, rows),))]
+    targets = _targets(columns)
+    if targets:
+        sections.append(Section("Error against the targets in ppm", ("By magnitude; positive is fast.",), (Table(("output and target", *header[1:]), targets),)))
+    teeth = _teeth(trains)
+    if teeth:
+        sections.append(Section("Wheels that differ", (), (Table(("wheel", *(train.name for train in trains)), teeth),)))
+    return Document("Comparison", lead, sections)
+
+
+def _label(train: GearTrain, answer: Answer) -> str:
+    return train.name if answer.state is None else f"{train.name} {answer.state}"
+
+
+def _speed(answer: Answer, name: str) -> str:
+    result = answer.outputs.get(name)
+    if result is None:
+        return ""
+    if result.speed is None:
+        return answer.verdict.kind
+    return f"{exact(result.speed)} = {figure(result.speed, 7)}" + ("" if result.holds else " FAILS")
+
+
+def _targets(columns: Sequence[tuple[str, GearTrain, Answer]]) -> list[tuple[str, ...]]:
+    labels = dict.fromkeys(
+        (name, target.label) for _, _, answer in columns for name, result in answer.outputs.items() for target in result.targets
+    )
+    rows = []
+    for name, label in labels:
+        cells = []
+        for _, _, answer in columns:
+            result = answer.outputs.get(name)
+            found = [target for target in result.targets if target.label == label] if result else []
+            cells.append(ppm(found[0].ppm) if found else "")
+        rows.append((f"{name}: {label}", *cells))
+    return rows
+
+
+def _teeth(trains: Sequence[GearTrain]) -> list[tuple[str, ...]]:
+    wheels = dict.fromkeys(wheel for train in trains for wheel in train.declaration.wheels)
+    rows = []
+    for wheel in wheels:
+        counts = [str(found[1].count) if (found := train.declaration.wheels.get(wheel)) else "" for train in trains]
+        if len(set(counts)) > 1:
+            rows.append((wheel, *counts))
+    return rows

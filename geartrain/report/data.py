@@ -1,0 +1,58 @@
+"""The report as plain data, with stable keys (docs/reference/json.md)."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from geartrain.analysis import Answer, GearTrain
+from geartrain.speeds import Mobility
+
+
+def mobility_data(found: Mobility) -> dict[str, Any]:
+    """Mobility as plain data."""
+    return {
+        "by_count": found.by_count,
+        "by_rank": found.by_rank,
+        "rank": found.rank,
+        "redundant": found.redundant,
+        "redundant_loops": [loop.to_dict() for loop in found.loops],
+        "locked_loops": [loop.to_dict() for loop in found.locked],
+        "still": list(found.still),
+    }
+
+
+def answers_data(train: GearTrain, answers: list[Answer]) -> dict[str, Any]:
+    """Name, unit, mobility, and the answer itself or, for a train with states, `states` by name."""
+    data: dict[str, Any] = {
+        "name": train.name,
+        "title": train.declaration.title,
+        "unit": train.declaration.unit_name,
+        "mobility": mobility_data(train.mobility),
+    }
+    if train.states:
+        return data | {"states": {answer.state: answer.to_dict() for answer in answers}}
+    return data | answers[0].to_dict()
+
+
+def train_data(train: GearTrain) -> dict[str, Any]:
+    """Everything a report holds: sources, circuits, adjacency, answers, sensitivities and errata."""
+    from geartrain.graph import adjacency_labels
+
+    declared = train.declaration
+    answers = list(train.answers())
+    data = answers_data(train, answers)
+    data["sources"] = {key: source.cite for key, source in declared.sources.items()}
+    data["circuits"] = [
+        {"id": c.id, "kind": c.kind, "i": c.i, "j": c.j, "carrier": c.carrier, "wheels": list(c.wheels), "ratio": str(c.ratio), "note": c.note}
+        for c in train.circuits
+    ]
+    if len(declared.links) <= 500:
+        data["adjacency"] = {"links": list(train.graph), "cells": adjacency_labels(train.graph)}
+    data["sensitivity"] = [
+        {"state": answer.state, "wheel": s.wheel, "teeth": s.teeth, "output": s.output, "one_fewer_ppm": s.less, "one_more_ppm": s.more}
+        for answer in answers
+        if answer.verdict
+        for s in train.sensitivity(answer)
+    ]
+    data["errata"] = [erratum.model_dump() for erratum in declared.errata]
+    return data

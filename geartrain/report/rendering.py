@@ -1,0 +1,94 @@
+"""A document as Markdown, as one HTML page, or on a terminal."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from importlib import resources
+from typing import TYPE_CHECKING
+
+from geartrain.errors import MissingExtraError
+from geartrain.report.document import Document, Table
+
+if TYPE_CHECKING:
+    from rich.console import Console
+
+
+def to_markdown(documents: Sequence[Document]) -> str:
+    """The documents as Markdown."""
+    return "\n".join(line for document in documents for line in _markdown(document))
+
+
+def _markdown(document: Document) -> Iterator[str]:
+    yield from (f"# {document.title}", "")
+    for paragraph in document.lead:
+        yield from (paragraph, "")
+    for section in document.sections:
+        yield from (f"## {section.title}", "")
+        for paragraph in section.paragraphs:
+            yield from (paragraph, "")
+        for table in section.tables:
+            yield from _pipes(table)
+            yield ""
+
+
+def _pipes(table: Table) -> Iterator[str]:
+    rows = [[cell.replace("|", "\\|") for cell in row] for row in (table.header, *table.rows)]
+    widths = [max(3, *(len(cell) for cell in column)) for column in zip(*rows, strict=True)]
+    lines = ["| " + " | ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)) + " |" for row in rows]
+    yield lines[0]
+    yield "|" + "|".join("-" * (width + 2) for width in widths) + "|"
+    yield from lines[1:]
+
+
+def to_html(documents: Sequence[Document]) -> str:
+    """The documents as one self-contained page. Needs the `report` extra."""
+    try:
+        from jinja2 import Environment
+    except ImportError:
+        raise MissingExtraError("jinja2", "report", "a report in HTML") from None
+    source = resources.files(__package__).joinpath("page.html").read_text(encoding="utf-8")
+    template = Environment(autoescape=True, trim_blocks=True, lstrip_blocks=True).from_string(source)
+    return template.render(documents=documents)
+
+
+def to_terminal(documents: Sequence[Document], console: Console) -> None:
+    """The documents on a terminal; matrices wider than it are shown in strips."""
+    from rich.table import Table as RichTable
+    from rich.text import Text
+
+    for document in documents:
+        console.print(Text(document.title, style="bold underline"))
+        for paragraph in document.lead:
+            console.print(Text(paragraph))
+        for section in document.sections:
+            console.print()
+            console.print(Text(section.title, style="bold cyan"))
+            for paragraph in section.paragraphs:
+                console.print(Text(paragraph))
+            for table in section.tables:
+                for strip in _strips(table, console.width):
+                    shown = RichTable(box=None, pad_edge=False, header_style="bold", padding=(0, 1, 0, 0) if table.wide else (0, 2, 0, 0))
+                    for name in strip.header:
+                        shown.add_column(Text(name), no_wrap=table.wide, overflow="fold")
+                    for row in strip.rows:
+                        shown.add_row(*(Text(cell, style="bold red" if "FAILS" in cell else "") for cell in row))
+                    console.print(shown)
+        console.print()
+
+
+def _strips(table: Table, width: int) -> Iterator[Table]:
+    """A matrix cut into strips of columns that fit; other tables as they are."""
+    if not table.wide:
+        yield table
+        return
+    columns = [[table.header[at], *(row[at] for row in table.rows)] for at in range(len(table.header))]
+    sizes = [max(map(len, column)) + 1 for column in columns]
+    start = 1
+    while start < len(columns):
+        end, used = start + 1, sizes[0] + sizes[start]
+        while end < len(columns) and used + sizes[end] <= width:
+            used += sizes[end]
+            end += 1
+        chosen = [0, *range(start, end)]
+        yield Table([table.header[at] for at in chosen], [[row[at] for at in chosen] for row in table.rows], wide=True)
+        start = end

@@ -18,7 +18,7 @@ from geartrain.quantity import Length
 class _Coupling(BaseModel):
     """A coupling of two links by a pin in a slot."""
 
-    model_config = ConfigDict(frozen=True, extra="forbid", coerce_numbers_to_str=True)
+    model_config = ConfigDict(frozen=True, extra="forbid", coerce_numbers_to_str=True, defer_build=True)
 
     id: str = Field("", description="Name of the coupling; default pin~slot")
     pin: str = Field(description="The link that carries the pin")

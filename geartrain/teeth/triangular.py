@@ -19,7 +19,7 @@ def _one_per_wheel(raw: object) -> object:
 class Triangular(BaseModel):
     """Triangular teeth: straight flanks that meet in a point."""
 
-    model_config = ConfigDict(frozen=True, extra="forbid")
+    model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
 
     form: Literal["triangular"] = Field(description="The name of this form")
     half_angle: Annotated[tuple[Angle, Angle], BeforeValidator(_one_per_wheel)] = Field(

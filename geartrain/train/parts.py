@@ -27,7 +27,7 @@ Status = Literal["surviving", "reconstructed", "hypothetical"]
 class Declared(BaseModel):
     """What all declared parts share: frozen, no unknown keys, numbers welcome as names."""
 
-    model_config = ConfigDict(frozen=True, extra="forbid", coerce_numbers_to_str=True, populate_by_name=True)
+    model_config = ConfigDict(frozen=True, extra="forbid", coerce_numbers_to_str=True, populate_by_name=True, defer_build=True)
 
 
 def _count(raw: object) -> int:

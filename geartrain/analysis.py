@@ -5,13 +5,14 @@ from __future__ import annotations
 import html
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from fractions import Fraction
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, Literal
 
 from geartrain.circuits import Circuit, Tree, bookkeeping_links, find_circuits, find_tree, link_signs
 from geartrain.components import Reduced, find_components, prune, reduce
 from geartrain.errors import Problem, QuestionError, Verdict
-from geartrain.exact import TooDenseError
+from geartrain.exact import TooDenseError, decimal
 from geartrain.outputs import Number, OutputResult, Sensitivity, judge_outputs, number, sensitivity
 from geartrain.speeds import Mobility, Solution, exact_verdict, find_mobility, solve
 from geartrain.system import System, assemble
@@ -72,17 +73,13 @@ class Answer:
         }
 
     def _repr_html_(self) -> str:
+        shown = {name: result.speed for name, result in self.outputs.items()} or dict(self.speeds)
         rows = "".join(
-            f"<tr><td>{html.escape(name)}</td><td>{result.speed}</td><td>{'' if result.speed is None else float(result.speed):.10}</td></tr>"
-            for name, result in self.outputs.items()
-        ) or "".join(
-            f"<tr><td>{html.escape(link)}</td><td>{speed}</td><td>{float(speed):.10}</td></tr>"
-            for link, speed in self.speeds.items()
+            f"<tr><td>{html.escape(name)}</td><td>{speed}</td><td>{_shown(speed)}</td></tr>"
+            for name, speed in shown.items()
         )
         head = f"<tr><th>output</th><th>exact</th><th>{html.escape(self.unit) or 'speed'}</th></tr>"
-        return (
-            f"<p>{html.escape(self.train)}: {html.escape(str(self.verdict))}</p><table>{head}{rows}</table>"
-        )
+        return f"<p>{html.escape(self.train)}: {html.escape(str(self.verdict))}</p><table>{head}{rows}</table>"
 
 
 class GearTrain:
@@ -148,9 +145,7 @@ class GearTrain:
     def equations(self, state: str | None = None) -> System:
         """The labelled Willis system of one state."""
         case = self._case(state)
-        return assemble(
-            tuple(self.declaration.links), self.declaration.frame, self.circuits, case, self.signs
-        )
+        return assemble(tuple(self.declaration.links), self.declaration.frame, self.circuits, case, self.signs)
 
     def solve(self, state: str | None = None, output: str | None = None, method: Method = "auto") -> Answer:
         """Speeds and judged outputs in one state.
@@ -182,9 +177,7 @@ class GearTrain:
         def solve_with(circuits: Sequence[Circuit]) -> Any:
             return solve(self._reduce(circuits), case, self.signs).speeds.get
 
-        return sensitivity(
-            self.declaration, list(answer.outputs.values()), solve_with, self.circuits, self.signs
-        )
+        return sensitivity(self.declaration, list(answer.outputs.values()), solve_with, self.circuits, self.signs)
 
     def floats(
         self,
@@ -247,9 +240,7 @@ class GearTrain:
                 )
             )
         outputs = {output: declared} if declared else {}
-        links = (
-            (declared.of or output, declared.relative_to or self.declaration.frame) if declared else (output,)
-        )
+        links = (declared.of or output, declared.relative_to or self.declaration.frame) if declared else (output,)
         return Case(case.state, case.inputs, case.fixed, case.locks, outputs, case.loc), links
 
     def _kept(self, case: Case, wanted: Sequence[str]) -> set[str]:
@@ -294,14 +285,16 @@ class GearTrain:
     ) -> Answer:
         results = judge_outputs(self.declaration, self.tree, case, speeds.get, self.bookkeeping, self.signs)
         outputs = {result.name: result for result in results}
-        return Answer(
-            self.name, case.state, self.declaration.unit_name, verdict, speeds, outputs, ratios, method, work
-        )
+        return Answer(self.name, case.state, self.declaration.unit_name, verdict, speeds, outputs, ratios, method, work)
 
     def _repr_html_(self) -> str:
         declared = self.declaration
         title = f"<p><b>{html.escape(declared.name)}</b> {html.escape(declared.title)}</p>"
         return title + "".join(answer._repr_html_() for answer in self.answers())
+
+
+def _shown(speed: Number | None) -> str:
+    return "" if speed is None else decimal(speed) if isinstance(speed, Fraction) else f"{speed:.10g}"
 
 
 def _budget() -> int:

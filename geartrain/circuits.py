@@ -11,10 +11,12 @@ from collections import deque
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
+from geartrain.bulk import collector_paused
 from geartrain.errors import DeclarationError, Problem
 from geartrain.pins import winding_number
+from geartrain.quantity import Figure
 from geartrain.train import Train, Wheel
 
 Vector = tuple[Fraction, Fraction, Fraction]
@@ -75,12 +77,11 @@ class Tree:
             up.pop()
             down.pop()
         down.pop()
-        labels = [self.parent[link][1] for link in up[:-1]] + [
-            self.parent[link][1] for link in reversed(down)
-        ]
+        labels = [self.parent[link][1] for link in up[:-1]] + [self.parent[link][1] for link in reversed(down)]
         return up + down[::-1], labels
 
 
+@collector_paused()
 def find_tree(train: Train) -> Tree:
     """Root the turning pairs at the frame. Raises `DeclarationError` where they form no tree."""
     joints: dict[str, list[tuple[str, str, int]]] = {link: [] for link in train.links}
@@ -128,7 +129,8 @@ def _cycle(train: Train, tree: Tree, link: str, other: str, at: int) -> Problem:
 def _two_axes(train: Train, axis: str, first: str, second: str, first_at: int, at: int) -> Problem:
     return Problem(
         f"axis label '{axis}' names two axes",
-        f"one is borne by '{first}' ({train.place('revolutes', first_at)}), one by '{second}'; joints of one label are coaxial",
+        f"one is borne by '{first}' ({train.place('revolutes', first_at)}), one by '{second}'; "
+        "joints of one label are coaxial",
         "give the second axis a label of its own",
         train.place("revolutes", at),
     )
@@ -143,6 +145,7 @@ def _loose(train: Train, link: str) -> Problem:
     )
 
 
+@collector_paused()
 def find_circuits(train: Train, tree: Tree) -> tuple[Circuit, ...]:
     """The circuits of all gear pairs, then of all couplings, in the order declared."""
     problems: list[Problem] = []
@@ -160,9 +163,7 @@ def find_circuits(train: Train, tree: Tree) -> tuple[Circuit, ...]:
             continue
         if axes.plain and wheel_i.kind == wheel_j.kind == "spur":
             sign = -1 if wheel_i.internal or wheel_j.internal else 1
-            circuits.append(
-                Circuit(gear.name, "gear", i, j, carrier, wheel_i.count, sign * wheel_j.count, gear.pair)
-            )
+            circuits.append(Circuit(gear.name, "gear", i, j, carrier, wheel_i.count, sign * wheel_j.count, gear.pair))
             continue
         try:
             a, b, note = axes.coefficients(i, j, carrier, wheel_i, wheel_j)
@@ -180,9 +181,7 @@ def find_circuits(train: Train, tree: Tree) -> tuple[Circuit, ...]:
     for at, coupling in enumerate(train.couplings):
         carrier = _carrier(tree, coupling.slot, coupling.pin)
         if carrier is None:
-            problems.append(
-                _no_carrier(train, tree, coupling.name, coupling.slot, coupling.pin, ("couplings", at))
-            )
+            problems.append(_no_carrier(train, tree, coupling.name, coupling.slot, coupling.pin, ("couplings", at)))
             continue
         winding = winding_number(coupling.kind)
         circuits.append(
@@ -232,7 +231,8 @@ def _no_carrier(train: Train, tree: Tree, name: str, i: str, j: str, loc: tuple[
         why = f"the turning pairs {steps} have one axis label, so '{i}' and '{j}' are coaxial"
         fix = "a gear pair needs two distinct axes: correct the axis labels or the wheels"
     else:
-        why = f"on the turning pairs {steps} the axis changes at {' and at '.join(changes)}, so the centre distance is not fixed"
+        where = " and at ".join(changes)
+        why = f"on the turning pairs {steps} the axis changes at {where}, so the centre distance is not fixed"
         fix = f"a gear pair needs exactly one carrier: join '{i}' and '{j}' to one of {', '.join(changes)}"
     return Problem(f"'{name}' has no carrier", why, fix, train.place(*loc))
 
@@ -269,9 +269,7 @@ class _Axes:
         first = next((d for d in (_Z, *self.directions.values()) if _parallel(d, own)), own)
         return 1 if _dot(first, own) > 0 else -1
 
-    def coefficients(
-        self, i: str, j: str, carrier: str, wheel_i: Wheel, wheel_j: Wheel
-    ) -> tuple[int, int, str]:
+    def coefficients(self, i: str, j: str, carrier: str, wheel_i: Wheel, wheel_j: Wheel) -> tuple[int, int, str]:
         """a and b of the circuit, and a note where a sign is a convention."""
         z_i, z_j = wheel_i.count or 0, wheel_j.count or 0
         if "worm" in (wheel_i.kind, wheel_j.kind):
@@ -304,8 +302,7 @@ class _Axes:
         here, there = self.positions.get(worm or ""), self.positions.get(wheel or "")
         turn = Fraction(0)
         if here is not None and there is not None:
-            arm = _vector(tuple(p.value if p.base is None else p.base for p in here))
-            centre = _vector(tuple(p.value if p.base is None else p.base for p in there))
+            arm, centre = _vector(here), _vector(there)
             reach: Vector = (arm[0] - centre[0], arm[1] - centre[1], arm[2] - centre[2])
             # the worm's thread drives the wheel's teeth against the direction in which it would screw itself
             turn = -hand * _dot(self.direction(worm), _cross(self.direction(wheel), reach))
@@ -316,9 +313,10 @@ class _Axes:
         return z_i, hand * flip * z_j, note
 
 
-def _vector(figures: Iterable[object]) -> Vector:
-    x, y, z = (getattr(figure, "value", figure) for figure in figures)
-    return Fraction(x), Fraction(y), Fraction(z)  # type: ignore[arg-type]
+def _vector(figures: Iterable[Any]) -> Vector:
+    """Three figures as numbers, or three lengths in metres."""
+    x, y, z = (figure.value if isinstance(figure, Figure) else figure.base for figure in figures)
+    return x, y, z
 
 
 def _dot(u: Vector, v: Vector) -> Fraction:
@@ -350,7 +348,6 @@ def bookkeeping_links(train: Train, tree: Tree) -> frozenset[str]:
         link
         for link in tree.parent
         if not all(
-            _parallel(axes.direction(tree.axis(link)), axes.direction(tree.axis(up)))
-            for up in tree.chain(link)[1:-1]
+            _parallel(axes.direction(tree.axis(link)), axes.direction(tree.axis(up))) for up in tree.chain(link)[1:-1]
         )
     )

@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from math import gcd
 
+from geartrain.bulk import collector_paused
 from geartrain.circuits import Circuit
 from geartrain.errors import Loop
 from geartrain.exact import Row, add_into, coprime
@@ -96,6 +97,7 @@ class Components:
         return [circuit for circuit in used if circuit >= 0]
 
 
+@collector_paused()
 def find_components(
     links: Sequence[str], frame: str, circuits: Sequence[Circuit], first: Iterable[str] = ()
 ) -> Components:
@@ -105,11 +107,57 @@ def find_components(
             and no long number is ever multiplied by another
     """
     index = {link: at for at, link in enumerate(links)}
-    size = len(links)
+    node_link, node_carrier, edges, holding = _nodes(index, circuits)
+    nodes_of: dict[int, list[int]] = {}
+    for at, link in enumerate(node_link):
+        if link in nodes_of:
+            nodes_of[link].append(at)
+        else:
+            nodes_of[link] = [at]
+    count = len(node_link)
+    group, top, bottom = [-1] * count, [0] * count, [1] * count
+    reached, parent = [-1] * count, [-1] * count
+    group_carrier: list[int] = []
+    closing: list[int] = []
+    breaking: list[int] = []
+    for root in _starts(nodes_of, [index[link] for link in first if link in index], count):
+        if group[root] >= 0:
+            continue
+        this = len(group_carrier)
+        group_carrier.append(node_carrier[root])
+        group[root], top[root] = this, 1
+        queue = deque([root])
+        while queue:
+            here = queue.popleft()
+            n, d, entered = top[here], bottom[here], reached[here]
+            for at, there, a, b in edges[here]:
+                if at == entered:
+                    continue
+                if group[there] < 0:
+                    group[there], reached[there], parent[there] = this, at, here
+                    top[there], bottom[there] = _times(n, d, a, b)
+                    queue.append(there)
+                elif at != reached[there] and here < there:  # each chord is looked at from one side
+                    agrees = (top[there], bottom[there]) == _times(n, d, a, b)
+                    (closing if agrees else breaking).append(at)
+    return Components(
+        tuple(links), index, index[frame], circuits, node_link, node_carrier, group, top, bottom, reached, parent,
+        group_carrier, nodes_of, closing, breaking, holding,
+    )  # fmt: skip
+
+
+_Edge = tuple[int, int, int, int]
+
+
+def _nodes(
+    index: Mapping[str, int], circuits: Sequence[Circuit]
+) -> tuple[list[int], list[int], list[list[_Edge]], list[int]]:
+    """Nodes, and for each its edges (circuit, far node, a, b): the far wheel's speed is a/b times the near one's."""
+    size = len(index)
     node_of: dict[int, int] = {}
     node_link: list[int] = []
     node_carrier: list[int] = []
-    edges: list[list[tuple[int, int]]] = []
+    edges: list[list[_Edge]] = []
     holding: list[int] = []
 
     def node(link: int, carrier: int) -> int:
@@ -122,60 +170,16 @@ def find_components(
             edges.append([])
         return found
 
-    for at, circuit in enumerate(circuits):
-        carrier = index[circuit.carrier]
-        i = node(index[circuit.i], carrier)
-        if circuit.b == 0:
+    for at, (_, _, i, j, k, a, b, _, _) in enumerate(circuits):
+        carrier = index[k]
+        here = node(index[i], carrier)
+        if b == 0:
             holding.append(at)
             continue
-        j = node(index[circuit.j], carrier)
-        edges[i].append((at, j))
-        edges[j].append((at, i))
-
-    nodes_of: dict[int, list[int]] = {}
-    for at, link in enumerate(node_link):
-        nodes_of.setdefault(link, []).append(at)
-
-    count = len(node_link)
-    group = [-1] * count
-    top = [0] * count
-    bottom = [1] * count
-    reached = [-1] * count
-    parent = [-1] * count
-    group_carrier: list[int] = []
-    seen = bytearray(len(circuits))
-    closing: list[int] = []
-    breaking: list[int] = []
-    for root in _starts(nodes_of, [index[link] for link in first if link in index], count):
-        if group[root] >= 0:
-            continue
-        this = len(group_carrier)
-        group_carrier.append(node_carrier[root])
-        group[root], top[root] = this, 1
-        queue = deque([root])
-        while queue:
-            here = queue.popleft()
-            link = node_link[here]
-            for at, there in edges[here]:
-                if seen[at]:
-                    continue
-                seen[at] = 1
-                circuit = circuits[at]
-                # a c_i + b c_j = 0 gives the far wheel's speed from the near one's
-                a, b = (circuit.a, circuit.b) if index[circuit.i] == link else (circuit.b, circuit.a)
-                n, d = _times(top[here], bottom[here], -a, b)
-                if group[there] < 0:
-                    group[there], top[there], bottom[there] = this, n, d
-                    reached[there], parent[there] = at, here
-                    queue.append(there)
-                elif (top[there], bottom[there]) == (n, d):
-                    closing.append(at)
-                else:
-                    breaking.append(at)
-    return Components(
-        tuple(links), index, index[frame], circuits, node_link, node_carrier, group, top, bottom, reached, parent,
-        group_carrier, nodes_of, closing, breaking, holding,
-    )  # fmt: skip
+        there = node(index[j], carrier)
+        edges[here].append((at, there, -a, b))
+        edges[there].append((at, here, -b, a))
+    return node_link, node_carrier, edges, holding
 
 
 def _starts(nodes_of: Mapping[int, Sequence[int]], first: Sequence[int], count: int) -> Iterator[int]:
@@ -238,6 +242,7 @@ class Reduced:
         return row
 
 
+@collector_paused()
 def reduce(parts: Components) -> Reduced:
     """Collapse every component to its one unknown and write what remains to be solved."""
     groups = len(parts.group_carrier)

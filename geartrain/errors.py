@@ -7,7 +7,6 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any, Literal
 
-
 Loc = tuple[str | int, ...]
 """Where in a declaration: the keys and list positions that lead to a value."""
 

@@ -12,7 +12,7 @@ PRIME = (1 << 61) - 1
 """A Mersenne prime: rank modulo it is a lower bound that is exact but for accidents of probability 1e-18."""
 
 Row = dict[int, Fraction]
-"""A linear form: column -> coefficient. Columns >= 0 are unknowns, columns < 0 are symbols, kept and never solved for."""
+"""A linear form: column -> coefficient. Columns >= 0 are unknowns; columns < 0 are symbols, never solved for."""
 
 
 def coprime(numerator: int, denominator: int) -> Fraction:
@@ -103,7 +103,7 @@ def add_into(row: Row, other: Mapping[int, Fraction], factor: Fraction | int) ->
     for column, coefficient in other.items():
         value = row.get(column, 0) + factor * coefficient
         if value:
-            row[column] = value  # type: ignore[assignment]
+            row[column] = value
         else:
             row.pop(column, None)
 
@@ -147,7 +147,7 @@ def eliminate(rows: Iterable[Mapping[int, Fraction]], budget: int | None = None,
         lead = row.pop(pivot)
         if modulus:
             inverse = pow(int(lead), -1, modulus)
-            rest: Row = {column: value * inverse % modulus for column, value in row.items()}  # type: ignore[misc]
+            rest: Row = {column: value * inverse % modulus for column, value in row.items()}
         else:
             rest = {column: value / lead for column, value in row.items()}
         pivots.append((pivot, rest))
@@ -164,7 +164,7 @@ def eliminate(rows: Iterable[Mapping[int, Fraction]], budget: int | None = None,
                 if new:
                     if column >= 0 and column not in target:
                         users[column].add(other)
-                    target[column] = new  # type: ignore[assignment]
+                    target[column] = new
                 elif column in target:
                     del target[column]
                     if column >= 0:

@@ -14,6 +14,7 @@ from geartrain.train import Case, Output, Target, Train
 
 DAYS_PER_CENTURY = 36525
 Number = Fraction | float
+SpeedOf = Callable[[str], Number | None]
 
 
 @dataclass(frozen=True, slots=True)
@@ -99,6 +100,11 @@ class OutputResult:
         }
 
 
+def magnitude(value: Number) -> Number:
+    """|value|, of the same kind."""
+    return value if value >= 0 else -value
+
+
 def number(speed: Number | None) -> dict[str, Any]:
     """`exact` and `value` of a speed for JSON; beyond the range of float64 `value` is null and `decimal` has it."""
     if not isinstance(speed, Fraction):
@@ -114,7 +120,7 @@ def judge_outputs(
     train: Train,
     tree: Tree,
     case: Case,
-    speed_of: Callable[[str], Number | None],
+    speed_of: SpeedOf,
     oblique: frozenset[str],
     signs: Mapping[str, int],
 ) -> Iterator[OutputResult]:
@@ -135,7 +141,7 @@ def judge_outputs(
             base,
             speed,
             ratio,
-            None if output.expect is None else speed is not None and output.expect.holds(Fraction(speed)),
+            _expect_holds(output, speed),
             _published_holds(output, speed, ratio),
             tuple(_against(train, target, speed) for target in output.targets if speed is not None),
             of in oblique and not _jointed(tree, of, base),
@@ -147,14 +153,25 @@ def _jointed(tree: Tree, of: str, base: str) -> bool:
     return len(set(tree.path(of, base)[1])) <= 1
 
 
-def relative_speed(
-    of: str, base: str, speed_of: Callable[[str], Number | None], signs: Mapping[str, int]
-) -> Number | None:
+def relative_speed(of: str, base: str, speed_of: SpeedOf, signs: Mapping[str, int]) -> Number | None:
     """Speed of a link as seen from another, about the first one's axis."""
     own, other = speed_of(of), speed_of(base)
     if own is None or other is None:
         return None
-    return own - other * signs.get(of, 1) * signs.get(base, 1)  # type: ignore[operator]
+    return own - other * signs.get(of, 1) * signs.get(base, 1)
+
+
+def _expect_holds(output: Output, speed: Number | None) -> bool | None:
+    """Whether the expectation holds; a float agrees with a fraction to nine digits."""
+    expect = output.expect
+    if expect is None or speed is None:
+        return None if expect is None else False
+    exact = Fraction(speed)
+    if isinstance(speed, float) and abs(exact - expect.value.value) <= Fraction(1, 10**9) * max(
+        Fraction(1), abs(exact)
+    ):
+        return True
+    return expect.holds(exact)
 
 
 def _published_holds(output: Output, speed: Number | None, ratio: Number | None) -> bool | None:
@@ -174,9 +191,9 @@ def target_speed(train: Train, target: Target) -> tuple[str, Fraction]:
     turns = target.turns.value
     if target.speed is not None:
         return f"speed {target.speed}", abs(target.speed.value * turns)
-    days = train.unit_days or Fraction(1)
     if target.period is not None:
-        return f"period {target.period}", turns * days / ((target.period.base or Fraction(1)) / 86400)
+        return f"period {target.period}", turns * (train.unit_base or Fraction(1)) / (target.period.base or Fraction(1))
+    days = train.unit_days or Fraction(1)
     row = table()[target.name or ""]
     label = row.name if turns == 1 else f"{turns} turns in {row.name}"
     return label, abs(turns * (days / row.value if row.kind == "period" else row.value))
@@ -184,15 +201,16 @@ def target_speed(train: Train, target: Target) -> tuple[str, Fraction]:
 
 def _against(train: Train, target: Target, speed: Number) -> TargetResult:
     label, wanted = target_speed(train, target)
-    error = abs(speed) / wanted - 1
+    size = magnitude(speed)
+    error = size / wanted - 1
     tolerance = target.tolerance.base if target.tolerance else None
     return TargetResult(
         label,
         wanted,
         error,
         float(error) * DAYS_PER_CENTURY if train.unit_days is not None else None,
-        float(abs(speed) - wanted) * 360,
-        None if tolerance is None else abs(error) <= tolerance,
+        float(size - wanted) * 360,
+        None if tolerance is None else magnitude(error) <= tolerance,
     )
 
 
@@ -214,7 +232,7 @@ class Sensitivity:
 def sensitivity(
     train: Train,
     outputs: Sequence[OutputResult],
-    solve_with: Callable[[Sequence[Circuit]], Callable[[str], Number | None]],
+    solve_with: Callable[[Sequence[Circuit]], SpeedOf],
     circuits: Sequence[Circuit],
     signs: Mapping[str, int],
 ) -> Iterator[Sensitivity]:
@@ -226,11 +244,7 @@ def sensitivity(
         teeth = wheel.count
         if teeth is None or not any(name in circuit.wheels for circuit in circuits):
             continue
-        changed = {
-            step: solve_with(list(_recut(circuits, name, teeth + step)))
-            for step in (-1, 1)
-            if teeth + step > 0
-        }
+        changed = {step: solve_with(list(_recut(circuits, name, teeth + step))) for step in (-1, 1) if teeth + step > 0}
         for result in outputs:
             shift = {step: _shift(result, speed_of, signs) for step, speed_of in changed.items()}
             if any(value != 0 for value in shift.values()):
@@ -238,9 +252,7 @@ def sensitivity(
                 yield Sensitivity(name, teeth, allowed, result.name, shift.get(-1), shift.get(1))
 
 
-def _shift(
-    result: OutputResult, speed_of: Callable[[str], Number | None], signs: Mapping[str, int]
-) -> float | None:
+def _shift(result: OutputResult, speed_of: SpeedOf, signs: Mapping[str, int]) -> float | None:
     speed = relative_speed(result.of, result.relative_to, speed_of, signs)
     if speed is None or result.speed is None:
         return None

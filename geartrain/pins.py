@@ -40,9 +40,7 @@ class _Coupling(BaseModel):
 class PinAndSlot(_Coupling):
     """A pin in a slot whose axis lies inside the pin's circle: the slot turns with the pin on average."""
 
-    kind: Literal["pin_and_slot"] = Field(
-        description="The pin's circle encloses the slot's axis: mean ratio 1"
-    )
+    kind: Literal["pin_and_slot"] = Field(description="The pin's circle encloses the slot's axis: mean ratio 1")
 
     @model_validator(mode="after")
     def _encloses(self) -> PinAndSlot:
@@ -53,9 +51,7 @@ class PinAndSlot(_Coupling):
 class PinFollower(_Coupling):
     """A pin in a slotted follower whose axis lies outside the pin's circle: the follower swings about its carrier."""
 
-    kind: Literal["pin_follower"] = Field(
-        description="The pin's circle leaves the slot's axis out: mean ratio 0"
-    )
+    kind: Literal["pin_follower"] = Field(description="The pin's circle leaves the slot's axis out: mean ratio 0")
 
     @model_validator(mode="after")
     def _leaves_out(self) -> PinFollower:

@@ -126,9 +126,7 @@ class Figure:
         return cls(value, _half_unit(left), text)
 
     @classmethod
-    def __get_pydantic_core_schema__(
-        cls, source: Any, handler: GetCoreSchemaHandler
-    ) -> core_schema.CoreSchema:
+    def __get_pydantic_core_schema__(cls, source: Any, handler: GetCoreSchemaHandler) -> core_schema.CoreSchema:
         return core_schema.no_info_plain_validator_function(
             cls.parse, serialization=core_schema.plain_serializer_function_ser_schema(str)
         )
@@ -194,7 +192,7 @@ class Quantity:
 
     @classmethod
     def parse(cls, raw: object, dimension: str, plain: bool) -> Quantity:
-        """A quantity of one `dimension`; a plain number only where `plain` allows it."""
+        """A quantity of one `dimension` ("time or length" allows two); a plain number only where `plain` allows it."""
         if isinstance(raw, Quantity):
             return raw
         text = str(raw)
@@ -213,7 +211,7 @@ class Quantity:
                 {"text": text, "fix": f"use one of: {_units_of(dimension)}"},
             )
         quantity = cls(Figure.parse(match[1]).value, unit, text)
-        if quantity.dimension != dimension:
+        if quantity.dimension not in dimension.split(" or "):
             raise PydanticCustomError(
                 "unit",
                 "'{text}' is a {found}, and a {dimension} belongs here",
@@ -238,7 +236,7 @@ def _no_unit(text: str, dimension: str) -> PydanticCustomError:
 
 def _units_of(dimension: str) -> str:
     known = [*UNITS.items(), *IRRATIONAL.items()]
-    return ", ".join(unit for unit, (kind, _) in known if kind == dimension)
+    return ", ".join(unit for unit, (kind, _) in known if kind in dimension.split(" or "))
 
 
 @dataclass(frozen=True, slots=True)
@@ -248,9 +246,7 @@ class Dimension:
     name: str
     plain: bool = False
 
-    def __get_pydantic_core_schema__(
-        self, source: Any, handler: GetCoreSchemaHandler
-    ) -> core_schema.CoreSchema:
+    def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> core_schema.CoreSchema:
         return core_schema.no_info_plain_validator_function(
             lambda raw: Quantity.parse(raw, self.name, self.plain),
             serialization=core_schema.plain_serializer_function_ser_schema(str),
@@ -263,7 +259,7 @@ class Dimension:
 
 Length = Annotated[Quantity, Dimension("length", plain=True)]
 Angle = Annotated[Quantity, Dimension("angle")]
-Time = Annotated[Quantity, Dimension("time")]
+Span = Annotated[Quantity, Dimension("time or length")]
 Speed = Annotated[Quantity, Dimension("speed", plain=True)]
 Torque = Annotated[Quantity, Dimension("torque", plain=True)]
 Inertia = Annotated[Quantity, Dimension("inertia")]

@@ -60,9 +60,7 @@ def assemble(
             for a, b in case.locks
             if a != b
         ]
-        rows += [
-            Equation(f"input {link}", "input", ((link, 1),), speed) for link, speed in case.inputs.items()
-        ]
+        rows += [Equation(f"input {link}", "input", ((link, 1),), speed) for link, speed in case.inputs.items()]
     return System(tuple(links), tuple(rows))
 
 
@@ -77,7 +75,7 @@ def willis_terms(circuit: Circuit, signs: Mapping[str, int]) -> tuple[tuple[str,
 
 
 def _sum(terms: Sequence[tuple[str, int]], symbol: str, escape: bool = False) -> str:
-    parts = []
+    parts: list[str] = []
     for link, coefficient in terms:
         size = "" if abs(coefficient) == 1 else f"{abs(coefficient)} "
         sign = "-" if coefficient < 0 else "+" if parts else ""

@@ -18,7 +18,7 @@ app = typer.Typer(
     no_args_is_help=True,
     pretty_exceptions_enable=False,
     context_settings={"help_option_names": ["-h", "--help"]},
-    epilog="Exit codes: 0 determined and every expectation holds; 1 a verdict or a failed expectation; 2 unusable input.",
+    epilog="Exit codes: 0 determined, every expectation holds; 1 a verdict or a failed expectation; 2 unusable input.",
 )
 app.command("report")(report.run)
 app.command("compare")(compare.run)
@@ -42,7 +42,9 @@ def _version(wanted: bool) -> None:
 
 @app.callback()
 def _root(
-    version: Annotated[bool, typer.Option("--version", callback=_version, is_eager=True, help="Print the version and exit.")] = False,
+    version: Annotated[
+        bool, typer.Option("--version", callback=_version, is_eager=True, help="Print the version and exit.")
+    ] = False,
 ) -> None:
     pass
 

@@ -22,9 +22,13 @@ def kinematics(
     json: Json = False,
     out: Out = None,
 ) -> None:
-    """Time and true error of every way to speeds, over train size: exact, sparse LU by ordering, with refinement, walking."""
+    """Time and true error of every way to speeds over size: exact, walking, sparse LU by ordering, refined."""
+    from rich.console import Console
+    from rich.progress import Progress
+
     from geartrain import bench
 
-    with bench.progress() as advance:
-        results = bench.kinematics(most, advance)
+    with Progress(console=Console(stderr=True), transient=True) as progress:
+        task = progress.add_task("kinematics", total=bench.count_steps(most))
+        results = bench.kinematics(most, lambda step: progress.update(task, advance=1, description=step))
     emit(as_json(results.to_dict()) if json else results.to_markdown(), out)

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from geartrain.errors import GearTrainError
+from geartrain.errors import GearTrainError, Problem
 
 if TYPE_CHECKING:
     from geartrain.analysis import GearTrain
@@ -27,7 +27,8 @@ def load_all(files: list[str]) -> list[GearTrain]:
     """All trains, or one error that tells what is wrong with each of the files."""
     from geartrain.files import load
 
-    trains, problems = [], []
+    trains: list[GearTrain] = []
+    problems: list[Problem] = []
     for file in files:
         try:
             trains.append(load(file))

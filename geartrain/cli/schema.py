@@ -1,14 +1,21 @@
-"""`geartrain schema`: the JSON Schema of the declaration, for editors."""
+"""`geartrain schema`: the declaration, for editors and for readers."""
 
 from __future__ import annotations
+
+from typing import Annotated
+
+import typer
 
 from geartrain.cli.common import Out, as_json, emit
 
 
-def run(out: Out = None) -> None:
+def run(
+    form: Annotated[str, typer.Option("--as", help="json for editors, markdown for readers.")] = "json",
+    out: Out = None,
+) -> None:
     """Print the JSON Schema of the declaration; editors with a YAML plugin complete and check with it."""
-    from geartrain.train import Train
+    from geartrain.report.reference import declaration_reference, schema
 
-    schema = Train.model_json_schema(by_alias=True)
-    head = {"$schema": "https://json-schema.org/draft/2020-12/schema", "title": "geartrain declaration"}
-    emit(as_json(head | {key: value for key, value in schema.items() if key != "title"}), out)
+    if form not in ("json", "markdown"):
+        raise typer.BadParameter(f"'{form}' is not a form of schema; use json or markdown", param_hint="--as")
+    emit(as_json(schema()) if form == "json" else declaration_reference(), out)

@@ -55,7 +55,9 @@ def _print(answer: Answer, output: str | None) -> None:
     typer.echo(f"{answer.train}{state}: {answer.verdict}" + (f" ({answer.unit})" if answer.unit else ""))
     rows = [(name, result.speed, "" if result.holds else "  FAILS") for name, result in answer.outputs.items()]
     if output is None:
-        rows = [(link, speed, "") for link, speed in answer.speeds.items()] + [row for row in rows if row[0] not in answer.speeds or row[2]]
+        rows = [(link, speed, "") for link, speed in answer.speeds.items()] + [
+            row for row in rows if row[0] not in answer.speeds or row[2]
+        ]
     elif not rows:
         rows = [(link, speed, "") for link, speed in answer.speeds.items()]
     width = max((len(name) for name, _, _ in rows), default=0)

@@ -21,9 +21,7 @@ _MOST_BYTES = 64 * 2**20
 def shipped() -> Mapping[str, Path]:
     """The trains that come with geartrain, by name."""
     package = Path(__file__).resolve().parent.parent
-    home = next(
-        (folder for folder in (package / "trains", package.parent / "trains") if folder.is_dir()), None
-    )
+    home = next((folder for folder in (package / "trains", package.parent / "trains") if folder.is_dir()), None)
     return {path.stem: path for path in sorted(home.rglob("*.yaml"))} if home else {}
 
 
@@ -60,9 +58,7 @@ def _with_parents(child: Node, folder: Path, chain: tuple[Path, ...]) -> Node:
     path = _parent(name, folder, place)
     if path.resolve() in chain:
         loop = " -> ".join(step.name for step in (*chain, path))
-        raise DeclarationError(
-            Problem("`extends` goes round in a circle", loop, "let one of them stand alone", place)
-        )
+        raise DeclarationError(Problem("`extends` goes round in a circle", loop, "let one of them stand alone", place))
     parent = parse(_read(path), str(path))
     return merged(_with_parents(parent, path.parent, (*chain, path.resolve())), child)
 
@@ -93,9 +89,7 @@ def _find(source: str | Path) -> Path:
         return path
     if str(source) in shipped():
         return shipped()[str(source)]
-    within = next(
-        (found for found in shipped().values() if str(found).endswith(f"/{str(source).lstrip('./')}")), None
-    )
+    within = next((found for found in shipped().values() if str(found).endswith(f"/{str(source).lstrip('./')}")), None)
     if within is not None:
         return within
     raise DeclarationError(
@@ -110,11 +104,7 @@ def _find(source: str | Path) -> Path:
 
 def _near(name: str, known: Any) -> str:
     close = get_close_matches(name, list(known), n=3, cutoff=0.5)
-    return (
-        f"did you mean {' or '.join(map(repr, close))}?"
-        if close
-        else "`geartrain list` shows the shipped trains"
-    )
+    return f"did you mean {' or '.join(map(repr, close))}?" if close else "`geartrain list` shows the shipped trains"
 
 
 def _read(path: Path) -> str:
@@ -147,9 +137,7 @@ def _read(path: Path) -> str:
         text = raw.decode("utf-8-sig")
     except UnicodeDecodeError as error:
         raise DeclarationError(
-            Problem(
-                "this is not a text file", f"byte {error.start} is not UTF-8", "save it as UTF-8 text", place
-            )
+            Problem("this is not a text file", f"byte {error.start} is not UTF-8", "save it as UTF-8 text", place)
         ) from None
     if "\0" in text:
         raise DeclarationError(

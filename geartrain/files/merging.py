@@ -62,9 +62,7 @@ def _entry(old: Node, new: Node, kind: str) -> Node:
     result, keys = dict(old.value), dict(old.keys)
     for key, node in new.value.items():
         keys[key] = new.keys[key]
-        if key in result and (
-            (kind == "links" and key == "wheels") or (kind == "states" and key == "outputs")
-        ):
+        if key in result and ((kind == "links" and key == "wheels") or (kind == "states" and key == "outputs")):
             result[key] = _overlay(result[key], node, key)
         elif node.value is None:
             result.pop(key, None)
@@ -115,9 +113,7 @@ def _without(root: Node, remove: Node) -> Node:
     """The parent less what `remove` names; a link takes its wheels, joints, pairs and couplings along."""
     gone = {key: list(texts(node)) for key, node in remove.mapping.items() if key != "revolutes"}
     joints = (
-        [frozenset(texts(node)) for node in remove.mapping["revolutes"].items]
-        if "revolutes" in remove.mapping
-        else []
+        [frozenset(texts(node)) for node in remove.mapping["revolutes"].items] if "revolutes" in remove.mapping else []
     )
     _check_known(root, remove, gone, joints)
     links = set(gone.get("links", ()))
@@ -138,16 +134,13 @@ def _without(root: Node, remove: Node) -> Node:
         result,
         "revolutes",
         lambda node: (
-            not links.intersection(ends := set(texts(node.mapping.get("pair"))))
-            and frozenset(ends) not in joints
+            not links.intersection(ends := set(texts(node.mapping.get("pair")))) and frozenset(ends) not in joints
         ),
     )
     _filter(
         result,
         "gears",
-        lambda node: (
-            not wheels.intersection(texts(node.mapping.get("pair"))) and _pair_name(node) not in pairs
-        ),
+        lambda node: not wheels.intersection(texts(node.mapping.get("pair"))) and _pair_name(node) not in pairs,
     )
     _filter(
         result,
@@ -168,9 +161,7 @@ def _child(node: Node, *keys: str) -> Mapping[str, Node]:
 
 def _drop(node: Node, names: Iterable[str]) -> Node:
     gone = set(names)
-    return Node(
-        {name: part for name, part in node.mapping.items() if name not in gone}, node.place, node.keys
-    )
+    return Node({name: part for name, part in node.mapping.items() if name not in gone}, node.place, node.keys)
 
 
 def _bare(link: Node, wheels: set[str]) -> Node:
@@ -185,9 +176,7 @@ def _filter(result: dict[str, Node], key: str, keep: Callable[[Node], bool]) -> 
         result[key] = Node([node for node in result[key].items if keep(node)], result[key].place)
 
 
-def _check_known(
-    root: Node, remove: Node, gone: Mapping[str, list[str]], joints: list[frozenset[str]]
-) -> None:
+def _check_known(root: Node, remove: Node, gone: Mapping[str, list[str]], joints: list[frozenset[str]]) -> None:
     known: dict[str, set[str]] = {
         key: set(_child(root, key)) for key in ("links", "outputs", "dials", "states", "axes")
     }
@@ -208,10 +197,7 @@ def _check_known(
                         remove.place_of((key, at)),
                     )
                 )
-    present = {
-        frozenset(texts(node.mapping.get("pair")))
-        for node in root.mapping.get("revolutes", Node([], "")).items
-    }
+    present = {frozenset(texts(node.mapping.get("pair"))) for node in root.mapping.get("revolutes", Node([], "")).items}
     for at, joint in enumerate(joints):
         if joint not in present:
             problems.append(

@@ -112,7 +112,7 @@ class _Builder:
 
     def take(self, event: yaml.Event) -> None:
         """One event of the parser."""
-        place = f"{self.name}:{event.start_mark.line + 1}"
+        place = f"{self.name}:{event.start_mark.line + 1}" if event.start_mark else self.name
         match event:
             case yaml.ScalarEvent():
                 self._check_tag(event.tag, place)
@@ -145,8 +145,8 @@ class _Builder:
                     Problem("a second document begins", "a file declares one train", "split the file", place)
                 )
 
-    def _alias(self, anchor: str, place: str) -> Node:
-        target = self.anchors.get(anchor)
+    def _alias(self, anchor: str | None, place: str) -> Node:
+        target = self.anchors.get(anchor or "")
         if target is None or id(target) in self.unfinished:
             what = f"alias '*{anchor}' " + ("contains itself" if target else "points at no anchor")
             raise DeclarationError(
@@ -172,9 +172,7 @@ class _Builder:
     def _check_tag(self, tag: str | None, place: str) -> None:
         if tag and tag != "!" and tag not in _TAGS:
             raise DeclarationError(
-                Problem(
-                    f"tag '{tag}' is not used here", "a declaration is plain data", "remove the tag", place
-                )
+                Problem(f"tag '{tag}' is not used here", "a declaration is plain data", "remove the tag", place)
             )
 
     def _put(self, node: Node, anchor: str | None, place: str) -> None:

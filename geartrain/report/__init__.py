@@ -8,4 +8,14 @@ from geartrain.report.data import train_data
 from geartrain.report.document import Document, Section, Table
 from geartrain.report.rendering import to_html, to_markdown, to_terminal
 
-__all__ = ["Document", "Section", "Table", "compare_trains", "report_train", "to_html", "to_markdown", "to_terminal", "train_data"]
+__all__ = [
+    "Document",
+    "Section",
+    "Table",
+    "compare_trains",
+    "report_train",
+    "to_html",
+    "to_markdown",
+    "to_terminal",
+    "train_data",
+]

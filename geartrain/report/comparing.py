@@ -17,13 +17,25 @@ def compare_trains(trains: Sequence[GearTrain]) -> Document:
     lead = [f"`{train.name}`: {train.declaration.title}." for train in trains]
     units = dict.fromkeys(train.declaration.unit_name or "plain numbers" for train in trains)
     lead.append(f"Speeds are in {' and '.join(units)}." + (" The units differ." if len(units) > 1 else ""))
-    sections = [Section("Outputs", ("An equals sign marks the same exact speed as in the first column.",), (Table(header, rows),))]
+    sections = [
+        Section(
+            "Outputs", ("An equals sign marks the same exact speed as in the first column.",), (Table(header, rows),)
+        )
+    ]
     targets = _targets(columns)
     if targets:
-        sections.append(Section("Error against the targets in ppm", ("By magnitude; positive is fast.",), (Table(("output and target", *header[1:]), targets),)))
+        sections.append(
+            Section(
+                "Error against the targets in ppm",
+                ("By magnitude; positive is fast.",),
+                (Table(("output and target", *header[1:]), targets),),
+            )
+        )
     teeth = _teeth(trains)
     if teeth:
-        sections.append(Section("Wheels that differ", (), (Table(("wheel", *(train.name for train in trains)), teeth),)))
+        sections.append(
+            Section("Wheels that differ", (), (Table(("wheel", *(train.name for train in trains)), teeth),))
+        )
     return Document("Comparison", lead, sections)
 
 
@@ -42,7 +54,10 @@ def _speed(answer: Answer, name: str) -> str:
 
 def _targets(columns: Sequence[tuple[str, GearTrain, Answer]]) -> list[tuple[str, ...]]:
     labels = dict.fromkeys(
-        (name, target.label) for _, _, answer in columns for name, result in answer.outputs.items() for target in result.targets
+        (name, target.label)
+        for _, _, answer in columns
+        for name, result in answer.outputs.items()
+        for target in result.targets
     )
     rows = []
     for name, label in labels:

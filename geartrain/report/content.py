@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from geartrain.analysis import Answer, GearTrain
 from geartrain.circuits import Circuit
 from geartrain.errors import Loop
-from geartrain.outputs import OutputResult, Sensitivity
+from geartrain.outputs import OutputResult, Sensitivity, magnitude
 from geartrain.report.document import Document, Section, Table, exact, figure, one_to, ppm
 from geartrain.train import Train, Wheel
 
@@ -52,7 +52,9 @@ def _lead(train: GearTrain, answers: Sequence[Answer]) -> Iterator[str]:
         yield f"Verdict: determined; {held}." if expected else "Verdict: determined."
     unit = declared.unit_name
     clock = f"; positive is {declared.view.positive} seen from the {declared.view.from_}" if declared.view.from_ else ""
-    yield (f"Speeds are in {unit}" if unit else "Speeds are plain numbers") + f", absolute, about each link's own axis{clock}."
+    yield (
+        f"Speeds are in {unit}" if unit else "Speeds are plain numbers"
+    ) + f", absolute, about each link's own axis{clock}."
 
 
 def _structure(train: GearTrain) -> Iterator[Section]:
@@ -73,7 +75,11 @@ def _structure(train: GearTrain) -> Iterator[Section]:
         cells = adjacency_labels(train.graph)
         names = list(train.graph)
         matrix = Table(("", *names), [(name, *row) for name, row in zip(names, cells, strict=True)], wide=True)
-        yield Section("Adjacency matrix", ("R(axis) is a turning pair, the others are gear pairs and couplings by id.",), (matrix,))
+        yield Section(
+            "Adjacency matrix",
+            ("R(axis) is a turning pair, the others are gear pairs and couplings by id.",),
+            (matrix,),
+        )
 
 
 def _wheels(wheels: dict[str, Wheel]) -> str:
@@ -81,7 +87,7 @@ def _wheels(wheels: dict[str, Wheel]) -> str:
 
 
 def _mark(wheel: Wheel) -> str:
-    words = [] if wheel.kind == "spur" else [wheel.kind]
+    words: list[str] = [] if wheel.kind == "spur" else [wheel.kind]
     if wheel.internal:
         words.append("ring")
     if wheel.doubt:
@@ -104,10 +110,15 @@ def _cut(rows: Sequence[Sequence[str]]) -> list[Sequence[str]]:
 
 def _circuits(train: GearTrain) -> Section:
     shown = train.circuits[:MOST_ROWS]
-    tables = [_abreast(train.declaration, shown[at : at + _CIRCUITS_ABREAST]) for at in range(0, len(shown), _CIRCUITS_ABREAST)]
-    text = "One circuit a gear pair and coupling: a (w_i - w_k) + b (w_j - w_k) = 0, k the carrier; tau = (w_i - w_k)/(w_j - w_k)."
+    tables = [
+        _abreast(train.declaration, shown[at : at + _CIRCUITS_ABREAST])
+        for at in range(0, len(shown), _CIRCUITS_ABREAST)
+    ]
+    text = "One circuit for each gear pair and coupling, k its carrier: tau = (w_i - w_k)/(w_j - w_k)."
     notes = tuple(f"{circuit.id}: {circuit.note}." for circuit in train.circuits if circuit.note)
-    more = (f"{len(train.circuits) - MOST_ROWS} more circuits are not shown.",) if len(train.circuits) > MOST_ROWS else ()
+    more = (
+        (f"{len(train.circuits) - MOST_ROWS} more circuits are not shown.",) if len(train.circuits) > MOST_ROWS else ()
+    )
     return Section("Fundamental circuits", (text, *notes, *more), tables)
 
 
@@ -168,7 +179,11 @@ def _shift_table(train: GearTrain, answers: Sequence[Answer]) -> Section:
         cells = [_speed_and_ratio(answer, name) for name in names]
         rows.append((str(answer.state), *marks, answer.verdict.kind, *cells))
     header = ("state", *clutches, "verdict", *names)
-    return Section("States", (f"x marks an engaged clutch or brake; {', '.join(names)} as speed and input/output.",), (Table(header, rows),))
+    return Section(
+        "States",
+        (f"x marks an engaged clutch or brake; {', '.join(names)} as speed and input/output.",),
+        (Table(header, rows),),
+    )
 
 
 def _speed_and_ratio(answer: Answer, name: str) -> str:
@@ -187,17 +202,39 @@ def _answer(train: GearTrain, answer: Answer) -> Iterator[Section]:
     lines = [f"Prescribed: {', '.join(given) or 'nothing'}.", f"Verdict: {answer.verdict}."]
     if answer.method == "floats":
         lines.append("Solved in floats: the coupled system is too dense for exact elimination.")
-    yield Section(f"{head}speeds", lines, tuple(_speeds(train, answer)))
+    yield Section(_title(head, "speeds"), lines, tuple(_speeds(train, answer)))
     if answer.outputs:
         yield _outputs(train, answer, head)
     targets = [
-        (name, target.label, figure(target.speed, 10), ppm(target.ppm), _signed(target.days_per_century), _signed(target.degrees_per_unit), _met(target.met))
+        (
+            name,
+            target.label,
+            figure(target.speed, 10),
+            ppm(target.ppm),
+            _signed(target.days_per_century),
+            _signed(target.degrees_per_unit),
+            _met(target.met),
+        )
         for name, result in answer.outputs.items()
         for target in result.targets
     ]
     if targets:
-        header = ("output", "target", "target speed", "error ppm", "days per century", "degrees per unit", "within tolerance")
-        yield Section(f"{head}against the targets", ("By magnitude; a positive error is fast.",), (Table(header, targets),))
+        header = (
+            "output",
+            "target",
+            "target speed",
+            "error ppm",
+            "days per century",
+            "degrees per unit",
+            "within tolerance",
+        )
+        yield Section(
+            _title(head, "against the targets"), ("By magnitude; a positive error is fast.",), (Table(header, targets),)
+        )
+
+
+def _title(head: str, words: str) -> str:
+    return head + words if head else words[0].upper() + words[1:]
 
 
 def _signed(value: float | None) -> str:
@@ -225,8 +262,16 @@ def _outputs(train: GearTrain, answer: Answer, head: str) -> Section:
     header = ("output", "of", "speed", "decimal", "output/input", "expect", "published", "as read")
     used = [at for at in range(len(header)) if at < 4 or any(row[at] for row in rows)]
     marks = [result.output.note for result in answer.outputs.values() if result.output.note]
-    notes = [f"{name}: {result.output.note}." for name, result in answer.outputs.items() if result.output.note] if marks else []
-    return Section(f"{head}outputs", notes, (Table([header[at] for at in used], [[row[at] for at in used] for row in rows]),))
+    notes = (
+        [f"{name}: {result.output.note}." for name, result in answer.outputs.items() if result.output.note]
+        if marks
+        else []
+    )
+    return Section(
+        _title(head, "outputs"),
+        notes,
+        (Table([header[at] for at in used], [[row[at] for at in used] for row in rows]),),
+    )
 
 
 def _output(train: GearTrain, result: OutputResult) -> tuple[str, ...]:
@@ -240,7 +285,9 @@ def _output(train: GearTrain, result: OutputResult) -> tuple[str, ...]:
         figure(result.speed),
         exact(result.ratio) if result.ratio is not None and result.ratio != result.speed else "",
         "" if expect is None else "holds" if result.expect_holds else f"FAILS: {expect.value} expected",
-        "" if published is None else f"{published.value} {published.as_}" + ("" if result.published_holds else " FAILS"),
+        ""
+        if published is None
+        else f"{published.value} {published.as_}" + ("" if result.published_holds else " FAILS"),
         _as_read(declared, result),
     )
 
@@ -252,8 +299,13 @@ def _as_read(declared: Train, result: OutputResult) -> str:
         return ""
     flipped = dial.face is not None and declared.view.from_ is not None and dial.face != declared.view.from_
     clockwise = ((declared.view.positive == "clockwise") == (result.speed > 0)) != flipped
-    period = f", a turn in {figure(1 / abs(result.speed), 7)}" if result.speed else ""
-    return ("clockwise" if clockwise else "counter-clockwise") + period
+    turn = 1 / magnitude(result.speed)
+    words = ["clockwise" if clockwise else "counter-clockwise", f"a turn in {figure(turn, 7)}"]
+    if dial.turns > 1:
+        words.append(f"{dial.turns} turns in {figure(turn * dial.turns, 7)}")
+    if dial.divisions > 1:
+        words.append(f"a division in {figure(turn * dial.turns / dial.divisions, 7)}")
+    return ", ".join(words)
 
 
 def _doubts(train: GearTrain, answers: Sequence[Answer]) -> Iterator[Section]:
@@ -266,9 +318,9 @@ def _doubts(train: GearTrain, answers: Sequence[Answer]) -> Iterator[Section]:
         if not found:
             continue
         head = f"State {answer.state}: " if answer.state is not None else ""
-        text = "Change of speed in ppm with one tooth fewer and one tooth more, solved again exactly; outputs that move alike stand together."
+        text = "Change of speed in ppm, solved again exactly; outputs that move alike stand together."
         table = Table(("wheel", "teeth", "allowed", "one fewer", "one more", "outputs"), list(_grouped(found)))
-        yield Section(f"{head}wheels in doubt", (text,), (table,))
+        yield Section(_title(head, "wheels in doubt"), (text,), (table,))
 
 
 def _grouped(found: Sequence[Sensitivity]) -> Iterator[tuple[str, ...]]:
@@ -277,7 +329,11 @@ def _grouped(found: Sequence[Sensitivity]) -> Iterator[tuple[str, ...]]:
         groups.setdefault((item.wheel, _shift(item.less), _shift(item.more)), []).append(item)
     for (wheel, less, more), items in groups.items():
         allowed = items[0].allowed
-        span = f"{allowed[0]}-{allowed[-1]}" if allowed == tuple(range(allowed[0], allowed[-1] + 1)) else ", ".join(map(str, allowed))
+        span = (
+            f"{allowed[0]}-{allowed[-1]}"
+            if allowed == tuple(range(allowed[0], allowed[-1] + 1))
+            else ", ".join(map(str, allowed))
+        )
         yield wheel, str(items[0].teeth), span, less, more, ", ".join(item.output for item in items)
 
 

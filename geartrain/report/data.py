@@ -43,13 +43,29 @@ def train_data(train: GearTrain) -> dict[str, Any]:
     data = answers_data(train, answers)
     data["sources"] = {key: source.cite for key, source in declared.sources.items()}
     data["circuits"] = [
-        {"id": c.id, "kind": c.kind, "i": c.i, "j": c.j, "carrier": c.carrier, "wheels": list(c.wheels), "ratio": str(c.ratio), "note": c.note}
+        {
+            "id": c.id,
+            "kind": c.kind,
+            "i": c.i,
+            "j": c.j,
+            "carrier": c.carrier,
+            "wheels": list(c.wheels),
+            "ratio": str(c.ratio),
+            "note": c.note,
+        }
         for c in train.circuits
     ]
     if len(declared.links) <= 500:
         data["adjacency"] = {"links": list(train.graph), "cells": adjacency_labels(train.graph)}
     data["sensitivity"] = [
-        {"state": answer.state, "wheel": s.wheel, "teeth": s.teeth, "output": s.output, "one_fewer_ppm": s.less, "one_more_ppm": s.more}
+        {
+            "state": answer.state,
+            "wheel": s.wheel,
+            "teeth": s.teeth,
+            "output": s.output,
+            "one_fewer_ppm": s.less,
+            "one_more_ppm": s.more,
+        }
         for answer in answers
         if answer.verdict
         for s in train.sensitivity(answer)

@@ -50,14 +50,16 @@ def exact(value: Fraction | float | None) -> str:
     if not isinstance(value, Fraction):
         return f"~{value:.12g}"
     text = str(value)
-    return text if len(text) <= 40 else f"({len(str(abs(value.numerator)))} digits)/({len(str(value.denominator))} digits)"
+    return (
+        text if len(text) <= 40 else f"({len(str(abs(value.numerator)))} digits)/({len(str(value.denominator))} digits)"
+    )
 
 
 def one_to(ratio: Fraction | float | None) -> str:
     """A ratio output over input as `1 : n`, or `n : 1` where the output is the faster."""
     if not ratio:
         return "-"
-    if abs(ratio) >= 1:
+    if not -1 < ratio < 1:
         return f"{figure(ratio, 7)} : 1"
     return f"1 : {figure(1 / ratio, 7)}"
 

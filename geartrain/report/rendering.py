@@ -34,7 +34,9 @@ def _markdown(document: Document) -> Iterator[str]:
 def _pipes(table: Table) -> Iterator[str]:
     rows = [[cell.replace("|", "\\|") for cell in row] for row in (table.header, *table.rows)]
     widths = [max(3, *(len(cell) for cell in column)) for column in zip(*rows, strict=True)]
-    lines = ["| " + " | ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)) + " |" for row in rows]
+    lines = [
+        "| " + " | ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)) + " |" for row in rows
+    ]
     yield lines[0]
     yield "|" + "|".join("-" * (width + 2) for width in widths) + "|"
     yield from lines[1:]
@@ -67,7 +69,12 @@ def to_terminal(documents: Sequence[Document], console: Console) -> None:
                 console.print(Text(paragraph))
             for table in section.tables:
                 for strip in _strips(table, console.width):
-                    shown = RichTable(box=None, pad_edge=False, header_style="bold", padding=(0, 1, 0, 0) if table.wide else (0, 2, 0, 0))
+                    shown = RichTable(
+                        box=None,
+                        pad_edge=False,
+                        header_style="bold",
+                        padding=(0, 1, 0, 0) if table.wide else (0, 2, 0, 0),
+                    )
                     for name in strip.header:
                         shown.add_column(Text(name), no_wrap=table.wide, overflow="fold")
                     for row in strip.rows:

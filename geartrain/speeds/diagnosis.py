@@ -66,24 +66,19 @@ def _tagged(reduced: Reduced, case: Case, signs: Mapping[str, int]) -> tuple[lis
     return rows, statements
 
 
-def _name(
-    reduced: Reduced, given: Mapping[int, Fraction], statements: Sequence[Statement], structural: int
-) -> Verdict:
+def _name(reduced: Reduced, given: Mapping[int, Fraction], statements: Sequence[Statement], structural: int) -> Verdict:
     """One contradiction in words. `given` says how much of each equation goes into it."""
     parts = reduced.components
-    used = [
-        (statements[tag - structural], value) for tag, value in sorted(given.items()) if tag >= structural
-    ]
+    used = [(statements[tag - structural], value) for tag, value in sorted(given.items()) if tag >= structural]
     inputs = [(text, value, speed) for (kind, text, speed), value in used if kind == "input"]
     moving = [text for text, _, speed in inputs if speed]
     held = [text for (kind, text, _), _ in used if kind != "input"]
     prescriptions = tuple(text for (_, text, _), _ in used)
-    chords = [
-        reduced.origin[tag][1] for tag in given if tag < structural and reduced.origin[tag][0] == "loop"
-    ]
+    chords = [reduced.origin[tag][1] for tag in given if tag < structural and reduced.origin[tag][0] == "loop"]
     loops = tuple(parts.loop(chord) for chord in chords)
     if loops:
-        text = f"{'; '.join(str(loop) for loop in loops)} {'does' if len(loops) == 1 else 'do'} not close, so {', '.join(moving)} cannot turn"
+        verb = "does" if len(loops) == 1 else "do"
+        text = f"{'; '.join(map(str, loops))} {verb} not close, so {', '.join(moving)} cannot turn"
         return Verdict("locked", text, prescriptions=prescriptions, loops=loops)
     if len(inputs) == 1:
         by = " and ".join(held) if held else f"the pairs {', '.join(_pairs(reduced, given, structural))}"
@@ -119,8 +114,7 @@ def _standing(reduced: Reduced, case: Case) -> Verdict:
     parts = reduced.components
     loops: tuple[Loop, ...] = tuple(parts.loop(circuit) for circuit in parts.breaking)
     held = tuple(
-        [f"'{link}' is fixed" for link in case.fixed]
-        + [f"'{a}' and '{b}' are locked together" for a, b in case.locks]
+        [f"'{link}' is fixed" for link in case.fixed] + [f"'{a}' and '{b}' are locked together" for a, b in case.locks]
     )
     if loops:
         text = f"mobility 0: {loops[0]} does not close; every link is locked"
@@ -147,7 +141,7 @@ def free_verdict(
         if eliminate([*rows, loose]).rank > len(rows):
             rows.append(loose)
             fixes.append(link)
-        if len(fixes) == freedom:
+        if len(fixes) == min(freedom, 12):
             break
     given = len(case.inputs)
     head = (
@@ -155,9 +149,7 @@ def free_verdict(
         if given
         else f"{freedom} degrees of freedom and no input"
     )
-    shown = ", ".join(undetermined[:12]) + (
-        f" and {len(undetermined) - 12} more" if len(undetermined) > 12 else ""
-    )
+    shown = ", ".join(undetermined[:12]) + (f" and {len(undetermined) - 12} more" if len(undetermined) > 12 else "")
     more = "one more input" if freedom == 1 else f"{freedom} more inputs"
-    text = f"{head}: speeds of {shown} undetermined; give {more}, such as {', '.join(fixes[:12])}"
+    text = f"{head}: speeds of {shown} undetermined; give {more}, such as {', '.join(fixes)}"
     return Verdict("free", text, links=tuple(undetermined), fixes=tuple(fixes))

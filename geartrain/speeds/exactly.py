@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import cached_property
 
+from geartrain.bulk import collector_paused
 from geartrain.components import Reduced
 from geartrain.errors import Loop, Verdict
-from geartrain.exact import PRIME, Echelon, Row, TooDenseError, add_into, eliminate, rank_modulo, residues
+from geartrain.exact import PRIME, Row, TooDenseError, add_into, eliminate, rank_modulo, residues
 from geartrain.speeds.diagnosis import diagnose, free_verdict
 from geartrain.train import Case
+
+_GIVEN = -1  # the column in which prescribed numbers stand
 
 EXACT_BUDGET = 400_000
 """Coefficient operations after which exact elimination gives way to floats; about a second."""
@@ -75,21 +79,27 @@ class Solution:
 
 
 class _Ratios(Mapping[str, Mapping[str, Fraction]]):
-    """The exact link x input table, each row made when it is read."""
+    """The exact link x input table. It is solved for when first read: a case with one answer does not need it."""
 
-    __slots__ = ("_forms", "_inputs", "_reduced", "_signs")
+    def __init__(self, reduced: Reduced, case: Case, signs: Mapping[str, int]) -> None:
+        self._reduced, self._case, self._signs = reduced, case, signs
 
-    def __init__(
-        self, reduced: Reduced, forms: Mapping[int, Row], inputs: Sequence[str], signs: Mapping[str, int]
-    ) -> None:
-        self._reduced, self._forms, self._inputs, self._signs = reduced, forms, inputs, signs
+    @cached_property
+    def _forms(self) -> dict[int, Row]:
+        """Every unknown in terms of the inputs, one symbol each."""
+        rows = [*self._reduced.equations, *_held(self._reduced, self._case)]
+        index = self._reduced.components.index
+        rows += [
+            {**self._reduced.form(index[link]), -1 - at: Fraction(-1)} for at, link in enumerate(self._case.inputs)
+        ]
+        return eliminate(rows).forms()
 
     def __getitem__(self, link: str) -> Mapping[str, Fraction]:
         form = _resolve(self._reduced.form(self._reduced.components.index[link]), self._forms)
         own = self._signs.get(link, 1)
         return {
             name: own * form.get(-1 - at, Fraction(0)) * self._signs.get(name, 1)
-            for at, name in enumerate(self._inputs)
+            for at, name in enumerate(self._case.inputs)
         }
 
     def __iter__(self) -> Iterator[str]:
@@ -99,64 +109,39 @@ class _Ratios(Mapping[str, Mapping[str, Fraction]]):
         return len(self._reduced.components.links)
 
 
-def solve(
-    reduced: Reduced, case: Case, signs: Mapping[str, int], budget: int | None = EXACT_BUDGET
-) -> Solution:
+@collector_paused()
+def solve(reduced: Reduced, case: Case, signs: Mapping[str, int], budget: int | None = EXACT_BUDGET) -> Solution:
     """Solve one case exactly.
 
     signs    -1 for links whose axis points against its parallels: their speeds change sign at this door
     budget   operations allowed; `TooDenseError` beyond, None for no bound
     """
     parts = reduced.components
-    inputs = list(case.inputs)
-    rows = [*reduced.equations, *_held(reduced, case)]
-    for at, link in enumerate(inputs):
-        row = dict(reduced.form(parts.index[link]))
-        row[-1 - at] = Fraction(-1)
-        rows.append(row)
-    echelon = eliminate(rows, budget)
-    values = [case.inputs[link] * signs.get(link, 1) for link in inputs]
-    broken = [row for row in echelon.conditions if _evaluate(row, values)]
-    forms = echelon.forms()
-    if broken or not inputs or _all_still(reduced, echelon, case, budget):
+    work = len(parts.circuits)
+    ratios = _Ratios(reduced, case, signs)
+    echelon = eliminate([*reduced.equations, *_held(reduced, case), *_driven(reduced, case, signs)], budget)
+    if echelon.conditions or (not any(case.inputs.values()) and _all_still(reduced, case, budget)):
         verdict = diagnose(reduced, case, signs)
         if verdict is not None:
-            return Solution(verdict, {}, _Ratios(reduced, forms, inputs, signs), 0, len(parts.circuits))
+            return Solution(verdict, {}, ratios, 0, work)
+    forms = echelon.forms()
     free = reduced.unknowns - echelon.rank
-    speeds: dict[str, Fraction] = {}
-    undetermined: list[str] = []
-    for at, name in enumerate(parts.links):
-        speed = _speed(reduced, at, forms, values)
-        if speed is None:
-            undetermined.append(name)
-        else:
-            speeds[name] = -speed if name in signs else speed
-    verdict = (
-        free_verdict(reduced, case, forms, undetermined, free) if undetermined else _determined(reduced, case)
-    )
-    return Solution(verdict, speeds, _Ratios(reduced, forms, inputs, signs), free, len(parts.circuits))
+    speeds, undetermined = _read_off(reduced, forms, signs)
+    verdict = free_verdict(reduced, case, forms, undetermined, free) if undetermined else _determined(reduced, case)
+    return Solution(verdict, speeds, ratios, free, work)
 
 
 def exact_verdict(reduced: Reduced, case: Case, signs: Mapping[str, int]) -> Verdict:
     """The verdict alone, modulo a prime: for coupled systems too dense for rational elimination."""
-    index = reduced.components.index
-    rows = [dict(row) for row in (*reduced.equations, *_held(reduced, case))]
-    for at, link in enumerate(case.inputs):
-        rows.append({**reduced.form(index[link]), -1 - at: Fraction(-1)})
+    rows = [*reduced.equations, *_held(reduced, case), *_driven(reduced, case, signs)]
     echelon = eliminate(map(residues, rows), modulus=PRIME)
-    values = [speed * signs.get(link, 1) for link, speed in case.inputs.items()]
-    prime_values = [value.numerator * pow(value.denominator, -1, PRIME) for value in values]
-    if any(
-        sum(int(c) * prime_values[-1 - column] for column, c in row.items()) % PRIME
-        for row in echelon.conditions
-    ):
+    if echelon.conditions:
         given = tuple(f"{link} = {speed}" for link, speed in case.inputs.items())
-        return Verdict(
-            "contradictory", f"{', '.join(given)} cannot hold with the circuits", prescriptions=given
-        )
+        return Verdict("contradictory", f"{', '.join(given)} cannot hold with the circuits", prescriptions=given)
     freedom = reduced.unknowns - echelon.rank
     if freedom:
-        return Verdict("free", f"{len(values)} of {len(values) + freedom} degrees of freedom prescribed")
+        given_count = len(case.inputs)
+        return Verdict("free", f"{given_count} of {given_count + freedom} degrees of freedom prescribed")
     return _determined(reduced, case)
 
 
@@ -181,16 +166,18 @@ def _held(reduced: Reduced, case: Case) -> Iterator[Row]:
         yield row
 
 
-def _all_still(reduced: Reduced, echelon: Echelon, case: Case, budget: int | None) -> bool:
-    """True if nothing can move at all: an input of 0 then hides a locked train."""
-    if not echelon.conditions or any(case.inputs.values()):
-        return False
-    held = [*reduced.equations, *_held(reduced, case)]
-    return eliminate(held, budget).rank == reduced.unknowns
+def _driven(reduced: Reduced, case: Case, signs: Mapping[str, int]) -> Iterator[Row]:
+    """One row for each input; what is prescribed stands in the one column -1."""
+    for link, speed in case.inputs.items():
+        row = dict(reduced.form(reduced.components.index[link]))
+        if speed:
+            row[_GIVEN] = -speed * signs.get(link, 1)
+        yield row
 
 
-def _evaluate(row: Row, values: Sequence[Fraction]) -> Fraction:
-    return sum((coefficient * values[-1 - column] for column, coefficient in row.items()), Fraction(0))
+def _all_still(reduced: Reduced, case: Case, budget: int | None) -> bool:
+    """True if nothing can move at all: an input of 0, or none, then hides a locked train."""
+    return eliminate([*reduced.equations, *_held(reduced, case)], budget).rank == reduced.unknowns
 
 
 def _resolve(row: Row, forms: Mapping[int, Row]) -> Row:
@@ -201,16 +188,61 @@ def _resolve(row: Row, forms: Mapping[int, Row]) -> Row:
     return resolved
 
 
-def _speed(
-    reduced: Reduced, link: int, forms: Mapping[int, Row], values: Sequence[Fraction]
-) -> Fraction | None:
-    """A link's speed, or None where it is not determined."""
-    form = _resolve(reduced.form(link), forms)
-    if any(column >= 0 for column in form):
+def _read_off(
+    reduced: Reduced, forms: Mapping[int, Row], signs: Mapping[str, int]
+) -> tuple[dict[str, Fraction], list[str]]:
+    """Every link's speed, and the links that have none: carrier's speed plus ratio times its component's unknown."""
+    parts = reduced.components
+    known = [_value(forms.get(unknown)) for unknown in range(reduced.unknowns)]
+    speeds: dict[str, Fraction] = {}
+    undetermined: list[str] = []
+    zero = Fraction(0)
+    for at, name in enumerate(parts.links):
+        speed: Fraction | None
+        if at == parts.frame:
+            speed = zero
+        elif at in reduced.own:
+            speed = known[reduced.own[at]]
+        else:
+            node = parts.nodes_of[at][0]
+            carrier = parts.node_carrier[node]
+            unknown = known[parts.node_group[node]]
+            carried = zero if carrier == parts.frame else known[reduced.own[carrier]]
+            if unknown is None or carried is None:  # free parts may still cancel
+                speed = _value(_resolve(reduced.form(at), forms))
+            else:
+                speed = parts.relative(node) if unknown == 1 else parts.relative(node) * unknown
+                speed = speed + carried if carried else speed
+        if speed is None:
+            undetermined.append(name)
+        else:
+            speeds[name] = -speed if name in signs else speed
+    return speeds, undetermined
+
+
+def _value(form: Row | None) -> Fraction | None:
+    """The value of a form, or None where it holds a free unknown."""
+    if form is None or any(column >= 0 for column in form):
         return None
-    return _evaluate(form, values)
+    return form.get(_GIVEN, Fraction(0))
 
 
+def _still(reduced: Reduced, forms: Mapping[int, Row]) -> list[str]:
+    """Links that stand still in every motion: their form vanishes."""
+    parts = reduced.components
+    if not forms:
+        return []
+    null = {column for column, form in forms.items() if not form}
+    found = []
+    for at, name in enumerate(parts.links):
+        columns = reduced.form(at)
+        moving = [column for column in columns if column not in null]
+        if at != parts.frame and (not moving or (len(moving) > 1 and not _resolve(columns, forms))):
+            found.append(name)
+    return found
+
+
+@collector_paused()
 def find_mobility(reduced: Reduced, turning_pairs: int, budget: int | None = EXACT_BUDGET) -> Mobility:
     """Mobility of the train itself, nothing prescribed, decided exactly."""
     parts = reduced.components
@@ -225,12 +257,7 @@ def find_mobility(reduced: Reduced, turning_pairs: int, budget: int | None = EXA
         rank = max(rank_modulo(reduced.equations, PRIME), rank_modulo(reduced.equations, (1 << 61) - 31))
     else:
         rank = echelon.rank
-        forms = echelon.forms() if parts.breaking or parts.holding or rank else {}
-        still = [
-            name
-            for at, name in enumerate(parts.links)
-            if at != parts.frame and not _resolve(reduced.form(at), forms)
-        ]
+        still = _still(reduced, echelon.forms())
         shared = [parts.links[reduced.origin[row][1]] for row in echelon.redundant]
     freedom = reduced.unknowns - rank
     redundant = len(parts.circuits) - (len(parts.links) - 1 - freedom)

@@ -59,10 +59,7 @@ def solve_floats(
     Raises `RangeError` where the system is not square and regular, or where a speed leaves the range of float64:
     a silent 0 is never returned.
     """
-    frame = next(row.terms[0][0] for row in system.equations if row.kind == "frame")
-    links = [link for link in system.links if link != frame]
-    rows = _independent(system, links, set(redundant))
-    matrix = _Rows(links, rows)
+    frame, matrix, rows = prepare(system, redundant)
     right, remainder = _right_sides(rows, inputs)
     try:
         lu = matrix.factorise(ordering)
@@ -76,6 +73,14 @@ def solve_floats(
     estimate = 2 * np.abs(lu.solve(rest)) + _UNIT_ROUNDOFF * np.abs(x)
     condition = {link: matrix.condition(lu, link, x[:, 0]) for link in condition_of}
     return FloatSpeeds(_with_frame(system, frame, x), _with_frame(system, frame, estimate), condition)
+
+
+def prepare(system: System, redundant: Sequence[str] = ()) -> tuple[str, Rows, list[Equation]]:
+    """The frame, and as many independent rows as there are moving links, ready to be factorised."""
+    frame = next(row.terms[0][0] for row in system.equations if row.kind == "frame")
+    links = [link for link in system.links if link != frame]
+    rows = _independent(system, links, set(redundant))
+    return frame, Rows(links, rows), rows
 
 
 def _with_frame(system: System, frame: str, values: Floats) -> Labelled:
@@ -111,9 +116,7 @@ def _independent(system: System, links: Sequence[str], redundant: set[str]) -> l
     return rows
 
 
-def _right_sides(
-    rows: Sequence[Equation], inputs: Mapping[str, Sequence[float]] | None
-) -> tuple[Floats, Floats]:
+def _right_sides(rows: Sequence[Equation], inputs: Mapping[str, Sequence[float]] | None) -> tuple[Floats, Floats]:
     """Right-hand sides as float plus the exact remainder that the float leaves."""
     cases = len(next(iter(inputs.values()))) if inputs else 1
     right = np.zeros((len(rows), cases))
@@ -132,7 +135,7 @@ def _right_sides(
     return right, remainder
 
 
-class _Rows:
+class Rows:
     """The integer rows as arrays, padded to a common number of terms."""
 
     def __init__(self, links: Sequence[str], rows: Sequence[Equation]) -> None:
@@ -145,15 +148,22 @@ class _Rows:
                 self.columns[at, position] = self.at[link]
                 self.coefficients[at, position] = coefficient
 
-    def factorise(self, ordering: str) -> Any:
+    def matrix(self) -> Any:
+        """The rows as a sparse matrix, column compressed."""
         from scipy.sparse import csc_array
-        from scipy.sparse.linalg import splu
 
         size, width = self.columns.shape
         lines = np.repeat(np.arange(size), width)
         used = self.coefficients.ravel() != 0
         entries = (self.coefficients.ravel()[used], (lines[used], self.columns.ravel()[used]))
-        return splu(csc_array(entries, shape=(size, size)), permc_spec=ordering)
+        return csc_array(entries, shape=(size, size))
+
+    def factorise(self, ordering: str) -> Any:
+        """The sparse LU factors."""
+        from scipy.sparse import linalg
+
+        solver: Any = linalg
+        return solver.splu(self.matrix(), permc_spec=ordering)
 
     def residual(self, x: Floats, right: Floats, remainder: Floats) -> Floats:
         """right - A x, accumulated to twice the working precision."""
@@ -166,7 +176,8 @@ class _Rows:
 
     def size(self, x: Floats) -> Floats:
         """|A| |x|, row by row."""
-        return np.einsum("rt,rtc->rc", np.abs(self.coefficients), np.abs(x[self.columns]))
+        total: Floats = np.einsum("rt,rtc->rc", np.abs(self.coefficients), np.abs(x[self.columns]))
+        return total
 
     def condition(self, lu: Any, link: str, x: Floats) -> float:
         """cond(A, x) of one link: one transposed solve, (|y|, |A||x|) / |x_link|."""
@@ -199,7 +210,7 @@ def _split(a: Floats) -> tuple[Floats, Floats]:
     return high, a - high
 
 
-def _check_range(matrix: _Rows, x: Floats, rest: Floats, rows: Sequence[Equation]) -> None:
+def _check_range(matrix: Rows, x: Floats, rest: Floats, rows: Sequence[Equation]) -> None:
     """Refuse a solution that overflowed, or sank below what float64 can hold on its way along the train.
 
     One mesh changes a speed by a factor of 1e12 at most, so a speed that sank to 0 left others near the edge.
@@ -208,12 +219,11 @@ def _check_range(matrix: _Rows, x: Floats, rest: Floats, rows: Sequence[Equation
         size = matrix.size(x)
         lost = (size < 1e-250) & (np.abs(rest) > 1e-8 * size)
         wrong = ~(
-            np.abs(rest)
-            <= 1e-6 * np.maximum(size, np.abs(matrix.coefficients).sum(axis=1)[:, None] * np.abs(x).max())
+            np.abs(rest) <= 1e-6 * np.maximum(size, np.abs(matrix.coefficients).sum(axis=1)[:, None] * np.abs(x).max())
         )
-    sunk = ((x != 0) & (np.abs(x) < 1e-280))[matrix.columns].any(axis=1) & (matrix.coefficients != 0).any(
-        axis=1
-    )[:, None]
+    sunk = ((x != 0) & (np.abs(x) < 1e-280))[matrix.columns].any(axis=1) & (matrix.coefficients != 0).any(axis=1)[
+        :, None
+    ]
     bad = (lost | wrong | sunk).any(axis=1)
     if bad.any():
         raise RangeError(_out_of_range(rows[int(np.argmax(bad))].label))

@@ -25,9 +25,7 @@ class Triangular(BaseModel):
     half_angle: Annotated[tuple[Angle, Angle], BeforeValidator(_one_per_wheel)] = Field(
         description="Half the aperture of a tooth, between 0 and 90 deg; a list of two gives one for each wheel"
     )
-    clearance: Figure | None = Field(
-        None, description="Centre distance over the sum of the outer radii, above 1"
-    )
+    clearance: Figure | None = Field(None, description="Centre distance over the sum of the outer radii, above 1")
     excess: Figure | None = Field(None, description="Clearance factor less 1, above 0")
     backlash: Length | None = Field(None, description="Play at the pitch circle")
     centre_distance: Length | None = Field(None, description="Distance of the two axes")

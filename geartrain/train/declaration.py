@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
-from typing import Annotated, Any
+from typing import Annotated
 
 from pydantic import BeforeValidator, Field, PrivateAttr
 
@@ -64,41 +64,29 @@ class Train(Declared):
     extends: str | None = Field(
         None, description="The train this one changes: a file beside it, or a shipped train by name"
     )
-    remove: Remove | None = Field(
-        None, description="What is taken away from the parent, before anything is added"
-    )
+    remove: Remove | None = Field(None, description="What is taken away from the parent, before anything is added")
     sources: dict[Id, Annotated[Source, BeforeValidator(_cited)]] = Field({}, description="Citations by key")
     errata: tuple[Erratum, ...] = Field((), description="What the sources print that is not so")
     frame: Id = Field("frame", description="The link whose speed is 0")
     unit: Unit | None = Field(None, description="What a speed of 1 means; absent: plain numbers")
     view: View = Field(View(), description="From where the train is seen, and which sense is positive")
     links: dict[Id, Annotated[Link, Nothing]] = Field(description="Every link, with its wheels")
-    axes: dict[Id, Axis] = Field(
-        {}, description="Directions and positions of axes; without them all axes are parallel"
-    )
+    axes: dict[Id, Axis] = Field({}, description="Directions and positions of axes; without them all axes are parallel")
     revolutes: tuple[Revolute, ...] = Field((), description="Turning pairs; together they form a tree")
     gears: tuple[GearPair, ...] = Field((), description="Gear pairs")
     couplings: tuple[Coupling, ...] = Field((), description="Pins in slots")
-    tooth_form: ToothForm | None = Field(
-        None, description="Form of the teeth of every pair that has none of its own"
-    )
+    tooth_form: ToothForm | None = Field(None, description="Form of the teeth of every pair that has none of its own")
     inputs: dict[Id, Speed] = Field({}, description="Prescribed speeds by link")
     crank: Id | None = Field(None, description="The link where power enters; default the inputs")
-    rate: Speed | None = Field(
-        None, description="Speed of the input in real time, where watts or impacts are asked"
-    )
+    rate: Speed | None = Field(None, description="Speed of the input in real time, where watts or impacts are asked")
     fixed: tuple[Id, ...] = Field((), description="Links held to the frame")
     locks: tuple[tuple[Id, Id], ...] = Field((), description="Pairs of links that turn together")
     clutches: dict[Id, Clutch] = Field({}, description="Brakes and clutches by name, engaged by states")
     loads: dict[Id, Torque] = Field({}, description="Torques on links; power into the train is positive")
     solve_for: Id | None = Field(None, description="The link whose torque is unknown")
-    states: dict[Id, Annotated[State, Nothing]] = Field(
-        {}, description="Ways the train is run, each solved on its own"
-    )
+    states: dict[Id, Annotated[State, Nothing]] = Field({}, description="Ways the train is run, each solved on its own")
     dials: dict[Id, Annotated[Dial, Nothing]] = Field({}, description="Dials by name")
-    outputs: dict[Id, Annotated[Output, Nothing]] = Field(
-        {}, description="What the train is asked for, by name"
-    )
+    outputs: dict[Id, Annotated[Output, Nothing]] = Field({}, description="What the train is asked for, by name")
 
     _marks: Marks | None = PrivateAttr(None)
 
@@ -109,9 +97,7 @@ class Train(Declared):
     @cached_property
     def wheels(self) -> Mapping[str, tuple[str, Wheel]]:
         """Every wheel by id, with its link."""
-        return {
-            name: (link, wheel) for link, part in self.links.items() for name, wheel in part.wheels.items()
-        }
+        return {name: (link, wheel) for link, part in self.links.items() for name, wheel in part.wheels.items()}
 
     @property
     def cases(self) -> tuple[Case, ...]:
@@ -135,17 +121,14 @@ class Train(Declared):
             inherited = outputs.get(name)
             update = {key: getattr(output, key) for key in output.model_fields_set}
             outputs[name] = inherited.model_copy(update=update) if inherited else output
-        loc: Loc = (
-            ("states", state, "inputs") if state is not None and own.inputs is not None else ("inputs",)
-        )
+        loc: Loc = ("states", state, "inputs") if state is not None and own.inputs is not None else ("inputs",)
         return Case(state, self._speeds(inputs), tuple(dict.fromkeys(fixed)), tuple(locks), outputs, loc)
 
     def _speeds(self, inputs: Mapping[str, Quantity]) -> dict[str, Fraction]:
         """Input speeds in the train's unit; named units are counted in the first one's."""
         scale = self._input_scale(inputs)
         return {
-            link: (speed.base or speed.value) / scale if speed.unit else speed.value
-            for link, speed in inputs.items()
+            link: (speed.base or speed.value) / scale if speed.unit else speed.value for link, speed in inputs.items()
         }
 
     @staticmethod
@@ -165,22 +148,26 @@ class Train(Declared):
             return row.value if row.kind == "period" else None
         quantity = self.unit_quantity
         return (
-            quantity.base / 86400
-            if quantity and quantity.dimension == "time" and quantity.base is not None
-            else None
+            quantity.base / 86400 if quantity and quantity.dimension == "time" and quantity.base is not None else None
         )
+
+    @property
+    def unit_base(self) -> Fraction | None:
+        """The unit in seconds or metres."""
+        quantity = self.unit_quantity
+        if quantity is not None:
+            return quantity.base
+        return None if self.unit_days is None else self.unit_days * 86400
 
     @property
     def unit_quantity(self) -> Quantity | None:
         """The unit where it is declared as a quantity (a time or a length)."""
         if self.unit is None or self.unit.per in table():
             return None
-        for dimension in ("time", "length"):
-            try:
-                return Quantity.parse(self.unit.per, dimension, plain=False)
-            except ValueError:
-                continue
-        return None
+        try:
+            return Quantity.parse(self.unit.per, "time or length", plain=False)
+        except ValueError:
+            return None
 
     @property
     def unit_name(self) -> str:

@@ -9,11 +9,13 @@ from typing import Annotated, Any, Union, get_args, get_origin
 
 from pydantic import BaseModel, ValidationError
 
+from geartrain.bulk import collector_paused
 from geartrain.errors import DeclarationError, Loc, Marks, Problem, dotted
 from geartrain.train.declaration import Train
 from geartrain.train.references import find_problems
 
 
+@collector_paused()
 def declare(data: Mapping[str, Any], marks: Marks | None = None) -> Train:
     """A checked `Train` from plain data, the same keys as in YAML.
 
@@ -38,13 +40,9 @@ def _explain(error: Mapping[str, Any], place: Marks) -> Problem:
     key = str(loc[-1]) if loc else ""
     if kind == "extra_forbidden":
         allowed = tuple(_keys_at(loc[:-1]))
-        return Problem(
-            f"unknown key '{key}'", f"{_where(loc[:-1])} has no such key", suggest(key, allowed), place(loc)
-        )
+        return Problem(f"unknown key '{key}'", f"{_where(loc[:-1])} has no such key", suggest(key, allowed), place(loc))
     if kind == "missing":
-        return Problem(
-            f"key '{key}' is missing", f"{_where(loc[:-1])} needs it", f"add `{key}:`", place(loc[:-1])
-        )
+        return Problem(f"key '{key}' is missing", f"{_where(loc[:-1])} needs it", f"add `{key}:`", place(loc[:-1]))
     if kind in ("union_tag_not_found", "union_tag_invalid"):
         tag = context["discriminator"].strip("'")
         fix = (
@@ -73,9 +71,7 @@ def _real_steps(loc: Loc) -> Loc:
         step
         for at, step in enumerate(loc)
         if not (
-            step in tags
-            and at > 0
-            and loc[at - 1] in ("teeth", "tooth_form")
+            (step in tags and at > 0 and loc[at - 1] in ("teeth", "tooth_form"))
             or (step in tags and at > 1 and loc[at - 2] == "couplings")
         )
     )

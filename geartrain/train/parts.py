@@ -12,11 +12,12 @@ from pydantic import (
     Field,
     GetJsonSchemaHandler,
     Tag,
+    WithJsonSchema,
     model_validator,
 )
 from pydantic_core import PydanticCustomError
 
-from geartrain.quantity import Angle, Figure, Inertia, Length, Quantity, Share, Speed, Torque
+from geartrain.quantity import Angle, Figure, Inertia, Length, Share, Span, Speed, Torque
 from geartrain.teeth import ToothForm
 
 MOST_TEETH = 10**12
@@ -27,7 +28,9 @@ Status = Literal["surviving", "reconstructed", "hypothetical"]
 class Declared(BaseModel):
     """What all declared parts share: frozen, no unknown keys, numbers welcome as names."""
 
-    model_config = ConfigDict(frozen=True, extra="forbid", coerce_numbers_to_str=True, populate_by_name=True, defer_build=True)
+    model_config = ConfigDict(
+        frozen=True, extra="forbid", coerce_numbers_to_str=True, populate_by_name=True, defer_build=True
+    )
 
 
 def _count(raw: object) -> int:
@@ -77,7 +80,8 @@ def _also(kind: Any, schema: dict[str, Any]) -> dict[str, Any]:
     return {"anyOf": [kind, schema]}
 
 
-Id = str
+Id = Annotated[str, WithJsonSchema({"type": ["string", "number"]})]
+"""A name, as written: numbers are names too."""
 Count = Annotated[int, BeforeValidator(_count)]
 Boolean = Annotated[bool, BeforeValidator(_boolean)]
 Nothing = BeforeValidator(_empty_for_nothing)
@@ -103,13 +107,9 @@ class Teeth(Declared):
         None, description="Least and greatest count the evidence allows, inclusive"
     )
     choices: tuple[Count, ...] | None = Field(None, description="The counts the evidence allows")
-    weights: tuple[Figure, ...] | None = Field(
-        None, description="Relative weight of each count in range or choices"
-    )
+    weights: tuple[Figure, ...] | None = Field(None, description="Relative weight of each count in range or choices")
     source: str | None = Field(None, description="Key of the source")
-    search: tuple[Count, Count] | None = Field(
-        None, description="The count is to be found within these bounds"
-    )
+    search: tuple[Count, Count] | None = Field(None, description="The count is to be found within these bounds")
     note: str | None = Field(None, description="A remark for the reader")
 
     @model_validator(mode="after")
@@ -157,12 +157,10 @@ def _teeth_kind(raw: object) -> str:
 class Wheel(Declared):
     """A wheel on a link. A bare number is its tooth count."""
 
-    teeth: Annotated[
-        Annotated[Count, Tag("count")] | Annotated[Teeth, Tag("doubt")], Discriminator(_teeth_kind)
-    ] = Field(description="Tooth count, or a count with its range; the starts of a worm")
-    internal: Boolean = Field(
-        False, description="A ring: its teeth look inwards, and a mesh with it keeps the sense"
+    teeth: Annotated[Annotated[Count, Tag("count")] | Annotated[Teeth, Tag("doubt")], Discriminator(_teeth_kind)] = (
+        Field(description="Tooth count, or a count with its range; the starts of a worm")
     )
+    internal: Boolean = Field(False, description="A ring: its teeth look inwards, and a mesh with it keeps the sense")
     kind: Literal["spur", "bevel", "contrate", "worm"] = Field("spur", description="How the teeth stand")
     facing: Literal[1, -1] = Field(
         1, description="-1 if the wheel lies on the negative side of its axis (bevel, contrate)"
@@ -262,7 +260,7 @@ class GearPair(Declared):
     driver: Id | None = Field(None, description="The wheel that drives")
     phase: Figure | None = Field(
         None,
-        description="Fraction of a pitch by which a tooth of the first wheel has passed the line of centres at the start",
+        description="Fraction of a pitch by which a tooth of the first wheel is past the line of centres at the start",
     )
     source: str | None = Field(None, description="Key of the source")
     note: str | None = Field(None, description="A remark for the reader")
@@ -277,21 +275,12 @@ class Target(Declared):
     """What an output should show: a name of the shipped table, a period or a speed. A bare text is a name."""
 
     name: str | None = Field(None, description="A row of the shipped table; `geartrain periods` lists them")
-    period: Quantity | None = Field(None, description="Time of `turns` turns, such as 29.53059 d")
+    period: Span | None = Field(None, description="Time of `turns` turns, such as 29.53059 d")
     speed: Figure | None = Field(None, description="Speed in the train's unit")
-    turns: Figure = Field(
-        Figure.parse(1), description="Turns of the pointer in the period (5 for a Metonic spiral)"
-    )
+    turns: Figure = Field(Figure.parse(1), description="Turns of the pointer in the period (5 for a Metonic spiral)")
     tolerance: Share | None = Field(None, description="How far off counts as met, such as 20 ppm")
     source: str | None = Field(None, description="Key of the source")
     note: str | None = Field(None, description="A remark for the reader")
-
-    @model_validator(mode="before")
-    @classmethod
-    def _read_period(cls, raw: Any) -> Any:
-        if isinstance(raw, dict) and raw.get("period") is not None:
-            return {**raw, "period": Quantity.parse(raw["period"], "time", plain=False)}
-        return raw
 
     @model_validator(mode="after")
     def _is_one_thing(self) -> Target:
@@ -376,9 +365,7 @@ class State(Declared):
     fixed: tuple[Id, ...] | None = Field(None, description="Links held to the frame")
     locks: tuple[tuple[Id, Id], ...] | None = Field(None, description="Pairs of links that turn together")
     inputs: dict[Id, Speed] | None = Field(None, description="Prescribed speeds by link")
-    loads: dict[Id, Torque] | None = Field(
-        None, description="Torques on links; power into the train is positive"
-    )
+    loads: dict[Id, Torque] | None = Field(None, description="Torques on links; power into the train is positive")
     solve_for: Id | None = Field(None, description="The link whose torque is unknown")
     outputs: dict[Id, Annotated[Output, Nothing]] = Field(
         {}, description="Outputs of this state, merged with the train's by name"
@@ -417,9 +404,9 @@ class Dial(Declared):
 class Erratum(Declared):
     """Something a source prints that is not so."""
 
-    place: str = Field(description="Where it is printed")
-    printed: str = Field(description="What is printed")
-    right: str = Field(description="What is right")
+    place: Id = Field(description="Where it is printed")
+    printed: Id = Field(description="What is printed")
+    right: Id = Field(description="What is right")
     why: str = Field(description="How one knows")
 
 

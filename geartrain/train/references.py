@@ -30,9 +30,7 @@ def _unknown(train: Train, kind: str, name: str, known: Iterable[str], *loc: str
         if close
         else f"declare the {kind}, or correct the name"
     )
-    return Problem(
-        f"no {kind} '{name}'", f"`{'.'.join(str(step) for step in loc)}` names it", fix, train.place(*loc)
-    )
+    return Problem(f"no {kind} '{name}'", f"`{'.'.join(str(step) for step in loc)}` names it", fix, train.place(*loc))
 
 
 def _links(train: Train) -> Iterator[Problem]:
@@ -71,18 +69,20 @@ def _wheels(train: Train) -> Iterator[Problem]:
             owner[wheel] = link
     wheels, names = train.wheels, set()
     for at, gear in enumerate(train.gears):
-        first, second = gear.pair
-        missing = [wheel for wheel in gear.pair if wheel not in wheels]
-        for wheel in missing:
-            yield _unknown(train, "wheel", wheel, wheels, "gears", at, "pair")
-        if gear.name in names:
-            yield _twice(train, "gear pair", gear.name, "gears", at)
-        names.add(gear.name)
+        name, (first, second) = gear.name, gear.pair
+        if name in names:
+            yield _twice(train, "gear pair", name, "gears", at)
+        names.add(name)
         if gear.driver is not None and gear.driver not in gear.pair:
             yield _unknown(train, "wheel of this pair", gear.driver, gear.pair, "gears", at, "driver")
-        if missing:
+        if first not in wheels or second not in wheels:
+            for wheel in gear.pair:
+                if wheel not in wheels:
+                    yield _unknown(train, "wheel", wheel, wheels, "gears", at, "pair")
             continue
         (link_1, wheel_1), (link_2, wheel_2) = wheels[first], wheels[second]
+        if link_1 != link_2 and wheel_1.kind == wheel_2.kind == "spur" and not (wheel_1.internal and wheel_2.internal):
+            continue
         place = train.place("gears", at, "pair")
         if link_1 == link_2:
             yield Problem(
@@ -247,7 +247,16 @@ def _target(train: Train, target: Target, loc: Loc) -> Iterator[Problem]:
                 place,
             )
             return
-    if target.speed is None and train.unit_days is None:
+    length = train.unit_quantity is not None and train.unit_quantity.dimension == "length"
+    if target.period is not None and target.period.dimension == "length":
+        if not length:
+            yield Problem(
+                f"'{target.period}' is no target here",
+                "the train's unit is not a length",
+                "declare `unit: {per: ...}` as a length",
+                place,
+            )
+    elif target.speed is None and train.unit_days is None:
         yield Problem(
             "a period is no target here",
             "the train's unit is not a time",
@@ -259,12 +268,13 @@ def _target(train: Train, target: Target, loc: Loc) -> Iterator[Problem]:
 def _sources(train: Train) -> Iterator[Problem]:
     for link, part in train.links.items():
         for name, wheel in part.wheels.items():
-            loc: Loc = ("links", link, "wheels", name)
-            yield from _source(train, wheel.source, *loc)
+            if wheel.source is not None:
+                yield from _source(train, wheel.source, "links", link, "wheels", name)
             if not isinstance(wheel.teeth, int):
-                yield from _source(train, wheel.teeth.source, *loc, "teeth")
+                yield from _source(train, wheel.teeth.source, "links", link, "wheels", name, "teeth")
     for at, gear in enumerate(train.gears):
-        yield from _source(train, gear.source, "gears", at)
+        if gear.source is not None:
+            yield from _source(train, gear.source, "gears", at)
     for at, coupling in enumerate(train.couplings):
         yield from _source(train, coupling.source, "couplings", at)
     for name, output in train.outputs.items():
@@ -294,15 +304,16 @@ def _units(train: Train) -> Iterator[Problem]:
             "name a row of kind period",
             train.place("unit"),
         )
-    plain, named = [], []
+    plain: list[Loc] = []
+    named: list[Loc] = []
     for label, axis in train.axes.items():
         for length in axis.position or ():
             if length.value:
                 (plain if length.unit is None else named).append(("axes", label))
     for at, coupling in enumerate(train.couplings):
-        for length in (coupling.pin_radius, coupling.offset):
-            if length is not None and length.value:
-                (plain if length.unit is None else named).append(("couplings", at))
+        for size in (coupling.pin_radius, coupling.offset):
+            if size is not None and size.value:
+                (plain if size.unit is None else named).append(("couplings", at))
     if plain and named:
         yield Problem(
             "lengths mix plain numbers and units",

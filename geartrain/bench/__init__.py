@@ -1,0 +1,8 @@
+"""Error against run time, measured in one run against named alternatives."""
+
+from __future__ import annotations
+
+from geartrain.bench.kinematics import count_steps, kinematics
+from geartrain.bench.record import Record, Records
+
+__all__ = ["Record", "Records", "count_steps", "kinematics"]

@@ -1,0 +1,112 @@
+"""Families of trains whose exact answer is known by construction, at any size, from a seed."""
+
+from __future__ import annotations
+
+import math
+import random
+from collections.abc import Callable
+from typing import Any
+
+from geartrain.analysis import GearTrain
+
+Data = dict[str, Any]
+
+
+def _ordinary(teeth: list[int], meshes: list[tuple[int, int]]) -> Data:
+    """Wheels on fixed axes, one a link."""
+    links: Data = {"frame": {}} | {f"g{at}": {"wheels": {f"w{at}": z}} for at, z in enumerate(teeth)}
+    return {
+        "links": links,
+        "revolutes": [{"pair": ("frame", f"g{at}"), "axis": f"A{at}"} for at in range(len(teeth))],
+        "gears": [{"pair": (f"w{i}", f"w{j}")} for i, j in meshes],
+        "inputs": {"g0": 1},
+    }
+
+
+def chain(size: int, seed: int = 1) -> Data:
+    """Wheels in a row, two on each arbor, the ratio kept between 1e-6 and 1e6."""
+    draw = random.Random(seed)
+    links: Data = {"frame": {}, "g0": {"wheels": {}}}
+    gears, log = [], 0.0
+    for at in range(1, size):
+        driver, driven = draw.randint(12, 119), draw.randint(12, 119)
+        if abs(log + math.log10(driver / driven)) > 6:
+            driver, driven = driven, driver
+        log += math.log10(driver / driven)
+        links[f"g{at - 1}"]["wheels"][f"a{at}"] = driver
+        links[f"g{at}"] = {"wheels": {f"b{at}": driven}}
+        gears.append({"pair": (f"a{at}", f"b{at}")})
+    joints = [{"pair": ("frame", f"g{at}"), "axis": f"A{at}"} for at in range(size)]
+    return {"links": links, "revolutes": joints, "gears": gears, "inputs": {"g0": 1}}
+
+
+def tree(size: int, seed: int = 1) -> Data:
+    """A random ordinary train: every wheel meshes with a wheel drawn among those before it."""
+    draw = random.Random(seed)
+    teeth = [draw.randint(12, 119) for _ in range(size)]
+    return _ordinary(teeth, [(draw.randrange(at), at) for at in range(1, size)])
+
+
+def cascade(size: int, seed: int = 1) -> Data:
+    """Planetary stages with a fixed ring, alternately reducing and increasing by the same teeth."""
+    draw = random.Random(seed)
+    links: Data = {"frame": {"wheels": {}}, "c0": {"wheels": {}}}
+    joints, gears = [{"pair": ("frame", "c0"), "axis": "main"}], []
+    for at in range(1, max(2, size // 2)):
+        if at % 2:
+            sun, planet = draw.randint(12, 60), draw.randint(12, 60)
+        solar, carrier = (f"c{at - 1}", f"c{at}") if at % 2 else (f"c{at}", f"c{at - 1}")
+        links[f"c{at}"] = {"wheels": {}}
+        links[f"p{at}"] = {"wheels": {f"pw{at}": planet}}
+        links[solar]["wheels"][f"s{at}"] = sun
+        links["frame"]["wheels"][f"r{at}"] = {"teeth": sun + 2 * planet, "internal": True}
+        joints += [{"pair": ("frame", f"c{at}"), "axis": "main"}, {"pair": (carrier, f"p{at}"), "axis": f"P{at}"}]
+        gears += [{"pair": (f"s{at}", f"pw{at}")}, {"pair": (f"pw{at}", f"r{at}")}]
+    return {"links": links, "revolutes": joints, "gears": gears, "inputs": {"c0": 1}}
+
+
+def lattice(size: int, seed: int = 1) -> Data:
+    """A square lattice of meshing wheels on fixed axes: highly redundant, and it turns."""
+    draw = random.Random(seed)
+    side = max(2, math.isqrt(size))
+    right = [(r * side + c, r * side + c + 1) for r in range(side) for c in range(side - 1)]
+    down = [(r * side + c, r * side + c + side) for r in range(side - 1) for c in range(side)]
+    return _ordinary([draw.randint(17, 99) for _ in range(side * side)], right + down)
+
+
+def grid(size: int, seed: int = 1) -> Data:
+    """A square grid of shafts coupled by planetary differentials: each carrier is driven by its left and upper mate.
+
+    The shaft at (r, c) carries a planet between the shafts (r, c-1) and (r-1, c); the first row and column are
+    ordinary chains. This is the shape in which sparse elimination fills in.
+    """
+    draw = random.Random(seed)
+    side = max(3, math.isqrt(size // 2))
+    links: Data = {"frame": {}} | {f"s{r}_{c}": {"wheels": {}} for r in range(side) for c in range(side)}
+    joints = [{"pair": ("frame", f"s{r}_{c}"), "axis": "main"} for r in range(side) for c in range(side)]
+    gears = []
+    for r in range(1, side):
+        for c in range(1, side):
+            planet, left, up = (draw.randint(17, 60) for _ in range(3))
+            here = f"{r}_{c}"
+            links[f"p{here}"] = {"wheels": {f"pw{here}": planet}}
+            links[f"s{r}_{c - 1}"]["wheels"][f"l{here}"] = left
+            links[f"s{r - 1}_{c}"]["wheels"][f"u{here}"] = {"teeth": up + 2 * planet, "internal": True}
+            joints.append({"pair": (f"s{here}", f"p{here}"), "axis": f"P{here}"})
+            gears += [{"pair": (f"l{here}", f"pw{here}")}, {"pair": (f"pw{here}", f"u{here}")}]
+    inputs = {f"s0_{c}": c % 7 + 1 for c in range(side)} | {f"s{r}_0": r % 5 + 1 for r in range(1, side)}
+    return {"links": links, "revolutes": joints, "gears": gears, "inputs": inputs}
+
+
+FAMILIES: dict[str, Callable[[int], Data]] = {
+    "chain": chain,
+    "tree": tree,
+    "cascade": cascade,
+    "lattice": lattice,
+    "grid": grid,
+}
+
+
+def build(family: str, size: int) -> GearTrain:
+    """A train of a family with about `size` links."""
+    return GearTrain.declare(FAMILIES[family](size))

@@ -1,0 +1,142 @@
+"""Every way to the speeds of a train: time, memory and true error over size."""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Callable, Mapping
+from fractions import Fraction
+from typing import Any
+
+import numpy as np
+
+from geartrain.analysis import GearTrain
+from geartrain.bench.families import FAMILIES, build
+from geartrain.bench.record import Record, Records, measure
+from geartrain.components import find_components, reduce
+from geartrain.files import load
+from geartrain.speeds import solve
+from geartrain.speeds.floats import Floats, Rows, prepare, solve_floats
+from geartrain.system import System
+
+SIZES = (100, 1_000, 10_000, 100_000, 1_000_000)
+ORDERINGS = ("COLAMD", "MMD_ATA", "MMD_AT_PLUS_A", "NATURAL")
+_GRID_EXACT = 2_100
+
+Advance = Callable[[str], None]
+
+
+def kinematics(most: int, advance: Advance = lambda _: None) -> Records:
+    """Measure all methods on all families up to `most` links; `advance` hears of every step."""
+    rows: list[Record] = []
+    for name in ("pennestri-2002", "freeth-2021"):
+        train = load(name)
+        rows += _measure_all(name, train, advance)
+    for family in FAMILIES:
+        for size in SIZES:
+            if size <= most:
+                rows += _measure_all(family, build(family, size), advance)
+    return Records("Speeds: error against run time", rows)
+
+
+def count_steps(most: int) -> int:
+    """How many steps `kinematics` will tell of."""
+    return 8 * (2 + len(FAMILIES) * sum(size <= most for size in SIZES))
+
+
+def _measure_all(family: str, train: GearTrain, advance: Advance) -> list[Record]:
+    links = len(train.declaration.links)
+    system, redundant = train.equations(), [train.circuits[at].id for at in train._reduced.components.closing]
+    coupled = family == "grid" and links > _GRID_EXACT
+    exact = None if coupled else _exact(train)
+    truth = None if exact is None else np.array([float(exact[link]) for link in train.declaration.links])
+    rows: list[Record] = []
+
+    def take(method: str, task: Callable[[], Any], error_of: Callable[[Any], float | None]) -> None:
+        advance(f"{family} {links}: {method}")
+        rows.append(measure(family, links, method, task, error_of))
+
+    take("exact", lambda: _exact(train), lambda _: 0.0)
+    if family in ("chain", "tree", "lattice"):
+        take(
+            "walking in floats",
+            lambda: _walk(train),
+            lambda found: _error([found[link] for link in train.declaration.links], truth),
+        )
+    frame, matrix, equations = prepare(system, redundant)
+    shuffled = _Shuffled(matrix, links)
+    moving = [at for at, link in enumerate(train.declaration.links) if link != frame]
+    right = np.array([float(row.right) for row in equations])
+
+    def error_of(x: Floats) -> float | None:
+        return _error(x, None if truth is None else truth[moving])
+
+    take("scipy spsolve", lambda: shuffled.spsolve(right), error_of)
+    for ordering in ORDERINGS:
+        take(f"sparse LU, {ordering}", lambda ordering=ordering: shuffled.splu(right, ordering), error_of)  # type: ignore[misc]
+    take("sparse LU, COLAMD, refined, with estimate", lambda: _refined(system, redundant), lambda x: _error(x, truth))
+    return rows
+
+
+def _exact(train: GearTrain) -> Mapping[str, Fraction]:
+    """Walk, reduce, eliminate, read off: everything but the circuits themselves."""
+    declared = train.declaration
+    reduced = reduce(find_components(tuple(declared.links), declared.frame, train.circuits, declared.inputs))
+    return solve(reduced, declared.case(train.states[0] if train.states else None), train.signs, None).speeds
+
+
+def _walk(train: GearTrain) -> dict[str, float]:
+    """An ordinary train link by link in floats, the plainest loop there is."""
+    edges: dict[str, list[tuple[str, float]]] = {}
+    for circuit in train.circuits:
+        edges.setdefault(circuit.i, []).append((circuit.j, -circuit.a / circuit.b))
+        edges.setdefault(circuit.j, []).append((circuit.i, -circuit.b / circuit.a))
+    (start, speed), *_ = train.declaration.case(None).inputs.items()
+    speeds = {train.declaration.frame: 0.0, start: float(speed)}
+    queue = deque([start])
+    while queue:
+        here = queue.popleft()
+        for there, ratio in edges.get(here, ()):
+            if there not in speeds:
+                speeds[there] = speeds[here] * ratio
+                queue.append(there)
+    return speeds
+
+
+def _refined(system: System, redundant: list[str]) -> Floats:
+    values: Floats = solve_floats(system, redundant).speeds.values[:, 0]
+    return values
+
+
+def _error(x: Any, truth: Floats | None) -> float | None:
+    """Greatest relative error of any speed that is not 0."""
+    if truth is None:
+        return None
+    used = truth != 0
+    return float(np.max(np.abs((np.asarray(x)[used] - truth[used]) / truth[used])))
+
+
+class _Shuffled:
+    """The raw matrix with rows and columns in random order, as a user's model would arrive."""
+
+    def __init__(self, rows: Rows, seed: int) -> None:
+        draw = np.random.default_rng(seed)
+        size = len(rows.columns)
+        self.lines, self.columns = draw.permutation(size), draw.permutation(size)
+        self.matrix = rows.matrix()[self.lines][:, self.columns].tocsc()
+
+    def _back(self, y: Floats) -> Floats:
+        x = np.empty_like(y)
+        x[self.columns] = y
+        return x
+
+    def spsolve(self, right: Floats) -> Floats:
+        from scipy.sparse import linalg
+
+        solver: Any = linalg
+        return self._back(solver.spsolve(self.matrix, right[self.lines]))
+
+    def splu(self, right: Floats, ordering: str) -> Floats:
+        from scipy.sparse import linalg
+
+        solver: Any = linalg
+        return self._back(solver.splu(self.matrix, permc_spec=ordering).solve(right[self.lines]))

@@ -79,9 +79,13 @@ class Echelon:
         """Number of independent rows in the unknowns."""
         return len(self.pivots)
 
-    def forms(self) -> dict[int, Row]:
-        """Every pivot column as a linear form of symbols and unknowns that stayed free."""
+    def forms(self, budget: int | None = None) -> dict[int, Row]:
+        """Every pivot column as a linear form of symbols and unknowns that stayed free.
+
+        Many free unknowns make long forms: past `budget` operations `TooDenseError` is raised.
+        """
         solved: dict[int, Row] = {}
+        work = 0
         for column, rest in reversed(self.pivots):
             form: Row = {}
             for other, coefficient in rest.items():
@@ -90,6 +94,9 @@ class Echelon:
                     add_into(form, {other: -coefficient}, 1)
                 else:
                     add_into(form, known, -coefficient)
+                    work += len(known) * (1 + coefficient.numerator.bit_length() // 64)
+            if budget is not None and work > budget:
+                raise TooDenseError
             solved[column] = form
         return solved
 
@@ -112,7 +119,7 @@ def eliminate(rows: Iterable[Mapping[int, Fraction]], budget: int | None = None,
     """Sparse elimination over the rationals (or modulo a prime): shortest row first, rarest column in it.
 
     rows      linear forms that vanish; columns < 0 are symbols
-    budget    the largest number of coefficient operations; beyond it `TooDenseError` is raised
+    budget    the largest number of coefficient operations, long numbers counting more; beyond it `TooDenseError` is raised
     modulus   0 for exact rationals, else a prime; coefficients must then be integers
 
     Rows of one or two unknowns are plain substitutions, so chains, trees and cascades cost linear time;
@@ -151,12 +158,13 @@ def eliminate(rows: Iterable[Mapping[int, Fraction]], budget: int | None = None,
         else:
             rest = {column: value / lead for column, value in row.items()}
         pivots.append((pivot, rest))
+        cost = (len(rest) + 1) * (1 + lead.numerator.bit_length() // 64)
         for column in unknowns:
             users[column].discard(index)
         for other in users.pop(pivot):
             target = active[other]
             factor = target.pop(pivot)
-            work += len(rest) + 1
+            work += cost
             for column, value in rest.items():
                 new = target.get(column, 0) - factor * value
                 if modulus:
@@ -170,8 +178,8 @@ def eliminate(rows: Iterable[Mapping[int, Fraction]], budget: int | None = None,
                     if column >= 0:
                         users[column].discard(other)
             heappush(queue, (sum(column >= 0 for column in target), other))
-        if budget is not None and work > budget:
-            raise TooDenseError
+            if budget is not None and work > budget:
+                raise TooDenseError
     return Echelon(tuple(pivots), tuple(conditions), tuple(redundant))
 
 

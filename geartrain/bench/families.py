@@ -75,27 +75,30 @@ def lattice(size: int, seed: int = 1) -> Data:
 
 
 def grid(size: int, seed: int = 1) -> Data:
-    """A square grid of shafts coupled by planetary differentials: each carrier is driven by its left and upper mate.
+    """A square grid of shafts, each the carrier of a differential between two neighbours; the rim is driven.
 
-    The shaft at (r, c) carries a planet between the shafts (r, c-1) and (r-1, c); the first row and column are
-    ordinary chains. This is the shape in which sparse elimination fills in.
+    Shafts stand between left and right or between upper and lower neighbours in turn, so every speed hangs on
+    every other, as in a discrete Laplace equation: the shape in which sparse elimination fills in.
     """
     draw = random.Random(seed)
-    side = max(3, math.isqrt(size // 2))
+    side = max(4, math.isqrt(size // 2))
     links: Data = {"frame": {}} | {f"s{r}_{c}": {"wheels": {}} for r in range(side) for c in range(side)}
     joints = [{"pair": ("frame", f"s{r}_{c}"), "axis": "main"} for r in range(side) for c in range(side)]
-    gears = []
-    for r in range(1, side):
-        for c in range(1, side):
-            planet, left, up = (draw.randint(17, 60) for _ in range(3))
+    gears, rim = [], {}
+    for r in range(side):
+        for c in range(side):
             here = f"{r}_{c}"
+            if not (0 < r < side - 1 and 0 < c < side - 1):
+                rim[f"s{here}"] = 1 + (3 * r + 5 * c) % 11
+                continue
+            one, other = ((r, c - 1), (r, c + 1)) if (r + c) % 2 else ((r - 1, c), (r + 1, c))
+            sun, planet = draw.randint(17, 60), draw.randint(17, 60)
             links[f"p{here}"] = {"wheels": {f"pw{here}": planet}}
-            links[f"s{r}_{c - 1}"]["wheels"][f"l{here}"] = left
-            links[f"s{r - 1}_{c}"]["wheels"][f"u{here}"] = {"teeth": up + 2 * planet, "internal": True}
+            links[f"s{one[0]}_{one[1]}"]["wheels"][f"sun{here}"] = sun
+            links[f"s{other[0]}_{other[1]}"]["wheels"][f"ring{here}"] = {"teeth": sun + 2 * planet, "internal": True}
             joints.append({"pair": (f"s{here}", f"p{here}"), "axis": f"P{here}"})
-            gears += [{"pair": (f"l{here}", f"pw{here}")}, {"pair": (f"pw{here}", f"u{here}")}]
-    inputs = {f"s0_{c}": c % 7 + 1 for c in range(side)} | {f"s{r}_0": r % 5 + 1 for r in range(1, side)}
-    return {"links": links, "revolutes": joints, "gears": gears, "inputs": inputs}
+            gears += [{"pair": (f"sun{here}", f"pw{here}")}, {"pair": (f"pw{here}", f"ring{here}")}]
+    return {"links": links, "revolutes": joints, "gears": gears, "inputs": rim}
 
 
 FAMILIES: dict[str, Callable[[int], Data]] = {

@@ -11,18 +11,24 @@ from math import gcd, lcm
 
 from geartrain.components import Reduced
 from geartrain.errors import Loop, Verdict
-from geartrain.exact import Row, add_into, eliminate
+from geartrain.exact import Row, TooDenseError, add_into, eliminate
 from geartrain.train import Case
 
 Statement = tuple[str, str, Fraction]
 """What one prescription says: its kind (input, fixed, lock), a text, and its value."""
 
 
-def diagnose(reduced: Reduced, case: Case, signs: Mapping[str, int]) -> Verdict | None:
-    """The verdict locked or contradictory with its witnesses, or None if the case holds together and can move."""
+def diagnose(reduced: Reduced, case: Case, signs: Mapping[str, int], budget: int | None = None) -> Verdict | None:
+    """The verdict locked or contradictory with its witnesses, or None if the case holds together and can move.
+
+    Witnesses cost memory in a long coupled train: past `budget` operations the verdict comes without them.
+    """
     rows, statements = _tagged(reduced, case, signs)
     structural = len(reduced.equations)
-    echelon = eliminate(rows)
+    try:
+        echelon = eliminate(rows, budget)
+    except TooDenseError:
+        return without_witness(case)
     worst: Verdict | None = None
     for condition in echelon.conditions:
         given = {-1 - column: value for column, value in condition.items()}
@@ -43,6 +49,15 @@ def diagnose(reduced: Reduced, case: Case, signs: Mapping[str, int]) -> Verdict 
     if freedom == 0 and not moving:
         return _standing(reduced, case)
     return None
+
+
+def without_witness(case: Case) -> Verdict:
+    """What is certain without a certificate: one moving input is locked, several contradict each other."""
+    given = tuple(f"{link} = {speed}" for link, speed in case.inputs.items())
+    moving = [link for link, speed in case.inputs.items() if speed]
+    if len(moving) == 1:
+        return Verdict("locked", f"input '{moving[0]}' is locked to the frame by the circuits", prescriptions=given)
+    return Verdict("contradictory", f"{', '.join(given)} cannot hold with the circuits", prescriptions=given)
 
 
 def _tagged(reduced: Reduced, case: Case, signs: Mapping[str, int]) -> tuple[list[Row], list[Statement]]:

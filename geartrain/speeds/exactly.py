@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from contextlib import suppress
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
@@ -11,7 +12,7 @@ from geartrain.bulk import collector_paused
 from geartrain.components import Reduced
 from geartrain.errors import Loop, Verdict
 from geartrain.exact import PRIME, Row, TooDenseError, add_into, eliminate, rank_modulo, residues
-from geartrain.speeds.diagnosis import diagnose, free_verdict
+from geartrain.speeds.diagnosis import diagnose, free_verdict, without_witness
 from geartrain.train import Case
 
 _GIVEN = -1  # the column in which prescribed numbers stand
@@ -114,21 +115,27 @@ def solve(reduced: Reduced, case: Case, signs: Mapping[str, int], budget: int | 
     """Solve one case exactly.
 
     signs    -1 for links whose axis points against its parallels: their speeds change sign at this door
-    budget   operations allowed; `TooDenseError` beyond, None for no bound
+    budget   operations allowed beyond linear work; `TooDenseError` past it, None for no bound
     """
     parts = reduced.components
     work = len(parts.circuits)
     ratios = _Ratios(reduced, case, signs)
+    budget = allowance(reduced, budget)
     echelon = eliminate([*reduced.equations, *_held(reduced, case), *_driven(reduced, case, signs)], budget)
     if echelon.conditions or (not any(case.inputs.values()) and _all_still(reduced, case, budget)):
-        verdict = diagnose(reduced, case, signs)
+        verdict = diagnose(reduced, case, signs, budget)
         if verdict is not None:
             return Solution(verdict, {}, ratios, 0, work)
-    forms = echelon.forms()
+    forms = echelon.forms(budget)
     free = reduced.unknowns - echelon.rank
     speeds, undetermined = _read_off(reduced, forms, signs)
     verdict = free_verdict(reduced, case, forms, undetermined, free) if undetermined else _determined(reduced, case)
     return Solution(verdict, speeds, ratios, free, work)
+
+
+def allowance(reduced: Reduced, budget: int | None) -> int | None:
+    """The budget for one system: uncoupled equations cost a few operations each, and are always allowed."""
+    return None if budget is None else budget + 30 * len(reduced.equations)
 
 
 def exact_verdict(reduced: Reduced, case: Case, signs: Mapping[str, int]) -> Verdict:
@@ -136,8 +143,7 @@ def exact_verdict(reduced: Reduced, case: Case, signs: Mapping[str, int]) -> Ver
     rows = [*reduced.equations, *_held(reduced, case), *_driven(reduced, case, signs)]
     echelon = eliminate(map(residues, rows), modulus=PRIME)
     if echelon.conditions:
-        given = tuple(f"{link} = {speed}" for link, speed in case.inputs.items())
-        return Verdict("contradictory", f"{', '.join(given)} cannot hold with the circuits", prescriptions=given)
+        return without_witness(case)
     freedom = reduced.unknowns - echelon.rank
     if freedom:
         given_count = len(case.inputs)
@@ -251,13 +257,15 @@ def find_mobility(reduced: Reduced, turning_pairs: int, budget: int | None = EXA
     still: list[str] = []
     certain = True
     try:
+        budget = allowance(reduced, budget)
         echelon = eliminate(reduced.equations, budget)
     except TooDenseError:
         certain = False
         rank = max(rank_modulo(reduced.equations, PRIME), rank_modulo(reduced.equations, (1 << 61) - 31))
     else:
         rank = echelon.rank
-        still = _still(reduced, echelon.forms())
+        with suppress(TooDenseError):
+            still = _still(reduced, echelon.forms(budget))
         shared = [parts.links[reduced.origin[row][1]] for row in echelon.redundant]
     freedom = reduced.unknowns - rank
     redundant = len(parts.circuits) - (len(parts.links) - 1 - freedom)

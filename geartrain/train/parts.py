@@ -60,6 +60,11 @@ def _boolean(raw: object) -> bool:
     )
 
 
+def _side(raw: object) -> object:
+    """1 or -1, also from text."""
+    return int(raw) if raw in ("1", "+1", "-1") else raw
+
+
 def _short_for(key: str) -> BeforeValidator:
     """A bare value stands for `{key: value}`; nothing stands for `{}`."""
 
@@ -162,7 +167,7 @@ class Wheel(Declared):
     )
     internal: Boolean = Field(False, description="A ring: its teeth look inwards, and a mesh with it keeps the sense")
     kind: Literal["spur", "bevel", "contrate", "worm"] = Field("spur", description="How the teeth stand")
-    facing: Literal[1, -1] = Field(
+    facing: Annotated[Literal[1, -1], BeforeValidator(_side)] = Field(
         1, description="-1 if the wheel lies on the negative side of its axis (bevel, contrate)"
     )
     hand: Literal["right", "left"] = Field("right", description="Hand of a worm's thread")
@@ -170,13 +175,6 @@ class Wheel(Declared):
     status: Status | None = Field(None, description="surviving, reconstructed or hypothetical")
     source: str | None = Field(None, description="Key of the source")
     note: str | None = Field(None, description="A remark for the reader")
-
-    @model_validator(mode="before")
-    @classmethod
-    def _facing_is_a_number(cls, raw: Any) -> Any:
-        if isinstance(raw, dict) and raw.get("facing") in ("1", "-1", "+1"):
-            return {**raw, "facing": int(raw["facing"])}
-        return raw
 
     @property
     def count(self) -> int | None:

@@ -16,7 +16,7 @@ from geartrain.exact import TooDenseError, decimal
 from geartrain.outputs import Number, OutputResult, Sensitivity, judge_outputs, number, sensitivity
 from geartrain.speeds import Mobility, Solution, exact_verdict, find_mobility, solve
 from geartrain.system import System, assemble
-from geartrain.train import Case, Train, declare
+from geartrain.train import Case, Train, declare, suggest
 
 if TYPE_CHECKING:
     from geartrain.graph import Graph
@@ -223,7 +223,7 @@ class GearTrain:
         if state is None and known:
             state = known[0]
         if state is not None and state not in known:
-            fix = f"name one of: {', '.join(known)}" if known else "leave the state out"
+            fix = suggest(state, known) if known else "leave the state out"
             raise QuestionError(Problem(f"'{self.name}' has no state '{state}'", "it is not declared", fix))
         return self.declaration.case(state)
 
@@ -231,13 +231,9 @@ class GearTrain:
         """The case with one output, and the links that output is made of."""
         declared = case.outputs.get(output)
         if declared is None and output not in self.declaration.links:
-            known = [*case.outputs, *self.declaration.links]
+            known = dict.fromkeys([*case.outputs, *self.declaration.links])
             raise QuestionError(
-                Problem(
-                    f"'{self.name}' has no output or link '{output}'",
-                    "it is not declared",
-                    f"name one of: {', '.join(known)}",
-                )
+                Problem(f"'{self.name}' has no output or link '{output}'", "it is not declared", suggest(output, known))
             )
         outputs = {output: declared} if declared else {}
         links = (declared.of or output, declared.relative_to or self.declaration.frame) if declared else (output,)
@@ -252,9 +248,8 @@ class GearTrain:
         if wanted is not None:
             speeds = {link: speeds[link] for link in wanted if link in speeds}
             if verdict.kind == "free" and all(link in speeds for link in wanted):
-                verdict = Verdict(
-                    "determined", f"the speed of {', '.join(wanted)} follows from {', '.join(case.inputs)}"
-                )
+                moving = " and ".join(link for link in wanted if link != self.declaration.frame)
+                verdict = Verdict("determined", f"the speed of {moving} follows from {', '.join(case.inputs)}")
         return self._judged(case, verdict, speeds, solution.ratios, "exact", solution.work)
 
     def _answer_in_floats(self, reduced: Reduced, case: Case, wanted: Sequence[str] | None) -> Answer:

@@ -119,7 +119,7 @@ def eliminate(rows: Iterable[Mapping[int, Fraction]], budget: int | None = None,
     """Sparse elimination over the rationals (or modulo a prime): shortest row first, rarest column in it.
 
     rows      linear forms that vanish; columns < 0 are symbols
-    budget    the largest number of coefficient operations, long numbers counting more; beyond it `TooDenseError` is raised
+    budget    the most operations allowed, long numbers counting more; `TooDenseError` past it
     modulus   0 for exact rationals, else a prime; coefficients must then be integers
 
     Rows of one or two unknowns are plain substitutions, so chains, trees and cascades cost linear time;

@@ -39,7 +39,8 @@ def _check(file: str, quiet: bool) -> int:
             good = VERDICT
         for result in answer.failures:
             place = train.declaration.place(*_place(answer.state, result.name, train.declaration.states))
-            typer.echo(f"FAIL {place}:{state} output '{result.name}' is {result.speed}{_wanted(result)}")
+            speed = "undetermined" if result.speed is None else result.speed
+            typer.echo(f"FAIL {place}:{state} output '{result.name}' is {speed}{_wanted(result)}")
             good = VERDICT
     if good == GOOD and not quiet:
         held = sum(result.expect_holds is not None for answer in answers for result in answer.outputs.values())

@@ -59,7 +59,7 @@ def _print(answer: Answer, output: str | None) -> None:
             row for row in rows if row[0] not in answer.speeds or row[2]
         ]
     elif not rows:
-        rows = [(link, speed, "") for link, speed in answer.speeds.items()]
+        rows = [(output, answer.speeds.get(output), "")]
     width = max((len(name) for name, _, _ in rows), default=0)
     for name, speed, mark in rows:
         typer.echo(f"  {name:<{width}}  {exact(speed):>20}  {figure(speed, 12)}{mark}")

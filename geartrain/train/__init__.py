@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from geartrain.train.declaration import Case, Train
-from geartrain.train.explain import declare
+from geartrain.train.explain import declare, suggest
 from geartrain.train.parts import (
     Axis,
     Clutch,
@@ -47,4 +47,5 @@ __all__ = [
     "View",
     "Wheel",
     "declare",
+    "suggest",
 ]

@@ -8,8 +8,8 @@ Fraction(2, 7)
 
 from __future__ import annotations
 
-from geartrain.analysis import Answer as Answer
 from geartrain.analysis import GearTrain as GearTrain
+from geartrain.answer import Answer as Answer
 from geartrain.errors import GearTrainError as GearTrainError
 from geartrain.errors import Verdict as Verdict
 from geartrain.files import load as load

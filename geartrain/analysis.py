@@ -4,17 +4,17 @@ from __future__ import annotations
 
 import html
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, Literal
 
+from geartrain.answer import Accuracy, Answer
 from geartrain.circuits import Circuit, Tree, bookkeeping_links, find_circuits, find_tree, link_signs
 from geartrain.components import Reduced, find_components, prune, reduce
 from geartrain.errors import Problem, QuestionError, Verdict
-from geartrain.exact import TooDenseError, decimal
-from geartrain.outputs import Number, OutputResult, Sensitivity, judge_outputs, number, sensitivity
-from geartrain.speeds import Mobility, Solution, exact_verdict, find_mobility, solve
+from geartrain.exact import TooDenseError
+from geartrain.outputs import Number, Sensitivity, judge_outputs, sensitivity
+from geartrain.speeds import EXACT_BUDGET, Mobility, exact_verdict, find_mobility, solve
 from geartrain.system import System, assemble
 from geartrain.train import Case, Train, declare, suggest
 
@@ -23,63 +23,6 @@ if TYPE_CHECKING:
     from geartrain.speeds import FloatSpeeds
 
 Method = Literal["auto", "exact", "floats"]
-
-
-@dataclass(frozen=True, slots=True)
-class Answer:
-    """What a train does in one state.
-
-    speeds   link -> speed in the train's unit: exact Fractions, or floats where `method` says so
-    outputs  the declared outputs, judged
-    method   "exact" or "floats"
-    work     circuits that were solved
-    """
-
-    train: str
-    state: str | None
-    unit: str
-    verdict: Verdict
-    speeds: Mapping[str, Number]
-    outputs: Mapping[str, OutputResult]
-    ratios: Mapping[str, Mapping[str, Number]]
-    method: str
-    work: int
-
-    def __getitem__(self, name: str) -> Number:
-        """The speed of an output, or of a link."""
-        result = self.outputs.get(name)
-        speed = result.speed if result is not None else self.speeds.get(name)
-        if speed is None:
-            raise KeyError(f"'{name}' is no determined output or link of '{self.train}'")
-        return speed
-
-    @property
-    def failures(self) -> tuple[OutputResult, ...]:
-        """Outputs whose `expect` or `published` figure does not hold."""
-        return tuple(result for result in self.outputs.values() if not result.holds)
-
-    def __bool__(self) -> bool:
-        """True if determined and every expectation holds."""
-        return bool(self.verdict) and not self.failures
-
-    def to_dict(self) -> dict[str, Any]:
-        """Plain data for JSON; the keys are stable (docs/json.md)."""
-        return {
-            "state": self.state,
-            "verdict": self.verdict.to_dict(),
-            "method": self.method,
-            "speeds": {link: number(speed) for link, speed in self.speeds.items()},
-            "outputs": {name: result.to_dict() for name, result in self.outputs.items()},
-        }
-
-    def _repr_html_(self) -> str:
-        shown = {name: result.speed for name, result in self.outputs.items()} or dict(self.speeds)
-        rows = "".join(
-            f"<tr><td>{html.escape(name)}</td><td>{speed}</td><td>{_shown(speed)}</td></tr>"
-            for name, speed in shown.items()
-        )
-        head = f"<tr><th>output</th><th>exact</th><th>{html.escape(self.unit) or 'speed'}</th></tr>"
-        return f"<p>{html.escape(self.train)}: {html.escape(str(self.verdict))}</p><table>{head}{rows}</table>"
 
 
 class GearTrain:
@@ -153,18 +96,20 @@ class GearTrain:
         output   an output or a link: only the circuits that drive it are solved
         method   "exact", "floats", or "auto": exact unless the coupled system is too dense for it
         """
-        case = self._case(state)
-        reduced, wanted = self._reduced, None
+        case, wanted = self._case(state), None
+        reduced = self._reduced
         if output is not None:
             case, wanted = self._only(case, output)
-            reduced = self._reduce(prune(self.circuits, self._kept(case, wanted)))
+            reduced = self._pruned(case, wanted)
         if method == "floats":
             return self._answer_in_floats(reduced, case, wanted)
         try:
-            solution = solve(reduced, case, self.signs, None if method == "exact" else _budget())
+            solution = solve(reduced, case, self.signs, None if method == "exact" else EXACT_BUDGET)
         except TooDenseError:
             return self._answer_in_floats(reduced, case, wanted)
-        return self._answer(case, solution, wanted)
+        return self._judged(
+            case, solution.verdict, solution.speeds, wanted, len(reduced.components.circuits), solution.ratios
+        )
 
     def answers(self) -> Iterator[Answer]:
         """The answer of every state, in the order declared."""
@@ -175,7 +120,8 @@ class GearTrain:
         case = self._case(answer.state)
 
         def solve_with(circuits: Sequence[Circuit]) -> Any:
-            return solve(self._reduce(circuits), case, self.signs).speeds.get
+            reduced = self._reduce(circuits, tuple(self.declaration.links))
+            return solve(reduced, case, self.signs).speeds.get
 
         return sensitivity(self.declaration, list(answer.outputs.values()), solve_with, self.circuits, self.signs)
 
@@ -196,15 +142,20 @@ class GearTrain:
 
     @cached_property
     def _reduced(self) -> Reduced:
-        return self._reduce(self.circuits)
+        return self._reduce(self.circuits, tuple(self.declaration.links))
 
-    def _reduce(self, circuits: Sequence[Circuit]) -> Reduced:
+    def _reduce(self, circuits: Sequence[Circuit], links: tuple[str, ...]) -> Reduced:
         declared = self.declaration
-        first = [
-            *declared.inputs,
-            *(link for state in declared.states.values() for link in state.inputs or ()),
-        ]
-        return reduce(find_components(tuple(declared.links), declared.frame, circuits, first))
+        first = [*declared.inputs, *(link for state in declared.states.values() for link in state.inputs or ())]
+        return reduce(find_components(links, declared.frame, circuits, first))
+
+    def _pruned(self, case: Case, wanted: Sequence[str]) -> Reduced:
+        """The part of the train that can matter to some links."""
+        held = {link for lock in case.locks for link in lock}
+        kept = {self.declaration.frame, *wanted, *case.inputs, *case.fixed, *held}
+        circuits = prune(self.circuits, kept)
+        kept.update(link for circuit in circuits for link in (circuit.i, circuit.j, circuit.carrier))
+        return self._reduce(circuits, tuple(link for link in self.declaration.links if link in kept))
 
     @staticmethod
     def _redundant(reduced: Reduced) -> list[str]:
@@ -239,60 +190,59 @@ class GearTrain:
         links = (declared.of or output, declared.relative_to or self.declaration.frame) if declared else (output,)
         return Case(case.state, case.inputs, case.fixed, case.locks, outputs, case.loc), links
 
-    def _kept(self, case: Case, wanted: Sequence[str]) -> set[str]:
-        held = {link for lock in case.locks for link in lock}
-        return {self.declaration.frame, *wanted, *case.inputs, *case.fixed, *held}
-
-    def _answer(self, case: Case, solution: Solution, wanted: Sequence[str] | None) -> Answer:
-        verdict, speeds = solution.verdict, solution.speeds
-        if wanted is not None:
-            speeds = {link: speeds[link] for link in wanted if link in speeds}
-            if verdict.kind == "free" and all(link in speeds for link in wanted):
-                moving = " and ".join(link for link in wanted if link != self.declaration.frame)
-                verdict = Verdict("determined", f"the speed of {moving} follows from {', '.join(case.inputs)}")
-        return self._judged(case, verdict, speeds, solution.ratios, "exact", solution.work)
-
     def _answer_in_floats(self, reduced: Reduced, case: Case, wanted: Sequence[str] | None) -> Answer:
+        """Floats with their estimate, and with their true error where the exact answer is cheap."""
         from geartrain.speeds import solve_floats
 
+        parts = reduced.components
         verdict = exact_verdict(reduced, case, self.signs)
-        work = len(reduced.components.circuits)
         if not verdict:
-            return self._judged(case, verdict, {}, {}, "floats", work)
-        links = reduced.components.links
-        if wanted is not None:  # the pruned circuits say nothing of the links they moved
-            meshing = {link for c in reduced.components.circuits for link in (c.i, c.j, c.carrier)}
-            links = tuple(link for link in links if link in meshing | self._kept(case, wanted))
-        system = assemble(links, self.declaration.frame, reduced.components.circuits, case, self.signs)
-        result = solve_floats(system, self._redundant(reduced))
-        kept = links if wanted is None else wanted
-        values = dict(zip(links, result.speeds.values[:, 0].tolist(), strict=True))
-        return self._judged(case, verdict, {link: values[link] for link in kept}, {}, "floats", work)
+            return self._judged(case, verdict, {}, wanted, len(parts.circuits), None)
+        system = assemble(parts.links, self.declaration.frame, parts.circuits, case, self.signs)
+        found = solve_floats(system, self._redundant(reduced))
+        speeds = dict(zip(parts.links, found.speeds.values[:, 0].tolist(), strict=True))
+        estimates = dict(zip(parts.links, found.estimate.values[:, 0].tolist(), strict=True))
+        try:
+            truth = solve(reduced, case, self.signs).speeds
+        except TooDenseError:
+            truth = {}
+        accuracy = {
+            link: Accuracy(estimates[link], float(abs(Fraction(speed) - truth[link])) if link in truth else None)
+            for link, speed in speeds.items()
+        }
+        return self._judged(case, verdict, speeds, wanted, len(parts.circuits), None, accuracy)
 
     def _judged(
         self,
         case: Case,
         verdict: Verdict,
         speeds: Mapping[str, Number],
-        ratios: Mapping[str, Mapping[str, Number]],
-        method: str,
+        wanted: Sequence[str] | None,
         work: int,
+        ratios: Mapping[str, Mapping[str, Fraction]] | None,
+        accuracy: Mapping[str, Accuracy] | None = None,
     ) -> Answer:
-        results = judge_outputs(self.declaration, self.tree, case, speeds.get, self.bookkeeping, self.signs)
-        outputs = {result.name: result for result in results}
-        return Answer(self.name, case.state, self.declaration.unit_name, verdict, speeds, outputs, ratios, method, work)
+        """The answer with its outputs judged, cut down to the links in `wanted`; no `ratios` means floats."""
+        declared = self.declaration
+        if wanted is not None:
+            speeds = {link: speeds[link] for link in wanted if link in speeds}
+            accuracy = {link: accuracy[link] for link in wanted} if accuracy else None
+        results = judge_outputs(declared, self.tree, case, speeds.get, self.bookkeeping, self.signs)
+        return Answer(
+            self.name,
+            case.state,
+            declared.place(*case.loc),
+            declared.unit_name,
+            verdict,
+            speeds,
+            {result.name: result for result in results},
+            ratios or {},
+            "floats" if ratios is None else "exact",
+            accuracy or {},
+            work,
+        )
 
     def _repr_html_(self) -> str:
         declared = self.declaration
         title = f"<p><b>{html.escape(declared.name)}</b> {html.escape(declared.title)}</p>"
         return title + "".join(answer._repr_html_() for answer in self.answers())
-
-
-def _shown(speed: Number | None) -> str:
-    return "" if speed is None else decimal(speed) if isinstance(speed, Fraction) else f"{speed:.10g}"
-
-
-def _budget() -> int:
-    from geartrain.speeds import EXACT_BUDGET
-
-    return EXACT_BUDGET

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
+from importlib.util import find_spec
 from typing import Any
 
 import numpy as np
@@ -16,11 +17,12 @@ from geartrain.components import find_components, reduce
 from geartrain.files import load
 from geartrain.speeds import solve
 from geartrain.speeds.floats import Floats, Rows, prepare, solve_floats
-from geartrain.system import System
+from geartrain.system import Equation, System
 
 SIZES = (100, 1_000, 10_000, 100_000, 1_000_000)
 ORDERINGS = ("COLAMD", "MMD_ATA", "MMD_AT_PLUS_A", "NATURAL")
 _GRID_EXACT = 2_100
+_FLINT_LINKS = 1_100
 
 Advance = Callable[[str], None]
 
@@ -63,6 +65,9 @@ def _measure_all(family: str, train: GearTrain, advance: Advance) -> list[Record
             lambda found: _error([found[link] for link in train.declaration.links], truth),
         )
     frame, matrix, equations = prepare(system, redundant)
+    if links <= _FLINT_LINKS and find_spec("flint"):
+        compiled = _compiled(matrix, equations)
+        take("compiled rationals, python-flint", lambda: compiled[0].solve(compiled[1]), lambda _: 0.0)
     shuffled = _Shuffled(matrix, links)
     moving = [at for at, link in enumerate(train.declaration.links) if link != frame]
     right = np.array([float(row.right) for row in equations])
@@ -100,6 +105,17 @@ def _walk(train: GearTrain) -> dict[str, float]:
                 speeds[there] = speeds[here] * ratio
                 queue.append(there)
     return speeds
+
+
+def _compiled(matrix: Rows, equations: Sequence[Equation]) -> tuple[Any, Any]:
+    """The raw system as integer matrices of a compiled library."""
+    import flint
+
+    lines = [[0] * len(equations) for _ in equations]
+    for at, line in enumerate(lines):
+        for column, coefficient in zip(matrix.columns[at], matrix.coefficients[at], strict=True):
+            line[column] += int(coefficient)
+    return flint.fmpz_mat(lines), flint.fmpz_mat([[int(row.right)] for row in equations])
 
 
 def _refined(system: System, redundant: list[str]) -> Floats:

@@ -33,10 +33,10 @@ def _check(file: str, quiet: bool) -> int:
     good = GOOD
     for answer in answers:
         state = f" state {answer.state}" if answer.state is not None else ""
-        place = train.declaration.place(*train.declaration.case(answer.state).loc)
         if not answer.verdict:
-            typer.echo(f"FAIL {file}{state}: {answer.verdict} ({place})")
+            typer.echo(f"FAIL {answer.place}:{state} {answer.verdict}")
             good = VERDICT
+            continue
         for result in answer.failures:
             place = train.declaration.place(*_place(answer.state, result.name, train.declaration.states))
             speed = "undetermined" if result.speed is None else result.speed

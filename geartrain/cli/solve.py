@@ -9,7 +9,8 @@ import typer
 from geartrain.cli.common import GOOD, VERDICT, File, Json, StateName, as_json, emit
 
 if TYPE_CHECKING:
-    from geartrain.analysis import Answer, GearTrain
+    from geartrain.analysis import GearTrain
+from geartrain.answer import Answer
 
 OutputName = Annotated[str | None, typer.Option("--output", help="An output or a link: only what drives it is solved.")]
 
@@ -52,14 +53,26 @@ def _print(answer: Answer, output: str | None) -> None:
     from geartrain.report.document import exact, figure
 
     state = f" state {answer.state}" if answer.state is not None else ""
-    typer.echo(f"{answer.train}{state}: {answer.verdict}" + (f" ({answer.unit})" if answer.unit else ""))
-    rows = [(name, result.speed, "" if result.holds else "  FAILS") for name, result in answer.outputs.items()]
+    place = "" if answer.verdict else f" ({answer.place})"
+    typer.echo(f"{answer.train}{state}: {answer.verdict}{place}" + (f" ({answer.unit})" if answer.unit else ""))
+    rows = [
+        (name, result.speed, _errors(answer, result.of) + ("" if result.holds else "  FAILS"))
+        for name, result in answer.outputs.items()
+    ]
     if output is None:
-        rows = [(link, speed, "") for link, speed in answer.speeds.items()] + [
-            row for row in rows if row[0] not in answer.speeds or row[2]
-        ]
+        links = [(link, speed, _errors(answer, link)) for link, speed in answer.speeds.items()]
+        rows = links + [row for row in rows if row[0] not in answer.speeds or "FAILS" in row[2]]
     elif not rows:
-        rows = [(output, answer.speeds.get(output), "")]
+        rows = [(output, answer.speeds.get(output), _errors(answer, output))]
     width = max((len(name) for name, _, _ in rows), default=0)
     for name, speed, mark in rows:
         typer.echo(f"  {name:<{width}}  {exact(speed):>20}  {figure(speed, 12)}{mark}")
+
+
+def _errors(answer: Answer, link: str) -> str:
+    """Estimate and true error of a float, where there is one."""
+    accuracy = answer.accuracy.get(link)
+    if accuracy is None:
+        return ""
+    true = "" if accuracy.true_error is None else f", true error {accuracy.true_error:.1e}"
+    return f"  estimate {accuracy.estimate:.1e}{true}"

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from geartrain.analysis import Answer, GearTrain
+from geartrain.analysis import GearTrain
+from geartrain.answer import Answer
 from geartrain.report.document import Document, Section, Table, exact, figure, ppm
 
 
@@ -14,7 +15,7 @@ def compare_trains(trains: Sequence[GearTrain]) -> Document:
     names = list(dict.fromkeys(name for _, _, answer in columns for name in answer.outputs))
     header = ("output", *(label for label, _, _ in columns))
     rows = [(name, *(_speed(answer, name) for _, _, answer in columns)) for name in names]
-    lead = [f"`{train.name}`: {train.declaration.title}." for train in trains]
+    lead = [f"'{train.name}': {train.declaration.title}." for train in trains]
     units = dict.fromkeys(train.declaration.unit_name or "plain numbers" for train in trains)
     lead.append(f"Speeds are in {' and '.join(units)}." + (" The units differ." if len(units) > 1 else ""))
     sections = [

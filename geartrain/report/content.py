@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from geartrain.analysis import Answer, GearTrain
+from geartrain.analysis import GearTrain
+from geartrain.answer import Answer
 from geartrain.circuits import Circuit
 from geartrain.errors import Loop
 from geartrain.outputs import OutputResult, Sensitivity, magnitude
@@ -14,7 +15,7 @@ from geartrain.train import Train, Wheel
 MOST_ROWS = 120
 """Longer tables are cut, and say so; the JSON has everything."""
 MOST_MATRIX = 48
-"""Trains with more links get their adjacency matrix from `geartrain graph` only."""
+"""Trains with more links get their adjacency matrix from 'geartrain graph' only."""
 _CIRCUITS_ABREAST = 6
 
 
@@ -36,7 +37,7 @@ def report_train(train: GearTrain) -> Document:
 
 def _lead(train: GearTrain, answers: Sequence[Answer]) -> Iterator[str]:
     declared = train.declaration
-    yield f"Train `{declared.name}`" + (f", a change of `{declared.extends}`." if declared.extends else ".")
+    yield f"Train '{declared.name}'" + (f", a change of '{declared.extends}'." if declared.extends else ".")
     if declared.note:
         yield declared.note
     for key, source in declared.sources.items():
@@ -45,7 +46,7 @@ def _lead(train: GearTrain, answers: Sequence[Answer]) -> Iterator[str]:
     for answer in answers:
         if not answer.verdict:
             state = f"State {answer.state}: " if answer.state is not None else ""
-            yield f"{state}Verdict: {answer.verdict}."
+            yield f"{state}Verdict: {answer.verdict} ({answer.place})."
     if all(answer.verdict for answer in answers):
         expected = sum(result.expect_holds is not None for answer in answers for result in answer.outputs.values())
         held = f"all {expected} expectations hold" if not failed else f"{failed} of {expected} expectations FAIL"
@@ -60,9 +61,11 @@ def _lead(train: GearTrain, answers: Sequence[Answer]) -> Iterator[str]:
 def _structure(train: GearTrain) -> Iterator[Section]:
     declared = train.declaration
     wheels = sum(len(link.wheels) for link in declared.links.values())
+    couplings = f"{len(declared.couplings)} coupling{'' if len(declared.couplings) == 1 else 's'}"
     counts = (
-        f"{len(declared.links)} links (the frame is `{declared.frame}`), {len(declared.revolutes)} turning pairs, "
-        f"{len(declared.gears)} gear pairs, {len(declared.couplings)} couplings, {wheels} wheels."
+        f"{len(declared.links)} links (the frame is '{declared.frame}'), {len(declared.revolutes)} turning pairs, "
+        f"{len(declared.gears)} gear pairs, {couplings}, "
+        f"{wheels} wheels."
     )
     rows = [(name, _wheels(link.wheels), _joint(train, name), link.note or "") for name, link in declared.links.items()]
     notes = any(row[3] for row in rows)
@@ -156,7 +159,7 @@ def _mobility(train: GearTrain) -> Section:
     lines += [f"Redundant: {_loop(loop)}." for loop in found.loops[:12]]
     if len(found.loops) > 12:
         lines.append(f"... and {len(found.loops) - 12} more redundant loops.")
-    lines += [f"Redundant: the circuits that meet at link `{link}` repeat each other." for link in found.shared[:12]]
+    lines += [f"Redundant: the circuits that meet at link '{link}' repeat each other." for link in found.shared[:12]]
     lines += [f"Locks: {_loop(loop)} does not close." for loop in found.locked[:12]]
     if found.still and found.by_rank:
         lines.append(f"Standing still in every motion: {', '.join(found.still[:20])}.")

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from geartrain.analysis import Answer, GearTrain
+from geartrain.analysis import GearTrain
+from geartrain.answer import Answer
 from geartrain.speeds import Mobility
 
 

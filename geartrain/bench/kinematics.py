@@ -57,7 +57,7 @@ def _measure_all(family: str, train: GearTrain, advance: Advance) -> list[Record
         advance(f"{family} {links}: {method}")
         rows.append(measure(family, links, method, task, error_of))
 
-    take("exact", lambda: _exact(train), lambda _: 0.0)
+    take("exact", lambda: _exact(train), lambda speeds: _residue(system, speeds))
     if family in ("chain", "tree", "lattice"):
         take(
             "walking in floats",
@@ -65,9 +65,6 @@ def _measure_all(family: str, train: GearTrain, advance: Advance) -> list[Record
             lambda found: _error([found[link] for link in train.declaration.links], truth),
         )
     frame, matrix, equations = prepare(system, redundant)
-    if links <= _FLINT_LINKS and find_spec("flint"):
-        compiled = _compiled(matrix, equations)
-        take("compiled rationals, python-flint", lambda: compiled[0].solve(compiled[1]), lambda _: 0.0)
     shuffled = _Shuffled(matrix, links)
     moving = [at for at, link in enumerate(train.declaration.links) if link != frame]
     right = np.array([float(row.right) for row in equations])
@@ -75,6 +72,13 @@ def _measure_all(family: str, train: GearTrain, advance: Advance) -> list[Record
     def error_of(x: Floats) -> float | None:
         return _error(x, None if truth is None else truth[moving])
 
+    if links <= _FLINT_LINKS and find_spec("flint"):
+        compiled = _compiled(matrix, equations)
+        take(
+            "compiled rationals, python-flint",
+            lambda: compiled[0].solve(compiled[1]),
+            lambda x: error_of(np.array([float(v[0].p) / float(v[0].q) for v in x.tolist()])),
+        )
     take("scipy spsolve", lambda: shuffled.spsolve(right), error_of)
     for ordering in ORDERINGS:
         take(f"sparse LU, {ordering}", lambda ordering=ordering: shuffled.splu(right, ordering), error_of)  # type: ignore[misc]
@@ -87,6 +91,12 @@ def _exact(train: GearTrain) -> Mapping[str, Fraction]:
     declared = train.declaration
     reduced = reduce(find_components(tuple(declared.links), declared.frame, train.circuits, declared.inputs))
     return solve(reduced, declared.case(train.states[0] if train.states else None), train.signs, None).speeds
+
+
+def _residue(system: System, speeds: Mapping[str, Fraction]) -> float:
+    """0 if the speeds satisfy every raw equation exactly."""
+    wrong = [row for row in system.equations if sum(c * speeds[link] for link, c in row.terms) != row.right]
+    return float("inf") if wrong else 0.0
 
 
 def _walk(train: GearTrain) -> dict[str, float]:

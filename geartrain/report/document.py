@@ -67,3 +67,13 @@ def one_to(ratio: Fraction | float | None) -> str:
 def ppm(value: float | None) -> str:
     """Parts per million with sign."""
     return "-" if value is None else "0" if abs(value) < 1e-9 else f"{value:+.6g}"
+
+
+MOST_ROWS = 120
+"""Longer tables are cut, and say so; the JSON has everything."""
+
+
+def cut(rows: Sequence[Sequence[str]]) -> list[Sequence[str]]:
+    if len(rows) <= MOST_ROWS:
+        return list(rows)
+    return [*rows[:MOST_ROWS], (f"... {len(rows) - MOST_ROWS} more", *("" for _ in rows[0][1:]))]

@@ -4,26 +4,9 @@ from __future__ import annotations
 
 from geartrain.train.declaration import Case, Train
 from geartrain.train.explain import declare, suggest
-from geartrain.train.parts import (
-    Axis,
-    Clutch,
-    Dial,
-    Erratum,
-    Expect,
-    GearPair,
-    Link,
-    Output,
-    Published,
-    Remove,
-    Revolute,
-    Source,
-    State,
-    Target,
-    Teeth,
-    Unit,
-    View,
-    Wheel,
-)
+from geartrain.train.mechanism import Axis, GearPair, Link, Revolute, Source, Teeth, Wheel
+from geartrain.train.questions import Dial, Expect, Output, Published, Target, Unit, View
+from geartrain.train.running import Clutch, Erratum, Remove, State
 
 __all__ = [
     "Axis",

@@ -15,25 +15,10 @@ from geartrain.periods import table
 from geartrain.pins import Coupling
 from geartrain.quantity import Quantity, Speed, Torque
 from geartrain.teeth import ToothForm
-from geartrain.train.parts import (
-    Axis,
-    Clutch,
-    Declared,
-    Dial,
-    Erratum,
-    GearPair,
-    Id,
-    Link,
-    Nothing,
-    Output,
-    Remove,
-    Revolute,
-    Source,
-    State,
-    Unit,
-    View,
-    Wheel,
-)
+from geartrain.train.common import Declared, Id, Nothing
+from geartrain.train.mechanism import Axis, GearPair, Link, Revolute, Source, Wheel
+from geartrain.train.questions import Dial, Output, Unit, View
+from geartrain.train.running import Clutch, Erratum, Remove, State
 
 
 def _cited(raw: object) -> object:

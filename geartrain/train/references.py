@@ -9,7 +9,7 @@ from geartrain.errors import Loc, Problem
 from geartrain.periods import suggestion, table
 from geartrain.quantity import Quantity
 from geartrain.train.declaration import Train
-from geartrain.train.parts import Output, Target
+from geartrain.train.questions import Output, Target
 
 
 def find_problems(train: Train) -> Iterator[Problem]:

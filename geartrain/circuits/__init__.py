@@ -1,0 +1,9 @@
+"""Turning pairs as a tree, and one fundamental circuit per gear pair and coupling."""
+
+from __future__ import annotations
+
+from geartrain.circuits.axes import bookkeeping_links, link_signs
+from geartrain.circuits.finding import Circuit, find_circuits
+from geartrain.circuits.tree import Tree, find_tree
+
+__all__ = ["Circuit", "Tree", "bookkeeping_links", "find_circuits", "find_tree", "link_signs"]

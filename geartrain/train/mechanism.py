@@ -1,0 +1,189 @@
+"""What the train is made of: sources, wheels, links, axes, pairs."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, Literal
+
+from pydantic import BeforeValidator, Discriminator, Field, GetJsonSchemaHandler, Tag, model_validator
+from pydantic_core import PydanticCustomError
+
+from geartrain.quantity import Angle, Figure, Inertia, Length, Torque
+from geartrain.teeth import ToothForm
+from geartrain.train.common import Boolean, Count, Declared, Id, Status, also, short_for, side
+
+
+class Source(Declared):
+    """Where facts come from."""
+
+    cite: str = Field(description="The citation")
+    url: str | None = Field(None, description="Where it can be read")
+    note: str | None = Field(None, description="How it was reached, or how far it is trusted")
+
+    @classmethod
+    def __get_pydantic_json_schema__(cls, schema: Any, handler: GetJsonSchemaHandler) -> dict[str, Any]:
+        return also({"type": "string"}, handler(schema))
+
+
+class Teeth(Declared):
+    """A tooth count with its doubt: a best value, and a range or choices."""
+
+    value: Count | None = Field(None, description="The count used")
+    range: tuple[Count, Count] | None = Field(
+        None, description="Least and greatest count the evidence allows, inclusive"
+    )
+    choices: tuple[Count, ...] | None = Field(None, description="The counts the evidence allows")
+    weights: tuple[Figure, ...] | None = Field(None, description="Relative weight of each count in range or choices")
+    source: str | None = Field(None, description="Key of the source")
+    search: tuple[Count, Count] | None = Field(None, description="The count is to be found within these bounds")
+    note: str | None = Field(None, description="A remark for the reader")
+
+    @model_validator(mode="after")
+    def _makes_sense(self) -> Teeth:
+        bounds = self.range or self.search
+        if bounds and bounds[0] > bounds[1]:
+            raise PydanticCustomError(
+                "teeth",
+                "the range {low} to {high} is empty",
+                {"low": bounds[0], "high": bounds[1], "fix": "write the least count first"},
+            )
+        if self.value is None and self.search is None:
+            raise PydanticCustomError(
+                "teeth", "the tooth count has no value", {"fix": "give `value`, or `search` bounds"}
+            )
+        counts = self.allowed
+        if self.value is not None and counts and self.value not in counts:
+            raise PydanticCustomError(
+                "teeth",
+                "the value {value} lies outside what its evidence allows",
+                {"value": self.value, "fix": "widen the range or choices, or correct the value"},
+            )
+        if self.weights is not None and len(self.weights) != len(counts):
+            raise PydanticCustomError(
+                "teeth",
+                "{given} weights for {count} counts",
+                {"given": len(self.weights), "count": len(counts), "fix": "give one weight for each count"},
+            )
+        return self
+
+    @property
+    def allowed(self) -> tuple[int, ...]:
+        """All counts the evidence allows; empty where no doubt is declared."""
+        if self.choices is not None:
+            return self.choices
+        if self.range is None or self.range[1] - self.range[0] > 10**6:
+            return ()
+        return tuple(range(self.range[0], self.range[1] + 1))
+
+
+def _teeth_kind(raw: object) -> str:
+    return "doubt" if isinstance(raw, dict | Teeth) else "count"
+
+
+class Wheel(Declared):
+    """A wheel on a link. A bare number is its tooth count."""
+
+    teeth: Annotated[Annotated[Count, Tag("count")] | Annotated[Teeth, Tag("doubt")], Discriminator(_teeth_kind)] = (
+        Field(description="Tooth count, or a count with its range; the starts of a worm")
+    )
+    internal: Boolean = Field(False, description="A ring: its teeth look inwards, and a mesh with it keeps the sense")
+    kind: Literal["spur", "bevel", "contrate", "worm"] = Field("spur", description="How the teeth stand")
+    facing: Annotated[Literal[1, -1], BeforeValidator(side)] = Field(
+        1, description="-1 if the wheel lies on the negative side of its axis (bevel, contrate)"
+    )
+    hand: Literal["right", "left"] = Field("right", description="Hand of a worm's thread")
+    module: Length | None = Field(None, description="Pitch diameter over tooth count")
+    status: Status | None = Field(None, description="surviving, reconstructed or hypothetical")
+    source: str | None = Field(None, description="Key of the source")
+    note: str | None = Field(None, description="A remark for the reader")
+
+    @property
+    def count(self) -> int | None:
+        """The tooth count used; None while it is still to be found."""
+        return self.teeth if isinstance(self.teeth, int) else self.teeth.value
+
+    @property
+    def doubt(self) -> Teeth | None:
+        """The declared range or choices, where the count is uncertain."""
+        return self.teeth if isinstance(self.teeth, Teeth) and len(self.teeth.allowed) > 1 else None
+
+    @classmethod
+    def __get_pydantic_json_schema__(cls, schema: Any, handler: GetJsonSchemaHandler) -> dict[str, Any]:
+        return also({"type": "integer", "minimum": 1}, handler(schema))
+
+
+class Link(Declared):
+    """A rigid body: an arbor with its wheels, a carrier, the frame."""
+
+    wheels: dict[Id, Annotated[Wheel, short_for("teeth")]] = Field(
+        {}, description="The wheels fixed on this link, by id"
+    )
+    inertia: Inertia | None = Field(None, description="Moment of inertia about its axis")
+    bearing: Torque | None = Field(None, description="Friction torque of its bearing")
+    angle: Angle | None = Field(None, description="Angle at the start")
+    note: str | None = Field(None, description="A remark for the reader")
+
+    @classmethod
+    def __get_pydantic_json_schema__(cls, schema: Any, handler: GetJsonSchemaHandler) -> dict[str, Any]:
+        return also({"type": "null"}, handler(schema))
+
+
+class Axis(Declared):
+    """Where an axis lies; moving axes in the pose where all angles are zero."""
+
+    direction: tuple[Figure, Figure, Figure] = Field(
+        (Figure.parse(0), Figure.parse(0), Figure.parse(1)),
+        description="Direction vector, default z; speeds are positive about it",
+    )
+    position: tuple[Length, Length, Length] | None = Field(None, description="A point of the axis")
+    note: str | None = Field(None, description="A remark for the reader")
+
+    @model_validator(mode="after")
+    def _points_somewhere(self) -> Axis:
+        if not any(figure.value for figure in self.direction):
+            raise PydanticCustomError(
+                "axis", "the direction is the zero vector", {"fix": "give a direction such as [0, 0, 1]"}
+            )
+        return self
+
+
+class Revolute(Declared):
+    """A turning pair of two links; joints with one axis label are coaxial."""
+
+    pair: tuple[Id, Id] = Field(description="The two links")
+    axis: Id = Field(description="Label of the axis")
+    note: str | None = Field(None, description="A remark for the reader")
+
+
+class Efficiencies(Declared):
+    """Basic efficiency of a pair, carrier held, by the wheel that drives."""
+
+    forward: Figure = Field(description="With the first wheel driving")
+    backward: Figure = Field(description="With the second wheel driving; 0 or less locks")
+
+
+def _efficiency(raw: object) -> object:
+    return raw if isinstance(raw, dict | Efficiencies) else {"forward": raw, "backward": raw}
+
+
+class GearPair(Declared):
+    """Two wheels in mesh. The carrier is found, not declared."""
+
+    id: str = Field("", description="Name of the pair; default first~second")
+    pair: tuple[Id, Id] = Field(description="The two wheels")
+    tooth_form: ToothForm | None = Field(None, description="Form of the teeth; default the train's")
+    friction: Figure | None = Field(None, description="Coefficient of friction between teeth")
+    efficiency: Annotated[Efficiencies, BeforeValidator(_efficiency)] | None = Field(
+        None, description="Basic efficiency with the carrier held: a number, or {forward, backward}"
+    )
+    driver: Id | None = Field(None, description="The wheel that drives")
+    phase: Figure | None = Field(
+        None,
+        description="Fraction of a pitch by which a tooth of the first wheel is past the line of centres at the start",
+    )
+    source: str | None = Field(None, description="Key of the source")
+    note: str | None = Field(None, description="A remark for the reader")
+
+    @property
+    def name(self) -> str:
+        """The declared id, or first~second."""
+        return self.id or f"{self.pair[0]}~{self.pair[1]}"

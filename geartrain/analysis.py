@@ -85,6 +85,16 @@ class GearTrain:
         """Degrees of freedom by count and by exact rank, with redundant and locking loops."""
         return find_mobility(self._reduced, len(self.declaration.revolutes))
 
+    @cached_property
+    def remarks(self) -> tuple[Problem, ...]:
+        """What a fitter would remark on a sound declaration: notes, never errors."""
+        from geartrain.assembly import remarks
+
+        cases = self.declaration.cases
+        held = {link: "fixed" for case in cases for link in case.fixed}
+        held |= {link: "locked to another link" for case in cases for lock in case.locks for link in lock}
+        return tuple(remarks(self.declaration, self.tree, self.circuits, self.bookkeeping, held))
+
     def equations(self, state: str | None = None) -> System:
         """The labelled Willis system of one state."""
         case = self._case(state)

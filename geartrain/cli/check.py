@@ -45,6 +45,8 @@ def _check(file: str, quiet: bool) -> int:
     if good == GOOD and not quiet:
         held = sum(result.expect_holds is not None for answer in answers for result in answer.outputs.values())
         loops = f", {train.mobility.redundant} redundant circuits" if train.mobility.redundant else ""
+        for remark in train.remarks:
+            typer.echo(f"note {remark.place}: {remark.what}" + (f"; {remark.why}" if remark.why else ""))
         typer.echo(f"ok   {file}: mobility {train.mobility.by_rank}{loops}, {held} expectations hold")
     return good
 

@@ -22,6 +22,9 @@ def report_train(train: GearTrain) -> Document:
     declared = train.declaration
     answers = tuple(train.answers())
     sections = [*_structure(train), _circuits(train), _mobility(train)]
+    if train.remarks:
+        notes = [f"{remark.what}" + (f": {remark.why}" if remark.why else "") + "." for remark in train.remarks]
+        sections.append(Section("Remarks", notes))
     if train.states:
         sections.append(shift_table(train, answers))
     for answer in answers:
@@ -110,11 +113,10 @@ def _circuits(train: GearTrain) -> Section:
         for at in range(0, len(shown), _CIRCUITS_ABREAST)
     ]
     text = "One circuit for each gear pair and coupling, k its carrier: tau = (w_i - w_k)/(w_j - w_k)."
-    notes = tuple(f"{circuit.id}: {circuit.note}." for circuit in train.circuits if circuit.note)
     more = (
         (f"{len(train.circuits) - MOST_ROWS} more circuits are not shown.",) if len(train.circuits) > MOST_ROWS else ()
     )
-    return Section("Fundamental circuits", (text, *notes, *more), tables)
+    return Section("Fundamental circuits", (text, *more), tables)
 
 
 def _abreast(declared: Train, circuits: Sequence[Circuit]) -> Table:
@@ -153,6 +155,8 @@ def _mobility(train: GearTrain) -> Section:
         lines.append(f"... and {len(found.loops) - 12} more redundant loops.")
     lines += [f"Redundant: the circuits that meet at link '{link}' repeat each other." for link in found.shared[:12]]
     lines += [f"Locks: {_loop(loop)} does not close." for loop in found.locked[:12]]
+    if found.idle:
+        lines.append(f"Never rolling: {', '.join(found.idle[:20])}.")
     if found.still and found.by_rank:
         lines.append(f"Standing still in every motion: {', '.join(found.still[:20])}.")
     return Section("Mobility", lines)

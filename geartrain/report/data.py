@@ -19,6 +19,7 @@ def mobility_data(found: Mobility) -> dict[str, Any]:
         "redundant_loops": [loop.to_dict() for loop in found.loops],
         "locked_loops": [loop.to_dict() for loop in found.locked],
         "still": list(found.still),
+        "never_rolling": list(found.idle),
     }
 
 
@@ -58,6 +59,7 @@ def train_data(train: GearTrain) -> dict[str, Any]:
     ]
     if len(declared.links) <= 500:
         data["adjacency"] = {"links": list(train.graph), "cells": adjacency_labels(train.graph)}
+    data["remarks"] = [{"place": r.place, "what": r.what, "why": r.why} for r in train.remarks]
     data["sensitivity"] = [
         {
             "state": answer.state,

@@ -30,6 +30,7 @@ class Mobility:
     redundant   circuits that add nothing, and the loops they close
     locked      loops that do not close, and hold their component on its carrier
     still       links that stand still whatever drives the train
+    idle        circuits whose wheels never roll on each other
     certain     False where the rank was taken modulo two primes (exact but for accidents of 1e-36)
     """
 
@@ -43,6 +44,7 @@ class Mobility:
     shared: tuple[str, ...]
     locked: tuple[Loop, ...]
     still: tuple[str, ...]
+    idle: tuple[str, ...]
     certain: bool = True
 
     @property
@@ -233,6 +235,19 @@ def _value(form: Row | None) -> Fraction | None:
     return form.get(_GIVEN, Fraction(0))
 
 
+def _idle(reduced: Reduced, forms: Mapping[int, Row]) -> list[str]:
+    """Circuits of components whose unknown is always 0."""
+    parts = reduced.components
+    null = {column for column, form in forms.items() if not form and column < len(parts.group_carrier)}
+    if not null:
+        return []
+    return [
+        c.id
+        for c in parts.circuits
+        if c.b and parts.node_group[parts.node(parts.index[c.i], parts.index[c.carrier])] in null
+    ]
+
+
 def _still(reduced: Reduced, forms: Mapping[int, Row]) -> list[str]:
     """Links that stand still in every motion: their form vanishes."""
     parts = reduced.components
@@ -255,6 +270,7 @@ def find_mobility(reduced: Reduced, turning_pairs: int, budget: int | None = EXA
     gears = sum(circuit.kind == "gear" for circuit in parts.circuits)
     shared: list[str] = []
     still: list[str] = []
+    idle: list[str] = []
     certain = True
     try:
         budget = allowance(reduced, budget)
@@ -265,7 +281,8 @@ def find_mobility(reduced: Reduced, turning_pairs: int, budget: int | None = EXA
     else:
         rank = echelon.rank
         with suppress(TooDenseError):
-            still = _still(reduced, echelon.forms(budget))
+            forms = echelon.forms(budget)
+            still, idle = _still(reduced, forms), _idle(reduced, forms)
         shared = [parts.links[reduced.origin[row][1]] for row in echelon.redundant]
     freedom = reduced.unknowns - rank
     redundant = len(parts.circuits) - (len(parts.links) - 1 - freedom)
@@ -280,5 +297,6 @@ def find_mobility(reduced: Reduced, turning_pairs: int, budget: int | None = EXA
         tuple(shared),
         tuple(parts.loop(circuit) for circuit in parts.breaking[:1000]),
         tuple(still),
+        tuple(idle),
         certain,
     )

@@ -60,6 +60,10 @@ class Components:
         """The node of a link as seen from a carrier."""
         return next(node for node in self.nodes_of[link] if self.node_carrier[node] == carrier)
 
+    def group_of(self, circuit: Circuit) -> int:
+        """The component a circuit belongs to."""
+        return self.node_group[self.node(self.index[circuit.i], self.index[circuit.carrier])]
+
     def loop(self, circuit: int) -> Loop:
         """The loop that a closing or breaking circuit completes, in order, with its ratio product."""
         chord = self.circuits[circuit]
@@ -262,8 +266,7 @@ def reduce(parts: Components) -> Reduced:
     still: set[int] = set()
     for kind, chords in (("loop", parts.breaking), ("hold", parts.holding)):
         for circuit in chords:
-            chord = parts.circuits[circuit]
-            group = parts.node_group[parts.node(parts.index[chord.i], parts.index[chord.carrier])]
+            group = parts.group_of(parts.circuits[circuit])
             if group not in still:  # a component that stands still cannot be stopped again
                 still.add(group)
                 equations.append({group: Fraction(1)})

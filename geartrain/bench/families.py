@@ -7,8 +7,6 @@ import random
 from collections.abc import Callable
 from typing import Any
 
-from geartrain.analysis import GearTrain
-
 Data = dict[str, Any]
 
 
@@ -108,8 +106,3 @@ FAMILIES: dict[str, Callable[[int], Data]] = {
     "lattice": lattice,
     "grid": grid,
 }
-
-
-def build(family: str, size: int) -> GearTrain:
-    """A train of a family with about `size` links."""
-    return GearTrain.declare(FAMILIES[family](size))

@@ -11,8 +11,9 @@ from typing import Any
 import numpy as np
 
 from geartrain.analysis import GearTrain
-from geartrain.bench.families import FAMILIES, build
+from geartrain.bench.families import FAMILIES, Data
 from geartrain.bench.record import Record, Records, measure
+from geartrain.circuits import find_circuits, find_tree
 from geartrain.components import find_components, reduce
 from geartrain.files import load
 from geartrain.speeds import solve
@@ -23,6 +24,7 @@ SIZES = (100, 1_000, 10_000, 100_000, 1_000_000)
 ORDERINGS = ("COLAMD", "MMD_ATA", "MMD_AT_PLUS_A", "NATURAL")
 _GRID_EXACT = 2_100
 _FLINT_LINKS = 1_100
+_ALL_LINKS = 200_000
 
 Advance = Callable[[str], None]
 
@@ -33,16 +35,33 @@ def kinematics(most: int, advance: Advance = lambda _: None) -> Records:
     for name in ("pennestri-2002", "freeth-2021"):
         train = load(name)
         rows += _measure_all(name, train, advance)
-    for family in FAMILIES:
+    for family, make in FAMILIES.items():
         for size in SIZES:
             if size <= most:
-                rows += _measure_all(family, build(family, size), advance)
+                data = make(size)
+                train = GearTrain.declare(data)
+                rows += _measure_steps(family, data, train, advance)
+                rows += _measure_all(family, train, advance)
     return Records("Speeds: error against run time", rows)
 
 
 def count_steps(most: int) -> int:
     """How many steps `kinematics` will tell of."""
-    return 8 * (2 + len(FAMILIES) * sum(size <= most for size in SIZES))
+    return 10 * (2 + len(FAMILIES) * sum(size <= most for size in SIZES))
+
+
+def _measure_steps(family: str, data: Data, train: GearTrain, advance: Advance) -> list[Record]:
+    """What comes before solving: checked models from plain data, then the circuits."""
+    links, declared = len(train.declaration.links), train.declaration
+    steps: dict[str, Callable[[], Any]] = {
+        "(declare: checked models from plain data)": lambda: GearTrain.declare(data),
+        "(find the circuits)": lambda: find_circuits(declared, find_tree(declared)),
+    }
+    rows = []
+    for name, task in steps.items():
+        advance(f"{family} {links}: {name}")
+        rows.append(measure(family, links, name, task, lambda _: None))
+    return rows
 
 
 def _measure_all(family: str, train: GearTrain, advance: Advance) -> list[Record]:
@@ -79,8 +98,9 @@ def _measure_all(family: str, train: GearTrain, advance: Advance) -> list[Record
             lambda: compiled[0].solve(compiled[1]),
             lambda x: error_of(np.array([float(v[0].p) / float(v[0].q) for v in x.tolist()])),
         )
-    take("scipy spsolve", lambda: shuffled.spsolve(right), error_of)
-    for ordering in ORDERINGS:
+    if links <= _ALL_LINKS:
+        take("scipy spsolve", lambda: shuffled.spsolve(right), error_of)
+    for ordering in ORDERINGS if links <= _ALL_LINKS else ORDERINGS[:1]:
         take(f"sparse LU, {ordering}", lambda ordering=ordering: shuffled.splu(right, ordering), error_of)  # type: ignore[misc]
     take("sparse LU, COLAMD, refined, with estimate", lambda: _refined(system, redundant), lambda x: _error(x, truth))
     return rows

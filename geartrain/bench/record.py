@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import multiprocessing
 import time
 from collections.abc import Callable, Sequence
@@ -102,6 +103,7 @@ def measure(
 
 
 def _child(pipe: Connection, task: Task, error_of: Callable[[Any], float | None]) -> None:
+    gc.freeze()  # the parent's objects stay shared pages
     before = _reset_peak()
     try:
         best, total, result = float("inf"), 0.0, None

@@ -241,11 +241,7 @@ def _idle(reduced: Reduced, forms: Mapping[int, Row]) -> list[str]:
     null = {column for column, form in forms.items() if not form and column < len(parts.group_carrier)}
     if not null:
         return []
-    return [
-        c.id
-        for c in parts.circuits
-        if c.b and parts.node_group[parts.node(parts.index[c.i], parts.index[c.carrier])] in null
-    ]
+    return [c.id for c in parts.circuits if c.b and parts.group_of(c) in null]
 
 
 def _still(reduced: Reduced, forms: Mapping[int, Row]) -> list[str]:

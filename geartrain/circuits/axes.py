@@ -28,6 +28,7 @@ class Axes:
         self.plain = all(direction == _Z for direction in self.directions.values())
 
     def direction(self, label: str | None) -> Vector:
+        """Direction of an axis; z where none is declared."""
         return self.directions.get(label or "", _Z)
 
     def sign(self, label: str | None) -> int:

@@ -74,6 +74,7 @@ MOST_ROWS = 120
 
 
 def cut(rows: Sequence[Sequence[str]]) -> list[Sequence[str]]:
+    """The first rows of a long table, and how many more there are."""
     if len(rows) <= MOST_ROWS:
         return list(rows)
     return [*rows[:MOST_ROWS], (f"... {len(rows) - MOST_ROWS} more", *("" for _ in rows[0][1:]))]

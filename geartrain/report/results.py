@@ -39,6 +39,7 @@ def _speed_and_ratio(answer: Answer, name: str) -> str:
 
 
 def answer_sections(train: GearTrain, answer: Answer) -> Iterator[Section]:
+    """Speeds, outputs and targets of one state."""
     head = f"State {answer.state}: " if answer.state is not None else ""
     case = train.declaration.case(answer.state)
     given = [f"{link} = {speed}" for link, speed in case.inputs.items()]

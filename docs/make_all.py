@@ -1,0 +1,26 @@
+"""Make every generated page and picture of the documentation again: `python docs/make_all.py`."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from pathlib import Path
+
+import make_commands
+import make_errata
+import make_images
+import make_outputs
+
+DOCS = Path(__file__).resolve().parent
+
+
+def main() -> None:
+    """Run all makers, and the command that writes the reference."""
+    reference = DOCS / "reference.md"
+    subprocess.run([sys.executable, "-m", "geartrain", "schema", "--as", "markdown", "-o", str(reference)], check=True)
+    for maker in (make_commands, make_errata, make_images, make_outputs):
+        maker.main()
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,76 @@
+"""What all tests share: the slow marker, Hypothesis without a clock, and two ways to hand a train in."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from textwrap import dedent
+
+import pytest
+from hypothesis import HealthCheck, settings
+
+from geartrain import GearTrain, GearTrainError, load
+
+settings.register_profile(
+    "laws", deadline=None, max_examples=60, suppress_health_check=[HealthCheck.too_slow, HealthCheck.data_too_large]
+)
+settings.load_profile("laws")
+
+
+def pytest_addoption(parser: pytest.Parser) -> None:
+    parser.addoption("--slow", action="store_true", help="also run the tests marked slow")
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    config.addinivalue_line("markers", "slow: more than a few seconds; runs with --slow only")
+
+
+def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
+    if config.getoption("--slow"):
+        return
+    skip = pytest.mark.skip(reason="slow: run with --slow")
+    for item in items:
+        if "slow" in item.keywords:
+            item.add_marker(skip)
+
+
+@pytest.fixture
+def train_file(tmp_path: Path) -> Callable[..., Path]:
+    """Writes YAML into a file of its own and returns the path."""
+
+    def write(text: str, name: str = "train.yaml") -> Path:
+        path = tmp_path / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(dedent(text).lstrip("\n"), encoding="utf-8")
+        return path
+
+    return write
+
+
+@pytest.fixture
+def refused(train_file: Callable[..., Path]) -> Callable[..., GearTrainError]:
+    """Loads YAML that must be refused; the error has a place, a what, a why and a fix in every problem."""
+
+    def refuse(text: str, *said: str, line: int | None = None, name: str = "train.yaml") -> GearTrainError:
+        path = train_file(text, name)
+        with pytest.raises(GearTrainError) as caught:
+            load(path)
+        message = str(caught.value)
+        for problem in caught.value.problems:
+            assert problem.what, "a problem says what is wrong"
+            assert problem.fix, f"a problem says what to do: {problem.what}"
+            assert problem.place.startswith(str(path)), f"a problem has a place in its file: {problem}"
+        for words in said:
+            assert words in message, f"{words!r} is not said in: {message}"
+        if line is not None:
+            places = [problem.place for problem in caught.value.problems]
+            assert f"{path}:{line}" in places, f"line {line} is not among {places}: {message}"
+        return caught.value
+
+    return refuse
+
+
+@pytest.fixture
+def accepted(train_file: Callable[..., Path]) -> Callable[[str], GearTrain]:
+    """Loads YAML from a file."""
+    return lambda text: load(train_file(text))

@@ -1,0 +1,47 @@
+"""Small trains that several tests change: a pair of wheels and a planetary, with the rest to be filled in."""
+
+from __future__ import annotations
+
+import pytest
+
+from geartrain import GearTrain, GearTrainError, load
+
+PAIR = """
+links:
+  frame: {{}}
+  a: {{wheels: {{p: 20}}}}
+  b: {{wheels: {{w: 60}}}}
+revolutes:
+  - {{pair: [frame, a], axis: A}}
+  - {{pair: [frame, b], axis: B}}
+gears: [{{pair: [p, w]}}]
+{rest}
+"""
+
+PLANETARY = """
+links:
+  frame: {{wheels: {{ring: {{teeth: 60, internal: true}}}}}}
+  sun: {{wheels: {{s: 24}}}}
+  planet: {{wheels: {{p: 18}}}}
+  carrier: {{}}
+revolutes:
+  - {{pair: [frame, sun], axis: main}}
+  - {{pair: [frame, carrier], axis: main}}
+  - {{pair: [carrier, planet], axis: planet}}
+gears: [{{pair: [s, p]}}, {{pair: [p, ring]}}]
+{rest}
+"""
+
+
+def pair(rest: str = "inputs: {a: 1}") -> GearTrain:
+    return load(PAIR.format(rest=rest))
+
+
+def planetary(rest: str = "inputs: {sun: 1}") -> GearTrain:
+    return load(PLANETARY.format(rest=rest))
+
+
+def refusal(text: str) -> str:
+    with pytest.raises(GearTrainError) as caught:
+        load(text)
+    return str(caught.value)

@@ -1,0 +1,162 @@
+"""A second, naive way to the same answer: raw Willis rows and dense elimination over the rationals.
+
+Nothing here is imported from the package under test. The carrier of a gear pair is read off the tree path itself:
+it is the vertex at which the axis label changes.
+"""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Any
+
+import networkx as nx
+
+Matrix = list[list[Fraction]]
+
+
+@dataclass(frozen=True)
+class Reference:
+    """What the naive solver finds: the verdict's kind, the speeds that are determined, and the counts."""
+
+    kind: str
+    speeds: dict[str, Fraction]
+    undetermined: set[str]
+    mobility: int
+    rank: int
+    still: set[str]
+    carriers: dict[str, str]
+
+
+def turning_graph(data: Mapping[str, Any]) -> nx.Graph:
+    graph = nx.Graph()
+    graph.add_nodes_from(data["links"])
+    for joint in data["revolutes"]:
+        graph.add_edge(*joint["pair"], axis=joint["axis"])
+    return graph
+
+
+def find_carrier(graph: nx.Graph, i: str, j: str) -> str | None:
+    """The one vertex of the tree path i..j where the label changes; None if there is not exactly one."""
+    path = nx.shortest_path(graph, i, j)
+    labels = [graph.edges[pair]["axis"] for pair in itertools.pairwise(path)]
+    changes = [path[at + 1] for at in range(len(labels) - 1) if labels[at] != labels[at + 1]]
+    return changes[0] if len(changes) == 1 else None
+
+
+def wheel_table(data: Mapping[str, Any]) -> dict[str, tuple[str, int, bool]]:
+    """Wheel id -> link, teeth, internal."""
+    table = {}
+    for link, part in data["links"].items():
+        for name, wheel in ((part or {}).get("wheels") or {}).items():
+            teeth, internal = (
+                (wheel, False) if isinstance(wheel, int) else (wheel["teeth"], bool(wheel.get("internal", False)))
+            )
+            table[name] = (link, teeth, internal)
+    return table
+
+
+def pair_name(gear: Mapping[str, Any]) -> str:
+    return gear.get("id") or "~".join(gear["pair"])
+
+
+def willis_rows(data: Mapping[str, Any]) -> tuple[list[dict[str, Fraction]], dict[str, str]]:
+    """w_i - tau w_j + (tau - 1) w_k = 0 for each pair; w_slot - m w_pin - (1 - m) w_carrier = 0 for each coupling."""
+    graph, wheels = turning_graph(data), wheel_table(data)
+    rows, carriers = [], {}
+    for gear in data.get("gears", ()):
+        (i, z_i, ring_i), (j, z_j, ring_j) = (wheels[name] for name in gear["pair"])
+        tau = Fraction(z_j, z_i) * (1 if ring_i or ring_j else -1)
+        rows.append(_row(carriers, graph, pair_name(gear), i, j, tau))
+    for coupling in data.get("couplings", ()):
+        winding = Fraction(1 if coupling["kind"] == "pin_and_slot" else 0)
+        name = coupling.get("id") or f"{coupling['pin']}~{coupling['slot']}"
+        rows.append(_row(carriers, graph, name, coupling["slot"], coupling["pin"], winding))
+    return rows, carriers
+
+
+def _row(carriers: dict[str, str], graph: nx.Graph, name: str, i: str, j: str, tau: Fraction) -> dict[str, Fraction]:
+    carrier = find_carrier(graph, i, j)
+    assert carrier is not None, f"the strategy built a pair without a carrier: {name}"
+    carriers[name] = carrier
+    row: dict[str, Fraction] = {}
+    for link, value in ((i, Fraction(1)), (j, -tau), (carrier, tau - 1)):
+        row[link] = row.get(link, Fraction(0)) + value
+    return row
+
+
+def echelon(matrix: Matrix, columns: int) -> list[int]:
+    """Gauss-Jordan in place on the first `columns` columns; the pivot column of each leading row."""
+    pivots: list[int] = []
+    for column in range(columns):
+        lead = next((r for r in range(len(pivots), len(matrix)) if matrix[r][column]), None)
+        if lead is None:
+            continue
+        top = len(pivots)
+        matrix[top], matrix[lead] = matrix[lead], matrix[top]
+        scale = matrix[top][column]
+        matrix[top] = [value / scale for value in matrix[top]]
+        for r, row in enumerate(matrix):
+            if r != top and row[column]:
+                factor = row[column]
+                matrix[r] = [value - factor * above for value, above in zip(row, matrix[top], strict=True)]
+        pivots.append(column)
+    return pivots
+
+
+def _dense(
+    rows: Sequence[tuple[Mapping[str, Fraction], Fraction]], links: Sequence[str]
+) -> tuple[Matrix, list[int], bool]:
+    matrix = [[row.get(link, Fraction(0)) for link in links] + [right] for row, right in rows]
+    pivots = echelon(matrix, len(links))
+    consistent = not any(row[-1] for row in matrix[len(pivots) :])
+    return matrix, pivots, consistent
+
+
+def _known(matrix: Matrix, pivots: Sequence[int], links: Sequence[str]) -> dict[str, Fraction]:
+    """The links whose speed involves no free column."""
+    return {
+        links[column]: row[-1]
+        for row, column in zip(matrix, pivots, strict=False)
+        if not any(value for other, value in enumerate(row[:-1]) if other != column)
+    }
+
+
+def rank_of(rows: Sequence[Mapping[str, Fraction]], links: Sequence[str]) -> int:
+    return len(_dense([(row, Fraction(0)) for row in rows], links)[1])
+
+
+def solve_naively(data: Mapping[str, Any]) -> Reference:
+    """The whole answer for plain data: teeth as integers, inputs as Fractions or integers."""
+    frame = data.get("frame", "frame")
+    links = [link for link in data["links"] if link != frame]
+    rows, carriers = willis_rows(data)
+    zero = Fraction(0)
+    own = [(row, zero) for row in rows]
+    bare, bare_pivots, _ = _dense(own, links)
+    held = own + [({link: Fraction(1)}, zero) for link in data.get("fixed", ()) if link != frame]
+    held += [({a: Fraction(1), b: Fraction(-1)}, zero) for a, b in data.get("locks", ()) if a != b]
+    quiet, quiet_pivots, _ = _dense(held, links)
+    motionless = set(_known(quiet, quiet_pivots, links))
+    inputs = {link: Fraction(speed) for link, speed in data.get("inputs", {}).items()}
+    matrix, pivots, consistent = _dense(held + [({link: Fraction(1)}, speed) for link, speed in inputs.items()], links)
+    speeds: dict[str, Fraction] = {}
+    if not consistent:
+        stuck = any(speed and link in motionless for link, speed in inputs.items())
+        kind = "locked" if stuck else "contradictory"
+    elif len(quiet_pivots) == len(links) and not any(inputs.values()):
+        kind = "locked"
+    else:
+        speeds = {frame: zero, **_known(matrix, pivots, links)}
+        kind = "determined" if len(speeds) == len(links) + 1 else "free"
+    return Reference(
+        kind,
+        speeds,
+        set(data["links"]) - set(speeds),
+        len(links) - len(bare_pivots),
+        len(bare_pivots),
+        set(_known(bare, bare_pivots, links)),
+        carriers,
+    )

@@ -1,0 +1,177 @@
+"""Random trains as plain declarations.
+
+A train is grown as a tree whose axis labels are right by construction: a new link hangs on an old one, either about an
+axis that the old one bears or about a new axis. Pairs are then drawn among those whose path changes axis exactly once.
+That covers ordinary trains, planetary stages, coupled epicyclics and carriers on carriers, loops that close (one wheel
+a link) and loops that do not (wheels of their own), rings, pins and slots.
+"""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from itertools import combinations
+from typing import Any
+
+from hypothesis import assume
+from hypothesis import strategies as st
+from reference_solver import find_carrier, solve_naively, turning_graph
+
+Data = dict[str, Any]
+
+teeth = st.integers(min_value=8, max_value=40)
+speeds = st.fractions(min_value=-9, max_value=9, max_denominator=6)
+
+
+@st.composite
+def skeletons(draw: st.DrawFn, most: int = 9, rooted: bool = False) -> Data:
+    """Links and turning pairs. `rooted`: the frame bears one axis only, so that it merely holds the train."""
+    count = draw(st.integers(min_value=2, max_value=most))
+    links = ["frame"]
+    borne: dict[str, list[str]] = {"frame": ["A0"] if rooted else []}
+    revolutes = []
+    for at in range(1, count + 1):
+        link = f"L{at}"
+        parent = draw(st.sampled_from(links))
+        fresh = not borne[parent] or (not (rooted and parent == "frame") and draw(st.integers(0, 2)) > 0)
+        axis = f"A{at}" if fresh else draw(st.sampled_from(borne[parent]))
+        if fresh:
+            borne[parent].append(axis)
+        borne[link] = [axis]
+        links.append(link)
+        pair = [parent, link] if draw(st.booleans()) else [link, parent]
+        revolutes.append({"pair": pair, "axis": axis})
+    return {"links": {link: {"wheels": {}} for link in links}, "revolutes": revolutes, "gears": [], "couplings": []}
+
+
+@st.composite
+def trains(
+    draw: st.DrawFn, most: int = 9, rooted: bool = False, couplings: bool = True, pairs: int | None = None
+) -> Data:
+    """A train with nothing prescribed: free, locked or anything between."""
+    data = draw(skeletons(most, rooted))
+    graph = turning_graph(data)
+    able = [
+        pair
+        for pair in combinations(data["links"], 2)
+        if find_carrier(graph, *pair) is not None and not (rooted and "frame" in pair)
+    ]
+    assume(able)
+    one_wheel = {link: draw(teeth) for link in data["links"]} if draw(st.booleans()) else {}
+    for at in range(draw(st.integers(min_value=1, max_value=pairs or len(data["links"])))):
+        i, j = draw(st.permutations(draw(st.sampled_from(able))))
+        kind = draw(st.sampled_from(["gear"] * 8 + (["pin_and_slot", "pin_follower"] if couplings else [])))
+        if kind == "gear":
+            data["gears"].append({"id": f"G{at}", "pair": _wheels(draw, data, one_wheel, i, j, at)})
+        else:
+            data["couplings"].append({"id": f"C{at}", "kind": kind, "pin": i, "slot": j})
+    return data
+
+
+def _wheels(draw: st.DrawFn, data: Data, one_wheel: dict[str, int], i: str, j: str, at: int) -> list[str]:
+    if one_wheel and draw(st.integers(0, 3)):
+        for link in (i, j):
+            data["links"][link]["wheels"][f"w{link}"] = one_wheel[link]
+        return [f"w{i}", f"w{j}"]
+    ring = draw(st.sampled_from([None, None, i, j]))
+    for link in (i, j):
+        count = draw(teeth)
+        data["links"][link]["wheels"][f"w{at}{link}"] = {"teeth": count, "internal": True} if link == ring else count
+    return [f"w{at}{i}", f"w{at}{j}"]
+
+
+@st.composite
+def asked_trains(draw: st.DrawFn) -> Data:
+    """A train with prescriptions at random: determined, free, locked or contradictory."""
+    data = draw(trains())
+    moving = [link for link in data["links"] if link != "frame"]
+    chosen = draw(st.lists(st.sampled_from(moving), unique=True, max_size=3))
+    data["inputs"] = {link: draw(speeds) for link in chosen}
+    data["fixed"] = draw(st.lists(st.sampled_from(list(data["links"])), unique=True, max_size=1))
+    if draw(st.booleans()):
+        data["locks"] = [list(draw(st.permutations(moving))[:2])]
+    return data
+
+
+@st.composite
+def driven_trains(draw: st.DrawFn, **shape: Any) -> Data:
+    """A determined train: inputs are added, by the naive solver's word, until nothing is free."""
+    data = draw(trains(**shape))
+    data["inputs"] = {}
+    if draw(st.integers(0, 3)) == 0 and not shape.get("rooted"):
+        data["fixed"] = [draw(st.sampled_from([link for link in data["links"] if link != "frame"]))]
+    known = solve_naively(data)
+    while known.kind == "free":
+        link = draw(st.sampled_from(sorted(known.undetermined)))
+        data["inputs"][link] = draw(speeds.filter(bool))
+        known = solve_naively(data)
+    assume(known.kind == "determined")
+    return data
+
+
+@st.composite
+def overdriven_trains(draw: st.DrawFn) -> Data:
+    """A determined train with one input more, at a speed that its link does not have."""
+    data = draw(driven_trains())
+    spare = [link for link in data["links"] if link != "frame" and link not in data["inputs"]]
+    assume(spare)
+    link = draw(st.sampled_from(spare))
+    wrong = solve_naively(data).speeds[link] + draw(speeds.filter(bool))
+    order = draw(st.permutations([*data["inputs"].items(), (link, wrong)]))
+    return {**data, "inputs": dict(order)}
+
+
+@st.composite
+def ordinary_trains(draw: st.DrawFn, most: int = 12) -> Data:
+    """Fixed axes, each wheel driven by an earlier one: no loop, mobility 1."""
+    count = draw(st.integers(min_value=2, max_value=most))
+    data: Data = {"links": {"frame": {}}, "revolutes": [], "gears": [], "inputs": {"g0": Fraction(1)}}
+    for at in range(count):
+        data["links"][f"g{at}"] = {"wheels": {}}
+        data["revolutes"].append({"pair": ["frame", f"g{at}"], "axis": f"x{at}"})
+        if at:
+            before = draw(st.integers(min_value=0, max_value=at - 1))
+            ring = draw(st.integers(0, 4)) == 0
+            data["links"][f"g{before}"]["wheels"][f"d{at}"] = draw(teeth)
+            data["links"][f"g{at}"]["wheels"][f"n{at}"] = {"teeth": draw(teeth), "internal": ring}
+            data["gears"].append({"pair": [f"d{at}", f"n{at}"]})
+    return data
+
+
+@st.composite
+def planetary_sets(draw: st.DrawFn) -> Data:
+    """Two central wheels, a carrier, and a planet with one or two wheels: two degrees of freedom."""
+    first, second = draw(st.booleans()), draw(st.booleans())
+    compound = draw(st.booleans())
+    data: Data = {
+        "links": {
+            "frame": {},
+            "a": {"wheels": {"a": {"teeth": draw(teeth), "internal": first}}},
+            "b": {"wheels": {"b": {"teeth": draw(teeth), "internal": second}}},
+            "c": {},
+            "planet": {"wheels": {"p": draw(teeth), **({"q": draw(teeth)} if compound else {})}},
+        },
+        "revolutes": [
+            {"pair": ["frame", "a"], "axis": "main"},
+            {"pair": ["frame", "b"], "axis": "main"},
+            {"pair": ["frame", "c"], "axis": "main"},
+            {"pair": ["c", "planet"], "axis": "planet"},
+        ],
+        "gears": [{"pair": ["a", "p"]}, {"pair": ["b", "q" if compound else "p"]}],
+    }
+    return data
+
+
+@st.composite
+def rerooted(draw: st.DrawFn, data: Data) -> Data:
+    """The same train with every set of coaxial links joined by another tree."""
+    members: dict[str, list[str]] = {}
+    for joint in data["revolutes"]:
+        for link in joint["pair"]:
+            if link not in members.setdefault(joint["axis"], []):
+                members[joint["axis"]].append(link)
+    revolutes = []
+    for axis, links in members.items():
+        order = draw(st.permutations(links))
+        for at in range(1, len(order)):
+            revolutes.append({"pair": [draw(st.sampled_from(order[:at])), order[at]], "axis": axis})
+    return {**data, "revolutes": revolutes}

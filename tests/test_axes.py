@@ -1,0 +1,143 @@
+"""Directions of axes: signs of bevels, contrates and worms follow from geometry."""
+
+from __future__ import annotations
+
+import math
+from fractions import Fraction
+
+import pytest
+from models import PAIR, pair, refusal
+
+from geartrain import load
+
+# axes, bevels and worms -----------------------------------------------------------------------------------------------
+
+DIFFERENTIAL = """
+links:
+  frame: {{}}
+  crown: {{}}
+  left:  {{wheels: {{l: {{teeth: 16, kind: bevel, facing: {left}}}}}}}
+  right: {{wheels: {{r: {{teeth: 16, kind: bevel, facing: {right}}}}}}}
+  spider: {{wheels: {{p: {{teeth: 10, kind: bevel}}}}}}
+axes:
+  axle: {{direction: {axle}}}
+  spider: {{direction: [0, 1, 0]}}
+revolutes:
+  - {{pair: [frame, crown], axis: axle}}
+  - {{pair: [frame, left], axis: axle}}
+  - {{pair: [frame, right], axis: axle}}
+  - {{pair: [crown, spider], axis: spider}}
+gears: [{{pair: [l, p]}}, {{pair: [r, p]}}]
+inputs: {{crown: 10, left: 8}}
+"""
+
+
+@pytest.mark.parametrize(("left", "right"), [(1, -1), (-1, 1)])
+@pytest.mark.parametrize("axle", ["[1, 0, 0]", "[-2, 0, 0]"])
+def test_the_shafts_of_a_differential_turn_at_the_crown_on_average(left: int, right: int, axle: str) -> None:
+    train = load(DIFFERENTIAL.format(left=left, right=right, axle=axle))
+    assert train.solve()["right"] == 12  # left + right = 2 crown
+    assert train.bookkeeping == {"spider"}
+
+
+def test_bevels_that_face_the_same_way_turn_alike() -> None:
+    train = load(DIFFERENTIAL.format(left=1, right=1, axle="[1, 0, 0]"))
+    assert train.solve()["right"] == 8
+
+
+@pytest.mark.parametrize(("facing", "sign"), [(1, -1), (-1, 1)])
+def test_a_bevel_pair_turns_by_its_facings(facing: int, sign: int) -> None:
+    # wheels on the positive side of their axes turn against each other: z_i f_i w_i + z_j f_j w_j = 0
+    text = PAIR.format(rest="inputs: {a: 1}\naxes: {A: {direction: [1, 0, 0]}, B: {direction: [0, 1, 0]}}")
+    text = text.replace("p: 20", "p: {teeth: 20, kind: bevel}")
+    text = text.replace("w: 60", f"w: {{teeth: 60, kind: bevel, facing: {facing}}}")
+    assert load(text).solve()["b"] == Fraction(sign, 3)
+
+
+def test_turning_an_axis_and_its_facing_round_is_the_same_pair_read_from_the_other_side() -> None:
+    text = PAIR.format(rest="inputs: {a: 1}\naxes: {A: {direction: [1, 0, 0]}, B: {direction: %s}}")
+    text = text.replace("p: 20", "p: {teeth: 20, kind: bevel}").replace(
+        "w: 60", "w: {teeth: 60, kind: bevel, facing: %s}"
+    )
+    assert load(text % ("1", "[0, 1, 0]")).solve()["b"] == -load(text % ("-1", "[0, -1, 0]")).solve()["b"]
+
+
+def test_a_ring_on_an_axis_that_is_not_parallel_is_refused() -> None:
+    text = PAIR.format(rest="inputs: {a: 1}\naxes: {A: {direction: [1, 0, 0]}}")
+    assert "ring" in refusal(text.replace("w: 60", "w: {teeth: 60, internal: true}"))
+
+
+def test_without_axes_all_axes_are_parallel_and_the_default_direction_is_z() -> None:
+    plain, declared = pair(), pair("inputs: {a: 1}\naxes: {A: {}, B: {direction: [0, 0, 1]}}")
+    assert dict(plain.solve().speeds) == dict(declared.solve().speeds)
+
+
+@pytest.mark.parametrize(
+    ("axes", "said"),
+    [
+        ("{C: {direction: [1, 0, 0]}}", "no turning pair with the axis 'C'"),
+        ("{A: {direction: [0, 0, 0]}}", "zero vector"),
+        ("{A: {direction: [1, 0]}}", "direction"),
+        ("{A: {position: [0 mm, 1 mm, 0 kg]}}", "unknown unit"),
+        ("{A: {position: [1 mm, 0, 0]}, B: {position: [1, 0, 0]}}", "lengths mix"),
+    ],
+)
+def test_axes_that_make_no_sense_are_refused(axes: str, said: str) -> None:
+    assert said in refusal(PAIR.format(rest=f"inputs: {{a: 1}}\naxes: {axes}"))
+
+
+def screw_pushes(hand: str, u: tuple[float, ...], worm: tuple[float, ...], v: tuple[float, ...]) -> float:
+    """Sense of a wheel about v through the origin, when a worm at `worm` turns a little about u: +1 or -1.
+
+    The worm's crest on the side of the wheel is followed as a point on a helix of one turn's pitch 1.
+    """
+    turn, pitch = 1e-3, 1.0 if hand == "right" else -1.0
+    # the helix rises by `pitch` a turn; turned by `turn` radians, the crest at a fixed angle has sunk by that much
+    slide = -pitch * turn / (2 * math.pi)
+    push = tuple(slide * part for part in u)
+    arm = worm
+    moment = (
+        arm[1] * push[2] - arm[2] * push[1],
+        arm[2] * push[0] - arm[0] * push[2],
+        arm[0] * push[1] - arm[1] * push[0],
+    )
+    return math.copysign(1.0, sum(m * part for m, part in zip(moment, v, strict=True)))
+
+
+@pytest.mark.parametrize("hand", ["right", "left"])
+@pytest.mark.parametrize("reach", [35, -35])
+@pytest.mark.parametrize("first", ["[w2, w60]", "[w60, w2]"])
+@pytest.mark.parametrize("flip", [1, -1])
+def test_a_worm_drives_its_wheel_the_way_its_thread_moves(hand: str, reach: int, first: str, flip: int) -> None:
+    train = load(
+        f"""
+        frame: case
+        axes:
+          screw: {{direction: [{flip}, 0, 0], position: [0 mm, 0 mm, {reach} mm]}}
+          wheel: {{direction: [0, 1, 0], position: [0 mm, 0 mm, 0 mm]}}
+        links:
+          case: {{}}
+          screw: {{wheels: {{w2: {{teeth: 2, kind: worm, hand: {hand}}}}}}}
+          wheel: {{wheels: {{w60: 60}}}}
+        revolutes: [{{pair: [case, screw], axis: screw}}, {{pair: [case, wheel], axis: wheel}}]
+        gears: [{{pair: {first}}}]
+        inputs: {{screw: 1}}
+        """
+    )
+    sense = screw_pushes(hand, (float(flip), 0.0, 0.0), (0.0, 0.0, float(reach)), (0.0, 1.0, 0.0))
+    assert train.solve()["wheel"] == Fraction(int(sense), 30)
+    assert train.circuits[0].note == ""
+
+
+@pytest.mark.parametrize(("hand", "speed"), [("right", Fraction(-1, 30)), ("left", Fraction(1, 30))])
+def test_a_worm_without_positions_has_a_conventional_sense_and_says_so(hand: str, speed: Fraction) -> None:
+    text = PAIR.format(rest="inputs: {a: 1}").replace("p: 20", f"p: {{teeth: 2, kind: worm, hand: {hand}}}")
+    train = load(text)
+    assert train.solve()["b"] == speed
+    assert "convention" in train.circuits[0].note
+
+
+@pytest.mark.parametrize("mate", ["{teeth: 3, kind: worm}", "{teeth: 60, internal: true}"])
+def test_a_worm_drives_an_external_wheel_only(mate: str) -> None:
+    text = PAIR.format(rest="inputs: {a: 1}").replace("p: 20", "p: {teeth: 2, kind: worm}")
+    assert "no worm drive" in refusal(text.replace("w: 60", f"w: {mate}"))

@@ -1,0 +1,295 @@
+"""What cannot be read or used: always a `GearTrainError` with place, what, why and what to do, all at once."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+from contextlib import suppress
+from pathlib import Path
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from geartrain import GearTrainError, load
+
+Refuse = Callable[..., GearTrainError]
+
+SOUND = """\
+links:
+  frame: {}
+  a: {wheels: {p: 20}}
+  b: {wheels: {w: 60}}
+revolutes:
+  - {pair: [frame, a], axis: A}
+  - {pair: [frame, b], axis: B}
+gears:
+  - {pair: [p, w]}
+inputs: {a: 1}
+outputs:
+  b: {expect: -1/3}
+"""
+
+
+def changed(old: str, new: str) -> str:
+    assert SOUND.count(old) == 1, old
+    return SOUND.replace(old, new)
+
+
+def test_the_train_that_the_others_spoil_is_sound() -> None:
+    assert load(SOUND).solve()
+
+
+MISTAKES = {
+    "unknown key": (changed("wheels: {p: 20}", "wheel: {p: 20}"), 3, ["unknown key 'wheel'", "did you mean 'wheels'?"]),
+    "unknown key at the top": (changed("gears:", "gear:"), 8, ["unknown key 'gear'", "did you mean 'gears'?"]),
+    "unknown key in a pair": (changed("{pair: [p, w]}", "{pairs: [p, w]}"), 9, ["unknown key 'pairs'", "'pair'"]),
+    "duplicate key": (changed("  b: {wheels: {w: 60}}", "  a: {wheels: {w: 60}}"), 4, ["key 'a' stands twice", ":3"]),
+    "duplicate key in a flow": (changed("{p: 20}", "{p: 20, p: 30}"), 3, ["key 'p' stands twice"]),
+    "duplicate wheel": (changed("{w: 60}", "{w: 60, p: 9}"), 4, ["wheel 'p' is declared twice", "link 'a'"]),
+    "duplicate pair": (changed("  - {pair: [p, w]}", "  - {pair: [p, w]}\n  - {pair: [p, w]}"), 10, ["declared twice"]),
+    "missing wheel": (changed("[p, w]", "[p, ww]"), 9, ["no wheel 'ww'", "did you mean 'w'?"]),
+    "missing link": (changed("[frame, a], axis: A", "[fram, a], axis: A"), 6, ["no link 'fram'", "'frame'"]),
+    "missing frame": (changed("links:", "frame: fram\nlinks:"), 1, ["no link 'fram'", "did you mean 'frame'?"]),
+    "missing input": (changed("inputs: {a: 1}", "inputs: {aa: 1}"), 10, ["no link 'aa'"]),
+    "zero teeth": (changed("p: 20", "p: 0"), 3, ["0 is not a tooth count", "from 1 to 10^12"]),
+    "negative teeth": (changed("p: 20", "p: -20"), 3, ["-20 is not a tooth count"]),
+    "fractional teeth": (changed("p: 20", "p: 20.5"), 3, ["20.5 is not a tooth count"]),
+    "teeth as a fraction": (changed("p: 20", "p: 41/2"), 3, ["41/2 is not a tooth count"]),
+    "too many teeth": (changed("p: 20", "p: 1000000000001"), 3, ["1000000000001 is not a tooth count"]),
+    "a tooth count of many digits": (changed("p: 20", "p: 1" + "0" * 5000), 3, ["is not a tooth count"]),
+    "teeth in words": (changed("p: 20", "p: twenty"), 3, ["twenty is not a tooth count"]),
+    "a pair on one link": (changed("[p, w]", "[p, p2]").replace("{p: 20}", "{p: 20, p2: 9}"), 9, ["one link", "'a'"]),
+    "two rings": (
+        changed("p: 20", "p: {teeth: 20, internal: true}").replace("w: 60", "w: {teeth: 60, internal: true}"),
+        9,
+        ["two rings"],
+    ),
+    "coaxial links in a pair": (changed("axis: B", "axis: A"), 9, ["no carrier", "coaxial", "a -(A)- frame -(A)- b"]),
+    "two changes of label": (
+        changed("  b: {wheels", "  c: {}\n  b: {wheels").replace(
+            "- {pair: [frame, b], axis: B}", "- {pair: [frame, c], axis: C}\n  - {pair: [c, b], axis: B}"
+        ),
+        11,
+        ["no carrier", "frame", "c", "centre distance is not fixed"],
+    ),
+    "a cycle of turning pairs": (changed("gears:", "  - {pair: [a, b], axis: A}\ngears:"), 8, ["cycle"]),
+    "a turning pair twice": (changed("gears:", "  - {pair: [frame, b], axis: B}\ngears:"), 8, ["cycle"]),
+    "a turning pair with itself": (changed("[frame, b]", "[b, b]"), 7, ["'b' with itself"]),
+    "a link left out": (changed("  - {pair: [frame, b], axis: B}\n", ""), 4, ["link 'b' is not joined"]),
+    "one label for two axes": (
+        changed("  b: {wheels", "  c: {}\n  b: {wheels").replace(
+            "- {pair: [frame, b], axis: B}", "- {pair: [a, c], axis: C}\n  - {pair: [c, b], axis: A}"
+        ),
+        9,
+        ["axis label 'A' names two axes", ":7"],
+    ),
+    "a missing key": (changed(", axis: B", ""), 7, ["key 'axis' is missing"]),
+    "a pair of three": (changed("[p, w]", "[p, w, p]"), 9, ["pair"]),
+    "a list for a mapping": (changed("inputs: {a: 1}", "inputs: [a, 1]"), 10, ["inputs"]),
+    "a mapping for a list": (changed("  - {pair: [p, w]}", "  {pair: [p, w]}"), 8, ["gears"]),
+    "a text for a link": (changed("  frame: {}", "  frame: wood"), 2, ["links.frame"]),
+    "yes for true": (changed("w: 60", "w: {teeth: 60, internal: yes}"), 4, ["'yes' is neither true nor false"]),
+    "no number": (changed("expect: -1/3", "expect: 1/3/5"), 12, ["'1/3/5' is not a number"]),
+    "infinity": (changed("inputs: {a: 1}", "inputs: {a: .inf}"), 10, ["not a number"]),
+    "not a number": (changed("inputs: {a: 1}", "inputs: {a: nan}"), 10, ["not a number"]),
+    "a number of very many digits": (changed("{a: 1}", "{a: " + "7" * 5000 + "}"), 10, ["not a number"]),
+    "an exponent out of all bounds": (changed("{a: 1}", "{a: 1e999999999}"), 10, ["1e999999999"]),
+    "null as a key": (changed("  frame: {}", "  frame: {}\n  ~: {}"), 3, ["null is used as a key"]),
+    "a list as a key": (changed("  frame: {}", "  frame: {}\n  [a]: {}"), 3, ["used as a key"]),
+    "a tag": (changed("p: 20", "p: !!python/name:os.system 20"), 3, ["tag", "remove the tag"]),
+    "a tag of one's own": (changed("p: 20", "p: !teeth 20"), 3, ["tag '!teeth'"]),
+    "a second document": (SOUND + "---\nlinks: {}\n", 13, ["a second document"]),
+    "a missing anchor": (changed("p: 20", "p: *twenty"), 3, ["twenty"]),
+    "an alias within itself": (changed("  frame: {}", "  frame: &f {wheels: *f}"), 2, ["contains itself"]),
+    "broken brackets": (changed("{pair: [p, w]}", "{pair: [p, w}"), 9, ["the YAML cannot be read here"]),
+    "a tab for indentation": (changed("  frame: {}", "\tframe: {}"), 2, ["the YAML cannot be read here"]),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("mistake", MISTAKES)
+def test_a_mistake_is_said_with_its_line(refused: Refuse, mistake: str) -> None:
+    text, line, said = MISTAKES[mistake]
+    error = refused(text, *said, line=line)
+    assert all(problem.why or problem.fix for problem in error.problems)
+    assert len(str(error)) < 2000, "a message is read by a person"
+
+
+def test_several_mistakes_are_told_together(refused: Refuse) -> None:
+    text = SOUND.replace("p: 20", "p: 0").replace("w: 60", "w: 2.5").replace("axis: B", "axes: B")
+    error = refused(text)
+    places = {problem.place.rsplit(":", 1)[1] for problem in error.problems}
+    assert {"3", "4", "7"} <= places
+
+
+def test_several_dangling_names_are_told_together(refused: Refuse) -> None:
+    text = SOUND.replace("[p, w]", "[x, y]").replace("{a: 1}", "{z: 1}").replace("b: {expect", "q: {expect")
+    error = refused(text, "no wheel 'x'", "no wheel 'y'", "no link 'z'", "no link 'q'")
+    assert len(error.problems) == 4
+
+
+def test_several_pairs_without_a_carrier_are_told_together(refused: Refuse) -> None:
+    text = SOUND.replace("axis: B", "axis: A").replace("[p, w]}", "[p, w]}\n  - {id: again, pair: [w, p]}")
+    error = refused(text, "'p~w' has no carrier", "'again' has no carrier")
+    assert len(error.problems) == 2
+
+
+def test_a_wrong_expectation_is_a_result_and_no_error() -> None:
+    answer = load(SOUND.replace("-1/3", "1/3")).solve()
+    assert not answer
+    (failure,) = answer.failures
+    assert (failure.name, failure.expect_holds) == ("b", False)
+
+
+def test_missing_inputs_are_a_verdict_and_no_error() -> None:
+    answer = load(SOUND.replace("inputs: {a: 1}", "inputs: {}")).solve()
+    assert answer.verdict.kind == "free"
+    assert set(answer.verdict.links) == {"a", "b"}
+    assert not answer
+    assert answer.outputs["b"].expect_holds is False
+
+
+def test_inputs_that_contradict_are_a_verdict_and_no_error() -> None:
+    verdict = load(SOUND.replace("{a: 1}", "{a: 1, b: 1}")).solve().verdict
+    assert verdict.kind == "contradictory"
+    assert set(verdict.prescriptions) == {"a = 1", "b = 1"}
+
+
+@pytest.mark.parametrize("text", ["", "   \n\n", "# only a remark\n", "---\n", "~\n", "null\n"])
+def test_an_empty_file_is_refused(refused: Refuse, text: str) -> None:
+    refused(text or "\n", "empty")
+
+
+def test_a_file_of_no_bytes_is_refused(tmp_path: Path) -> None:
+    path = tmp_path / "nothing.yaml"
+    path.write_bytes(b"")
+    with pytest.raises(GearTrainError, match="empty"):
+        load(path)
+
+
+@pytest.mark.parametrize("text", ["- a\n- b\n", "just words\n", "42\n"])
+def test_a_file_that_is_no_mapping_is_refused(refused: Refuse, text: str) -> None:
+    refused(text, "not a mapping")
+
+
+@pytest.mark.parametrize(
+    "content",
+    [b"\x89PNG\r\n\x1a\n\x00\x00", b"links: {a: \xff\xfe}", bytes(range(256)), b"links:\x00\n", b"\x1b[31mlinks: {}\n"],
+)
+def test_a_binary_file_is_refused(tmp_path: Path, content: bytes) -> None:
+    path = tmp_path / "binary.yaml"
+    path.write_bytes(content)
+    with pytest.raises(GearTrainError) as caught:
+        load(path)
+    assert str(path) in str(caught.value)
+    assert "text" in str(caught.value) or "YAML" in str(caught.value)
+
+
+def test_a_byte_order_mark_and_dos_line_ends_do_no_harm(tmp_path: Path) -> None:
+    path = tmp_path / "dos.yaml"
+    path.write_bytes(b"\xef\xbb\xbf" + SOUND.replace("\n", "\r\n").encode())
+    assert load(path).solve()
+
+
+def test_a_directory_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(GearTrainError, match="this is a directory"):
+        load(tmp_path)
+
+
+def test_a_file_that_is_not_there_is_refused_with_a_suggestion(tmp_path: Path) -> None:
+    with pytest.raises(GearTrainError, match="no such file"):
+        load(tmp_path / "absent.yaml")
+    with pytest.raises(GearTrainError, match="pennestri-2002"):
+        load("pennestri-2022")
+
+
+@pytest.mark.skipif(not hasattr(os, "geteuid") or os.geteuid() == 0, reason="root reads everything")
+def test_a_file_that_may_not_be_read_is_refused(tmp_path: Path) -> None:
+    path = tmp_path / "secret.yaml"
+    path.write_text(SOUND, encoding="utf-8")
+    path.chmod(0)
+    with pytest.raises(GearTrainError, match="cannot be read"):
+        load(path)
+
+
+def test_an_alias_bomb_is_refused_before_it_goes_off(refused: Refuse) -> None:
+    lines = ["a0: &a0 [lol, lol, lol, lol, lol, lol, lol, lol, lol, lol]"]
+    lines += [f"a{at}: &a{at} [{', '.join([f'*a{at - 1}'] * 10)}]" for at in range(1, 12)]
+    refused("\n".join(lines) + "\n", "aliases expand without bound")
+
+
+def test_aliases_in_reason_are_welcome() -> None:
+    text = SOUND.replace("p: 20", "p: &t 20").replace("w: 60", "w: *t").replace("-1/3", "-1")
+    assert load(text).solve()
+
+
+@pytest.mark.parametrize(("opening", "closing"), [("[", "]"), ("{a: ", "}")])
+def test_deep_nesting_is_refused(refused: Refuse, opening: str, closing: str) -> None:
+    refused(f"links: {opening * 20000}{closing * 20000}\n", "nested too deeply", line=1)
+
+
+def test_yaml_1_1_traps_are_read_as_written() -> None:
+    train = load(
+        """
+        frame: off
+        links: {off: {}, on: {wheels: {y: 010}}, n: {wheels: {N: {teeth: 20, internal: false}}}}
+        revolutes: [{pair: [off, on], axis: 1_000}, {pair: [off, n], axis: 12:30:45}]
+        gears: [{pair: [y, N]}]
+        inputs: {on: 1:30}
+        outputs: {n: {expect: -1/60}}
+        """
+    )
+    assert train.declaration.wheels["y"][1].count == 10, "010 is ten, and not eight"
+    assert train.solve()
+
+
+@given(st.text(alphabet="{}[]:,-&*!|>'\"%@`#? \n\tabp0159~/.", max_size=60))
+def test_no_text_whatever_raises_anything_but_our_own_error(text: str) -> None:
+    with suppress(GearTrainError):
+        load(text + "\n")
+
+
+@given(st.data())
+def test_no_scrambled_declaration_raises_anything_but_our_own_error(draw: st.DataObject) -> None:
+    lines = SOUND.splitlines()
+    at = draw.draw(st.integers(0, len(lines) - 1))
+    words = ["{}", "[]", "~", "0", "-1", "frame", "a", "[a]", "{a: 1}", "1e9", "yes", "''", "1:30", "[[a, b]]"]
+    old = draw.draw(st.sampled_from(["{p: 20}", "{}", "[frame, a]", "A", "[p, w]", "{a: 1}", "{expect: -1/3}", "60"]))
+    text = "\n".join(line if number != at else f"{line} " for number, line in enumerate(lines))
+    text = text.replace(old, draw.draw(st.sampled_from(words)), 1)
+    try:
+        train = load(text + "\n")
+    except GearTrainError as error:
+        problems = error.problems
+    else:
+        problems = ()
+        for answer in train.answers():
+            answer.to_dict()
+        assert train.mobility.by_rank >= 0
+    assert all(problem.what and problem.fix for problem in problems)
+
+
+class TestMappings:
+    """The same care for data that came from no file: the place is the path of the value."""
+
+    def test_a_mistake_is_said_with_its_path(self) -> None:
+        data = {"links": {"frame": {}, "a": {"wheels": {"p": 0}}}}
+        with pytest.raises(GearTrainError) as caught:
+            load(data)
+        assert caught.value.problems[0].place.startswith("links.a.wheels.p")
+
+    @pytest.mark.parametrize("teeth", [20.0, 20.5, True, None, [], "20 teeth", 10**13, float("nan"), b"20"])
+    def test_a_tooth_count_is_a_whole_number(self, teeth: object) -> None:
+        with pytest.raises(GearTrainError):
+            load({"links": {"frame": {}, "a": {"wheels": {"p": teeth}}}})
+
+    @pytest.mark.parametrize("speed", [float("nan"), float("inf"), True, None, [1], b"1", 1j])
+    def test_a_speed_is_a_finite_number(self, speed: object) -> None:
+        data = {"links": {"frame": {}, "a": {}}, "revolutes": [{"pair": ["frame", "a"], "axis": "A"}]}
+        with pytest.raises(GearTrainError):
+            load({**data, "inputs": {"a": speed}})
+
+    @pytest.mark.parametrize("data", [{}, {"links": None}, {"links": {}}, {"links": []}, {1: 2}])
+    def test_a_declaration_has_links_and_a_frame(self, data: dict[object, object]) -> None:
+        with pytest.raises(GearTrainError):
+            load(data)  # type: ignore[arg-type]

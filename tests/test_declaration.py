@@ -1,0 +1,420 @@
+"""The declaration line by line: ids, numbers, teeth, outputs, units, targets, dials."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from fractions import Fraction
+from pathlib import Path
+
+import pytest
+from models import PAIR, PLANETARY, pair, planetary, refusal
+
+from geartrain import GearTrainError, load, shipped
+
+# short forms and ids --------------------------------------------------------------------------------------------------
+
+
+def test_a_planetary_of_24_18_60_turns_its_carrier_at_two_sevenths() -> None:
+    answer = planetary().solve()
+    assert answer["carrier"] == Fraction(2, 7)
+    assert answer["planet"] == Fraction(2, 7) - Fraction(60, 18) * Fraction(2, 7)
+
+
+def test_the_same_train_is_read_from_text_file_mapping_and_name(tmp_path: Path) -> None:
+    text = PLANETARY.format(rest="inputs: {sun: 1}")
+    path = tmp_path / "p.yaml"
+    path.write_text(text, encoding="utf-8")
+    data = {
+        "links": {
+            "frame": {"wheels": {"ring": {"teeth": 60, "internal": True}}},
+            "sun": {"wheels": {"s": 24}},
+            "planet": {"wheels": {"p": 18}},
+            "carrier": {},
+        },
+        "revolutes": [
+            {"pair": ["frame", "sun"], "axis": "main"},
+            {"pair": ["frame", "carrier"], "axis": "main"},
+            {"pair": ["carrier", "planet"], "axis": "planet"},
+        ],
+        "gears": [{"pair": ["s", "p"]}, {"pair": ["p", "ring"]}],
+        "inputs": {"sun": 1},
+    }
+    speeds = [load(source).solve().speeds for source in (text, path, str(path), data, "planetary-24-18-60")]
+    assert all(dict(one) == dict(speeds[0]) for one in speeds)
+    assert load(path).name == "p"
+
+
+def test_a_link_may_hold_nothing_and_a_pair_is_named_after_its_wheels() -> None:
+    train = load(PAIR.format(rest="inputs: {a: 1}").replace("frame: {}", "frame:"))
+    assert train.circuits[0].id == "p~w"
+
+
+def test_ids_are_the_text_as_written() -> None:
+    train = load(
+        """
+        frame: no
+        links:
+          no: {}
+          1: {wheels: {010: 20}}
+          1:30: {wheels: {0x10: 60}}
+        revolutes: [{pair: [no, 1], axis: yes}, {pair: [no, 1:30], axis: 2024-01-01}]
+        gears: [{pair: [010, 0x10]}]
+        inputs: {1: 1}
+        outputs: {1:30: {expect: -1/3}}
+        """
+    )
+    assert list(train.declaration.links) == ["no", "1", "1:30"]
+    assert train.circuits[0].wheels == ("010", "0x10")
+    answer = train.solve()
+    assert answer["1:30"] == Fraction(-1, 3)
+    assert answer
+
+
+def test_name_spaces_are_separate() -> None:
+    train = load(
+        """
+        frame: x
+        links: {x: {}, a: {wheels: {a: 20}}, b: {wheels: {b: 60}}}
+        revolutes: [{pair: [x, a], axis: a}, {pair: [x, b], axis: b}]
+        gears: [{id: a, pair: [a, b]}]
+        inputs: {a: 1}
+        dials: {a: {}}
+        outputs: {a: {of: b, dial: a}}
+        """
+    )
+    answer = train.solve()
+    assert answer.speeds["a"] == 1
+    assert answer["a"] == Fraction(-1, 3), "an output of the name comes before the link"
+
+
+# numbers --------------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("expect", "holds"),
+    [
+        ("-1/3", True),
+        ("-1:3", True),
+        ("-0.333", True),
+        ("-0.3333", True),
+        ("-0.3330", False),  # four digits were written
+        ("-0.334", False),
+        ("-0.33", True),
+        ("-3.3e-1", True),
+        ("-3.30e-1", False),
+        ("1/3", False),
+        ("0", False),
+        ("{value: -0.33, tolerance: 0.004}", True),
+        ("{value: -0.33, tolerance: 0.003}", False),
+        ("{value: -1/3}", True),
+        ("'-1/3'", True),
+    ],
+)
+def test_an_expectation_holds_at_the_digits_written(expect: str, holds: bool) -> None:
+    answer = pair(f"inputs: {{a: 1}}\noutputs: {{b: {{expect: {expect}}}}}").solve()
+    assert answer.outputs["b"].expect_holds is holds
+    assert bool(answer) is holds
+    assert [output.name for output in answer.failures] == ([] if holds else ["b"])
+
+
+def test_half_a_unit_of_the_last_digit_is_the_bound_itself() -> None:
+    # 1/8 = 0.125 lies exactly half a unit of the last digit from 0.12 and from 0.13
+    train = load(PAIR.format(rest="inputs: {a: -3/8}\noutputs: {x: {of: b, expect: 0.12}, y: {of: b, expect: 0.13}}"))
+    answer = train.solve()
+    assert answer["x"] == Fraction(1, 8)
+    assert answer.failures == ()
+
+
+@pytest.mark.parametrize(("speed", "value"), [("1:30", "1/30"), ("2.5", "5/2"), ("1e3", "1000"), ("-7", "-7")])
+def test_inputs_are_exact_whatever_their_form(speed: str, value: str) -> None:
+    assert pair(f"inputs: {{a: {speed}}}").solve()["b"] == -Fraction(value) / 3
+
+
+@pytest.mark.parametrize(
+    ("published", "holds"),
+    [
+        ("{value: -3, as: input/output}", True),
+        ("{value: -2.99, as: input/output}", False),
+        ("{value: -0.333, as: output/input}", True),
+        ("{value: -2.33, as: speed, place: table 1}", True),
+        ("{value: -2.33}", True),
+        ("{value: -2.3, as: output/input}", False),
+        ("{value: -2.3, tolerance: 0.04}", True),
+    ],
+)
+def test_what_a_source_prints_is_a_speed_or_a_ratio(published: str, holds: bool) -> None:
+    answer = pair(f"inputs: {{a: 7}}\noutputs: {{b: {{published: {published}}}}}").solve()
+    assert answer.outputs["b"].published_holds is holds
+
+
+def test_a_published_ratio_needs_one_input_that_is_not_zero() -> None:
+    output = "outputs: {carrier: {published: {value: 3.5, as: input/output}}}"
+    assert planetary(f"inputs: {{sun: 1}}\n{output}").solve().outputs["carrier"].published_holds is True
+    two = load(
+        PLANETARY.format(rest=f"inputs: {{sun: 1, hand: 1}}\n{output}")
+        .replace("carrier: {}", "carrier: {}\n  hand: {}", 1)
+        .replace("revolutes:", "revolutes:\n  - {pair: [frame, hand], axis: hand}")
+    )
+    assert two.solve().outputs["carrier"].published_holds is False
+
+
+# teeth ----------------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    "teeth",
+    ["{value: 60, range: [59, 61]}", "{value: 60, choices: [50, 60]}", "{value: 60, search: [15, 80]}", "{value: 60}"],
+)
+def test_a_doubtful_tooth_count_is_used_at_its_value(teeth: str) -> None:
+    train = load(PAIR.format(rest="inputs: {a: 1}").replace("w: 60", f"w: {{teeth: {teeth}}}"))
+    assert train.solve()["b"] == Fraction(-1, 3)
+
+
+def test_a_range_is_inclusive_and_lists_its_counts() -> None:
+    train = load(
+        PAIR.format(rest="inputs: {a: 1}").replace(
+            "w: 60", "w: {teeth: {value: 60, range: [59, 61], weights: [1, 2, 1]}, status: surviving}"
+        )
+    )
+    ((name, wheel),) = train.declaration.uncertain_wheels()
+    assert name == "w"
+    assert wheel.doubt is not None
+    assert wheel.doubt.allowed == (59, 60, 61)
+    assert wheel.status == "surviving"
+
+
+@pytest.mark.parametrize(
+    ("teeth", "said"),
+    [
+        ("{value: 60, range: [61, 65]}", "outside what its evidence allows"),
+        ("{value: 60, range: [65, 55]}", "empty"),
+        ("{value: 60, choices: [50, 55]}", "outside what its evidence allows"),
+        ("{value: 60, range: [59, 61], weights: [1, 2]}", "2 weights for 3 counts"),
+        ("{range: [59, 61]}", "no value"),
+        ("{value: 0}", "0 is not a tooth count"),
+        ("1000000000001", "not a tooth count"),
+        ("20.0", "not a tooth count"),
+        ("1e3", "not a tooth count"),
+        ("true", "not a tooth count"),
+        ("٣٤", "not a tooth count"),
+    ],
+)
+def test_a_tooth_count_that_makes_no_sense_is_refused(teeth: str, said: str) -> None:
+    assert said in refusal(PAIR.format(rest="inputs: {a: 1}").replace("w: 60", f"w: {{teeth: {teeth}}}"))
+
+
+def test_a_count_still_to_be_found_can_be_declared_and_not_solved() -> None:
+    text = PAIR.format(rest="inputs: {a: 1}").replace("w: 60", "w: {teeth: {search: [15, 80]}}")
+    assert "wheel 'w' has no tooth count yet" in refusal(text)
+
+
+def test_a_tooth_count_may_be_a_million_million() -> None:
+    assert load(PAIR.format(rest="inputs: {a: 1}").replace("w: 60", "w: 1000000000000")).solve()["b"] == Fraction(
+        -20, 10**12
+    )
+
+
+# outputs --------------------------------------------------------------------------------------------------------------
+
+
+def test_an_output_is_a_link_or_a_link_seen_from_a_link() -> None:
+    answer = planetary(
+        "inputs: {sun: 7}\noutputs: {rel: {of: planet, relative_to: carrier}, sun: ~, arm: {of: carrier}}"
+    ).solve()
+    assert answer["sun"] == 7
+    assert answer["arm"] == 2
+    # in the carrier's frame the sun makes 5 turns, and the planet -24/18 as many
+    assert answer["rel"] == Fraction(-24, 18) * 5
+
+
+def test_an_output_is_asked_for_by_its_name() -> None:
+    train = planetary("inputs: {sun: 7}\noutputs: {rel: {of: planet, relative_to: carrier}}")
+    assert train.solve(output="rel")["rel"] == train.solve()["rel"]
+    with pytest.raises(GearTrainError, match="no output or link 'nonsense'"):
+        train.solve(output="nonsense")
+
+
+@pytest.mark.parametrize(
+    ("outputs", "said"),
+    [
+        ("{x: {}}", "no link 'x'"),
+        ("{b: {relative_to: c}}", "no link 'c'"),
+        ("{b: {dial: c}}", "no dial 'c'"),
+        ("{b: {expect: one third}}", "not a number"),
+        ("{b: {expect: 1/0}}", "divides by zero"),
+        ("{b: {published: {value: 1, as: output/crank}}}", "published"),
+        ("{b: {published: {value: 1, source: nobody}}}", "no source 'nobody'"),
+    ],
+)
+def test_outputs_that_point_nowhere_are_refused(outputs: str, said: str) -> None:
+    assert said in refusal(PAIR.format(rest=f"inputs: {{a: 1}}\noutputs: {outputs}"))
+
+
+# units ----------------------------------------------------------------------------------------------------------------
+
+
+def test_named_inputs_give_speeds_in_their_unit() -> None:
+    train = pair("inputs: {a: 90 rpm}")
+    assert train.declaration.unit_name == "rpm"
+    assert train.solve()["b"] == -30
+    assert train.solve().unit == "rpm"
+
+
+def test_inputs_in_two_named_units_are_counted_in_the_first() -> None:
+    text = (
+        PLANETARY.format(rest="inputs: {sun: 60 rpm, ring: 0.5 turn/s}")
+        .replace(
+            "frame: {wheels: {ring: {teeth: 60, internal: true}}}",
+            "frame: {}\n  ring: {wheels: {ring: {teeth: 60, internal: true}}}",
+        )
+        .replace("revolutes:", "revolutes:\n  - {pair: [frame, ring], axis: main}")
+    )
+    answer = load(text).solve()
+    # 24 x 60 + 60 x 30 = 84 carrier, in rpm
+    assert answer["carrier"] == Fraction(24 * 60 + 60 * 30, 84)
+    assert answer["ring"] == 30
+
+
+def test_a_unit_names_what_one_turn_takes() -> None:
+    train = pair("inputs: {a: 1}\nunit: {per: year_tropical_J2000}")
+    assert train.declaration.unit_name == "turns per year_tropical_J2000"
+    assert train.declaration.unit_days == Fraction("365.242190402")
+    assert pair("inputs: {a: 1}\nunit: {per: 7 d}").declaration.unit_days == 7
+    assert pair("inputs: {a: 1}\nunit: {per: 12 h}").declaration.unit_days == Fraction(1, 2)
+    assert pair("inputs: {a: 1}\nunit: {per: 18 ft}").declaration.unit_days is None
+
+
+@pytest.mark.parametrize(
+    ("rest", "said"),
+    [
+        ("inputs: {a: 1, b: 2 rpm}", "inputs mix units"),
+        ("inputs: {a: 2 rpm}\nunit: {per: 7 d}", "inputs mix units"),
+        ("inputs: {a: 2 mm}", "a length, and a speed belongs here"),
+        ("inputs: {a: 2 furlongs}", "unknown unit"),
+        ("inputs: {a: 1}\nunit: {per: 7 furlongs}", "is no unit"),
+        ("inputs: {a: 1}\nunit: {per: 7}", "is no unit"),
+        ("inputs: {a: 1}\nunit: {per: month_synodic_j2000}", "did you mean month_synodic_J2000"),
+        ("inputs: {frame: 1}", "the frame 'frame' is an input"),
+        ("inputs: {c: 1}", "no link 'c'"),
+        ("inputs: {a: 1}\ncrank: c", "no link 'c'"),
+    ],
+)
+def test_inputs_and_units_that_make_no_sense_are_refused(rest: str, said: str) -> None:
+    assert said in refusal(PAIR.format(rest=rest))
+
+
+# targets --------------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("targets", "said"),
+    [
+        ("[month_synodyc_J2000]", "did you mean month_synodic_J2000"),
+        ("[{name: month_synodic_J2000, period: 3 d}]", "a target is one thing"),
+        ("[{turns: 3}]", "a target is one thing"),
+        ("[{period: 29.5}]", "no unit"),
+        ("[{period: 29.5 mm}]", "the train's unit is not a length"),
+    ],
+)
+def test_targets_that_make_no_sense_are_refused(targets: str, said: str) -> None:
+    rest = f"inputs: {{a: 1}}\nunit: {{per: 1 d}}\noutputs: {{b: {{targets: {targets}}}}}"
+    assert said in refusal(PAIR.format(rest=rest))
+
+
+def test_a_count_is_no_target() -> None:
+    from geartrain.periods import table
+
+    name = next(row.name for row in table().values() if row.kind == "count")
+    text = PAIR.format(rest=f"inputs: {{a: 1}}\nunit: {{per: 1 d}}\noutputs: {{b: {{targets: [{name}]}}}}")
+    assert f"'{name}' is a count" in refusal(text)
+
+
+def test_a_speed_per_year_needs_a_unit_that_is_a_year() -> None:
+    from geartrain.periods import table
+
+    name = next(row.name for row in table().values() if row.kind == "speed")
+    text = PAIR.format(rest=f"inputs: {{a: 1}}\nunit: {{per: %s}}\noutputs: {{b: {{targets: [{name}]}}}}")
+    assert "the train's unit is no year" in refusal(text % "1 d")
+    assert load(text % "year_julian").solve().outputs["b"].targets[0].speed == table()[name].value
+
+
+@pytest.mark.parametrize("unit", ["", "unit: {per: 18 ft}"])
+def test_a_period_is_no_target_where_the_unit_is_no_time(unit: str) -> None:
+    text = PAIR.format(rest=f"inputs: {{a: 1}}\n{unit}\noutputs: {{b: {{targets: [{{period: 3 d}}]}}}}")
+    assert "the train's unit is not a time" in refusal(text)
+
+
+# view, dials, what is kept for later ----------------------------------------------------------------------------------
+
+
+def test_the_view_is_counter_clockwise_unless_it_says_otherwise() -> None:
+    assert pair().declaration.view.positive == "counter-clockwise"
+    view = pair("inputs: {a: 1}\nview: {from: front, positive: clockwise}").declaration.view
+    assert (view.from_, view.positive) == ("front", "clockwise")
+    assert "positive" in refusal(PAIR.format(rest="view: {positive: up}"))
+
+
+def test_the_view_and_the_dial_never_change_a_sign() -> None:
+    rest = "inputs: {a: 1}\nview: {from: back, positive: clockwise}\ndials: {d: {face: back, turns: 4, divisions: 223}}"
+    train = pair(f"{rest}\noutputs: {{b: {{dial: d}}}}")
+    assert train.solve()["b"] == Fraction(-1, 3)
+    dial = train.declaration.dials["d"]
+    assert (dial.face, dial.turns, dial.divisions) == ("back", 4, 223)
+
+
+def test_teeth_and_loads_are_read_now_and_used_later() -> None:
+    train = pair(
+        """inputs: {a: 1}
+tooth_form: {form: triangular, half_angle: 30 deg, clearance: 1.01}
+loads: {b: -3 N m}
+solve_for: a
+rate: 1 turn/s
+crank: a
+sources: {P74: "Price 1974"}
+errata: [{place: table 1, printed: 5, right: 6, why: arithmetic}]"""
+    )
+    assert train.solve()["b"] == Fraction(-1, 3)
+    assert train.declaration.sources["P74"].cite == "Price 1974"
+    assert train.declaration.errata[0].printed == "5"
+
+
+@pytest.mark.parametrize(
+    ("form", "said"),
+    [
+        ("{form: square}", "triangular"),
+        ("{half_angle: 30 deg}", "form"),
+        ("{form: triangular, half_angle: 30, clearance: 1.01}", "no unit"),
+        ("{form: triangular, half_angle: 95 deg, clearance: 1.01}", "outside 0 to 90 deg"),
+        ("{form: triangular, half_angle: 30 deg, clearance: 1.01, window: 0.5}", "given 2 times"),
+        ("{form: triangular, half_angle: 30 deg}", "given 0 times"),
+    ],
+)
+def test_tooth_forms_that_make_no_sense_are_refused(form: str, said: str) -> None:
+    assert said in refusal(PAIR.format(rest=f"inputs: {{a: 1}}\ntooth_form: {form}"))
+
+
+def test_every_shipped_train_loads_is_determined_and_keeps_what_it_expects(shipped_name: str) -> None:
+    for answer in load(shipped_name).answers():
+        assert answer.verdict.kind == "determined"
+        assert answer.failures == ()
+
+
+def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
+
+    if "shipped_name" in metafunc.fixturenames:
+        metafunc.parametrize("shipped_name", list(shipped()))
+
+
+Refuse = Callable[..., GearTrainError]
+
+
+@pytest.mark.parametrize(
+    ("text", "said", "line"),
+    [
+        ("links: {frame: {}}\ncolour: red\n", "unknown key 'colour'", 2),
+        ("frame: f\nlinks: {f: {}, a: {wheel: {p: 20}}}\n", "did you mean 'wheels'", 2),
+        ("title: nothing else\n", "key 'links' is missing", 1),
+    ],
+)
+def test_the_top_level_knows_its_keys(refused: Refuse, text: str, said: str, line: int) -> None:
+    refused(text, said, line=line)

@@ -1,0 +1,151 @@
+"""The counting room: elimination, rank modulo a prime, and numbers beyond the range of floats."""
+
+from __future__ import annotations
+
+import math
+from decimal import Context, Decimal
+from fractions import Fraction
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from reference_solver import echelon
+
+from geartrain.exact import (
+    PRIME,
+    TooDenseError,
+    add_into,
+    as_float,
+    coprime,
+    decimal,
+    eliminate,
+    log10,
+    rank_modulo,
+    residues,
+)
+
+coefficients = st.fractions(min_value=-5, max_value=5, max_denominator=4)
+
+
+@st.composite
+def systems(draw: st.DrawFn) -> list[dict[int, Fraction]]:
+    """Rows in up to six unknowns and up to two symbols (columns -1, -2), some of them multiples of others."""
+    columns = st.sampled_from([-2, -1, 0, 1, 2, 3, 4, 5])
+    rows = draw(st.lists(st.dictionaries(columns, coefficients.filter(bool), max_size=4), max_size=7))
+    for row in draw(st.lists(st.sampled_from(rows), max_size=2)) if rows else []:
+        rows.append({column: 3 * value for column, value in row.items()})
+    return rows
+
+
+def dense(rows: list[dict[int, Fraction]], columns: list[int]) -> list[list[Fraction]]:
+    return [[row.get(column, Fraction(0)) for column in columns] for row in rows]
+
+
+@given(systems())
+def test_sparse_elimination_has_the_rank_of_dense_elimination(rows: list[dict[int, Fraction]]) -> None:
+    found = eliminate(rows)
+    assert found.rank == len(echelon(dense(rows, [0, 1, 2, 3, 4, 5]), 6))
+    assert found.rank + len(found.conditions) + len(found.redundant) == len(rows)
+
+
+@given(systems())
+def test_elimination_leaves_a_system_with_the_same_solutions(rows: list[dict[int, Fraction]]) -> None:
+    found, order = eliminate(rows), [0, 1, 2, 3, 4, 5, -1, -2]
+    kept = [{**rest, column: Fraction(1)} for column, rest in found.pivots] + list(found.conditions)
+    before, after = dense(rows, order), dense(kept, order)
+    echelon(before, 8)
+    echelon(after, 8)
+    assert [row for row in before if any(row)] == [row for row in after if any(row)]
+
+
+@given(systems())
+def test_forms_are_free_of_pivots_and_satisfy_every_row(rows: list[dict[int, Fraction]]) -> None:
+    found = eliminate(rows)
+    forms = found.forms()
+    assert set(forms) == {column for column, _ in found.pivots}
+    assert all(column not in forms for form in forms.values() for column in form)
+    conditions = dense(list(found.conditions), [-1, -2])
+    rank = len(echelon(conditions, 2))
+    for row in rows:
+        put_in: dict[int, Fraction] = {}
+        for column, value in row.items():
+            add_into(put_in, forms.get(column, {column: Fraction(1)}), value)
+        assert all(column < 0 for column in put_in), "what is left is a condition on symbols"
+        assert len(echelon([*conditions, *dense([put_in], [-1, -2])], 2)) == rank, "and follows from the conditions"
+
+
+@given(systems())
+def test_rank_modulo_a_prime_is_the_rank_for_small_numbers(rows: list[dict[int, Fraction]]) -> None:
+    bare = [{column: value for column, value in row.items() if column >= 0} for row in rows]
+    bare = [row for row in bare if row]
+    assert rank_modulo(bare) == eliminate(bare).rank
+
+
+def test_rank_modulo_a_prime_never_exceeds_the_rank_and_can_fall_short() -> None:
+    rows = [{0: Fraction(1), 1: Fraction(1)}, {0: Fraction(1), 1: Fraction(1 + PRIME)}]
+    assert eliminate(rows).rank == 2
+    assert rank_modulo(rows) == 1
+
+
+def test_residues_are_a_multiple_of_the_row() -> None:
+    assert residues({0: Fraction(1, 2), 3: Fraction(-1, 3)}) == {0: 3, 3: PRIME - 2}
+
+
+def test_elimination_stops_at_its_budget() -> None:
+    size = 30
+    rows = [{j: Fraction(1, i + j + 1) for j in range(size)} for i in range(size)]
+    with pytest.raises(TooDenseError):
+        eliminate(rows, budget=1000)
+    assert eliminate(rows).rank == size, "the Hilbert matrix is regular"
+
+
+def test_a_chain_of_substitutions_costs_linear_work() -> None:
+    rows = [{at: Fraction(1), at + 1: Fraction(-2)} for at in range(5000)] + [{5000: Fraction(1)}]
+    assert eliminate(rows, budget=4 * 5001).rank == 5001
+
+
+@given(st.fractions(max_denominator=10**6))
+def test_coprime_is_the_fraction_it_is_given(value: Fraction) -> None:
+    made = coprime(value.numerator, value.denominator)
+    assert made == value
+    assert hash(made) == hash(value)
+
+
+@given(st.integers(-(10**40), 10**40).filter(bool), st.integers(1, 10**40), st.integers(-600, 600))
+def test_decimal_is_what_the_standard_library_rounds_to(top: int, bottom: int, shift: int) -> None:
+    value = Fraction(top, bottom) * Fraction(10) ** shift
+    context = Context(prec=10, Emax=10**6, Emin=-(10**6))
+    exact = Context(prec=60, Emax=10**6, Emin=-(10**6))
+    right = context.plus(exact.divide(Decimal(value.numerator), Decimal(value.denominator)))
+    found = Decimal(decimal(value, 10))
+    assert abs(found - right) <= abs(right) * Decimal("1.01e-9")
+    assert (found < 0) == (value < 0)
+
+
+def test_decimal_rounds_up_through_a_power_of_ten() -> None:
+    assert Decimal(decimal(Fraction(10**400) - 1, 5)) == Decimal("1e400")
+
+
+@given(st.integers(1, 10**300), st.integers(1, 10**300))
+def test_log10_works_for_numbers_of_any_size(top: int, bottom: int) -> None:
+    value = Fraction(top, bottom)
+    assert log10(value * 10**400) - log10(value) == pytest.approx(400)
+    assert log10(-value) == log10(value)
+
+
+def test_log10_of_zero_is_minus_infinity() -> None:
+    assert log10(Fraction(0)) == -math.inf
+    assert log10(Fraction(1, 1000)) == pytest.approx(-3)
+
+
+@pytest.mark.parametrize("exponent", [-400, -320, 309, 400])
+def test_no_float_is_offered_where_there_is_none(exponent: int) -> None:
+    assert as_float(Fraction(10) ** exponent) is None
+    assert as_float(-(Fraction(10) ** exponent)) is None
+
+
+@pytest.mark.parametrize("value", [Fraction(0), Fraction(1, 3), Fraction(10) ** 308, Fraction(1, 10**307)])
+def test_the_nearest_float_is_offered_where_there_is_one(value: Fraction) -> None:
+    number = as_float(value)
+    assert number is not None
+    assert abs(Fraction(number) - value) <= value / 2**53

@@ -1,0 +1,290 @@
+"""`extends`: remove, then merge, then validate; each sentence of the rules a test, with marks into the right file."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from fractions import Fraction
+from pathlib import Path
+
+import pytest
+
+from geartrain import GearTrain, GearTrainError, load
+
+PARENT = """\
+name: parent
+title: The parent
+sources: {S: {cite: first, url: here}}
+unit: {per: 7 d}
+links:
+  frame: {}
+  a: {wheels: {p: 20}}
+  b: {wheels: {w: {teeth: 60, source: S}, x: 10}}
+  c: {wheels: {y: 40}}
+axes: {A: {direction: [0, 0, 1]}}
+revolutes:
+  - {pair: [frame, a], axis: A}
+  - {pair: [frame, b], axis: B}
+  - {pair: [frame, c], axis: C}
+gears:
+  - {pair: [p, w]}
+  - {id: second, pair: [x, y], source: S}
+inputs: {a: 12}
+dials: {d: {turns: 4, divisions: 47}}
+outputs:
+  b: {expect: -4}
+  last: {of: c, expect: 1, dial: d}
+"""
+
+Child = Callable[[str], GearTrain]
+
+
+@pytest.fixture
+def child(tmp_path: Path) -> Child:
+    """Loads a child of the parent above, both from files."""
+    (tmp_path / "parent.yaml").write_text(PARENT, encoding="utf-8")
+
+    def build(text: str) -> GearTrain:
+        path = tmp_path / "child.yaml"
+        path.write_text(f"extends: parent.yaml\n{text}\n", encoding="utf-8")
+        return load(path)
+
+    return build
+
+
+def refusal(child: Child, text: str) -> str:
+    with pytest.raises(GearTrainError) as caught:
+        child(text)
+    return str(caught.value)
+
+
+def test_a_child_that_says_nothing_is_its_parent_but_for_name_and_title(child: Child) -> None:
+    train = child("note: nothing changed")
+    assert train.solve()["last"] == 1
+    assert train.solve()
+    assert train.name == "child", "the name is not inherited: it is the file's"
+    assert train.declaration.title == ""
+
+
+def test_a_changed_tooth_count_changes_the_speed_and_inherited_expectations_stay_in_force(child: Child) -> None:
+    answer = child("links: {b: {wheels: {w: 80}}}").solve()
+    assert answer["b"] == -3
+    assert {output.name for output in answer.failures} == {"b", "last"}
+
+
+def test_a_wheel_in_short_form_keeps_what_the_parent_says_of_it(child: Child) -> None:
+    train = child("links: {b: {wheels: {w: 80}}}")
+    assert train.declaration.wheels["w"][1].source == "S"
+    assert train.declaration.wheels["x"][1].count == 10, "the other wheels of the link stay"
+
+
+def test_a_long_wheel_merges_with_a_short_one(child: Child) -> None:
+    train = child("links: {a: {wheels: {p: {status: surviving}}}}")
+    assert (train.declaration.wheels["p"][1].count, train.declaration.wheels["p"][1].status) == (20, "surviving")
+
+
+def test_outputs_merge_by_name_and_key(child: Child) -> None:
+    train = child("outputs: {last: {expect: 5}, fresh: {of: a}}")
+    last = train.declaration.outputs["last"]
+    assert last.of == "c"
+    assert last.dial == "d"
+    assert last.expect is not None
+    assert last.expect.value.value == 5
+    assert set(train.solve().outputs) == {"b", "last", "fresh"}
+
+
+def test_sources_dials_and_axes_merge_by_name_and_key(child: Child) -> None:
+    train = child("sources: {S: {note: seen}, T: other}\ndials: {d: {turns: 5}}\naxes: {A: {direction: [0, 0, -1]}}")
+    declared = train.declaration
+    assert (declared.sources["S"].cite, declared.sources["S"].url, declared.sources["S"].note) == (
+        "first",
+        "here",
+        "seen",
+    )
+    assert declared.sources["T"].cite == "other"
+    assert (declared.dials["d"].turns, declared.dials["d"].divisions) == (5, 47)
+    assert train.solve()["b"] == 4, "the input a = 12 is now counted about the reversed axis"
+
+
+def test_inputs_are_replaced_whole(child: Child) -> None:
+    train = child("inputs: {c: 1}\noutputs: ~")
+    assert train.solve().speeds == {"frame": 0, "a": 12, "b": -4, "c": 1}
+    assert list(train.declaration.inputs) == ["c"]
+
+
+def test_teeth_targets_and_fixed_are_replaced_whole(child: Child, tmp_path: Path) -> None:
+    child(
+        "links: {b: {wheels: {w: {teeth: {value: 60, range: [59, 61]}}}}}\n"
+        "outputs: {b: {targets: [{period: 1 d}, {period: 2 d}]}}\nfixed: [frame]"
+    )
+    path = tmp_path / "grandchild.yaml"
+    path.write_text(
+        "extends: child.yaml\nlinks: {b: {wheels: {w: {teeth: {value: 60}}}}}\n"
+        "outputs: {b: {targets: [{period: 3 d}]}}\nfixed: []\n",
+        encoding="utf-8",
+    )
+    train = load(path)
+    assert list(train.declaration.uncertain_wheels()) == []
+    assert [str(target.period) for target in train.declaration.outputs["b"].targets] == ["3 d"]
+    assert train.declaration.fixed == ()
+
+
+def test_gears_merge_by_id_and_their_pair_is_replaced_whole(child: Child) -> None:
+    train = child("gears: [{id: second, pair: [p, y]}]\noutputs: ~")
+    assert [circuit.wheels for circuit in train.circuits] == [("p", "w"), ("p", "y")]
+    assert train.solve()["c"] == -6
+    assert train.declaration.gears[1].source == "S"
+
+
+def test_a_gear_pair_of_a_new_id_is_added(child: Child) -> None:
+    train = child("links: {d: {wheels: {z: 10}}}\nrevolutes: [{pair: [frame, d], axis: D}]\ngears: [{pair: [y, z]}]")
+    assert train.solve()["d"] == -4
+    assert [circuit.id for circuit in train.circuits] == ["p~w", "second", "y~z"]
+
+
+def test_revolutes_merge_by_their_unordered_pair(child: Child) -> None:
+    train = child("revolutes: [{pair: [c, frame], axis: A2}]")
+    assert train.tree.axis("c") == "A2"
+    assert len(train.declaration.revolutes) == 3
+
+
+def test_null_unsets(child: Child) -> None:
+    assert child("unit: ~").declaration.unit is None
+    answer = child("outputs: {b: {expect: null}}\nlinks: {b: {wheels: {w: {teeth: 80}}}}").solve()
+    assert {output.name for output in answer.failures} == {"last"}
+
+
+def test_null_takes_one_entry_of_a_mapping_away(child: Child) -> None:
+    assert set(child("outputs: {b: null}").solve().outputs) == {"last"}
+
+
+def test_removing_a_link_takes_its_wheels_joints_and_pairs_along(child: Child) -> None:
+    train = child("remove: {links: [c], outputs: [last]}")
+    assert list(train.declaration.links) == ["frame", "a", "b"]
+    assert [circuit.id for circuit in train.circuits] == ["p~w"]
+    assert len(train.declaration.revolutes) == 2
+    assert train.solve()
+
+
+def test_what_then_dangles_is_an_error_in_the_parents_line(child: Child) -> None:
+    message = refusal(child, "remove: {links: [c]}")
+    assert "no link 'c'" in message
+    assert "parent.yaml:22" in message
+
+
+def test_removing_a_wheel_takes_its_pairs_along(child: Child) -> None:
+    train = child("remove: {wheels: [x], outputs: [last]}")
+    assert [circuit.id for circuit in train.circuits] == ["p~w"]
+    assert train.solve().verdict.kind == "free"
+
+
+def test_things_are_removed_one_by_one(child: Child) -> None:
+    train = child("remove: {gears: [second], outputs: [last], dials: [d], axes: [A]}")
+    assert [circuit.id for circuit in train.circuits] == ["p~w"]
+    assert not train.declaration.dials
+    assert not train.declaration.axes
+
+
+def test_removal_comes_before_merging(child: Child) -> None:
+    train = child(
+        "remove: {links: [c]}\nlinks: {c: {wheels: {y: 30}}}\n"
+        "revolutes: [{pair: [frame, c], axis: C}]\ngears: [{pair: [x, y]}]\noutputs: {last: {expect: 4/3}}"
+    )
+    assert train.solve()["last"] == Fraction(4, 3)
+
+
+def test_a_turning_pair_is_removed_by_its_two_links(child: Child) -> None:
+    train = child(
+        "remove: {revolutes: [[b, frame]]}\nrevolutes: [{pair: [b, a], axis: A}]\ngears: [{id: p~w, pair: [p, y]}]"
+    )
+    assert train.tree.parent["b"] == ("a", "A")
+
+
+@pytest.mark.parametrize(
+    ("remove", "said"),
+    [
+        ("{links: [cc]}", "`remove` names 'cc'"),
+        ("{gears: [secnd]}", "did you mean 'second'"),
+        ("{wheels: [zz]}", "`remove` names 'zz'"),
+        ("{outputs: [nothing]}", "`remove` names 'nothing'"),
+        ("{revolutes: [[a, b]]}", "the turning pair of a and b"),
+        ("{couplings: [pin]}", "`remove` names 'pin'"),
+        ("{states: [s]}", "`remove` names 's'"),
+        ("{colours: [red]}", "colours"),
+    ],
+)
+def test_a_removal_that_removes_nothing_is_refused_in_the_childs_line(child: Child, remove: str, said: str) -> None:
+    message = refusal(child, f"remove: {remove}")
+    assert said in message
+    assert "child.yaml:2" in message
+
+
+def test_an_error_in_an_inherited_value_points_into_the_parent(child: Child) -> None:
+    message = refusal(child, "remove: {dials: [d]}")
+    assert "no dial 'd'" in message
+    assert "parent.yaml:22" in message
+
+
+def test_an_error_in_a_value_of_the_child_points_into_the_child(child: Child) -> None:
+    assert "child.yaml:3" in refusal(child, "links:\n  b: {wheels: {w: 0}}")
+
+
+def test_grandparents_are_merged_too(child: Child, tmp_path: Path) -> None:
+    child("links: {b: {wheels: {w: 80}}}")
+    grandchild = tmp_path / "grandchild.yaml"
+    grandchild.write_text("extends: child.yaml\nlinks: {c: {wheels: {y: 20}}}\n", encoding="utf-8")
+    assert load(grandchild).solve()["c"] == Fraction(12 * 20 * 10, 80 * 20)
+
+
+def test_a_shipped_train_is_extended_by_its_name() -> None:
+    train = load("extends: planetary-24-18-60\nlinks: {sun: {wheels: {s: 30}}}\n")
+    assert train.solve()["carrier"] == Fraction(30, 90)
+    assert train.solve().failures[0].name == "carrier"
+
+
+def test_states_and_clutches_merge_by_name(tmp_path: Path) -> None:
+    train = load(
+        """
+        extends: planetary
+        clutches: {B: {fixes: sun}}
+        states:
+          two inputs: ~
+          sun fixed: {fixed: [], engaged: [B]}
+          half: {inputs: {sun: 1/2}, fixed: [ring], outputs: {carrier: {expect: 1/7}}}
+        """
+    )
+    assert list(train.states) == ["ring fixed", "sun fixed", "carrier fixed", "direct drive", "half"]
+    assert all(train.answers())
+
+
+@pytest.mark.parametrize(
+    ("name", "said"),
+    [("nowhere.yaml", "no such file"), ("planetry", "did you mean 'planetary'"), ("''", "names nothing")],
+)
+def test_a_parent_that_is_missing_is_refused(tmp_path: Path, name: str, said: str) -> None:
+    path = tmp_path / "orphan.yaml"
+    path.write_text(f"title: orphan\nextends: {name}\n", encoding="utf-8")
+    with pytest.raises(GearTrainError) as caught:
+        load(path)
+    assert said in str(caught.value)
+    assert f"{path}:2" in str(caught.value)
+
+
+@pytest.mark.parametrize("length", [1, 2, 3])
+def test_a_circle_of_parents_is_refused(tmp_path: Path, length: int) -> None:
+    for at in range(length):
+        (tmp_path / f"t{at}.yaml").write_text(f"extends: t{(at + 1) % length}.yaml\n", encoding="utf-8")
+    with pytest.raises(GearTrainError, match="circle") as caught:
+        load(tmp_path / "t0.yaml")
+    assert "t0.yaml:1" in str(caught.value) or f"t{length - 1}.yaml:1" in str(caught.value)
+
+
+@pytest.mark.parametrize("parent", ["links: [1, 2]", "gears: {a: b}", "links: {frame: 3}", "- a list", "revolutes: 7"])
+@pytest.mark.parametrize(
+    "text", ["links: {a: {wheels: {p: 3}}}", "remove: {links: [a]}", "gears: [{pair: [a, b]}]", "remove: 7"]
+)
+def test_a_parent_of_the_wrong_shape_is_refused_and_never_crashes(tmp_path: Path, parent: str, text: str) -> None:
+    (tmp_path / "odd.yaml").write_text(parent + "\n", encoding="utf-8")
+    path = tmp_path / "child.yaml"
+    path.write_text(f"extends: odd.yaml\n{text}\n", encoding="utf-8")
+    with pytest.raises(GearTrainError):
+        load(path)

@@ -1,0 +1,332 @@
+"""Large and treacherous trains with answers in closed form, built without any text."""
+
+from __future__ import annotations
+
+import json
+import math
+import random
+from fractions import Fraction
+from typing import Any
+
+import pytest
+
+from geartrain import GearTrain, GearTrainError
+
+Data = dict[str, Any]
+
+
+def fixed_axes(count: int) -> Data:
+    """A frame and `count` links g0, g1, ... each on an axis of its own."""
+    links: dict[str, Any] = {"frame": {}, **{f"g{at}": {"wheels": {}} for at in range(count)}}
+    revolutes = [{"pair": ["frame", f"g{at}"], "axis": f"x{at}"} for at in range(count)]
+    return {"links": links, "revolutes": revolutes, "gears": [], "inputs": {"g0": 1}}
+
+
+def mesh(data: Data, i: str, z_i: int, j: str, z_j: int, ring: bool = False) -> None:
+    """One more gear pair, with wheels of its own; `ring` makes the second wheel internal."""
+    at = len(data["gears"])
+    data["links"][i]["wheels"][f"i{at}"] = z_i
+    data["links"][j]["wheels"][f"j{at}"] = {"teeth": z_j, "internal": True} if ring else z_j
+    data["gears"].append({"pair": [f"i{at}", f"j{at}"]})
+
+
+# G01: a bounded random chain -----------------------------------------------------------------------------------------
+
+
+def bounded_chain(count: int, seed: int = 1) -> tuple[Data, list[tuple[int, int]]]:
+    """Fixed-axis gears with random teeth; a mesh is turned round where the ratio would leave 1e-6 to 1e6."""
+    rng = random.Random(seed)
+    data, meshes, level = fixed_axes(count), [], 0.0
+    for at in range(count - 1):
+        z_1, z_2 = rng.randint(12, 119), rng.randint(12, 119)
+        if abs(level + math.log10(z_1 / z_2)) > 6:
+            z_1, z_2 = z_2, z_1
+        level += math.log10(z_1 / z_2)
+        mesh(data, f"g{at}", z_1, f"g{at + 1}", z_2)
+        meshes.append((z_1, z_2))
+    return data, meshes
+
+
+def product(meshes: list[tuple[int, int]]) -> Fraction:
+    """The product of -z_1/z_2, by exponents of primes below 120: no long number is ever divided."""
+    exponents = dict.fromkeys((p for p in range(2, 120) if all(p % q for q in range(2, p))), 0)
+    for z_1, z_2 in meshes:
+        for prime in exponents:
+            for number, step in ((z_1, 1), (z_2, -1)):
+                while number % prime == 0:
+                    number //= prime
+                    exponents[prime] += step
+    top = math.prod(prime**power for prime, power in exponents.items() if power > 0)
+    bottom = math.prod(prime**-power for prime, power in exponents.items() if power < 0)
+    return Fraction((-1) ** len(meshes) * top, bottom)
+
+
+def check_chain(count: int) -> None:
+    data, meshes = bounded_chain(count)
+    train = GearTrain.declare(data)
+    answer = train.solve()
+    assert answer.method == "exact"
+    assert answer.verdict.kind == "determined"
+    for at in (1, count // 3, count - 1):
+        assert answer[f"g{at}"] == product(meshes[:at])
+    floats = train.floats()
+    for at in range(0, count, max(1, count // 50)):
+        exact = answer[f"g{at}"]
+        assert abs(Fraction(floats[f"g{at}"]) / exact - 1) <= count * Fraction(2.2e-16)
+
+
+@pytest.mark.parametrize("count", [100, 1000, 10_000])
+def test_a_bounded_random_chain_is_the_product_of_its_meshes(count: int) -> None:
+    check_chain(count)
+
+
+@pytest.mark.slow
+def test_a_bounded_random_chain_of_100_000_gears_is_the_product_of_its_meshes() -> None:
+    check_chain(100_000)
+
+
+def test_one_output_of_a_long_chain_costs_only_what_drives_it() -> None:
+    data, meshes = bounded_chain(10_000)
+    answer = GearTrain.declare(data).solve(output="g10")
+    assert answer["g10"] == product(meshes[:10])
+    assert answer.work == 10
+
+
+# G02: a planetary cascade --------------------------------------------------------------------------------------------
+
+
+def planetary_cascade(stages: int, seed: int = 2) -> Data:
+    """Sun, planet and fixed ring with R = S + 2P; sun to carrier and back in turns, in pairs of like teeth."""
+    rng = random.Random(seed)
+    links: Data = {"frame": {"wheels": {}}, "m0": {"wheels": {}}}
+    revolutes = [{"pair": ["frame", "m0"], "axis": "main"}]
+    gears = []
+    for at in range(stages):
+        if at % 2 == 0:
+            sun, planet = rng.randint(12, 60), rng.randint(12, 60)
+        links[f"m{at + 1}"] = {"wheels": {}}
+        inner, arm = (f"m{at}", f"m{at + 1}") if at % 2 == 0 else (f"m{at + 1}", f"m{at}")
+        links[inner]["wheels"][f"s{at}"] = sun
+        links["frame"]["wheels"][f"r{at}"] = {"teeth": sun + 2 * planet, "internal": True}
+        links[f"p{at}"] = {"wheels": {f"p{at}": planet}}
+        revolutes.append({"pair": ["frame", f"m{at + 1}"], "axis": "main"})
+        revolutes.append({"pair": [arm, f"p{at}"], "axis": f"a{at}"})
+        gears += [{"pair": [f"s{at}", f"p{at}"]}, {"pair": [f"p{at}", f"r{at}"]}]
+    return {"links": links, "revolutes": revolutes, "gears": gears, "inputs": {"m0": 1}}
+
+
+def check_cascade(stages: int) -> None:
+    train = GearTrain.declare(planetary_cascade(stages))
+    answer = train.solve()
+    assert answer.verdict.kind == "determined"
+    assert answer.method == "exact"
+    assert all(answer[f"m{at}"] == 1 for at in range(0, stages + 1, 2))
+    assert all(answer[f"m{at}"] < 1 for at in range(1, stages + 1, 2)), "every first half is a reduction"
+    floats = train.floats()
+    assert abs(floats[f"m{stages - stages % 2}"] - 1) <= 1e-9
+
+
+@pytest.mark.parametrize("links", [1000, 10_000])
+def test_every_second_carrier_of_a_planetary_cascade_returns_to_speed_one(links: int) -> None:
+    check_cascade(links // 2)
+
+
+@pytest.mark.slow
+def test_every_second_carrier_of_a_cascade_of_100_000_links_returns_to_speed_one() -> None:
+    check_cascade(50_000)
+
+
+# G03: two-wheel epicyclics in series, 10 000 to 1 each ---------------------------------------------------------------
+
+
+def ten_thousand_cascade(stages: int, scale: int = 1) -> Data:
+    """100/101 - 100/99 with the first wheel fixed: the carrier turns 10^4 times for one turn of the last wheel."""
+    links: Data = {"frame": {"wheels": {}}, "m0": {"wheels": {}}}
+    revolutes = [{"pair": ["frame", "m0"], "axis": "main"}]
+    gears = []
+    for at in range(stages):
+        links["frame"]["wheels"][f"f{at}"] = 99 * scale
+        links[f"p{at}"] = {"wheels": {f"p{at}": 100 * scale, f"q{at}": 101 * scale}}
+        links[f"m{at + 1}"] = {"wheels": {f"o{at}": 100 * scale}}
+        revolutes.append({"pair": ["frame", f"m{at + 1}"], "axis": "main"})
+        revolutes.append({"pair": [f"m{at}", f"p{at}"], "axis": f"a{at}"})
+        gears += [{"pair": [f"f{at}", f"p{at}"]}, {"pair": [f"q{at}", f"o{at}"]}]
+    return {"links": links, "revolutes": revolutes, "gears": gears, "inputs": {"m0": 1}}
+
+
+@pytest.mark.parametrize("stages", [1, 2, 3, 4])
+def test_stages_of_ten_thousand_multiply(stages: int) -> None:
+    # (w_o - 1) = (99/100)(101/100)(0 - 1), so w_o = 1 - 9999/10000
+    train = GearTrain.declare(ten_thousand_cascade(stages))
+    exact = train.solve()[f"m{stages}"]
+    assert exact == Fraction(1, 10 ** (4 * stages))
+    assert abs(Fraction(train.floats()[f"m{stages}"]) / exact - 1) <= Fraction(1, 10**10)
+
+
+def test_a_cascade_of_ten_thousand_links_reduces_beyond_all_floats_and_stays_exact() -> None:
+    stages = 5000
+    answer = GearTrain.declare(ten_thousand_cascade(stages)).solve(method="exact")
+    assert answer[f"m{stages}"] == Fraction(1, 10 ** (4 * stages))
+
+
+# G04 and G05: a lattice, and a lattice with one mesh too many --------------------------------------------------------
+
+
+def lattice(side: int, diagonal: bool = False, seed: int = 4) -> tuple[Data, list[int]]:
+    """side x side external gears, every neighbour meshes; `diagonal` adds (0,0) with (1,1)."""
+    rng = random.Random(seed)
+    teeth = [rng.randint(17, 99) for _ in range(side * side)]
+    data = fixed_axes(side * side)
+    for at, count in enumerate(teeth):
+        data["links"][f"g{at}"]["wheels"] = {f"w{at}": count}
+    for row in range(side):
+        for column in range(side):
+            here = row * side + column
+            if column + 1 < side:
+                data["gears"].append({"pair": [f"w{here}", f"w{here + 1}"]})
+            if row + 1 < side:
+                data["gears"].append({"pair": [f"w{here}", f"w{here + side}"]})
+    if diagonal:
+        data["gears"].append({"id": "one too many", "pair": ["w0", f"w{side + 1}"]})
+    return data, teeth
+
+
+def check_lattice(side: int) -> None:
+    data, teeth = lattice(side)
+    train = GearTrain.declare(data)
+    mobility = train.mobility
+    assert mobility.gear_pairs == 2 * side * (side - 1)
+    assert mobility.rank == side * side - 1
+    assert mobility.redundant == (side - 1) ** 2
+    assert mobility.by_rank == 1
+    answer, floats = train.solve(), train.floats()
+    for at in range(0, side * side, max(1, side * side // 500)):
+        exact = Fraction((-1) ** (at // side + at % side) * teeth[0], teeth[at])
+        assert answer[f"g{at}"] == exact
+        assert abs(Fraction(floats[f"g{at}"]) / exact - 1) <= Fraction(1, 10**14)
+
+
+@pytest.mark.parametrize("side", [10, 32, 100])
+def test_a_lattice_turns_and_counts_its_redundant_meshes(side: int) -> None:
+    check_lattice(side)
+
+
+@pytest.mark.slow
+def test_a_lattice_of_100_000_gears_turns_and_counts_its_redundant_meshes() -> None:
+    check_lattice(316)
+
+
+def check_diagonal(side: int) -> None:
+    data, _ = lattice(side, diagonal=True)
+    train = GearTrain.declare(data)
+    assert train.mobility.by_rank == 0
+    verdict = train.solve().verdict
+    assert verdict.kind == "locked"
+    loop = verdict.loops[0]
+    assert "one too many" in loop.pairs or loop.product == -1
+    assert loop.product == -1, "an odd loop of external wheels with one tooth count each"
+    assert len(loop.links) % 2 == 1
+
+
+@pytest.mark.parametrize("side", [10, 32, 100])
+def test_one_diagonal_mesh_locks_a_lattice_with_an_odd_loop_as_witness(side: int) -> None:
+    check_diagonal(side)
+
+
+@pytest.mark.slow
+def test_one_diagonal_mesh_locks_a_lattice_of_100_000_gears() -> None:
+    check_diagonal(316)
+
+
+# G06: beyond the range of floats -------------------------------------------------------------------------------------
+
+
+def thirds(meshes: int) -> GearTrain:
+    data = fixed_axes(meshes + 1)
+    for at in range(meshes):
+        mesh(data, f"g{at}", 20, f"g{at + 1}", 60)
+    return GearTrain.declare(data)
+
+
+@pytest.mark.parametrize("meshes", [600, 700, 2000, 10_000])
+def test_a_chain_of_thirds_is_exact_at_any_length(meshes: int) -> None:
+    answer = thirds(meshes).solve()
+    assert answer[f"g{meshes}"] == Fraction((-1) ** meshes, 3**meshes)
+
+
+@pytest.mark.parametrize("meshes", [700, 2000])
+def test_a_speed_below_the_range_of_floats_is_never_a_silent_zero(meshes: int) -> None:
+    train = thirds(meshes)
+    speed = train.solve().to_dict()["speeds"][f"g{meshes}"]
+    assert speed["value"] is None
+    assert speed["exact"] == f"1/{3**meshes}"
+    mantissa, exponent = speed["decimal"].split("e")
+    log10 = math.log10(float(mantissa)) + int(exponent)
+    assert abs(log10 + meshes * 0.4771212547196624) < 1e-6
+    json.dumps(speed, allow_nan=False)
+    with pytest.raises(GearTrainError, match="range of float64"):
+        train.floats()
+    with pytest.raises(GearTrainError, match="range of float64"):
+        train.solve(method="floats")
+
+
+def test_a_speed_just_within_the_range_of_floats_is_a_float() -> None:
+    train = thirds(600)
+    value = train.solve().to_dict()["speeds"]["g600"]["value"]
+    assert abs(Fraction(value) * 3**600 - 1) <= Fraction(1, 2**53)
+
+
+def test_a_speed_above_the_range_of_floats_is_refused_in_floats_and_exact_otherwise() -> None:
+    data = fixed_axes(701)
+    for at in range(700):
+        mesh(data, f"g{at}", 60, f"g{at + 1}", 20)
+    train = GearTrain.declare(data)
+    assert train.solve()["g700"] == 3**700
+    with pytest.raises(GearTrainError, match="float64"):
+        train.floats()
+
+
+# G07 and G08: loops that all but close -------------------------------------------------------------------------------
+
+
+def test_a_loop_that_misses_by_one_in_a_million_is_a_gridlock() -> None:
+    data = fixed_axes(3)
+    mesh(data, "g0", 113, "g1", 117)
+    mesh(data, "g1", 95, "g2", 96)
+    mesh(data, "g2", 113, "g0", 108, ring=True)
+    train = GearTrain.declare(data)
+    verdict = train.solve().verdict
+    assert verdict.kind == "locked"
+    assert verdict.loops[0].product in (Fraction(1213055, 1213056), Fraction(1213056, 1213055))
+    assert train.mobility.by_rank == 0
+    assert train.mobility.redundant == 0
+
+
+def test_the_same_loop_closes_when_its_products_are_made_equal() -> None:
+    data = fixed_axes(3)
+    mesh(data, "g0", 113, "g1", 117)
+    mesh(data, "g1", 117, "g2", 96)
+    mesh(data, "g2", 96, "g0", 113, ring=True)
+    train = GearTrain.declare(data)
+    assert train.solve().verdict.kind == "determined"
+    assert train.mobility.redundant == 1
+
+
+def test_fibonacci_meshes_that_floats_cannot_tell_apart_are_a_gridlock() -> None:
+    data = fixed_axes(2)
+    mesh(data, "g0", 102334155, "g1", 63245986)
+    mesh(data, "g0", 63245986, "g1", 39088169)
+    assert pytest.approx(63245986 / 39088169, rel=1e-15) == 102334155 / 63245986
+    assert abs(102334155 * 39088169 - 63245986**2) == 1
+    train = GearTrain.declare(data)
+    assert train.mobility.by_rank == 0
+    assert train.mobility.redundant == 0
+    verdict = train.solve().verdict
+    assert verdict.kind == "locked"
+    assert verdict.loops[0].product != 1
+
+
+def test_a_locked_train_is_locked_whatever_the_method() -> None:
+    train = GearTrain.declare(lattice(4, diagonal=True)[0])
+    assert train.solve(method="exact").verdict.kind == "locked"
+    assert train.solve(method="floats").verdict.kind == "locked"

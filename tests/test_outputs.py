@@ -1,0 +1,212 @@
+"""Outputs against the sky, and what one tooth changes."""
+
+from __future__ import annotations
+
+import json
+from fractions import Fraction
+
+import pytest
+
+from geartrain import GearTrain, load
+from geartrain.outputs import TargetResult
+
+LUNAR = """
+name: lunar
+unit: {{per: {unit}}}
+sources: {{P74: Price 1974}}
+links:
+  frame: {{}}
+  year: {{wheels: {{b64: 64, x: 10}}}}
+  mid: {{wheels: {{c38: 38, c48: 48}}}}
+  low: {{wheels: {{d24: 24, d127: {{teeth: {teeth}}}}}}}
+  moon: {{wheels: {{e32: 32}}}}
+  apart: {{wheels: {{y: 30}}}}
+revolutes:
+  - {{pair: [frame, year], axis: year}}
+  - {{pair: [frame, mid], axis: mid}}
+  - {{pair: [frame, low], axis: low}}
+  - {{pair: [frame, moon], axis: moon}}
+  - {{pair: [frame, apart], axis: apart}}
+gears: [{{pair: [b64, c38]}}, {{pair: [c48, d24]}}, {{pair: [d127, e32]}}, {{pair: [x, y]}}]
+inputs: {{year: 1}}
+outputs:
+  moon: {{targets: [{target}]}}
+  apart: {{}}
+"""
+# 64/38 x 48/24 x 127/32 = 254/19 sidereal months a year
+MONTHS = Fraction(254, 19)
+
+
+def lunar(target: str, unit: str = "365.25 d", teeth: str = "127") -> GearTrain:
+    return load(LUNAR.format(target=target, unit=unit, teeth=teeth))
+
+
+def against(target: str, unit: str = "365.25 d", teeth: str = "127") -> TargetResult:
+    return lunar(target, unit, teeth).solve().outputs["moon"].targets[0]
+
+
+def test_the_error_of_a_period_is_that_of_the_speed_and_positive_is_fast() -> None:
+    result = against("{period: 27.32 d}")
+    wanted = Fraction("365.25") / Fraction("27.32")
+    assert result.speed == wanted
+    assert result.error == MONTHS / wanted - 1
+    assert result.ppm == pytest.approx(float((MONTHS / wanted - 1) * 10**6))
+    # the model's month is 365.25 x 19/254 = 27.32185 d: longer than the target, so the pointer is slow
+    assert result.error < 0
+
+
+def test_a_pointer_with_too_short_a_period_is_fast() -> None:
+    assert against("{period: 27.33 d}").error > 0
+
+
+def test_targets_are_compared_by_magnitude() -> None:
+    forward, backward = against("{speed: 254/19}"), against("{speed: -254/19}")
+    assert forward.error == backward.error == 0
+    assert forward.speed == MONTHS
+
+
+def test_drift_is_days_in_a_century_and_degrees_in_a_unit() -> None:
+    result = against("{period: 27.32 d}")
+    # after 36525 days the pointer has turned error x 36525 days' worth too much
+    assert result.days_per_century == pytest.approx(float(result.error) * 36525)
+    # once round the unit it stands this much past the target
+    assert result.degrees_per_unit == pytest.approx(float(MONTHS - result.speed) * 360)
+
+
+def test_the_target_of_several_turns_takes_the_period_for_all_of_them() -> None:
+    one, four = against("{period: 27.32 d}"), against("{period: 109.28 d, turns: 4}")
+    assert one.speed == four.speed
+    assert one.error == four.error
+
+
+@pytest.mark.parametrize(
+    ("tolerance", "met"),
+    [("70 ppm", True), ("60 ppm", False), ("0.007 %", True), ("0.00007", True), ("0.006 %", False)],
+)
+def test_a_target_is_met_within_its_tolerance(tolerance: str, met: bool) -> None:
+    # 27.32 x 254 / (365.25 x 19) = 6939.28 / 6939.75: -67.7 ppm
+    result = against(f"{{period: 27.32 d, tolerance: {tolerance}, source: P74}}")
+    assert float(result.error) == pytest.approx(-0.47 / 6939.75, rel=1e-9)
+    assert result.met is met
+
+
+def test_without_a_tolerance_a_target_is_neither_met_nor_missed() -> None:
+    assert against("{period: 27.32 d}").met is None
+
+
+def test_a_name_of_the_shipped_table_is_a_period_in_days() -> None:
+    result = against("month_sidereal_J2000", unit="year_sidereal_J2000")
+    # the sidereal year has 365.256363004 d and the sidereal month 27.321661547 d
+    assert result.speed == Fraction("365.256363004") / Fraction("27.321661547")
+    assert result.label == "month_sidereal_J2000"
+
+
+def test_the_unit_need_not_be_a_year() -> None:
+    assert against("{period: 12 h}", unit="1 d").speed == 2
+
+
+def test_an_output_that_stands_still_misses_every_target_by_all_of_it() -> None:
+    train = load(LUNAR.format(target="{period: 27.32 d}", unit="365.25 d", teeth="127").replace("year: 1}", "year: 0}"))
+    (result,) = train.solve().outputs["moon"].targets
+    assert result.error == -1
+
+
+def test_an_undetermined_output_has_no_speed_and_no_error() -> None:
+    train = load(
+        LUNAR.format(target="{period: 27.32 d}", unit="365.25 d", teeth="127").replace("inputs: {year: 1}", "")
+    )
+    result = train.solve().outputs["moon"]
+    assert result.speed is None
+    assert result.targets == ()
+
+
+def test_a_target_of_no_speed_is_no_crash() -> None:
+    answer = lunar("{speed: 1/1000000}").solve()
+    assert answer.outputs["moon"].targets[0].error > 10**6
+
+
+def test_the_answer_is_plain_json_with_stable_keys() -> None:
+    raw = json.loads(json.dumps(lunar("{period: 27.32 d}").solve().to_dict(), allow_nan=False))
+    assert set(raw) >= {"verdict", "speeds", "outputs", "state"}
+    assert raw["verdict"]["kind"] == "determined"
+    assert raw["speeds"]["moon"]["exact"] == "-254/19"
+    assert raw["speeds"]["moon"]["value"] == pytest.approx(-254 / 19)
+    assert set(raw["outputs"]["moon"]) >= {"exact", "value", "expect", "targets"}
+    assert raw["outputs"]["moon"]["targets"][0]["ppm"] == pytest.approx(-0.47e6 / 6939.75, rel=1e-9)
+
+
+# what one tooth changes ----------------------------------------------------------------------------------------------
+
+
+def test_one_tooth_less_or_more_is_what_the_changed_train_shows() -> None:
+    train = lunar("{period: 27.32 d}", teeth="{value: 127, range: [125, 129]}")
+    answer = train.solve()
+    (row,) = train.sensitivity(answer)
+    assert (row.wheel, row.teeth, row.output) == ("d127", 127, "moon")
+    assert row.allowed == (125, 126, 127, 128, 129)
+    for shift, teeth in ((row.less, "126"), (row.more, "128")):
+        other = lunar("{period: 27.32 d}", teeth=teeth).solve()["moon"]
+        assert shift == pytest.approx(float(other / answer["moon"] - 1) * 1e6, rel=1e-12)
+
+
+def test_a_wheel_without_doubt_has_no_sensitivity_and_an_output_it_does_not_drive_no_row() -> None:
+    certain, doubtful = lunar("{period: 27.32 d}"), lunar("{period: 27.32 d}", teeth="{value: 127, range: [126, 128]}")
+    assert list(certain.sensitivity(certain.solve())) == []
+    assert {row.output for row in doubtful.sensitivity(doubtful.solve())} == {"moon"}
+
+
+PLANETARY = """
+links:
+  frame: {{wheels: {{r: {{teeth: {ring}, internal: true}}}}}}
+  sun: {{wheels: {{s: {sun}}}}}
+  planet: {{wheels: {{p: 18}}}}
+  arm: {{}}
+revolutes:
+  - {{pair: [frame, sun], axis: main}}
+  - {{pair: [frame, arm], axis: main}}
+  - {{pair: [arm, planet], axis: planet}}
+gears: [{{pair: [s, p]}}, {{pair: [p, r]}}]
+inputs: {{sun: 1}}
+outputs: {{arm: {{}}, rel: {{of: planet, relative_to: arm}}}}
+"""
+
+
+@pytest.mark.parametrize("doubtful", ["sun", "ring"])
+def test_sensitivity_holds_inside_an_epicyclic_and_for_relative_speeds(doubtful: str) -> None:
+    teeth = {"sun": 24, "ring": 60}
+    doubt = f"{{teeth: {{value: {teeth['sun']}, choices: [23, 24, 25]}}}}" if doubtful == "sun" else "24"
+    ring = "{value: 60, choices: [59, 60, 61]}" if doubtful == "ring" else "60"
+    train = load(PLANETARY.format(sun=doubt, ring=ring))
+    answer = train.solve()
+    rows = {row.output: row for row in train.sensitivity(answer)}
+    assert set(rows) == {"arm", "rel"}
+    for step in (-1, 1):
+        other = load(PLANETARY.format(**{**teeth, doubtful: teeth[doubtful] + step})).solve()
+        for name, row in rows.items():
+            shift = row.less if step < 0 else row.more
+            assert shift == pytest.approx(float(other[name] / answer[name] - 1) * 1e6, rel=1e-12)
+
+
+def test_one_tooth_in_a_closed_loop_locks_the_train_and_has_no_number() -> None:
+    train = load(
+        """
+        links:
+          frame: {}
+          a: {wheels: {p: {teeth: {value: 20, range: [19, 21]}}, q: 20}}
+          b: {wheels: {w: 40, x: 40}}
+        revolutes: [{pair: [frame, a], axis: A}, {pair: [frame, b], axis: B}]
+        gears: [{pair: [p, w]}, {pair: [q, x]}]
+        inputs: {a: 1}
+        outputs: {b: {}}
+        """
+    )
+    assert train.solve()["b"] == Fraction(-1, 2)
+    (row,) = train.sensitivity(train.solve())
+    assert (row.less, row.more) == (None, None)
+
+
+def test_a_wheel_of_one_tooth_can_lose_none() -> None:
+    train = lunar("{period: 27.32 d}", teeth="{value: 1, range: [1, 2]}")
+    (row,) = train.sensitivity(train.solve())
+    assert row.less is None
+    assert row.more == pytest.approx(1e6)

@@ -1,0 +1,397 @@
+"""The laws every train obeys, on random trains; and the whole answer against the naive solver's."""
+
+from __future__ import annotations
+
+from copy import deepcopy
+from fractions import Fraction
+from typing import Any
+
+import pytest
+from hypothesis import assume, example, given
+from hypothesis import strategies as st
+from reference_solver import rank_of, solve_naively, willis_rows
+from strategies import (
+    Data,
+    asked_trains,
+    driven_trains,
+    ordinary_trains,
+    overdriven_trains,
+    planetary_sets,
+    rerooted,
+    speeds,
+    trains,
+)
+
+from geartrain import Answer, GearTrain
+
+
+def solved(data: Data) -> Answer:
+    return GearTrain.declare(data).solve()
+
+
+def kind_agrees(data: Data, known: str, answer: Answer) -> bool:
+    """The verdicts are of one kind; for inputs at odds through a locked loop see the test of that alone."""
+    if known == "contradictory" and len(data["inputs"]) > 1 and GearTrain.declare(data).mobility.locked:
+        return answer.verdict.kind in ("contradictory", "locked")
+    return answer.verdict.kind == known
+
+
+def same_answer(one: Answer, other: Answer) -> bool:
+    return one.verdict.kind == other.verdict.kind and dict(one.speeds) == dict(other.speeds)
+
+
+# the whole answer, against another method ----------------------------------------------------------------------------
+
+
+@given(asked_trains())
+def test_verdict_speeds_and_undetermined_links_are_those_of_dense_elimination(data: Data) -> None:
+    known, answer = solve_naively(data), solved(data)
+    assert kind_agrees(data, known.kind, answer)
+    assert dict(answer.speeds) == known.speeds
+    if known.kind == "free":
+        assert set(answer.verdict.links) == known.undetermined
+
+
+@given(asked_trains())
+def test_counts_and_carriers_are_those_of_dense_elimination(data: Data) -> None:
+    known, train = solve_naively(data), GearTrain.declare(data)
+    assert {circuit.id: circuit.carrier for circuit in train.circuits} == known.carriers
+    mobility = train.mobility
+    assert mobility.by_rank == known.mobility
+    assert mobility.rank == known.rank
+    assert mobility.redundant == len(train.circuits) - known.rank
+    assert set(mobility.still) == known.still
+
+
+@given(asked_trains())
+def test_the_inputs_a_free_train_asks_for_settle_it_and_none_is_spare(data: Data) -> None:
+    verdict = solved(data).verdict
+    assume(verdict.kind == "free")
+    given_too = {**data, "inputs": {**data["inputs"], **dict.fromkeys(verdict.fixes, Fraction(1))}}
+    assert solve_naively(given_too).kind == "determined"
+    one_less = {**data, "inputs": {**data["inputs"], **dict.fromkeys(verdict.fixes[1:], Fraction(1))}}
+    assert solve_naively(one_less).kind in ("free", "locked")
+    assert len(solve_naively(one_less).undetermined) > 0
+
+
+@given(overdriven_trains())
+def test_an_input_at_a_wrong_speed_is_a_contradiction_unless_its_link_cannot_turn(data: Data) -> None:
+    known = solve_naively(data)
+    assert known.kind in ("contradictory", "locked")
+    assert kind_agrees(data, known.kind, solved(data))
+
+
+@given(overdriven_trains())
+def test_the_prescriptions_named_in_a_contradiction_are_enough_for_it(data: Data) -> None:
+    verdict = solved(data).verdict
+    assert verdict.prescriptions
+    named = {text.split(" = ")[0] for text in verdict.prescriptions}
+    kept = {
+        **data,
+        "inputs": {link: speed for link, speed in data["inputs"].items() if link in named},
+        "fixed": [link for link in data.get("fixed", ()) if f"'{link}' is fixed" in verdict.prescriptions],
+        "locks": [
+            pair
+            for pair in data.get("locks", ())
+            if any(f"'{pair[0]}'" in text and f"'{pair[1]}'" in text for text in verdict.prescriptions)
+        ],
+    }
+    assert kept["inputs"]
+    assert solve_naively(kept).kind in ("contradictory", "locked")
+
+
+LOCKED_ON_ITS_CARRIER: Data = {
+    "links": {"frame": {}, "arm": {}, "p": {"wheels": {"p": 8}}, "s": {"wheels": {"s": 8}}},
+    "revolutes": [
+        {"pair": ["frame", "arm"], "axis": "main"},
+        {"pair": ["frame", "s"], "axis": "main"},
+        {"pair": ["arm", "p"], "axis": "planet"},
+    ],
+    "gears": [{"pair": ["p", "s"]}],
+    "couplings": [{"id": "pin", "kind": "pin_and_slot", "pin": "p", "slot": "s"}],
+}
+
+
+def test_a_planet_locked_on_its_carrier_turns_with_it() -> None:
+    answer = solved({**LOCKED_ON_ITS_CARRIER, "inputs": {"arm": 3}})
+    assert answer.verdict.kind == "determined"
+    assert dict(answer.speeds) == {"frame": 0, "arm": 3, "p": 3, "s": 3}
+
+
+@pytest.mark.xfail(strict=True, reason="called locked, though arm and planet could turn together at any speed")
+def test_two_speeds_for_links_that_a_loop_locks_together_are_contradictory() -> None:
+    verdict = solved({**LOCKED_ON_ITS_CARRIER, "inputs": {"arm": 1, "p": 2}}).verdict
+    assert verdict.kind == "contradictory"
+
+
+@given(asked_trains())
+def test_every_loop_shown_is_a_loop_of_meshes_in_one_carriers_frame(data: Data) -> None:
+    train = GearTrain.declare(data)
+    _, carriers = willis_rows(data)
+    circuits = {circuit.id: circuit for circuit in train.circuits}
+    mobility = train.mobility
+    for loop in (*mobility.loops, *mobility.locked):
+        assert {carriers[pair] for pair in loop.pairs} == {loop.carrier}
+        here, round_trip = loop.links[0], Fraction(1)
+        for at, pair in enumerate(loop.pairs):
+            circuit, there = circuits[pair], loop.links[(at + 1) % len(loop.links)]
+            assert {here, there} == {circuit.i, circuit.j}
+            round_trip *= circuit.ratio if there == circuit.i else 1 / circuit.ratio
+            here = there
+        assert round_trip == loop.product
+    assert all(loop.product == 1 for loop in mobility.loops)
+    assert all(loop.product != 1 for loop in mobility.locked)
+
+
+# changes of the declaration that change nothing ----------------------------------------------------------------------
+
+
+def renamed(data: Data, names: dict[str, str]) -> Data:
+    """The same train with other link names."""
+    return {
+        **data,
+        "frame": names["frame"],
+        "links": {names[link]: part for link, part in data["links"].items()},
+        "revolutes": [{**joint, "pair": [names[link] for link in joint["pair"]]} for joint in data["revolutes"]],
+        "couplings": [{**c, "pin": names[c["pin"]], "slot": names[c["slot"]]} for c in data.get("couplings", ())],
+        "inputs": {names[link]: speed for link, speed in data.get("inputs", {}).items()},
+        "fixed": [names[link] for link in data.get("fixed", ())],
+        "locks": [[names[link] for link in pair] for pair in data.get("locks", ())],
+    }
+
+
+@given(asked_trains(), st.randoms(use_true_random=False))
+def test_relabelling_the_links_changes_nothing(data: Data, random: Any) -> None:
+    fresh = ["1", "01", "no", "null", "1:30", "a b", "ω", "~", "true", "frame"][: len(data["links"])]
+    random.shuffle(fresh)
+    names = dict(zip(data["links"], fresh, strict=True))
+    before, after = solved(data), solved(renamed(data, names))
+    assert after.verdict.kind == before.verdict.kind
+    assert dict(after.speeds) == {names[link]: speed for link, speed in before.speeds.items()}
+    assert set(after.verdict.links) == {names[link] for link in before.verdict.links}
+
+
+@given(asked_trains(), st.randoms(use_true_random=False))
+def test_reordering_the_declaration_changes_nothing(data: Data, random: Any) -> None:
+    def shuffled(items: Any) -> list[Any]:
+        items = list(items)
+        random.shuffle(items)
+        return items
+
+    other = {
+        **data,
+        "links": dict(shuffled(data["links"].items())),
+        "revolutes": [{**joint, "pair": shuffled(joint["pair"])} for joint in shuffled(data["revolutes"])],
+        "gears": [{**gear, "pair": shuffled(gear["pair"])} for gear in shuffled(data["gears"])],
+        "couplings": shuffled(data["couplings"]),
+        "inputs": dict(shuffled(data["inputs"].items())),
+        "locks": [shuffled(pair) for pair in data.get("locks", ())],
+    }
+    assert same_answer(solved(data), solved(other))
+    one, two = GearTrain.declare(data).mobility, GearTrain.declare(other).mobility
+    assert (one.by_rank, one.redundant, set(one.still)) == (two.by_rank, two.redundant, set(two.still))
+
+
+@given(asked_trains(), st.sampled_from([2, 3, 1000]))
+def test_ratio_is_unchanged_when_all_teeth_are_multiplied(data: Data, factor: int) -> None:
+    other = deepcopy(data)
+    for part in other["links"].values():
+        for name, wheel in part["wheels"].items():
+            part["wheels"][name] = (
+                wheel * factor if isinstance(wheel, int) else {**wheel, "teeth": wheel["teeth"] * factor}
+            )
+    assert same_answer(solved(data), solved(other))
+
+
+@given(st.data())
+def test_any_equivalent_tree_of_coaxial_joints_gives_the_same_carriers_mobility_and_speeds(draw: Any) -> None:
+    data = draw.draw(asked_trains())
+    other = draw.draw(rerooted(data))
+    one, two = GearTrain.declare(data), GearTrain.declare(other)
+    assert [circuit.carrier for circuit in one.circuits] == [circuit.carrier for circuit in two.circuits]
+    assert one.mobility.by_rank == two.mobility.by_rank
+    assert same_answer(one.solve(), two.solve())
+
+
+# laws of motion ------------------------------------------------------------------------------------------------------
+
+
+def basic_ratio(data: Data, a: str, b: str, c: str) -> Fraction | None:
+    """i_ab^c: speed of a over that of b with c held; None where b cannot turn or a does not follow."""
+    answer = solved({**data, "fixed": [c], "inputs": {b: 1}})
+    return answer.speeds[a] if answer.verdict.kind == "determined" else None
+
+
+@given(planetary_sets())
+def test_the_inversions_of_a_planetary_set_obey_their_identities(data: Data) -> None:
+    i_ab = basic_ratio(data, "a", "b", "c")
+    wheels = {name: wheel for part in data["links"].values() for name, wheel in part.get("wheels", {}).items()}
+    assert i_ab is not None, "with the carrier held a planetary set is an ordinary train"
+    teeth = {name: wheel if isinstance(wheel, int) else wheel["teeth"] for name, wheel in wheels.items()}
+    (_, p), (_, q) = (gear["pair"] for gear in data["gears"])
+    rings = wheels["a"]["internal"] + wheels["b"]["internal"]
+    assert i_ab == (-1) ** rings * Fraction(teeth[p] * teeth["b"], teeth["a"] * teeth[q])
+    assert i_ab * basic_ratio(data, "b", "a", "c") == 1
+    if i_ab not in (0, 1):
+        assert i_ab + basic_ratio(data, "a", "c", "b") == 1
+        assert basic_ratio(data, "a", "c", "b") * basic_ratio(data, "c", "a", "b") == 1
+        assert basic_ratio(data, "b", "a", "c") + basic_ratio(data, "b", "c", "a") == 1
+
+
+@given(driven_trains(rooted=True), speeds.filter(bool))
+def test_a_rotation_of_everything_changes_no_relative_speed(data: Data, turn: Fraction) -> None:
+    before = solved(data)
+    after = solved({**data, "inputs": {link: speed + turn for link, speed in data["inputs"].items()}})
+    moving = [link for link in data["links"] if link != "frame"]
+    assert {link: after[link] - before[link] for link in moving} == dict.fromkeys(moving, turn)
+
+
+@given(ordinary_trains())
+def test_an_ordinary_train_is_the_product_of_its_meshes(data: Data) -> None:
+    answer = solved(data)
+    wheels = {n: (link, w) for link, part in data["links"].items() for n, w in part.get("wheels", {}).items()}
+    expected = {"frame": Fraction(0), "g0": Fraction(1)}
+    for gear in data["gears"]:
+        (near, z_near), (far, wheel) = (wheels[name] for name in gear["pair"])
+        expected[far] = expected[near] * Fraction(z_near, wheel["teeth"]) * (1 if wheel["internal"] else -1)
+    assert dict(answer.speeds) == expected
+
+
+@given(driven_trains())
+def test_speeds_are_the_sum_of_what_each_input_does_alone(data: Data) -> None:
+    answer = solved(data)
+    for link in data["links"]:
+        table = answer.ratios[link]
+        assert sum((table[name] * speed for name, speed in data["inputs"].items()), Fraction(0)) == answer[link]
+    for name in data["inputs"]:
+        alone = solve_naively({**data, "inputs": {**dict.fromkeys(data["inputs"], 0), name: 1}})
+        assert {link: answer.ratios[link][name] for link in data["links"]} == alone.speeds
+
+
+@given(driven_trains(), speeds.filter(bool))
+def test_speeds_are_in_proportion_to_the_inputs(data: Data, factor: Fraction) -> None:
+    before = solved(data)
+    after = solved({**data, "inputs": {link: speed * factor for link, speed in data["inputs"].items()}})
+    assert dict(after.speeds) == {link: speed * factor for link, speed in before.speeds.items()}
+
+
+# the other ways to ask -----------------------------------------------------------------------------------------------
+
+
+@given(driven_trains())
+def test_every_equation_holds_at_the_solved_speeds_and_they_have_full_rank(data: Data) -> None:
+    train = GearTrain.declare(data)
+    answer, system = train.solve(), train.equations()
+    for equation in system.equations:
+        assert sum((c * answer[link] for link, c in equation.terms), Fraction(0)) == equation.right
+        assert all(isinstance(c, int) and c for _, c in equation.terms)
+    rows = [{link: Fraction(c) for link, c in equation.terms} for equation in system.equations]
+    assert rank_of(rows, list(data["links"])) == len(data["links"])
+
+
+@given(driven_trains())
+def test_floats_are_exact_to_their_own_estimate(data: Data) -> None:
+    train = GearTrain.declare(data)
+    exact, floats = train.solve(), train.floats()
+    fastest = max(map(abs, exact.speeds.values()))
+    for link in data["links"]:
+        error = abs(Fraction(floats[link]) - exact[link])
+        if exact[link]:
+            assert error <= Fraction(float(floats.estimate[link][0]))
+        else:
+            assert error <= Fraction(1, 10**28) * fastest
+
+
+@given(asked_trains(), st.data())
+def test_asking_for_one_output_gives_its_speed_in_the_full_answer_for_no_more_work(data: Data, draw: Any) -> None:
+    train = GearTrain.declare(data)
+    link = draw.draw(st.sampled_from(list(data["links"])))
+    full, part = train.solve(), train.solve(output=link)
+    assert part.work <= full.work <= len(train.circuits)
+    assert set(part.speeds) <= {link}
+    if not any(data["inputs"].values()) and "locked" in (full.verdict.kind, part.verdict.kind):
+        assert part.speeds.get(link, 0) == full.speeds.get(link, 0) == 0, "nothing is driven, and the link stands"
+        return
+    assert part.speeds.get(link) == full.speeds.get(link)
+    if link in full.speeds:
+        assert part.verdict.kind in ("determined", "free")
+    else:
+        assert part.verdict.kind == full.verdict.kind
+
+
+UNRELATED: Data = {
+    "links": {"frame": {}, "a": {}, "b": {}, "c": {}},
+    "revolutes": [{"pair": ["frame", link], "axis": link} for link in "abc"],
+    "inputs": {"a": 1},
+}
+
+
+def test_an_output_that_is_determined_is_so_whatever_is_free_elsewhere() -> None:
+    answer = GearTrain.declare(UNRELATED).solve(output="a")
+    assert (answer["a"], answer.verdict.kind) == (1, "determined")
+
+
+@pytest.mark.xfail(strict=True, reason="a lock keeps its links, and their freedom makes another output's verdict free")
+def test_an_output_that_is_determined_is_so_whatever_is_locked_together_elsewhere() -> None:
+    answer = GearTrain.declare({**UNRELATED, "locks": [["b", "c"]]}).solve(output="a")
+    assert (answer["a"], answer.verdict.kind) == (1, "determined")
+
+
+@pytest.mark.xfail(strict=True, reason="everything is pruned away, and what is left is called locked, without speeds")
+def test_a_link_that_a_brake_holds_has_speed_zero_when_it_alone_is_asked_for() -> None:
+    train = GearTrain.declare({**UNRELATED, "inputs": {}, "fixed": ["a"]})
+    assert train.solve()["a"] == 0
+    assert train.solve(output="a")["a"] == 0
+
+
+@given(asked_trains(), st.data())
+def test_reversing_an_axis_changes_the_sign_of_its_own_links_and_of_no_other(data: Data, draw: Any) -> None:
+    axis_of: dict[str, str] = {}
+    todo = ["frame"]
+    while todo:
+        near = todo.pop()
+        for joint in data["revolutes"]:
+            if near in joint["pair"]:
+                far = joint["pair"][1 - joint["pair"].index(near)]
+                if far != "frame" and far not in axis_of:
+                    axis_of[far] = joint["axis"]
+                    todo.append(far)
+    labels = sorted(set(axis_of.values()))
+    turned = draw.draw(st.lists(st.sampled_from(labels), unique=True, min_size=1))
+    sign = {link: -1 if axis_of.get(link) in turned else 1 for link in data["links"]}
+    other = {
+        **data,
+        "axes": {label: {"direction": [0, 0, -1]} for label in turned},
+        "inputs": {link: sign[link] * speed for link, speed in data["inputs"].items()},
+    }
+    before, after = solved(data), solved(other)
+    assert after.verdict.kind == before.verdict.kind
+    assert dict(after.speeds) == {link: sign[link] * speed for link, speed in before.speeds.items()}
+
+
+LOCKED_TWICE: Data = {
+    "links": {
+        "frame": {"wheels": {}},
+        "a": {"wheels": {"a": 10}},
+        "b": {"wheels": {"b": 20}},
+        "c": {"wheels": {"c": 30}},
+        "d": {"wheels": {}},
+    },
+    "revolutes": [{"pair": ["frame", link], "axis": link} for link in "abcd"],
+    "gears": [{"pair": ["a", "b"]}, {"pair": ["b", "c"]}, {"pair": ["c", "a"]}],
+    "couplings": [],
+    "inputs": {},
+}
+
+
+@given(trains())
+@example(LOCKED_TWICE)
+def test_with_every_free_link_at_rest_nothing_moves(data: Data) -> None:
+    known = solve_naively(data)
+    quiet = {**data, "inputs": dict.fromkeys(sorted(known.undetermined - {"frame"}), Fraction(0))}
+    answer = solved(quiet)
+    if known.mobility:
+        assert answer.verdict.kind == "determined"
+        assert not any(answer.speeds.values())
+    else:
+        assert answer.verdict.kind == "locked"

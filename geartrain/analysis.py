@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import html
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
 from fractions import Fraction
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, Literal
@@ -117,9 +118,10 @@ class GearTrain:
             solution = solve(reduced, case, self.signs, None if method == "exact" else EXACT_BUDGET)
         except TooDenseError:
             return self._answer_in_floats(reduced, case, wanted)
-        return self._judged(
-            case, solution.verdict, solution.speeds, wanted, len(reduced.components.circuits), solution.ratios
-        )
+        verdict, speeds = solution.verdict, solution.speeds
+        if wanted is not None:
+            verdict, speeds = self._narrowed(case, verdict, speeds, wanted)
+        return self._judged(case, verdict, speeds, wanted, len(reduced.components.circuits), solution.ratios)
 
     def answers(self) -> Iterator[Answer]:
         """The answer of every state, in the order declared."""
@@ -158,6 +160,19 @@ class GearTrain:
         declared = self.declaration
         first = [*declared.inputs, *(link for state in declared.states.values() for link in state.inputs or ())]
         return reduce(find_components(links, declared.frame, circuits, first))
+
+    @staticmethod
+    def _narrowed(
+        case: Case, verdict: Verdict, speeds: Mapping[str, Fraction], wanted: Sequence[str]
+    ) -> tuple[Verdict, Mapping[str, Fraction]]:
+        """The verdict on some links only: they may be determined, or held still, in a train that is free."""
+        driven = [link for link, speed in case.inputs.items() if speed]
+        if verdict.kind == "locked" and not verdict.loops and not driven:
+            speeds = dict.fromkeys(wanted, Fraction(0))
+        if all(link in speeds for link in wanted) and (verdict.kind in ("free", "determined") or not driven):
+            follows = f"follows from {', '.join(case.inputs)}" if case.inputs else "is 0, for it is held"
+            return Verdict("determined", f"the speed of {wanted[0]} {follows}", loops=verdict.loops), speeds
+        return verdict, speeds
 
     def _pruned(self, case: Case, wanted: Sequence[str]) -> Reduced:
         """The part of the train that can matter to some links."""
@@ -198,7 +213,7 @@ class GearTrain:
             )
         outputs = {output: declared} if declared else {}
         links = (declared.of or output, declared.relative_to or self.declaration.frame) if declared else (output,)
-        return Case(case.state, case.inputs, case.fixed, case.locks, outputs, case.loc), links
+        return replace(case, outputs=outputs), links
 
     def _answer_in_floats(self, reduced: Reduced, case: Case, wanted: Sequence[str] | None) -> Answer:
         """Floats with their estimate, and with their true error where the exact answer is cheap."""

@@ -48,7 +48,7 @@ def decimal(value: Fraction, digits: int = 10) -> str:
     """`value` in decimal, rounded to `digits` significant digits, for numbers of any size.
 
     >>> decimal(Fraction(254, 19), 6), decimal(Fraction(-1, 3) ** 700, 4)
-    ('13.3684', '-9.648e-335')
+    ('13.3684', '1.035e-334')
     """
     number = as_float(value)
     if number is not None:
@@ -58,7 +58,8 @@ def decimal(value: Fraction, digits: int = 10) -> str:
     mantissa = str(round(scaled))
     exponent += len(mantissa) - digits
     sign = "-" if value < 0 else ""
-    return f"{sign}{mantissa[0]}.{mantissa[1:digits]}e{exponent:+d}"
+    rest = f".{mantissa[1:digits]}" if digits > 1 else ""
+    return f"{sign}{mantissa[0]}{rest}e{exponent:+d}"
 
 
 @dataclass(frozen=True, slots=True)

@@ -203,6 +203,8 @@ class Quantity:
                 raise _no_unit(text, dimension)
             return cls(figure.value, None, text)
         unit = " ".join(match[2].split())
+        if re.fullmatch(r"[eE][+-]?\d+", unit):
+            raise _not_a_number(raw)
         unit = _SPELT.get(unit, unit)
         if unit not in UNITS and unit not in IRRATIONAL:
             raise PydanticCustomError(

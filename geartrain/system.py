@@ -36,7 +36,7 @@ class System:
 
     def latex(self) -> str:
         """The system as an `align` environment."""
-        symbol = r"\omega_{{\mathrm{{{}}}}}"
+        symbol = r"\omega_{{\text{{{}}}}}"
         lines = [
             f"  {_sum(e.terms, symbol, escape=True)} &= {_fraction(e.right)} && \\text{{{_escape(e.label)}}}"
             for e in self.equations
@@ -84,8 +84,15 @@ def _sum(terms: Sequence[tuple[str, int]], symbol: str, escape: bool = False) ->
     return " ".join(parts)
 
 
+_LATEX = {character: "\\" + character for character in "_&%$#{}"} | {
+    "~": r"\textasciitilde{}",
+    "^": r"\textasciicircum{}",
+    "\\": r"\textbackslash{}",
+}
+
+
 def _escape(text: str) -> str:
-    return "".join("\\" + character if character in "_&%$#{}" else character for character in text)
+    return "".join(_LATEX.get(character, character) for character in text)
 
 
 def _fraction(value: Fraction) -> str:

@@ -97,7 +97,6 @@ def test_every_module_class_and_function_in_sight_says_what_it_is() -> None:
     assert not silent, " ".join(silent)
 
 
-@pytest.mark.xfail(strict=True, reason="decimal() shows -9.648e-335 for (-1/3)^700, which is 1.035e-334")
 def test_the_examples_in_docstrings_are_true() -> None:
     results = {module.__name__: doctest.testmod(module) for module in modules()}
     assert sum(result.attempted for result in results.values()) > 0

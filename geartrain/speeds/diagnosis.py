@@ -67,12 +67,12 @@ def _tagged(reduced: Reduced, case: Case, signs: Mapping[str, int]) -> tuple[lis
     statements: list[Statement] = []
     for link in case.fixed:
         rows.append(dict(reduced.form(index[link])))
-        statements.append(("fixed", f"'{link}' is fixed", Fraction(0)))
+        statements.append(("fixed", case.says(link), Fraction(0)))
     for a, b in case.locks:
         row = dict(reduced.form(index[a]))
         add_into(row, reduced.form(index[b]), -1)
         rows.append(row)
-        statements.append(("lock", f"'{a}' and '{b}' are locked together", Fraction(0)))
+        statements.append(("lock", case.says(a, b), Fraction(0)))
     for link, speed in case.inputs.items():
         rows.append(dict(reduced.form(index[link])))
         statements.append(("input", f"{link} = {speed}", speed * signs.get(link, 1)))
@@ -91,14 +91,15 @@ def _name(reduced: Reduced, given: Mapping[int, Fraction], statements: Sequence[
     prescriptions = tuple(text for (_, text, _), _ in used)
     chords = [reduced.origin[tag][1] for tag in given if tag < structural and reduced.origin[tag][0] == "loop"]
     loops = tuple(parts.loop(chord) for chord in chords)
-    if loops:
-        verb = "does" if len(loops) == 1 else "do"
-        text = f"{'; '.join(map(str, loops))} {verb} not close, so {', '.join(moving)} cannot turn"
-        return Verdict("locked", text, prescriptions=prescriptions, loops=loops)
+    shut = f"{'; '.join(map(str, loops))} {'does' if len(loops) == 1 else 'do'} not close"
     if len(inputs) == 1:
-        by = " and ".join(held) if held else f"the pairs {', '.join(_pairs(reduced, given, structural))}"
-        link = moving[0].split(" = ")[0]
-        return Verdict("locked", f"input '{link}' is locked to the frame: {by}", prescriptions=prescriptions)
+        link = inputs[0][0].split(" = ")[0]
+        if loops:
+            text = f"{shut}, so {moving[0]} cannot turn"
+        else:
+            by = " and ".join(held) if held else f"the pairs {', '.join(_pairs(reduced, given, structural))}"
+            text = f"input '{link}' is locked to the frame: {by}"
+        return Verdict("locked", text, prescriptions=prescriptions, loops=loops)
     scale = lcm(*(value.denominator for _, value, _ in inputs))
     numbers = [int(value * scale) for _, value, _ in inputs]
     common = gcd(*numbers) * (1 if numbers[0] > 0 else -1)
@@ -108,7 +109,9 @@ def _name(reduced: Reduced, given: Mapping[int, Fraction], statements: Sequence[
     )
     residue = sum((value * speed for _, value, speed in inputs), Fraction(0)) * scale / common
     text = f"{', '.join(prescriptions)} contradict each other: {terms.removeprefix('+ ')} must be 0 and is {residue}"
-    return Verdict("contradictory", text, prescriptions=prescriptions)
+    if loops:
+        text += f", for {shut}"
+    return Verdict("contradictory", text, prescriptions=prescriptions, loops=loops)
 
 
 def _pairs(reduced: Reduced, given: Mapping[int, Fraction], structural: int) -> list[str]:
@@ -128,9 +131,7 @@ def _standing(reduced: Reduced, case: Case) -> Verdict:
     """Nothing is driven and nothing could be: the train itself, or its brakes, hold every link."""
     parts = reduced.components
     loops: tuple[Loop, ...] = tuple(parts.loop(circuit) for circuit in parts.breaking)
-    held = tuple(
-        [f"'{link}' is fixed" for link in case.fixed] + [f"'{a}' and '{b}' are locked together" for a, b in case.locks]
-    )
+    held = tuple([case.says(link) for link in case.fixed] + [case.says(a, b) for a, b in case.locks])
     if loops:
         text = f"mobility 0: {loops[0]} does not close; every link is locked"
     elif held:
@@ -148,7 +149,7 @@ def free_verdict(
     index = reduced.components.index
     rows: list[Row] = []
     fixes: list[str] = []
-    for link in undetermined:
+    for link in sorted(undetermined, key=lambda name: index[name] not in reduced.own):  # carriers make good inputs
         row: Row = {}
         for column, coefficient in reduced.form(index[link]).items():
             add_into(row, forms.get(column, {column: Fraction(1)}), coefficient)
@@ -159,12 +160,11 @@ def free_verdict(
         if len(fixes) == min(freedom, 12):
             break
     given = len(case.inputs)
-    head = (
-        f"{given} of {given + freedom} degrees of freedom prescribed"
-        if given
-        else f"{freedom} degrees of freedom and no input"
-    )
+    degrees = f"{freedom} degree{'s' if freedom > 1 else ''} of freedom"
+    head = f"{given} of {given + freedom} degrees of freedom prescribed" if given else f"{degrees} and no input"
     shown = ", ".join(undetermined[:12]) + (f" and {len(undetermined) - 12} more" if len(undetermined) > 12 else "")
-    more = "one more input" if freedom == 1 else f"{freedom} more inputs"
+    more = (
+        ("one more input" if given else "an input") if freedom == 1 else f"{freedom}{' more' if given else ''} inputs"
+    )
     text = f"{head}: speeds of {shown} undetermined; give {more}, such as {', '.join(fixes)}"
     return Verdict("free", text, links=tuple(undetermined), fixes=tuple(fixes))

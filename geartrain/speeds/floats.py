@@ -15,12 +15,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from geartrain.errors import Problem, RangeError
-from geartrain.exact import PRIME, eliminate
+from geartrain.exact import PRIME, eliminate, residues
 from geartrain.labelled import Labelled, labelled
 from geartrain.system import Equation, System
 
 Floats = NDArray[np.float64]
 _UNIT_ROUNDOFF = 2.0**-53
+_GIVEN = -1  # the column of what is prescribed
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,7 +52,7 @@ def solve_floats(
     """Solve a determined Willis system in float64.
 
     redundant     labels of circuits known to add nothing (loops that close); they are left out
-    inputs        link -> speeds, one a case, in place of the speeds in the system: one factorisation serves all
+    inputs        link -> speeds, one a case, for every input of the system: one factorisation serves all
     condition_of  links whose component-wise condition is wanted, one transposed solve each
     ordering      column ordering of the factorisation; COLAMD is the one that never turns quadratic
     refine        one refinement step (else the raw LU, for comparison)
@@ -68,9 +69,12 @@ def solve_floats(
     x = lu.solve(right)
     if refine:
         x = x + lu.solve(matrix.residual(x, right, remainder))
+        matrix.prescribe(x, right)
     rest = matrix.residual(x, right, remainder)
     _check_range(matrix, x, rest, rows)
-    estimate = 2 * np.abs(lu.solve(rest)) + _UNIT_ROUNDOFF * np.abs(x)
+    # what is left, the rounding of x itself, and the floor of a residual in twice the precision
+    floor = 16 * _UNIT_ROUNDOFF**2 * np.abs(lu.solve(matrix.size(x)))
+    estimate = 2 * np.abs(lu.solve(rest)) + _UNIT_ROUNDOFF * np.abs(x) + floor
     condition = {link: matrix.condition(lu, link, x[:, 0]) for link in condition_of}
     return FloatSpeeds(_with_frame(system, frame, x), _with_frame(system, frame, estimate), condition)
 
@@ -102,8 +106,20 @@ def _independent(system: System, links: Sequence[str], redundant: set[str]) -> l
     ]
     if len(rows) > len(links):
         at = {link: column for column, link in enumerate(links)}
-        forms = [{at[link]: c % PRIME for link, c in row.terms if link in at} for row in rows]
-        idle = set(eliminate(forms, modulus=PRIME).redundant)  # type: ignore[arg-type]
+        forms = [
+            residues({at[link]: Fraction(c) for link, c in row.terms if link in at} | {_GIVEN: -row.right})
+            for row in rows
+        ]
+        echelon = eliminate(forms, modulus=PRIME)
+        if echelon.conditions:
+            raise RangeError(
+                Problem(
+                    "the prescribed speeds contradict each other",
+                    "no speeds satisfy all equations",
+                    "ask for the verdict",
+                )
+            )
+        idle = set(echelon.redundant)
         rows = [row for position, row in enumerate(rows) if position not in idle]
     if len(rows) != len(links):
         raise RangeError(
@@ -173,6 +189,12 @@ class Rows:
             total, carry = _two_sum(total, product)
             low = low + carry + error
         return total + low
+
+    def prescribe(self, x: Floats, right: Floats) -> None:
+        """Links whose row is their own speed get it to the last bit."""
+        single = np.flatnonzero((self.coefficients != 0).sum(axis=1) == 1)
+        own = self.coefficients[single, 0] == 1
+        x[self.columns[single[own], 0]] = right[single[own]]
 
     def size(self, x: Floats) -> Floats:
         """|A| |x|, row by row."""

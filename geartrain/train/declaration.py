@@ -29,7 +29,9 @@ def _cited(raw: object) -> object:
 class Case:
     """What is prescribed when the train is run in one state; `state` is None for a train without states.
 
-    inputs are in `unit_name`; every prescription knows where it was declared.
+    inputs    in the train's unit
+    loc       where the inputs were declared
+    clutches  the clutch or brake behind a fixed link or a lock
     """
 
     state: str | None
@@ -38,6 +40,16 @@ class Case:
     locks: tuple[tuple[str, str], ...]
     outputs: Mapping[str, Output]
     loc: Loc
+    clutches: Mapping[tuple[str, ...], str]
+
+    def says(self, *links: str) -> str:
+        """A brake on one link or a lock of two, in words, with the clutch that does it."""
+        by = f" by {self.clutches[links]}" if links in self.clutches else ""
+        return (
+            f"'{links[0]}' is fixed{by}"
+            if len(links) == 1
+            else f"'{links[0]}' and '{links[1]}' are locked together{by}"
+        )
 
 
 class Train(Declared):
@@ -95,19 +107,22 @@ class Train(Declared):
         inputs = self.inputs if own.inputs is None else own.inputs
         fixed = list(self.fixed if own.fixed is None else own.fixed)
         locks = list(self.locks if own.locks is None else own.locks)
+        clutches: dict[tuple[str, ...], str] = {}
         for name in own.engaged:
             clutch = self.clutches[name]
             if clutch.fixes is not None:
                 fixed.append(clutch.fixes)
+                clutches[(clutch.fixes,)] = name
             if clutch.locks is not None:
                 locks.append(clutch.locks)
+                clutches[clutch.locks] = name
         outputs = dict(self.outputs)
         for name, output in own.outputs.items():
             inherited = outputs.get(name)
             update = {key: getattr(output, key) for key in output.model_fields_set}
             outputs[name] = inherited.model_copy(update=update) if inherited else output
         loc: Loc = ("states", state, "inputs") if state is not None and own.inputs is not None else ("inputs",)
-        return Case(state, self._speeds(inputs), tuple(dict.fromkeys(fixed)), tuple(locks), outputs, loc)
+        return Case(state, self._speeds(inputs), tuple(dict.fromkeys(fixed)), tuple(locks), outputs, loc, clutches)
 
     def _speeds(self, inputs: Mapping[str, Quantity]) -> dict[str, Fraction]:
         """Input speeds in the train's unit; named units are counted in the first one's."""

@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from geartrain.cli.common import GOOD, NOT_USABLE, VERDICT, Files, complain
+from geartrain.cli.common import GOOD, NOT_USABLE, VERDICT, Files, complain, plural
 from geartrain.errors import GearTrainError
 
 
@@ -40,14 +40,16 @@ def _check(file: str, quiet: bool) -> int:
         for result in answer.failures:
             place = train.declaration.place(*_place(answer.state, result.name, train.declaration.states))
             speed = "undetermined" if result.speed is None else result.speed
-            typer.echo(f"FAIL {place}:{state} output '{result.name}' is {speed}{_wanted(result)}")
+            head, tail = (place, "") if place.startswith(file) else (file, f" (declared at {place})")
+            typer.echo(f"FAIL {head}:{state} output '{result.name}' is {speed}{_wanted(result)}{tail}")
             good = VERDICT
     if good == GOOD and not quiet:
         held = sum(result.expect_holds is not None for answer in answers for result in answer.outputs.values())
-        loops = f", {train.mobility.redundant} redundant circuits" if train.mobility.redundant else ""
+        loops = f", {plural(train.mobility.redundant, 'redundant circuit')}" if train.mobility.redundant else ""
+        kept = f"all {held} expectations hold" if held else "nothing expected"
         for remark in train.remarks:
             typer.echo(f"note {remark.place}: {remark.what}" + (f"; {remark.why}" if remark.why else ""))
-        typer.echo(f"ok   {file}: mobility {train.mobility.by_rank}{loops}, {held} expectations hold")
+        typer.echo(f"ok   {file}: mobility {train.mobility.by_rank}{loops}, {kept}")
     return good
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import sys
+from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -17,7 +18,7 @@ if TYPE_CHECKING:
 GOOD, VERDICT, NOT_USABLE = 0, 1, 2
 
 File = Annotated[str, typer.Argument(help="A YAML declaration, or the name of a shipped train.", metavar="FILE")]
-Files = Annotated[list[str], typer.Argument(help="YAML declarations, or names of shipped trains.", metavar="FILE...")]
+Files = Annotated[list[str], typer.Argument(help="YAML declarations, or names of shipped trains.", metavar="FILE")]
 Out = Annotated[Path | None, typer.Option("--output-file", "-o", help="Write to this file instead of the terminal.")]
 Json = Annotated[bool, typer.Option("--json", help="Print plain data as JSON.")]
 StateName = Annotated[str | None, typer.Option("--state", help="The state to solve; default all.")]
@@ -54,6 +55,19 @@ def emit(text: str, out: Path | None = None) -> None:
 
     write_text(out, text if text.endswith("\n") else text + "\n")
     typer.echo(f"wrote {out}", err=True)
+
+
+def suffix_of(out: Path | None, allowed: Iterable[str]) -> str:
+    """The suffix of an output file, "" without one; others than the allowed ones are refused."""
+    suffix = out.suffix.lower() if out else ""
+    if suffix and suffix not in allowed:
+        raise typer.BadParameter(f"'{suffix}' is no form of output here; use {', '.join(allowed)}", param_hint="-o")
+    return suffix
+
+
+def plural(count: int, noun: str) -> str:
+    """`1 loop`, `2 loops`."""
+    return f"{count} {noun}{'' if count == 1 else 's'}"
 
 
 def as_json(data: Any) -> str:

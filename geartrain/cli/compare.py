@@ -2,22 +2,31 @@
 
 from __future__ import annotations
 
+from typing import Annotated
+
 import typer
 
-from geartrain.cli.common import GOOD, VERDICT, Files, Json, Out, as_json, emit, load_all, on_terminal
+from geartrain.cli.common import GOOD, VERDICT, Files, Json, Out, as_json, emit, load_all, on_terminal, suffix_of
 
 
-def run(files: Files, out: Out = None, json: Json = False) -> None:
+def run(
+    files: Files,
+    out: Out = None,
+    json: Json = False,
+    everything: Annotated[
+        bool, typer.Option("--all", help="All outputs, not only those with a dial or target.")
+    ] = False,
+) -> None:
     """Put the outputs of several trains side by side, with their errors against the targets."""
     from geartrain import report
 
+    suffix = suffix_of(out, (".md", ".html", ".json"))
     trains = load_all(files)
     sound = all(answer for train in trains for answer in train.answers())
-    suffix = out.suffix.lower() if out else ""
     if json or suffix == ".json":
         emit(as_json([report.train_data(train) for train in trains]), out)
     else:
-        document = [report.compare_trains(trains)]
+        document = [report.compare_trains(trains, everything)]
         if suffix == ".html":
             emit(report.to_html(document), out)
         elif out is None and on_terminal():

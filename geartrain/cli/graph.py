@@ -6,14 +6,17 @@ from typing import Annotated
 
 import typer
 
-from geartrain.cli.common import File, Out, as_json, emit
+from geartrain.cli.common import File, Out, as_json, emit, suffix_of
 
+_SUFFIXES = {".md": "labels", ".dot": "dot", ".gv": "dot", ".graphml": "graphml", ".json": "json"}
 _FORMS = ("labels", "matrix", "dot", "graphml", "json")
 
 
 def run(
     file: File,
-    form: Annotated[str, typer.Option("--as", help=f"One of {', '.join(_FORMS)}.")] = "labels",
+    form: Annotated[
+        str | None, typer.Option("--as", help=f"One of {', '.join(_FORMS)}; default by the suffix of -o, else labels.")
+    ] = None,
     out: Out = None,
 ) -> None:
     """Print the graph: adjacency in letters (R(axis), G#) or numbers, Graphviz, GraphML, or JSON."""
@@ -21,6 +24,8 @@ def run(
     from geartrain.files import load
     from geartrain.report import Document, Section, Table, to_markdown
 
+    suffix = suffix_of(out, _SUFFIXES)
+    form = form or _SUFFIXES.get(suffix, "labels")
     if form not in _FORMS:
         raise typer.BadParameter(f"'{form}' is not a form of graph; use {', '.join(_FORMS)}", param_hint="--as")
     train = load(file)

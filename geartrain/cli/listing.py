@@ -18,11 +18,18 @@ def trains() -> None:
     emit("\n".join(lines))
 
 
-def periods(word: Annotated[str, typer.Argument(help="Show only names that contain this.")] = "") -> None:
+def periods(
+    word: Annotated[str, typer.Argument(help="Show only names that contain this.", metavar="[WORD]")] = "",
+) -> None:
     """List the shipped table of astronomical periods, speeds and counts."""
-    from geartrain.periods import table
+    from geartrain.errors import Problem, QuestionError
+    from geartrain.periods import suggestion, table
 
     units = {"period": "d", "speed": "turns per year", "count": ""}
     rows = [row for row in table().values() if word in row.name]
-    width = max((len(row.name) for row in rows), default=0)
+    if not rows:
+        raise QuestionError(
+            Problem(f"no name contains '{word}'", "the shipped table has no such row", suggestion(word))
+        )
+    width = max(len(row.name) for row in rows)
     emit("\n".join(f"{row.name:<{width}}  {float(row.value):.12g} {units[row.kind]}  ({row.source})" for row in rows))

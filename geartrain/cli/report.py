@@ -4,16 +4,14 @@ from __future__ import annotations
 
 import typer
 
-from geartrain.cli.common import GOOD, VERDICT, Files, Json, Out, as_json, emit, load_all, on_terminal
+from geartrain.cli.common import GOOD, VERDICT, Files, Json, Out, as_json, emit, load_all, on_terminal, suffix_of
 
 
 def run(files: Files, out: Out = None, json: Json = False) -> None:
     """Report on trains: Markdown to the terminal, or by the suffix of -o as .md, .html or .json."""
     from geartrain import report
 
-    suffix = out.suffix.lower() if out else ""
-    if suffix not in ("", ".md", ".html", ".json"):
-        raise typer.BadParameter(f"'{suffix}' is not a form of report; use .md, .html or .json", param_hint="-o")
+    suffix = suffix_of(out, (".md", ".html", ".json"))
     trains = load_all(files)
     sound = all(answer for train in trains for answer in train.answers())
     if json or suffix == ".json":

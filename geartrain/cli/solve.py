@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from geartrain.cli.common import GOOD, VERDICT, File, Json, StateName, as_json, emit
+from geartrain.cli.common import GOOD, VERDICT, File, Json, Out, StateName, as_json, emit
 
 if TYPE_CHECKING:
     from geartrain.analysis import GearTrain
@@ -20,6 +20,7 @@ def run(
     output: OutputName = None,
     state: StateName = None,
     json: Json = False,
+    out: Out = None,
     method: Annotated[str, typer.Option("--method", help="auto, exact or floats.")] = "auto",
 ) -> None:
     """Solve a train and print its speeds as fractions and decimals."""
@@ -31,10 +32,9 @@ def run(
     states = [state] if state is not None or not train.states else list(train.states)
     answers = [train.solve(name, output, method) for name in states]  # type: ignore[arg-type]
     if json:
-        emit(as_json(_data(train, answers, output)))
+        emit(as_json(_data(train, answers, output)), out)
     else:
-        for answer in answers:
-            _print(answer, output)
+        emit("\n".join(_text(answer, output, train.bookkeeping) for answer in answers), out)
     raise typer.Exit(GOOD if all(answers) else VERDICT)
 
 
@@ -49,24 +49,30 @@ def _data(train: GearTrain, answers: list[Answer], output: str | None) -> dict[s
     return head | {"states": {answer.state: answer.to_dict() for answer in answers}}
 
 
-def _print(answer: Answer, output: str | None) -> None:
+def _text(answer: Answer, output: str | None, oblique: frozenset[str]) -> str:
     from geartrain.report.document import exact, figure
 
     state = f" state {answer.state}" if answer.state is not None else ""
     place = "" if answer.verdict else f" ({answer.place})"
-    typer.echo(f"{answer.train}{state}: {answer.verdict}{place}" + (f" ({answer.unit})" if answer.unit else ""))
+    unit = f" ({answer.unit})" if answer.unit and answer.verdict else ""
+    lines = [f"{answer.train}{state}: {answer.verdict}{place}{unit}"]
     rows = [
         (name, result.speed, _errors(answer, result.of) + ("" if result.holds else "  FAILS"))
         for name, result in answer.outputs.items()
     ]
     if output is None:
-        links = [(link, speed, _errors(answer, link)) for link, speed in answer.speeds.items()]
+        links = [(link, speed, _marks(answer, link, oblique)) for link, speed in answer.speeds.items()]
         rows = links + [row for row in rows if row[0] not in answer.speeds or "FAILS" in row[2]]
     elif not rows:
-        rows = [(output, answer.speeds.get(output), _errors(answer, output))]
+        rows = [(output, answer.speeds.get(output), _marks(answer, output, oblique))]
     width = max((len(name) for name, _, _ in rows), default=0)
     for name, speed, mark in rows:
-        typer.echo(f"  {name:<{width}}  {exact(speed):>20}  {figure(speed, 12)}{mark}")
+        lines.append(f"  {name:<{width}}  {exact(speed):>20}  {figure(speed, 12)}{mark}")
+    return "\n".join(lines)
+
+
+def _marks(answer: Answer, link: str, oblique: frozenset[str]) -> str:
+    return _errors(answer, link) + ("  (sum of joint speeds)" if link in oblique else "")
 
 
 def _errors(answer: Answer, link: str) -> str:

@@ -78,7 +78,7 @@ def parse(text: str, name: str) -> Node:
         for event in yaml.parse(text, Loader=_Loader):
             builder.take(event)
     except yaml.MarkedYAMLError as error:
-        raise DeclarationError(_syntax(error, name)) from None
+        raise DeclarationError(_syntax(error, name, text)) from None
     except (yaml.YAMLError, RecursionError) as error:
         raise DeclarationError(
             Problem("this is not YAML", str(error).splitlines()[0], "save it as UTF-8 text", name)
@@ -86,10 +86,13 @@ def parse(text: str, name: str) -> Node:
     return builder.finish()
 
 
-def _syntax(error: yaml.MarkedYAMLError, name: str) -> Problem:
+def _syntax(error: yaml.MarkedYAMLError, name: str, text: str) -> Problem:
     mark = error.problem_mark or error.context_mark
     place = f"{name}:{mark.line + 1}" if mark else name
     why = " ".join(part for part in (error.context, error.problem) if part)
+    lines = text.splitlines()
+    if mark and mark.line < len(lines) and "\t" in lines[mark.line]:
+        return Problem("a tab stands here", "YAML is indented with spaces only", "replace the tab by spaces", place)
     return Problem(
         "the YAML cannot be read here",
         why,

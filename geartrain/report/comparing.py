@@ -9,20 +9,19 @@ from geartrain.answer import Answer
 from geartrain.report.document import Document, Section, Table, exact, figure, ppm
 
 
-def compare_trains(trains: Sequence[GearTrain]) -> Document:
-    """The outputs of several trains in columns: speeds, errors against targets, and tooth counts that differ."""
+def compare_trains(trains: Sequence[GearTrain], everything: bool = False) -> Document:
+    """The outputs of several trains in columns: speeds, errors against targets, and tooth counts that differ.
+
+    Only pointers (outputs with a dial or a target) are compared where there are any, unless `everything` is asked.
+    """
     columns = [(_label(train, answer), train, answer) for train in trains for answer in train.answers()]
-    names = list(dict.fromkeys(name for _, _, answer in columns for name in answer.outputs))
+    names = _names([answer for _, _, answer in columns], everything)
     header = ("output", *(label for label, _, _ in columns))
     rows = [(name, *(_speed(answer, name) for _, _, answer in columns)) for name in names]
-    lead = [f"'{train.name}': {train.declaration.title}." for train in trains]
+    lead = [f"'{train.name}': {train.declaration.title or 'no title'}." for train in trains]
     units = dict.fromkeys(train.declaration.unit_name or "plain numbers" for train in trains)
     lead.append(f"Speeds are in {' and '.join(units)}." + (" The units differ." if len(units) > 1 else ""))
-    sections = [
-        Section(
-            "Outputs", ("An equals sign marks the same exact speed as in the first column.",), (Table(header, rows),)
-        )
-    ]
+    sections = [Section("Outputs", (), (Table(header, rows),))]
     targets = _targets(columns)
     if targets:
         sections.append(
@@ -44,13 +43,23 @@ def _label(train: GearTrain, answer: Answer) -> str:
     return train.name if answer.state is None else f"{train.name} {answer.state}"
 
 
+def _names(answers: Sequence[Answer], everything: bool) -> list[str]:
+    results = [result for answer in answers for result in answer.outputs.values()]
+    pointers = [result.name for result in results if result.output.dial or result.targets]
+    if pointers and not everything:
+        return list(dict.fromkeys(pointers))
+    links = [link for answer in answers for link in answer.speeds]
+    return list(dict.fromkeys([result.name for result in results] or links))
+
+
 def _speed(answer: Answer, name: str) -> str:
     result = answer.outputs.get(name)
-    if result is None:
-        return ""
-    if result.speed is None:
-        return answer.verdict.kind
-    return f"{exact(result.speed)} = {figure(result.speed, 7)}" + ("" if result.holds else " FAILS")
+    speed = result.speed if result is not None else answer.speeds.get(name)
+    if speed is None:
+        return "" if answer.verdict else answer.verdict.kind
+    decimal = figure(speed, 7)
+    shown = exact(speed) if exact(speed) == decimal else f"{exact(speed)} = {decimal}"
+    return shown + (" FAILS" if result is not None and not result.holds else "")
 
 
 def _targets(columns: Sequence[tuple[str, GearTrain, Answer]]) -> list[tuple[str, ...]]:

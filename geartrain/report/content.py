@@ -149,7 +149,8 @@ def _mobility(train: GearTrain) -> Section:
         + (" (exact)." if found.certain else " (rank modulo two primes)."),
     ]
     if found.redundant:
-        lines.append(f"{found.redundant} redundant circuits: the train moves in spite of them.")
+        many = "circuit" if found.redundant == 1 else "circuits"
+        lines.append(f"{found.redundant} redundant {many}: what the others say already.")
     lines += [f"Redundant: {_loop(loop)}." for loop in found.loops[:12]]
     if len(found.loops) > 12:
         lines.append(f"... and {len(found.loops) - 12} more redundant loops.")

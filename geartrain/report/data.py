@@ -1,4 +1,4 @@
-"""The report as plain data, with stable keys (docs/reference/json.md)."""
+"""The report as plain data, with stable keys (docs/json.md)."""
 
 from __future__ import annotations
 

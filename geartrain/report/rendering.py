@@ -80,6 +80,7 @@ def to_terminal(documents: Sequence[Document], console: Console) -> None:
                     for row in strip.rows:
                         shown.add_row(*(Text(cell, style="bold red" if "FAILS" in cell else "") for cell in row))
                     console.print(shown)
+                    console.print()
         console.print()
 
 

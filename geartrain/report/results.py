@@ -64,18 +64,10 @@ def answer_sections(train: GearTrain, answer: Answer) -> Iterator[Section]:
         for target in result.targets
     ]
     if targets:
-        header = (
-            "output",
-            "target",
-            "target speed",
-            "error ppm",
-            "days per century",
-            "degrees per unit",
-            "within tolerance",
-        )
-        yield Section(
-            _title(head, "against the targets"), ("By magnitude; a positive error is fast.",), (Table(header, targets),)
-        )
+        header = ("output", "target", "target speed", "error ppm", "days a century", "degrees a unit", "within")
+        used = len(header) if any(row[-1] for row in targets) else -1
+        table = Table(header[:used], [row[:used] for row in targets])
+        yield Section(_title(head, "against the targets"), ("By magnitude; a positive error is fast.",), (table,))
 
 
 def _title(head: str, words: str) -> str:

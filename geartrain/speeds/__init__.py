@@ -1,4 +1,4 @@
-"""From circuits to speeds: mobility and verdict decided exactly, speeds exact or in floats with their error."""
+"""From circuits to speeds, exact or in floats with their error; mobility and verdict never by a tolerance."""
 
 from __future__ import annotations
 

@@ -25,13 +25,35 @@ def declare(data: Mapping[str, Any], marks: Marks | None = None) -> Train:
     try:
         train = Train.model_validate(data)
     except ValidationError as error:
-        place = marks or dotted
-        raise DeclarationError(_explain(item, place) for item in error.errors(include_url=False)) from None
+        raise DeclarationError(_explain_all(error, marks or dotted)) from None
     train._marks = marks
     problems = tuple(find_problems(train))
     if problems:
         raise DeclarationError(problems)
     return train
+
+
+def _explain_all(error: ValidationError, place: Marks) -> Iterator[Problem]:
+    """Every error in words; a misspelt key is one slip, though the key it should be is missing too."""
+    errors = error.errors(include_url=False)
+    misspelt = {
+        (*item["loc"][:-1], close[0])
+        for item in errors
+        if item["type"] == "extra_forbidden"
+        and (close := get_close_matches(str(item["loc"][-1]), list(_keys_at(item["loc"][:-1])), n=1))
+    }
+    return (_explain(item, place) for item in errors if item["type"] != "missing" or item["loc"] not in misspelt)
+
+
+_SHAPES = {
+    "dict_type": "a mapping of keys to values",
+    "model_type": "a mapping of keys to values",
+    "tuple_type": "a list in brackets",
+    "list_type": "a list in brackets",
+    "string_type": "a text or a number",
+    "too_long": "a shorter list",
+    "too_short": "a longer list",
+}
 
 
 def _explain(error: Mapping[str, Any], place: Marks) -> Problem:
@@ -41,6 +63,13 @@ def _explain(error: Mapping[str, Any], place: Marks) -> Problem:
     if kind == "extra_forbidden":
         allowed = tuple(_keys_at(loc[:-1]))
         return Problem(f"unknown key '{key}'", f"{_where(loc[:-1])} has no such key", suggest(key, allowed), place(loc))
+    if kind == "missing" and isinstance(loc[-1], int):
+        return Problem(
+            f"{_where(loc[:-1])} is too short",
+            f"entry {loc[-1] + 1} is missing",
+            "write a longer list",
+            place(loc[:-1]),
+        )
     if kind == "missing":
         return Problem(f"key '{key}' is missing", f"{_where(loc[:-1])} needs it", f"add `{key}:`", place(loc[:-1]))
     if kind in ("union_tag_not_found", "union_tag_invalid"):
@@ -55,9 +84,12 @@ def _explain(error: Mapping[str, Any], place: Marks) -> Problem:
     if "fix" in context:
         return Problem(f"{_where(loc)}: {error['msg']}", "", context["fix"], place(loc))
     shown = repr(error["input"])
-    return Problem(
-        what, f"got {shown if len(shown) <= 60 else shown[:57] + '...'}", "see `geartrain schema`", place(loc)
-    )
+    got = f"it is {shown if len(shown) <= 60 else shown[:57] + '...'}"
+    if kind in _SHAPES:
+        return Problem(f"{_where(loc)} is not {_SHAPES[kind]}", got, f"write {_SHAPES[kind]}", place(loc))
+    if kind == "literal_error":
+        return Problem(f"{_where(loc)} is none of the words known here", got, f"use {context['expected']}", place(loc))
+    return Problem(what, got, "see `geartrain schema`", place(loc))
 
 
 def _where(loc: Loc) -> str:

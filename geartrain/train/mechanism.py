@@ -88,7 +88,7 @@ class Wheel(Declared):
     internal: Boolean = Field(False, description="A ring: its teeth look inwards, and a mesh with it keeps the sense")
     kind: Literal["spur", "bevel", "contrate", "worm"] = Field("spur", description="How the teeth stand")
     facing: Annotated[Literal[1, -1], BeforeValidator(side)] = Field(
-        1, description="-1 if the wheel lies on the negative side of its axis (bevel, contrate)"
+        1, description="Side of the axis to which the cone opens, -1 for the negative one (bevel, contrate)"
     )
     hand: Literal["right", "left"] = Field("right", description="Hand of a worm's thread")
     module: Length | None = Field(None, description="Pitch diameter over tooth count")

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping
 from difflib import get_close_matches
 
-from geartrain.errors import Loc, Problem
+from geartrain.errors import Loc, Problem, dotted
 from geartrain.periods import suggestion, table
 from geartrain.quantity import Quantity
 from geartrain.train.declaration import Train
@@ -30,12 +30,19 @@ def _unknown(train: Train, kind: str, name: str, known: Iterable[str], *loc: str
         if close
         else f"declare the {kind}, or correct the name"
     )
-    return Problem(f"no {kind} '{name}'", f"`{'.'.join(str(step) for step in loc)}` names it", fix, train.place(*loc))
+    return Problem(f"no {kind} '{name}'", f"`{dotted(loc)}` names it", fix, train.place(*loc))
 
 
 def _links(train: Train) -> Iterator[Problem]:
     links = train.links
-    if train.frame not in links:
+    if train.frame not in links and "frame" not in train.model_fields_set:
+        yield Problem(
+            "no link 'frame'",
+            "that is the link that stands still, unless `frame` names another",
+            f"declare it, or add for example `frame: {next(iter(links), 'case')}`",
+            train.place("links"),
+        )
+    elif train.frame not in links:
         yield _unknown(train, "link", train.frame, links, "frame")
     labels = set()
     for at, joint in enumerate(train.revolutes):
@@ -317,7 +324,7 @@ def _units(train: Train) -> Iterator[Problem]:
     if plain and named:
         yield Problem(
             "lengths mix plain numbers and units",
-            f"`{'.'.join(str(s) for s in named[0])}` has a unit, this has none",
+            f"`{dotted(named[0])}` has a unit, this has none",
             "write all lengths in one way",
             train.place(*plain[0]),
         )

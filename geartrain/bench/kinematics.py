@@ -115,8 +115,17 @@ def _exact(train: GearTrain) -> Mapping[str, Fraction]:
 
 def _residue(system: System, speeds: Mapping[str, Fraction]) -> float:
     """0 if the speeds satisfy every raw equation exactly."""
-    wrong = [row for row in system.equations if sum(c * speeds[link] for link, c in row.terms) != row.right]
-    return float("inf") if wrong else 0.0
+    return 0.0 if all(_holds(row, speeds) for row in system.equations) else float("inf")
+
+
+def _holds(row: Equation, speeds: Mapping[str, Fraction]) -> bool:
+    """The row in integers, cross-multiplied: reducing fractions of long numbers would take longer than solving."""
+    top, bottom = 0, 1
+    for link, coefficient in row.terms:
+        speed = speeds[link]
+        top = top * speed.denominator + coefficient * speed.numerator * bottom
+        bottom *= speed.denominator
+    return top * row.right.denominator == row.right.numerator * bottom
 
 
 def _walk(train: GearTrain) -> dict[str, float]:

@@ -76,7 +76,7 @@ def _parent(name: str, folder: Path, place: str) -> Path:
     raise DeclarationError(
         Problem(
             f"`extends` names '{name}'",
-            f"there is no such file in {folder.resolve()} and no such shipped train",
+            f"there is no such file in {'this folder' if folder == Path() else folder} and no such shipped train",
             _near(name, siblings),
             place,
         )

@@ -10,7 +10,7 @@ from geartrain.errors import MissingExtraError
 from geartrain.report.document import Document, Table
 
 if TYPE_CHECKING:
-    from rich.console import Console
+    from rich.console import Console, RenderableType
 
 
 def to_markdown(documents: Sequence[Document]) -> str:
@@ -55,7 +55,6 @@ def to_html(documents: Sequence[Document]) -> str:
 
 def to_terminal(documents: Sequence[Document], console: Console) -> None:
     """The documents on a terminal; matrices wider than it are shown in strips."""
-    from rich.table import Table as RichTable
     from rich.text import Text
 
     for document in documents:
@@ -67,21 +66,26 @@ def to_terminal(documents: Sequence[Document], console: Console) -> None:
             console.print(Text(section.title, style="bold cyan"))
             for paragraph in section.paragraphs:
                 console.print(Text(paragraph))
-            for table in section.tables:
-                for strip in _strips(table, console.width):
-                    shown = RichTable(
-                        box=None,
-                        pad_edge=False,
-                        header_style="bold",
-                        padding=(0, 1, 0, 0) if table.wide else (0, 2, 0, 0),
-                    )
-                    for name in strip.header:
-                        shown.add_column(Text(name), no_wrap=table.wide, overflow="fold")
-                    for row in strip.rows:
-                        shown.add_row(*(Text(cell, style="bold red" if "FAILS" in cell else "") for cell in row))
-                    console.print(shown)
+            strips = [strip for table in section.tables for strip in _strips(table, console.width)]
+            for at, strip in enumerate(strips):
+                if at:
                     console.print()
+                console.print(_rich_table(strip))
         console.print()
+
+
+def _rich_table(table: Table) -> RenderableType:
+    """A table without rules; failures in red."""
+    from rich.table import Table as RichTable
+    from rich.text import Text
+
+    gap = 1 if table.wide else 2
+    shown = RichTable(box=None, pad_edge=False, header_style="bold", padding=(0, gap, 0, 0))
+    for name in table.header:
+        shown.add_column(Text(name), no_wrap=table.wide, overflow="fold")
+    for row in table.rows:
+        shown.add_row(*(Text(cell, style="bold red" if "FAILS" in cell else "") for cell in row))
+    return shown
 
 
 def _strips(table: Table, width: int) -> Iterator[Table]:

@@ -157,7 +157,7 @@ class Rows:
     def __init__(self, links: Sequence[str], rows: Sequence[Equation]) -> None:
         self.at = {link: column for column, link in enumerate(links)}
         width = max(len(row.terms) for row in rows)
-        self.columns = np.zeros((len(rows), width), dtype=np.int64)
+        self.columns = np.zeros((len(rows), width), dtype=np.intc)
         self.coefficients = np.zeros((len(rows), width))
         for at, row in enumerate(rows):
             for position, (link, coefficient) in enumerate(term for term in row.terms if term[0] in self.at):
@@ -169,7 +169,7 @@ class Rows:
         from scipy.sparse import csc_array
 
         size, width = self.columns.shape
-        lines = np.repeat(np.arange(size), width)
+        lines = np.repeat(np.arange(size, dtype=np.intc), width)
         used = self.coefficients.ravel() != 0
         entries = (self.coefficients.ravel()[used], (lines[used], self.columns.ravel()[used]))
         return csc_array(entries, shape=(size, size))

@@ -13,14 +13,15 @@ from typing import Any
 from geartrain.bench import Record, Records
 
 HERE = Path(__file__).parent
+RUNS = ("kinematics.json", "kinematics-million.json")
 Rows = dict[tuple[str, int, str], Record]
 REFINED = "sparse LU, COLAMD, refined, with estimate"
 
 
 def main() -> None:
     """Read the run, write the page."""
-    data: dict[str, Any] = json.loads((HERE / "data" / "kinematics.json").read_text(encoding="utf-8"))
-    records = Records(data["title"], [Record(**row) for row in data["rows"]])
+    runs: list[dict[str, Any]] = [json.loads((HERE / "data" / name).read_text(encoding="utf-8")) for name in RUNS]
+    records = Records(runs[0]["title"], [Record(**row) for run in runs for row in run["rows"]])
     rows = {(row.family, row.links, row.method): row for row in records.rows}
     text = "\n".join([HEAD, growth(rows), DEFAULT, findings(rows), TABLES, records.to_markdown().split("\n", 2)[2]])
     (HERE / "accuracy.md").write_text(text, encoding="utf-8")
@@ -85,9 +86,10 @@ def findings(rows: Rows) -> str:
 
 HEAD = """# Error against run time
 
-Written by `python docs/make_accuracy.py` from one run of
+Written by `python docs/make_accuracy.py` from the runs
 
-    geartrain bench kinematics --most 1000000 --json -o docs/data/kinematics.json
+    geartrain bench kinematics --json -o docs/data/kinematics.json
+    geartrain bench kinematics --least 1000000 --most 1000000 --family tree --json -o docs/data/kinematics-million.json
 
 on a machine with two cores. Compare times within a table only: they are ratios to the exact solve of the same train
 in the same run. The matrices of the sparse solvers come with rows and columns in random order, as a model arrives, and
@@ -96,7 +98,8 @@ peak grew by. The true error is the greatest relative error of any speed against
 itself is checked by putting it into every raw equation.
 
 Families: **chain** (two wheels an arbor, in a row), **tree** (each wheel meshes with one drawn from those before),
-**cascade** (planetary stages), **lattice** (a square of meshing wheels, one redundant mesh for each small square),
+**epicyclic** (coaxial shafts, each driven by
+a planet between two shafts drawn from those before), **cascade** (planetary stages), **lattice** (a square of meshing wheels, one redundant mesh for each small square),
 **grid** (a square of shafts, each the carrier of a differential between two neighbours: every speed hangs on all).
 
 ## How the steps grow

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 from geartrain.answer import Accuracy, Answer
 from geartrain.circuits import Circuit, Tree, bookkeeping_links, find_circuits, find_tree, link_signs
-from geartrain.components import Reduced, find_components, prune, reduce
+from geartrain.components import Part, Reduced, prune
 from geartrain.errors import Problem, QuestionError, Verdict
 from geartrain.exact import TooDenseError
 from geartrain.outputs import Number, Sensitivity, judge_outputs, sensitivity
@@ -84,7 +84,7 @@ class GearTrain:
     @cached_property
     def mobility(self) -> Mobility:
         """Degrees of freedom by count and by exact rank, with redundant and locking loops."""
-        return find_mobility(self._reduced, len(self.declaration.revolutes))
+        return find_mobility(self._whole.reduced, len(self.declaration.revolutes))
 
     @cached_property
     def remarks(self) -> tuple[Problem, ...]:
@@ -108,20 +108,20 @@ class GearTrain:
         method   "exact", "floats", or "auto": exact unless the coupled system is too dense for it
         """
         case, wanted = self._case(state), None
-        reduced = self._reduced
+        part = self._whole
         if output is not None:
             case, wanted = self._only(case, output)
-            reduced = self._pruned(case, wanted)
+            part = self._pruned(case, wanted)
         if method == "floats":
-            return self._answer_in_floats(reduced, case, wanted)
+            return self._answer_in_floats(part, case, wanted)
         try:
-            solution = solve(reduced, case, self.signs, None if method == "exact" else EXACT_BUDGET)
+            solution = solve(part, case, self.signs, None if method == "exact" else EXACT_BUDGET)
         except TooDenseError:
-            return self._answer_in_floats(reduced, case, wanted)
+            return self._answer_in_floats(part, case, wanted)
         verdict, speeds = solution.verdict, solution.speeds
         if wanted is not None:
             verdict, speeds = self._narrowed(case, verdict, speeds, wanted)
-        return self._judged(case, verdict, speeds, wanted, len(reduced.components.circuits), solution.ratios)
+        return self._judged(case, verdict, speeds, wanted, len(part.circuits), solution.ratios)
 
     def answers(self) -> Iterator[Answer]:
         """The answer of every state, in the order declared."""
@@ -132,8 +132,7 @@ class GearTrain:
         case = self._case(answer.state)
 
         def solve_with(circuits: Sequence[Circuit]) -> Any:
-            reduced = self._reduce(circuits, tuple(self.declaration.links))
-            return solve(reduced, case, self.signs).speeds.get
+            return solve(self._part(circuits, tuple(self.declaration.links)), case, self.signs).speeds.get
 
         return sensitivity(self.declaration, list(answer.outputs.values()), solve_with, self.circuits, self.signs)
 
@@ -150,16 +149,16 @@ class GearTrain:
         """
         from geartrain.speeds import solve_floats
 
-        return solve_floats(self.equations(state), self._redundant(self._reduced), inputs, condition_of)
+        return solve_floats(self.equations(state), self._redundant(self._whole.reduced), inputs, condition_of)
 
     @cached_property
-    def _reduced(self) -> Reduced:
-        return self._reduce(self.circuits, tuple(self.declaration.links))
+    def _whole(self) -> Part:
+        return self._part(self.circuits, tuple(self.declaration.links))
 
-    def _reduce(self, circuits: Sequence[Circuit], links: tuple[str, ...]) -> Reduced:
+    def _part(self, circuits: Sequence[Circuit], links: tuple[str, ...]) -> Part:
         declared = self.declaration
-        first = [*declared.inputs, *(link for state in declared.states.values() for link in state.inputs or ())]
-        return reduce(find_components(links, declared.frame, circuits, first))
+        first = (*declared.inputs, *(link for state in declared.states.values() for link in state.inputs or ()))
+        return Part(links, declared.frame, circuits, first)
 
     @staticmethod
     def _narrowed(
@@ -174,13 +173,13 @@ class GearTrain:
             return Verdict("determined", f"the speed of {wanted[0]} {follows}", loops=verdict.loops), speeds
         return verdict, speeds
 
-    def _pruned(self, case: Case, wanted: Sequence[str]) -> Reduced:
+    def _pruned(self, case: Case, wanted: Sequence[str]) -> Part:
         """The part of the train that can matter to some links."""
         held = {link for lock in case.locks for link in lock}
         kept = {self.declaration.frame, *wanted, *case.inputs, *case.fixed, *held}
         circuits = prune(self.circuits, kept)
         kept.update(link for circuit in circuits for link in (circuit.i, circuit.j, circuit.carrier))
-        return self._reduce(circuits, tuple(link for link in self.declaration.links if link in kept))
+        return self._part(circuits, tuple(link for link in self.declaration.links if link in kept))
 
     @staticmethod
     def _redundant(reduced: Reduced) -> list[str]:
@@ -215,27 +214,26 @@ class GearTrain:
         links = (declared.of or output, declared.relative_to or self.declaration.frame) if declared else (output,)
         return replace(case, outputs=outputs), links
 
-    def _answer_in_floats(self, reduced: Reduced, case: Case, wanted: Sequence[str] | None) -> Answer:
+    def _answer_in_floats(self, part: Part, case: Case, wanted: Sequence[str] | None) -> Answer:
         """Floats with their estimate, and with their true error where the exact answer is cheap."""
         from geartrain.speeds import solve_floats
 
-        parts = reduced.components
-        verdict = exact_verdict(reduced, case, self.signs)
+        verdict = exact_verdict(part.reduced, case, self.signs)
         if not verdict:
-            return self._judged(case, verdict, {}, wanted, len(parts.circuits), None)
-        system = assemble(parts.links, self.declaration.frame, parts.circuits, case, self.signs)
-        found = solve_floats(system, self._redundant(reduced))
-        speeds = dict(zip(parts.links, found.speeds.values[:, 0].tolist(), strict=True))
-        estimates = dict(zip(parts.links, found.estimate.values[:, 0].tolist(), strict=True))
+            return self._judged(case, verdict, {}, wanted, len(part.circuits), None)
+        system = assemble(part.links, part.frame, part.circuits, case, self.signs)
+        found = solve_floats(system, self._redundant(part.reduced))
+        speeds = dict(zip(part.links, found.speeds.values[:, 0].tolist(), strict=True))
+        estimates = dict(zip(part.links, found.estimate.values[:, 0].tolist(), strict=True))
         try:
-            truth = solve(reduced, case, self.signs).speeds
+            truth = solve(part, case, self.signs).speeds
         except TooDenseError:
             truth = {}
         accuracy = {
             link: Accuracy(estimates[link], float(abs(Fraction(speed) - truth[link])) if link in truth else None)
             for link, speed in speeds.items()
         }
-        return self._judged(case, verdict, speeds, wanted, len(parts.circuits), None, accuracy)
+        return self._judged(case, verdict, speeds, wanted, len(part.circuits), None, accuracy)
 
     def _judged(
         self,

@@ -11,12 +11,12 @@ from collections import deque
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from math import gcd
+from functools import cached_property
 
 from geartrain.bulk import collector_paused
 from geartrain.circuits import Circuit
 from geartrain.errors import Loop
-from geartrain.exact import Row, add_into, coprime
+from geartrain.exact import Row, add_into, coprime, times
 
 
 @dataclass(frozen=True, slots=True)
@@ -139,10 +139,10 @@ def find_components(
                     continue
                 if group[there] < 0:
                     group[there], reached[there], parent[there] = this, at, here
-                    top[there], bottom[there] = _times(n, d, a, b)
+                    top[there], bottom[there] = times(n, d, a, b)
                     queue.append(there)
                 elif at != reached[there] and here < there:  # each chord is looked at from one side
-                    agrees = (top[there], bottom[there]) == _times(n, d, a, b)
+                    agrees = (top[there], bottom[there]) == times(n, d, a, b)
                     (closing if agrees else breaking).append(at)
     return Components(
         tuple(links), index, index[frame], circuits, node_link, node_carrier, group, top, bottom, reached, parent,
@@ -190,25 +190,6 @@ def _starts(nodes_of: Mapping[int, Sequence[int]], first: Sequence[int], count: 
     for link in first:
         yield from nodes_of.get(link, ())
     yield from range(count)
-
-
-def _times(n: int, d: int, a: int, b: int) -> tuple[int, int]:
-    """n/d times a/b, reduced, denominator positive. n/d is reduced; a and b are tooth counts, so gcds stay cheap."""
-    if b < 0:
-        a, b = -a, -b
-    common = gcd(a, b)
-    if common > 1:
-        a //= common
-        b //= common
-    left = gcd(n, b)
-    if left > 1:
-        n //= left
-        b //= left
-    right = gcd(a, d)
-    if right > 1:
-        a //= right
-        d //= right
-    return n * a, d * b
 
 
 @dataclass(frozen=True, slots=True)
@@ -272,6 +253,24 @@ def reduce(parts: Components) -> Reduced:
                 equations.append({group: Fraction(1)})
                 origin.append((kind, circuit, -1))
     return Reduced(parts, shell.unknowns, own, tuple(equations), tuple(origin))
+
+
+@dataclass(frozen=True)
+class Part:
+    """A train, or the part of it that matters, ready to be solved; its components are made when first needed.
+
+    first   links to walk from where possible (the inputs)
+    """
+
+    links: tuple[str, ...]
+    frame: str
+    circuits: Sequence[Circuit]
+    first: tuple[str, ...]
+
+    @cached_property
+    def reduced(self) -> Reduced:
+        """Components collapsed to one unknown each, and the equations left."""
+        return reduce(find_components(self.links, self.frame, self.circuits, self.first))
 
 
 def prune(circuits: Sequence[Circuit], keep: Iterable[str]) -> list[Circuit]:

@@ -26,6 +26,25 @@ def coprime(numerator: int, denominator: int) -> Fraction:
     return value
 
 
+def times(n: int, d: int, a: int, b: int) -> tuple[int, int]:
+    """n/d times a/b, reduced, denominator positive. n/d is reduced; a and b are short, so the gcds stay cheap."""
+    if b < 0:
+        a, b = -a, -b
+    common = math.gcd(a, b)
+    if common > 1:
+        a //= common
+        b //= common
+    left = math.gcd(n, b)
+    if left > 1:
+        n //= left
+        b //= left
+    right = math.gcd(a, d)
+    if right > 1:
+        a //= right
+        d //= right
+    return n * a, d * b
+
+
 def log10(value: Fraction) -> float:
     """Decimal logarithm of |value| for numbers of any size; -inf for zero."""
     if not value:

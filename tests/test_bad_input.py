@@ -103,7 +103,7 @@ MISTAKES = {
     "a missing anchor": (changed("p: 20", "p: *twenty"), 3, ["twenty"]),
     "an alias within itself": (changed("  frame: {}", "  frame: &f {wheels: *f}"), 2, ["contains itself"]),
     "broken brackets": (changed("{pair: [p, w]}", "{pair: [p, w}"), 9, ["the YAML cannot be read here"]),
-    "a tab for indentation": (changed("  frame: {}", "\tframe: {}"), 2, ["the YAML cannot be read here"]),
+    "a tab for indentation": (changed("  frame: {}", "\tframe: {}"), 2, ["a tab stands here"]),
 }  # fmt: skip
 
 

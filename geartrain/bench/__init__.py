@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
+from geartrain.bench.families import FAMILIES
 from geartrain.bench.kinematics import count_steps, kinematics
 from geartrain.bench.record import Record, Records
 
-__all__ = ["Record", "Records", "count_steps", "kinematics"]
+__all__ = ["FAMILIES", "Record", "Records", "count_steps", "kinematics"]

@@ -45,6 +45,28 @@ def tree(size: int, seed: int = 1) -> Data:
     return _ordinary(teeth, [(draw.randrange(at), at) for at in range(1, size)])
 
 
+def epicyclic(size: int, seed: int = 1) -> Data:
+    """Coaxial shafts, each driven by a planet that an earlier shaft carries and another earlier shaft drives.
+
+    Both are drawn at random, so every speed hangs on speeds from all over the train.
+    """
+    draw = random.Random(seed)
+    links: Data = {"frame": {"wheels": {}}, "s0": {"wheels": {}}}
+    shafts, joints, gears = ["frame", "s0"], [{"pair": ("frame", "s0"), "axis": "main"}], []
+    for at in range(1, max(2, size // 2)):
+        carrier = shafts[draw.randrange(1, len(shafts))]
+        driver = draw.choice(shafts)
+        if driver == carrier:
+            driver = "frame"
+        links[driver]["wheels"][f"d{at}"] = draw.randint(17, 90)
+        links[f"p{at}"] = {"wheels": {f"pd{at}": draw.randint(17, 90), f"ps{at}": draw.randint(17, 90)}}
+        links[f"s{at}"] = {"wheels": {f"w{at}": draw.randint(17, 90)}}
+        joints += [{"pair": (carrier, f"p{at}"), "axis": f"P{at}"}, {"pair": ("frame", f"s{at}"), "axis": "main"}]
+        gears += [{"pair": (f"d{at}", f"pd{at}")}, {"pair": (f"ps{at}", f"w{at}")}]
+        shafts.append(f"s{at}")
+    return {"links": links, "revolutes": joints, "gears": gears, "inputs": {"s0": 1}}
+
+
 def cascade(size: int, seed: int = 1) -> Data:
     """Planetary stages with a fixed ring, alternately reducing and increasing by the same teeth."""
     draw = random.Random(seed)
@@ -102,6 +124,7 @@ def grid(size: int, seed: int = 1) -> Data:
 FAMILIES: dict[str, Callable[[int], Data]] = {
     "chain": chain,
     "tree": tree,
+    "epicyclic": epicyclic,
     "cascade": cascade,
     "lattice": lattice,
     "grid": grid,

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from fractions import Fraction
 from importlib.util import find_spec
 from typing import Any
@@ -14,7 +14,7 @@ from geartrain.analysis import GearTrain
 from geartrain.bench.families import FAMILIES, Data
 from geartrain.bench.record import Record, Records, measure
 from geartrain.circuits import find_circuits, find_tree
-from geartrain.components import find_components, reduce
+from geartrain.components import Components, Part, find_components
 from geartrain.files import load
 from geartrain.speeds import solve
 from geartrain.speeds.floats import Floats, Rows, prepare, solve_floats
@@ -29,25 +29,27 @@ _ALL_LINKS = 200_000
 Advance = Callable[[str], None]
 
 
-def kinematics(most: int, advance: Advance = lambda _: None) -> Records:
-    """Measure all methods on all families up to `most` links; `advance` hears of every step."""
+def kinematics(
+    most: int, advance: Advance = lambda _: None, least: int = 0, families: Collection[str] = tuple(FAMILIES)
+) -> Records:
+    """Measure all methods on `families` from `least` to `most` links; `advance` hears of every step."""
     rows: list[Record] = []
-    for name in ("pennestri-2002", "freeth-2021"):
+    for name in ("pennestri-2002", "freeth-2021") if least == 0 else ():
         train = load(name)
         rows += _measure_all(name, train, advance)
-    for family, make in FAMILIES.items():
+    for family in families:
         for size in SIZES:
-            if size <= most:
-                data = make(size)
+            if least <= size <= most:
+                data = FAMILIES[family](size)
                 train = GearTrain.declare(data)
                 rows += _measure_steps(family, data, train, advance)
                 rows += _measure_all(family, train, advance)
     return Records("Speeds: error against run time", rows)
 
 
-def count_steps(most: int) -> int:
+def count_steps(most: int, least: int, families: Collection[str]) -> int:
     """How many steps `kinematics` will tell of."""
-    return 10 * (2 + len(FAMILIES) * sum(size <= most for size in SIZES))
+    return 10 * (2 + len(families) * sum(least <= size <= most for size in SIZES))
 
 
 def _measure_steps(family: str, data: Data, train: GearTrain, advance: Advance) -> list[Record]:
@@ -66,7 +68,7 @@ def _measure_steps(family: str, data: Data, train: GearTrain, advance: Advance) 
 
 def _measure_all(family: str, train: GearTrain, advance: Advance) -> list[Record]:
     links = len(train.declaration.links)
-    system, redundant = train.equations(), [train.circuits[at].id for at in train._reduced.components.closing]
+    system, redundant = train.equations(), [train.circuits[at].id for at in _components(train).closing]
     coupled = family == "grid" and links > _GRID_EXACT
     exact = None if coupled else _exact(train)
     truth = None if exact is None else np.array([float(exact[link]) for link in train.declaration.links])
@@ -106,11 +108,16 @@ def _measure_all(family: str, train: GearTrain, advance: Advance) -> list[Record
     return rows
 
 
+def _components(train: GearTrain) -> Components:
+    declared = train.declaration
+    return find_components(tuple(declared.links), declared.frame, train.circuits, declared.inputs)
+
+
 def _exact(train: GearTrain) -> Mapping[str, Fraction]:
     """Walk, reduce, eliminate, read off: everything but the circuits themselves."""
     declared = train.declaration
-    reduced = reduce(find_components(tuple(declared.links), declared.frame, train.circuits, declared.inputs))
-    return solve(reduced, declared.case(train.states[0] if train.states else None), train.signs, None).speeds
+    part = Part(tuple(declared.links), declared.frame, train.circuits, tuple(declared.inputs))
+    return solve(part, declared.case(train.states[0] if train.states else None), train.signs, None).speeds
 
 
 def _residue(system: System, speeds: Mapping[str, Fraction]) -> float:

@@ -19,6 +19,8 @@ def _group() -> None:
 @app.command()
 def kinematics(
     most: Annotated[int, typer.Option("--most", help="Largest number of links.")] = 100_000,
+    least: Annotated[int, typer.Option("--least", help="Smallest number of links; 0 adds two shipped trains.")] = 0,
+    family: Annotated[list[str] | None, typer.Option("--family", help="Only this family; may be repeated.")] = None,
     json: Json = False,
     out: Out = None,
 ) -> None:
@@ -28,7 +30,12 @@ def kinematics(
 
     from geartrain import bench
 
+    families = family or list(bench.FAMILIES)
+    if unknown := [name for name in families if name not in bench.FAMILIES]:
+        raise typer.BadParameter(f"'{unknown[0]}' is no family; use {', '.join(bench.FAMILIES)}", param_hint="--family")
     with Progress(console=Console(stderr=True), transient=True) as progress:
-        task = progress.add_task("kinematics", total=bench.count_steps(most))
-        results = bench.kinematics(most, lambda step: progress.update(task, advance=1, description=step))
+        task = progress.add_task("kinematics", total=bench.count_steps(most, least, families))
+        results = bench.kinematics(
+            most, lambda step: progress.update(task, advance=1, description=step), least, families
+        )
     emit(as_json(results.to_dict()) if json else results.to_markdown(), out)

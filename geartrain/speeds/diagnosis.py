@@ -5,7 +5,7 @@ Every equation gets a symbol of its own, and elimination then says which of them
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from fractions import Fraction
 from math import gcd, lcm
 
@@ -14,6 +14,8 @@ from geartrain.errors import Loop, Verdict
 from geartrain.exact import Row, TooDenseError, add_into, eliminate
 from geartrain.train import Case
 
+_ZERO = Fraction(0)
+
 Statement = tuple[str, str, Fraction]
 """What one prescription says: its kind (input, fixed, lock), a text, and its value."""
 
@@ -21,34 +23,54 @@ Statement = tuple[str, str, Fraction]
 def diagnose(reduced: Reduced, case: Case, signs: Mapping[str, int], budget: int | None = None) -> Verdict | None:
     """The verdict locked or contradictory with its witnesses, or None if the case holds together and can move.
 
-    Witnesses cost memory in a long coupled train: past `budget` operations the verdict comes without them.
+    An input is locked if its link stands still whatever the other inputs do; inputs that could move alone but not
+    together are contradictory. Witnesses cost memory in a long coupled train: past `budget` operations the verdict
+    comes without them.
     """
     rows, statements = _tagged(reduced, case, signs)
-    structural = len(reduced.equations)
+    structural, held = len(reduced.equations), len(rows) - len(case.inputs)
     try:
+        forms = eliminate(rows[:held], budget).forms(budget)
+        for row, (_, _, speed) in zip(rows[held:], statements[held - structural :], strict=True):
+            resolved = resolve(row, forms)
+            if speed and not any(column >= 0 for column in resolved):
+                return _name(reduced, _uses(resolved), statements, structural)
         echelon = eliminate(rows, budget)
     except TooDenseError:
         return without_witness(case)
-    worst: Verdict | None = None
     for condition in echelon.conditions:
-        given = {-1 - column: value for column, value in condition.items()}
+        given = _uses(condition)
         total = sum(
-            (value * statements[tag - structural][2] for tag, value in given.items() if tag >= structural),
-            Fraction(0),
+            (value * statements[tag - structural][2] for tag, value in given.items() if tag >= structural), _ZERO
         )
-        if not total:
-            continue
-        verdict = _name(reduced, given, statements, structural)
-        if verdict.kind == "locked":
-            return verdict
-        worst = worst or verdict
-    if worst is not None:
-        return worst
-    freedom = reduced.unknowns - echelon.rank
+        if total:
+            return _name(reduced, given, statements, structural)
     moving = any(value for _, _, value in statements)
-    if freedom == 0 and not moving:
-        return _standing(reduced, case)
-    return None
+    return _standing(reduced, case) if reduced.unknowns == echelon.rank and not moving else None
+
+
+def _uses(row: Row) -> dict[int, Fraction]:
+    """How much of each tagged equation goes into a row of symbols."""
+    return {-1 - column: value for column, value in row.items()}
+
+
+def resolve(row: Row, forms: Mapping[int, Row]) -> Row:
+    """A row with its solved unknowns put in."""
+    resolved: Row = {}
+    for column, coefficient in row.items():
+        add_into(resolved, forms.get(column, {column: Fraction(1)}), coefficient)
+    return resolved
+
+
+def held_rows(reduced: Reduced, case: Case) -> Iterator[Row]:
+    """One row for each link held to the frame and each pair locked together."""
+    index = reduced.components.index
+    for link in case.fixed:
+        yield dict(reduced.form(index[link]))
+    for a, b in case.locks:
+        row = dict(reduced.form(index[a]))
+        add_into(row, reduced.form(index[b]), -1)
+        yield row
 
 
 def without_witness(case: Case) -> Verdict:
@@ -63,16 +85,9 @@ def without_witness(case: Case) -> Verdict:
 def _tagged(reduced: Reduced, case: Case, signs: Mapping[str, int]) -> tuple[list[Row], list[Statement]]:
     """All equations, each with a symbol -1-t of its own, t counting structure first, then prescriptions."""
     index = reduced.components.index
-    rows: list[Row] = [dict(row) for row in reduced.equations]
-    statements: list[Statement] = []
-    for link in case.fixed:
-        rows.append(dict(reduced.form(index[link])))
-        statements.append(("fixed", case.says(link), Fraction(0)))
-    for a, b in case.locks:
-        row = dict(reduced.form(index[a]))
-        add_into(row, reduced.form(index[b]), -1)
-        rows.append(row)
-        statements.append(("lock", case.says(a, b), Fraction(0)))
+    rows: list[Row] = [dict(row) for row in (*reduced.equations, *held_rows(reduced, case))]
+    statements: list[Statement] = [("fixed", case.says(link), _ZERO) for link in case.fixed]
+    statements += [("lock", case.says(a, b), _ZERO) for a, b in case.locks]
     for link, speed in case.inputs.items():
         rows.append(dict(reduced.form(index[link])))
         statements.append(("input", f"{link} = {speed}", speed * signs.get(link, 1)))
@@ -150,9 +165,7 @@ def free_verdict(
     rows: list[Row] = []
     fixes: list[str] = []
     for link in sorted(undetermined, key=lambda name: index[name] not in reduced.own):  # carriers make good inputs
-        row: Row = {}
-        for column, coefficient in reduced.form(index[link]).items():
-            add_into(row, forms.get(column, {column: Fraction(1)}), coefficient)
+        row = resolve(reduced.form(index[link]), forms)
         loose = {column: value for column, value in row.items() if column >= 0}
         if eliminate([*rows, loose]).rank > len(rows):
             rows.append(loose)

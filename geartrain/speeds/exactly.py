@@ -9,10 +9,11 @@ from fractions import Fraction
 from functools import cached_property
 
 from geartrain.bulk import collector_paused
-from geartrain.components import Reduced
+from geartrain.components import Part, Reduced
 from geartrain.errors import Loop, Verdict
-from geartrain.exact import PRIME, Row, TooDenseError, add_into, eliminate, rank_modulo, residues
-from geartrain.speeds.diagnosis import diagnose, free_verdict, without_witness
+from geartrain.exact import PRIME, Row, TooDenseError, eliminate, rank_modulo, residues
+from geartrain.propagation import propagate
+from geartrain.speeds.diagnosis import diagnose, free_verdict, held_rows, resolve, without_witness
 from geartrain.train import Case
 
 _GIVEN = -1  # the column in which prescribed numbers stand
@@ -64,15 +65,11 @@ class Solution:
 
     speeds      link -> speed, in the order declared; only links that are determined
     ratios      link -> input -> speed over that input, the others at rest
-    freedom     degrees of freedom left when everything prescribed is held
-    work        circuits that were solved
     """
 
     verdict: Verdict
     speeds: Mapping[str, Fraction]
     ratios: Mapping[str, Mapping[str, Fraction]]
-    freedom: int
-    work: int
 
     def __getitem__(self, link: str) -> Fraction:
         return self.speeds[link]
@@ -84,21 +81,21 @@ class Solution:
 class _Ratios(Mapping[str, Mapping[str, Fraction]]):
     """The exact link x input table. It is solved for when first read: a case with one answer does not need it."""
 
-    def __init__(self, reduced: Reduced, case: Case, signs: Mapping[str, int]) -> None:
-        self._reduced, self._case, self._signs = reduced, case, signs
+    def __init__(self, part: Part, case: Case, signs: Mapping[str, int]) -> None:
+        self._part, self._case, self._signs = part, case, signs
 
     @cached_property
     def _forms(self) -> dict[int, Row]:
         """Every unknown in terms of the inputs, one symbol each."""
-        rows = [*self._reduced.equations, *_held(self._reduced, self._case)]
-        index = self._reduced.components.index
-        rows += [
-            {**self._reduced.form(index[link]), -1 - at: Fraction(-1)} for at, link in enumerate(self._case.inputs)
-        ]
+        reduced = self._part.reduced
+        index = reduced.components.index
+        rows = [*reduced.equations, *held_rows(reduced, self._case)]
+        rows += [{**reduced.form(index[link]), -1 - at: Fraction(-1)} for at, link in enumerate(self._case.inputs)]
         return eliminate(rows).forms()
 
     def __getitem__(self, link: str) -> Mapping[str, Fraction]:
-        form = _resolve(self._reduced.form(self._reduced.components.index[link]), self._forms)
+        reduced = self._part.reduced
+        form = resolve(reduced.form(reduced.components.index[link]), self._forms)
         own = self._signs.get(link, 1)
         return {
             name: own * form.get(-1 - at, Fraction(0)) * self._signs.get(name, 1)
@@ -106,33 +103,36 @@ class _Ratios(Mapping[str, Mapping[str, Fraction]]):
         }
 
     def __iter__(self) -> Iterator[str]:
-        return iter(self._reduced.components.links)
+        return iter(self._part.links)
 
     def __len__(self) -> int:
-        return len(self._reduced.components.links)
+        return len(self._part.links)
 
 
 @collector_paused()
-def solve(reduced: Reduced, case: Case, signs: Mapping[str, int], budget: int | None = EXACT_BUDGET) -> Solution:
-    """Solve one case exactly.
+def solve(part: Part, case: Case, signs: Mapping[str, int], budget: int | None = EXACT_BUDGET) -> Solution:
+    """Solve one case exactly: link by link where that reaches every link, else reduced and eliminated.
 
     signs    -1 for links whose axis points against its parallels: their speeds change sign at this door
     budget   operations allowed beyond linear work; `TooDenseError` past it, None for no bound
     """
-    parts = reduced.components
-    work = len(parts.circuits)
-    ratios = _Ratios(reduced, case, signs)
+    ratios = _Ratios(part, case, signs)
+    walked = propagate(part.links, part.frame, part.circuits, case, signs) if any(case.inputs.values()) else None
+    if walked is not None:
+        return Solution(determined(case), walked, ratios)
+    reduced = part.reduced
     budget = allowance(reduced, budget)
-    echelon = eliminate([*reduced.equations, *_held(reduced, case), *_driven(reduced, case, signs)], budget)
+    echelon = eliminate([*reduced.equations, *held_rows(reduced, case), *_driven(reduced, case, signs)], budget)
     if echelon.conditions or (not any(case.inputs.values()) and _all_still(reduced, case, budget)):
         verdict = diagnose(reduced, case, signs, budget)
         if verdict is not None:
-            return Solution(verdict, {}, ratios, 0, work)
+            return Solution(verdict, {}, ratios)
     forms = echelon.forms(budget)
-    free = reduced.unknowns - echelon.rank
     speeds, undetermined = _read_off(reduced, forms, signs)
-    verdict = free_verdict(reduced, case, forms, undetermined, free) if undetermined else _determined(reduced, case)
-    return Solution(verdict, speeds, ratios, free, work)
+    if undetermined:
+        freedom = reduced.unknowns - echelon.rank
+        return Solution(free_verdict(reduced, case, forms, undetermined, freedom), speeds, ratios)
+    return Solution(determined(case, reduced), speeds, ratios)
 
 
 def allowance(reduced: Reduced, budget: int | None) -> int | None:
@@ -142,7 +142,7 @@ def allowance(reduced: Reduced, budget: int | None) -> int | None:
 
 def exact_verdict(reduced: Reduced, case: Case, signs: Mapping[str, int]) -> Verdict:
     """The verdict alone, modulo a prime: for coupled systems too dense for rational elimination."""
-    rows = [*reduced.equations, *_held(reduced, case), *_driven(reduced, case, signs)]
+    rows = [*reduced.equations, *held_rows(reduced, case), *_driven(reduced, case, signs)]
     echelon = eliminate(map(residues, rows), modulus=PRIME)
     if echelon.conditions:
         return without_witness(case)
@@ -150,28 +150,17 @@ def exact_verdict(reduced: Reduced, case: Case, signs: Mapping[str, int]) -> Ver
     if freedom:
         given_count = len(case.inputs)
         return Verdict("free", f"{given_count} of {given_count + freedom} degrees of freedom prescribed")
-    return _determined(reduced, case)
+    return determined(case, reduced)
 
 
-def _determined(reduced: Reduced, case: Case) -> Verdict:
-    given = ", ".join(case.inputs)
-    parts = reduced.components
-    loops = tuple(parts.loop(circuit) for circuit in parts.breaking[:1])
-    text = f"every speed follows from {given}"
+def determined(case: Case, reduced: Reduced | None = None) -> Verdict:
+    """The good verdict, with a word on a loop that holds part of the train, if there is one."""
+    parts = reduced.components if reduced else None
+    loops = tuple(parts.loop(circuit) for circuit in parts.breaking[:1]) if parts else ()
+    text = f"every speed follows from {', '.join(case.inputs)}"
     if loops:
         text += f"; {loops[0]} does not close and holds its links on '{loops[0].carrier}'"
     return Verdict("determined", text, loops=loops)
-
-
-def _held(reduced: Reduced, case: Case) -> Iterator[Row]:
-    """One row for each link held to the frame and each pair locked together."""
-    index = reduced.components.index
-    for link in case.fixed:
-        yield dict(reduced.form(index[link]))
-    for a, b in case.locks:
-        row = dict(reduced.form(index[a]))
-        add_into(row, reduced.form(index[b]), -1)
-        yield row
 
 
 def _driven(reduced: Reduced, case: Case, signs: Mapping[str, int]) -> Iterator[Row]:
@@ -185,15 +174,7 @@ def _driven(reduced: Reduced, case: Case, signs: Mapping[str, int]) -> Iterator[
 
 def _all_still(reduced: Reduced, case: Case, budget: int | None) -> bool:
     """True if nothing can move at all: an input of 0, or none, then hides a locked train."""
-    return eliminate([*reduced.equations, *_held(reduced, case)], budget).rank == reduced.unknowns
-
-
-def _resolve(row: Row, forms: Mapping[int, Row]) -> Row:
-    """A form of unknowns in terms of inputs and free unknowns."""
-    resolved: Row = {}
-    for column, coefficient in row.items():
-        add_into(resolved, forms.get(column, {column: Fraction(1)}), coefficient)
-    return resolved
+    return eliminate([*reduced.equations, *held_rows(reduced, case)], budget).rank == reduced.unknowns
 
 
 def _read_off(
@@ -217,7 +198,7 @@ def _read_off(
             unknown = known[parts.node_group[node]]
             carried = zero if carrier == parts.frame else known[reduced.own[carrier]]
             if unknown is None or carried is None:  # free parts may still cancel
-                speed = _value(_resolve(reduced.form(at), forms))
+                speed = _value(resolve(reduced.form(at), forms))
             else:
                 speed = parts.relative(node) if unknown == 1 else parts.relative(node) * unknown
                 speed = speed + carried if carried else speed
@@ -254,7 +235,7 @@ def _still(reduced: Reduced, forms: Mapping[int, Row]) -> list[str]:
     for at, name in enumerate(parts.links):
         columns = reduced.form(at)
         moving = [column for column in columns if column not in null]
-        if at != parts.frame and (not moving or (len(moving) > 1 and not _resolve(columns, forms))):
+        if at != parts.frame and (not moving or (len(moving) > 1 and not resolve(columns, forms))):
             found.append(name)
     return found
 

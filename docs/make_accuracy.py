@@ -98,16 +98,17 @@ peak grew by. The true error is the greatest relative error of any speed against
 itself is checked by putting it into every raw equation.
 
 Families: **chain** (two wheels an arbor, in a row), **tree** (each wheel meshes with one drawn from those before),
-**epicyclic** (coaxial shafts, each driven by
-a planet between two shafts drawn from those before), **cascade** (planetary stages), **lattice** (a square of meshing wheels, one redundant mesh for each small square),
-**grid** (a square of shafts, each the carrier of a differential between two neighbours: every speed hangs on all).
+**epicyclic** (coaxial shafts, each driven by a planet between two shafts drawn from those before), **cascade**
+(planetary stages), **lattice** (a square of meshing wheels, one redundant mesh for each small square), **grid** (a
+square of shafts, each the carrier of a differential between two neighbours: every speed hangs on all).
 
 ## How the steps grow
 """
 
 DEFAULT = """
-Declaring, finding circuits and solving exactly grow linearly where circuits are coupled through few shared links. The
-grid is the exception, by construction: its exact numbers grow with the train.
+Declaring, finding circuits and solving exactly grow linearly with the links where the numbers stay short, and a
+little faster where they grow (a chain's numbers grow with the square root of its length). The grid is the exception,
+by construction: its circuits are all coupled, and its exact numbers grow with the train.
 
 ## The default
 

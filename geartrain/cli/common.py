@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import sys
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -14,6 +14,7 @@ from geartrain.errors import GearTrainError, Problem
 
 if TYPE_CHECKING:
     from geartrain.analysis import GearTrain
+    from geartrain.report import Document
 
 GOOD, VERDICT, NOT_USABLE = 0, 1, 2
 
@@ -57,6 +58,20 @@ def emit(text: str, out: Path | None = None) -> None:
     typer.echo(f"wrote {out}", err=True)
 
 
+def show(documents: Sequence[Document], out: Path | None, suffix: str) -> None:
+    """Documents as HTML or Markdown to a file, or on the terminal: through rich if somebody looks, else as Markdown."""
+    from geartrain import report
+
+    if suffix == ".html":
+        emit(report.to_html(documents), out)
+    elif out is None and sys.stdout.isatty():
+        from rich.console import Console
+
+        report.to_terminal(documents, Console(highlight=False))
+    else:
+        emit(report.to_markdown(documents), out)
+
+
 def suffix_of(out: Path | None, allowed: Iterable[str]) -> str:
     """The suffix of an output file, "" without one; others than the allowed ones are refused."""
     suffix = out.suffix.lower() if out else ""
@@ -73,8 +88,3 @@ def plural(count: int, noun: str) -> str:
 def as_json(data: Any) -> str:
     """JSON as this command prints it."""
     return json.dumps(data, indent=2, ensure_ascii=False, allow_nan=False)
-
-
-def on_terminal() -> bool:
-    """True if standard output is a terminal."""
-    return sys.stdout.isatty()

@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from geartrain.cli.common import GOOD, VERDICT, Files, Json, Out, as_json, emit, load_all, on_terminal, suffix_of
+from geartrain.cli.common import GOOD, VERDICT, Files, Json, Out, as_json, emit, load_all, show, suffix_of
 
 
 def run(
@@ -26,13 +26,5 @@ def run(
     if json or suffix == ".json":
         emit(as_json([report.train_data(train) for train in trains]), out)
     else:
-        document = [report.compare_trains(trains, everything)]
-        if suffix == ".html":
-            emit(report.to_html(document), out)
-        elif out is None and on_terminal():
-            from rich.console import Console
-
-            report.to_terminal(document, Console(highlight=False))
-        else:
-            emit(report.to_markdown(document), out)
+        show([report.compare_trains(trains, everything)], out, suffix)
     raise typer.Exit(GOOD if sound else VERDICT)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import typer
 
-from geartrain.cli.common import GOOD, VERDICT, Files, Json, Out, as_json, emit, load_all, on_terminal, suffix_of
+from geartrain.cli.common import GOOD, VERDICT, Files, Json, Out, as_json, emit, load_all, show, suffix_of
 
 
 def run(files: Files, out: Out = None, json: Json = False) -> None:
@@ -18,13 +18,5 @@ def run(files: Files, out: Out = None, json: Json = False) -> None:
         data = [report.train_data(train) for train in trains]
         emit(as_json(data[0] if len(data) == 1 else data), out)
     else:
-        documents = [report.report_train(train) for train in trains]
-        if suffix == ".html":
-            emit(report.to_html(documents), out)
-        elif out is None and on_terminal():
-            from rich.console import Console
-
-            report.to_terminal(documents, Console(highlight=False))
-        else:
-            emit(report.to_markdown(documents), out)
+        show([report.report_train(train) for train in trains], out, suffix)
     raise typer.Exit(GOOD if sound else VERDICT)

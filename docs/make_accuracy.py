@@ -1,8 +1,4 @@
-"""Write docs/accuracy.md from a run of the benchmark.
-
-geartrain bench kinematics --most 1000000 --json -o docs/data/kinematics.json
-python docs/make_accuracy.py
-"""
+"""Write docs/accuracy.md from runs of the benchmark; the page begins with the commands that make them."""
 
 from __future__ import annotations
 
@@ -13,7 +9,7 @@ from typing import Any
 from geartrain.bench import Record, Records
 
 HERE = Path(__file__).parent
-RUNS = ("kinematics.json", "kinematics-million.json")
+RUNS = ("kinematics-small.json", "kinematics-large.json", "kinematics-million.json")
 Rows = dict[tuple[str, int, str], Record]
 REFINED = "sparse LU, COLAMD, refined, with estimate"
 
@@ -23,19 +19,25 @@ def main() -> None:
     runs: list[dict[str, Any]] = [json.loads((HERE / "data" / name).read_text(encoding="utf-8")) for name in RUNS]
     records = Records(runs[0]["title"], [Record(**row) for run in runs for row in run["rows"]])
     rows = {(row.family, row.links, row.method): row for row in records.rows}
-    text = "\n".join([HEAD, growth(rows), DEFAULT, findings(rows), TABLES, records.to_markdown().split("\n", 2)[2]])
+    text = "\n".join([HEAD, growth(rows), DEFAULT, findings(rows), TABLES, tables(records)])
     (HERE / "accuracy.md").write_text(text, encoding="utf-8")
 
 
+def tables(records: Records) -> str:
+    """The tables of the run, a heading lower than they are printed."""
+    return records.to_markdown().split("\n", 2)[2].replace("## ", "### ")
+
+
 def growth(rows: Rows) -> str:
-    """Seconds per hundred thousand links of each step, by size: constant where the growth is linear."""
+    """Seconds of each step by size, and microseconds a link: constant where the growth is linear."""
     lines = [
         "| family | links | declare | circuits | exact | exact, us a link | memory of exact |",
         "|---|---|---|---|---|---|---|",
     ]
-    for family, links, method in rows:
-        if method != "exact" or links < 1000:
-            continue
+    families = list(dict.fromkeys(family for family, *_ in rows))
+    sizes = [(families.index(family), links) for family, links, method in rows if method == "exact" and links > 500]
+    for at, links in sorted(sizes):
+        family = families[at]
         cells = [_seconds(rows.get((family, links, name))) for name in DECLARE_AND_CIRCUITS]
         exact = rows[family, links, "exact"]
         each = f"{exact.seconds / links * 1e6:.2g}" if exact.seconds else "-"
@@ -88,7 +90,8 @@ HEAD = """# Error against run time
 
 Written by `python docs/make_accuracy.py` from the runs
 
-    geartrain bench kinematics --json -o docs/data/kinematics.json
+    geartrain bench kinematics --most 1000 --json -o docs/data/kinematics-small.json
+    geartrain bench kinematics --least 10000 --json -o docs/data/kinematics-large.json
     geartrain bench kinematics --least 1000000 --most 1000000 --family tree --json -o docs/data/kinematics-million.json
 
 on a machine with two cores. Compare times within a table only: they are ratios to the exact solve of the same train
@@ -106,17 +109,19 @@ square of shafts, each the carrier of a differential between two neighbours: eve
 """
 
 DEFAULT = """
-Declaring, finding circuits and solving exactly grow linearly with the links where the numbers stay short, and a
-little faster where they grow (a chain's numbers grow with the square root of its length). The grid is the exception,
-by construction: its circuits are all coupled, and its exact numbers grow with the train.
+Declaring, finding circuits and solving exactly grow nearly linearly with the links: a link costs two to three times as
+much in a train of a hundred thousand as in one of a thousand, whose data fit a cache; a chain's numbers also grow, with
+the square root of its length. The grid is the exception, by construction: its circuits are all coupled, and its exact
+numbers grow with the train.
 
 ## The default
 
-`solve()` is exact. Exact answers cost about as much as the refined floats they would replace, need no judgement of
-conditioning, and decide mobility and gridlock without a tolerance. Exact elimination has a budget: beyond
-linear work it may spend 400 000 coefficient operations, long numbers counting more. A coupled system past it is
-solved in floats with one refinement step whose residual is taken to twice the working precision; its verdict is then
-taken modulo the prime 2^61 - 1, and the answer says so by `method: floats` and a tilde.
+`solve()` is exact. Where walking from link to link reaches everything, the exact answer costs about what the refined
+floats would; coupled planetary stages cost five to seven times that, a few hundredths of a second for a thousand
+links. In return nobody has to judge conditioning, and mobility and gridlock are decided without a tolerance. Exact
+elimination has a budget: beyond linear work it may spend 400 000 coefficient operations, long numbers counting more. A
+coupled system past it is solved in floats with one refinement step whose residual is taken to twice the working
+precision; its verdict is then taken modulo the prime 2^61 - 1, and the answer says so by `method: floats` and a tilde.
 
 The float path reports an error estimate for each speed, from one more solve with the residual left after refinement,
 and the true error wherever the exact answer is within the budget (`geartrain solve FILE --method floats`). It refuses

@@ -6,6 +6,7 @@ import subprocess
 import sys
 from pathlib import Path
 
+import make_accuracy
 import make_commands
 import make_errata
 import make_images
@@ -18,7 +19,7 @@ def main() -> None:
     """Run all makers, and the command that writes the reference."""
     reference = DOCS / "reference.md"
     subprocess.run([sys.executable, "-m", "geartrain", "schema", "--as", "markdown", "-o", str(reference)], check=True)
-    for maker in (make_commands, make_errata, make_images, make_outputs):
+    for maker in (make_accuracy, make_commands, make_errata, make_images, make_outputs):
         maker.main()
 
 

@@ -98,7 +98,7 @@ def _measure_all(family: str, train: GearTrain, advance: Advance) -> list[Record
         take(
             "compiled rationals, python-flint",
             lambda: compiled[0].solve(compiled[1]),
-            lambda x: error_of(np.array([float(v[0].p) / float(v[0].q) for v in x.tolist()])),
+            lambda x: error_of(np.array([float(Fraction(int(v[0].p), int(v[0].q))) for v in x.tolist()])),
         )
     if links <= _ALL_LINKS:
         take("scipy spsolve", lambda: shuffled.spsolve(right), error_of)

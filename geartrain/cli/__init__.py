@@ -10,7 +10,7 @@ import typer
 
 from geartrain.cli import bench, check, compare, equations, graph, listing, report, schema, solve
 from geartrain.cli.common import NOT_USABLE, complain
-from geartrain.errors import GearTrainError
+from geartrain.errors import GearTrainError, Problem
 
 app = typer.Typer(
     name="geartrain",
@@ -59,3 +59,9 @@ def main() -> None:
     except BrokenPipeError:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         sys.exit(0)
+    except OSError as error:
+        complain(
+            GearTrainError(Problem("the result cannot be written", str(error), "make room there", "standard output"))
+        )
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        sys.exit(NOT_USABLE)

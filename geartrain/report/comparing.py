@@ -20,6 +20,11 @@ def compare_trains(trains: Sequence[GearTrain], everything: bool = False) -> Doc
     rows = [(name, *(_speed(answer, name) for _, _, answer in columns)) for name in names]
     lead = [f"'{train.name}': {train.declaration.title or 'no title'}." for train in trains]
     units = dict.fromkeys(train.declaration.unit_name or "plain numbers" for train in trains)
+    lead += [
+        f"'{label}' is {answer.verdict.kind}: {answer.verdict.text}"
+        for label, _, answer in columns
+        if not answer.verdict
+    ]
     lead.append(f"Speeds are in {' and '.join(units)}." + (" The units differ." if len(units) > 1 else ""))
     sections = [Section("Outputs", (), (Table(header, rows),))]
     targets = _targets(columns)

@@ -32,7 +32,7 @@ def _markdown(document: Document) -> Iterator[str]:
 
 
 def _pipes(table: Table) -> Iterator[str]:
-    rows = [[cell.replace("|", "\\|") for cell in row] for row in (table.header, *table.rows)]
+    rows = [[" ".join(cell.replace("|", "\\|").split()) for cell in row] for row in (table.header, *table.rows)]
     widths = [max(3, *(len(cell) for cell in column)) for column in zip(*rows, strict=True)]
     lines = [
         "| " + " | ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)) + " |" for row in rows

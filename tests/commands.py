@@ -1,0 +1,27 @@
+"""The command as tests call it, and the declarations and numbers they share."""
+
+from __future__ import annotations
+
+from typer.testing import CliRunner, Result
+
+from geartrain.cli import app
+
+LOCKED = """
+links: {frame: {}, a: {wheels: {x: 20}}, b: {wheels: {y: 30}}, c: {wheels: {z: 40}}}
+revolutes: [{pair: [frame, a], axis: A}, {pair: [frame, b], axis: B}, {pair: [frame, c], axis: C}]
+gears: [{pair: [x, y]}, {pair: [y, z]}, {pair: [z, x]}]
+inputs: {a: 1}
+"""
+WRONG = LOCKED.replace(", {pair: [z, x]}", "") + "outputs:\n  c: {expect: 1/3}\n"
+RIGHT = WRONG.replace("1/3", "1/2")
+UNUSABLE = RIGHT.replace("gears:", "geers:")
+
+# pennestri-2002, Table 4, as fractions
+TWENTY = (
+    *("0", "5", "-1", "-1", "254/19", "16/9", "-1", "1/4", "-1/2", "32/19"),
+    *("-64/19", "-254/19", "-197/76", "-254/19", "1", "470/19", "-235/19", "235/57", "-235/228", "-235/38"),
+)
+
+
+def call(*arguments: object) -> Result:
+    return CliRunner().invoke(app, [str(argument) for argument in arguments])

@@ -1,0 +1,108 @@
+"""The transmission law of a pair: what every tooth form and every pin answers, so that the rest need not know which.
+
+Angles are forward angles: S of the driver and q of the driven side both grow as the pair turns forward, and S = 0 has a
+driver's tooth on the line of centres (a pin: pointing at the other axis). The sign an external mesh gives to the driven
+speed is the train's business, not the law's.
+"""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from fractions import Fraction
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import ArrayLike, NDArray
+
+    Floats = NDArray[np.float64]
+
+
+class Law(ABC):
+    """Driven angle, speed ratio and efficiency of one pair as functions of the driver's forward angle.
+
+    `ratio` is the exact mean of the speed ratio, driven over driver, without sign; `period` the driver's angle (rad)
+    after which the law repeats. The transmission error is q - ratio S, in radians of the driven side: positive where
+    the driven side is ahead of uniform motion. Its mean, a lag that depends on where angles are counted from, is left
+    in the error and out of its rms.
+    """
+
+    ratio: Fraction
+    period: float
+
+    @abstractmethod
+    def error(self, S: ArrayLike) -> Floats:
+        """Transmission error (rad of the driven side) at driver angles S (rad), any shape."""
+
+    @abstractmethod
+    def speed(self, S: ArrayLike) -> Floats:
+        """Instantaneous speed ratio dq/dS at driver angles S (rad)."""
+
+    @abstractmethod
+    def efficiency(self, S: ArrayLike) -> Floats:
+        """Power out over power in at driver angles S (rad); NaN where nothing is in contact."""
+
+    @abstractmethod
+    def speed_range(self) -> tuple[float, float]:
+        """Least and greatest speed ratio."""
+
+    @abstractmethod
+    def error_range(self) -> tuple[float, float]:
+        """Least and greatest transmission error (rad of the driven side)."""
+
+    @abstractmethod
+    def error_moments(self) -> tuple[float, float]:
+        """Mean of the transmission error, and its rms about that mean (rad of the driven side)."""
+
+    @abstractmethod
+    def efficiency_mean(self) -> float:
+        """Mean efficiency over the driver's angle, at constant driver torque."""
+
+    def angle(self, S: ArrayLike) -> Floats:
+        """Driven angle q (rad) at driver angles S (rad)."""
+        import numpy as np
+
+        S = np.asarray(S, dtype=float)
+        angle: Floats = float(self.ratio) * S + self.error(S)
+        return angle
+
+
+class Rigid(Law):
+    """A law without error or loss: the ratio of tooth counts at every instant."""
+
+    def __init__(self, ratio: Fraction, period: float) -> None:
+        self.ratio, self.period = ratio, period
+
+    def error(self, S: ArrayLike) -> Floats:
+        """0 everywhere."""
+        return self._constant(S, 0.0)
+
+    def speed(self, S: ArrayLike) -> Floats:
+        """The mean ratio everywhere."""
+        return self._constant(S, float(self.ratio))
+
+    def efficiency(self, S: ArrayLike) -> Floats:
+        """1 everywhere."""
+        return self._constant(S, 1.0)
+
+    def speed_range(self) -> tuple[float, float]:
+        """The mean ratio twice."""
+        return float(self.ratio), float(self.ratio)
+
+    def error_range(self) -> tuple[float, float]:
+        """0 twice."""
+        return 0.0, 0.0
+
+    def error_moments(self) -> tuple[float, float]:
+        """0 twice."""
+        return 0.0, 0.0
+
+    def efficiency_mean(self) -> float:
+        """1."""
+        return 1.0
+
+    @staticmethod
+    def _constant(S: ArrayLike, value: float) -> Floats:
+        import numpy as np
+
+        return np.full(np.shape(S), value)

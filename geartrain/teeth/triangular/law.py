@@ -1,0 +1,272 @@
+"""The transmission law of triangular teeth, vectorised over driver angles."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cached_property
+from itertools import pairwise
+from math import inf, nan, sqrt
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from geartrain.teeth.base import Law
+from geartrain.teeth.triangular.contact import APPROACH
+from geartrain.teeth.triangular.meshing import Contact, Meshing
+from geartrain.teeth.triangular.path import Interval
+from geartrain.teeth.triangular.roots import bracketed_root
+from geartrain.teeth.triangular.sizes import Sizes
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
+
+    from geartrain.teeth.base import Floats
+
+_BLOCK = 16384  # samples worked on at once: their intermediate arrays stay in a cache
+_NODES = 20  # of Gauss and Legendre on each smooth stretch
+
+
+@dataclass(frozen=True, slots=True)
+class Jump:
+    """A collision: tau before and after, and the relative jump 1 - before/after of Eqs. (22), (25), (26), (27).
+
+    `kind` is the phase that begins, or "matching" where the flank of one couple falls on the other's.
+    """
+
+    kind: str
+    alpha1: float
+    before: float
+    after: float
+
+    @property
+    def value(self) -> float:
+        """Relative jump of the normal velocity."""
+        return 1 - self.before / self.after
+
+
+class TriangularLaw(Law):
+    """The law of a pair of wheels, the first of `sizes` driving.
+
+    `direction` -1 turns backwards: angles S and q keep their sense and decrease, and the back flanks drive. The law of
+    a pair that stands still at each pitch has those standstills; that of a pair that jams or clashes is what its front
+    flanks alone would do.
+    """
+
+    def __init__(self, sizes: Sizes, friction: float = 0.0, direction: int = 1) -> None:
+        self.sizes, self.friction, self.direction = sizes, friction, direction
+        self.ratio, self.period = Fraction(sizes.z1, sizes.z2), sizes.p1
+        self.contact = Contact(sizes)
+
+    @property
+    def intervals(self) -> tuple[Interval, ...]:
+        """The real path: what drives, in order of time, one pitch of the driver in all."""
+        return self.contact.intervals
+
+    @property
+    def verdict(self) -> Meshing:
+        """Whether the pair can turn."""
+        return self.contact.verdict
+
+    # ---------------------------------------------------------------------------------------------------- over samples
+
+    def error(self, S: ArrayLike) -> Floats:
+        """Transmission error (rad of the driven wheel) at driver angles S (rad)."""
+        lag = self._map(S, self._lag)
+        return -lag if self.direction > 0 else self.sizes.p2 + lag
+
+    def speed(self, S: ArrayLike) -> Floats:
+        """tau at driver angles S (rad)."""
+        return self._map(S, self._tau)
+
+    def efficiency(self, S: ArrayLike) -> Floats:
+        """Sliding efficiency at driver angles S (rad); NaN in a standstill."""
+        return self._map(S, self._eta)
+
+    def alpha1(self, S: ArrayLike) -> Floats:
+        """alpha_1 (rad) of the couple that drives at driver angles S (rad)."""
+        return self._map(S, lambda interval, x: x)
+
+    def _map(self, S: ArrayLike, what: Callable[[Interval, Floats], Any]) -> Floats:
+        S = np.asarray(S, dtype=float)
+        flat = S.ravel()
+        found = np.empty_like(flat)
+        for start in range(0, len(flat), _BLOCK):
+            self._block(flat[start : start + _BLOCK], what, found[start : start + _BLOCK])
+        return found.reshape(S.shape)
+
+    def _block(self, S: Floats, what: Callable[[Interval, Floats], Any], found: Floats) -> None:
+        starts, edges = self._table
+        behind = np.mod(S if self.direction > 0 else -S, self.period)
+        behind += starts[0]
+        behind -= np.floor(behind / self.period) * self.period
+        if len(self.intervals) == 1:
+            found[:] = what(self.intervals[0], self.intervals[0].start - behind)
+            return
+        which = np.searchsorted(edges[1:-1], behind, side="right")
+        for at, interval in enumerate(self.intervals):
+            chosen = np.flatnonzero(which == at)
+            found[chosen] = what(interval, interval.start - (behind[chosen] - edges[at]))
+
+    @cached_property
+    def _table(self) -> tuple[Floats, Floats]:
+        """Start of the first interval as a position, and the driver's angle at the edge of each."""
+        if not self.intervals:
+            raise ValueError(self.verdict.text)
+        first = self.intervals[0]
+        widths = [interval.width for interval in self.intervals]
+        return np.array([first.start - first.couple * self.period]), np.concatenate(([0.0], np.cumsum(widths)))
+
+    def _lag(self, interval: Interval, x: Any) -> Any:
+        if interval.held is not None:
+            return interval.held - self.sizes.ratio * x
+        return self.contact.path.couple.angle(interval.phase, x, np) - self.sizes.ratio * x
+
+    def _tau(self, interval: Interval, x: Any) -> Any:
+        return 0.0 if interval.held is not None else self.contact.path.couple.speed(interval.phase, x, np)
+
+    def _eta(self, interval: Interval, x: Any) -> Any:
+        if interval.held is not None:
+            return nan
+        return self.contact.path.couple.efficiency(interval.phase, x, self.friction, np)
+
+    # ------------------------------------------------------------------------------------------------ over the pitch
+
+    @cached_property
+    def stretches(self) -> list[tuple[Interval, float, float]]:
+        """The intervals cut where something has a corner: where tau turns, and at the line of centres."""
+        return [
+            (interval, high, low)
+            for interval in self.intervals
+            for high, low in pairwise(sorted({interval.start, interval.end, *self._corners(interval)}, reverse=True))
+        ]
+
+    def _corners(self, interval: Interval) -> Iterator[float]:
+        if interval.held is not None:
+            return
+        low, high = interval.end, interval.start
+        yield from (piece.low for piece in self.contact.path.pieces if low < piece.low < high)
+        centre = self._line_of_centres(interval.phase)
+        if low < centre < high:
+            yield centre
+
+    def _line_of_centres(self, phase: str) -> float:
+        """alpha_1 where the contact is on the line of centres: there sliding turns round."""
+        if phase != APPROACH:
+            return 0.0
+        couple = self.contact.path.couple
+        low, high = max(self.sizes.matching, -self.sizes.reach1), self.sizes.reach1
+        if not couple.approach_angle(low) < 0 < couple.approach_angle(high):
+            return inf
+        return bracketed_root(couple.approach_angle, couple.approach_speed, low, high)
+
+    @cached_property
+    def nodes(self) -> list[tuple[Interval, Floats, Floats]]:
+        """Each stretch with nodes in alpha_1 and weights whose sum over all stretches is 1."""
+        points, weights = np.polynomial.legendre.leggauss(_NODES)
+        return [
+            (interval, (high + low) / 2 + (high - low) / 2 * points, (high - low) / 2 / self.period * weights)
+            for interval, high, low in self.stretches
+        ]
+
+    def _ends(self, what: Callable[[Interval, Any], Any]) -> list[float]:
+        return [float(what(interval, x)) for interval, high, low in self.stretches for x in (high, low)]
+
+    def speed_range(self) -> tuple[float, float]:
+        """Least and greatest tau; it is monotone between corners."""
+        ends = self._ends(self._tau)
+        return min(ends), max(ends)
+
+    def error_range(self) -> tuple[float, float]:
+        """Least and greatest transmission error (rad of the driven wheel)."""
+        lags = self._ends(self._lag)
+        for interval, high, low in self.stretches:
+            if interval.held is None:
+                lags += self.contact.path.extremes(interval.phase, low, high)
+        if self.direction > 0:
+            return -max(lags), -min(lags)
+        return self.sizes.p2 + min(lags), self.sizes.p2 + max(lags)
+
+    def error_moments(self) -> tuple[float, float]:
+        """Mean and rms of the transmission error (rad of the driven wheel)."""
+        lags = [(self._lag(interval, x), weights) for interval, x, weights in self.nodes]
+        mean = sum(float(weights @ lag) for lag, weights in lags)
+        square = sum(float(weights @ (lag - mean) ** 2) for lag, weights in lags)
+        return (-mean if self.direction > 0 else self.sizes.p2 + mean), sqrt(square)
+
+    def efficiency_mean(self) -> float:
+        """Mean over the driver's angle in contact at constant driver torque, Eq. (34); NaN where friction locks."""
+        if self.friction >= self.locking_friction:
+            return nan
+        return self._contact_mean(lambda interval, x: self._eta(interval, x))
+
+    def efficiency_at_constant_load(self) -> float:
+        """Work done on a constant load torque over the work put in, per pitch; NaN where friction locks."""
+        if self.friction >= self.locking_friction:
+            return nan
+        turned = self._contact_mean(self._tau)
+        return turned / self._contact_mean(lambda interval, x: self._tau(interval, x) / self._eta(interval, x))
+
+    def _contact_mean(self, what: Callable[[Interval, Any], Any]) -> float:
+        held = [(interval, x, weights) for interval, x, weights in self.nodes if interval.held is None]
+        whole = sum(float(weights.sum()) for _, _, weights in held)
+        return sum(float(weights @ what(interval, x)) for interval, x, weights in held) / whole
+
+    def efficiency_least(self) -> float:
+        """Least sliding efficiency: at an end of a stretch, or within, looked for with a thousand samples each."""
+        least = inf
+        for interval, high, low in self.stretches:
+            if interval.held is None:
+                # the line of centres itself belongs to both sides, where nothing is lost
+                x = np.linspace(high, low, 1001)
+                x[[0, -1]] = high - 1e-12 * (high - low), low + 1e-12 * (high - low)
+                least = min(least, float(self._eta(interval, x).min()))
+        return least
+
+    @cached_property
+    def locking_friction(self) -> float:
+        """The friction at which some point of the real path locks, f tan = 1 before the line of centres; else inf."""
+        steepest = 0.0
+        for interval, high, low in self.stretches:
+            if interval.held is None:
+                x = np.linspace(high, low, 101)
+                side, tan2, tan1 = self.contact.path.couple.friction(interval.phase, x, np)
+                inner = side[50] > 0
+                steepest = max(steepest, float(np.maximum(tan2, tan1).max()) if inner else 0.0)
+        return 1 / steepest if steepest else inf
+
+    def steepest_fall(self) -> float:
+        """Greatest d tau / d alpha_1 (1/rad): as tau falls, the driven inertia J runs ahead of a slack drive.
+
+        The quasi-static law holds while the load torque is at least J omega_1^2 times this.
+        """
+        couple = self.contact.path.couple
+        steepest = 0.0
+        for interval, high, low in self.stretches:
+            if interval.held is None:
+                steepest = max(steepest, float(couple.slope(interval.phase, np.linspace(high, low, 101), np).max()))
+        return steepest
+
+    @cached_property
+    def jumps(self) -> list[Jump]:
+        """Every collision of a pitch, in order of time."""
+        found = []
+        for last, new in zip(self.intervals, (*self.intervals[1:], self.intervals[0]), strict=True):
+            if new.held is not None:
+                continue
+            same = last.held is None and last.phase != new.phase and abs(last.end - new.start) < 1e-9 * self.period
+            before, after = self.contact.speed(last, last.end), self.contact.speed(new, new.start)
+            found.append(Jump("matching" if same else new.phase, new.start, before, after))
+        return found
+
+    def impact(self, inertia: float, omega1: float) -> tuple[float, float, float]:
+        """Energies of one pitch's collisions (J): handed to the driven side, dissipated, and their sum.
+
+        Inelastic, the driver at constant speed omega1 (rad/s), `inertia` (kg m2) all that turns with the driven wheel.
+        The source counts the first as lost; what is lost is the second, and the driver's work is their sum.
+        """
+        scale = inertia * omega1**2
+        handed = sum((jump.after**2 - jump.before**2) / 2 for jump in self.jumps) * scale
+        dissipated = sum((jump.after - jump.before) ** 2 / 2 for jump in self.jumps) * scale
+        return handed, dissipated, handed + dissipated

@@ -1,0 +1,245 @@
+"""Can a pair of wheels turn? The verdict, the play of the back flanks, and the window of clearance."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import pairwise
+from math import degrees, inf, pi
+from typing import Literal
+
+from geartrain.teeth.triangular.contact import APPROACH
+from geartrain.teeth.triangular.dragging import Dragged, drag
+from geartrain.teeth.triangular.path import STANDSTILL, Interval, RealPath
+from geartrain.teeth.triangular.roots import bracketed_root
+from geartrain.teeth.triangular.sizes import Sizes
+
+Kind = Literal["runs", "no valley", "overhang", "jam", "clash", "standstill", "apart"]
+_ROUNDING = 1e-11  # of a driven pitch: play that is less below 0 is none
+
+
+@dataclass(frozen=True, slots=True)
+class Meshing:
+    """Whether a pair can turn, and why not; true if it can. A standstill turns, with the angle `lost` at each pitch.
+
+    `play` is the least play of the back flanks, `clash` the overlap of entering tips, both rad of the driven wheel;
+    `lost` is the step of the driven wheel's law at each standstill, and `idle` the driver's angle in it.
+    """
+
+    kind: Kind
+    text: str
+    play: float
+    clash: float
+    lost: float
+    idle: float
+
+    def __bool__(self) -> bool:
+        return self.kind == "runs"
+
+
+class Contact:
+    """A pair in contact: sizes, real path with its standstills, play, verdict."""
+
+    def __init__(self, sizes: Sizes) -> None:
+        self.sizes = sizes
+        self.path = RealPath(sizes)
+
+    @cached_property
+    def dragged(self) -> Dragged:
+        """The real path, the driven wheel standing where nothing pushes it."""
+        return drag(self.path)
+
+    @property
+    def intervals(self) -> tuple[Interval, ...]:
+        """What drives, in order of time."""
+        return self.dragged.intervals
+
+    def lag(self, t: float) -> float:
+        """y(t) - (z1/z2) t: how far the dragged wheel lags, in its own angle, at the driver's position t."""
+        interval, x = self.locate(t)
+        if interval.held is None:
+            return self.path.g(interval.phase, x)
+        return interval.held - self.sizes.ratio * x
+
+    def locate(self, t: float) -> tuple[Interval, float]:
+        """The interval that holds position t, and alpha_1 there."""
+        for interval in self.intervals:
+            behind = (interval.start - t) % self.sizes.p1
+            if behind <= interval.width:
+                return interval, interval.start - behind
+        nearest = min(self.intervals, key=lambda each: (each.start - t) % self.sizes.p1 - each.width)
+        return nearest, nearest.end
+
+    def speed(self, interval: Interval, x: float) -> float:
+        """tau, 0 in a standstill."""
+        return 0.0 if interval.held is not None else float(self.path.couple.speed(interval.phase, x))
+
+    @cached_property
+    def play(self) -> float:
+        """The least play of the back flanks over a pitch (rad of the driven wheel); below 0 they jam.
+
+        The sum of a law and its mirror image is smooth between their corners, where tau differs; within, it is least
+        where both have the same tau.
+        """
+        pitch = self.sizes.p1
+        corners = {0.0, pitch / 2}
+        for interval in self.intervals:
+            for corner in (interval.start, *self._turning_points(interval)):
+                corners |= {corner % pitch, -corner % pitch}
+        marks = sorted(corner for corner in corners if corner <= pitch / 2)
+        least = min(map(self._play_at, marks))
+        for low, high in pairwise(marks):
+            if high - low > _ROUNDING * pitch:
+                least = min(least, self._least_within(low, high))
+        return least + self.sizes.p2
+
+    def _play_at(self, t: float) -> float:
+        return self.lag(t) + self.lag(-t)
+
+    def _turning_points(self, interval: Interval) -> Iterator[float]:
+        """Where tau ceases to fall and begins to rise."""
+        return (piece.low for piece in self.path.pieces if interval.end < piece.low < interval.start)
+
+    def _least_within(self, low: float, high: float) -> float:
+        ours, start = self.locate((low + high) / 2)
+        theirs, back = self.locate(-(low + high) / 2)
+        start, back = start - (high - low) / 2, back + (high - low) / 2
+
+        def slope(step: float) -> float:
+            return self.speed(ours, start + step) - self.speed(theirs, back - step)
+
+        if not slope(0.0) < 0 < slope(high - low):
+            return inf
+        step = bracketed_root(slope, lambda _: 0.0, 0.0, high - low)
+        return self._play_at(low + step)
+
+    @cached_property
+    def verdict(self) -> Meshing:
+        """The first of the checks that fails: valley, reach, overhang, back flanks, entry, exit."""
+        sizes = self.sizes
+        if not sizes.has_valleys:
+            return self._failed("no valley", _no_valley(sizes))
+        if not self.intervals:
+            return self._failed("apart", "the tips never touch: the wheels are too far apart")
+        idle = sum(each.width for each in self.intervals if each.phase == STANDSTILL)
+        found = Meshing("runs", "the wheels turn", self.play, self.dragged.clash, self.dragged.lost, idle)
+        kind, text = self._fault(found)
+        return Meshing(kind, text, found.play, found.clash, found.lost, found.idle)
+
+    def _failed(self, kind: Kind, text: str) -> Meshing:
+        return Meshing(kind, text, -inf, 0.0, 0.0, 0.0)
+
+    def _fault(self, found: Meshing) -> tuple[Kind, str]:
+        if overhang := self._overhang():
+            return "overhang", overhang
+        if found.play < -_ROUNDING * self.sizes.p2:
+            return "jam", (
+                f"the back flanks jam: the teeth are {degrees(-found.play):.4g} deg of the driven wheel too thick for "
+                "the spaces at this clearance"
+            )
+        if found.clash > 0:
+            return "clash", (
+                f"an entering tooth meets a tip: the two overlap by {degrees(found.clash):.4g} deg of the driven wheel"
+            )
+        if found.idle > 0:
+            return "standstill", (
+                f"the driven wheel stands still for {degrees(found.idle):.4g} deg of the driver at each pitch, and is "
+                f"{degrees(found.lost):.4g} deg behind when the next tooth comes"
+            )
+        return "runs", "the wheels turn"
+
+    def _overhang(self) -> str:
+        """On the active path the flank must not lean beyond the perpendicular, nor the driven wheel be turned back."""
+        for interval in self.intervals:
+            if interval.held is not None:
+                continue
+            for x in (interval.start, interval.end):
+                tau = self.path.couple.speed(interval.phase, x)
+                _, tan2, tan1 = self.path.couple.friction(interval.phase, x)
+                lean = tan2 if interval.phase == APPROACH else tan1
+                if not tau > 0 or not lean < inf:
+                    return (
+                        f"a flank leans beyond the perpendicular at alpha_1 = {degrees(x):.4g} deg ({interval.phase}): "
+                        "it would push the driven wheel back"
+                    )
+        return ""
+
+
+def _no_valley(sizes: Sizes) -> str:
+    for z, beta, name in ((sizes.z1, sizes.beta1, "driver"), (sizes.z2, sizes.beta2, "driven wheel")):
+        if beta + pi / z >= pi / 2:
+            return (
+                f"{z} teeth of half angle {degrees(beta):.6g} deg do not exist: on the {name} half angle + 180/z is "
+                f"{degrees(beta) + 180 / z:.6g} deg, and must be below 90 deg for flanks to meet in a valley"
+            )
+    raise AssertionError
+
+
+# ------------------------------------------------------------------------------------------------------------ windows
+
+
+@dataclass(frozen=True, slots=True)
+class Window:
+    """Clearance factors between which a pair turns: above `jam`, up to `run`; beyond `reach` no tip touches.
+
+    Each as excess, the factor less 1. `run_kind` says what happens beyond `run`. Empty where run is below jam: no
+    clearance works.
+    """
+
+    jam: float
+    run: float
+    run_kind: Literal["clash", "standstill"]
+    reach: float
+
+    def __bool__(self) -> bool:
+        return self.jam < self.run
+
+    def at(self, fraction: float) -> float:
+        """The excess at a fraction of the window, 0 at the jam and 1 where contact is lost."""
+        return self.jam + fraction * (self.run - self.jam)
+
+
+def find_window(sizes: Sizes) -> Window:
+    """The window of clearance of a pair, whatever its own clearance. Needs valleys."""
+    reach = sizes.greatest_excess
+    jam = _first_sign_change(lambda excess: Contact(sizes.at(excess)).play, reach)
+    clash = _first_sign_change(lambda excess: _entry(RealPath(sizes.at(excess))), reach)
+    still = _first_sign_change(lambda excess: _exit(RealPath(sizes.at(excess))), reach)
+    # equal wheels do both at once, and the driven wheel that stands lets the next tooth in
+    return Window(jam, min(clash, still), "clash" if clash < still * (1 - 1e-9) else "standstill", reach)
+
+
+def _entry(path: RealPath) -> float:
+    """Below 0 where a couple comes in tip against tip."""
+    reach = path.sizes.reach1
+    return path.g(APPROACH, reach) - path.lowest(reach, besides=0)
+
+
+def _exit(path: RealPath) -> float:
+    """Below 0 where a couple leaves before another one can drive."""
+    reach = path.sizes.reach1
+    return path.g(APPROACH, -reach) - path.lowest(-reach, besides=0)
+
+
+def _first_sign_change(value: Callable[[float], float], reach: float) -> float:
+    """The least excess up to `reach` at which `value` changes its sign; `reach` if it never does."""
+    steps = 16
+    last, low = None, 0.0
+    for step in range(steps):
+        excess = reach * (step + 1e-9) / steps if step < steps else reach
+        here = value(excess) > 0
+        if last is not None and here != last:
+            return _bisected(value, low, excess, last)
+        last, low = here, excess
+    high = reach * (1 - 1e-9)
+    return _bisected(value, low, high, bool(last)) if (value(high) > 0) != last else reach
+
+
+def _bisected(value: Callable[[float], float], low: float, high: float, at_low: bool) -> float:
+    for _ in range(60):
+        middle = low + (high - low) / 2
+        if not low < middle < high:
+            break
+        low, high = (middle, high) if (value(middle) > 0) == at_low else (low, middle)
+    return low + (high - low) / 2

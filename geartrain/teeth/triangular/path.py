@@ -1,0 +1,237 @@
+"""The real path of contact: which couple of teeth drives where, and whether it can.
+
+Every couple k of teeth forbids the driven wheel to lag behind f(t + k p1) - k p2 (`contact`), so that it follows
+U(t) = min over k, and, dragged, y <- min(y, U(t)) as t decreases. Less the mean motion this is the least of
+g(x) = f(x) - (z1/z2) x over the lattice x = t + k p1. Between matching and the ends of reach g is convex, or concave
+and then convex (few teeth), so that on each such piece only its ends, or the two couples about its minimum, can
+drive: the cost does not grow with the number of couples in reach.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import pairwise
+from math import ceil, floor, inf
+
+from geartrain.teeth.triangular.contact import APPROACH, RECESS, Couple
+from geartrain.teeth.triangular.roots import bracketed_root, sign_changes
+from geartrain.teeth.triangular.sizes import Sizes
+
+STANDSTILL = "standstill"
+_ROUNDING = 1e-11  # of a pitch: what is shorter is no interval
+
+
+@dataclass(frozen=True, slots=True)
+class Piece:
+    """A stretch of alpha_1 in one phase where tau only rises (convex) or only falls."""
+
+    phase: str
+    low: float
+    high: float
+    convex: bool
+
+
+@dataclass(frozen=True, slots=True)
+class Interval:
+    """A stretch of alpha_1 from `start` down to `end` in which one couple drives, or none does (standstill).
+
+    `couple` counts teeth: alpha_1 = t + couple p1 for a position t common to all intervals of a path. In a standstill
+    it is the couple that has just let go, and `held` the angle alpha_2 at which it left the driven wheel standing.
+    """
+
+    phase: str
+    start: float
+    end: float
+    couple: int
+    held: float | None = None
+
+    @property
+    def width(self) -> float:
+        """Driver angle from start to end (rad)."""
+        return self.start - self.end
+
+
+class RealPath:
+    """Contact of all couples of teeth over one pitch of the driver."""
+
+    def __init__(self, sizes: Sizes) -> None:
+        self.sizes = sizes
+        self.couple = Couple(sizes)
+        self.pitch, self.ratio = sizes.p1, sizes.ratio
+
+    # ---------------------------------------------------------------------------------------------------- one couple
+
+    def g(self, phase: str, x: float) -> float:
+        """f(x) less the mean motion: what the driven wheel lags behind it, in its own angle."""
+        return float(self.couple.angle(phase, x)) - self.ratio * x
+
+    def slope(self, phase: str, x: float) -> float:
+        """d g / d x: tau less its mean."""
+        return float(self.couple.speed(phase, x)) - self.ratio
+
+    @cached_property
+    def pieces(self) -> list[Piece]:
+        """Recess, then approach, each cut where the curvature of f changes its sign."""
+        reach = self.sizes.reach1
+        matching = min(max(self.sizes.matching, -reach), reach)
+        found: list[Piece] = []
+        for phase, low, high in ((RECESS, -reach, matching), (APPROACH, matching, reach)):
+            if high > low:
+                found += self._cut(phase, low, high)
+        return found
+
+    def _cut(self, phase: str, low: float, high: float) -> list[Piece]:
+        def slope(x: float) -> float:
+            return float(self.couple.slope(phase, x))
+
+        first, last = slope(low) > 0, slope(high) > 0
+        if first == last:
+            return [Piece(phase, low, high, first)]
+        a, b = low, high
+        while a < (middle := a + (b - a) / 2) < b:
+            a, b = (middle, b) if (slope(middle) > 0) == first else (a, middle)
+        return [Piece(phase, low, a, first), Piece(phase, a, high, last)]
+
+    def extremes(self, phase: str, low: float, high: float) -> list[float]:
+        """g where tau passes through its mean between `low` and `high`, where tau is monotone."""
+        if (self.slope(phase, low) < 0) == (self.slope(phase, high) < 0):
+            return []
+        x = bracketed_root(lambda x: self.slope(phase, x), lambda x: self.couple.slope(phase, x), low, high)
+        return [self.g(phase, x)]
+
+    # ------------------------------------------------------------------------------------------------- all couples
+
+    @cached_property
+    def branches(self) -> list[Piece]:
+        """The parts of the pieces, none longer than a pitch, on which a couple can be the lowest of its piece."""
+        return [branch for piece in self.pieces for branch in self._lowest(piece)]
+
+    def _lowest(self, piece: Piece) -> list[Piece]:
+        low, high, pitch = piece.low, piece.high, self.pitch
+        if high - low <= pitch:
+            return [piece]
+        left = Piece(piece.phase, low, low + pitch, piece.convex)
+        right = Piece(piece.phase, high - pitch, high, piece.convex)
+        if not piece.convex:
+            return [left, right]
+        if self._rise(piece.phase, low) >= 0:
+            return [left]
+        if self._rise(piece.phase, high - pitch) <= 0:
+            return [right]
+        start = bracketed_root(
+            lambda x: self._rise(piece.phase, x),
+            lambda x: self.couple.speed(piece.phase, x + pitch) - self.couple.speed(piece.phase, x),
+            low,
+            high - pitch,
+        )
+        return [Piece(piece.phase, start, start + pitch, True)]
+
+    def _rise(self, phase: str, x: float) -> float:
+        """g(x + p1) - g(x)."""
+        return float(self.couple.angle(phase, x + self.pitch) - self.couple.angle(phase, x)) - self.sizes.p2
+
+    def lowest(self, t: float, besides: int | None = None) -> float:
+        """The least g over the couples at position t, `besides` one of them; infinite where none is in reach."""
+        least = inf
+        for piece in self.pieces:
+            first, last = ceil((piece.low - t) / self.pitch), floor((piece.high - t) / self.pitch)
+            for k in self._candidates(piece, t, first, last):
+                if k != besides:
+                    least = min(least, self.g(piece.phase, t + k * self.pitch))
+        return least
+
+    def _candidates(self, piece: Piece, t: float, first: int, last: int) -> set[int]:
+        if last - first < 4 or not piece.convex:
+            return {k for k in (first, first + 1, last - 1, last) if first <= k <= last}
+        bottom = round((self._bottom(piece) - t) / self.pitch)
+        return {k for k in range(bottom - 2, bottom + 3) if first <= k <= last} | {first, last}
+
+    def _bottom(self, piece: Piece) -> float:
+        """Where g is least in a convex piece."""
+        low, high = piece.low, piece.high
+        if self.slope(piece.phase, low) >= 0:
+            return low
+        if self.slope(piece.phase, high) <= 0:
+            return high
+        return bracketed_root(
+            lambda x: self.slope(piece.phase, x), lambda x: self.couple.slope(piece.phase, x), low, high
+        )
+
+    # ------------------------------------------------------------------------------------------------- the envelope
+
+    @cached_property
+    def envelope(self) -> list[Interval]:
+        """Who drives over one pitch as t decreases, before the driven wheel is let stand; gaps are left out."""
+        base = max((branch.high for branch in self.branches), default=0.0)
+        cuts = {0.0, self.pitch}
+        for branch in self.branches:
+            cuts |= {(base - end) % self.pitch for end in (branch.low, branch.high)}
+        found: list[Interval] = []
+        for early, late in pairwise(sorted(cuts)):
+            if late - early > _ROUNDING * self.pitch:
+                found += self._cell(base - early, base - late)
+        return self._closed(_joined(found))
+
+    def _closed(self, found: list[Interval]) -> list[Interval]:
+        """The period begun where an interval begins, not in the midst of one."""
+        if not found:
+            return found
+        first, last = found[0], found[-1]
+        same = first.phase == last.phase and first.couple + 1 == last.couple
+        if len(found) < 2 or not same or abs(last.end - first.start) > _ROUNDING * self.pitch:
+            return found
+        return [*found[1:-1], Interval(last.phase, last.start, first.end, last.couple)]
+
+    def _cell(self, high: float, low: float) -> Iterator[Interval]:
+        """One stretch of t in which no branch begins or ends."""
+        middle = low + (high - low) / 2
+        active = []
+        for branch in self.branches:
+            k = floor((branch.high - middle) / self.pitch)
+            if middle + k * self.pitch >= branch.low:
+                active.append((branch, k))
+        if not active:
+            return
+        marks = {high, low}
+        for at, one in enumerate(active):
+            for other in active[at + 1 :]:
+                marks |= set(self._crossings(one, other, low, high))
+        for upper, lower in pairwise(sorted(marks, reverse=True)):
+            t = lower + (upper - lower) / 2
+            branch, k = min(active, key=lambda pair: self.g(pair[0].phase, t + pair[1] * self.pitch))
+            yield Interval(branch.phase, upper + k * self.pitch, lower + k * self.pitch, k)
+
+    def _crossings(self, one: tuple[Piece, int], other: tuple[Piece, int], low: float, high: float) -> Iterator[float]:
+        """Where two branches are equally low."""
+        (a, i), (b, j) = one, other
+        shift, turned = (j - i) * self.pitch, (j - i) * self.sizes.p2
+        low, high = low + i * self.pitch, high + i * self.pitch
+        first, second = self.couple.angle, self.couple.speed
+
+        def difference(x: float) -> float:
+            return float(first(a.phase, x) - first(b.phase, x + shift)) + turned
+
+        def slope(x: float) -> float:
+            return float(second(a.phase, x) - second(b.phase, x + shift))
+
+        def bounds(c: float, d: float) -> tuple[float, float]:
+            ours = sorted((second(a.phase, c), second(a.phase, d)))
+            theirs = sorted((second(b.phase, c + shift), second(b.phase, d + shift)))
+            return ours[0] - theirs[1], ours[1] - theirs[0]
+
+        for c, d in sign_changes(difference, bounds, low, high):
+            yield bracketed_root(difference, slope, c, d) - i * self.pitch
+
+
+def _joined(cells: list[Interval]) -> list[Interval]:
+    """Neighbours of one couple in one phase as one interval."""
+    found: list[Interval] = []
+    for cell in cells:
+        last = found[-1] if found else None
+        if last and last.phase == cell.phase and last.couple == cell.couple:
+            found[-1] = Interval(last.phase, last.start, cell.end, last.couple)
+        else:
+            found.append(cell)
+    return found

@@ -1,0 +1,69 @@
+"""Roots of smooth functions, bracketed until the bracket stops shrinking."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+
+Function = Callable[[float], float]
+_MOST_STEPS = 200
+_DEEPEST = 40
+
+
+def bracketed_root(value: Function, slope: Function, low: float, high: float) -> float:
+    """The root of `value` between `low` and `high`, where it changes sign: Newton's steps kept inside the bracket.
+
+    Ends when the bracket is two neighbouring floats, or a step no longer moves either end.
+    """
+    at_low = value(low)
+    if at_low == 0:
+        return low
+    rising = at_low < 0
+    x = (low + high) / 2
+    for _ in range(_MOST_STEPS):
+        here = value(x)
+        if here == 0:
+            return x
+        if (here < 0) == rising:
+            low = x
+        else:
+            high = x
+        steep = slope(x)
+        step = x - here / steep if steep else low
+        width = high - low
+        if not low < step < high or abs(step - x) > width / 2:
+            step = low + width / 2
+        elif abs(step - x) < 1e-8 * width:
+            # the step is finer than the bracket: go a little too far, so that the other end comes in too
+            step = min(max(step + 4 * (step - x), low), high)
+        if step in (low, high):
+            break
+        x = step
+    return x
+
+
+def sign_changes(
+    value: Function, bounds: Callable[[float, float], tuple[float, float]], low: float, high: float, depth: int = 0
+) -> Iterator[tuple[float, float]]:
+    """Brackets that hold exactly one root each; `bounds(a, b)` are the least and greatest slope between a and b.
+
+    A bracket whose slope has one sign holds one root or none; others are halved. Where function and slope vanish
+    together (a touch, no change of sign) halving ends without a bracket.
+    """
+    at_low, at_high = value(low), value(high)
+    least, greatest = bounds(low, high)
+    if least >= 0 or greatest <= 0:
+        if (at_low < 0) != (at_high < 0):
+            yield low, high
+        return
+    width, spread = high - low, greatest - least
+    below = at_low + least * (at_low - at_high + greatest * width) / spread
+    above = at_low + greatest * (at_high - at_low - least * width) / spread
+    if below > 0 or above < 0:
+        return
+    middle = low + width / 2
+    if depth == _DEEPEST or not low < middle < high:
+        if (at_low < 0) != (at_high < 0):
+            yield low, high
+        return
+    yield from sign_changes(value, bounds, low, middle, depth + 1)
+    yield from sign_changes(value, bounds, middle, high, depth + 1)

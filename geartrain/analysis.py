@@ -21,6 +21,7 @@ from geartrain.train import Case, Train, declare, suggest
 
 if TYPE_CHECKING:
     from geartrain.graph import Graph
+    from geartrain.meshes import Mesh, PinJoint
     from geartrain.speeds import FloatSpeeds
 
 Method = Literal["auto", "exact", "floats"]
@@ -95,6 +96,20 @@ class GearTrain:
         held = {link: "fixed" for case in cases for link in case.fixed}
         held |= {link: "locked to another link" for case in cases for lock in case.locks for link in lock}
         return tuple(remarks(self.declaration, self.tree, self.circuits, self.bookkeeping, held))
+
+    @cached_property
+    def meshes(self) -> tuple[Mesh, ...]:
+        """The gear pairs with real teeth, each with its law; empty, and free of cost, where none declares a form."""
+        from geartrain.meshes import find_meshes
+
+        return find_meshes(self.declaration)
+
+    @cached_property
+    def pins(self) -> tuple[PinJoint, ...]:
+        """The pins in slots whose dimensions are declared, each with its law."""
+        from geartrain.meshes import find_pins
+
+        return find_pins(self.declaration)
 
     def equations(self, state: str | None = None) -> System:
         """The labelled Willis system of one state."""

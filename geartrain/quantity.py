@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Annotated, Any
 
-from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler
+from pydantic import AfterValidator, GetCoreSchemaHandler, GetJsonSchemaHandler
 from pydantic_core import PydanticCustomError, core_schema
 
 TURN = "turn"
@@ -151,6 +151,19 @@ def _half_unit(text: str) -> Fraction | None:
         return None
     decimals = len(mantissa.partition(".")[2])
     return Fraction(10) ** (int(exponent or 0) - decimals) / 2
+
+
+def _not_negative(figure: Figure) -> Figure:
+    if figure.value < 0:
+        raise PydanticCustomError(
+            "friction",
+            "a friction of {text} would push",
+            {"text": figure.text, "fix": "a coefficient of friction is 0 or more"},
+        )
+    return figure
+
+
+Friction = Annotated[Figure, AfterValidator(_not_negative)]
 
 
 @dataclass(frozen=True, slots=True)

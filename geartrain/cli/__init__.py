@@ -8,7 +8,7 @@ from typing import Annotated
 
 import typer
 
-from geartrain.cli import bench, check, compare, equations, graph, listing, report, schema, solve
+from geartrain.cli import bench, check, compare, equations, graph, listing, mesh, report, schema, solve
 from geartrain.cli.common import NOT_USABLE, complain
 from geartrain.errors import GearTrainError, Problem
 
@@ -29,6 +29,7 @@ app.command("graph")(graph.run)
 app.command("schema")(schema.run)
 app.command("list")(listing.trains)
 app.command("periods")(listing.periods)
+app.add_typer(mesh.app, name="mesh")
 app.add_typer(bench.app, name="bench")
 
 

@@ -27,6 +27,7 @@ def _check(file: str, quiet: bool) -> int:
     try:
         train = load(file)
         answers = list(train.answers())
+        faults = [mesh.fault for mesh in train.meshes if mesh.fault]
     except GearTrainError as error:
         complain(error)
         return NOT_USABLE
@@ -43,6 +44,9 @@ def _check(file: str, quiet: bool) -> int:
             head, tail = (place, "") if place.startswith(file) else (file, f" (declared at {place})")
             typer.echo(f"FAIL {head}:{state} output '{result.name}' is {speed}{_wanted(result)}{tail}")
             good = VERDICT
+    for fault in faults:
+        typer.echo(f"FAIL {fault.place}: {fault.what}; {fault.why or fault.fix}")
+        good = VERDICT
     if good == GOOD and not quiet:
         held = sum(result.expect_holds is not None for answer in answers for result in answer.outputs.values())
         loops = f", {plural(train.mobility.redundant, 'redundant circuit')}" if train.mobility.redundant else ""

@@ -14,6 +14,7 @@ def run(files: Files, out: Out = None, json: Json = False) -> None:
     suffix = suffix_of(out, (".md", ".html", ".json"))
     trains = load_all(files)
     sound = all(answer for train in trains for answer in train.answers())
+    sound = sound and not any(mesh.fault for train in trains for mesh in train.meshes)
     if json or suffix == ".json":
         data = [report.train_data(train) for train in trains]
         emit(as_json(data[0] if len(data) == 1 else data), out)

@@ -3,6 +3,6 @@
 from __future__ import annotations
 
 from geartrain.files.loading import load, shipped
-from geartrain.files.writing import write_text
+from geartrain.files.writing import write_bytes, write_text
 
-__all__ = ["load", "shipped", "write_text"]
+__all__ = ["load", "shipped", "write_bytes", "write_text"]

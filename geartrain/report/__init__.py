@@ -6,13 +6,21 @@ from geartrain.report.comparing import compare_trains
 from geartrain.report.content import report_train
 from geartrain.report.data import train_data
 from geartrain.report.document import Document, Section, Table
+from geartrain.report.meshing import Running, mesh_document
+from geartrain.report.pins import pin_data, pin_document
 from geartrain.report.rendering import to_html, to_markdown, to_terminal
+from geartrain.report.teeth import mesh_data
 
 __all__ = [
     "Document",
+    "Running",
     "Section",
     "Table",
     "compare_trains",
+    "mesh_data",
+    "mesh_document",
+    "pin_data",
+    "pin_document",
     "report_train",
     "to_html",
     "to_markdown",

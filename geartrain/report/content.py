@@ -10,6 +10,7 @@ from geartrain.circuits import Circuit
 from geartrain.errors import Loop
 from geartrain.report.document import MOST_ROWS, Document, Section, Table, cut
 from geartrain.report.results import answer_sections, doubts, shift_table
+from geartrain.report.teeth import teeth_sections
 from geartrain.train import Train, Wheel
 
 MOST_MATRIX = 48
@@ -29,6 +30,7 @@ def report_train(train: GearTrain) -> Document:
         sections.append(shift_table(train, answers))
     for answer in answers:
         sections += answer_sections(train, answer)
+    sections += teeth_sections(train)
     sections += doubts(train, answers)
     if declared.errata:
         rows = [(e.place, e.printed, e.right, e.why) for e in declared.errata]

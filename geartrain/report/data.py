@@ -6,6 +6,7 @@ from typing import Any
 
 from geartrain.analysis import GearTrain
 from geartrain.answer import Answer
+from geartrain.report.teeth import teeth_data
 from geartrain.speeds import Mobility
 
 
@@ -73,5 +74,6 @@ def train_data(train: GearTrain) -> dict[str, Any]:
         if answer.verdict
         for s in train.sensitivity(answer)
     ]
+    data |= teeth_data(train)
     data["errata"] = [erratum.model_dump() for erratum in declared.errata]
     return data

@@ -13,7 +13,7 @@ from pydantic import BeforeValidator, Field, PrivateAttr
 from geartrain.errors import Loc, Marks, dotted
 from geartrain.periods import table
 from geartrain.pins import Coupling
-from geartrain.quantity import Quantity, Speed, Torque
+from geartrain.quantity import Friction, Quantity, Speed, Torque
 from geartrain.teeth import ToothForm
 from geartrain.train.common import Declared, Id, Nothing
 from geartrain.train.mechanism import Axis, GearPair, Link, Revolute, Source, Wheel
@@ -73,6 +73,7 @@ class Train(Declared):
     gears: tuple[GearPair, ...] = Field((), description="Gear pairs")
     couplings: tuple[Coupling, ...] = Field((), description="Pins in slots")
     tooth_form: ToothForm | None = Field(None, description="Form of the teeth of every pair that has none of its own")
+    friction: Friction | None = Field(None, description="Friction of the teeth of every pair that has none of its own")
     inputs: dict[Id, Speed] = Field({}, description="Prescribed speeds by link")
     crank: Id | None = Field(None, description="The link where power enters; default the inputs")
     rate: Speed | None = Field(None, description="Speed of the input in real time, where watts or impacts are asked")

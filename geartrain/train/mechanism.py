@@ -7,7 +7,7 @@ from typing import Annotated, Any, Literal
 from pydantic import BeforeValidator, Discriminator, Field, GetJsonSchemaHandler, Tag, model_validator
 from pydantic_core import PydanticCustomError
 
-from geartrain.quantity import Angle, Figure, Inertia, Length, Torque
+from geartrain.quantity import Angle, Figure, Friction, Inertia, Length, Torque
 from geartrain.teeth import ToothForm
 from geartrain.train.common import Boolean, Count, Declared, Id, Status, also, short_for, side
 
@@ -171,7 +171,7 @@ class GearPair(Declared):
     id: str = Field("", description="Name of the pair; default first~second")
     pair: tuple[Id, Id] = Field(description="The two wheels")
     tooth_form: ToothForm | None = Field(None, description="Form of the teeth; default the train's")
-    friction: Figure | None = Field(None, description="Coefficient of friction between teeth")
+    friction: Friction | None = Field(None, description="Coefficient of friction between teeth")
     efficiency: Annotated[Efficiencies, BeforeValidator(_efficiency)] | None = Field(
         None, description="Basic efficiency with the carrier held: a number, or {forward, backward}"
     )

@@ -21,7 +21,8 @@ class Dragged:
 
     intervals: tuple[Interval, ...]
     clash: float
-    lost: float  # driven angle that each pitch loses to standstills and regains in leaps
+    lost: float  # the driven wheel's law leaps by this at standstills, per pitch (rad)
+    arrested: bool = False  # the driven wheel is left standing for good
 
 
 def drag(path: RealPath) -> Dragged:
@@ -56,6 +57,7 @@ class _Walk:
         self.done: list[Interval] = [first]
         self.held: Interval | None = None  # the couple that let go
         self.clash = self.lost = 0.0
+        self.arrested = False
 
     def on_to(self, interval: Interval) -> None:
         """The next interval of the envelope: join it, stand until it comes down, or meet its tip."""
@@ -64,7 +66,9 @@ class _Walk:
         leap = self.path.couple.angle(interval.phase, interval.start) - y
         gap = last.end - interval.start + (interval.couple - last.couple) * self.path.pitch
         if leap < -self.small:
-            self.clash = max(self.clash, -leap)
+            # a tooth that enters an empty reach ahead of its mate passes by, and nothing pushes the mate any more
+            self.arrested |= gap > self.gap
+            self.clash = self.clash if gap > self.gap else max(self.clash, -leap)
         if self.held is None and (leap > self.small or gap > self.gap):
             self.held = last
             self.lost += max(leap, 0.0)
@@ -98,4 +102,4 @@ class _Walk:
         """The walk closed: what is left of the first interval after the last standstill."""
         last = self.done.pop()
         first = Interval(last.phase, last.start, self.first.end, last.couple - 1)
-        return Dragged((first, *self.done[1:]), self.clash, self.lost)
+        return Dragged((first, *self.done[1:]), self.clash, self.lost, self.arrested)

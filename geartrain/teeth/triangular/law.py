@@ -46,6 +46,12 @@ class Jump:
         return 1 - self.before / self.after
 
 
+def matches(last: Interval, new: Interval, pitch: float) -> bool:
+    """True if one couple goes on from flank to flank, through the position where they match."""
+    faces = last.held is None and new.held is None and last.phase != new.phase
+    return faces and abs(last.end - new.start) < 1e-9 * pitch
+
+
 class TriangularLaw(Law):
     """The law of a pair of wheels, the first of `sizes` driving.
 
@@ -255,9 +261,8 @@ class TriangularLaw(Law):
         for last, new in zip(self.intervals, (*self.intervals[1:], self.intervals[0]), strict=True):
             if new.held is not None:
                 continue
-            same = last.held is None and last.phase != new.phase and abs(last.end - new.start) < 1e-9 * self.period
             before, after = self.contact.speed(last, last.end), self.contact.speed(new, new.start)
-            found.append(Jump("matching" if same else new.phase, new.start, before, after))
+            found.append(Jump("matching" if matches(last, new, self.period) else new.phase, new.start, before, after))
         return found
 
     def impact(self, inertia: float, omega1: float) -> tuple[float, float, float]:

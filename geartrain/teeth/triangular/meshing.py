@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 from itertools import pairwise
 from math import degrees, inf, pi
 from typing import Literal
@@ -142,6 +142,10 @@ class Contact:
             return "clash", (
                 f"an entering tooth meets a tip: the two overlap by {degrees(found.clash):.4g} deg of the driven wheel"
             )
+        if self.dragged.arrested:
+            return "standstill", (
+                "the driven wheel is left standing for good: no tooth is in reach for a while, and the next one goes by"
+            )
         if found.idle > 0:
             return "standstill", (
                 f"the driven wheel stands still for {degrees(found.idle):.4g} deg of the driver at each pitch, and is "
@@ -202,6 +206,11 @@ class Window:
 
 def find_window(sizes: Sizes) -> Window:
     """The window of clearance of a pair, whatever its own clearance. Needs valleys."""
+    return _window(sizes.at(0.0))
+
+
+@lru_cache(maxsize=1024)
+def _window(sizes: Sizes) -> Window:
     reach = sizes.greatest_excess
     jam = _first_sign_change(lambda excess: Contact(sizes.at(excess)).play, reach)
     clash = _first_sign_change(lambda excess: _entry(RealPath(sizes.at(excess))), reach)

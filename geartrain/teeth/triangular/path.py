@@ -13,7 +13,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
-from math import ceil, floor, inf
+from math import ceil, floor, inf, ulp
 
 from geartrain.teeth.triangular.contact import APPROACH, RECESS, Couple
 from geartrain.teeth.triangular.roots import bracketed_root, sign_changes
@@ -198,10 +198,26 @@ class RealPath:
         for at, one in enumerate(active):
             for other in active[at + 1 :]:
                 marks |= set(self._crossings(one, other, low, high))
+        chosen = None
         for upper, lower in pairwise(sorted(marks, reverse=True)):
-            t = lower + (upper - lower) / 2
-            branch, k = min(active, key=lambda pair: self.g(pair[0].phase, t + pair[1] * self.pitch))
+            chosen = self._lowest_at(lower + (upper - lower) / 2, active, chosen)
+            branch, k = chosen
             yield Interval(branch.phase, upper + k * self.pitch, lower + k * self.pitch, k)
+
+    def _lowest_at(
+        self, t: float, active: list[tuple[Piece, int]], last: tuple[Piece, int] | None
+    ) -> tuple[Piece, int]:
+        """The lowest branch at t, the last one where it is as low to rounding: branches may coincide for a while."""
+        heights = [self.g(branch.phase, t + k * self.pitch) for branch, k in active]
+        least = min(heights)
+        if last is not None and heights[active.index(last)] <= least + self._noise:
+            return last
+        return active[heights.index(least)]
+
+    @cached_property
+    def _noise(self) -> float:
+        """The rounding of g."""
+        return 4 * ulp(self.sizes.reach2 + self.ratio * self.sizes.reach1)
 
     def _crossings(self, one: tuple[Piece, int], other: tuple[Piece, int], low: float, high: float) -> Iterator[float]:
         """Where two branches are equally low."""

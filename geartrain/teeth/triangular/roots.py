@@ -51,18 +51,19 @@ def sign_changes(
     """
     at_low, at_high = value(low), value(high)
     least, greatest = bounds(low, high)
+    crosses = (at_low < 0) != (at_high < 0)
     if least >= 0 or greatest <= 0:
-        if (at_low < 0) != (at_high < 0):
+        if crosses:
             yield low, high
         return
     width, spread = high - low, greatest - least
     below = at_low + least * (at_low - at_high + greatest * width) / spread
     above = at_low + greatest * (at_high - at_low - least * width) / spread
-    if below > 0 or above < 0:
+    if not crosses and (below > 0 or above < 0):
         return
     middle = low + width / 2
     if depth == _DEEPEST or not low < middle < high:
-        if (at_low < 0) != (at_high < 0):
+        if crosses:
             yield low, high
         return
     yield from sign_changes(value, bounds, low, middle, depth + 1)

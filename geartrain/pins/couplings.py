@@ -1,4 +1,4 @@
-"""Pin-and-slot and pin-and-follower: couplings whose mean motion is a winding number.
+"""Pin-and-slot and pin-and-follower as a train declares them: couplings whose mean motion is a winding number.
 
 A pin on one link works in a slot of another whose axis lies `offset` away. In the frame of their carrier the
 slot's angle is phi + atan2(e sin phi, r - e cos phi) for pin angle phi, pin radius r and offset e: over one turn
@@ -7,12 +7,15 @@ of the pin the slot turns m times, m = 1 where the pin's circle encloses the slo
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+from typing import TYPE_CHECKING, Annotated, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, model_validator
 from pydantic_core import PydanticCustomError
 
-from geartrain.quantity import Length
+from geartrain.quantity import Friction, Length, Quantity
+
+if TYPE_CHECKING:
+    from geartrain.pins.laws import SlotLaw
 
 
 class _Coupling(BaseModel):
@@ -25,6 +28,7 @@ class _Coupling(BaseModel):
     slot: str = Field(description="The link that has the slot")
     pin_radius: Length | None = Field(None, description="Distance of the pin from its own link's axis")
     offset: Length | None = Field(None, description="Distance of the two links' axes")
+    friction: Friction | None = Field(None, description="Coefficient of friction of the pin along its slot")
     source: str | None = Field(None, description="Key of the source of the dimensions")
     status: Literal["surviving", "reconstructed", "hypothetical"] | None = Field(
         None, description="Whether the device survives, is forced by surviving parts, or is a proposal"
@@ -35,6 +39,16 @@ class _Coupling(BaseModel):
     def name(self) -> str:
         """The declared id, or pin~slot."""
         return self.id or f"{self.pin}~{self.slot}"
+
+    @property
+    def law(self) -> SlotLaw | None:
+        """The law of motion with the pin driving; None where the dimensions are not declared."""
+        if self.pin_radius is None or self.offset is None:
+            return None
+        from geartrain.pins.laws import SlotLaw
+
+        friction = float(self.friction.value) if self.friction else 0.0
+        return SlotLaw(_plain(self.pin_radius), _plain(self.offset), friction)
 
 
 class PinAndSlot(_Coupling):
@@ -107,3 +121,7 @@ def _refuse_unless_winding(coupling: PinAndSlot | PinFollower, winding: int) -> 
                 "fix": f"write kind: {other}, or correct the dimensions",
             },
         )
+
+
+def _plain(length: Quantity) -> float:
+    return float(length.value) if length.unit is None else length.si

@@ -1,0 +1,356 @@
+"""`geartrain mesh`: what the teeth of one pair do, without a train."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from geartrain.cli.common import GOOD, VERDICT, Json, Out, as_json, emit, show, suffix_of
+from geartrain.errors import GearTrainError, Problem
+
+if TYPE_CHECKING:
+    from geartrain.pins.laws import PinLaw
+    from geartrain.teeth import Triangular
+    from geartrain.teeth.triangular.law import TriangularLaw
+    from geartrain.teeth.triangular.sweep import Sweep
+
+app = typer.Typer(help="What the teeth of one pair do within a pitch.", no_args_is_help=True)
+PICTURES = (".svg", ".png", ".pdf")
+_VARIED = ("half_angle", "clearance", "excess", "window", "backlash", "centre_distance", "friction", "z1", "z2")
+_FORM = _VARIED[:-3]
+
+
+@app.callback()
+def _group() -> None:
+    pass
+
+
+@app.command()
+def triangular(
+    teeth: Annotated[tuple[int, int], typer.Option("--teeth", help="Teeth of the first and the second wheel.")],
+    half_angle: Annotated[
+        str, typer.Option("--half-angle", help="Half the aperture of a tooth, with its unit; two with a comma.")
+    ] = "30deg",
+    clearance: Annotated[str | None, typer.Option("--clearance", help="Clearance factor, above 1.")] = None,
+    excess: Annotated[str | None, typer.Option("--excess", help="Clearance factor less 1.")] = None,
+    window: Annotated[
+        str | None, typer.Option("--window", help="Place in the pair's own window: 0 jams, 1 loses contact.")
+    ] = None,
+    backlash: Annotated[str | None, typer.Option("--backlash", help="Least play on the pitch circle.")] = None,
+    centre_distance: Annotated[str | None, typer.Option("--centre-distance", help="Distance of the axes.")] = None,
+    radii: Annotated[
+        str, typer.Option("--radii", help="equal_depth, pitch_true, or two outer radii with a comma.")
+    ] = "equal_depth",
+    module: Annotated[
+        str | None, typer.Option("--module", help="Pitch diameter over tooth count, which gives the wheels a size.")
+    ] = None,
+    friction: Annotated[str, typer.Option("--friction", help="Coefficient of friction.")] = "0",
+    driver: Annotated[int, typer.Option("--driver", min=1, max=2, help="Which wheel drives, 1 or 2.")] = 1,
+    backwards: Annotated[bool, typer.Option("--backwards", help="Turn backwards, on the back flanks.")] = False,
+    inertia: Annotated[
+        str | None, typer.Option("--inertia", help="Moment of inertia of all that turns with the driven wheel.")
+    ] = None,
+    rate: Annotated[str | None, typer.Option("--rate", help="Speed of the driver, such as '1 turn/s'.")] = None,
+    load: Annotated[str | None, typer.Option("--load", help="Torque that resists the driven wheel.")] = None,
+    vary: Annotated[
+        list[str] | None,
+        typer.Option("--vary", help=f"NAME=FIRST:LAST:COUNT, once or twice; NAME is one of {', '.join(_VARIED)}."),
+    ] = None,
+    plot: Annotated[Path | None, typer.Option("--plot", help="Draw the law, or the sweep, to this file.")] = None,
+    teeth_plot: Annotated[Path | None, typer.Option("--teeth-plot", help="Draw the wheels in contact.")] = None,
+    at: Annotated[str | None, typer.Option("--at", help="alpha_1 at which the wheels are drawn.")] = None,
+    json: Json = False,
+    out: Out = None,
+) -> None:
+    """Contact, law, collisions and losses of a pair with triangular teeth, or a sweep over its parameters as CSV."""
+    given = {
+        "clearance": clearance,
+        "excess": excess,
+        "window": window,
+        "backlash": backlash,
+        "centre_distance": centre_distance,
+    }
+    picture, drawing = suffix_of(plot, PICTURES) or ".svg", suffix_of(teeth_plot, PICTURES) or ".svg"
+    pair = _Pair(teeth, half_angle, given, radii, module, friction, driver, -1 if backwards else 1)
+    if vary:
+        _sweep(pair, vary, plot, picture, json, out)
+        return
+    law = pair.law()
+    _page(pair, law, (inertia, rate, load), json, out)
+    if plot is not None:
+        from geartrain.plot import law_figure
+
+        _draw(law_figure(law), plot, picture)
+    if teeth_plot is not None:
+        from geartrain.plot import teeth_figure
+
+        angle = None if at is None else _quantity("--at", at, "angle")
+        _draw(teeth_figure(law, angle), teeth_plot, drawing)
+    raise typer.Exit(GOOD if law.verdict and law.friction < law.locking_friction else VERDICT)
+
+
+@app.command()
+def pin(
+    pin_radius: Annotated[str, typer.Option("--pin-radius", help="Distance of the pin from its own axis.")],
+    offset: Annotated[str, typer.Option("--offset", help="Distance of the two axes.")],
+    friction: Annotated[str, typer.Option("--friction", help="Friction of the pin along the slot.")] = "0",
+    driver: Annotated[str, typer.Option("--driver", help="Which drives: pin or slot.")] = "pin",
+    json: Json = False,
+    out: Out = None,
+) -> None:
+    """Law of a pin in a slot or in a follower: mean ratio, amplitude, extreme speeds."""
+    from geartrain import report
+
+    law = _pin_law(pin_radius, offset, _friction(friction), driver)
+    suffix = suffix_of(out, (".md", ".html", ".json"))
+    if json or suffix == ".json":
+        emit(as_json(report.pin_data(law)), out)
+    else:
+        show([report.pin_document(law, driver)], out, suffix)
+
+
+def _pin_law(pin_radius: str, offset: str, friction: float, driver: str) -> PinLaw:
+    from geartrain.pins.laws import BackLaw, SlotLaw
+
+    if driver not in ("pin", "slot"):
+        raise typer.BadParameter(f"'{driver}' is neither pin nor slot", param_hint="--driver")
+    r = _quantity("--pin-radius", pin_radius, "length", plain=True)
+    e = _quantity("--offset", offset, "length", plain=True)
+    if r <= 0 or e < 0:
+        fix = "give a pin radius above 0 and an offset of 0 or more"
+        raise GearTrainError(Problem(f"{pin_radius} and {offset} are no distances", "", fix, "--pin-radius"))
+    if r == e:
+        what = f"a pin radius of {pin_radius} equals the offset: the pin would pass through the slot's axis"
+        why = "there the slot's direction is undetermined; the mean ratio is 1 above and 0 below"
+        raise GearTrainError(Problem(what, why, "make them differ", "--pin-radius"))
+    if driver == "pin":
+        return SlotLaw(r, e, friction)
+    if r < e:
+        what = f"a follower cannot drive a pin of radius {pin_radius} at an offset of {offset}"
+        why = "it swings, and stands at its dead points while the pin goes on"
+        raise GearTrainError(Problem(what, why, "let the pin drive", "--driver"))
+    law = BackLaw(r, e, friction)
+    if friction >= law.locking_friction:
+        what = f"a friction of {friction:g} locks the pin in its slot"
+        why = f"the pin locks from {law.locking_friction:.6g} on when the slot drives"
+        raise GearTrainError(Problem(what, why, "give less friction, or let the pin drive", "--friction"))
+    return law
+
+
+class _Pair:
+    """The options that describe a pair; any of them can be varied."""
+
+    def __init__(
+        self,
+        teeth: tuple[int, int],
+        half_angle: str,
+        given: dict[str, str | None],
+        radii: str,
+        module: str | None,
+        friction: str,
+        driver: int,
+        direction: int,
+    ) -> None:
+        self.teeth, self.half_angle, self.radii, self.friction = teeth, half_angle, radii, friction
+        self.given = {name: value for name, value in given.items() if value is not None}
+        self.module, self.driver, self.direction = module, driver, direction
+
+    def law(self, **varied: str | float) -> TriangularLaw:
+        """The law with some options replaced by what is varied."""
+        z1, z2 = (varied.pop(name, z) for name, z in zip(("z1", "z2"), self.teeth, strict=True))
+        friction = _friction(str(varied.pop("friction", self.friction)))
+        z1, z2 = round(float(z1)), round(float(z2))
+        distance = None if self.module is None else _quantity("--module", self.module, "length") * (z1 + z2) / 2
+        try:
+            return self.form(**varied).law(z1, z2, friction, self.driver, self.direction, distance)
+        except GearTrainError as error:
+            raise _placed(error, "--teeth" if min(z1, z2) < 3 else "--" + next(iter(self.given), "clearance")) from None
+
+    def check(self, ranges: dict[str, list[float]], units: dict[str, str]) -> None:
+        """Complain of a unit or an option that no point of a sweep can have."""
+        self.form(**{name: f"{values[0]!r}{units[name]}" for name, values in ranges.items() if name in _FORM})
+
+    def form(self, **varied: str | float) -> Triangular:
+        """The tooth form with some options replaced."""
+        from pydantic import ValidationError
+
+        from geartrain.teeth import Triangular
+
+        half_angle = str(varied.pop("half_angle", self.half_angle))
+        clearances = {name: str(value) for name, value in varied.items()} if varied else self.given
+        data: dict[str, Any] = {
+            "form": "triangular",
+            "half_angle": [part.strip() for part in half_angle.split(",")] if "," in half_angle else half_angle,
+            "radii": [part.strip() for part in self.radii.split(",")] if "," in self.radii else self.radii,
+            **clearances,
+        }
+        try:
+            return Triangular.model_validate(data)
+        except ValidationError as error:
+            # one half angle given for both wheels would be complained of twice
+            raise GearTrainError(dict.fromkeys(map(_problem, error.errors(include_url=False)))) from None
+
+
+def _problem(item: Any) -> Problem:
+    context = item.get("ctx") or {}
+    name = str(item["loc"][0]) if item["loc"] else item["type"] if item["type"] in _VARIED else "radii"
+    what = item["msg"] if "fix" in context else f"'{item['input']}' does not fit here"
+    fix = str(context.get("fix") or "see geartrain mesh triangular --help")
+    return Problem(what, "", fix, f"--{name.replace('_', '-')}")
+
+
+def _placed(error: GearTrainError, place: str) -> GearTrainError:
+    from dataclasses import replace
+
+    return GearTrainError(
+        replace(problem, place=problem.place or place.replace("_", "-")) for problem in error.problems
+    )
+
+
+def _quantity(place: str, text: str, dimension: str, plain: bool = False) -> float:
+    """A quantity in SI units, as an option gives it."""
+    from pydantic_core import PydanticCustomError
+
+    from geartrain.quantity import Quantity
+
+    try:
+        found = Quantity.parse(text, dimension, plain)
+    except PydanticCustomError as error:
+        raise GearTrainError(Problem(error.message(), "", str((error.context or {}).get("fix", "")), place)) from None
+    return float(found.value) if found.unit is None else found.si
+
+
+def _friction(text: str) -> float:
+    found = _quantity("--friction", text, "fraction", plain=True)
+    if found < 0:
+        raise GearTrainError(
+            Problem(f"a friction of {text} would push", "", "a coefficient of friction is 0 or more", "--friction")
+        )
+    return found
+
+
+def _page(
+    pair: _Pair, law: TriangularLaw, run: tuple[str | None, str | None, str | None], json: bool, out: Out
+) -> None:
+    from geartrain import report
+    from geartrain.teeth.triangular.meshing import find_window
+
+    inertia, rate, load = run
+    running = report.Running(
+        None if inertia is None else _quantity("--inertia", inertia, "inertia"),
+        None if rate is None else _quantity("--rate", rate, "speed") / 6.283185307179586,
+        None if load is None else _quantity("--load", load, "torque"),
+    )
+    found = find_window(law.sizes) if law.sizes.has_valleys else None
+    suffix = suffix_of(out, (".md", ".html", ".json"))
+    if json or suffix == ".json":
+        emit(as_json(report.mesh_data(law, found, running)), out)
+    else:
+        show([report.mesh_document(law, found, running)], out, suffix)
+
+
+def _draw(figure: Any, path: Path, suffix: str) -> None:
+    from geartrain.files import write_bytes
+    from geartrain.plot import render
+
+    write_bytes(path, render(figure, suffix))
+    typer.echo(f"wrote {path}", err=True)
+
+
+# -------------------------------------------------------------------------------------------------------------- sweeps
+
+
+def _sweep(pair: _Pair, vary: list[str], plot: Path | None, picture: str, json: bool, out: Path | None) -> None:
+    from rich.console import Console
+    from rich.progress import Progress
+
+    from geartrain.teeth.triangular.sweep import sweep
+
+    ranges, units = _ranges(vary)
+
+    def make(**values: float) -> TriangularLaw:
+        return pair.law(**{name: f"{value!r}{units[name]}" for name, value in values.items()})
+
+    pair.check(ranges, units)
+    count = 1
+    for values in ranges.values():
+        count *= len(values)
+    with Progress(console=Console(stderr=True), transient=True) as progress:
+        task = progress.add_task("sweep", total=count)
+        found = sweep(make, ranges, lambda: progress.update(task, advance=1))
+    suffix = suffix_of(out, (".csv", ".json"))
+    if json or suffix == ".json":
+        emit(as_json([dict(zip(found.header, _plain(row), strict=True)) for row in found.rows()]), out)
+    else:
+        emit(_csv(found), out)
+    if len(ranges) == 1:
+        _tell_changes(make, next(iter(ranges)), found, units)
+    if plot is not None:
+        from geartrain.plot import sweep_figure
+
+        _draw(sweep_figure(found.parameters, found.columns, found.verdicts), plot, picture)
+
+
+def _ranges(vary: list[str]) -> tuple[dict[str, list[float]], dict[str, str]]:
+    """The values of each varied parameter, and the unit they were given in."""
+    if len(vary) > 2:
+        raise typer.BadParameter("vary one parameter or two", param_hint="--vary")
+    ranges: dict[str, list[float]] = {}
+    units: dict[str, str] = {}
+    for text in vary:
+        name, _, rest = text.partition("=")
+        name = name.strip().replace("-", "_")
+        parts = [part.strip() for part in rest.split(":")]
+        if name not in _VARIED:
+            raise typer.BadParameter(f"'{name}' cannot be varied; use {', '.join(_VARIED)}", param_hint="--vary")
+        if len(parts) != 3 or not parts[2].isdigit() or int(parts[2]) < 2:
+            raise typer.BadParameter(f"'{text}' is not NAME=FIRST:LAST:COUNT, COUNT 2 or more", param_hint="--vary")
+        first, unit = _number(parts[0])
+        last, other = _number(parts[1])
+        units[name] = other or unit
+        steps = int(parts[2]) - 1
+        ranges[name] = [first + (last - first) * step / steps for step in range(steps + 1)]
+    return ranges, units
+
+
+def _number(text: str) -> tuple[float, str]:
+    """A number and the unit behind it."""
+    import math
+    import re
+
+    match = re.fullmatch(r"([+-]?[\d.]+(?:[eE][+-]?\d+)?)\s*([A-Za-z°].*)?", text)
+    try:
+        value = float(match[1]) if match else math.nan
+    except ValueError:
+        value = math.nan
+    if match is None or not math.isfinite(value):
+        raise typer.BadParameter(f"'{text}' is not a number", param_hint="--vary")
+    return value, match[2] or ""
+
+
+def _csv(found: Sweep) -> str:
+    import csv
+    import io
+
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(found.header)
+    writer.writerows(["" if value is None else value for value in _plain(row)] for row in found.rows())
+    return text.getvalue().rstrip("\n")
+
+
+def _plain(row: tuple[object, ...]) -> list[object]:
+    """NaN becomes nothing."""
+    return [None if value != value else value for value in row]
+
+
+def _tell_changes(make: Any, name: str, found: Sweep, units: dict[str, str]) -> None:
+    from geartrain.teeth.triangular.sweep import best, changes
+
+    for change in changes(make, name, found) if name not in ("z1", "z2") else ():
+        typer.echo(f"{name} {change.value:.10g}{units[name]}: {change.before} -> {change.after}", err=True)
+    top = best(make, name, found) if name not in ("z1", "z2", "friction") else None
+    if top is not None:
+        typer.echo(f"{name} {top[0]:.8g}{units[name]}: greatest mean efficiency, {top[1]:.8f}", err=True)

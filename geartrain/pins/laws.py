@@ -1,0 +1,135 @@
+"""Laws of a pin in a slot. Only angles at the two axes count: a pin at radius r, the axes e apart.
+
+The driver's angle S is counted from the direction that points from the pin's axis to the slot's.
+"""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from fractions import Fraction
+from math import asin, pi, sqrt
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from geartrain.teeth.base import Law
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
+
+    from geartrain.teeth.base import Floats
+
+_SAMPLES = 4096  # of a smooth periodic function: its mean by equal samples is exact to rounding unless r is close to e
+
+
+class PinLaw(Law):
+    """What a pin in a slot and a pin in a follower share. `friction` is that of the pin along the slot."""
+
+    period = 2 * pi
+
+    def __init__(self, pin_radius: float, offset: float, friction: float = 0.0) -> None:
+        self.r, self.e, self.friction = pin_radius, offset, friction
+
+    @property
+    @abstractmethod
+    def amplitude(self) -> float:
+        """Greatest transmission error (rad), the same on both sides."""
+
+    def error_range(self) -> tuple[float, float]:
+        """Minus and plus the amplitude."""
+        return -self.amplitude, self.amplitude
+
+    def error_moments(self) -> tuple[float, float]:
+        """0, and the rms of the error (rad)."""
+        error = self.error(self._turn())
+        return 0.0, sqrt(float(np.mean(error**2)))
+
+    def efficiency_mean(self) -> float:
+        """Mean over a turn of the driver."""
+        return float(np.mean(self.efficiency(self._turn())))
+
+    def _turn(self) -> Floats:
+        return np.arange(_SAMPLES, dtype=np.float64) * (self.period / _SAMPLES)
+
+
+class SlotLaw(PinLaw):
+    """A pin drives a slot: slot angle = S + atan2(e sin S, r - e cos S) for r > e, else -atan2(r sin S, e - r cos S).
+
+    The mean ratio is 1 where the pin's circle encloses the slot's axis (r > e), else 0: then the follower's angle is
+    counted from the direction that points from its axis to the pin's. Friction leaves 1/(1 + f |tan d|) of the power,
+    d the angle between pin radius and slot, on a follower's way back too.
+    """
+
+    def __init__(self, pin_radius: float, offset: float, friction: float = 0.0) -> None:
+        super().__init__(pin_radius, offset, friction)
+        self.ratio = Fraction(1 if pin_radius > offset else 0)
+
+    @property
+    def amplitude(self) -> float:
+        """asin of the lesser over the greater distance (rad)."""
+        return asin(min(self.r, self.e) / max(self.r, self.e))
+
+    def error(self, S: ArrayLike) -> Floats:
+        """Slot angle less its mean motion (rad)."""
+        S = np.asarray(S, dtype=float)
+        if self.r > self.e:
+            return np.asarray(np.arctan2(self.e * np.sin(S), self.r - self.e * np.cos(S)))
+        return np.asarray(-np.arctan2(self.r * np.sin(S), self.e - self.r * np.cos(S)))
+
+    def speed(self, S: ArrayLike) -> Floats:
+        """r (r - e cos S)/(r^2 + e^2 - 2 r e cos S)."""
+        along, square = self._reach(S)
+        return np.asarray(self.r * along / square)
+
+    def _reach(self, S: ArrayLike) -> tuple[Floats, Floats]:
+        """r - e cos S, and the square of the pin's distance from the slot's axis, as a sum of squares."""
+        half = np.sin(np.asarray(S, dtype=float) / 2)
+        along = (self.r - self.e) + 2 * self.e * half**2
+        return along, (self.r - self.e) ** 2 + 4 * self.r * self.e * half**2
+
+    def speed_range(self) -> tuple[float, float]:
+        """1/(1 + e/r) where the pin is farthest from the slot's axis, 1/(1 - e/r) where it is nearest."""
+        far, near = self.r / (self.r + self.e), self.r / (self.r - self.e)
+        return min(far, near), max(far, near)
+
+    def efficiency(self, S: ArrayLike) -> Floats:
+        """cos d/(cos d + f sin d), by magnitude; 0 at a follower's dead points if there is friction."""
+        along, _ = self._reach(S)
+        across = self.friction * np.abs(self.e * np.sin(np.asarray(S, dtype=float)))
+        along = np.abs(along)
+        whole = along + across
+        return np.asarray(np.divide(along, whole, out=np.ones_like(whole), where=whole > 0))
+
+
+class BackLaw(PinLaw):
+    """A slot drives its pin: pin angle = S - asin((e/r) sin S). Only where the pin's circle encloses its axis."""
+
+    ratio = Fraction(1)
+
+    @property
+    def amplitude(self) -> float:
+        """asin(e/r) (rad)."""
+        return asin(self.e / self.r)
+
+    def error(self, S: ArrayLike) -> Floats:
+        """Pin angle less its mean motion (rad)."""
+        return np.asarray(-np.arcsin(self.e / self.r * np.sin(np.asarray(S, dtype=float))))
+
+    def speed(self, S: ArrayLike) -> Floats:
+        """1 - e cos S/sqrt(r^2 - e^2 sin^2 S)."""
+        S = np.asarray(S, dtype=float)
+        return np.asarray(1 - self.e * np.cos(S) / np.sqrt(self.r**2 - (self.e * np.sin(S)) ** 2))
+
+    def speed_range(self) -> tuple[float, float]:
+        """1 - e/r and 1 + e/r."""
+        return 1 - self.e / self.r, 1 + self.e / self.r
+
+    def efficiency(self, S: ArrayLike) -> Floats:
+        """1 - f |tan d|, d the angle between pin radius and slot; 0 where friction locks."""
+        d = np.arcsin(self.e / self.r * np.sin(np.asarray(S, dtype=float)))
+        return np.asarray(np.maximum(1 - self.friction * np.abs(np.tan(d)), 0.0))
+
+    @property
+    def locking_friction(self) -> float:
+        """The friction at which the pin locks somewhere: sqrt(r^2 - e^2)/e."""
+        return sqrt(self.r**2 - self.e**2) / self.e if self.e else float("inf")

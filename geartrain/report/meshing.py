@@ -1,0 +1,184 @@
+"""A page on one pair of wheels with triangular teeth."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from math import degrees, isfinite, pi, sqrt
+from typing import TYPE_CHECKING
+
+from geartrain.meshes import explain, locked_by_friction
+from geartrain.report.document import Document, Section, Table, figure
+
+if TYPE_CHECKING:
+    from geartrain.teeth.triangular.law import TriangularLaw
+    from geartrain.teeth.triangular.meshing import Window
+
+
+@dataclass(frozen=True)
+class Running:
+    """How a pair is run, as far as it is known: SI units, `rate` of the driver in turns per second."""
+
+    inertia: float | None = None
+    rate: float | None = None
+    load: float | None = None
+
+    @property
+    def omega1(self) -> float | None:
+        """Speed of the driver (rad/s)."""
+        return None if self.rate is None else 2 * pi * self.rate
+
+
+def mesh_document(law: TriangularLaw, window: Window | None, running: Running, notes: tuple[str, ...] = ()) -> Document:
+    """Sizes, clearance, path, law, collisions and losses of one pair."""
+    sizes = law.sizes
+    lead = [f"The wheel of {sizes.z1} drives the wheel of {sizes.z2}.", _verdict(law, window), *notes]
+    sections = [_sizes(law)]
+    if window is not None:
+        sections.append(_clearance(law, window))
+    if law.intervals and law.sizes.has_valleys:
+        sections += [_path(law), _law(law), _collisions(law), _losses(law), *_impacts(law, running)]
+    return Document(f"Triangular teeth {sizes.z1}/{sizes.z2}", lead, sections)
+
+
+def _verdict(law: TriangularLaw, window: Window | None) -> str:
+    found = law.verdict
+    words = [f"Verdict: {found.kind}: {found.text}."]
+    if not found:
+        why, fix = explain(law, window)
+        words += [f"Why: {why}." if why else "", f"What to do: {fix}."]
+    elif law.friction >= law.locking_friction:
+        what, why, fix = locked_by_friction(law)
+        words = [f"Verdict: friction locks: {what}.", f"Why: {why}.", f"What to do: {fix}."]
+    return " ".join(word for word in words if word)
+
+
+def _sizes(law: TriangularLaw) -> Section:
+    sizes = law.sizes
+    wheels = (
+        ("driver", sizes.z1, sizes.beta1, sizes.R1, sizes.depths[0], sizes.flanks[0], sizes.p1),
+        ("driven", sizes.z2, sizes.beta2, sizes.R2, sizes.depths[1], sizes.flanks[1], sizes.p2),
+    )
+    rows = [
+        (name, str(z), _deg(beta), figure(R), figure(h), figure(e), _deg(pitch))
+        for name, z, beta, R, h, e, pitch in wheels
+    ]
+    header = ("wheel", "teeth", "half angle", "outer radius", "depth", "flank", "pitch")
+    text = f"Centre distance {figure(sizes.D)}, in the unit of radii, depths and flanks (Eqs. 1 to 3). Angles in deg."
+    return Section("Sizes", (text,), (Table(header, rows),))
+
+
+def _clearance(law: TriangularLaw, window: Window) -> Section:
+    sizes = law.sizes
+    turns = (
+        f"These teeth turn from {1 + window.jam:.6f} (back flanks jam) to {1 + window.run:.6f} ({window.run_kind})"
+        if window
+        else f"No clearance works: jam up to {1 + window.jam:.6f}, {window.run_kind} from {1 + window.run:.6f}"
+    )
+    lines = [f"Clearance factor {1 + sizes.excess:.9g}. {turns}; beyond {1 + window.reach:.6f} tips never touch."]
+    if law.intervals:
+        play = law.verdict.play
+        arc = play * sizes.D * sizes.z2 / (sizes.z1 + sizes.z2)
+        lines.append(
+            f"Least play of the back flanks over a pitch: {degrees(play):.6g} deg of the driven wheel, an arc of "
+            f"{arc:.6g} on its pitch circle."
+        )
+    return Section("Clearance", lines)
+
+
+def _path(law: TriangularLaw) -> Section:
+    sizes = law.sizes
+    ideal = (
+        f"Ideally a couple of teeth meets from alpha_1 = {_deg(sizes.reach1)} to {_deg(-sizes.reach1)} deg (Eq. 4), "
+        f"its flanks matching at {_deg(sizes.matching)} deg (Eq. 10): approach before, recess after. The real path is "
+        f"one pitch, {_deg(sizes.p1)} deg; alpha_1 decreases with time."
+    )
+    rows = []
+    for interval in law.intervals:
+        first, last = law.contact.speed(interval, interval.start), law.contact.speed(interval, interval.end)
+        share = interval.width / sizes.p1
+        rows.append(
+            (interval.phase, _deg(interval.start), _deg(interval.end), f"{share:.4f}", figure(first), figure(last))
+        )
+    header = ("phase", "from alpha_1", "to alpha_1", "pitches", "tau at first", "tau at last")
+    return Section("Path of contact", (ideal,), (Table(header, rows),))
+
+
+def _law(law: TriangularLaw) -> Section:
+    least, most = law.speed_range()
+    low, high = law.error_range()
+    lag, rms = law.error_moments()
+    mean = float(law.ratio)
+    rows = [
+        ("speed ratio, mean", f"{law.ratio} = {figure(law.ratio)}", ""),
+        ("speed ratio, least", figure(least), f"{(least / mean - 1) * 100:+.3f} %"),
+        ("speed ratio, greatest", figure(most), f"{(most / mean - 1) * 100:+.3f} %"),
+        ("transmission error, peak to peak", f"{high - low:.9g} rad", f"{degrees(high - low):.9g} deg"),
+        ("transmission error, rms", f"{rms:.9g} rad", f"{degrees(rms):.9g} deg"),
+        ("transmission error, mean", f"{lag:.9g} rad", f"{degrees(lag):.9g} deg"),
+    ]
+    text = (
+        "Transmission error: driven angle less its mean motion, positive where the driven wheel is ahead; counted from "
+        "the driver's tooth on the line of centres."
+    )
+    return Section("Law of motion", (text,), (Table(("quantity", "value", ""), rows),))
+
+
+def _collisions(law: TriangularLaw) -> Section:
+    rows = [
+        (jump.kind, _deg(jump.alpha1), figure(jump.before), figure(jump.after), f"{jump.value:.5f}")
+        for jump in law.jumps
+    ]
+    header = ("begins", "at alpha_1", "tau before", "tau after", "jump")
+    text = "Jump: 1 - before/after, the leap of normal velocity over the driver's (Eqs. 22, 25, 26, 27)."
+    return Section("Collisions", (text,), (Table(header, rows),))
+
+
+def _losses(law: TriangularLaw) -> Section:
+    if not law.friction:
+        return Section("Friction", ("No friction is given: nothing is lost by sliding.",))
+    if law.friction >= law.locking_friction:
+        what, why, _ = locked_by_friction(law)
+        return Section("Friction", (f"{what}: {why}.",))
+    lines = [
+        f"Coefficient of friction {law.friction:g}. Sliding efficiency: mean {law.efficiency_mean():.9f} at constant "
+        f"driver torque (Eq. 34), {law.efficiency_at_constant_load():.9f} at constant load torque, least "
+        f"{law.efficiency_least():.6f}.",
+    ]
+    if isfinite(law.locking_friction):
+        lines.append(f"From a friction of {law.locking_friction:.6g} on these teeth lock.")
+    return Section("Friction", lines)
+
+
+def _impacts(law: TriangularLaw, running: Running) -> Iterator[Section]:
+    if running.inertia is None:
+        return
+    steepest = law.steepest_fall()
+    lines = []
+    if running.omega1 is not None:
+        handed, dissipated, work = law.impact(running.inertia, running.omega1)
+        lines.append(
+            f"At {running.rate:g} turns of the driver a second the collisions of one pitch hand {handed:.6g} J to the "
+            f"driven side, dissipate {dissipated:.6g} J, and cost the driver their sum, {work:.6g} J, or "
+            f"{work * (running.rate or 0) * law.sizes.z1:.6g} W. The source counts the first as lost; inelastic teeth "
+            "lose the second."
+        )
+        lines.append(
+            "The driven inertia stays in contact as tau falls if the load torque is at least "
+            f"{running.inertia * running.omega1**2 * steepest:.6g} N m."
+        )
+    if running.load is not None and steepest > 0:
+        void = sqrt(running.load / (running.inertia * steepest))
+        lines.append(
+            f"With a load torque of {running.load:g} N m the quasi-static law is void above {void / (2 * pi):.6g} "
+            f"turns of the driver a second ({void:.6g} rad/s)."
+        )
+    if not lines:
+        lines.append(
+            "Give a rate for the impacts, or a load torque for the speed above which the quasi-static law is void."
+        )
+    yield Section("Impacts", lines)
+
+
+def _deg(angle: float) -> str:
+    return f"{degrees(angle):.6g}" if isfinite(angle) else "none"

@@ -1,0 +1,173 @@
+"""Real teeth and pins as sections of a train's report, and as plain data."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from math import degrees, isfinite, pi, sqrt
+from typing import TYPE_CHECKING, Any
+
+from geartrain.analysis import GearTrain
+from geartrain.meshes import Mesh, explain
+from geartrain.report.document import Section, Table
+from geartrain.report.meshing import Running
+
+if TYPE_CHECKING:
+    from geartrain.teeth.triangular.law import TriangularLaw
+    from geartrain.teeth.triangular.meshing import Window
+
+
+def teeth_sections(train: GearTrain) -> Iterator[Section]:
+    """The real teeth and pins of a train; nothing where none are declared."""
+    if train.meshes:
+        yield _teeth(train)
+    if train.pins:
+        yield _pins(train)
+
+
+def _teeth(train: GearTrain) -> Section:
+    rows = [_teeth_row(mesh) for mesh in train.meshes]
+    header = ("pair", "drives", "clearance", "window", "verdict", "tau/mean", "error p-p (deg)", "efficiency", "jumps")
+    guessed = [mesh.name for mesh in train.meshes if mesh.why != "declared"]
+    lines = [
+        "Triangular teeth, each pair in its carrier's frame. Speed ratio over its mean, transmission error of the "
+        "driven wheel, mean sliding efficiency at constant driver torque, relative leaps of normal velocity."
+    ]
+    if guessed:
+        lines.append("The driving wheel is the one nearer to where power enters, unless `driver` is declared.")
+    lines += [f"Pair '{mesh.name}': {mesh.note}." for mesh in train.meshes if mesh.note]
+    for mesh in train.meshes:
+        if fault := mesh.fault:
+            lines.append(f"{fault.what}; {fault.why}. {fault.fix}." if fault.why else f"{fault.what}. {fault.fix}.")
+    return Section("Teeth", lines, (Table(header, rows),))
+
+
+def _teeth_row(mesh: Mesh) -> tuple[str, ...]:
+    law, window = mesh.law, mesh.window
+    where = "-" if window is None else f"{1 + window.jam:.5f}..{1 + window.run:.5f} {window.run_kind}"
+    head = (mesh.name, f"{mesh.driver} -> {mesh.driven}", f"{1 + law.sizes.excess:.6g}", where, law.verdict.kind)
+    if not law.intervals or window is None:
+        return (*head, "-", "-", "-", "-")
+    least, most = law.speed_range()
+    low, high = law.error_range()
+    mean = float(law.ratio)
+    efficiency = "-" if mesh.friction is None else f"{law.efficiency_mean():.6f}"
+    jumps = ", ".join(f"{jump.value:.4f}" for jump in law.jumps)
+    return (*head, f"{least / mean:.5f}..{most / mean:.5f}", f"{degrees(high - low):.6g}", efficiency, jumps)
+
+
+def _pins(train: GearTrain) -> Section:
+    rows = []
+    for joint in train.pins:
+        law, coupling = joint.law, joint.coupling
+        least, most = law.speed_range()
+        rows.append(
+            (
+                coupling.name,
+                f"{coupling.pin} -> {coupling.slot}",
+                str(coupling.pin_radius),
+                str(coupling.offset),
+                str(law.ratio),
+                f"{degrees(law.amplitude):.5f}",
+                f"{least:.6f}..{most:.6f}",
+            )
+        )
+    header = ("coupling", "pin -> slot", "pin radius", "offset", "mean ratio", "amplitude (deg)", "speed ratio")
+    text = "Speeds and angles of the slot in the carrier's frame, the pin turning evenly there."
+    return Section("Pins", (text,), (Table(header, rows),))
+
+
+def teeth_data(train: GearTrain) -> dict[str, Any]:
+    """Real teeth and pins of a train as plain data; empty lists where none are declared."""
+    return {
+        "teeth": [
+            {"pair": mesh.name, "driver": mesh.driver, "driver_is": mesh.why, **mesh_data(mesh.law, mesh.window)}
+            for mesh in train.meshes
+        ],
+        "pins": [
+            {
+                "coupling": joint.coupling.name,
+                "ratio": str(joint.law.ratio),
+                "amplitude": joint.law.amplitude,
+                "speed_ratio": {"min": joint.law.speed_range()[0], "max": joint.law.speed_range()[1]},
+            }
+            for joint in train.pins
+        ],
+    }
+
+
+def mesh_data(law: TriangularLaw, window: Window | None, running: Running | None = None) -> dict[str, Any]:
+    """One pair as plain data with stable keys; angles in rad."""
+    found, sizes = law.verdict, law.sizes
+    why, fix = ("", "") if found else explain(law, window)
+    data: dict[str, Any] = {
+        "teeth": [sizes.z1, sizes.z2],
+        "verdict": {"kind": found.kind, "text": found.text, "why": why, "fix": fix},
+        "clearance": 1 + sizes.excess,
+        "window": None if window is None else window_data(window),
+        "sizes": {
+            "radii": [sizes.R1, sizes.R2],
+            "half_angles": [sizes.beta1, sizes.beta2],
+            "depths": list(sizes.depths),
+            "centre_distance": sizes.D,
+            "reach": sizes.reach1,
+            "matching": sizes.matching if isfinite(sizes.matching) else None,
+        },
+    }
+    if not law.intervals or not sizes.has_valleys:
+        return data | {
+            "speed_ratio": None,
+            "transmission_error": None,
+            "efficiency": None,
+            "intervals": [],
+            "jumps": [],
+        }
+    return data | _law_data(law) | _impact_data(law, running or Running())
+
+
+def window_data(window: Window) -> dict[str, Any]:
+    """Clearance factors between which a pair turns."""
+    return {
+        "jam": 1 + window.jam,
+        "run": 1 + window.run,
+        "run_kind": window.run_kind,
+        "reach": 1 + window.reach,
+        "works": bool(window),
+    }
+
+
+def _law_data(law: TriangularLaw) -> dict[str, Any]:
+    least, most = law.speed_range()
+    low, high = law.error_range()
+    lag, rms = law.error_moments()
+    locks = law.friction >= law.locking_friction
+    return {
+        "play": law.verdict.play,
+        "speed_ratio": {"mean": float(law.ratio), "exact": str(law.ratio), "min": least, "max": most},
+        "transmission_error": {"peak_to_peak": high - low, "rms": rms, "mean": lag},
+        "efficiency": {
+            "friction": law.friction,
+            "mean": None if locks else law.efficiency_mean(),
+            "at_constant_load": None if locks else law.efficiency_at_constant_load(),
+            "min": None if locks else law.efficiency_least(),
+            "locks_at": law.locking_friction if isfinite(law.locking_friction) else None,
+        },
+        "intervals": [{"phase": i.phase, "start": i.start, "end": i.end} for i in law.intervals],
+        "jumps": [
+            {"kind": j.kind, "alpha1": j.alpha1, "before": j.before, "after": j.after, "value": j.value}
+            for j in law.jumps
+        ],
+    }
+
+
+def _impact_data(law: TriangularLaw, running: Running) -> dict[str, Any]:
+    if running.inertia is None:
+        return {}
+    steepest = law.steepest_fall()
+    data: dict[str, Any] = {"inertia": running.inertia}
+    if running.omega1 is not None:
+        handed, dissipated, work = law.impact(running.inertia, running.omega1)
+        data |= {"rate": running.rate, "handed": handed, "dissipated": dissipated, "work": work}
+        data["load_to_stay_in_contact"] = running.inertia * running.omega1**2 * steepest
+    if running.load is not None and steepest > 0:
+        data["void_above"] = sqrt(running.load / (running.inertia * steepest)) / (2 * pi)
+    return {"impacts": data}

@@ -36,7 +36,7 @@ def mesh_document(law: TriangularLaw, window: Window | None, running: Running, n
     sections = [_sizes(law)]
     if window is not None:
         sections.append(_clearance(law, window))
-    if law.intervals and law.sizes.has_valleys:
+    if law.intervals:
         sections += [_path(law), _law(law), _collisions(law), _losses(law), *_impacts(law, running)]
     return Document(f"Triangular teeth {sizes.z1}/{sizes.z2}", lead, sections)
 

@@ -45,7 +45,7 @@ def _teeth_row(mesh: Mesh) -> tuple[str, ...]:
     law, window = mesh.law, mesh.window
     where = "-" if window is None else f"{1 + window.jam:.5f}..{1 + window.run:.5f} {window.run_kind}"
     head = (mesh.name, f"{mesh.driver} -> {mesh.driven}", f"{1 + law.sizes.excess:.6g}", where, law.verdict.kind)
-    if not law.intervals or window is None:
+    if not law.intervals:
         return (*head, "-", "-", "-", "-")
     least, most = law.speed_range()
     low, high = law.error_range()
@@ -113,7 +113,7 @@ def mesh_data(law: TriangularLaw, window: Window | None, running: Running | None
             "matching": sizes.matching if isfinite(sizes.matching) else None,
         },
     }
-    if not law.intervals or not sizes.has_valleys:
+    if not law.intervals:
         return data | {
             "speed_ratio": None,
             "transmission_error": None,

@@ -73,7 +73,9 @@ class RealPath:
 
     @cached_property
     def pieces(self) -> list[Piece]:
-        """Recess, then approach, each cut where the curvature of f changes its sign."""
+        """Recess, then approach, each cut where the curvature of f changes its sign; none where there are no teeth."""
+        if not self.sizes.has_valleys:
+            return []
         reach = self.sizes.reach1
         matching = min(max(self.sizes.matching, -reach), reach)
         found: list[Piece] = []

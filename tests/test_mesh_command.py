@@ -1,0 +1,230 @@
+"""`geartrain mesh` as its user meets it: pages, keys, sweeps, pictures, refusals."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+import subprocess
+import sys
+from math import degrees
+from pathlib import Path
+
+import pytest
+from commands import call
+
+PAIR = ("mesh", "triangular", "--teeth", 48, 96, "--half-angle", "30deg", "--friction", 0.2)
+KEYS = {"teeth", "verdict", "clearance", "window", "sizes", "play", "speed_ratio", "transmission_error"}
+KEYS |= {"efficiency", "intervals", "jumps"}
+
+
+def process(*arguments: object) -> subprocess.CompletedProcess[str]:
+    command = [sys.executable, "-m", "geartrain", *map(str, arguments)]
+    return subprocess.run(command, capture_output=True, text=True, check=False)
+
+
+# printed under Figs. 3 to 5 of F. Sorge's note: relative jumps, and the phases of the text
+PRINTED = [
+    (48, 96, 1.01, {"recess": 0.1582}),
+    (48, 96, 1.025, {"recess": 0.1457}),
+    (96, 72, 1.01, {"approach": 0.1117}),
+    (96, 72, 1.025, {"approach": 0.0682, "matching": 0.0316}),  # 0.0314 is a misprint
+    (96, 96, 1.01, {"approach": 0.0876, "recess": 0.0095}),
+    (96, 96, 1.025, {"approach": 0.0696, "matching": 0.0119}),
+]
+
+
+@pytest.mark.parametrize(("z1", "z2", "a", "jumps"), PRINTED)
+def test_the_jumps_are_those_printed(z1: int, z2: int, a: float, jumps: dict[str, float]) -> None:
+    data = json.loads(call("mesh", "triangular", "--teeth", z1, z2, "--clearance", a, "--json").output)
+    assert {jump["kind"]: round(jump["value"], 4) for jump in data["jumps"]} == jumps
+    assert data["speed_ratio"]["mean"] == z1 / z2
+
+
+def test_every_key_of_the_json_is_the_promised_one() -> None:
+    data = json.loads(call(*PAIR, "--clearance", 1.01, "--json").output)
+    assert set(data) == KEYS
+    assert set(data["speed_ratio"]) == {"mean", "exact", "min", "max"}
+    assert set(data["transmission_error"]) == {"peak_to_peak", "rms", "mean"}
+    assert {"mean", "min"} <= set(data["efficiency"])
+    assert [set(interval) for interval in data["intervals"]] == [{"phase", "start", "end"}]
+    assert set(data["window"]) == {"jam", "run", "run_kind", "reach", "works"}
+    assert data["verdict"]["kind"] == "runs"
+    # by 40-digit arithmetic with the equations of the source
+    assert data["speed_ratio"]["min"] == pytest.approx(0.4553445392855049755, rel=1e-13)
+    assert data["speed_ratio"]["max"] == pytest.approx(0.5409373642233032024, rel=1e-13)
+    assert degrees(data["intervals"][0]["end"]) == pytest.approx(-8.734097098280917, rel=1e-12)
+    assert data["window"]["jam"] == pytest.approx(1.00271, abs=5e-6)
+    assert data["window"]["run"] == pytest.approx(1.0314, abs=7e-5)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "kind", "said"),
+    [
+        (["--clearance", 1.001], "jam", "below the window"),
+        (["--clearance", 1.034], "standstill", "above the window"),
+        (["--clearance", 1.05], "apart", "above the window"),
+        (["--clearance", 1.01, "--half-angle", "89deg"], "no valley", "use more teeth or a smaller half_angle"),
+    ],
+)
+def test_a_pair_outside_its_window_is_a_verdict_that_names_it(arguments: list[object], kind: str, said: str) -> None:
+    result = call("mesh", "triangular", "--teeth", 48, 96, *arguments)
+    assert result.exit_code == 1
+    assert f"Verdict: {kind}" in result.output
+    assert said in result.output
+    data = json.loads(call("mesh", "triangular", "--teeth", 48, 96, *arguments, "--json").output)
+    assert data["verdict"]["kind"] == kind
+
+
+def test_friction_that_locks_is_a_verdict_with_the_least_friction_that_does() -> None:
+    base = ("mesh", "triangular", "--teeth", 96, 72, "--clearance", 1.01, "--friction")
+    data = json.loads(call(*base, 1.2, "--json").output)
+    limit = data["efficiency"]["locks_at"]
+    assert (data["efficiency"]["mean"], data["efficiency"]["min"]) == (None, None)
+    assert call(*base, 1.2).exit_code == 1
+    assert "friction locks" in call(*base, limit * 1.0001).output
+    assert call(*base, limit * 0.9999).exit_code == 0
+
+
+REFUSED = [
+    (["--teeth", 2, 96, "--clearance", 1.01], "at least 3 teeth"),
+    (["--teeth", 48, 96, "--clearance", 1], "above 1"),
+    (["--teeth", 48, 96, "--clearance", "nan"], "'nan' is not a number"),
+    (["--teeth", 48, 96, "--clearance", "inf"], "'inf' is not a number"),
+    (["--teeth", 48, 96, "--excess", 0], "above 0"),
+    (["--teeth", 48, 96, "--window", 1.5], "between 0"),
+    (["--teeth", 48, 96], "exactly one of"),
+    (["--teeth", 48, 96, "--clearance", 1.01, "--excess", 0.01], "exactly one of"),
+    (["--teeth", 48, 96, "--clearance", 1.01, "--half-angle", "95deg"], "between 0 and 90 deg"),
+    (["--teeth", 48, 96, "--clearance", 1.01, "--half-angle", "30"], "has no unit"),
+    (["--teeth", 48, 96, "--clearance", 1.01, "--half-angle", "3mm"], "is a length"),
+    (["--teeth", 48, 96, "--clearance", 1.01, "--friction", -0.1], "0 or more"),
+    (["--teeth", 48, 96, "--clearance", 1.01, "--rate", "3 kg"], "unknown unit"),
+    (["--teeth", 48, 96, "--centre-distance", "40mm"], "nothing to be compared with"),
+    (["--teeth", 48, 96, "--centre-distance", "40", "--radii", "10mm,20mm"], "mix plain numbers"),
+    (["--teeth", 48, 96, "--backlash", "9mm", "--module", "0.5mm"], "no clearance gives a backlash"),
+    (["--teeth", 8, 64, "--window", 0.5], "no clearance lets 8 and 64"),
+    (["--teeth", 48, 96, "--vary", "clearence=1:2:3"], "cannot be varied"),
+    (["--teeth", 48, 96, "--vary", "clearance=1:2"], "FIRST:LAST:COUNT"),
+    (["--teeth", 48, 96, "--clearance", 1.01, "--plot", "x.bmp"], "'.bmp'"),
+]
+
+
+@pytest.mark.parametrize(("arguments", "said"), REFUSED, ids=lambda value: str(value)[:40])
+def test_what_cannot_be_a_pair_is_refused_kindly(arguments: list[object], said: str) -> None:
+    done = process("mesh", "triangular", *arguments)
+    assert (done.returncode, done.stdout) == (2, "")
+    assert said in " ".join(done.stderr.replace("│", " ").split())
+    assert "Traceback" not in done.stderr
+
+
+def test_clearances_given_in_five_ways_are_one() -> None:
+    sized = ("--module", "0.5mm")
+    first = json.loads(call(*PAIR, "--clearance", "1.015", *sized, "--json").output)
+    # half the module times the teeth is the least centre distance: 36 mm
+    assert first["sizes"]["centre_distance"] == pytest.approx(0.036 * 1.015, rel=1e-14)
+    window = first["window"]
+    fraction = (1.015 - window["jam"]) / (window["run"] - window["jam"])
+    arc = first["play"] * first["sizes"]["centre_distance"] * 96 / 144
+    for name, value in (
+        ("--excess", "0.015"),
+        ("--centre-distance", "36.54 mm"),
+        ("--window", f"{fraction:.15f}"),
+        ("--backlash", f"{arc * 1000:.15f} mm"),
+    ):
+        other = json.loads(call(*PAIR, name, value, *sized, "--json").output)
+        assert other["clearance"] == pytest.approx(1.015, rel=1e-12)
+
+
+def test_the_second_wheel_can_drive_and_the_first_can_turn_back() -> None:
+    there = json.loads(call(*PAIR, "--clearance", 1.01, "--json").output)
+    back = json.loads(call(*PAIR, "--clearance", 1.01, "--driver", 2, "--json").output)
+    swapped = json.loads(
+        call("mesh", "triangular", "--teeth", 96, 48, "--friction", 0.2, "--clearance", 1.01, "--json").output
+    )
+    assert back["speed_ratio"]["mean"] == 2
+    for key in ("min", "max"):
+        assert back["speed_ratio"][key] == pytest.approx(swapped["speed_ratio"][key], rel=1e-12)
+    reverse = json.loads(call(*PAIR, "--clearance", 1.01, "--backwards", "--json").output)
+    for key in ("min", "max"):
+        assert reverse["speed_ratio"][key] == there["speed_ratio"][key]
+
+
+def test_impacts_share_the_drivers_work() -> None:
+    data = json.loads(
+        call(
+            *PAIR, "--clearance", 1.01, "--inertia", "20 g cm2", "--rate", "1 turn/s", "--load", "2 N mm", "--json"
+        ).output
+    )
+    impacts, (jump,) = data["impacts"], data["jumps"]
+    scale = 20e-7 * 6.283185307179586**2
+    assert impacts["dissipated"] == pytest.approx(scale * (jump["after"] - jump["before"]) ** 2 / 2)
+    assert impacts["handed"] == pytest.approx(scale * (jump["after"] ** 2 - jump["before"] ** 2) / 2)
+    assert impacts["work"] == pytest.approx(scale * jump["after"] * (jump["after"] - jump["before"]))
+    # at the speed named, the load is just what keeps the teeth together
+    ratio = impacts["void_above"] ** 2
+    assert impacts["load_to_stay_in_contact"] * ratio == pytest.approx(0.002)
+
+
+def test_a_sweep_is_a_table_and_says_where_things_change(tmp_path: Path) -> None:
+    out = tmp_path / "s.csv"
+    result = call(
+        "mesh", "triangular", "--teeth", 96, 96, "--friction", 0.2, "--vary", "clearance=1.0005:1.028:24", "-o", out
+    )
+    assert result.exit_code == 0
+    rows = list(csv.DictReader(io.StringIO(out.read_text(encoding="utf-8"))))
+    assert len(rows) == 24
+    assert rows[0]["verdict"] == "jam"
+    assert rows[-1]["verdict"] == "apart"
+    assert rows[-1]["tau_min"] == ""
+    runs = [row for row in rows if row["verdict"] == "runs"]
+    assert all(0 < float(row["efficiency_mean"]) <= 1 for row in runs)
+    said = result.stderr
+    assert "clearance 1.000801478: jam (approach+recess) -> runs (approach+recess)" in said
+    assert "runs (astride) -> standstill" in said
+    assert "clearance 1.01172" in said
+    assert "greatest mean efficiency, 0.9944" in said
+
+
+def test_a_sweep_of_two_has_every_combination() -> None:
+    result = call(*PAIR, "--vary", "clearance=1.005:1.025:3", "--vary", "half-angle=20deg:40deg:2", "--json")
+    rows = json.loads(result.stdout)
+    assert [(row["clearance"], row["half_angle"]) for row in rows] == [
+        (a, b) for a in (1.005, 1.015, 1.025) for b in (20.0, 40.0)
+    ]
+
+
+@pytest.mark.parametrize("suffix", [".svg", ".png", ".pdf"])
+def test_pictures_are_written_whole(tmp_path: Path, suffix: str) -> None:
+    law, teeth = tmp_path / f"law{suffix}", tmp_path / f"teeth{suffix}"
+    assert call(*PAIR, "--clearance", 1.01, "--plot", law, "--teeth-plot", teeth, "--at", "-5deg").exit_code == 0
+    starts = {".svg": b"<?xml", ".png": b"\x89PNG", ".pdf": b"%PDF"}
+    for path in (law, teeth):
+        assert path.read_bytes().startswith(starts[suffix])
+    assert sorted(tmp_path.iterdir()) == sorted([law, teeth])
+
+
+def test_a_page_of_a_pair_needs_no_plots() -> None:
+    code = "import sys; sys.modules['matplotlib'] = None; sys.modules['scipy'] = None\n"
+    code += "from geartrain.cli import main; main()"
+    command = [sys.executable, "-c", code, *map(str, PAIR), "--clearance", "1.01"]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stderr) == (0, "")
+    refused = subprocess.run([*command, "--plot", "x.svg"], capture_output=True, text=True, check=False)
+    assert refused.returncode == 2
+    assert "pip install 'geartrain[plot]'" in refused.stderr
+
+
+def test_a_pin_has_a_page_and_its_limits() -> None:
+    data = json.loads(call("mesh", "pin", "--pin-radius", "9.6mm", "--offset", "1.1mm", "--json").output)
+    assert degrees(data["amplitude"]) == pytest.approx(6.5796, abs=5e-5)
+    assert data["speed_ratio"]["exact"] == "1"
+    for arguments, said in (
+        (["--pin-radius", "9mm", "--offset", "9mm"], "through the slot's axis"),
+        (["--pin-radius", "1mm", "--offset", "9mm", "--driver", "slot"], "cannot drive"),
+        (["--pin-radius", "9mm", "--offset", "-1mm"], "no distances"),
+        (["--pin-radius", "9mm", "--offset", "8mm", "--driver", "slot", "--friction", "2"], "locks"),
+    ):
+        done = process("mesh", "pin", *arguments)
+        assert done.returncode == 2
+        assert said in done.stderr

@@ -1,0 +1,128 @@
+"""Real teeth and pins within trains."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+
+import pytest
+from commands import call
+from models import PAIR
+
+from geartrain import GearTrainError, load
+
+TEETH = "tooth_form: {form: triangular, half_angle: 30 deg, clearance: 1.02}\nfriction: 0.1\ninputs: {a: 1}"
+# 20/60 turns between 1.01031 and 1.0390 (30 deg, equal depth)
+
+
+def test_a_form_of_the_train_holds_for_every_pair_without_one() -> None:
+    (mesh,) = load(PAIR.format(rest=TEETH)).meshes
+    assert (mesh.driver, mesh.driven) == ("p", "w")
+    assert mesh.verdict.kind == "runs"
+    assert mesh.fault is None
+    assert mesh.friction == 0.1
+    assert mesh.window is not None
+    assert 1 + mesh.window.jam == pytest.approx(1.01031, abs=6e-6)
+    assert 1 + mesh.window.run == pytest.approx(1.0390, abs=6e-5)
+
+
+def test_the_wheel_nearer_to_the_input_drives_unless_one_is_declared() -> None:
+    (mesh,) = load(PAIR.format(rest=TEETH.replace("{a: 1}", "{b: 1}"))).meshes
+    assert mesh.driver == "w"
+    declared = PAIR.replace("pair: [p, w]", "pair: [p, w], driver: w")
+    (mesh,) = load(declared.format(rest=TEETH)).meshes
+    assert (mesh.driver, mesh.why) == ("w", "declared")
+    assert mesh.law.ratio == 3
+
+
+@pytest.mark.parametrize(("clearance", "kind"), [("1.001", "jam"), ("1.05", "standstill")])
+def test_teeth_that_cannot_turn_fail_the_check_and_the_report(tmp_path, clearance: str, kind: str) -> None:
+    path = tmp_path / "t.yaml"
+    path.write_text(PAIR.format(rest=TEETH.replace("1.02", clearance)), encoding="utf-8")
+    result = call("check", path)
+    assert result.exit_code == 1
+    assert f"FAIL {path}:" in result.output
+    assert "window of this pair" in result.output
+    report = call("report", path)
+    assert report.exit_code == 1
+    data = json.loads(call("report", path, "--json").output)
+    assert data["teeth"][0]["verdict"]["kind"] == kind
+
+
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [
+        (("w: 60", "w: {teeth: 60, internal: true}"), "a ring has its teeth inside"),
+        (("p: 20", "p: 2"), "a wheel of 2 teeth"),
+    ],
+)
+def test_a_pair_the_model_does_not_cover_is_refused_with_what_it_covers(change: tuple[str, str], said: str) -> None:
+    train = load(PAIR.format(rest=TEETH).replace(*change))
+    with pytest.raises(GearTrainError) as caught:
+        _ = train.meshes
+    assert said in str(caught.value)
+    assert "external pairs" in str(caught.value)
+
+
+def test_an_ideal_pair_costs_nothing_even_among_real_ones() -> None:
+    text = PAIR.format(rest=TEETH).replace("pair: [p, w]", "pair: [p, w], tooth_form: {form: ideal}")
+    assert load(text).meshes == ()
+
+
+def test_a_contrate_is_taken_for_a_spur_wheel_and_the_report_says_so() -> None:
+    text = PAIR.format(rest=TEETH).replace("p: 20", "p: {teeth: 20, kind: contrate}")
+    (mesh,) = load(text).meshes
+    assert mesh.note == "the contrate is taken for a spur wheel"
+
+
+@pytest.mark.parametrize("friction", ["-0.1", "much"])
+def test_a_friction_that_is_none_is_refused(friction: str) -> None:
+    with pytest.raises(GearTrainError, match="friction"):
+        load(PAIR.format(rest=TEETH.replace("0.1", friction)))
+
+
+def test_friction_that_locks_is_a_fault_with_its_limit() -> None:
+    text = PAIR.format(rest=TEETH.replace("0.1", "9").replace("{a: 1}", "{b: 1}"))
+    (mesh,) = load(text).meshes
+    assert mesh.fault is not None
+    assert "locks" in mesh.fault.what
+
+
+def test_the_pairs_of_the_note_do_in_a_train_what_they_do_alone() -> None:
+    data = json.loads(call("report", "sorge-pairs", "--json").output)
+    jumps = {mesh["pair"]: [round(jump["value"], 4) for jump in mesh["jumps"]] for mesh in data["teeth"]}
+    assert jumps == {
+        "3a": [0.1582],
+        "3b": [0.1457],
+        "4a": [0.1117],
+        "4b": [0.0316, 0.0682],
+        "5a": [0.0876, 0.0095],
+        "5b": [0.0119, 0.0696],
+    }
+
+
+def test_a_train_without_teeth_or_pins_imports_nothing_for_them() -> None:
+    code = """
+import sys
+from geartrain import load
+from geartrain.report import train_data
+data = train_data(load("pennestri-2002"))
+assert data["teeth"] == data["pins"] == []
+print([name for name in sys.modules if name in ("numpy", "scipy", "geartrain.teeth.base", "geartrain.pins.laws")])
+"""
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == "[]"
+
+
+def test_a_train_with_teeth_imports_nothing_heavier_than_numpy() -> None:
+    code = """
+import sys
+from geartrain import load
+train = load("pennestri-2002-teeth")
+assert all(mesh.verdict for mesh in train.meshes)
+heavy = ("scipy", "matplotlib", "networkx")
+print([name for name in sys.modules if name in heavy], "numpy" in sys.modules)
+"""
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == "[] True"

@@ -1,0 +1,134 @@
+"""Pins in slots: laws against plane geometry, mean ratios by counting turns, the mechanism's own dimensions."""
+
+from __future__ import annotations
+
+import cmath
+from fractions import Fraction
+from math import asin, degrees, pi
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from geartrain import load
+from geartrain.pins.laws import BackLaw, SlotLaw
+
+TURN = np.linspace(0, 2 * pi, 721)
+distances = st.tuples(st.floats(0.1, 10), st.floats(0.1, 10)).filter(lambda pair: abs(pair[0] / pair[1] - 1) > 0.01)
+
+
+def seen_from_the_slot(r: float, e: float, angles: np.ndarray) -> np.ndarray:
+    """Direction of the pin from the slot's axis, turn after turn."""
+    return np.unwrap([cmath.phase(cmath.rect(r, angle) - e) for angle in angles])
+
+
+@given(distances)
+def test_the_slot_follows_the_direction_of_the_pin(pair: tuple[float, float]) -> None:
+    law = SlotLaw(*pair)
+    seen = seen_from_the_slot(*pair, TURN)
+    start = 0 if pair[0] > pair[1] else pi
+    assert np.allclose(law.angle(TURN) + start, seen - seen[0] + (0 if start == 0 else pi), atol=1e-9)
+    assert round((seen[-1] - seen[0]) / (2 * pi)) == law.ratio
+
+
+@given(distances)
+def test_the_speed_is_the_derivative_of_the_angle(pair: tuple[float, float]) -> None:
+    law, step = SlotLaw(*pair), 1e-6
+    slope = (law.angle(TURN + step) - law.angle(TURN - step)) / (2 * step)
+    assert np.allclose(law.speed(TURN), slope, rtol=1e-5, atol=1e-5)
+    least, most = law.speed_range()
+    speeds = law.speed(TURN)
+    assert (speeds >= least * (1 + 1e-12 * np.sign(-least))).all()
+    assert {round(float(speeds.min()), 9), round(float(speeds.max()), 9)} == {round(least, 9), round(most, 9)}
+
+
+@given(distances)
+def test_the_amplitude_is_the_arcsine_of_the_lesser_over_the_greater(pair: tuple[float, float]) -> None:
+    law = SlotLaw(*pair)
+    sampled = np.abs(law.error(np.linspace(0, 2 * pi, 200_001))).max()
+    assert law.amplitude == pytest.approx(asin(min(pair) / max(pair)))
+    assert sampled == pytest.approx(law.amplitude, rel=1e-5)
+
+
+@given(distances.filter(lambda pair: pair[0] > pair[1]))
+def test_a_slot_that_drives_undoes_the_pin_that_drives(pair: tuple[float, float]) -> None:
+    there, back = SlotLaw(*pair), BackLaw(*pair)
+    assert np.allclose(back.angle(there.angle(TURN)), TURN, atol=1e-9)
+    assert np.allclose(back.speed(there.angle(TURN)) * there.speed(TURN), 1, rtol=1e-7)
+
+
+def loss(r: float, e: float, angle: float, friction: float, pin_drives: bool) -> float:
+    """Power out over power in by the forces on one pin: a push across the slot, and friction against its sliding."""
+    pin = cmath.rect(r, angle)
+    arm = pin - e
+    along = arm / abs(arm)
+    across = along * 1j
+    speed = (1j * pin / across).real / abs(arm)
+    # velocity of the pin relative to the slot is along it
+    sliding = ((1j * pin - 1j * speed * arm) / along).real
+    push = 1.0 if speed > 0 else -1.0
+    # what the driver does to the other side: a push across, and friction along with the sliding of pin over slot
+    on_slot = push * across + friction * (np.sign(sliding) or 0) * along
+    if not pin_drives:
+        on_slot = push * across - friction * (np.sign(sliding) or 0) * along
+    slot_torque = (arm.conjugate() * on_slot).imag
+    pin_torque = (pin.conjugate() * on_slot).imag
+    out, into = slot_torque * speed, pin_torque
+    return out / into if pin_drives else into / out
+
+
+@pytest.mark.parametrize(("r", "e"), [(9.6, 1.1), (10.0, 6.58), (1.0, 3.0)])
+def test_friction_takes_what_the_forces_on_one_pin_say(r: float, e: float) -> None:
+    angles = np.linspace(0.1, 6.2, 40)
+    law = SlotLaw(r, e, 0.15)
+    assert np.allclose(law.efficiency(angles), [loss(r, e, a, 0.15, True) for a in angles], rtol=1e-12)
+    if r > e:
+        back = BackLaw(r, e, 0.15)
+        slots = SlotLaw(r, e).angle(angles)
+        assert np.allclose(back.efficiency(slots), [loss(r, e, a, 0.15, False) for a in angles], rtol=1e-12)
+
+
+def test_the_lunar_pin_swings_by_the_arcsine_of_its_dimensions() -> None:
+    (joint,) = load("freeth-2008").pins
+    assert joint.law.ratio == 1
+    assert joint.law.amplitude == pytest.approx(asin(1.1 / 9.6), rel=1e-15)
+    assert joint.law.speed_range() == pytest.approx((1 / (1 + 1.1 / 9.6), 1 / (1 - 1.1 / 9.6)), rel=1e-14)
+
+
+def test_the_amplitudes_of_the_planets_are_those_of_their_dimensions() -> None:
+    found = {joint.coupling.name: degrees(joint.law.amplitude) for joint in load("freeth-2021").pins}
+    printed = {"mercury": 22.95, "venus": 46.04, "mars": 41.1, "jupiter": 11.08, "saturn": 5.99}
+    for name, amplitude in printed.items():
+        assert found[name] == pytest.approx(amplitude, abs=0.06 if name == "mars" else 0.006)
+    assert found["anomaly"] == pytest.approx(6.58, abs=0.005)
+
+
+@pytest.mark.parametrize(
+    ("planet", "least", "most"), [("mars", -0.369, 0.718), ("jupiter", -0.134, 0.232), ("saturn", -0.079, 0.125)]
+)
+def test_the_superior_planets_turn_back_at_the_speeds_of_the_law(planet: str, least: float, most: float) -> None:
+    train = load("freeth-2021")
+    answer = train.solve()
+    (joint,) = (joint for joint in train.pins if joint.coupling.name == planet)
+    circuit = next(circuit for circuit in train.circuits if circuit.id == planet)
+    carrier, pin = float(answer[circuit.carrier]), float(answer[joint.coupling.pin])
+    # a pair of equal wheels brings the slot's motion back to the pointer
+    speeds = [carrier - factor * (pin - carrier) for factor in joint.law.speed_range()]
+    mean = carrier - (pin - carrier)
+    assert mean == pytest.approx(float(answer[planet]))
+    assert sorted(abs(s) * np.sign(s * mean) for s in speeds) == pytest.approx([least, most], abs=6e-4)
+
+
+def test_the_protocol_is_that_of_all_laws() -> None:
+    law = SlotLaw(9.6, 1.1)
+    assert law.ratio == Fraction(1)
+    assert law.period == 2 * pi
+    low, high = law.error_range()
+    assert (low, high) == (-law.amplitude, law.amplitude)
+    mean, rms = law.error_moments()
+    errors = law.error(np.linspace(0, 2 * pi, 100_000, endpoint=False))
+    assert mean == 0
+    assert abs(errors.mean()) < 1e-15
+    assert rms == pytest.approx(np.sqrt(np.mean(errors**2)), rel=1e-12)
+    assert law.efficiency_mean() == 1

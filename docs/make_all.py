@@ -10,6 +10,7 @@ import make_accuracy
 import make_commands
 import make_errata
 import make_images
+import make_mesh_accuracy
 import make_outputs
 
 DOCS = Path(__file__).resolve().parent
@@ -19,7 +20,7 @@ def main() -> None:
     """Run all makers, and the command that writes the reference."""
     reference = DOCS / "reference.md"
     subprocess.run([sys.executable, "-m", "geartrain", "schema", "--as", "markdown", "-o", str(reference)], check=True)
-    for maker in (make_accuracy, make_commands, make_errata, make_images, make_outputs):
+    for maker in (make_accuracy, make_commands, make_errata, make_images, make_mesh_accuracy, make_outputs):
         maker.main()
 
 

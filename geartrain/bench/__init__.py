@@ -4,6 +4,17 @@ from __future__ import annotations
 
 from geartrain.bench.families import FAMILIES
 from geartrain.bench.kinematics import count_steps, kinematics
+from geartrain.bench.mesh import MeshRecord, MeshRecords, count_mesh_steps, mesh
 from geartrain.bench.record import Record, Records
 
-__all__ = ["FAMILIES", "Record", "Records", "count_steps", "kinematics"]
+__all__ = [
+    "FAMILIES",
+    "MeshRecord",
+    "MeshRecords",
+    "Record",
+    "Records",
+    "count_mesh_steps",
+    "count_steps",
+    "kinematics",
+    "mesh",
+]

@@ -39,3 +39,21 @@ def kinematics(
             most, lambda step: progress.update(task, advance=1, description=step), least, families
         )
     emit(as_json(results.to_dict()) if json else results.to_markdown(), out)
+
+
+@app.command()
+def mesh(
+    quick: Annotated[bool, typer.Option("--quick", help="Two pairs and fewer angles.")] = False,
+    json: Json = False,
+    out: Out = None,
+) -> None:
+    """Time and true error of every way to the law of triangular teeth: direct, tabulated, sampled, scanned."""
+    from rich.console import Console
+    from rich.progress import Progress
+
+    from geartrain import bench
+
+    with Progress(console=Console(stderr=True), transient=True) as progress:
+        task = progress.add_task("mesh", total=bench.count_mesh_steps(quick))
+        results = bench.mesh(quick, lambda step: progress.update(task, advance=1, description=step))
+    emit(as_json(results.to_dict()) if json else results.to_markdown(), out)

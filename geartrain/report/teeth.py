@@ -25,8 +25,9 @@ def teeth_sections(train: GearTrain) -> Iterator[Section]:
 
 
 def _teeth(train: GearTrain) -> Section:
-    rows = [_teeth_row(mesh) for mesh in train.meshes]
-    header = ("pair", "drives", "clearance", "window", "verdict", "tau/mean", "error p-p (deg)", "efficiency", "jumps")
+    places = Table(("pair", "drives", "clearance", "window", "verdict"), [_place_row(mesh) for mesh in train.meshes])
+    header = ("pair", "tau/mean", "error p-p (deg)", "efficiency", "jumps")
+    laws = Table(header, [_law_row(mesh) for mesh in train.meshes])
     guessed = [mesh.name for mesh in train.meshes if mesh.why != "declared"]
     lines = [
         "Triangular teeth, each pair in its carrier's frame. Speed ratio over its mean, transmission error of the "
@@ -38,21 +39,25 @@ def _teeth(train: GearTrain) -> Section:
     for mesh in train.meshes:
         if fault := mesh.fault:
             lines.append(f"{fault.what}; {fault.why}. {fault.fix}." if fault.why else f"{fault.what}. {fault.fix}.")
-    return Section("Teeth", lines, (Table(header, rows),))
+    return Section("Teeth", lines, (places, laws))
 
 
-def _teeth_row(mesh: Mesh) -> tuple[str, ...]:
+def _place_row(mesh: Mesh) -> tuple[str, ...]:
     law, window = mesh.law, mesh.window
-    where = "-" if window is None else f"{1 + window.jam:.5f}..{1 + window.run:.5f} {window.run_kind}"
-    head = (mesh.name, f"{mesh.driver} -> {mesh.driven}", f"{1 + law.sizes.excess:.6g}", where, law.verdict.kind)
+    where = "-" if window is None else f"{1 + window.jam:.5f} jam .. {1 + window.run:.5f} {window.run_kind}"
+    return (mesh.name, f"{mesh.driver} -> {mesh.driven}", f"{1 + law.sizes.excess:.6g}", where, law.verdict.kind)
+
+
+def _law_row(mesh: Mesh) -> tuple[str, ...]:
+    law = mesh.law
     if not law.intervals:
-        return (*head, "-", "-", "-", "-")
+        return (mesh.name, "-", "-", "-", "-")
     least, most = law.speed_range()
     low, high = law.error_range()
     mean = float(law.ratio)
     efficiency = "-" if mesh.friction is None else f"{law.efficiency_mean():.6f}"
     jumps = ", ".join(f"{jump.value:.4f}" for jump in law.jumps)
-    return (*head, f"{least / mean:.5f}..{most / mean:.5f}", f"{degrees(high - low):.6g}", efficiency, jumps)
+    return (mesh.name, f"{least / mean:.5f}..{most / mean:.5f}", f"{degrees(high - low):.6g}", efficiency, jumps)
 
 
 def _pins(train: GearTrain) -> Section:

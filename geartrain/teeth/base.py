@@ -58,6 +58,10 @@ class Law(ABC):
     def efficiency_mean(self) -> float:
         """Mean efficiency over the driver's angle, at constant driver torque."""
 
+    def corners(self) -> list[float]:
+        """Driver angles (rad) where the law or a slope of it is not smooth; none by default."""
+        return []
+
     def angle(self, S: ArrayLike) -> Floats:
         """Driven angle q (rad) at driver angles S (rad)."""
         import numpy as np
@@ -65,6 +69,22 @@ class Law(ABC):
         S = np.asarray(S, dtype=float)
         angle: Floats = float(self.ratio) * S + self.error(S)
         return angle
+
+
+def behind(S: Floats, period: float, out: Floats, scratch: Floats) -> None:
+    """`out` = S less whole periods, in half the time of numpy.mod.
+
+    The period is taken in two parts, so that the first product is exact up to some 10^8 periods.
+    """
+    import numpy as np
+
+    coarse = float(np.float32(period))
+    np.multiply(S, 1 / period, out=scratch)
+    np.floor(scratch, out=scratch)
+    np.multiply(scratch, coarse, out=out)
+    np.subtract(S, out, out=out)
+    np.multiply(scratch, period - coarse, out=scratch)
+    np.subtract(out, scratch, out=out)
 
 
 class Rigid(Law):

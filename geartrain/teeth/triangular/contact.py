@@ -21,13 +21,13 @@ APPROACH, RECESS = "approach", "recess"
 class Couple:
     """The constants of one couple of teeth, and what follows from them at any position."""
 
-    __slots__ = ("D", "R1", "R2", "cos1", "cos2", "delta", "entry", "sin1", "sin2")
+    __slots__ = ("D", "R1", "R2", "cos1", "cos2", "delta", "entry", "leans", "sin1", "sin2")
 
     def __init__(self, sizes: Sizes) -> None:
         self.R1, self.R2, self.D, self.delta = sizes.R1, sizes.R2, sizes.D, sizes.delta
         self.sin1, self.cos1 = math.sin(sizes.beta1), math.cos(sizes.beta1)
         self.sin2, self.cos2 = math.sin(sizes.beta2), math.cos(sizes.beta2)
-        self.entry = math.sin(sizes.reach1 / 2)
+        self.entry, self.leans = math.sin(sizes.reach1 / 2), sizes.lean[0]
 
     # ------------------------------------------------------------------------------------------------------- approach
 
@@ -39,7 +39,8 @@ class Couple:
         cos_psi = self.cos1 * cosine - self.sin1 * sine
         c = (2 * self.R1 * u * (self.cos1 * w - self.sin1 * u) - self.delta * sin_psi) / self.R2
         s = sin_psi + c
-        return u, sin_psi, cos_psi, c, s, m.sqrt((1 - s) * (1 + s))
+        # a flank that grazes the tip circle has s = 1, give or take its rounding
+        return u, sin_psi, cos_psi, c, s, m.sqrt(abs((1 - s) * (1 + s)))
 
     def approach_angle(self, x: Any, m: ModuleType = math) -> Any:
         """alpha_2 in approach, Eq. (7)."""
@@ -48,6 +49,8 @@ class Couple:
 
     def _driver_arm(self, u: Any, cos_psi: Any, q: Any) -> Any:
         """R1 cos(beta1) - v, with v of Eq. (9): from the contact to the foot of O1 on the flank's line."""
+        if self.leans:  # W and its divisor vanish together; so few teeth lose nothing by the plain difference
+            return self.D * cos_psi - self.R2 * q
         W = 4 * self.D * self.R1 * (self.entry - u) * (self.entry + u)
         return self.R1 * self.cos1 - W / (self.D * cos_psi - self.R1 * self.cos1 + self.R2 * q)
 

@@ -30,7 +30,7 @@ def drag(path: RealPath) -> Dragged:
     envelope = path.envelope
     if not envelope:
         return Dragged((), 0.0, inf)
-    first = min(range(len(envelope)), key=lambda at: _least(path, envelope[at]))
+    first = min(range(len(envelope)), key=lambda at: _least(path, envelope[at])) if len(envelope) > 1 else 0
     order = [*envelope[first:], *(_next_pitch(each) for each in envelope[:first])]
     walk = _Walk(path, order[0])
     for interval in (*order[1:], _next_pitch(order[0])):

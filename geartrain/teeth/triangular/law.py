@@ -12,7 +12,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from geartrain.teeth.base import Law
+from geartrain.errors import GearTrainError, Problem
+from geartrain.teeth.base import Law, behind
 from geartrain.teeth.triangular.contact import APPROACH
 from geartrain.teeth.triangular.meshing import Contact, Meshing
 from geartrain.teeth.triangular.path import Interval
@@ -103,26 +104,36 @@ class TriangularLaw(Law):
         return found.reshape(S.shape)
 
     def _block(self, S: Floats, what: Callable[[Interval, Floats], Any], found: Floats) -> None:
-        starts, edges = self._table
-        behind = np.mod(S if self.direction > 0 else -S, self.period)
-        behind += starts[0]
-        behind -= np.floor(behind / self.period) * self.period
+        edges, gone = self._edges, np.empty_like(S)
+        behind(S if self.direction > 0 else -S, self.period, gone, np.empty_like(S))
+        gone += self._start
+        gone -= np.where(gone < self.period, 0.0, self.period)
         if len(self.intervals) == 1:
-            found[:] = what(self.intervals[0], self.intervals[0].start - behind)
+            found[:] = what(self.intervals[0], self.intervals[0].start - gone)
             return
-        which = np.searchsorted(edges[1:-1], behind, side="right")
+        which = np.searchsorted(edges[1:-1], gone, side="right")
         for at, interval in enumerate(self.intervals):
             chosen = np.flatnonzero(which == at)
-            found[chosen] = what(interval, interval.start - (behind[chosen] - edges[at]))
+            found[chosen] = what(interval, interval.start - (gone[chosen] - edges[at]))
 
     @cached_property
-    def _table(self) -> tuple[Floats, Floats]:
-        """Start of the first interval as a position, and the driver's angle at the edge of each."""
+    def _start(self) -> float:
+        """Where the first interval starts, as a position within the pitch of the line of centres."""
         if not self.intervals:
-            raise ValueError(self.verdict.text)
+            raise GearTrainError(Problem(self.verdict.text, "these teeth have no law", "see the window of the pair"))
         first = self.intervals[0]
-        widths = [interval.width for interval in self.intervals]
-        return np.array([first.start - first.couple * self.period]), np.concatenate(([0.0], np.cumsum(widths)))
+        return (first.start - first.couple * self.period) % self.period
+
+    @cached_property
+    def _edges(self) -> Floats:
+        """The driver's angle from the start of the first interval to the edges of all."""
+        return np.concatenate(([0.0], np.cumsum([interval.width for interval in self.intervals])))
+
+    def corners(self) -> list[float]:
+        """Driver angles (rad) at the ends of all stretches."""
+        edges = dict(zip(self.intervals, self._edges.tolist(), strict=False))
+        angles = [edges[interval] + interval.start - high - self._start for interval, high, _ in self.stretches]
+        return [self.direction * angle for angle in angles]
 
     def _lag(self, interval: Interval, x: Any) -> Any:
         if interval.held is not None:

@@ -12,7 +12,7 @@ from typing import Literal
 from geartrain.teeth.triangular.contact import APPROACH
 from geartrain.teeth.triangular.dragging import Dragged, drag
 from geartrain.teeth.triangular.path import STANDSTILL, Interval, RealPath
-from geartrain.teeth.triangular.roots import bracketed_root
+from geartrain.teeth.triangular.roots import bracketed_root, root
 from geartrain.teeth.triangular.sizes import Sizes
 
 Kind = Literal["runs", "no valley", "overhang", "jam", "clash", "standstill", "apart"]
@@ -154,19 +154,21 @@ class Contact:
         return "runs", "the wheels turn"
 
     def _overhang(self) -> str:
-        """On the active path the flank must not lean beyond the perpendicular, nor the driven wheel be turned back."""
+        """The path must not reach a flank that leans beyond the perpendicular, nor turn the driven wheel back."""
+        sizes, small = self.sizes, 1e-9 * self.sizes.p1
         for interval in self.intervals:
             if interval.held is not None:
                 continue
-            for x in (interval.start, interval.end):
-                tau = self.path.couple.speed(interval.phase, x)
-                _, tan2, tan1 = self.path.couple.friction(interval.phase, x)
-                lean = tan2 if interval.phase == APPROACH else tan1
-                if not tau > 0 or not lean < inf:
-                    return (
-                        f"a flank leans beyond the perpendicular at alpha_1 = {degrees(x):.4g} deg ({interval.phase}): "
-                        "it would push the driven wheel back"
-                    )
+            lean = (sizes.lean[0] and interval.start > sizes.entry - small) or (
+                sizes.lean[1] and interval.end < sizes.exit + small
+            )
+            back = next((x for x in (interval.start, interval.end) if not self.speed(interval, x) > 0), None)
+            if lean or back is not None:
+                x = interval.start if interval.phase == APPROACH else interval.end
+                return (
+                    f"a flank leans beyond the perpendicular at alpha_1 = {degrees(x):.4g} deg ({interval.phase}), and "
+                    "cannot push there"
+                )
         return ""
 
 
@@ -220,35 +222,25 @@ def _window(sizes: Sizes) -> Window:
 
 
 def _entry(path: RealPath) -> float:
-    """Below 0 where a couple comes in tip against tip."""
-    reach = path.sizes.reach1
-    return path.g(APPROACH, reach) - path.lowest(reach, besides=0)
+    """Below 0 where a couple comes in below the others."""
+    last = path.pieces[-1]
+    return path.g(last.phase, last.high) - path.lowest(last.high, besides=0)
 
 
 def _exit(path: RealPath) -> float:
     """Below 0 where a couple leaves before another one can drive."""
-    reach = path.sizes.reach1
-    return path.g(APPROACH, -reach) - path.lowest(-reach, besides=0)
+    first = path.pieces[0]
+    return path.g(first.phase, first.low) - path.lowest(first.low, besides=0)
 
 
 def _first_sign_change(value: Callable[[float], float], reach: float) -> float:
     """The least excess up to `reach` at which `value` changes its sign; `reach` if it never does."""
     steps = 16
-    last, low = None, 0.0
-    for step in range(steps):
-        excess = reach * (step + 1e-9) / steps if step < steps else reach
-        here = value(excess) > 0
-        if last is not None and here != last:
-            return _bisected(value, low, excess, last)
-        last, low = here, excess
-    high = reach * (1 - 1e-9)
-    return _bisected(value, low, high, bool(last)) if (value(high) > 0) != last else reach
-
-
-def _bisected(value: Callable[[float], float], low: float, high: float, at_low: bool) -> float:
-    for _ in range(60):
-        middle = low + (high - low) / 2
-        if not low < middle < high:
-            break
-        low, high = (middle, high) if (value(middle) > 0) == at_low else (low, middle)
-    return low + (high - low) / 2
+    low, at_low = reach * 1e-9, value(reach * 1e-9)
+    for step in range(1, steps + 1):
+        high = reach * (step / steps if step < steps else 1 - 1e-9)
+        at_high = value(high)
+        if (at_high > 0) != (at_low > 0):
+            return root(value, low, high, at_low, at_high)
+        low, at_low = high, at_high
+    return reach

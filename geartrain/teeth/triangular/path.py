@@ -76,10 +76,10 @@ class RealPath:
         """Recess, then approach, each cut where the curvature of f changes its sign; none where there are no teeth."""
         if not self.sizes.has_valleys:
             return []
-        reach = self.sizes.reach1
-        matching = min(max(self.sizes.matching, -reach), reach)
+        first, last = self.sizes.entry, self.sizes.exit
+        matching = min(max(self.sizes.matching, last), first)
         found: list[Piece] = []
-        for phase, low, high in ((RECESS, -reach, matching), (APPROACH, matching, reach)):
+        for phase, low, high in ((RECESS, last, matching), (APPROACH, matching, first)):
             if high > low:
                 found += self._cut(phase, low, high)
         return found
@@ -189,11 +189,12 @@ class RealPath:
     def _cell(self, high: float, low: float) -> Iterator[Interval]:
         """One stretch of t in which no branch begins or ends."""
         middle = low + (high - low) / 2
-        active = []
+        found = {}  # the two ends of a concave piece may be one stretch of one couple
         for branch in self.branches:
             k = floor((branch.high - middle) / self.pitch)
             if middle + k * self.pitch >= branch.low:
-                active.append((branch, k))
+                found[branch.phase, k] = branch
+        active = [(branch, k) for (_, k), branch in found.items()]
         if not active:
             return
         marks = {high, low}
@@ -234,7 +235,15 @@ class RealPath:
         def slope(x: float) -> float:
             return float(second(a.phase, x) - second(b.phase, x + shift))
 
+        def bend(x: float) -> float:
+            return float(self.couple.slope(a.phase, x) - self.couple.slope(b.phase, x + shift))
+
         def bounds(c: float, d: float) -> tuple[float, float]:
+            # where the difference bends one way its slope is bounded by the ends; three points speak for the stretch
+            bends = (bend(c), bend((c + d) / 2), bend(d))
+            if min(bends) > 0 or max(bends) < 0:
+                ends = sorted((slope(c), slope(d)))
+                return ends[0], ends[1]
             ours = sorted((second(a.phase, c), second(a.phase, d)))
             theirs = sorted((second(b.phase, c + shift), second(b.phase, d + shift)))
             return ours[0] - theirs[1], ours[1] - theirs[0]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from math import isfinite, ulp
 
 Function = Callable[[float], float]
 _MOST_STEPS = 200
@@ -68,3 +69,39 @@ def sign_changes(
         return
     yield from sign_changes(value, bounds, low, middle, depth + 1)
     yield from sign_changes(value, bounds, middle, high, depth + 1)
+
+
+def root(value: Function, low: float, high: float, at_low: float, at_high: float) -> float:
+    """The root of a continuous `value` between `low` and `high`, without slopes: Chandrupatla's method.
+
+    Inverse quadratic steps where three points allow it, else halving. T. R. Chandrupatla, Advances in Engineering
+    Software 28 (1997) 145-149.
+    """
+    a, b, at_a, at_b = low, high, at_low, at_high
+    share = 0.5
+    for _ in range(_MOST_STEPS):
+        x = a + share * (b - a)
+        here = value(x)
+        if (here > 0) == (at_a > 0):
+            c, at_c = a, at_a
+        else:
+            c, at_c, b, at_b = b, at_b, a, at_a
+        a, at_a = x, here
+        nearest = a if abs(at_a) < abs(at_b) else b
+        narrow = 2 * ulp(nearest) / abs(b - c) if b != c else 1.0
+        if here == 0 or narrow > 0.5:
+            return nearest
+        share = _quadratic_share(a, b, c, at_a, at_b, at_c)
+        share = min(max(share, narrow), 1 - narrow)
+    return a
+
+
+def _quadratic_share(a: float, b: float, c: float, at_a: float, at_b: float, at_c: float) -> float:
+    """How far from a to b the inverse quadratic has its root; a half where it cannot be trusted."""
+    if not all(map(isfinite, (at_a, at_b, at_c))) or at_b == at_c or at_a in (at_b, at_c):
+        return 0.5
+    xi, phi = (a - b) / (c - b), (at_a - at_b) / (at_c - at_b)
+    if not 0 <= xi <= 1 or not 1 - (1 - xi) ** 0.5 < phi < xi**0.5:
+        return 0.5
+    first = at_a / (at_b - at_a) * at_c / (at_b - at_c)
+    return first + (c - a) / (b - a) * at_a / (at_c - at_a) * at_b / (at_c - at_b)

@@ -9,6 +9,8 @@ from dataclasses import dataclass
 from functools import cached_property
 from math import asin, cos, inf, pi, sin, sqrt
 
+_GRAZING = 1 - 1e-12  # at 1 the speed ratio is infinite
+
 
 def depth(z: int, beta: float) -> float:
     """Tooth depth over outer radius, Eq. (1), as a product: the printed difference cancels at large z."""
@@ -24,6 +26,12 @@ def half_reach(R1: float, R2: float, D: float, delta: float) -> float:
     """Largest |alpha_1| at which tips can touch, Eq. (4), from the overlap delta = R1 + R2 - D of the tip circles."""
     square = delta * (2 * R2 - delta) / (4 * D * R1)
     return 2 * asin(sqrt(min(1.0, max(0.0, square))))
+
+
+def grazing(R1: float, R2: float, beta: float, D: float) -> tuple[float, float]:
+    """Direction psi of a flank of wheel 1 that all but grazes the tips of wheel 2, and the sine of psi + alpha_2."""
+    sine = min(1.0, (_GRAZING * R2 + R1 * sin(beta)) / D)
+    return asin(sine), (D * sine - R1 * sin(beta)) / R2
 
 
 @dataclass(frozen=True)
@@ -107,6 +115,27 @@ class Sizes:
             return inf
         cosine = cos(self.beta1)
         return asin(more * (2 * first + more) / (line * cosine + sqrt((1 - line) * (1 + line)) * first))
+
+    @cached_property
+    def lean(self) -> tuple[bool, bool]:
+        """Whether the flanks of each wheel lean beyond the perpendicular where tips meet: few, deep teeth."""
+        tips = self.reach1 + self.reach2
+        return self.beta1 + tips > pi / 2, self.beta2 + tips > pi / 2
+
+    @cached_property
+    def entry(self) -> float:
+        """alpha_1 where a couple first touches: alpha_1max, or before, where a leaning flank grazes the driven tips."""
+        if not self.lean[0]:
+            return self.reach1
+        return max(self.reach1, grazing(self.R1, self.R2, self.beta1, self.D)[0] - self.beta1)
+
+    @cached_property
+    def exit(self) -> float:
+        """alpha_1 where a couple ceases to drive: -alpha_1max, or before, where its apex slips off a leaning flank."""
+        if not self.lean[1]:
+            return -self.reach1
+        psi, s = grazing(self.R2, self.R1, self.beta2, self.D)
+        return max(-self.reach1, psi - asin(s))
 
     @cached_property
     def greatest_excess(self) -> float:

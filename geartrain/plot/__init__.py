@@ -1,0 +1,26 @@
+"""Figures of meshes with triangular teeth: the law of a pair, its wheels in contact, sweeps over its parameters.
+
+The figures need the `plot` extra: asking for one of these names without it raises `MissingExtraError`. Nothing here
+needs a display or touches the state of pyplot.
+"""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from geartrain.plot.law import law_figure
+    from geartrain.plot.rendering import render
+    from geartrain.plot.sweep import sweep_figure
+    from geartrain.plot.teeth import teeth_figure
+
+__all__ = ["law_figure", "render", "sweep_figure", "teeth_figure"]
+
+_PLACES = {"law_figure": "law", "render": "rendering", "sweep_figure": "sweep", "teeth_figure": "teeth"}
+
+
+def __getattr__(name: str) -> Any:
+    if name not in _PLACES:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    return getattr(import_module(f"{__name__}.{_PLACES[name]}"), name)

@@ -1,0 +1,34 @@
+"""A figure as the bytes of an image file."""
+
+from __future__ import annotations
+
+from io import BytesIO
+from threading import Lock
+
+from geartrain.errors import GearTrainError, Problem
+from geartrain.plot.library import Figure, rc_context
+
+SUFFIXES = (".svg", ".png", ".pdf")
+
+_METADATA: dict[str, dict[str, str | None]] = {
+    ".svg": {"Date": None},
+    ".png": {"Software": None},
+    ".pdf": {"CreationDate": None},
+}
+_ONE_AT_A_TIME = Lock()  # the salt of SVG names can only be given for all figures at once
+
+
+def render(figure: Figure, suffix: str, dots: float = 100.0) -> bytes:
+    """The figure as a file of the format of `suffix` (.svg, .png or .pdf); `dots` per inch where it is of pixels.
+
+    The same figure gives the same bytes with one release of matplotlib. Raises `GearTrainError` for another suffix.
+    """
+    kind = suffix.lower()
+    if kind not in SUFFIXES:
+        raise GearTrainError(
+            Problem(f"no plot can be written as {suffix or 'a file without suffix'}", fix=f"use {', '.join(SUFFIXES)}")
+        )
+    buffer = BytesIO()
+    with _ONE_AT_A_TIME, rc_context({"svg.hashsalt": "geartrain"}):
+        figure.savefig(buffer, format=kind[1:], dpi=dots, metadata=_METADATA[kind])
+    return buffer.getvalue()

@@ -290,7 +290,7 @@ def _sweep(pair: _Pair, vary: list[str], plot: Path | None, picture: str, json: 
     if plot is not None:
         from geartrain.plot import sweep_figure
 
-        _draw(sweep_figure(found.parameters, found.columns, found.verdicts), plot, picture)
+        _draw(sweep_figure(found.parameters, found.columns, found.labels), plot, picture)
 
 
 def _ranges(vary: list[str]) -> tuple[dict[str, list[float]], dict[str, str]]:

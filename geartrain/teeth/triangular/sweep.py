@@ -48,6 +48,11 @@ class Sweep:
         """Names of the columns of `rows`."""
         return (*self.parameters, "verdict", "phases", *self.columns)
 
+    @property
+    def labels(self) -> NDArray[np.str_]:
+        """The phases of pairs that run, the verdict of others."""
+        return np.where(self.verdicts == "runs", self.phases, self.verdicts)
+
     def rows(self) -> Iterator[tuple[object, ...]]:
         """One row for each point, the first parameter slowest."""
         arrays = (*self.parameters.values(), self.verdicts, self.phases, *self.columns.values())

@@ -149,7 +149,7 @@ def test_all_files_in_the_folder_of_trains_are_shipped_and_their_names_are_their
 ANTIKYTHERA = sorted(path.stem for path in (TRAINS / "antikythera").glob("*.yaml"))
 
 
-@pytest.mark.parametrize("name", [name for name in ANTIKYTHERA if name != "pennestri-2002"])
+@pytest.mark.parametrize("name", [name for name in ANTIKYTHERA if not name.startswith("pennestri-2002")])
 def test_a_reconstruction_says_of_each_wheel_whether_it_survives(name: str) -> None:
     wheels = load(name).declaration.wheels
     assert {wheel.status for _, wheel in wheels.values()} <= {"surviving", "reconstructed", "hypothetical"}

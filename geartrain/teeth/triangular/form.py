@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Annotated, Literal
 
-from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, model_validator
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, WithJsonSchema, model_validator
 from pydantic_core import PydanticCustomError
 
 from geartrain.errors import GearTrainError, Problem
@@ -16,6 +16,9 @@ if TYPE_CHECKING:
     from geartrain.teeth.triangular.sizes import Sizes
 
 _CLEARANCES = ("clearance", "excess", "backlash", "centre_distance", "window")
+_ONE_OR_TWO = {
+    "anyOf": [{"type": "string"}, {"type": "array", "items": {"type": "string"}, "minItems": 2, "maxItems": 2}]
+}
 FEWEST = 3
 COVERS = "the model covers external pairs of spur wheels; a contrate is taken for a spur wheel"
 
@@ -30,7 +33,7 @@ class Triangular(BaseModel):
     model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
 
     form: Literal["triangular"] = Field(description="The name of this form")
-    half_angle: Annotated[tuple[Angle, Angle], BeforeValidator(_one_per_wheel)] = Field(
+    half_angle: Annotated[tuple[Angle, Angle], BeforeValidator(_one_per_wheel), WithJsonSchema(_ONE_OR_TWO)] = Field(
         description="Half the aperture of a tooth, between 0 and 90 deg; a list of two gives one for each wheel"
     )
     clearance: Figure | None = Field(

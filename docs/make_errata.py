@@ -7,6 +7,8 @@ from fractions import Fraction
 from math import asin, degrees
 from pathlib import Path
 
+from errata_sorge import sorge
+
 import geartrain
 from geartrain import GearTrain
 from geartrain.periods import table
@@ -340,6 +342,7 @@ def main() -> None:
     """Write the page."""
     parts = (
         lead, teeth_of_18, months, table_4, table_6, freeth_2006, freeth_jones, freeth_2021, voulgaris, price, huygens,
+        sorge,
     )  # fmt: skip
     lines = [line for part in parts for line in part()]
     PAGE.write_text("\n".join(lines).rstrip() + "\n", encoding="utf-8")

@@ -1,0 +1,149 @@
+"""The errata of F. Sorge's note on ancient gears, recomputed: part of docs/errata.md."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from math import atan2, cos, degrees, hypot, pi, radians, sin, sqrt
+
+import numpy as np
+
+import geartrain
+from geartrain.teeth import Triangular
+from geartrain.teeth.triangular.law import TriangularLaw
+from geartrain.teeth.triangular.meshing import find_window
+
+FRICTION = 0.2
+PRINTED = {
+    "3a": ("0.1582",), "3b": ("0.1457",), "4a": ("0.1117",), "4b": ("0.0314", "0.0682"), "5a": ("0.0876", "0.0095"),
+    "5b": ("0.0119", "0.0696"),
+}  # fmt: skip
+
+
+def law(z1: int, z2: int, clearance: str) -> TriangularLaw:
+    """A pair of the note: equilateral teeth of equal depth, friction 0.2."""
+    form = Triangular.model_validate({"form": "triangular", "half_angle": "30 deg", "clearance": clearance})
+    return form.law(z1, z2, FRICTION)
+
+
+def table(header: tuple[str, ...], body: list[tuple[str, ...]]) -> Iterator[str]:
+    """A Markdown table."""
+    yield "| " + " | ".join(header) + " |"
+    yield "|" + "---|" * len(header)
+    yield from ("| " + " | ".join(row) + " |" for row in body)
+    yield ""
+
+
+def sorge() -> Iterator[str]:
+    """The section of the page."""
+    yield from ("## Sorge's note on ancient gears", "")
+    yield "`geartrain report sorge-pairs` lists the errata in its last section:"
+    yield ""
+    errata = geartrain.load("sorge-pairs").declaration.errata
+    yield from table(("place", "printed", "right"), [(e.place, e.printed, e.right) for e in errata])
+    yield "What shows them:"
+    yield ""
+    yield from equation_16()
+    yield from equation_33()
+    yield from equation_26()
+    yield from jumps()
+    yield from windows()
+    yield from impacts()
+
+
+def equation_16() -> Iterator[str]:
+    """The distance of the apices with either root, against the two apices themselves."""
+    pair = law(48, 96, "1.01")
+    sizes, couple, x = pair.sizes, pair.contact.path.couple, radians(-5)
+    y = couple.recess_angle(x)
+    apart = hypot(sizes.R1 * cos(x) + sizes.R2 * cos(y) - sizes.D, sizes.R1 * sin(x) - sizes.R2 * sin(y))
+    square = sizes.D**2 + sizes.R1**2 - 2 * sizes.D * sizes.R1 * cos(x)
+    root = sqrt(square - (sizes.R2 * sin(sizes.beta2)) ** 2)
+    foot = sizes.R2 * cos(sizes.beta2)
+    yield (
+        f"**Eq. (16)**, 48/96 at a = 1.01, alpha_1 = -5 deg: the apices are {apart:.6f} R1 apart; the minus gives "
+        f"{foot - root:.6f}, the plus {foot + root:.6f}."
+    )
+    yield ""
+
+
+def equation_33() -> Iterator[str]:
+    """The printed efficiency of recess, along the ideal path."""
+    pair = law(48, 96, "1.01")
+    couple, sizes = pair.contact.path.couple, pair.sizes
+    x = np.linspace(-sizes.reach1, -1e-9, 20001)
+    y, tau = couple.recess_angle(x, np), couple.recess_speed(x, np)
+    turned = atan2(FRICTION, 1) * np.sign(x)
+    cc = np.cos(sizes.beta2 - x - y) * np.cos(sizes.beta2 - y + turned)
+    ss = np.sin(x) * np.sin(turned)
+    printed, right = (cc + tau * ss) / (cc - ss), (cc - tau * ss) / (cc + ss)
+    own = couple.recess_friction(x, np)
+    ours = (1 - FRICTION * own[0] * own[1]) / (1 - FRICTION * own[0] * own[2])
+    yield (
+        f"**Eq. (33)**, the same pair, whole recess: as printed the efficiency rises to {printed.max():.3f}; with its "
+        f"signs exchanged it is {right.min():.4f} to 1, and differs from equation (11) of [Real teeth](teeth.md) by at most "
+        f"{np.abs(right - ours).max():.0e}."
+    )
+    yield ""
+
+
+def equation_26() -> Iterator[str]:
+    """The jump of Fig. 5a with the -1 outside and inside."""
+    pair = law(96, 96, "1.01")
+    jump = next(each for each in pair.jumps if each.kind == "approach")
+    outside = 1 - jump.before / (jump.after + 1) - 1
+    yield (
+        f"**Eq. (26)**, 96/96 at a = 1.01, entry of approach: with the -1 outside {outside:.4f}, inside "
+        f"{jump.value:.4f}; Fig. 5a prints 0.0876."
+    )
+    yield ""
+
+
+def jumps() -> Iterator[str]:
+    """All printed jumps."""
+    train = geartrain.load("sorge-pairs")
+    body = []
+    for mesh in train.meshes:
+        found = mesh.law.jumps
+        same = [f"{jump.value:.4f}" for jump in found] == list(PRINTED[mesh.name])
+        body.append(
+            (
+                mesh.name,
+                ", ".join(f"{jump.kind} {jump.value:.5f}" for jump in found),
+                ", ".join(PRINTED[mesh.name]),
+                "agrees" if same else "misprint",
+            )
+        )
+    yield "**Figs. 3 to 5**, relative jumps of normal velocity:"
+    yield ""
+    yield from table(("figure", "computed", "printed", ""), body)
+
+
+def windows() -> Iterator[str]:
+    """What III C says of always one couple, and of back profiles."""
+    yield "**III C.** One couple at a time, joined without a break, only within a window of clearance:"
+    yield ""
+    body = []
+    for z1, z2 in ((48, 96), (96, 72), (96, 96), (15, 60), (45, 225), (8, 64)):
+        found = find_window(law(z1, z2, "1.01").sizes)
+        kind = f"{1 + found.run:.5f} ({found.run_kind})"
+        body.append(
+            (
+                f"{z1}/{z2}",
+                f"{1 + found.jam:.5f}",
+                kind,
+                f"{1 + found.reach:.5f}",
+                "" if found else "no clearance works",
+            )
+        )
+    yield from table(("pair", "back flanks jam below", "turns up to", "tips touch up to", ""), body)
+
+
+def impacts() -> Iterator[str]:
+    """The energies of one collision, per J2 w1^2."""
+    (jump,) = law(48, 96, "1.01").jumps
+    handed, lost = (jump.after**2 - jump.before**2) / 2, (jump.after - jump.before) ** 2 / 2
+    yield (
+        f"**IV**, 48/96 at a = 1.01, in J2 w1^2: the printed work hands {handed:.5f} to the driven side; {lost:.5f} is "
+        f"dissipated, and the driver does {handed + lost:.5f} at each pitch of {degrees(2 * pi / 48):.1f} deg."
+    )
+    yield ""

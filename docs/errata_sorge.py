@@ -79,9 +79,9 @@ def equation_33() -> Iterator[str]:
     own = couple.recess_friction(x, np)
     ours = (1 - FRICTION * own[0] * own[1]) / (1 - FRICTION * own[0] * own[2])
     yield (
-        f"**Eq. (33)**, the same pair, whole recess: as printed the efficiency rises to {printed.max():.3f}; with its "
-        f"signs exchanged it is {right.min():.4f} to 1, and differs from equation (11) of [Real teeth](teeth.md) by at most "
-        f"{np.abs(right - ours).max():.0e}."
+        f"**Eq. (33)**, the same pair, recess: as printed the efficiency rises to {printed.max():.3f}; with its "
+        f"signs exchanged it is {right.min():.4f} to 1, and differs from equation (11) of [Real teeth](teeth.md) by at "
+        f"most {np.abs(right - ours).max():.0e}."
     )
     yield ""
 

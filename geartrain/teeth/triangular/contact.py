@@ -16,6 +16,10 @@ from typing import Any
 from geartrain.teeth.triangular.sizes import Sizes
 
 APPROACH, RECESS = "approach", "recess"
+SLIP, RETURN = "slip", "return"
+"""Contact that cannot push: the driver's apex on a driven flank that leans, an apex on the far side of a leaning flank.
+
+They occur with leaning flanks only, and bound the play; the driven wheel would turn back, so it stands instead."""
 
 
 class Couple:
@@ -119,18 +123,42 @@ class Couple:
         arm, q, s, _, _, sine = self._turned(x, m)
         return m.copysign(1.0, sine), self.R2 * self.sin2 / arm, s / q
 
+    # ------------------------------------------------------------------------------------------------------- returning
+
+    def return_angle(self, x: Any, m: ModuleType = math) -> Any:
+        """alpha_2 of the driven apex where, past the exit, it leaves the driver's leaning flank: the far root."""
+        _, sin_psi, cos_psi, _, s, _ = self._line(-x, m)
+        return m.asin(s) + m.atan2(sin_psi, cos_psi) - math.pi
+
+    def return_speed(self, x: Any, m: ModuleType = math) -> Any:
+        """Its derivative, below 0."""
+        _, _, cos_psi, _, _, q = self._line(-x, m)
+        return -1 - self.D * cos_psi / (self.R2 * q)
+
+    def return_slope(self, x: Any, m: ModuleType = math) -> Any:
+        """Its second derivative."""
+        _, sin_psi, cos_psi, _, s, q = self._line(-x, m)
+        more = self.D * cos_psi / (self.R2 * q)
+        return more * (more * s / q - sin_psi / cos_psi)
+
     # ----------------------------------------------------------------------------------------------------------- both
 
     def angle(self, phase: str, x: Any, m: ModuleType = math) -> Any:
         """alpha_2 (rad) at alpha_1 = x (rad)."""
+        if phase == RETURN:
+            return self.return_angle(x, m)
         return self.approach_angle(x, m) if phase == APPROACH else self.recess_angle(x, m)
 
     def speed(self, phase: str, x: Any, m: ModuleType = math) -> Any:
         """tau = d alpha_2 / d alpha_1."""
+        if phase == RETURN:
+            return self.return_speed(x, m)
         return self.approach_speed(x, m) if phase == APPROACH else self.recess_speed(x, m)
 
     def slope(self, phase: str, x: Any, m: ModuleType = math) -> Any:
         """d tau / d alpha_1 (1/rad)."""
+        if phase == RETURN:
+            return self.return_slope(x, m)
         return self.approach_slope(x, m) if phase == APPROACH else self.recess_slope(x, m)
 
     def friction(self, phase: str, x: Any, m: ModuleType = math) -> tuple[Any, Any, Any]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from itertools import pairwise
@@ -57,62 +57,66 @@ class Contact:
 
     def lag(self, t: float) -> float:
         """y(t) - (z1/z2) t: how far the dragged wheel lags, in its own angle, at the driver's position t."""
-        interval, x = self.locate(t)
-        if interval.held is None:
-            return self.path.g(interval.phase, x)
-        return interval.held - self.sizes.ratio * x
+        return self._height(*self.locate(t))
 
     def locate(self, t: float) -> tuple[Interval, float]:
         """The interval that holds position t, and alpha_1 there."""
-        for interval in self.intervals:
-            behind = (interval.start - t) % self.sizes.p1
-            if behind <= interval.width:
-                return interval, interval.start - behind
-        nearest = min(self.intervals, key=lambda each: (each.start - t) % self.sizes.p1 - each.width)
-        return nearest, nearest.end
+        return _locate(self.intervals, t, self.sizes.p1)
+
+    def _height(self, interval: Interval, x: float) -> float:
+        if interval.held is None:
+            return self.path.g(interval.phase, x)
+        return interval.held - self.sizes.ratio * x
 
     def speed(self, interval: Interval, x: float) -> float:
         """tau, 0 in a standstill."""
         return 0.0 if interval.held is not None else float(self.path.couple.speed(interval.phase, x))
 
     @cached_property
+    def _bounds(self) -> list[Interval]:
+        """Who bounds the driven wheel, pushing or not; where nobody does there is a gap."""
+        sizes = self.sizes
+        return RealPath(sizes, slips=True).envelope if any(sizes.lean) else self.path.envelope
+
+    @cached_property
     def play(self) -> float:
         """The least play of the back flanks over a pitch (rad of the driven wheel); below 0 they jam.
 
-        The sum of a law and its mirror image is smooth between their corners, where tau differs; within, it is least
-        where both have the same tau.
+        The sum of the law and the mirror image of the bounds is smooth between their corners, where tau differs or
+        turns; within, it is least where both have the same tau.
         """
         pitch = self.sizes.p1
-        corners = {0.0, pitch / 2}
-        for interval in self.intervals:
-            for corner in (interval.start, *self._turning_points(interval)):
-                corners |= {corner % pitch, -corner % pitch}
-        marks = sorted(corner for corner in corners if corner <= pitch / 2)
-        least = min(map(self._play_at, marks))
-        for low, high in pairwise(marks):
-            if high - low > _ROUNDING * pitch:
-                least = min(least, self._least_within(low, high))
-        return least + self.sizes.p2
+        corners = {corner % pitch for interval in self.intervals for corner in self._corners(interval)}
+        corners |= {-corner % pitch for interval in self._bounds for corner in self._corners(interval)}
+        marks = sorted(corners)
+        cells = pairwise([*marks, marks[0] + pitch])
+        return min(self._least_within(low, high) for low, high in cells) + self.sizes.p2
 
-    def _play_at(self, t: float) -> float:
-        return self.lag(t) + self.lag(-t)
-
-    def _turning_points(self, interval: Interval) -> Iterator[float]:
-        """Where tau ceases to fall and begins to rise."""
-        return (piece.low for piece in self.path.pieces if interval.end < piece.low < interval.start)
+    def _corners(self, interval: Interval) -> Iterator[float]:
+        yield from (interval.start, interval.end)
+        yield from (piece.low for piece in self.path.pieces if interval.end < piece.low < interval.start)
 
     def _least_within(self, low: float, high: float) -> float:
-        ours, start = self.locate((low + high) / 2)
-        theirs, back = self.locate(-(low + high) / 2)
-        start, back = start - (high - low) / 2, back + (high - low) / 2
+        """The least play between two corners: at one of them, or where both sides have one tau."""
+        pitch, middle = self.sizes.p1, (low + high) / 2
+        ours, start = self.locate(middle)
+        theirs, back = _locate(self._bounds, -middle, pitch)
+        half = (high - low) / 2
+        if back < theirs.end - _ROUNDING * pitch:
+            return inf  # a gap: nothing is in reach of the back flanks
+        start, back = start - half, back + half
+
+        def play(step: float) -> float:
+            return self._height(ours, start + step) + self.path.g(theirs.phase, back - step)
 
         def slope(step: float) -> float:
             return self.speed(ours, start + step) - self.speed(theirs, back - step)
 
-        if not slope(0.0) < 0 < slope(high - low):
-            return inf
-        step = bracketed_root(slope, lambda _: 0.0, 0.0, high - low)
-        return self._play_at(low + step)
+        ends = min(play(0.0), play(2 * half))
+        if not slope(0.0) < 0 < slope(2 * half):
+            return ends
+        step = bracketed_root(slope, lambda _: 0.0, 0.0, 2 * half)
+        return min(ends, play(step))
 
     @cached_property
     def verdict(self) -> Meshing:
@@ -170,6 +174,16 @@ class Contact:
                     "cannot push there"
                 )
         return ""
+
+
+def _locate(intervals: Sequence[Interval], t: float, pitch: float) -> tuple[Interval, float]:
+    """The interval that holds position t, and alpha_1 there; in a gap the nearest one, and alpha_1 outside it."""
+    for interval in intervals:
+        gone = (interval.start - t) % pitch
+        if gone <= interval.width:
+            return interval, interval.start - gone
+    nearest = min(intervals, key=lambda each: (each.start - t) % pitch - each.width)
+    return nearest, nearest.start - (nearest.start - t) % pitch
 
 
 def _no_valley(sizes: Sizes) -> str:

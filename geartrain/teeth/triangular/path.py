@@ -15,7 +15,7 @@ from functools import cached_property
 from itertools import pairwise
 from math import ceil, floor, inf, ulp
 
-from geartrain.teeth.triangular.contact import APPROACH, RECESS, Couple
+from geartrain.teeth.triangular.contact import APPROACH, RECESS, RETURN, SLIP, Couple
 from geartrain.teeth.triangular.roots import bracketed_root, sign_changes
 from geartrain.teeth.triangular.sizes import Sizes
 
@@ -56,8 +56,9 @@ class Interval:
 class RealPath:
     """Contact of all couples of teeth over one pitch of the driver."""
 
-    def __init__(self, sizes: Sizes) -> None:
-        self.sizes = sizes
+    def __init__(self, sizes: Sizes, slips: bool = False) -> None:
+        """`slips` adds contact that bounds the driven wheel but cannot push it."""
+        self.sizes, self.slips = sizes, slips
         self.couple = Couple(sizes)
         self.pitch, self.ratio = sizes.p1, sizes.ratio
 
@@ -82,7 +83,14 @@ class RealPath:
         for phase, low, high in ((RECESS, last, matching), (APPROACH, matching, first)):
             if high > low:
                 found += self._cut(phase, low, high)
-        return found
+        return [*self._slips(), *found] if self.slips else found
+
+    def _slips(self) -> Iterator[Piece]:
+        """Contact with leaning flanks on the exit side."""
+        sizes = self.sizes
+        for phase, low, high in ((RETURN, -sizes.entry, -sizes.reach1), (SLIP, -sizes.reach1, sizes.exit)):
+            if high > low:
+                yield from self._cut(phase, low, high)
 
     def _cut(self, phase: str, low: float, high: float) -> list[Piece]:
         def slope(x: float) -> float:

@@ -85,14 +85,14 @@ def explain(law: TriangularLaw, window: Window | None) -> tuple[str, str]:
     excess = law.sizes.excess
     if not window:
         return (
-            f"they jam up to a clearance factor of {1 + window.jam:.6g}, and from {1 + window.run:.6g} on there is a "
-            f"{window.run_kind}: no clearance works",
+            f"up to a clearance factor of {1 + window.jam:.6g} there is {window.jam_kind}, and from "
+            f"{1 + window.run:.6g} on {window.run_kind}: no clearance works",
             "use more teeth, a ratio nearer to 1, or another half_angle",
         )
     end = "below" if excess < window.jam else "above"
     return (
-        f"the clearance factor {1 + excess:.6g} is {end} the window of this pair, {1 + window.jam:.6g} (jam) to "
-        f"{1 + window.run:.6g} ({window.run_kind})",
+        f"the clearance factor {1 + excess:.6g} is {end} the window of this pair, {1 + window.jam:.6g} ({window.jam_kind}) "
+        f"to {1 + window.run:.6g} ({window.run_kind})",
         f"give a clearance between the two, or `window: 0.5`, which is {1 + window.at(0.5):.6g}",
     )
 

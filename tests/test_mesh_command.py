@@ -48,7 +48,7 @@ def test_every_key_of_the_json_is_the_promised_one() -> None:
     assert set(data["transmission_error"]) == {"peak_to_peak", "rms", "mean"}
     assert {"mean", "min"} <= set(data["efficiency"])
     assert [set(interval) for interval in data["intervals"]] == [{"phase", "start", "end"}]
-    assert set(data["window"]) == {"jam", "run", "run_kind", "reach", "works"}
+    assert set(data["window"]) == {"jam", "jam_kind", "run", "run_kind", "reach", "works"}
     assert data["verdict"]["kind"] == "runs"
     # by 40-digit arithmetic with the equations of the source
     assert data["speed_ratio"]["min"] == pytest.approx(0.4553445392855049755, rel=1e-13)

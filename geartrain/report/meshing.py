@@ -71,9 +71,10 @@ def _sizes(law: TriangularLaw) -> Section:
 def _clearance(law: TriangularLaw, window: Window) -> Section:
     sizes = law.sizes
     turns = (
-        f"These teeth turn from {1 + window.jam:.6f} (back flanks jam) to {1 + window.run:.6f} ({window.run_kind})"
+        f"These teeth turn from {1 + window.jam:.6f} ({window.jam_kind}) to {1 + window.run:.6f} ({window.run_kind})"
         if window
-        else f"No clearance works: jam up to {1 + window.jam:.6f}, {window.run_kind} from {1 + window.run:.6f}"
+        else f"No clearance works: {window.jam_kind} up to {1 + window.jam:.6f}, {window.run_kind} from "
+        f"{1 + window.run:.6f}"
     )
     lines = [f"Clearance factor {1 + sizes.excess:.9g}. {turns}; beyond {1 + window.reach:.6f} tips never touch."]
     if law.intervals:

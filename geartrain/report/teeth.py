@@ -44,7 +44,9 @@ def _teeth(train: GearTrain) -> Section:
 
 def _place_row(mesh: Mesh) -> tuple[str, ...]:
     law, window = mesh.law, mesh.window
-    where = "-" if window is None else f"{1 + window.jam:.5f} jam .. {1 + window.run:.5f} {window.run_kind}"
+    where = (
+        "-" if window is None else f"{1 + window.jam:.5f} {window.jam_kind} .. {1 + window.run:.5f} {window.run_kind}"
+    )
     return (mesh.name, f"{mesh.driver} -> {mesh.driven}", f"{1 + law.sizes.excess:.6g}", where, law.verdict.kind)
 
 
@@ -133,6 +135,7 @@ def window_data(window: Window) -> dict[str, Any]:
     """Clearance factors between which a pair turns."""
     return {
         "jam": 1 + window.jam,
+        "jam_kind": window.jam_kind,
         "run": 1 + window.run,
         "run_kind": window.run_kind,
         "reach": 1 + window.reach,

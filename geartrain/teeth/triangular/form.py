@@ -193,7 +193,7 @@ def sizes_window(sizes: Sizes) -> Window:
     if not window:
         raise _error(
             f"no clearance lets {sizes.z1} and {sizes.z2} triangular teeth turn",
-            f"they jam up to a factor of {1 + window.jam:.6g}, and from {1 + window.run:.6g} on there is a "
+            f"up to a factor of {1 + window.jam:.6g} there is {window.jam_kind}, and from {1 + window.run:.6g} on "
             f"{window.run_kind}",
             "use more teeth, a ratio nearer to 1, or another half_angle",
         )

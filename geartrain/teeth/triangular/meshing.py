@@ -17,6 +17,7 @@ from geartrain.teeth.triangular.sizes import Sizes
 
 Kind = Literal["runs", "no valley", "overhang", "jam", "clash", "standstill", "apart"]
 _ROUNDING = 1e-11  # of a driven pitch: play that is less below 0 is none
+_NEARLY_0 = 1e-9  # of the reach
 
 
 @dataclass(frozen=True, slots=True)
@@ -135,8 +136,8 @@ class Contact:
         return Meshing(kind, text, -inf, 0.0, 0.0, 0.0)
 
     def _fault(self, found: Meshing) -> tuple[Kind, str]:
-        if overhang := self._overhang():
-            return "overhang", overhang
+        if self.overhang:
+            return "overhang", self.overhang
         if found.play < -_ROUNDING * self.sizes.p2:
             return "jam", (
                 f"the back flanks jam: the teeth are {degrees(-found.play):.4g} deg of the driven wheel too thick for "
@@ -157,7 +158,8 @@ class Contact:
             )
         return "runs", "the wheels turn"
 
-    def _overhang(self) -> str:
+    @cached_property
+    def overhang(self) -> str:
         """The path must not reach a flank that leans beyond the perpendicular, nor turn the driven wheel back."""
         sizes, small = self.sizes, 1e-9 * self.sizes.p1
         for interval in self.intervals:
@@ -203,14 +205,15 @@ def _no_valley(sizes: Sizes) -> str:
 class Window:
     """Clearance factors between which a pair turns: above `jam`, up to `run`; beyond `reach` no tip touches.
 
-    Each as excess, the factor less 1. `run_kind` says what happens beyond `run`. Empty where run is below jam: no
-    clearance works.
+    Each as excess, the factor less 1. `jam_kind` says what happens up to `jam`, `run_kind` beyond `run`. Empty where
+    run is below jam: no clearance works.
     """
 
     jam: float
     run: float
     run_kind: Literal["clash", "standstill"]
     reach: float
+    jam_kind: Literal["jam", "overhang"] = "jam"
 
     def __bool__(self) -> bool:
         return self.jam < self.run
@@ -228,11 +231,47 @@ def find_window(sizes: Sizes) -> Window:
 @lru_cache(maxsize=1024)
 def _window(sizes: Sizes) -> Window:
     reach = sizes.greatest_excess
-    jam = _first_sign_change(lambda excess: Contact(sizes.at(excess)).play, reach)
-    clash = _first_sign_change(lambda excess: _entry(RealPath(sizes.at(excess))), reach)
-    still = _first_sign_change(lambda excess: _exit(RealPath(sizes.at(excess))), reach)
+    jam = _least_excess(sizes)
+    leaning = _leaning_excess(sizes, jam)
+    low = max(jam, leaning)
+    clash = _greatest_excess(lambda excess: _entry(RealPath(sizes.at(excess))), low, reach)
+    still = _greatest_excess(lambda excess: _exit(RealPath(sizes.at(excess))), low, reach)
     # equal wheels do both at once, and the driven wheel that stands lets the next tooth in
-    return Window(jam, min(clash, still), "clash" if clash < still * (1 - 1e-9) else "standstill", reach)
+    run_kind: Literal["clash", "standstill"] = "clash" if clash < still * (1 - 1e-9) else "standstill"
+    return Window(low, min(clash, still), run_kind, reach, "overhang" if leaning > jam else "jam")
+
+
+def _least_excess(sizes: Sizes) -> float:
+    """The excess from which back flanks have play: 0 where they always have, the reach where they never do."""
+    reach = sizes.greatest_excess
+
+    def play(excess: float) -> float:
+        return Contact(sizes.at(excess)).play
+
+    if play(reach * _NEARLY_0) > 0:
+        return 0.0
+    return _first_sign_change(play, reach * _NEARLY_0, reach)
+
+
+def _leaning_excess(sizes: Sizes, jam: float) -> float:
+    """The excess up to which the path reaches a leaning flank; 0 if it does not where the pair ceases to jam."""
+    reach = sizes.greatest_excess
+    low = max(jam * (1 + 1e-9), reach * _NEARLY_0)
+
+    def stands(excess: float) -> float:
+        return -1.0 if Contact(sizes.at(excess)).overhang else 1.0
+
+    if low >= reach or not any(sizes.at(low).lean) or stands(low) > 0:
+        return 0.0
+    return _first_sign_change(stands, low, reach)
+
+
+def _greatest_excess(margin: Callable[[float], float], low: float, reach: float) -> float:
+    """The excess up to which a margin holds, from 0 or, where leaning flanks deny it there, from `low`; else 0."""
+    for start in (reach * _NEARLY_0, low * (1 + 1e-9)):
+        if start < reach and margin(start) > 0:
+            return _first_sign_change(margin, start, reach)
+    return 0.0
 
 
 def _entry(path: RealPath) -> float:
@@ -247,12 +286,12 @@ def _exit(path: RealPath) -> float:
     return path.g(first.phase, first.low) - path.lowest(first.low, besides=0)
 
 
-def _first_sign_change(value: Callable[[float], float], reach: float) -> float:
-    """The least excess up to `reach` at which `value` changes its sign; `reach` if it never does."""
-    steps = 16
-    low, at_low = reach * 1e-9, value(reach * 1e-9)
+def _first_sign_change(value: Callable[[float], float], low: float, reach: float) -> float:
+    """The least excess from `low` at which `value` changes its sign; `reach` if it never does."""
+    steps, start = 16, low
+    at_low = value(low)
     for step in range(1, steps + 1):
-        high = reach * (step / steps if step < steps else 1 - 1e-9)
+        high = start + (reach * (1 - _NEARLY_0) - start) * step / steps
         at_high = value(high)
         if (at_high > 0) != (at_low > 0):
             return root(value, low, high, at_low, at_high)

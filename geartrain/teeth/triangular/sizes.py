@@ -9,7 +9,8 @@ from dataclasses import dataclass
 from functools import cached_property
 from math import asin, cos, inf, pi, sin, sqrt
 
-_GRAZING = 1 - 1e-12  # at 1 the speed ratio is infinite
+_GRAZING = 1 - 1e-12  # sine of the angle between flank and driven radius: at 1 the speed ratio is infinite
+_NEARLY_GRAZING = 2e-6  # rad: a little more than that sine leaves to a right angle
 
 
 def depth(z: int, beta: float) -> float:
@@ -119,15 +120,15 @@ class Sizes:
     @cached_property
     def lean(self) -> tuple[bool, bool]:
         """Whether the flanks of each wheel lean beyond the perpendicular where tips meet: few, deep teeth."""
-        tips = self.reach1 + self.reach2
-        return self.beta1 + tips > pi / 2, self.beta2 + tips > pi / 2
+        most = pi / 2 - self.reach1 - self.reach2 - _NEARLY_GRAZING
+        return self.beta1 > most, self.beta2 > most
 
     @cached_property
     def entry(self) -> float:
         """alpha_1 where a couple first touches: alpha_1max, or before, where a leaning flank grazes the driven tips."""
         if not self.lean[0]:
             return self.reach1
-        return max(self.reach1, grazing(self.R1, self.R2, self.beta1, self.D)[0] - self.beta1)
+        return grazing(self.R1, self.R2, self.beta1, self.D)[0] - self.beta1
 
     @cached_property
     def exit(self) -> float:
@@ -135,7 +136,7 @@ class Sizes:
         if not self.lean[1]:
             return -self.reach1
         psi, s = grazing(self.R2, self.R1, self.beta2, self.D)
-        return max(-self.reach1, psi - asin(s))
+        return psi - asin(s)
 
     @cached_property
     def greatest_excess(self) -> float:

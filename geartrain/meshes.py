@@ -91,8 +91,8 @@ def explain(law: TriangularLaw, window: Window | None) -> tuple[str, str]:
         )
     end = "below" if excess < window.jam else "above"
     return (
-        f"the clearance factor {1 + excess:.6g} is {end} the window of this pair, {1 + window.jam:.6g} ({window.jam_kind}) "
-        f"to {1 + window.run:.6g} ({window.run_kind})",
+        f"the clearance factor {1 + excess:.6g} is {end} the window of this pair, {1 + window.jam:.6g} "
+        f"({window.jam_kind}) to {1 + window.run:.6g} ({window.run_kind})",
         f"give a clearance between the two, or `window: 0.5`, which is {1 + window.at(0.5):.6g}",
     )
 

@@ -1,0 +1,75 @@
+"""Triangular teeth in the plane: outlines of whole wheels, and the balance of one contact with Coulomb friction.
+
+The driver turns about the origin, the driven wheel about (D, 0). Apices are at alpha_1 and alpha_2 from the line of
+centres, both positive to the same side, and both angles decrease as the driver pushes.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from sorge import APPROACH, Pair
+
+
+def outline(z: int, R: float, beta: float) -> np.ndarray:
+    """Apices and valleys of a wheel in turn, its first apex at angle 0: a closed ring."""
+    at = np.arange(2 * z + 1) * np.pi / z
+    radius = np.where(np.arange(2 * z + 1) % 2, R * np.sin(beta) / np.sin(beta + np.pi / z), R)
+    return np.stack([radius * np.cos(at), radius * np.sin(at)], axis=-1)
+
+
+def overlap(given: Any, x: np.ndarray, y: np.ndarray) -> np.ndarray:
+    """Whether the two whole wheels overlap with the driver's first apex at x and the driven wheel's at y."""
+    import shapely
+
+    first, second = outline(given.z1, given.R1, given.beta1), outline(given.z2, given.R2, given.beta2)
+    pair = Pair.of(given, np)
+    driver = _turned(first, x)
+    driven = _turned(second, y)
+    driven[..., 0] = pair.D - driven[..., 0]
+    drivers, drivens = shapely.polygons(driver), shapely.polygons(driven)
+    shapely.prepare(drivers)
+    return shapely.intersects(drivers, drivens)
+
+
+def _turned(ring: np.ndarray, by: np.ndarray) -> np.ndarray:
+    cosine, sine = np.cos(by)[:, None], np.sin(by)[:, None]
+    return np.stack([ring[:, 0] * cosine - ring[:, 1] * sine, ring[:, 0] * sine + ring[:, 1] * cosine], axis=-1)
+
+
+def power_ratio(pair: Pair, x: Any, phase: str, friction: Any) -> tuple[Any, Any, Any]:
+    """Power out over power in of one contact, how far the apex is off the flank's line, and tau.
+
+    The driver turns at one radian a second, the driven wheel at tau, which follows from no penetration: the points in
+    contact have one velocity along the normal of the flank. The force of the driver on the driven wheel is the normal
+    force and friction against the driven point's sliding; each wheel's power is the force's moment times its speed.
+    """
+    m = pair.m
+    y = pair.angle(x, phase)
+    driver_apex = (pair.R1 * m.cos(x), pair.R1 * m.sin(x))
+    driven_apex = (pair.D - pair.R2 * m.cos(y), pair.R2 * m.sin(y))
+    if phase == APPROACH:
+        point, lean = driven_apex, x + pair.b1
+        along = (-m.cos(lean), -m.sin(lean))
+    else:
+        point, lean = driver_apex, pair.b2 - y
+        along = (m.cos(lean), m.sin(lean))
+    apices = (driven_apex[0] - driver_apex[0], driven_apex[1] - driver_apex[1])
+    off = apices[0] * along[1] - apices[1] * along[0]
+    normal = (along[1], -along[0])
+    first = (point[1], -point[0])  # velocity of the driver's point, turning clockwise
+    second = (-point[1], point[0] - pair.D)  # of the driven wheel's at unit speed, turning anticlockwise
+    if _dot(normal, first) < 0:
+        normal = (-normal[0], -normal[1])
+    tau = _dot(normal, first) / _dot(normal, second)
+    sliding = tau * _dot(along, second) - _dot(along, first)
+    rub = -friction * m.sign(sliding)
+    force = (normal[0] + rub * along[0], normal[1] + rub * along[1])
+    moment1 = point[0] * force[1] - point[1] * force[0]
+    moment2 = (point[0] - pair.D) * force[1] - point[1] * force[0]
+    return moment2 * tau / -moment1, off, tau
+
+
+def _dot(a: tuple[Any, Any], b: tuple[Any, Any]) -> Any:
+    return a[0] * b[0] + a[1] * b[1]

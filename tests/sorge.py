@@ -1,0 +1,532 @@
+"""An independent reference for triangular teeth: the closure equations of the source, at 50 digits, couple by couple.
+
+Written from F. Sorge, "A note on the mechanics of ancient gear systems", Eqs. (1)-(19) and (28)-(33), as they stand but
+for its errata: the lesser root in Eq. (16), quadrants in Eq. (17), signs and brackets in Eqs. (31) and (33). Unequal
+half apertures: the flank in contact is the driver's in approach and the driven wheel's in recess. What floats are given
+is taken as exact. Nothing here is fast, stable at low precision, or clever.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import pairwise
+from random import Random
+from typing import Any, NamedTuple
+
+import mpmath
+import numpy as np
+
+mp = mpmath.mp.clone()
+mp.dps = 50
+
+APPROACH, RECESS, STANDSTILL = "approach", "recess", "standstill"
+TINY = mp.mpf(10) ** -30  # of a pitch: ends of smooth stretches are looked at from this far within
+
+
+@dataclass(frozen=True)
+class Segment:
+    """A stretch of alpha_1 driven by one couple, or (`held` given) with the driven wheel at rest at that alpha_2."""
+
+    phase: str
+    start: Any
+    end: Any
+    k: int
+    held: Any = None
+
+
+class Pair:
+    """One pair of wheels, the first driving. `m` is mpmath by default, or numpy for many angles at double precision."""
+
+    def __init__(self, z1, z2, R1, R2, beta1, beta2, excess, m: Any = mp) -> None:
+        self.m = m
+        number = mp.mpf if m is mp else float
+        self.z1, self.z2 = z1, z2
+        self.R1, self.R2, self.b1, self.b2, self.excess = (number(x) for x in (R1, R2, beta1, beta2, excess))
+        if m is mp:
+            self.asin, self.acos, self.atan2 = mp.asin, mp.acos, mp.atan2
+        else:
+            self.asin, self.acos, self.atan2 = np.arcsin, np.arccos, np.arctan2
+        pi = m.pi
+        h1 = self.R1 * (1 - m.sin(self.b1) / m.sin(self.b1 + pi / z1))
+        h2 = self.R2 * (1 - m.sin(self.b2) / m.sin(self.b2 + pi / z2))
+        self.h = min(h1, h2)
+        self.least = self.R1 + self.R2 - self.h
+        self.D = self.least + self.excess * self.least
+        self.p1, self.p2 = 2 * pi / z1, 2 * pi / z2
+        self.ratio = self.p2 / self.p1
+
+    @classmethod
+    def of(cls, given: Any, m: Any = mp) -> Pair:
+        """The pair with the declared numbers of `given`, and nothing derived from them."""
+        return cls(given.z1, given.z2, given.R1, given.R2, given.beta1, given.beta2, given.excess, m)
+
+    @property
+    def beta1(self) -> Any:
+        """Half aperture of the driver's teeth."""
+        return self.b1
+
+    @property
+    def beta2(self) -> Any:
+        """Half aperture of the driven wheel's teeth."""
+        return self.b2
+
+    def swapped(self) -> Pair:
+        """The second wheel driving."""
+        return Pair(self.z2, self.z1, self.R2, self.R1, self.b2, self.b1, self.excess, self.m)
+
+    # ------------------------------------------------------------------------------------------------------ one couple
+
+    @cached_property
+    def touches(self) -> bool:
+        """True if the tip circles overlap."""
+        return self.D < self.R1 + self.R2
+
+    @cached_property
+    def amax(self) -> Any:
+        """alpha_1max, Eq. (4)."""
+        return self.acos((self.D**2 + self.R1**2 - self.R2**2) / (2 * self.D * self.R1))
+
+    @cached_property
+    def tips(self) -> Any:
+        """alpha_1max + alpha_2max: what a flank leans more at the ends of the reach than by its half aperture."""
+        return self.amax + self.acos((self.D**2 + self.R2**2 - self.R1**2) / (2 * self.D * self.R2))
+
+    @cached_property
+    def entry(self) -> Any:
+        """Where a couple first touches: at the tips, or before, where a leaning flank grazes the driven tip circle."""
+        if self.b1 + self.tips <= self.m.pi / 2:
+            return self.amax
+        return max(self.amax, self.asin(min(1, (self.R2 + self.R1 * self.m.sin(self.b1)) / self.D)) - self.b1)
+
+    @cached_property
+    def exit(self) -> Any:
+        """Where a couple ceases to push: at the tips, or before, where the driven flank leans so far that tau is 0."""
+        if self.b2 + self.tips <= self.m.pi / 2:
+            return -self.amax
+        low, high = -mp.mpf(self.amax), mp.mpf(0)
+        precise = self if self.m is mp else Pair.of(self)
+        while high - low > mp.mpf(10) ** -45:
+            x = (low + high) / 2
+            low, high = (low, x) if precise.lean(x, RECESS) < mp.pi / 2 else (x, high)
+        return high if self.m is mp else float(high)
+
+    @cached_property
+    def matching(self) -> Any:
+        """alpha_1m, Eq. (10): both flanks on one line, alpha_1 + beta_1 = beta_2 - alpha_2; infinite where never."""
+        sine = (self.R1 * self.m.sin(self.b1) + self.R2 * self.m.sin(self.b2)) / self.D
+        return self.asin(sine) - self.b1 if sine < 1 else self.m.inf
+
+    def phase(self, x: Any) -> str:
+        """The phase at alpha_1 = x."""
+        return APPROACH if x >= self.matching else RECESS
+
+    def approach(self, x: Any) -> tuple[Any, Any]:
+        """alpha_2 and v, Eqs. (7) and (9)."""
+        m = self.m
+        sine = (self.D * m.sin(x + self.b1) - self.R1 * m.sin(self.b1)) / self.R2
+        y = self.asin(sine) - x - self.b1
+        return y, self.R1 * m.cos(self.b1) - self.D * m.cos(x + self.b1) + self.R2 * m.sqrt(1 - sine**2)
+
+    def recess(self, x: Any) -> tuple[Any, Any]:
+        """alpha_2 and v, Eqs. (17) and (16)."""
+        m = self.m
+        square = self.D**2 + self.R1**2 - 2 * self.D * self.R1 * m.cos(x)
+        v = self.R2 * m.cos(self.b2) - m.sqrt(square - (self.R2 * m.sin(self.b2)) ** 2)
+        seen = self.atan2(self.R1 * m.sin(x), self.D - self.R1 * m.cos(x))
+        return seen - self.atan2(v * m.sin(self.b2), self.R2 - v * m.cos(self.b2)), v
+
+    def angle(self, x: Any, phase: str | None = None) -> Any:
+        """alpha_2 at x."""
+        return (self.approach if (phase or self.phase(x)) == APPROACH else self.recess)(x)[0]
+
+    def speed(self, x: Any, phase: str | None = None) -> Any:
+        """tau at x, Eqs. (12) and (19)."""
+        m = self.m
+        if (phase or self.phase(x)) == APPROACH:
+            root = m.sqrt(self.R2**2 - (self.D * m.sin(x + self.b1) - self.R1 * m.sin(self.b1)) ** 2)
+            return self.D * m.cos(x + self.b1) / root - 1
+        y = self.recess(x)[0]
+        arm = self.R1 * m.cos(self.b2 - x - y)
+        return arm / (self.D * m.cos(self.b2 - y) - arm)
+
+    def lean(self, x: Any, phase: str | None = None) -> Any:
+        """Angle between the flank in contact and the other tooth's own axis: beta + a1 + a2, or beta - a1 - a2."""
+        phase = phase or self.phase(x)
+        y = self.angle(x, phase)
+        return self.b1 + x + y if phase == APPROACH else self.b2 - x - y
+
+    def arms(self, x: Any, friction: Any, phase: str | None = None) -> tuple[Any, Any]:
+        """Arms b1 and b2 of the force between the teeth, Eqs. (28) to (31)."""
+        m = self.m
+        phase = phase or self.phase(x)
+        y, tau = self.angle(x, phase), self.speed(x, phase)
+        if phase == APPROACH:
+            phi = m.atan(friction) * m.sign(y)
+            cc = m.cos(self.b1 + x + y) * m.cos(self.b1 + x + phi)
+            ss = m.sin(y) * m.sin(phi)
+            scale = self.R2 / m.cos(self.b1 + x)
+            return scale * (tau * cc + ss), scale * (cc - ss)
+        phi = m.atan(friction) * m.sign(x)
+        cc = m.cos(self.b2 - x - y) * m.cos(self.b2 - y + phi)
+        ss = m.sin(x) * m.sin(phi)
+        scale = self.R1 / m.cos(self.b2 - y)
+        return scale * (cc + ss), scale * (cc / tau - ss)
+
+    def efficiency(self, x: Any, friction: Any, phase: str | None = None) -> Any:
+        """tau b2 / b1, Eqs. (32) and (33)."""
+        b1, b2 = self.arms(x, friction, phase)
+        return self.speed(x, phase) * b2 / b1
+
+    # -------------------------------------------------------------------------------------------------- every couple
+
+    def couples(self, t: Any) -> range:
+        """Every couple whose driver tooth is within the reach at position t."""
+        return range(int(mp.ceil((self.exit - t) / self.p1)), int(mp.floor((self.entry - t) / self.p1)) + 1)
+
+    def first(self, t: Any) -> Any:
+        """U(t) = min over every couple of f(t + k p1) - k p2; infinite where none is in reach."""
+        return min((self.angle(t + k * self.p1) - k * self.p2 for k in self.couples(t)), default=mp.inf)
+
+    @cached_property
+    def envelope(self) -> list[Segment]:
+        """Who is first over the pitch of t that ends where a couple enters, in order of time; gaps are left out."""
+        top, tiny = self.entry, TINY * self.p1
+        cuts = {(top - end) % self.p1 for end in (self.exit, self.matching) if self.exit <= end <= top}
+        marks = sorted({mp.mpf(0), self.p1, *cuts})
+        found: list[Segment] = []
+        for early, late in pairwise(marks):
+            if late - early > 4 * tiny:
+                found += self._cell(top - early - tiny, top - late + tiny)
+        return _joined(found, self.p1)
+
+    def _cell(self, high: Any, low: Any) -> list[Segment]:
+        """A stretch of t in which every couple stays in reach and in one phase."""
+        ks = self.couples((high + low) / 2)
+        phases = {k: self.phase((high + low) / 2 + k * self.p1) for k in ks}
+
+        def value(k: int, t: Any) -> Any:
+            return self.angle(t + k * self.p1, phases[k]) - k * self.p2
+
+        def lowest(t: Any) -> int:
+            return min(ks, key=lambda k: value(k, t))
+
+        def split(high: Any, low: Any, a: int, b: int) -> list[tuple[Any, Any, int]]:
+            if a == b:
+                inside = [low + (high - low) * n / 4 for n in (1, 2, 3)]
+                others = [(t, k) for t in inside if (k := lowest(t)) != a]
+                if not others:
+                    return [(high, low, a)]
+                t, k = others[0]
+                return split(high, t, a, k) + split(t, low, k, b)
+            t = root(
+                lambda t: value(a, t) - value(b, t),
+                lambda t: self.speed(t + a * self.p1, phases[a]) - self.speed(t + b * self.p1, phases[b]),
+                low,
+                high,
+            )
+            k = lowest(t)
+            if k in (a, b) or value(k, t) > value(a, t) - TINY * self.p2:
+                return split(high, t, a, a) + split(t, low, b, b)
+            return split(high, t, a, k) + split(t, low, k, b)
+
+        if not ks:
+            return []
+        return [
+            Segment(phases[k], upper + k * self.p1, lower + k * self.p1, k)
+            for upper, lower, k in split(high, low, lowest(high), lowest(low))
+        ]
+
+    @cached_property
+    def path(self) -> list[Segment]:
+        """The running minimum of U over a pitch, in order of time: standstills where it does not fall."""
+        once = self.envelope
+        twice = once + [Segment(s.phase, s.start, s.end, s.k + 1) for s in once]
+        y, t = mp.inf, mp.inf
+        found: list[Segment] = []
+        held = None
+        for s in twice:
+            start, turned = s.start - s.k * self.p1, s.k * self.p2
+            high, low = self.angle(s.start, s.phase) - turned, self.angle(s.end, s.phase) - turned
+            apart = t - start > TINY * self.p1 * 10
+            if high > y + TINY * self.p2 * 10 or (apart and y < mp.inf):
+                held = held or found[-1]
+            if low >= y:
+                t = s.end - s.k * self.p1
+                continue
+            x = s.start
+            if high > y:
+                x = root(
+                    lambda x, s=s, turned=turned, y=y: self.angle(x, s.phase) - turned - y,
+                    lambda x, s=s: self.speed(x, s.phase),
+                    s.end,
+                    s.start,
+                )
+            if held:
+                until = x + (held.k - s.k) * self.p1
+                found.append(Segment(STANDSTILL, held.end, until, held.k, self.angle(held.end, held.phase)))
+                held = None
+            found.append(Segment(s.phase, x, s.end, s.k))
+            y, t = low, s.end - s.k * self.p1
+        lasts = [at for at, s in enumerate(found) if not s.held]
+        last = found[lasts[-1]]
+        since = next(at for at, s in enumerate(found) if (s.phase, s.k) == (last.phase, last.k - 1) and _near(s, last))
+        return found[since + 1 : lasts[-1] + 1]
+
+    def at(self, t: Any) -> Any:
+        """The dragged driven wheel's y at t: the least U over all earlier positions, from the segments."""
+        for s in self.path:
+            over = mp.floor((s.start - t) / self.p1 - s.k) + s.k
+            x = t + over * self.p1
+            if x >= s.end:
+                y = self.angle(x, s.phase) if s.held is None else s.held
+                return y - over * self.p2
+        raise AssertionError("the path has a hole")
+
+    def error(self, S: Any, direction: int = 1) -> Any:
+        """Transmission error q - (z1/z2) S at the forward angle S."""
+        t = -mp.mpf(S) * direction
+        lag = self.at(t) - self.ratio * t
+        return -lag if direction > 0 else self.p2 + lag
+
+    @cached_property
+    def jumps(self) -> list[tuple[Any, Any]]:
+        """tau before and after each change of couple, phase or rest, where something begins to push."""
+        speeds = [
+            (mp.mpf(0),) * 2 if s.held is not None else (self.speed(s.start, s.phase), self.speed(s.end, s.phase))
+            for s in self.path
+        ]
+        return [(speeds[at - 1][1], speeds[at][0]) for at in range(len(speeds)) if self.path[at].held is None]
+
+    @cached_property
+    def error_range(self) -> tuple[Any, Any]:
+        """Least and greatest transmission error."""
+        lags = []
+        for s in self.path:
+            lags += [
+                (s.held if s.held is not None else self.angle(x, s.phase)) - self.ratio * x for x in (s.start, s.end)
+            ]
+            if s.held is None:
+                lags += [self.angle(x, s.phase) - self.ratio * x for x in self._mean_speeds(s)]
+        return -max(lags), -min(lags)
+
+    def _mean_speeds(self, s: Segment) -> list[Any]:
+        """Where tau is z1/z2 within a segment, by signs on a grid."""
+
+        def value(x: Any) -> Any:
+            return self.speed(x, s.phase) - self.ratio
+
+        grid = [s.end + (s.start - s.end) * n / 16 for n in range(17)]
+        signs = [value(x) > 0 for x in grid]
+        return [
+            root(value, lambda x: mp.diff(value, x), low, high)
+            for low, high, a, b in zip(grid, grid[1:], signs, signs[1:], strict=False)
+            if a != b
+        ]
+
+    def mean_efficiency(self, friction: Any) -> tuple[Any, Any]:
+        """Means over the driver's angle in contact: of eta (Eq. 34), and tau over the mean of tau/eta."""
+        eta = tau = inverse = width = mp.mpf(0)
+        for s in self.path:
+            if s.held is not None:
+                continue
+            marks = [s.end, *self._centre(s), s.start]
+            eta += mp.quad(lambda x, s=s: self.efficiency(x, friction, s.phase), marks)
+            tau += mp.quad(lambda x, s=s: self.speed(x, s.phase), marks)
+            inverse += mp.quad(lambda x, s=s: self.speed(x, s.phase) / self.efficiency(x, friction, s.phase), marks)
+            width += s.start - s.end
+        return eta / width, tau / inverse
+
+    def _centre(self, s: Segment) -> list[Any]:
+        """Where the contact crosses the line of centres."""
+        if s.phase == RECESS:
+            return [mp.mpf(0)] if s.end < 0 < s.start else []
+        if not self.angle(s.end, APPROACH) < 0 < self.angle(s.start, APPROACH):
+            return []
+        return [root(lambda x: self.angle(x, APPROACH), lambda x: self.speed(x, APPROACH), s.end, s.start)]
+
+
+def root(value: Callable[[Any], Any], slope: Callable[[Any], Any], low: Any, high: Any) -> Any:
+    """The root where `value` changes sign between low and high: halving to three digits, then Newton's steps."""
+    low, high = mp.mpf(low), mp.mpf(high)
+    at_low = value(low)
+    if at_low == 0:
+        return low
+    finest = (high - low) * mp.mpf(10) ** -46
+    x = (low + high) / 2
+    for _ in range(300):
+        here = value(x)
+        if here == 0:
+            return x
+        low, high = (x, high) if (here > 0) == (at_low > 0) else (low, x)
+        steep = slope(x)
+        step = x - here / steep if steep else low
+        if not low < step < high:
+            step = (low + high) / 2
+        if abs(step - x) < finest or high - low < finest:
+            return step
+        x = step
+    raise AssertionError("no root")
+
+
+def _near(one: Segment, other: Segment) -> bool:
+    return abs(one.end - other.end) < mp.mpf(10) ** -20
+
+
+def _joined(found: list[Segment], pitch: Any) -> list[Segment]:
+    """Neighbours of one couple in one phase as one, round the pitch too."""
+    near = TINY * pitch * 10
+    joined: list[Segment] = []
+    for s in found:
+        last = joined[-1] if joined else None
+        if last and (last.phase, last.k) == (s.phase, s.k) and abs(last.end - s.start) < near:
+            joined[-1] = Segment(s.phase, last.start, s.end, s.k)
+        else:
+            joined.append(s)
+    if len(joined) > 1:
+        first, last = joined[0], joined[-1]
+        if (first.phase, first.k + 1) == (last.phase, last.k) and abs(last.end - first.start) < near:
+            joined = [*joined[1:-1], Segment(last.phase, last.start, first.end, last.k)]
+    return joined
+
+
+# ----------------------------------------------------------------------------------------- many positions, in floats
+
+
+def first_of_all(pair: Pair, t: np.ndarray) -> np.ndarray:
+    """U at many positions t: every couple within the reach, in double precision (`pair` built with numpy)."""
+    least = np.full(np.shape(t), np.inf)
+    low = int(np.floor((pair.exit - t.max()) / pair.p1))
+    high = int(np.ceil((pair.entry - t.min()) / pair.p1))
+    for k in range(low, high + 1):
+        x = t + k * pair.p1
+        inside = (pair.exit <= x) & (x <= pair.entry)
+        if inside.any():
+            least[inside] = np.minimum(least[inside], angles(pair, x[inside]) - k * pair.p2)
+    return least
+
+
+def angles(pair: Pair, x: np.ndarray) -> np.ndarray:
+    """alpha_2 at many x within the reach, in double precision."""
+    y = np.empty_like(x)
+    early = x >= pair.matching
+    y[early] = pair.approach(x[early])[0]
+    y[~early] = pair.recess(x[~early])[0]
+    return y
+
+
+def others(pair: Pair, x: float) -> float:
+    """The least angle any other couple allows where one is at alpha_1 = x, as that couple's alpha_2."""
+    least = np.inf
+    for k in range(int(np.floor((pair.exit - x) / pair.p1)), int(np.ceil((pair.entry - x) / pair.p1)) + 1):
+        at = x + k * pair.p1
+        if k and pair.exit <= at <= pair.entry:
+            least = min(least, float(angles(pair, np.array([at]))[0]) - k * pair.p2)
+    return least
+
+
+def pushed(pair: Pair, t: np.ndarray) -> np.ndarray:
+    """The dragged driven wheel at many t: where the first couple is, or where the last to leave has left it."""
+    leaves = angles(pair, np.array([pair.exit]))[0] + np.ceil((t - pair.exit) / pair.p1) * pair.p2
+    return np.minimum(first_of_all(pair, t), leaves)
+
+
+def least_play(pair: Pair) -> float:
+    """The least of y(t) - L(t), L(t) = -U(-t) - p2: a grid, then closer and closer about its lowest places."""
+
+    def play(t: np.ndarray) -> np.ndarray:
+        return pushed(pair, t) + first_of_all(pair, -t) + pair.p2
+
+    step = pair.p1 / 400
+    grid = (np.arange(401) + 0.001) * step
+    found = play(grid)
+    best = np.inf
+    for at in np.argsort(found)[:4]:
+        centre, width = grid[at], step
+        for _ in range(8):
+            t = np.linspace(centre - width, centre + width, 41)
+            here = play(t)
+            centre, width = t[here.argmin()], width / 10
+            best = min(best, here.min())
+    return float(best)
+
+
+def entry_margin(pair: Pair) -> float:
+    """How far a couple that comes in lies above the driven wheel, dragged there before; below 0 it meets a tip."""
+    now = others(pair, pair.entry)
+    if now == np.inf:
+        return np.inf
+    enters, leaves = angles(pair, np.array([pair.entry, pair.exit]))
+    return float(enters - min(now, leaves + np.ceil((pair.entry - pair.exit) / pair.p1) * pair.p2))
+
+
+def exit_margin(pair: Pair) -> float:
+    """How far another couple lies below the driven wheel where a couple leaves; below 0 nothing pushes any more."""
+    return float(angles(pair, np.array([pair.exit]))[0]) - others(pair, pair.exit)
+
+
+def verdict(pair: Pair, rounding: float = 1e-9) -> str:
+    """What the scan says of a pair whose flanks lean nowhere beyond the perpendicular; empty within rounding."""
+    margins = least_play(pair), entry_margin(pair), exit_margin(pair)
+    if any(abs(margin) < rounding * pair.p2 for margin in margins):
+        return ""
+    for kind, margin in zip(("jam", "clash", "standstill"), margins, strict=True):
+        if margin < 0:
+            return kind
+    return "runs"
+
+
+# --------------------------------------------------------------------------------------------------------- drawn pairs
+
+
+class Given(NamedTuple):
+    """The numbers that declare a pair."""
+
+    z1: int
+    z2: int
+    R1: float
+    R2: float
+    beta1: float
+    beta2: float
+    excess: float
+
+
+def drawn(random: Random, most: float, shape: str = "any") -> Given:
+    """A pair of 3 to `most` teeth, ratios up to 1000, any aperture with a valley, any clearance where tips touch.
+
+    `shape` "near" keeps the radii within half of pitch-true, the half apertures within 80 deg and 0.98 of the valley.
+    """
+    while True:
+        z1 = round(_spread(random, 3, most))
+        z2 = round(z1 * _spread(random, 1e-3, 1e3) if random.random() < 0.5 else z1 * _spread(random, 0.1, 10))
+        if not 3 <= z2 <= most:
+            continue
+        b1, b2 = (_aperture(random, z, shape) for z in (z1, z2))
+        if random.random() < 0.5:
+            b1 = b2 = min(b1, b2)
+        rule = random.choice(["equal depth", "pitch-true", "any"])
+        R1, R2 = 1.0, z2 / z1
+        if rule == "equal depth":
+            h1, h2 = (1 - mp.sin(b) / mp.sin(b + mp.pi / z) for z, b in ((z1, b1), (z2, b2)))
+            R2 = float(h1 / h2)
+        elif rule == "any":
+            R1 = random.uniform(0.1, 30)
+            R2 = R1 * z2 / z1 * _spread(random, 0.8, 1.25)
+        if shape == "near" and not 0.67 < R2 * z1 / (R1 * z2) < 1.5:
+            continue
+        pair = Pair(z1, z2, R1, R2, b1, b2, 0.0)
+        most_excess = float(pair.h / pair.least)
+        share = random.uniform(0.001, 0.999) if random.random() < 0.7 else _spread(random, 1e-6, 0.999)
+        return Given(z1, z2, R1, R2, b1, b2, most_excess * share)
+
+
+def _spread(random: Random, low: float, high: float) -> float:
+    return math.exp(random.uniform(math.log(low), math.log(high)))
+
+
+def _aperture(random: Random, z: int, shape: str) -> float:
+    valley = 90 - 180 / z
+    top = min(80.0, 0.98 * valley) if shape == "near" else 0.999 * valley
+    return math.radians(random.uniform(min(1.0, top / 3), top))

@@ -1,0 +1,291 @@
+"""The law of triangular teeth: printed results, transmission error at 50 digits, its mean, its mirror, its energies."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from itertools import pairwise
+from math import degrees, pi, radians, tan
+from random import Random
+
+import numpy as np
+import pytest
+from sorge import RECESS, Pair, drawn, first_of_all, mp
+
+from geartrain.teeth.triangular.law import TriangularLaw
+from geartrain.teeth.triangular.sizes import Sizes, equal_depth
+
+THIRTY = radians(30)
+
+PRINTED = [
+    (48, 96, 0.01, {"recess": 0.1582}),
+    (48, 96, 0.025, {"recess": 0.1457}),
+    (96, 72, 0.01, {"approach": 0.1117}),
+    (96, 72, 0.025, {"approach": 0.0682, "matching": 0.0316}),  # printed 0.0314, against the source's own Eq. (27)
+    (96, 96, 0.01, {"approach": 0.0876, "recess": 0.0095}),
+    (96, 96, 0.025, {"approach": 0.0696, "matching": 0.0119}),
+]
+MORE_DIGITS = [
+    (48, 96, 0.01, (0.455344539286, 0.540937364223), 0.964785610186, 0.0805539897393, [(-8.7341, -1.2341)]),
+    (48, 96, 0.025, (0.458937254081, 0.537185882069), 0.971997979288, 0.0736476829901, [(-7.8414, -0.3414)]),
+    (96, 72, 0.01, (1.262105039828, 1.420753017835), 0.973102472457, 0.0739440902710, [(1.3457, 5.0957)]),
+    (96, 72, 0.025, (1.288052397699, 1.397465519784), 0.986299615457, 0.0467698561691, [(-0.6671, 3.0829)]),
+    (
+        96,
+        96,
+        0.01,
+        (0.955219161626, 1.046880171769),
+        0.977175343857,
+        0.0374126089893,
+        [(-3.1756, -1.2822), (2.4678, 4.3244)],
+    ),
+    (96, 96, 0.025, (0.964572294739, 1.036728926856), 0.991593335125, 0.0276894969907, [(-1.8141, 1.9359)]),
+]
+
+
+def equally_deep(z1: int, z2: int, excess: float, beta: float = THIRTY) -> Sizes:
+    return Sizes(z1, z2, *equal_depth(z1, z2, beta, beta), beta, beta, excess)
+
+
+def laws(seed: int, number: int, most: float, kind: str = "runs", friction: float = 0.2):
+    """Random pairs with a verdict, friction below locking."""
+    random = Random(seed)
+    while number:
+        sizes = Sizes(*drawn(random, most, "near"))
+        if random.random() < 0.3:
+            sizes = sizes.swapped()
+        law = TriangularLaw(sizes, friction)
+        if law.verdict.kind == kind and friction < 0.9 * law.locking_friction:
+            number -= 1
+            yield sizes, law, random
+
+
+# ----------------------------------------------------------------------------------------------------- printed results
+
+
+@pytest.mark.parametrize(("z1", "z2", "excess", "jumps"), PRINTED)
+def test_jumps_and_phases_of_the_source(z1: int, z2: int, excess: float, jumps: dict[str, float]) -> None:
+    law = TriangularLaw(equally_deep(z1, z2, excess), 0.2)
+    assert {jump.kind: round(jump.value, 4) for jump in law.jumps} == jumps
+    assert law.verdict
+
+
+@pytest.mark.parametrize(("z1", "z2", "excess", "speeds", "efficiency", "peak_to_peak", "active"), MORE_DIGITS)
+def test_more_digits_of_the_source(z1, z2, excess, speeds, efficiency, peak_to_peak, active) -> None:
+    sizes = equally_deep(z1, z2, excess)
+    law, pair = TriangularLaw(sizes, 0.2), Pair.of(sizes)
+    true = [pair.speed(x, s.phase) for s in pair.path for x in (s.start, s.end)]
+    low, high = pair.error_range
+    assert (float(min(true)), float(max(true))) == pytest.approx(speeds, rel=1e-12)
+    assert float(pair.mean_efficiency(0.2)[0]) == pytest.approx(efficiency, rel=1e-12)
+    assert degrees(high - low) == pytest.approx(peak_to_peak, rel=1e-12)
+    assert law.speed_range() == pytest.approx(speeds, rel=1e-12)
+    assert law.efficiency_mean() == pytest.approx(efficiency, rel=1e-12)
+    assert degrees(law.error_range()[1] - law.error_range()[0]) == pytest.approx(peak_to_peak, rel=2e-12)
+    ends = sorted((degrees(interval.end), degrees(interval.start)) for interval in law.intervals)
+    joined = [(ends[0][0], ends[-1][1])] if len(active) == 1 else ends
+    assert [tuple(round(end, 4) for end in each) for each in joined] == active
+
+
+# ------------------------------------------------------------------------------------------------------- at 50 digits
+
+CASES = [
+    pytest.param(1e3, 30),
+    pytest.param(1e6, 12),
+    pytest.param(1e3, 1500, marks=pytest.mark.slow),
+    pytest.param(1e6, 500, marks=pytest.mark.slow),
+]
+
+
+@pytest.mark.parametrize(("most", "number"), CASES)
+@pytest.mark.parametrize("kind", ["runs", "standstill"])
+def test_transmission_error_at_50_digits(kind: str, most: float, number: int) -> None:
+    """Within a pitch, and over a turn, where an angle of many pitches has its own rounding; both directions."""
+    for sizes, law, random in laws(31, number, most, kind, 0.0):
+        pair, back = Pair.of(sizes), TriangularLaw(sizes, direction=-1)
+        left = min(1.0, 100 * float((pair.R1 + pair.R2 - pair.D) / pair.h))
+        assert back.verdict == law.verdict
+        for direction, one in ((1, law), (-1, back)):
+            for S in (random.uniform(0, sizes.p1), random.uniform(-2 * pi, 2 * pi)):
+                error = abs(float(one.error(S)) - pair.error(S, direction)) / pair.p2
+                assert error * left < 1e-12 + 1e-16 * abs(S) / sizes.p1, (sizes, S, direction)
+        low, high = pair.error_range
+        assert abs(law.error_range()[0] - low) * left < 1e-12 * pair.p2, sizes
+        assert abs(law.error_range()[1] - high) * left < 1e-12 * pair.p2, sizes
+
+
+@pytest.mark.parametrize("number", [pytest.param(8), pytest.param(150, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("kind", ["runs", "standstill"])
+def test_mean_efficiencies_are_their_integrals(kind: str, number: int) -> None:
+    """Eq. (34) at constant driver torque, and at constant load torque, over the driver's angle in contact."""
+    for sizes, law, _ in laws(32, number, 1e3, kind):
+        pair = Pair.of(sizes)
+        steepest = max(float(pair.lean(x, s.phase)) for s in pair.path if s.held is None for x in (s.start, s.end))
+        if 1 - 0.2 * tan(steepest) < 0.5:
+            continue
+        at_driver, at_load = pair.mean_efficiency(mp.mpf(0.2))
+        assert law.efficiency_mean() == pytest.approx(float(at_driver), rel=1e-12), sizes
+        assert law.efficiency_at_constant_load() == pytest.approx(float(at_load), rel=1e-11), sizes
+
+
+@pytest.mark.parametrize("number", [pytest.param(10), pytest.param(200, marks=pytest.mark.slow)])
+def test_moments_of_the_error_are_their_integrals(number: int) -> None:
+    for sizes, law, _ in laws(33, number, 1e3, friction=0.0):
+        pair = Pair.of(sizes)
+
+        def over_the_path(what, pair=pair):
+            return (
+                sum(
+                    mp.quad(lambda x, s=s: what(pair.angle(x, s.phase) - pair.ratio * x), [s.end, s.start])
+                    for s in pair.path
+                )
+                / pair.p1
+            )
+
+        mean = over_the_path(lambda lag: lag)
+        rms = mp.sqrt(over_the_path(lambda lag, mean=mean: (lag - mean) ** 2))
+        assert law.error_moments()[0] == pytest.approx(float(-mean), abs=1e-12 * sizes.p2)
+        assert law.error_moments()[1] == pytest.approx(float(rms), abs=1e-12 * sizes.p2)
+
+
+def test_the_least_efficiency_is_the_least_of_a_fine_scan() -> None:
+    for sizes, law, _ in laws(34, 20, 300):
+        S = np.linspace(0, law.period, 20001)
+        least = float(law.efficiency(S).min())
+        assert law.efficiency_least() == pytest.approx(least, abs=1e-4), sizes
+        assert law.efficiency_least() <= least + 1e-12, sizes
+        assert law.efficiency_least() > 0
+
+
+# ------------------------------------------------------------------------------------------------------- over pitches
+
+
+def test_the_mean_of_the_law_is_the_ratio_of_teeth() -> None:
+    """From any angle, a whole number of pitches turns the driven wheel by as many of its own."""
+    for kind in ("runs", "standstill"):
+        for sizes, law, random in laws(35, 15, 1e4, kind, 0.0):
+            assert law.ratio == Fraction(sizes.z1, sizes.z2)
+            assert law.period == pytest.approx(2 * pi / sizes.z1, rel=1e-15)
+            S, pitches = random.uniform(0, 1) * law.period, 10**6
+            turned = law.angle(S + pitches * law.period) - law.angle(S)
+            assert turned / (pitches * law.period) == pytest.approx(float(law.ratio), rel=1e-14), sizes
+
+
+def test_the_law_repeats_at_every_pitch() -> None:
+    for sizes, law, random in laws(36, 20, 1e4):
+        S = np.array([random.uniform(-1, 1) * law.period for _ in range(50)])
+        for pitches in (1, -7, 1000):
+            again = law.error(S + pitches * law.period)
+            assert np.abs(again - law.error(S)).max() < 1e-12 * sizes.p2, sizes
+
+
+def test_the_mean_speed_over_a_pitch_is_the_ratio() -> None:
+    for sizes, law, _ in laws(37, 25, 1e3):
+        points, weights = np.polynomial.legendre.leggauss(40)
+        edges = sorted({0.0, law.period, *(float(corner) % law.period for corner in corners(law))})
+        mean = sum(
+            (high - low) / 2 * float(weights @ law.speed((low + high) / 2 + (high - low) / 2 * points))
+            for low, high in pairwise(edges)
+            if high - low > 1e-13 * law.period
+        )
+        assert mean / law.period == pytest.approx(float(law.ratio), rel=1e-10), sizes
+
+
+def corners(law: TriangularLaw) -> list[float]:
+    return [end * -1.0 for interval in law.intervals for end in (interval.start, interval.end)]
+
+
+def test_speed_is_the_slope_of_the_angle() -> None:
+    for sizes, law, random in laws(38, 30, 1e3):
+        S = random.uniform(0, 1) * law.period
+        step = 1e-5 * law.period
+        if min(abs((S - corner + law.period / 2) % law.period - law.period / 2) for corner in corners(law)) < 2 * step:
+            continue
+        slope = (law.error(S + step) - law.error(S - step)) / (2 * step) + float(law.ratio)
+        assert float(law.speed(S)) == pytest.approx(slope, rel=1e-7), sizes
+
+
+def test_backwards_the_back_flanks_drive() -> None:
+    """angle_back(S) = p2 - angle_forward(-S)."""
+    for kind in ("runs", "standstill"):
+        for sizes, law, random in laws(39, 15, 1e3, kind):
+            back = TriangularLaw(sizes, 0.2, -1)
+            S = np.array([random.uniform(-2, 2) * law.period for _ in range(200)])
+            assert np.abs(back.angle(S) - (sizes.p2 - law.angle(-S))).max() < 1e-13 * sizes.p2 + 1e-15
+            assert np.array_equal(back.speed(S), law.speed(-S))
+            assert np.array_equal(back.efficiency(S), law.efficiency(-S), equal_nan=True)
+            play = back.angle(S) - law.angle(S)
+            assert play.min() >= law.verdict.play - 1e-12 * sizes.p2
+            low, high = back.error_range()
+            assert (low, high) == pytest.approx(
+                (sizes.p2 - law.error_range()[1], sizes.p2 - law.error_range()[0]), abs=1e-15 + 1e-13 * sizes.p2
+            )
+
+
+def test_any_shape_of_angles_gives_that_shape() -> None:
+    law = TriangularLaw(equally_deep(48, 96, 0.01), 0.2)
+    S = np.linspace(-3, 9, 40000).reshape(8, 50, 100)
+    for what in (law.error, law.speed, law.efficiency, law.alpha1):
+        assert what(S).shape == S.shape
+        assert what(S)[3, 7, 9] == what(S[3, 7, 9])
+    assert law.error(0.5).shape == ()
+
+
+# ----------------------------------------------------------------------------------------------------------- collisions
+
+
+def test_collisions_share_the_work_of_the_driver() -> None:
+    """Handed to the driven side, J w^2 (after^2 - before^2)/2; dissipated, J w^2 (after - before)^2/2."""
+    for kind in ("runs", "standstill"):
+        for sizes, law, random in laws(40, 10, 1e3, kind):
+            inertia, omega = random.uniform(0.01, 3), random.uniform(0.1, 20)
+            pairs = Pair.of(sizes).jumps
+            handed, dissipated, work = law.impact(inertia, omega)
+            scale = inertia * omega**2
+            assert handed == pytest.approx(float(sum(b**2 - a**2 for a, b in pairs) / 2) * scale, rel=1e-9)
+            assert dissipated == pytest.approx(float(sum((b - a) ** 2 for a, b in pairs) / 2) * scale, rel=1e-9)
+            assert work == pytest.approx(float(sum(b * (b - a) for a, b in pairs)) * scale, rel=1e-9)
+            assert handed + dissipated == pytest.approx(work, rel=1e-14)
+            assert dissipated > 0
+
+
+def test_in_every_collision_the_driven_wheel_is_the_slower() -> None:
+    for _, law, _ in laws(41, 40, 1e4):
+        assert law.jumps
+        assert all(0 < jump.value < 1 for jump in law.jumps)
+
+
+def test_the_steepest_fall_is_the_steepest_of_a_scan() -> None:
+    for sizes, law, _ in laws(42, 15, 300):
+        S = np.linspace(0, law.period, 20001)
+        speed = law.speed(S)
+        smooth = np.abs(np.diff(law.alpha1(S)) + np.diff(S)) < 1e-9 * law.period
+        fall = (-np.diff(speed) / np.diff(S))[smooth]
+        fall = fall[fall < 4 * np.median(np.abs(fall)) + 10 * law.steepest_fall()]
+        cut = np.sort(fall)[: -8 * len(law.intervals)]
+        assert law.steepest_fall() >= max(0.0, cut.max()) * (1 - 1e-3), sizes
+
+
+# --------------------------------------------------------------------------------------------------------- standstills
+
+
+def test_a_driven_wheel_that_stands_never_turns_back_nor_lags() -> None:
+    for sizes, law, _ in laws(43, 25, 300, "standstill", 0.0):
+        S = np.linspace(-1.3 * law.period, 2.1 * law.period, 4001)
+        q = law.angle(S)
+        assert np.diff(q).min() >= -1e-12 * sizes.p2, sizes
+        first = first_of_all(Pair.of(sizes, np), -S)
+        assert (-q <= first + 1e-10 * sizes.p2).all(), sizes
+        still = law.speed(S) == 0
+        assert still.any() or law.verdict.idle < 1e-3 * law.period
+        assert np.isnan(law.efficiency(S)[still]).all()
+        assert not np.isnan(law.efficiency(S)[~still]).any()
+        assert law.speed_range()[0] == 0.0
+        idle = sum(interval.width for interval in law.intervals if interval.held is not None)
+        assert law.verdict.idle == pytest.approx(idle, rel=1e-12)
+        assert sum(interval.width for interval in law.intervals) == pytest.approx(law.period, rel=1e-12)
+
+
+def test_astride_the_efficiency_is_the_highest_of_the_source() -> None:
+    means = [TriangularLaw(equally_deep(z1, z2, excess), 0.2).efficiency_mean() for z1, z2, excess, *_ in MORE_DIGITS]
+    assert max(means) == means[-1]
+    assert [interval.phase for interval in TriangularLaw(equally_deep(48, 96, 0.01)).intervals] == [RECESS]

@@ -1,0 +1,437 @@
+"""The real path against every couple at 50 digits, the verdicts against a scan and against overlapping outlines."""
+
+from __future__ import annotations
+
+from math import inf, pi, radians
+from random import Random
+from typing import Any
+from unittest.mock import patch
+
+import numpy as np
+import pytest
+from mechanics import overlap
+from sorge import (
+    Pair,
+    Segment,
+    angles,
+    drawn,
+    entry_margin,
+    exit_margin,
+    first_of_all,
+    least_play,
+    mp,
+    verdict,
+)
+
+from geartrain.teeth.triangular.contact import Couple
+from geartrain.teeth.triangular.law import TriangularLaw
+from geartrain.teeth.triangular.meshing import Contact, find_window
+from geartrain.teeth.triangular.path import Interval, RealPath
+from geartrain.teeth.triangular.sizes import Sizes, equal_depth, pitch_true
+
+THIRTY = radians(30)
+TABLE = [
+    (45, 225, 1.00269, 1.0153, "standstill", 1.0196),
+    (64, 38, 1.00404, 1.0433, "clash", 1.0498),
+    (48, 24, 1.00809, 1.0518, "clash", 1.0685),
+    (127, 32, 1.00495, 1.0237, "clash", 1.0327),
+    (48, 96, 1.00271, 1.0313, "standstill", 1.0360),
+    (15, 60, 1.01475, 1.0313, "standstill", 1.0660),
+    (57, 15, 1.01494, 1.0329, "clash", 1.0685),
+    (20, 60, 1.01031, 1.0390, "standstill", 1.0622),
+    (17, 140, 1.00914, 1.0150, "standstill", 1.0331),
+    (96, 96, 1.00080, 1.0268, "standstill", 1.0273),
+]
+
+
+def equally_deep(z1: int, z2: int, beta: float = THIRTY, excess: float = 0.0) -> Sizes:
+    return Sizes(z1, z2, *equal_depth(z1, z2, beta, beta), beta, beta, excess)
+
+
+def leans(sizes: Sizes) -> bool:
+    """Whether a flank leans beyond the perpendicular where tips meet."""
+    return max(sizes.beta1, sizes.beta2) + sizes.reach1 + sizes.reach2 > pi / 2
+
+
+def few_teeth(random: Random, most: int = 12) -> Sizes:
+    """Few teeth, any apertures, and radii up to a third from pitch-true."""
+    while True:
+        z1, z2 = random.randint(3, most), random.randint(3, most)
+        beta1, beta2 = (radians(random.uniform(1, 0.999 * (90 - 180 / z))) for z in (z1, z2))
+        radii = random.choice(
+            [equal_depth(z1, z2, beta1, beta2), pitch_true(z1, z2), (1.0, z2 / z1 * random.uniform(0.7, 1.4))]
+        )
+        sizes = Sizes(z1, z2, *radii, beta1, beta2, 0.0)
+        return sizes.at(sizes.greatest_excess * random.uniform(0.001, 0.999))
+
+
+# ------------------------------------------------------------------------------------------------------- at 50 digits
+
+
+def aligned(path: list[Segment], intervals: tuple[Interval, ...]) -> list[Segment]:
+    """The reference's segments in the order of the intervals: both begin anywhere in the pitch."""
+    assert len(path) == len(intervals), (path, intervals)
+    for at in range(len(path)):
+        turned = path[at:] + path[:at]
+        if all(
+            one.phase == other.phase and abs(float(one.end) - other.end) < 1e-3 * abs(float(one.start - one.end)) + 1e-9
+            for one, other in zip(turned, intervals, strict=True)
+        ):
+            return turned
+    raise AssertionError((path, intervals))
+
+
+CASES = [
+    pytest.param(1e3, 80, 1e-12),
+    pytest.param(1e6, 30, 1e-10),
+    pytest.param(1e3, 4000, 1e-12, marks=pytest.mark.slow),
+    pytest.param(1e6, 1000, 1e-10, marks=pytest.mark.slow),
+]
+
+
+@pytest.mark.parametrize(("most", "number", "of_jumps"), CASES)
+def test_switches_and_jumps_at_50_digits(most: float, number: int, of_jumps: float) -> None:
+    """A switch is conditioned by the couple farther from the line of centres, and by how much the speed changes."""
+    random = Random(11)
+    while number:
+        sizes = Sizes(*drawn(random, most, "near"))
+        if leans(sizes):
+            continue
+        number -= 1
+        pair, law = Pair.of(sizes), TriangularLaw(sizes)
+        path = aligned(pair.path, law.intervals)
+        jumps = {jump.alpha1: jump.value for jump in law.jumps}
+        left = float((pair.R1 + pair.R2 - pair.D) / pair.h)
+        for at, (true, interval) in enumerate(zip(path, law.intervals, strict=True)):
+            assert (interval.held is None) == (true.held is None)
+            if true.held is not None:
+                assert abs(interval.held - true.held) < 1e-12 * pair.p2
+                continue
+            last = path[at - 1]
+            before = mp.mpf(0) if last.held is not None else pair.speed(last.end, last.phase)
+            jump = 1 - before / pair.speed(true.start, true.phase)
+            far = max(abs(true.start), abs(last.end)) / pair.p1
+            allowed = max(1e-13, 1e-15 * float(far / abs(jump)) / min(1, 100 * left))
+            assert abs(interval.start - true.start) <= allowed * pair.p1, (sizes, float(jump))
+            assert abs(jumps[interval.start] - jump) <= of_jumps, (sizes, float(jump))
+
+
+# -------------------------------------------------------------------------------------------------- every couple
+
+
+@pytest.mark.parametrize("number", [pytest.param(250), pytest.param(8000, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("teeth", ["few", "any"])
+def test_the_lowest_couple_is_the_lowest_of_all(teeth: str, number: int) -> None:
+    """Found among the ends and the bottom of each piece; told by a scan of every couple."""
+    random = Random(12)
+    for _ in range(number):
+        sizes = few_teeth(random) if teeth == "few" else Sizes(*drawn(random, 300))
+        pair, path = Pair.of(sizes, np), RealPath(sizes)
+        t = (np.arange(24) + 0.37) / 24 * pair.p1
+        true = first_of_all(pair, t)
+        lowest = np.array([path.lowest(float(at)) for at in t]) + pair.ratio * t
+        envelope = np.full(len(t), inf)
+        for interval in path.envelope:
+            x = interval.start - np.mod(interval.start - t, pair.p1)
+            inside = x >= interval.end
+            y = [path.couple.angle(interval.phase, float(at)) for at in x[inside]]
+            envelope[inside] = np.minimum(envelope[inside], y - np.round((x - t) / pair.p1)[inside] * pair.p2)
+        for found in (lowest, envelope):
+            assert (np.isfinite(found) == np.isfinite(true)).all(), sizes
+            there = np.isfinite(true)
+            assert np.abs(found[there] - true[there]).max(initial=0) < 1e-10 * pair.p2, sizes
+
+
+def test_the_work_does_not_grow_with_the_number_of_couples() -> None:
+    """A law needs about as many angles with a thousand couples in reach as with three."""
+    counts, reaches = [], []
+    for z in (50, 1000, 10**5, 10**6):
+        with patch.object(Couple, "angle", autospec=True, side_effect=Couple.angle) as angle:
+            law = TriangularLaw(equally_deep(z, 3 * z, THIRTY, 0.2 / z), 0.2)
+            assert law.verdict.kind in ("runs", "jam")
+            counts.append(angle.call_count)
+        reaches.append(law.sizes.reach1 / law.sizes.p1)
+    assert reaches[-1] > 100 * reaches[0]
+    assert max(counts) < 3 * min(counts) < 3000, counts
+
+
+# ------------------------------------------------------------------------------------------------------------ outlines
+
+
+def lenses(pair: Pair, t: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Whether some two teeth overlap, f(x) < y < -f(-x), and how far y is from the nearest such bound (pitches)."""
+    inside, margin = np.zeros(len(t), bool), np.ones(len(t))
+    for k in range(int(np.floor(-pair.amax / pair.p1)) - 1, int(np.ceil(pair.amax / pair.p1)) + 1):
+        x = t + k * pair.p1
+        near = np.abs(x) <= pair.amax
+        if not near.any():
+            continue
+        low, high = angles(pair, x[near]), -angles(pair, -x[near])
+        turned = y[near] + np.ceil((low - y[near]) / pair.p2) * pair.p2
+        inside[near] |= turned < high
+        for bound in (low, high):
+            off = (bound - y[near]) / pair.p2
+            margin[near] = np.minimum(margin[near], np.abs(off - np.round(off)))
+    return inside, margin
+
+
+@pytest.mark.parametrize("number", [pytest.param(100), pytest.param(3000, marks=pytest.mark.slow)])
+def test_wheels_overlap_where_the_law_forbids_it(number: int) -> None:
+    """Random positions of both wheels. Free of overlap: between the back flanks and the front flanks.
+
+    A pair that jams, clashes or stands still has also pockets and passages, free but beyond its law.
+    """
+    random, positions = Random(13), np.random.default_rng(13)
+    kinds: dict[str, int] = {}
+    while number:
+        sizes = few_teeth(random, 60) if number % 3 else Sizes(*drawn(random, 100, "near"))
+        if leans(sizes):
+            continue
+        number -= 1
+        pair, path, kind = Pair.of(sizes, np), RealPath(sizes), Contact(sizes).verdict.kind
+        t = positions.uniform(0, pair.p1, 150)
+        upper = np.array([path.lowest(float(at)) for at in t]) + pair.ratio * t
+        lower = -np.array([path.lowest(float(-at)) for at in t]) + pair.ratio * t - pair.p2
+        around = np.where(positions.random(150) < 0.5, upper, lower)
+        y = np.where(
+            np.isfinite(around) & (positions.random(150) < 0.7),
+            around + pair.p2 * positions.normal(0, 0.03, 150),
+            positions.uniform(-1, 1, 150) * pair.p2,
+        )
+        overlapping = overlap(sizes, t, y)
+        inside, margin = lenses(pair, t, y)
+        sure = margin > 1e-9
+        assert (overlapping == inside)[sure].all(), sizes
+        both = np.isfinite(upper) & np.isfinite(lower) & sure
+        shifted = y[both] + np.floor((upper - y)[both] / pair.p2) * pair.p2
+        lawful = shifted >= lower[both]
+        assert not (overlapping[both] & lawful).any(), sizes
+        if kind == "runs":
+            assert both[sure].all()
+            assert (overlapping[both] != lawful).all(), sizes
+        kinds[kind] = kinds.get(kind, 0) + 150
+    assert min(kinds.get(kind, 0) for kind in ("runs", "jam", "clash", "standstill")) >= 450, kinds
+
+
+@pytest.mark.parametrize("number", [pytest.param(60), pytest.param(2000, marks=pytest.mark.slow)])
+def test_a_pair_that_runs_is_right_where_flanks_lean_too(number: int) -> None:
+    """Few deep teeth, whose flanks reach beyond the meeting of the tip circles."""
+    random, positions = Random(14), np.random.default_rng(14)
+    while number:
+        sizes = few_teeth(random, 30)
+        if not leans(sizes) or Contact(sizes).verdict.kind != "runs":
+            continue
+        number -= 1
+        path = RealPath(sizes)
+        t = positions.uniform(0, sizes.p1, 100)
+        upper = np.array([path.lowest(float(at)) for at in t]) + sizes.ratio * t
+        lower = -np.array([path.lowest(float(-at)) for at in t]) + sizes.ratio * t - sizes.p2
+        y = positions.uniform(lower - 0.1 * sizes.p2, upper + 0.1 * sizes.p2)
+        y = np.where(positions.random(100) < 0.5, np.maximum(y, upper - 0.02 * sizes.p2), y)
+        shifted = y + np.floor((upper - y) / sizes.p2) * sizes.p2
+        sure = np.minimum(np.abs(shifted - lower), upper - shifted) > 1e-9 * sizes.p2
+        assert (overlap(sizes, t, y) != (shifted >= lower))[sure].all(), sizes
+
+
+# ------------------------------------------------------------------------------------------------------------ verdicts
+
+
+@pytest.mark.parametrize("number", [pytest.param(250), pytest.param(6000, marks=pytest.mark.slow)])
+def test_verdicts_are_those_of_a_scan(number: int) -> None:
+    random = Random(15)
+    kinds: dict[str, int] = {}
+    while number:
+        sizes = few_teeth(random, 40) if number % 2 else Sizes(*drawn(random, 200, "near"))
+        if leans(sizes):
+            continue
+        number -= 1
+        true = verdict(Pair.of(sizes, np))
+        if true:
+            assert Contact(sizes).verdict.kind == true, sizes
+            kinds[true] = kinds.get(true, 0) + 1
+    assert min(kinds.get(kind, 0) for kind in ("runs", "jam", "clash", "standstill")) >= 5, kinds
+
+
+@pytest.mark.parametrize("number", [pytest.param(120), pytest.param(3000, marks=pytest.mark.slow)])
+def test_the_play_is_that_of_a_scan(number: int) -> None:
+    random = Random(16)
+    while number:
+        sizes = Sizes(*drawn(random, 200, "near"))
+        contact = Contact(sizes)
+        if leans(sizes) or contact.verdict.kind not in ("runs", "jam") or contact.dragged.clash:
+            continue
+        number -= 1
+        assert contact.play == pytest.approx(least_play(Pair.of(sizes, np)), abs=1e-9 * sizes.p2), sizes
+
+
+def test_the_angle_lost_is_the_step_up_of_the_first_couple() -> None:
+    random, number = Random(17), 60
+    while number:
+        sizes = Sizes(*drawn(random, 200, "near"))
+        contact = Contact(sizes)
+        if leans(sizes) or contact.verdict.kind != "standstill" or contact.dragged.arrested:
+            continue
+        number -= 1
+        pair = Pair.of(sizes)
+        held = [segment for segment in pair.path if segment.held is not None]
+        idle = sum(segment.start - segment.end for segment in held)
+        assert contact.verdict.idle == pytest.approx(float(idle), rel=1e-9, abs=1e-9 * sizes.p1)
+        step = -exit_margin(Pair.of(sizes, np))
+        if len(held) == 1 and step < inf:
+            assert contact.verdict.lost == pytest.approx(step, abs=1e-9 * sizes.p2), sizes
+
+
+def test_overhang_is_a_path_that_uses_a_leaning_flank_at_its_end() -> None:
+    random, number = Random(18), 60
+    kinds = set()
+    while number:
+        sizes = few_teeth(random, 30)
+        pair = Pair.of(sizes)
+        if not leans(sizes) or pair.R1 * mp.sin(pair.b1) + pair.R2 >= pair.D:
+            continue
+        number -= 1
+        over1, over2 = (beta + pair.tips > mp.pi / 2 for beta in (pair.b1, pair.b2))
+        used = [segment for segment in pair.path if segment.held is None]
+        true = any(
+            (over1 and abs(s.start - pair.entry) < 1e-6 * pair.p1)
+            or (over2 and abs(s.end - pair.exit) < 1e-6 * pair.p1)
+            for s in used
+        )
+        kind = Contact(sizes).verdict.kind
+        assert (kind == "overhang") == true, sizes
+        kinds.add(kind)
+    assert {"overhang", "runs"} <= kinds
+
+
+@pytest.mark.parametrize("z", [3, 4, 5, 18, 1000])
+def test_teeth_without_a_valley_are_refused(z: int) -> None:
+    most = pi / 2 - pi / z
+    for beta, kind in ((most * (1 + 1e-12), "no valley"), (min(most * 1.1, 1.57), "no valley")):
+        assert Contact(Sizes(z, 3 * z, 1.0, 3.0, beta, 0.5, 1e-6)).verdict.kind == kind
+        assert Contact(Sizes(3 * z, z, 3.0, 1.0, 0.5, beta, 1e-6)).verdict.kind == kind
+    assert Contact(Sizes(z, 3 * z, 1.0, 3.0, most * 0.98, 0.5, 1e-6)).verdict.kind != "no valley"
+
+
+def test_beyond_the_reach_the_wheels_are_apart() -> None:
+    random = Random(19)
+    for _ in range(50):
+        sizes = Sizes(*drawn(random, 1e4))
+        beyond = sizes.at(sizes.greatest_excess * (1 + 1e-9))
+        assert not Pair.of(beyond).touches
+        assert Contact(beyond).verdict.kind == "apart"
+        assert Pair.of(sizes).touches
+
+
+# ------------------------------------------------------------------------------------------------------------- windows
+
+
+def bisected(margin: Any, sizes: Sizes, low: float, high: float) -> float:
+    """Where a margin of the scan first changes its sign."""
+
+    def positive(excess: float) -> bool:
+        return bool(margin(Pair.of(sizes.at(excess), np)) > 0)
+
+    at_low, step = positive(low), (high - low) / 60
+    while positive(low + step) == at_low:
+        low += step
+        assert low < high
+    high = low + step
+    for _ in range(45):
+        middle = (low + high) / 2
+        low, high = (middle, high) if positive(middle) == at_low else (low, middle)
+    return (low + high) / 2
+
+
+@pytest.mark.parametrize(("z1", "z2", "jam", "run", "kind", "reach"), TABLE)
+def test_windows_of_ancient_pairs(z1: int, z2: int, jam: float, run: float, kind: str, reach: float) -> None:
+    sizes = equally_deep(z1, z2)
+    window = find_window(sizes)
+    assert (round(1 + window.jam, 5), round(1 + window.run, 4), round(1 + window.reach, 4)) == (jam, run, reach)
+    assert window.run_kind == kind
+    assert window.reach == pytest.approx(float(Pair.of(sizes).h / Pair.of(sizes).least), rel=1e-14)
+    assert window.jam == pytest.approx(bisected(least_play, sizes, 1e-6, window.reach / 2), abs=1e-9)
+    margin = entry_margin if kind == "clash" else exit_margin
+    assert window.run == pytest.approx(bisected(margin, sizes, window.jam, window.reach * 0.9999), abs=1e-9)
+
+
+def test_no_clearance_works_for_8_and_64() -> None:
+    window = find_window(equally_deep(8, 64))
+    assert not window
+    assert (round(window.jam, 4), round(window.run, 4)) == (0.0278, 0.0009)
+    for share in np.linspace(0.001, 0.999, 200):
+        assert Contact(equally_deep(8, 64, THIRTY, window.reach * float(share))).verdict.kind != "runs"
+
+
+def test_15_to_53_and_45_to_225_share_hardly_any_clearance() -> None:
+    one, other = find_window(equally_deep(15, 53)), find_window(equally_deep(45, 225))
+    assert round(max(one.jam, other.jam), 5) == 0.01518
+    assert round(min(one.run, other.run), 5) == 0.01526
+
+
+def kinds_over_the_reach(sizes: Sizes, steps: int = 40) -> list[tuple[float, str]]:
+    reach = sizes.greatest_excess
+    shares = (np.arange(steps) + 0.5) / steps
+    return [(float(share * reach), Contact(sizes.at(float(share * reach))).verdict.kind) for share in shares]
+
+
+def agree(sizes: Sizes, steps: int = 40) -> bool:
+    """Whether a pair runs at just the clearances within its window."""
+    window = find_window(sizes)
+    return all(
+        (kind == "runs") == (window.jam < excess < window.run) for excess, kind in kinds_over_the_reach(sizes, steps)
+    )
+
+
+@pytest.mark.parametrize("number", [pytest.param(25), pytest.param(500, marks=pytest.mark.slow)])
+def test_equally_deep_teeth_of_ancient_shape_run_just_within_their_window(number: int) -> None:
+    random = Random(20)
+    for _ in range(number):
+        sizes = equally_deep(random.randint(12, 250), random.randint(12, 250), radians(random.uniform(20, 40)))
+        assert agree(sizes), sizes
+
+
+@pytest.mark.parametrize(("z1", "z2", "beta"), [(12, 22, 60.0), (161, 161, 44.6), (20, 20, 70.0)])
+def test_teeth_that_never_jam_have_a_window_from_0(z1: int, z2: int, beta: float) -> None:
+    sizes = equally_deep(z1, z2, radians(beta))
+    assert least_play(Pair.of(sizes.at(sizes.greatest_excess * 1e-6), np)) > 0
+    assert agree(sizes)
+
+
+@pytest.mark.parametrize(("z1", "z2", "beta"), [(26, 7, 18.76), (86, 3, 23.2)])
+def test_teeth_that_clash_at_every_clearance_have_no_window(z1: int, z2: int, beta: float) -> None:
+    assert agree(equally_deep(z1, z2, radians(beta)))
+
+
+@pytest.mark.parametrize(("z1", "z2", "beta"), [(20, 5, 47.9), (9, 8, 5.27)])
+def test_an_overhang_is_outside_the_window(z1: int, z2: int, beta: float) -> None:
+    assert agree(equally_deep(z1, z2, radians(beta)))
+
+
+@pytest.mark.parametrize(("z1", "z2", "beta"), [(25, 7, 11.7418), (25, 8, 9.4915)])
+def test_some_pairs_run_in_two_stretches_of_clearance(z1: int, z2: int, beta: float) -> None:
+    """The window is the first of them."""
+    sizes = Sizes(z1, z2, *pitch_true(z1, z2), radians(beta), radians(beta), 0.0)
+    window = find_window(sizes)
+    seen = []
+    for excess, kind in kinds_over_the_reach(sizes, 80):
+        assert kind == "runs" or not window.jam < excess < window.run
+        if not leans(sizes.at(excess)):
+            assert kind == (verdict(Pair.of(sizes.at(excess), np)) or kind)
+        if not seen or seen[-1] != kind:
+            seen.append(kind)
+    assert seen[-5:] == ["jam", "runs", "standstill", "runs", "standstill"]
+
+
+@pytest.mark.parametrize("number", [pytest.param(12), pytest.param(200, marks=pytest.mark.slow)])
+def test_play_grows_with_clearance(number: int) -> None:
+    """So that one clearance parts the pairs that jam from those that do not."""
+    random = Random(21)
+    while number:
+        sizes = Sizes(*drawn(random, 200, "near"))
+        if leans(sizes.at(sizes.greatest_excess * 1e-3)):
+            continue
+        number -= 1
+        plays = [
+            least_play(Pair.of(sizes.at(sizes.greatest_excess * share), np)) for share in np.linspace(0.01, 0.99, 9)
+        ]
+        assert (np.diff(np.array(plays)[np.isfinite(plays)]) > 0).all(), sizes

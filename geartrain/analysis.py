@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from geartrain.graph import Graph
     from geartrain.meshes import Mesh, PinJoint
     from geartrain.speeds import FloatSpeeds
+    from geartrain.torques import Setting, Torques
 
 Method = Literal["auto", "exact", "floats"]
 
@@ -110,6 +111,34 @@ class GearTrain:
         from geartrain.meshes import find_pins
 
         return find_pins(self.declaration)
+
+    def torques(self, state: str | None = None) -> Torques:
+        """Torques on links and pairs, and the flow of power, under the loads of one state."""
+        from geartrain.torques import Torques, TorqueVerdict, find_torques
+
+        setting = self._setting(state)
+        if setting is None:
+            return Torques(state, TorqueVerdict("still", "the speeds of this state are not determined"))
+        return find_torques(setting)
+
+    def driven(self, load: str, source: str, state: str | None = None) -> Torques:
+        """Torques while a unit of power leaves at `load`, driven from `source`: efficiency, or self-locking."""
+        from geartrain.torques import Torques, TorqueVerdict, drive
+
+        setting = self._setting(state)
+        if setting is None:
+            return Torques(state, TorqueVerdict("still", "the speeds of this state are not determined"))
+        return drive(setting, load, source)
+
+    def _setting(self, state: str | None) -> Setting | None:
+        from geartrain.torques import Setting
+
+        case = self._case(state)
+        answer = self.solve(case.state, method="exact")
+        if not answer.verdict:
+            return None
+        speeds = {link: Fraction(speed) for link, speed in answer.speeds.items()}
+        return Setting(self.declaration, self.tree, self.circuits, self.signs, case, speeds, self.meshes)
 
     def equations(self, state: str | None = None) -> System:
         """The labelled Willis system of one state."""

@@ -44,6 +44,13 @@ class Mesh:
         first, second = self.gear.pair
         return second if self.driver == first else first
 
+    @cached_property
+    def reversed(self) -> TriangularLaw:
+        """The law with the other wheel driving."""
+        from geartrain.teeth.triangular.law import TriangularLaw
+
+        return TriangularLaw(self.law.sizes.swapped(), self.law.friction, self.law.direction)
+
     @property
     def verdict(self) -> Meshing:
         """Whether these teeth can turn."""

@@ -8,6 +8,7 @@ from geartrain.report.data import train_data
 from geartrain.report.document import Document, Section, Table
 from geartrain.report.meshing import Running, mesh_document
 from geartrain.report.pins import pin_data, pin_document
+from geartrain.report.power import torques_data, torques_document
 from geartrain.report.rendering import to_html, to_markdown, to_terminal
 from geartrain.report.teeth import mesh_data
 
@@ -25,5 +26,7 @@ __all__ = [
     "to_html",
     "to_markdown",
     "to_terminal",
+    "torques_data",
+    "torques_document",
     "train_data",
 ]

@@ -109,7 +109,7 @@ from geartrain import load
 from geartrain.report import train_data
 data = train_data(load("pennestri-2002"))
 assert data["teeth"] == data["pins"] == []
-print([name for name in sys.modules if name in ("numpy", "scipy", "geartrain.teeth.base", "geartrain.pins.laws")])
+print([name for name in sys.modules if name in ("numpy", "scipy", "geartrain.teeth.triangular.law", "geartrain.pins.laws")])
 """
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout.strip() == "[]"
@@ -126,3 +126,17 @@ print([name for name in sys.modules if name in heavy], "numpy" in sys.modules)
 """
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout.strip() == "[] True"
+
+
+def test_ideal_teeth_have_the_law_of_their_counts_and_import_nothing() -> None:
+    code = """
+import sys
+from geartrain.teeth import Ideal
+laws = [Ideal(form="ideal").law(20, 60, driver=driver) for driver in (1, 2)]
+assert [str(law.ratio) for law in laws] == ['1/3', '3']
+assert [law.error_range() for law in laws] == [(0.0, 0.0)] * 2
+assert "numpy" not in sys.modules
+print(laws[0].angle([0.0, 3.0]).tolist(), laws[1].efficiency(0.5))
+"""
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == "[0.0, 1.0] 1.0"

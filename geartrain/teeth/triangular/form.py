@@ -20,7 +20,9 @@ _ONE_OR_TWO = {
     "anyOf": [{"type": "string"}, {"type": "array", "items": {"type": "string"}, "minItems": 2, "maxItems": 2}]
 }
 FEWEST = 3
-COVERS = "the model covers external pairs of spur wheels; a contrate is taken for a spur wheel"
+COVERS = (
+    "the model covers external pairs of spur wheels, no rings, racks or bevels; a contrate is taken for a spur wheel"
+)
 
 
 def _one_per_wheel(raw: object) -> object:

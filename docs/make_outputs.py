@@ -76,7 +76,9 @@ def run(command: str, folder: Path, status: int = 0) -> tuple[list[str], int]:
     raw = b"".join(_read(ours))
     text = _ESCAPES.sub("", raw.decode("utf-8")).replace("\r\n", "\n")
     text = text.replace(f"{folder}/", "").replace(f"{ROOT}/", "")
-    return [line.rstrip() for line in text.rstrip().split("\n")] if text.strip() else [], process.wait()
+    # a progress bar overwrites itself, and is gone in the end
+    lines = [line.split("\r")[-1].rstrip() for line in text.rstrip().split("\n") if "━" not in line]
+    return lines if text.strip() else [], process.wait()
 
 
 def _read(descriptor: int) -> Iterator[bytes]:

@@ -22,6 +22,7 @@ from geartrain.train import Case, Train, declare, suggest
 if TYPE_CHECKING:
     from geartrain.graph import Graph
     from geartrain.meshes import Mesh, PinJoint
+    from geartrain.motion import Motion
     from geartrain.speeds import FloatSpeeds
     from geartrain.torques import Setting, Torques
 
@@ -129,6 +130,35 @@ class GearTrain:
         if setting is None:
             return Torques(state, TorqueVerdict("still", "the speeds of this state are not determined"))
         return drive(setting, load, source)
+
+    def motion(self, state: str | None = None, outputs: Sequence[str] = ()) -> Motion:
+        """The motion of some outputs or links, by default of all outputs, with real teeth and pins."""
+        from geartrain.motion import Motion
+        from geartrain.motion import Train as Moving
+
+        case = self._case(state)
+        answer = self.solve(case.state, method="exact")
+        if not answer.verdict or not any(case.inputs.values()):
+            raise QuestionError(Problem(f"'{self.name}' does not move", answer.verdict.text, "drive it from an input"))
+        speeds = {link: Fraction(speed) for link, speed in answer.speeds.items()}
+        lead = next(link for link, speed in case.inputs.items() if speed)
+        moving = Moving(
+            self.equations(case.state),
+            frozenset(self._redundant(self._whole.reduced)),
+            self.circuits,
+            self.signs,
+            speeds,
+            lead,
+            self.meshes,
+            self.pins,
+            {},
+        )
+        names = outputs or tuple(case.outputs) or tuple(self.declaration.links)
+        wanted = {}
+        for name in names:
+            _, links = self._only(case, name)
+            wanted[name] = (links[0], links[1] if len(links) > 1 else self.declaration.frame)
+        return Motion(moving, wanted)
 
     def _setting(self, state: str | None) -> Setting | None:
         from geartrain.torques import Setting

@@ -146,10 +146,11 @@ def test_all_files_in_the_folder_of_trains_are_shipped_and_their_names_are_their
     assert len({path.stem for path in files}) == len(files)
 
 
+TRIALS = ("pennestri-2002", "moon-triangular")  # of no reconstruction of its own
 ANTIKYTHERA = sorted(path.stem for path in (TRAINS / "antikythera").glob("*.yaml"))
 
 
-@pytest.mark.parametrize("name", [name for name in ANTIKYTHERA if not name.startswith("pennestri-2002")])
+@pytest.mark.parametrize("name", [name for name in ANTIKYTHERA if not name.startswith(TRIALS)])
 def test_a_reconstruction_says_of_each_wheel_whether_it_survives(name: str) -> None:
     wheels = load(name).declaration.wheels
     assert {wheel.status for _, wheel in wheels.values()} <= {"surviving", "reconstructed", "hypothetical"}

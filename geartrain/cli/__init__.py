@@ -8,7 +8,7 @@ from typing import Annotated
 
 import typer
 
-from geartrain.cli import bench, check, compare, equations, graph, listing, mesh, report, schema, solve, torques
+from geartrain.cli import bench, check, compare, equations, graph, listing, mesh, motion, report, schema, solve, torques
 from geartrain.cli.common import NOT_USABLE, complain
 from geartrain.errors import GearTrainError, Problem
 
@@ -27,6 +27,7 @@ app.command("solve")(solve.run)
 app.command("equations")(equations.run)
 app.command("graph")(graph.run)
 app.command("torques")(torques.run)
+app.command("motion")(motion.run)
 app.command("schema")(schema.run)
 app.command("list")(listing.trains)
 app.command("periods")(listing.periods)

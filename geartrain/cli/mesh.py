@@ -82,12 +82,12 @@ def triangular(
     if plot is not None:
         from geartrain.plot import law_figure
 
-        _draw(law_figure(law), plot, picture)
+        draw(law_figure(law), plot, picture)
     if teeth_plot is not None:
         from geartrain.plot import teeth_figure
 
         angle = None if at is None else _quantity("--at", at, "angle")
-        _draw(teeth_figure(law, angle), teeth_plot, drawing)
+        draw(teeth_figure(law, angle), teeth_plot, drawing)
     raise typer.Exit(GOOD if law.verdict and law.friction < law.locking_friction else VERDICT)
 
 
@@ -251,7 +251,8 @@ def _page(
         show([report.mesh_document(law, found, running)], out, suffix)
 
 
-def _draw(figure: Any, path: Path, suffix: str) -> None:
+def draw(figure: Any, path: Path, suffix: str) -> None:
+    """A figure to a file, whole or not at all."""
     from geartrain.files import write_bytes
     from geartrain.plot import render
 
@@ -290,7 +291,7 @@ def _sweep(pair: _Pair, vary: list[str], plot: Path | None, picture: str, json: 
     if plot is not None:
         from geartrain.plot import sweep_figure
 
-        _draw(sweep_figure(found.parameters, found.columns, found.labels), plot, picture)
+        draw(sweep_figure(found.parameters, found.columns, found.labels), plot, picture)
 
 
 def _ranges(vary: list[str]) -> tuple[dict[str, list[float]], dict[str, str]]:

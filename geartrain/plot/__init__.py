@@ -11,13 +11,20 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from geartrain.plot.law import law_figure
+    from geartrain.plot.motion import motion_figure
     from geartrain.plot.rendering import render
     from geartrain.plot.sweep import sweep_figure
     from geartrain.plot.teeth import teeth_figure
 
-__all__ = ["law_figure", "render", "sweep_figure", "teeth_figure"]
+__all__ = ["law_figure", "motion_figure", "render", "sweep_figure", "teeth_figure"]
 
-_PLACES = {"law_figure": "law", "render": "rendering", "sweep_figure": "sweep", "teeth_figure": "teeth"}
+_PLACES = {
+    "law_figure": "law",
+    "motion_figure": "motion",
+    "render": "rendering",
+    "sweep_figure": "sweep",
+    "teeth_figure": "teeth",
+}
 
 
 def __getattr__(name: str) -> Any:

@@ -89,8 +89,8 @@ def test_more_digits_of_the_source(z1, z2, excess, speeds, efficiency, peak_to_p
 # ------------------------------------------------------------------------------------------------------- at 50 digits
 
 CASES = [
-    pytest.param(1e3, 30),
-    pytest.param(1e6, 12),
+    pytest.param(1e3, 15),
+    pytest.param(1e6, 8),
     pytest.param(1e3, 1500, marks=pytest.mark.slow),
     pytest.param(1e6, 500, marks=pytest.mark.slow),
 ]
@@ -148,9 +148,6 @@ def test_moments_of_the_error_are_their_integrals(number: int) -> None:
             assert law.error_moments() == pytest.approx(moments(pair), abs=1e-12 * sizes.p2), sizes
 
 
-@pytest.mark.xfail(
-    strict=True, reason="20 nodes on a stretch do not follow a flank that all but grazes the driven tips"
-)
 @pytest.mark.parametrize(
     "sizes",
     [
@@ -165,7 +162,7 @@ def test_moments_of_the_error_of_steep_flanks_are_their_integrals(sizes: Sizes) 
 
 
 def test_the_least_efficiency_is_the_least_of_a_fine_scan() -> None:
-    for sizes, law, _ in laws(34, 20, 300):
+    for sizes, law, _ in laws(34, 12, 300):
         S = np.linspace(0, law.period, 20001)
         least = float(law.efficiency(S).min())
         assert law.efficiency_least() == pytest.approx(least, abs=1e-4), sizes
@@ -179,7 +176,7 @@ def test_the_least_efficiency_is_the_least_of_a_fine_scan() -> None:
 def test_the_mean_of_the_law_is_the_ratio_of_teeth() -> None:
     """From any angle, a whole number of pitches turns the driven wheel by as many of its own."""
     for kind in ("runs", "standstill"):
-        for sizes, law, random in laws(35, 15, 1e4, kind, 0.0):
+        for sizes, law, random in laws(35, 10, 1e4, kind, 0.0):
             assert law.ratio == Fraction(sizes.z1, sizes.z2)
             assert law.period == pytest.approx(2 * pi / sizes.z1, rel=1e-15)
             S, pitches = random.uniform(0, 1) * law.period, 10**6
@@ -196,7 +193,7 @@ def test_the_law_repeats_at_every_pitch() -> None:
 
 
 def test_the_mean_speed_over_a_pitch_is_the_ratio() -> None:
-    for sizes, law, _ in laws(37, 25, 1e3):
+    for sizes, law, _ in laws(37, 12, 1e3):
         points, weights = np.polynomial.legendre.leggauss(40)
         edges = sorted({0.0, law.period, *(float(corner) % law.period for corner in corners(law))})
         mean = sum(
@@ -266,7 +263,7 @@ def test_collisions_share_the_work_of_the_driver() -> None:
 
 
 def test_in_every_collision_the_driven_wheel_is_the_slower() -> None:
-    for _, law, _ in laws(41, 40, 1e4):
+    for _, law, _ in laws(41, 25, 1e4):
         assert law.jumps
         assert all(0 < jump.value < 1 for jump in law.jumps)
 
@@ -286,7 +283,7 @@ def test_the_steepest_fall_is_the_steepest_of_a_scan() -> None:
 
 
 def test_a_driven_wheel_that_stands_never_turns_back_nor_lags() -> None:
-    for sizes, law, _ in laws(43, 25, 300, "standstill", 0.0):
+    for sizes, law, _ in laws(43, 15, 300, "standstill", 0.0):
         S = np.linspace(-1.3 * law.period, 2.1 * law.period, 4001)
         q = law.angle(S)
         assert np.diff(q).min() >= -1e-12 * sizes.p2, sizes

@@ -26,7 +26,9 @@ if TYPE_CHECKING:
     from geartrain.teeth.base import Floats
 
 _BLOCK = 16384  # samples worked on at once: their intermediate arrays stay in a cache
-_NODES = 20  # of Gauss and Legendre on each smooth stretch
+_GAUSS = np.polynomial.legendre.leggauss(20)  # nodes and weights on each smooth stretch
+_ROUNDING = 1e-14  # of the mean of tau: what a stretch may be off by
+_DEEPEST = 40  # halvings of a stretch
 
 
 @dataclass(frozen=True, slots=True)
@@ -181,11 +183,25 @@ class TriangularLaw(Law):
     @cached_property
     def nodes(self) -> list[tuple[Interval, Floats, Floats]]:
         """Each stretch with nodes in alpha_1 and weights whose sum over all stretches is 1."""
-        points, weights = np.polynomial.legendre.leggauss(_NODES)
-        return [
-            (interval, (high + low) / 2 + (high - low) / 2 * points, (high - low) / 2 / self.period * weights)
-            for interval, high, low in self.stretches
-        ]
+        return [node for interval, high, low in self.stretches for node in self._graded(interval, high, low)]
+
+    def _graded(
+        self, interval: Interval, high: float, low: float, depth: int = 0
+    ) -> list[tuple[Interval, Floats, Floats]]:
+        """Nodes on one stretch, halved until tau is integrated to rounding: near a grazing flank it is steep."""
+        x, weights = self._gauss(high, low)
+        middle = (high + low) / 2
+        halves = [self._gauss(high, middle), self._gauss(middle, low)]
+        whole = float(weights @ np.broadcast_to(self._tau(interval, x), x.shape))
+        finer = sum(float(w @ np.broadcast_to(self._tau(interval, y), y.shape)) for y, w in halves)
+        if abs(finer - whole) <= _ROUNDING * self.sizes.ratio or depth == _DEEPEST:
+            return [(interval, x, weights)]
+        ends = ((high, middle), (middle, low))
+        return [node for pair in ends for node in self._graded(interval, *pair, depth + 1)]
+
+    def _gauss(self, high: float, low: float) -> tuple[Floats, Floats]:
+        points, weights = _GAUSS
+        return (high + low) / 2 + (high - low) / 2 * points, (high - low) / 2 / self.period * weights
 
     def _ends(self, what: Callable[[Interval, Any], Any]) -> list[float]:
         return [float(what(interval, x)) for interval, high, low in self.stretches for x in (high, low)]

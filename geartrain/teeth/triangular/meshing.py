@@ -206,14 +206,14 @@ class Window:
     """Clearance factors between which a pair turns: above `jam`, up to `run`; beyond `reach` no tip touches.
 
     Each as excess, the factor less 1. `jam_kind` says what happens up to `jam`, `run_kind` beyond `run`. Empty where
-    run is below jam: no clearance works.
+    run is below jam: no clearance works. Where a pair runs in several stretches of clearance this is the first.
     """
 
     jam: float
     run: float
     run_kind: Literal["clash", "standstill"]
     reach: float
-    jam_kind: Literal["jam", "overhang"] = "jam"
+    jam_kind: Literal["jam", "overhang", "clash", "standstill"] = "jam"
 
     def __bool__(self) -> bool:
         return self.jam < self.run
@@ -234,11 +234,14 @@ def _window(sizes: Sizes) -> Window:
     jam = _least_excess(sizes)
     leaning = _leaning_excess(sizes, jam)
     low = max(jam, leaning)
-    clash = _greatest_excess(lambda excess: _entry(RealPath(sizes.at(excess))), low, reach)
-    still = _greatest_excess(lambda excess: _exit(RealPath(sizes.at(excess))), low, reach)
+    clash = _stretch(lambda excess: _entry(RealPath(sizes.at(excess))), low, reach)
+    still = _stretch(lambda excess: _exit(RealPath(sizes.at(excess))), low, reach)
     # equal wheels do both at once, and the driven wheel that stands lets the next tooth in
-    run_kind: Literal["clash", "standstill"] = "clash" if clash < still * (1 - 1e-9) else "standstill"
-    return Window(low, min(clash, still), run_kind, reach, "overhang" if leaning > jam else "jam")
+    run_kind: Literal["clash", "standstill"] = "clash" if clash[1] < still[1] * (1 - 1e-9) else "standstill"
+    starts: dict[Literal["jam", "overhang", "clash", "standstill"], float]
+    starts = {"jam": jam, "overhang": leaning, "clash": clash[0], "standstill": still[0]}
+    jam_kind = max(starts, key=lambda kind: starts[kind])
+    return Window(starts[jam_kind], min(clash[1], still[1]), run_kind, reach, jam_kind)
 
 
 def _least_excess(sizes: Sizes) -> float:
@@ -266,12 +269,17 @@ def _leaning_excess(sizes: Sizes, jam: float) -> float:
     return _first_sign_change(stands, low, reach)
 
 
-def _greatest_excess(margin: Callable[[float], float], low: float, reach: float) -> float:
-    """The excess up to which a margin holds, from 0 or, where leaning flanks deny it there, from `low`; else 0."""
+def _stretch(margin: Callable[[float], float], low: float, reach: float) -> tuple[float, float]:
+    """Where a margin first holds: from 0 or `low` if it does there, else from where it begins to; 0, 0 if never."""
     for start in (reach * _NEARLY_0, low * (1 + 1e-9)):
         if start < reach and margin(start) > 0:
-            return _first_sign_change(margin, start, reach)
-    return 0.0
+            return 0.0, _first_sign_change(margin, start, reach)
+    if low >= reach:
+        return 0.0, 0.0
+    start = _first_sign_change(margin, max(low * (1 + 1e-9), reach * _NEARLY_0), reach)
+    if start >= reach * (1 - 1e-6):
+        return 0.0, 0.0
+    return start, _first_sign_change(margin, start + 1e-9 * reach, reach)
 
 
 def _entry(path: RealPath) -> float:

@@ -15,7 +15,7 @@ from sorge import APPROACH, RECESS, Pair, drawn, mp
 from geartrain.teeth.triangular.contact import Couple
 from geartrain.teeth.triangular.sizes import Sizes, equal_depth, pitch_true
 
-MANY = [pytest.param(400), pytest.param(4000, marks=pytest.mark.slow)]
+MANY = [pytest.param(200), pytest.param(4000, marks=pytest.mark.slow)]
 STEEP = radians(84)
 
 

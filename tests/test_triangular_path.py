@@ -123,7 +123,7 @@ def test_switches_and_jumps_at_50_digits(most: float, number: int, of_jumps: flo
 # -------------------------------------------------------------------------------------------------- every couple
 
 
-@pytest.mark.parametrize("number", [pytest.param(150), pytest.param(8000, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("number", [pytest.param(90), pytest.param(8000, marks=pytest.mark.slow)])
 @pytest.mark.parametrize("teeth", ["few", "any"])
 def test_the_lowest_couple_is_the_lowest_of_all(teeth: str, number: int) -> None:
     """Found among the ends and the bottom of each piece; told by a scan of every couple."""
@@ -240,7 +240,7 @@ def test_a_pair_that_runs_is_right_where_flanks_lean_too(number: int) -> None:
 # ------------------------------------------------------------------------------------------------------------ verdicts
 
 
-@pytest.mark.parametrize("number", [pytest.param(150), pytest.param(6000, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("number", [pytest.param(90), pytest.param(6000, marks=pytest.mark.slow)])
 def test_verdicts_are_those_of_a_scan(number: int) -> None:
     random = Random(15)
     kinds: dict[str, int] = {}
@@ -256,7 +256,7 @@ def test_verdicts_are_those_of_a_scan(number: int) -> None:
     assert min(kinds.get(kind, 0) for kind in ("runs", "jam", "clash", "standstill")) >= 5, kinds
 
 
-@pytest.mark.parametrize("number", [pytest.param(70), pytest.param(3000, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("number", [pytest.param(40), pytest.param(3000, marks=pytest.mark.slow)])
 def test_the_play_is_that_of_a_scan(number: int) -> None:
     random = Random(16)
     while number:

@@ -75,6 +75,10 @@ def triangular(
     picture, drawing = suffix_of(plot, PICTURES) or ".svg", suffix_of(teeth_plot, PICTURES) or ".svg"
     pair = _Pair(teeth, half_angle, given, radii, module, friction, driver, -1 if backwards else 1)
     if vary:
+        if teeth_plot is not None:
+            raise typer.BadParameter(
+                "one pair is drawn, and a sweep has many: leave --vary out", param_hint="--teeth-plot"
+            )
         _sweep(pair, vary, plot, picture, json, out)
         return
     law = pair.law()

@@ -41,6 +41,7 @@ class GearTrain:
 
     def __init__(self, declaration: Train) -> None:
         self.declaration = declaration
+        self._settings: dict[str | None, Setting | None] = {}
 
     @classmethod
     def declare(cls, data: Mapping[str, Any]) -> GearTrain:
@@ -133,8 +134,7 @@ class GearTrain:
 
     def motion(self, state: str | None = None, outputs: Sequence[str] = ()) -> Motion:
         """The motion of some outputs or links, by default of all outputs, with real teeth and pins."""
-        from geartrain.motion import Motion
-        from geartrain.motion import Train as Moving
+        from geartrain.motion import Motion, Moving
 
         case = self._case(state)
         answer = self.solve(case.state, method="exact")
@@ -151,7 +151,6 @@ class GearTrain:
             lead,
             self.meshes,
             self.pins,
-            {},
         )
         names = outputs or tuple(case.outputs) or tuple(self.declaration.links)
         wanted = {}
@@ -161,9 +160,14 @@ class GearTrain:
         return Motion(moving, wanted)
 
     def _setting(self, state: str | None) -> Setting | None:
+        """What torques need to know of one state, solved once; None where its speeds are not determined."""
+        if state not in self._settings:
+            self._settings[state] = self._make_setting(self._case(state))
+        return self._settings[state]
+
+    def _make_setting(self, case: Case) -> Setting | None:
         from geartrain.torques import Setting
 
-        case = self._case(state)
         answer = self.solve(case.state, method="exact")
         if not answer.verdict:
             return None

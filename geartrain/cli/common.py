@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from geartrain.report import Document
 
 GOOD, VERDICT, NOT_USABLE = 0, 1, 2
+PICTURES = (".svg", ".png", ".pdf")
 
 File = Annotated[str, typer.Argument(help="A YAML declaration, or the name of a shipped train.", metavar="FILE")]
 Files = Annotated[list[str], typer.Argument(help="YAML declarations, or names of shipped trains.", metavar="FILE")]
@@ -70,6 +71,15 @@ def show(documents: Sequence[Document], out: Path | None, suffix: str) -> None:
         report.to_terminal(documents, Console(highlight=False))
     else:
         emit(report.to_markdown(documents), out)
+
+
+def draw(figure: Any, path: Path, suffix: str) -> None:
+    """A figure to a file, whole or not at all."""
+    from geartrain.files import write_bytes
+    from geartrain.plot import render
+
+    write_bytes(path, render(figure, suffix))
+    typer.echo(f"wrote {path}", err=True)
 
 
 def suffix_of(out: Path | None, allowed: Iterable[str]) -> str:

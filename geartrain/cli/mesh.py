@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from geartrain.cli.common import GOOD, VERDICT, Json, Out, as_json, emit, show, suffix_of
+from geartrain.cli.common import GOOD, PICTURES, VERDICT, Json, Out, as_json, draw, emit, show, suffix_of
 from geartrain.errors import GearTrainError, Problem
 
 if TYPE_CHECKING:
@@ -17,7 +17,6 @@ if TYPE_CHECKING:
     from geartrain.teeth.triangular.sweep import Sweep
 
 app = typer.Typer(help="What the teeth of one pair do within a pitch.", no_args_is_help=True)
-PICTURES = (".svg", ".png", ".pdf")
 _VARIED = ("half_angle", "clearance", "excess", "window", "backlash", "centre_distance", "friction", "z1", "z2")
 _FORM = _VARIED[:-3]
 
@@ -223,7 +222,7 @@ def _quantity(place: str, text: str, dimension: str, plain: bool = False) -> flo
         found = Quantity.parse(text, dimension, plain)
     except PydanticCustomError as error:
         raise GearTrainError(Problem(error.message(), "", str((error.context or {}).get("fix", "")), place)) from None
-    return float(found.value) if found.unit is None else found.si
+    return found.si
 
 
 def _friction(text: str) -> float:
@@ -239,12 +238,13 @@ def _page(
     pair: _Pair, law: TriangularLaw, run: tuple[str | None, str | None, str | None], json: bool, out: Out
 ) -> None:
     from geartrain import report
+    from geartrain.quantity import RADIANS_PER_TURN
     from geartrain.teeth.triangular.meshing import find_window
 
     inertia, rate, load = run
     running = report.Running(
         None if inertia is None else _quantity("--inertia", inertia, "inertia"),
-        None if rate is None else _quantity("--rate", rate, "speed") / 6.283185307179586,
+        None if rate is None else _quantity("--rate", rate, "speed") / RADIANS_PER_TURN,
         None if load is None else _quantity("--load", load, "torque"),
     )
     found = find_window(law.sizes) if law.sizes.has_valleys else None
@@ -253,15 +253,6 @@ def _page(
         emit(as_json(report.mesh_data(law, found, running)), out)
     else:
         show([report.mesh_document(law, found, running)], out, suffix)
-
-
-def draw(figure: Any, path: Path, suffix: str) -> None:
-    """A figure to a file, whole or not at all."""
-    from geartrain.files import write_bytes
-    from geartrain.plot import render
-
-    write_bytes(path, render(figure, suffix))
-    typer.echo(f"wrote {path}", err=True)
 
 
 # -------------------------------------------------------------------------------------------------------------- sweeps

@@ -7,8 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from geartrain.cli.common import File, Json, Out, StateName, as_json, emit, show, suffix_of
-from geartrain.cli.mesh import PICTURES, draw
+from geartrain.cli.common import PICTURES, File, Json, Out, StateName, as_json, draw, emit, show, suffix_of
 
 if TYPE_CHECKING:
     from geartrain.motion import Ripple
@@ -29,6 +28,7 @@ def run(
     from rich.progress import Progress
 
     from geartrain.files import load
+    from geartrain.quantity import RADIANS_PER_TURN
 
     suffix = suffix_of(out, (".md", ".html", ".json", ".csv"))
     picture = suffix_of(plot, PICTURES) or ".svg"
@@ -36,7 +36,7 @@ def run(
     with Progress(console=Console(stderr=True), transient=True) as progress:
         task = progress.add_task("motion", total=samples)
         angle, found = motion.ripples(turns, samples, lambda done: progress.update(task, advance=done))
-    in_turns = angle / 6.283185307179586
+    in_turns = angle / RADIANS_PER_TURN
     if suffix == ".csv":
         emit(_csv(in_turns, found), out)
     elif json or suffix == ".json":

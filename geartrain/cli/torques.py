@@ -15,11 +15,11 @@ def run(file: File, state: StateName = None, json: Json = False, out: Out = None
     suffix = suffix_of(out, (".md", ".html", ".json"))
     train = load(file)
     states = (state,) if state is not None else train.states or (None,)
-    verdicts = [train.torques(name).verdict for name in states]
-    sound = all(verdict or verdict.kind == "unloaded" for verdict in verdicts)
+    found = {name: train.torques(name) for name in states}
+    sound = all(each.verdict or each.verdict.kind == "unloaded" for each in found.values())
     if json or suffix == ".json":
-        data = [report.torques_data(train, name) for name in states]
+        data = [report.torques_data(train, each) for each in found.values()]
         emit(as_json(data[0] if len(data) == 1 else {"states": {str(each["state"]): each for each in data}}), out)
     else:
-        show([report.torques_document(train, state)], out, suffix)
+        show([report.torques_document(train, list(found.values()))], out, suffix)
     raise typer.Exit(GOOD if sound else VERDICT)

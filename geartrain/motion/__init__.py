@@ -1,6 +1,6 @@
 """Motion with real teeth and pins: errors composed through the whole train."""
 
 from geartrain.motion.composition import Composition, DivergenceError, Source
-from geartrain.motion.rippling import Motion, Ripple, Train
+from geartrain.motion.rippling import Motion, Moving, Ripple
 
-__all__ = ["Composition", "DivergenceError", "Motion", "Ripple", "Source", "Train"]
+__all__ = ["Composition", "DivergenceError", "Motion", "Moving", "Ripple", "Source"]

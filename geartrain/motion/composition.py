@@ -38,14 +38,12 @@ class Source:
     law        of its driver's forward angle
     mean       mean relative angle of the driver per radian of the input, signed
     sense      of the driven side's mean relative motion, 1 or -1
-    phase      forward angle of the driver at the start (rad)
     """
 
     id: str
     law: Law
     mean: float
     sense: int
-    phase: float = 0.0
 
     @property
     def forward(self) -> int:
@@ -89,7 +87,7 @@ class Composition:
             moved = 0.0
             for m in block:
                 source, row = self.sources[m], self.influence[m]
-                S = source.forward * (source.mean * angle + row @ delta) + source.phase
+                S = source.forward * (source.mean * angle + row @ delta)
                 turning = source.forward * (source.mean + row @ rate)
                 new = source.sense * source.law.error(S)
                 new_rate = source.sense * (source.law.speed(S) - float(source.law.ratio)) * turning

@@ -24,7 +24,7 @@ _ROUNDING = 1e-15  # of the greatest response: what is less is none
 
 
 @dataclass(frozen=True)
-class Train:
+class Moving:
     """What motion needs to know of a train in one case.
 
     system      the labelled rows, redundant circuits left out; `redundant` names those
@@ -39,7 +39,6 @@ class Train:
     lead: str
     teeth: Sequence[Mesh]
     pins: Sequence[PinJoint]
-    phases: Mapping[str, float]
 
     def mean(self, link: str) -> float:
         """Mean speed of a link over the lead's."""
@@ -80,7 +79,7 @@ class Ripple:
 class Motion:
     """A train's motion as a function of the angle of its input."""
 
-    def __init__(self, train: Train, outputs: Mapping[str, tuple[str, str]]) -> None:
+    def __init__(self, train: Moving, outputs: Mapping[str, tuple[str, str]]) -> None:
         self.train, self.outputs = train, outputs
         self._links = {link: at for at, link in enumerate(train.system.links)}
 
@@ -114,7 +113,7 @@ class Motion:
         sense = 1 if follower >= 0 else -1
         if circuit.kind != "gear":  # a pin's error has the sense of the slot's own angle
             sense = -1 if driver < 0 else 1
-        return Source(circuit.id, law, driver, sense, self.train.phases.get(circuit.id, 0.0))
+        return Source(circuit.id, law, driver, sense)
 
     def _relative(self, link: str, circuit: Circuit) -> float:
         signs, carrier = self.train.signs, circuit.carrier

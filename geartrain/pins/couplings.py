@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 from pydantic import BaseModel, ConfigDict, Field, model_validator
 from pydantic_core import PydanticCustomError
 
-from geartrain.quantity import Friction, Length, Quantity
+from geartrain.quantity import Friction, Length
 
 if TYPE_CHECKING:
     from geartrain.pins.laws import SlotLaw
@@ -48,7 +48,7 @@ class _Coupling(BaseModel):
         from geartrain.pins.laws import SlotLaw
 
         friction = float(self.friction.value) if self.friction else 0.0
-        return SlotLaw(_plain(self.pin_radius), _plain(self.offset), friction)
+        return SlotLaw(self.pin_radius.si, self.offset.si, friction)
 
 
 class PinAndSlot(_Coupling):
@@ -121,7 +121,3 @@ def _refuse_unless_winding(coupling: PinAndSlot | PinFollower, winding: int) -> 
                 "fix": f"write kind: {other}, or correct the dimensions",
             },
         )
-
-
-def _plain(length: Quantity) -> float:
-    return float(length.value) if length.unit is None else length.si

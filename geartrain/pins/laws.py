@@ -5,7 +5,6 @@ The driver's angle S is counted from the direction that points from the pin's ax
 
 from __future__ import annotations
 
-from abc import abstractmethod
 from fractions import Fraction
 from math import asin, pi, sqrt
 from typing import TYPE_CHECKING
@@ -31,9 +30,9 @@ class PinLaw(Law):
         self.r, self.e, self.friction = pin_radius, offset, friction
 
     @property
-    @abstractmethod
     def amplitude(self) -> float:
-        """Greatest transmission error (rad), the same on both sides."""
+        """Greatest transmission error (rad), the same on both sides: asin of the lesser over the greater distance."""
+        return asin(min(self.r, self.e) / max(self.r, self.e))
 
     def error_range(self) -> tuple[float, float]:
         """Minus and plus the amplitude."""
@@ -63,11 +62,6 @@ class SlotLaw(PinLaw):
     def __init__(self, pin_radius: float, offset: float, friction: float = 0.0) -> None:
         super().__init__(pin_radius, offset, friction)
         self.ratio = Fraction(1 if pin_radius > offset else 0)
-
-    @property
-    def amplitude(self) -> float:
-        """asin of the lesser over the greater distance (rad)."""
-        return asin(min(self.r, self.e) / max(self.r, self.e))
 
     def error(self, S: ArrayLike) -> Floats:
         """Slot angle less its mean motion (rad)."""
@@ -105,11 +99,6 @@ class BackLaw(PinLaw):
     """A slot drives its pin: pin angle = S - asin((e/r) sin S). Only where the pin's circle encloses its axis."""
 
     ratio = Fraction(1)
-
-    @property
-    def amplitude(self) -> float:
-        """asin(e/r) (rad)."""
-        return asin(self.e / self.r)
 
     def error(self, S: ArrayLike) -> Floats:
         """Pin angle less its mean motion (rad)."""

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from typing import Any
 
 from geartrain.analysis import GearTrain
 from geartrain.report.document import Document, Section, Table, figure
-from geartrain.torques import Torques
+from geartrain.torques import Torques, declared_loads
 
 _UNITS = (
     "Torques as loads are given; power is torque times speed in the train's unit, positive into the train; in a pair, "
@@ -16,17 +16,16 @@ _UNITS = (
 )
 
 
-def torques_document(train: GearTrain, state: str | None = None) -> Document:
-    """Torques under the declared loads in each state asked for, and the efficiency there and back."""
-    states = (state,) if state is not None else train.states or (None,)
-    sections = [section for name in states for section in torque_sections(train, name)]
+def torques_document(train: GearTrain, found: Sequence[Torques]) -> Document:
+    """Torques under the declared loads, one answer a state, and the efficiency there and back."""
+    sections = [section for each in found for section in torque_sections(train, each)]
     lead = [f"Train '{train.name}'. {_UNITS}"]
     return Document(f"Torques of {train.name}", lead, sections)
 
 
-def torque_sections(train: GearTrain, state: str | None) -> Iterator[Section]:
+def torque_sections(train: GearTrain, found: Torques) -> Iterator[Section]:
     """Links, pairs and verdict of one state."""
-    found = train.torques(state)
+    state = found.state
     head = "Torques" if state is None else f"State {state}: torques"
     lines = [f"Verdict: {found.verdict.kind}: {found.verdict.text}."]
     if found.verdict.candidates and not found.verdict:
@@ -78,26 +77,23 @@ def ends(train: GearTrain, state: str | None) -> tuple[str, str] | None:
         return None
     (source,) = case.inputs
     links = dict.fromkeys(output.of or name for name, output in case.outputs.items())
-    loads = [link for link in train.declaration.loads if link != source]
+    loads = [link for link in declared_loads(train.declaration, case)[0] if link != source]
     chosen = loads if len(loads) == 1 else [link for link in links if link != source]
     return (source, chosen[0]) if len(chosen) == 1 else None
 
 
-def there_and_back(train: GearTrain, state: str | None) -> tuple[Torques, Torques] | None:
-    """Driven from the input, and driven back from the output, a unit of power leaving at the other end."""
+def there_and_back(train: GearTrain, state: str | None) -> list[tuple[Torques, str, str]]:
+    """Torques driven from the input, and driven back from the output, each with where power enters and leaves.
+
+    A unit of power leaves; empty where it is not plain which link is the output.
+    """
     found = ends(train, state)
-    if found is None:
-        return None
-    source, load = found
-    return train.driven(load, source, state), train.driven(source, load, state)
+    ways = [] if found is None else [found, found[::-1]]
+    return [(train.driven(load, source, state), source, load) for source, load in ways]
 
 
 def _there_and_back(train: GearTrain, state: str | None) -> Iterator[str]:
-    found, both = ends(train, state), there_and_back(train, state)
-    if found is None or both is None:
-        return
-    source, load = found
-    for torques, first, last in ((both[0], source, load), (both[1], load, source)):
+    for torques, first, last in there_and_back(train, state):
         efficiency = torques.efficiency
         if torques.verdict.kind == "self-locking":
             yield f"'{last}' cannot be driven from '{first}': the train locks."
@@ -106,14 +102,11 @@ def _there_and_back(train: GearTrain, state: str | None) -> Iterator[str]:
             yield f"Efficiency from '{first}' to '{last}': {figure(efficiency, 10)}{word}."
 
 
-def torques_data(train: GearTrain, state: str | None = None) -> dict[str, Any]:
+def torques_data(train: GearTrain, found: Torques) -> dict[str, Any]:
     """Torques of one state as plain data with stable keys."""
-    found = train.torques(state)
-    data = found.to_dict()
-    both = there_and_back(train, state)
-    names = ("forward", "backward")
-    data["drives"] = {name: _drive_data(each) for name, each in zip(names, both, strict=True)} if both else None
-    return data
+    ways = zip(("forward", "backward"), there_and_back(train, found.state), strict=False)
+    drives = {name: _drive_data(each) for name, (each, _, _) in ways}
+    return found.to_dict() | {"drives": drives or None}
 
 
 def _drive_data(found: Torques) -> dict[str, Any]:

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from fractions import Fraction
+from functools import cached_property
 from math import isnan
 
 from geartrain.circuits import Circuit, Tree
@@ -12,7 +13,7 @@ from geartrain.meshes import Mesh as ToothMesh
 from geartrain.torques.balance import Balance, Mesh
 from geartrain.torques.directions import Flow, find_flows
 from geartrain.torques.result import PairTorque, Torques, TorqueVerdict
-from geartrain.train import Case, Train
+from geartrain.train import Case, GearPair, Train
 
 
 @dataclass(frozen=True)
@@ -26,6 +27,16 @@ class Setting:
     case: Case
     speeds: Mapping[str, Fraction]
     teeth: Sequence[ToothMesh] = ()
+
+    @cached_property
+    def gears(self) -> Mapping[str, GearPair]:
+        """Gear pairs by name."""
+        return {gear.name: gear for gear in self.train.gears}
+
+    @cached_property
+    def meshes(self) -> Mapping[str, ToothMesh]:
+        """Pairs with real teeth by name."""
+        return {mesh.name: mesh for mesh in self.teeth}
 
     def sense(self, link: str) -> int:
         """1, or -1 where the link's axis points against its parallels."""
@@ -99,8 +110,8 @@ def _balanced(
     verdict = _judge(setting, flows, complete, asked)
     if not flows:
         return Torques(case.state, verdict, asked)
-    found = min((_torques(setting, balance, flow, rubbing) for flow in flows), key=lambda each: each.loss)
-    return replace(found, verdict=verdict)
+    found = (_torques(setting, balance, flow, rubbing, verdict) for flow in flows)
+    return min(found, key=lambda each: each.loss)
 
 
 def _judge(setting: Setting, flows: Sequence[Flow], complete: bool, asked: tuple[str, ...]) -> TorqueVerdict:
@@ -133,10 +144,10 @@ def _efficiencies(setting: Setting, circuit: Circuit) -> tuple[Fraction, Fractio
     """With the first wheel driving, and with the second: declared, or the mean of the teeth, or none lost."""
     if circuit.kind != "gear":
         return Fraction(1), Fraction(1)
-    gear = next(gear for gear in setting.train.gears if gear.name == circuit.id)
+    gear = setting.gears[circuit.id]
     if gear.efficiency is not None:
         return gear.efficiency.forward.value, gear.efficiency.backward.value
-    tooth = next((mesh for mesh in setting.teeth if mesh.name == circuit.id), None)
+    tooth = setting.meshes.get(circuit.id)
     if tooth is None or not tooth.law.friction:
         return Fraction(1), Fraction(1)
     laws = (tooth.law, tooth.reversed)
@@ -189,7 +200,9 @@ def _ties(circuits: Sequence[Circuit], singled: set[str]) -> list[list[str]]:
     return [list(names) for group in groups for names in zip(*group, strict=True)]
 
 
-def _torques(setting: Setting, balance: Balance, flow: Flow, rubbing: Mapping[str, Fraction]) -> Torques:
+def _torques(
+    setting: Setting, balance: Balance, flow: Flow, rubbing: Mapping[str, Fraction], verdict: TorqueVerdict
+) -> Torques:
     solved = flow.solved
     external = dict(balance.known)
     for found in (solved.external, solved.brakes):
@@ -216,7 +229,6 @@ def _torques(setting: Setting, balance: Balance, flow: Flow, rubbing: Mapping[st
     # friction of a bearing is no power from outside
     for link, torque in rubbing.items():
         external[link] -= torque
-    verdict = TorqueVerdict("determined", "")
     return Torques(
         setting.case.state,
         verdict,

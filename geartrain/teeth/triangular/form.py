@@ -8,7 +8,7 @@ from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, WithJsonSche
 from pydantic_core import PydanticCustomError
 
 from geartrain.errors import GearTrainError, Problem
-from geartrain.quantity import Angle, Figure, Length, Quantity
+from geartrain.quantity import RADIANS_PER_TURN, Angle, Figure, Length
 
 if TYPE_CHECKING:
     from geartrain.teeth.triangular.law import TriangularLaw
@@ -57,7 +57,7 @@ class Triangular(BaseModel):
     @model_validator(mode="after")
     def _parameters_make_sense(self) -> Triangular:
         for angle in self.half_angle:
-            turns = angle.si / 6.283185307179586
+            turns = angle.si / RADIANS_PER_TURN
             if not 0 < turns < 0.25:
                 raise PydanticCustomError(
                     "half_angle",
@@ -133,7 +133,7 @@ class Triangular(BaseModel):
         elif self.radii == "equal_depth":
             R1, R2 = equal_depth(z1, z2, beta1, beta2)
         else:
-            R1, R2 = (_plain(radius) for radius in self.radii)
+            R1, R2 = (radius.si for radius in self.radii)
         sizes = Sizes(z1, z2, R1, R2, beta1, beta2, 0.0)
         if not sizes.has_valleys:
             return sizes.at(self._factor())
@@ -154,8 +154,8 @@ class Triangular(BaseModel):
                 "give `radii: [first, second]` or the `module` of both wheels, or the clearance as a factor",
             )
         if self.centre_distance is not None:
-            return sizes.at(_plain(self.centre_distance) / sizes.least_distance - 1)
-        return sizes.at(_excess_of_backlash(sizes, _plain(length), length.text))
+            return sizes.at(self.centre_distance.si / sizes.least_distance - 1)
+        return sizes.at(_excess_of_backlash(sizes, length.si, length.text))
 
     def _factor(self) -> float:
         """The declared excess, taken exactly before it is rounded."""
@@ -205,28 +205,21 @@ def sizes_window(sizes: Sizes) -> Window:
 def _excess_of_backlash(sizes: Sizes, backlash: float, text: str) -> float:
     """The excess whose least play, on the second wheel's pitch circle, is `backlash`; play only grows with excess."""
     from geartrain.teeth.triangular.meshing import Contact
+    from geartrain.teeth.triangular.roots import root
 
     def play(excess: float) -> float:
         D = (1 + excess) * sizes.least_distance
         return Contact(sizes.at(excess)).play * D * sizes.z2 / (sizes.z1 + sizes.z2)
 
     low, high = 0.0, sizes.greatest_excess * (1 - 1e-9)
-    if not play(low) <= backlash <= play(high):
+    least, most = play(low), play(high)
+    if not least <= backlash <= most:
         raise _error(
             f"no clearance gives a backlash of {text}",
-            f"these teeth have from {max(play(low), 0):.6g} to {play(high):.6g} (in m, or the plain unit)",
+            f"these teeth have from {max(least, 0):.6g} to {most:.6g} (in m, or the plain unit)",
             "give a backlash between the two",
         )
-    for _ in range(100):
-        middle = low + (high - low) / 2
-        if not low < middle < high:
-            break
-        low, high = (middle, high) if play(middle) < backlash else (low, middle)
-    return low + (high - low) / 2
-
-
-def _plain(length: Quantity) -> float:
-    return float(length.value) if length.unit is None else length.si
+    return root(lambda excess: play(excess) - backlash, low, high, least - backlash, most - backlash)
 
 
 def _error(what: str, why: str, fix: str) -> GearTrainError:

@@ -130,6 +130,51 @@ def test_a_differential_is_the_solution_of_its_two_laws() -> None:
         assert ripple.mean * angle[at] + ripple.error[at] == pytest.approx(right, abs=1e-9)
 
 
+SHUNT = """
+links:
+  frame: {}
+  left: {wheels: {l: 40}}
+  right: {wheels: {r: 44, v: 50}}
+  planet: {wheels: {p: 20, q: 18}}
+  arm: {wheels: {y: 60}}
+  lay: {wheels: {w: 40, u: 30}}
+revolutes:
+  - {pair: [frame, left], axis: A}
+  - {pair: [frame, right], axis: A}
+  - {pair: [frame, arm], axis: A}
+  - {pair: [arm, planet], axis: P}
+  - {pair: [frame, lay], axis: B}
+gears:
+  - {pair: [l, p], driver: l}
+  - {pair: [q, r], driver: q}
+  - {pair: [v, w], driver: v}
+  - {pair: [u, y], driver: u}
+tooth_form: {form: triangular, half_angle: 30 deg, window: 0.5}
+inputs: {left: 1}
+outputs: {right: {}, arm: {}, lay: {}, planet: {}}
+"""
+
+
+def test_pairs_that_hang_on_each_other_settle_on_the_solution_of_all_their_laws() -> None:
+    """The arm is turned by the wheel that its own planet turns."""
+    train = load(SHUNT)
+    motion = train.motion()
+    assert max(map(len, motion.composition.order())) > 1
+    angle, found = motion.ripples(0.3, 61)
+    laws = {mesh.name: mesh.law for mesh in train.meshes}
+    pairs = (("l~p", "left", "planet", "arm"), ("q~r", "planet", "right", "arm"))
+    pairs += (("v~w", "right", "lay", None), ("u~y", "lay", "arm", None))
+    mean = {link: float(speed) for link, speed in train.solve().speeds.items()}
+    for at in (7, 22, 41, 60):
+        place = {name: ripple.mean * angle[at] + ripple.error[at] for name, ripple in found.items()}
+        place["left"] = angle[at]
+        for name, driver, driven, carrier in pairs:
+            base, still = (place[carrier], mean[carrier]) if carrier else (0.0, 0.0)
+            ahead = np.sign(mean[driver] - still)
+            turned = float(laws[name].angle(ahead * (place[driver] - base)))
+            assert -ahead * turned == pytest.approx(place[driven] - base, abs=1e-10), name
+
+
 def test_teeth_that_close_a_redundant_loop_are_named() -> None:
     text = "extends: four-gear-loop\ntooth_form: {form: triangular, half_angle: 30 deg, window: 0.5}\n"
     with pytest.raises(GearTrainError, match="redundant"):

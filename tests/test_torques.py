@@ -248,6 +248,14 @@ def test_a_worm_that_cannot_be_driven_back_says_so() -> None:
     assert train.driven("screw", "wheel").verdict.kind == "self-locking"
 
 
+def test_a_pair_may_lose_more_on_the_way_back() -> None:
+    text = LOADED.replace("[s, p], efficiency: 1", "[s, p], efficiency: {forward: 0.9, backward: 0.7}")
+    text = text.replace("fixed: [ring]\ninputs: {sun: 3}", "fixed: [arm]\ninputs: {sun: 3}")
+    train = load(text.replace("loads: {arm: 10 N m}", ""))
+    assert train.driven("ring", "sun").efficiency == Fraction(9, 10)
+    assert train.driven("sun", "ring").efficiency == Fraction(7, 10)
+
+
 def test_the_command_prints_keys_and_verdicts(tmp_path: Path) -> None:
     path = tmp_path / "t.yaml"
     path.write_text(LOADED, encoding="utf-8")

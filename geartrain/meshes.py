@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING
@@ -51,6 +51,11 @@ class Mesh:
 
         return TriangularLaw(self.law.sizes.swapped(), self.law.friction, self.law.direction)
 
+    def driven_by(self, driver: Driver) -> Mesh:
+        """The same teeth with this wheel driving."""
+        law = self.law if driver.wheel == self.driver else self.reversed
+        return replace(self, driver=driver.wheel, why=driver.why, law=law)
+
     @property
     def verdict(self) -> Meshing:
         """Whether these teeth can turn."""
@@ -75,6 +80,14 @@ class Mesh:
             what, why, fix = locked_by_friction(self.law)
             return Problem(name + what, why, fix, self.place)
         return None
+
+
+@dataclass(frozen=True)
+class Driver:
+    """The wheel that drives a gear pair, and how that is known."""
+
+    wheel: str
+    why: str
 
 
 @dataclass(frozen=True)
@@ -119,14 +132,14 @@ def find_meshes(train: Train) -> tuple[Mesh, ...]:
     forms = {gear.name: gear.tooth_form or train.tooth_form for gear in train.gears}
     if not any(isinstance(form, Triangular) for form in forms.values()):
         return ()
-    near = _distances(train)
+    drivers = find_drivers(train)
     meshes: list[Mesh] = []
     problems: list[Problem] = []
     for at, gear in enumerate(train.gears):
         form = forms[gear.name]
         if isinstance(form, Triangular):
             try:
-                meshes.append(_mesh(train, at, gear, form, near))
+                meshes.append(_mesh(train, at, gear, form, drivers[gear.name]))
             except GearTrainError as error:
                 problems += [replace(problem, place=train.place("gears", at)) for problem in error.problems]
     if problems:
@@ -141,32 +154,37 @@ def find_pins(train: Train) -> tuple[PinJoint, ...]:
     )
 
 
-def _mesh(train: Train, at: int, gear: GearPair, form: Triangular, near: Mapping[str, int]) -> Mesh:
-    (link1, first), (link2, second) = (train.wheels[wheel] for wheel in gear.pair)
+def _mesh(train: Train, at: int, gear: GearPair, form: Triangular, driver: Driver) -> Mesh:
+    first, second = (train.wheels[wheel][1] for wheel in gear.pair)
     kinds = (first.kind, second.kind)
     if why := refusal(kinds, first.internal or second.internal):
         fix = f"{COVERS}; give this pair `tooth_form: {{form: ideal}}`"
         raise GearTrainError(Problem(f"pair '{gear.name}' cannot have triangular teeth", why, fix))
-    driver, why = _driver(gear, (link1, link2), near)
     rubbing = gear.friction or train.friction
     friction = None if rubbing is None else float(rubbing.value)
     law = form.law(
         first.count or 0,
         second.count or 0,
         friction or 0.0,
-        1 if driver == gear.pair[0] else 2,
+        1 if driver.wheel == gear.pair[0] else 2,
         pitch_distance=_pitch_distance(train, gear),
     )
     note = "the contrate is taken for a spur wheel" if "contrate" in kinds else ""
-    return Mesh(gear, form, driver, why, train.place("gears", at), law, friction, note)
+    return Mesh(gear, form, driver.wheel, driver.why, train.place("gears", at), law, friction, note)
 
 
-def _driver(gear: GearPair, links: tuple[str, str], near: Mapping[str, int]) -> tuple[str, str]:
-    if gear.driver is not None:
-        return gear.driver, "declared"
+def find_drivers(train: Train) -> dict[str, Driver]:
+    """Who drives each gear pair: declared, or the wheel nearer to where power enters."""
+    near = _distances(train)
     far = len(near) + 1
-    distances = [near.get(link, far) for link in links]
-    return gear.pair[1 if distances[1] < distances[0] else 0], "nearer to where power enters"
+    found = {}
+    for gear in train.gears:
+        if gear.driver is not None:
+            found[gear.name] = Driver(gear.driver, "declared")
+            continue
+        first, second = (near.get(train.wheels[wheel][0], far) for wheel in gear.pair)
+        found[gear.name] = Driver(gear.pair[1 if second < first else 0], "nearer to where power enters")
+    return found
 
 
 def _distances(train: Train) -> dict[str, int]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from fractions import Fraction
 from math import asin, degrees, pi
 from pathlib import Path
 
@@ -12,7 +13,10 @@ from commands import call
 from scipy.optimize import fsolve
 
 from geartrain import GearTrainError, load
+from geartrain.components import Part
+from geartrain.motion import Composition, Passage, Run, Tally
 from geartrain.pins.laws import SlotLaw
+from geartrain.speeds import solve
 from geartrain.teeth.triangular.law import TriangularLaw
 
 
@@ -53,9 +57,9 @@ def test_the_moon_runs_as_in_the_table(
 def test_the_error_repeats_after_the_common_period_and_speeds_keep_their_mean() -> None:
     motion = load("moon-triangular").motion(outputs=["moon"])
     # 95 turns of the crank are a whole number of pitches of every pair
-    error, _ = motion.composition.motion(np.array([0.0, 1.0, 7.3]))
-    later, _ = motion.composition.motion(np.array([0.0, 1.0, 7.3]) + 95 * 2 * pi)
-    assert np.allclose(error, later, atol=1e-10)
+    assert motion.period == 95
+    error, later = (motion.at(np.array([0.0, 1.0, 7.3]) + shift).error for shift in (0, 95))
+    assert np.allclose(error, later, atol=1e-12)
     _, found = motion.ripples(95, 200_001)
     ripple = found["moon"]
     assert float(np.mean(ripple.speed[:-1])) == pytest.approx(ripple.mean, rel=1e-4)
@@ -159,7 +163,7 @@ def test_pairs_that_hang_on_each_other_settle_on_the_solution_of_all_their_laws(
     """The arm is turned by the wheel that its own planet turns."""
     train = load(SHUNT)
     motion = train.motion()
-    assert max(map(len, motion.composition.order())) > 1
+    assert [len(step.sources) for step in motion.ahead.steps if step.coupled] == [4]
     angle, found = motion.ripples(0.3, 61)
     laws = {mesh.name: mesh.law for mesh in train.meshes}
     pairs = (("l~p", "left", "planet", "arm"), ("q~r", "planet", "right", "arm"))
@@ -177,8 +181,17 @@ def test_pairs_that_hang_on_each_other_settle_on_the_solution_of_all_their_laws(
 
 def test_teeth_that_close_a_redundant_loop_are_named() -> None:
     text = "extends: four-gear-loop\ntooth_form: {form: triangular, half_angle: 30 deg, window: 0.5}\n"
-    with pytest.raises(GearTrainError, match="redundant"):
-        load(text).motion().ripples(1.0, 11)
+    with pytest.raises(GearTrainError, match="a20~b30, b30~c40, c40~d50, d50~a20 close a loop, a - b - c - d - a"):
+        load(text).motion()
+    # along a path that spans the loop it moves: around the other way without either pair next to d
+    train = load(text)
+    one, other = (train.motion(outputs=["d"], without=[pair]) for pair in ("c40~d50", "d50~a20"))
+    assert [source.id for source in one.ahead.sources] == ["a20~b30", "b30~c40", "d50~a20"]
+    first, second = (motion.ripples(3.0, 2001)[1]["d"] for motion in (one, other))
+    assert first.ratio == second.ratio
+    assert np.abs(np.ptp(first.error - second.error)) > 1e-3
+    with pytest.raises(GearTrainError, match="did you mean 'c40~d50'"):
+        load(text).motion(without=["c40~d5"])
 
 
 def test_a_train_of_ideal_teeth_has_no_ripple() -> None:
@@ -191,7 +204,7 @@ def test_a_pin_alone_moves_its_slot_by_its_law() -> None:
     train = load("freeth-2008")
     (joint,) = train.pins
     assert isinstance(joint.law, SlotLaw)
-    source = train.motion(outputs=["moon"]).composition.sources
+    source = train.motion(outputs=["moon"]).ahead.sources
     assert [each.id for each in source] == [joint.coupling.name]
 
 
@@ -199,14 +212,195 @@ def test_the_command_tells_errors_and_speeds(tmp_path: Path) -> None:
     arguments = ("motion", "moon-triangular", "--turns", 2, "--samples", 2001, "--output", "moon")
     data = json.loads(call(*arguments, "--json").stdout)
     assert set(data["outputs"]) == {"moon"}
-    assert set(data["outputs"]["moon"]) == {"transmission_error", "speed"}
+    assert set(data["outputs"]["moon"]) == {"transmission_error", "speed", "ratio", "sensitivity"}
     assert set(data["outputs"]["moon"]["transmission_error"]) == {"peak_to_peak", "rms"}
     assert data["outputs"]["moon"]["speed"]["mean"] == pytest.approx(254 / 19 / 5, rel=1e-15)
     assert "error p-p (deg)" in call(*arguments).stdout
     out, picture = tmp_path / "m.csv", tmp_path / "m.png"
     assert call(*arguments, "-o", out, "--plot", picture).exit_code == 0
     rows = out.read_text(encoding="utf-8").splitlines()
-    assert rows[0] == "turns,moon error (rad),moon speed"
+    assert rows[0] == "turns,moon angle (rad),moon error (rad),moon speed"
     assert len(rows) == 2002
+    last = [float(value) for value in rows[-1].split(",")]
+    assert last[1] - last[2] == pytest.approx(254 / 19 / 5 * 2 * 2 * pi, rel=1e-14)
+    assert call(*arguments, "--csv").stdout == out.read_text(encoding="utf-8")
     assert picture.read_bytes().startswith(b"\x89PNG")
     assert call("motion", "moon-triangular", "--output", "mooon").exit_code != 0
+
+
+PAIR = """
+links: {frame: {}, a: {wheels: {p: 24}}, b: {wheels: {w: 36, v: 20}}, c: {wheels: {u: 30}}}
+revolutes: [{pair: [frame, a], axis: A}, {pair: [frame, b], axis: B}, {pair: [frame, c], axis: C}]
+gears: [{pair: [p, w]}, {pair: [u, v]}]
+tooth_form: {form: triangular, half_angle: 30 deg, window: 0.5}
+inputs: {a: 1}
+outputs: {b: {}, c: {}}
+"""
+
+
+def test_a_phase_is_that_of_the_first_wheel_whoever_drives() -> None:
+    plain = load(PAIR).motion()
+    declared = PAIR.replace("{pair: [p, w]}", "{pair: [p, w], phase: 1/4}").replace("[u, v]", "[u, v], phase: 0.3")
+    shifted = load(declared).motion()
+    law = {source.id: source.law for source in plain.ahead.sources}
+    first, second = shifted.ahead.sources
+    assert first.start == pytest.approx(2 * pi / 24 / 4, rel=1e-15)
+    # the first wheel of the second pair is driven: its own tooth is 0.3 of a pitch past the line of centres
+    assert float(law["u~v"].angle(second.start)) == pytest.approx(0.3 * 2 * pi / 30, rel=1e-11)
+    # a phase of the first pair is a turn of the crank by as much
+    turns = np.linspace(0, 2, 101)
+    moved = plain.at(turns + 1 / 24 / 4).error[0]
+    assert np.allclose(shifted.at(turns).error[0], moved, rtol=0, atol=1e-13)
+
+
+def test_a_starting_angle_turns_the_teeth_with_the_link() -> None:
+    turns = np.linspace(0, 2, 101)
+    turned = load(PAIR.replace("a: {wheels: {p: 24}}", "a: {wheels: {p: 24}, angle: 1.5 deg}")).motion()
+    assert np.allclose(
+        turned.at(turns).error[0], load(PAIR).motion().at(turns + 1.5 / 360).error[0], rtol=0, atol=1e-13
+    )
+
+
+def test_random_phases_are_those_of_their_seed_and_leave_declared_ones() -> None:
+    train = load(PAIR.replace("{pair: [p, w]}", "{pair: [p, w], phase: 1/4}")).motion()
+    starts = [
+        [source.start for source in train.at_random(np.random.default_rng(seed)).ahead.sources] for seed in (1, 1, 2)
+    ]
+    assert starts[0] == starts[1] != starts[2]
+    assert {each[0] for each in starts} == {train.ahead.sources[0].start}
+
+
+def test_turned_back_the_other_flanks_drive_and_all_play_is_taken_up() -> None:
+    motion = load(PAIR).motion()
+    _, ahead = motion.ripples(1.0, 4001)
+    angle, back = motion.ripples(-1.0, 4001)
+    assert angle[-1] == pytest.approx(-2 * pi)
+    # the mirror image: the same range, and the teeth apart by the play
+    assert back["b"].peak_to_peak == pytest.approx(ahead["b"].peak_to_peak, rel=1e-5)
+    (mesh, _) = load(PAIR).meshes
+    first = [motion.ahead.at(-angle).error[0] for angle in (np.linspace(0, 1 / 24, 50),)]
+    behind = motion.back.at(-np.linspace(0, 1 / 24, 50)).error[0]
+    play = -(behind - first[0])  # b turns against a
+    assert (play > 0).all()
+    assert play.min() == pytest.approx(mesh.verdict.play, rel=0.05)
+
+
+def test_power_decides_who_drives_where_a_load_is_declared() -> None:
+    loaded = PAIR.replace("inputs: {a: 1}", "inputs: {a: 1}\nloads: {a: -2 N m}\nsolve_for: c")
+    drivers = load(loaded).motion().train.drivers
+    assert (drivers["p~w"].wheel, drivers["u~v"].wheel) == ("w", "u")
+    assert "power" in drivers["p~w"].why
+    ideal = load(PAIR).motion().train.drivers
+    assert (ideal["p~w"].wheel, ideal["p~w"].why) == ("p", "nearer to where power enters")
+    page = call("motion", "moon-triangular", "--turns", 1, "--samples", 101).stdout
+    assert "nearer to where power enters" in page
+    # driven from the far end, the wheel near the input still follows the law of the other
+    backwards = load(loaded).motion()
+    laws = {source.id: source.law for source in backwards.ahead.sources}
+    passage = backwards.at(np.linspace(0, 1, 201))
+    b = -24 / 36 * 2 * pi * passage.turns + passage.error[0]
+    assert np.allclose(laws["p~w"].angle(-b), 2 * pi * passage.turns, rtol=0, atol=1e-11)
+
+
+def test_the_mean_angle_keeps_its_phase_over_a_million_million_turns() -> None:
+    motion = load("moon-triangular").motion(outputs=["moon"])
+    turns = np.array([0.25, 1.75, 40.5])
+    far = turns + 95 * 2.0**37  # exact in floats
+    assert np.allclose(motion.at(far).error, motion.at(turns).error, rtol=0, atol=1e-11)
+
+
+def test_estimates_and_spectrum_are_those_of_the_table_and_of_a_fourier_sum() -> None:
+    run = Run(load("moon-triangular").motion(outputs=["moon"]), 95.0, 380_001)
+    run.estimate()
+    found = run.estimates["moon"].to_dict()
+    assert degrees(found["bound"]["peak_to_peak"]) == pytest.approx(6.46, abs=5e-3)
+    assert degrees(found["independent"]["rms"]) == pytest.approx(1.2385, abs=5e-5)
+    for how, greatest in (("superposed", 3.91), ("superposed_with_lag", 0.69)):
+        assert degrees(found[how]["difference"]["greatest"]) == pytest.approx(greatest, abs=0.02)
+    assert degrees(found["superposed_with_lag"]["difference"]["rms"]) == pytest.approx(0.12, abs=5e-3)
+    run.analyse()
+    lines = run.spectra["moon"]
+    assert lines[0].order == Fraction(1536, 95)  # 24-wheel: 64/38 turns of the 225-wheel's 1/5, times 48 teeth
+    assert [pair for pair, _, _ in lines[1].shares] == ["b2~c1"]
+    passage = run.motion.at(np.arange(380_000) / 4000)
+    lines_by_fft = 2 * np.abs(np.fft.rfft(passage.error[0])) / 380_000
+    for line in lines:
+        assert line.measured == pytest.approx(lines_by_fft[int(line.order * 95)], rel=1e-9)
+        assert line.expected == pytest.approx(line.measured, rel=0.3)
+
+
+@pytest.mark.parametrize("name", ["freeth-2021", "pennestri-2002", "freeth-2008", "ravigneaux-set"])
+def test_sensitivities_are_the_change_of_an_output_with_a_tooth_count(name: str) -> None:
+    """A driven wheel with slightly more teeth falls behind as by an error in proportion to its own relative angle."""
+    train = load(name)
+    state = train.states[0] if train.states else None
+    motion = train.motion(state)
+    speeds = {link: motion.train.ratio(link) for link in train.declaration.links}
+    step = Fraction(1, 10**12)
+    checked = 0
+    for at, circuit in enumerate(train.circuits):
+        if circuit.kind != "gear" or circuit.id not in motion.spread.pairs:
+            continue
+        driven = int(motion.train.drivers[circuit.id].wheel == circuit.wheels[0])
+        a, b = (10**12 * count + (side == driven) * count for side, count in enumerate((circuit.a, circuit.b)))
+        circuits = [*train.circuits[:at], circuit._replace(a=a, b=b), *train.circuits[at + 1 :]]
+        case = train.declaration.case(state)
+        lead = case.inputs[motion.train.lead]
+        changed = solve(Part(tuple(train.declaration.links), train.declaration.frame, circuits, ()), case, train.signs)
+        link = (circuit.i, circuit.j)[driven]
+        relative = motion.train.relative(link, circuit.carrier)
+        for output, (of, base) in motion.outputs.items():
+            found = (changed.speeds[of] - changed.speeds[base]) / lead - (speeds[of] - speeds[base])
+            expected = -motion.sensitivity[output][circuit.id] * float(relative * step)
+            assert float(found) == pytest.approx(expected, rel=1e-9, abs=1e-24)
+            checked += 1
+    assert checked
+
+
+def test_an_interrupted_table_is_partial_and_is_taken_up(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    out, partial = tmp_path / "run.csv", tmp_path / "run.partial.csv"
+    arguments = ("motion", "moon-triangular", "--turns", 3, "--samples", 100_001, "--output", "moon", "-o", out)
+    whole = Composition.at
+    calls = []
+
+    def at(self: Composition, turns: np.ndarray) -> Passage:
+        calls.append(len(turns))
+        if len(calls) == 3:
+            raise KeyboardInterrupt
+        return whole(self, turns)
+
+    monkeypatch.setattr(Composition, "at", at)
+    stopped = call(*arguments)
+    assert stopped.exit_code == 130
+    assert not out.exists()
+    lines = partial.read_text(encoding="utf-8").splitlines()
+    assert lines[-1] == f"# partial: stopped after {sum(calls[:2])} rows"
+    assert len(lines) == sum(calls[:2]) + 2
+    monkeypatch.undo()
+    other = call(*arguments[:3], 4, *arguments[4:], "--resume")
+    assert isinstance(other.exception, GearTrainError)
+    partial.write_text("\n".join(lines[:-1]) + "\n0.123,to", encoding="utf-8")  # torn by a power cut
+    assert call(*arguments, "--resume").exit_code == 0
+    assert not partial.exists()
+    resumed = out.read_text(encoding="utf-8")
+    assert call(*arguments).exit_code == 0
+    assert resumed == out.read_text(encoding="utf-8")
+
+
+def test_an_interrupted_summary_says_what_it_has_seen(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    out = tmp_path / "run.json"
+    whole = Tally.add
+    seen: list[int] = []
+
+    def add(self: Tally, error: np.ndarray, rate: np.ndarray) -> None:
+        if len(seen) == 2:
+            raise KeyboardInterrupt
+        seen.append(len(error))
+        whole(self, error, rate)
+
+    monkeypatch.setattr(Tally, "add", add)
+    arguments = ("motion", "moon-triangular", "--samples", 100_001, "--output", "moon", "-o", out)
+    assert call(*arguments).exit_code == 130
+    assert not out.exists()
+    data = json.loads((tmp_path / "run.partial.json").read_text(encoding="utf-8"))
+    assert data["partial"] == {"done": sum(seen), "of": 100_001}

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from geartrain.analysis import GearTrain
     from geartrain.report import Document
 
-GOOD, VERDICT, NOT_USABLE = 0, 1, 2
+GOOD, VERDICT, NOT_USABLE, INTERRUPTED = 0, 1, 2, 130
 PICTURES = (".svg", ".png", ".pdf")
 
 File = Annotated[str, typer.Argument(help="A YAML declaration, or the name of a shipped train.", metavar="FILE")]

@@ -2,58 +2,141 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from geartrain.cli.common import PICTURES, File, Json, Out, StateName, as_json, draw, emit, show, suffix_of
+from geartrain.cli.common import INTERRUPTED, PICTURES, File, Json, Out, StateName, as_json, draw, emit, show, suffix_of
 
 if TYPE_CHECKING:
-    from geartrain.motion import Ripple
+    from geartrain.motion import Motion, Passage, Run
+
+Names = list[str] | None
 
 
 def run(
     file: File,
-    turns: Annotated[float, typer.Option("--turns", help="Turns of the input.")] = 20.0,
+    turns: Annotated[str, typer.Option("--turns", help="Turns of the input, or 'period'; negative: back.")] = "20",
     samples: Annotated[int, typer.Option("--samples", min=2, help="Positions of the input.")] = 200_000,
-    output: Annotated[list[str] | None, typer.Option("--output", help="Output or link; may be repeated.")] = None,
+    output: Annotated[Names, typer.Option("--output", help="Output or link; may be repeated.")] = None,
     state: StateName = None,
+    without: Annotated[Names, typer.Option("--without", help="Leave out a pair, to open a loop of real teeth.")] = None,
+    phases: Annotated[int, typer.Option("--phases", min=0, help="Runs with random phases of the teeth.")] = 0,
+    seed: Annotated[int, typer.Option("--seed", help="Seed of the random phases.")] = 1,
+    tolerance: Annotated[
+        float | None, typer.Option("--tabulated", help="Read laws from tables of this accuracy (pitches).")
+    ] = None,
+    estimates: Annotated[bool, typer.Option("--estimates", help="Cheap estimates, and how far off they are.")] = False,
+    spectrum: Annotated[bool, typer.Option("--spectrum", help="Lines by exact order, and whose they are.")] = False,
     json: Json = False,
+    csv: Annotated[bool, typer.Option("--csv", help="Print every position as CSV.")] = False,
     plot: Annotated[Path | None, typer.Option("--plot", help="Draw errors and speeds to this file.")] = None,
+    resume: Annotated[bool, typer.Option("--resume", help="Go on with an interrupted -o x.csv.")] = False,
     out: Out = None,
 ) -> None:
     """Transmission error and speed of outputs with real teeth and pins; to a .csv, every position."""
-    from rich.console import Console
-    from rich.progress import Progress
-
     from geartrain.files import load
-    from geartrain.quantity import RADIANS_PER_TURN
+    from geartrain.motion import Run
 
     suffix = suffix_of(out, (".md", ".html", ".json", ".csv"))
     picture = suffix_of(plot, PICTURES) or ".svg"
-    motion = load(file).motion(state, tuple(output or ()))
-    with Progress(console=Console(stderr=True), transient=True) as progress:
-        task = progress.add_task("motion", total=samples)
-        angle, found = motion.ripples(turns, samples, lambda done: progress.update(task, advance=done))
-    in_turns = angle / RADIANS_PER_TURN
-    if suffix == ".csv":
-        emit(_csv(in_turns, found), out)
-    elif json or suffix == ".json":
-        emit(as_json({"turns": turns, "outputs": {name: ripple.to_dict() for name, ripple in found.items()}}), out)
+    motion = load(file).motion(state, tuple(output or ()), tuple(without or ()), tolerance)
+    asked = Run(motion, _turns(turns, motion), samples)
+    if suffix == ".csv" and out is not None:
+        _write_table(asked, out, resume)
+    elif csv:
+        for rows in _rows(asked, 0):
+            typer.echo("\n".join(rows))
     else:
-        from geartrain import report
-
-        show([report.motion_document(motion.train.lead, turns, found)], out, suffix)
+        _report(asked, json or suffix == ".json", out, suffix, phases, seed, estimates, spectrum)
     if plot is not None:
         from geartrain.plot import motion_figure
 
-        speeds = {name: ripple.speed / (ripple.mean or 1.0) for name, ripple in found.items()}
-        draw(motion_figure(in_turns, {name: ripple.error for name, ripple in found.items()}, speeds), plot, picture)
+        with _progress("drawing", samples) as on_done:
+            draw(motion_figure(asked, on_done), plot, picture)
 
 
-def _csv(turns: Any, found: dict[str, Ripple]) -> str:
-    names = [column for name in found for column in (f"{name} error (rad)", f"{name} speed")]
-    columns = [turns, *(values for ripple in found.values() for values in (ripple.error, ripple.speed))]
-    rows = [",".join(map(repr, row)) for row in zip(*(column.tolist() for column in columns), strict=True)]
-    return "\n".join([",".join(["turns", *names]), *rows])
+def _turns(text: str, motion: Motion) -> float:
+    if text != "period":
+        try:
+            return float(text)
+        except ValueError:
+            raise typer.BadParameter(f"'{text}' is no number, nor 'period'", param_hint="--turns") from None
+    if motion.period is None:
+        raise typer.BadParameter("nothing ripples, so there is no common period", param_hint="--turns")
+    return float(motion.period)
+
+
+def _report(
+    asked: Run, json: bool, out: Path | None, suffix: str, phases: int, seed: int, estimates: bool, spectrum: bool
+) -> None:
+    from geartrain import report
+
+    work = asked.samples * (1 + phases + estimates + spectrum)
+    stopped = False
+    with _progress("motion", work) as on_done:
+        try:
+            asked.go(on_done)
+            asked.try_phases(phases, seed, on_done)
+            if estimates:
+                asked.estimate(on_done)
+            if spectrum:
+                asked.analyse(on_done)
+        except KeyboardInterrupt:
+            if not asked.done:
+                raise
+            stopped = True
+    if stopped and out is not None:
+        from geartrain.files import partial_name
+
+        out = partial_name(out)
+    if json:
+        emit(as_json(report.motion_data(asked)), out)
+    else:
+        show([report.motion_document(asked)], out, suffix)
+    if stopped:
+        typer.echo(f"stopped after {asked.done} of {asked.samples} positions; the figures are of those", err=True)
+        raise typer.Exit(INTERRUPTED)
+
+
+def _write_table(asked: Run, out: Path, resume: bool) -> None:
+    from geartrain.files import LongTable
+
+    try:
+        with LongTable(out, ",".join(asked.columns), resume) as table:
+            if table.rows:
+                asked.check_resumed(table.last(), table.rows)
+            first = table.rows
+            with _progress("motion", asked.samples - first) as on_done:
+                for rows in _rows(asked, first, header=False):
+                    table.write(rows)
+                    on_done(len(rows))
+    except KeyboardInterrupt:
+        typer.echo(f"stopped after {table.rows} of {asked.samples} positions: {table.partial}", err=True)
+        typer.echo("give the same command with --resume to go on", err=True)
+        raise typer.Exit(INTERRUPTED) from None
+    typer.echo(f"wrote {out}", err=True)
+
+
+def _rows(asked: Run, first: int, header: bool = True) -> Iterator[list[str]]:
+    if header:
+        yield [",".join(asked.columns)]
+    for passage in asked.motion.passages(asked.turns, asked.samples, first):
+        yield _lines(asked, passage)
+
+
+def _lines(asked: Run, passage: Passage) -> list[str]:
+    return [",".join(map(repr, row)) for row in zip(*(c.tolist() for c in asked.values(passage)), strict=True)]
+
+
+@contextmanager
+def _progress(what: str, total: int) -> Iterator[Callable[[int], None]]:
+    from rich.console import Console
+    from rich.progress import Progress
+
+    with Progress(console=Console(stderr=True), transient=True) as progress:
+        task = progress.add_task(what, total=total)
+        yield lambda done: progress.update(task, advance=done)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from geartrain.files.loading import load, shipped
+from geartrain.files.long import LongTable, partial_name
 from geartrain.files.writing import write_bytes, write_text
 
-__all__ = ["load", "shipped", "write_bytes", "write_text"]
+__all__ = ["LongTable", "load", "partial_name", "shipped", "write_bytes", "write_text"]

@@ -1,6 +1,24 @@
 """Motion with real teeth and pins: errors composed through the whole train."""
 
-from geartrain.motion.composition import Composition, DivergenceError, Source
+from geartrain.motion.composition import Composition, Passage, Source
+from geartrain.motion.estimates import Estimates, Superposition, find_estimates
 from geartrain.motion.rippling import Motion, Moving, Ripple
+from geartrain.motion.run import Run
+from geartrain.motion.spectrum import Line, find_spectrum
+from geartrain.motion.tally import Tally
 
-__all__ = ["Composition", "DivergenceError", "Motion", "Moving", "Ripple", "Source"]
+__all__ = [
+    "Composition",
+    "Estimates",
+    "Line",
+    "Motion",
+    "Moving",
+    "Passage",
+    "Ripple",
+    "Run",
+    "Source",
+    "Superposition",
+    "Tally",
+    "find_estimates",
+    "find_spectrum",
+]

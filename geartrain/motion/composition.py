@@ -1,129 +1,273 @@
-"""Motion with real teeth and pins: every mesh's error carried to every link, and back into the angles of the meshes.
+"""Motion with real teeth and pins: every pair's error carried to every link, and back into the angles of the pairs.
 
-With the mean motion taken out, the angles of all links are linear in the errors of the meshes: theta = mean + G delta.
-Each error depends on the angle at which its own driver stands, which the errors of other meshes have moved. Along an
-ordinary train those come before it, and one pass composes the laws exactly; around a differential they may hang on each
-other, and are iterated until nothing changes.
+Each error depends on the angle at which its own driver stands, which the errors of other pairs have moved. In the
+solved order those come before it, and one pass composes the laws exactly; where pairs hang on each other their errors
+are found together.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from fractions import Fraction
+from functools import cached_property
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
+
+from geartrain.motion.coupling import Coupled, settle
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+    from geartrain.motion.spreading import Part, Spread
     from geartrain.teeth.base import Law
 
     Floats = NDArray[np.float64]
 
-_CHUNK = 32768  # positions worked on at once
-_MOST_SWEEPS = 200
-_SETTLED = 1e-14  # rad
-_NOTHING = 1e-14  # of the greatest influence: what is less is rounding
-
-
-class DivergenceError(ArithmeticError):
-    """The errors of coupled meshes do not settle: their driven sides react on their drivers too strongly."""
+_CHUNK = 32768  # most positions worked on at once
+_NUMBERS = 1 << 22  # most angles kept at once: longer trains take shorter chunks
+_PLAIN = 2048  # periods of a law up to which a plain product tells where in it the driver stands
+_SPLITTER = 134217729.0  # 2^27 + 1: cuts a float in two halves
 
 
 @dataclass(frozen=True)
 class Source:
-    """One mesh that ripples.
+    """One pair that ripples.
 
-    law        of its driver's forward angle
-    mean       mean relative angle of the driver per radian of the input, signed
-    sense      of the driven side's mean relative motion, 1 or -1
+    law            of its driver's forward angle
+    pair           its index in the spread
+    driver_sense   1 or -1 where the driver's axis points against its parallels; `carrier_sense` likewise
+    cycles         periods of the law per turn of the input, on average and exactly; not negative
+    start          the driver's forward angle (rad) where every link reads 0
+    forward        1, or -1 where the driver turns backwards on average
+    sense          of the driven side's mean relative motion, 1 or -1
     """
 
     id: str
     law: Law
-    mean: float
+    pair: int
+    driver_sense: int
+    carrier_sense: int
+    cycles: Fraction
+    start: float
+    forward: int
     sense: int
 
     @property
-    def forward(self) -> int:
-        """1, or -1 where the driver turns backwards on average."""
-        return -1 if self.mean < 0 else 1
+    def mean(self) -> float:
+        """Mean forward speed of the driver over the input's."""
+        return float(self.cycles) * self.law.period / (2 * np.pi)
 
 
-@dataclass(frozen=True)
+class Step(NamedTuple):
+    """A part of the spread in which something ripples, over lively links only; `sources` by index."""
+
+    part: Part
+    links: tuple[int, ...]
+    known: tuple[int, ...]
+    from_known: Floats
+    sources: tuple[int, ...]
+    from_sources: Floats
+    coupled: bool
+
+
+class Passage(NamedTuple):
+    """A stretch of positions: turns of the input (n,), and errors (rad) and their rates by output, (outputs, n)."""
+
+    turns: Floats
+    error: Floats
+    rate: Floats
+
+
+@dataclass
 class Composition:
-    """Sources in order, what each does to the drivers of the others, and to the links asked for.
+    """Sources in a train, and the outputs (link, seen from) that are asked for.
 
-    influence   (sources, sources): radians of driver m's relative angle per radian of source n's driven error
-    response    (links, sources): radians of each link per radian of each source's driven error
+    turned_back   pairs whose driver was seen turning against its mean: their flanks change there, and the law, which
+                  is that of the flanks in front, does not follow the play
     """
 
+    spread: Spread
     sources: tuple[Source, ...]
-    influence: Floats
-    response: Floats
+    outputs: tuple[tuple[int, int], ...]
+    turned_back: set[str] = field(default_factory=set)
 
-    def order(self) -> Iterator[list[int]]:
-        """Blocks of sources, each after all it hangs on; more than one in a block are coupled."""
-        hangs = np.abs(self.influence) > _NOTHING * max(1.0, float(np.max(np.abs(self.influence), initial=0.0)))
-        left = list(range(len(self.sources)))
-        while left:
-            ready = [m for m in left if not any(hangs[m, n] for n in left)]
-            block = ready[:1] or _tightest(hangs, left)
-            yield block
-            left = [m for m in left if m not in block]
+    @cached_property
+    def steps(self) -> tuple[Step, ...]:
+        """The solved order, without the links that no error reaches, and those that no output hangs on."""
+        wanted = {link for ends in self.outputs for link in ends}
+        kept = []
+        for step in reversed(self._lively):
+            if wanted.intersection(step.links):
+                wanted.update(step.known, *(self._ends(source) for source in step.sources))
+                kept.append(step)
+        return tuple(reversed(kept))
 
-    def errors(self, angle: Floats) -> tuple[Floats, Floats]:
-        """Errors of all sources and their rates per radian of the input, both (sources, positions)."""
-        delta = np.zeros((len(self.sources), len(angle)))
-        rate = np.zeros_like(delta)
-        for block in self.order():
-            coupled = len(block) > 1 or self.influence[block[0], block[0]] != 0
-            self._settle(block, angle, delta, rate, _MOST_SWEEPS if coupled else 1)
-        return delta, rate
+    @cached_property
+    def _lively(self) -> tuple[Step, ...]:
+        """The solved order without the links that no error reaches."""
+        of_pair = {source.pair: at for at, source in enumerate(self.sources)}
+        lively: set[int] = set()
+        steps = []
+        for part in self.spread.parts:
+            pairs = [at for at, pair in enumerate(part.pairs) if pair in of_pair]
+            known = [at for at, link in enumerate(part.known) if link in lively]
+            if not pairs and not known:
+                continue
+            sources = tuple(of_pair[part.pairs[at]] for at in pairs)
+            inside = set(part.links)
+            hangs = any(inside.intersection(self._ends(source)) for source in sources)
+            lively.update(part.links)
+            steps.append(
+                Step(
+                    part,
+                    part.links,
+                    tuple(part.known[at] for at in known),
+                    part.from_known[:, known],
+                    sources,
+                    part.from_pairs[:, pairs],
+                    hangs,
+                )
+            )
+        return tuple(steps)
 
-    def _settle(self, block: Sequence[int], angle: Floats, delta: Floats, rate: Floats, sweeps: int) -> None:
-        for _ in range(sweeps):
-            moved = 0.0
-            for m in block:
-                source, row = self.sources[m], self.influence[m]
-                S = source.forward * (source.mean * angle + row @ delta)
-                turning = source.forward * (source.mean + row @ rate)
-                new = source.sense * source.law.error(S)
-                new_rate = source.sense * (source.law.speed(S) - float(source.law.ratio)) * turning
-                if sweeps > 1:
-                    moved = max(moved, float(np.max(np.abs(new - delta[m]))), float(np.max(np.abs(new_rate - rate[m]))))
-                delta[m], rate[m] = new, new_rate
-            if moved <= _SETTLED:
-                return
-        # a corner of a law may flip between two couples of teeth for ever, by next to nothing
-        if moved > 1e-9:
-            names = ", ".join(self.sources[m].id for m in block)
-            raise DivergenceError(f"the errors of {names} do not settle")
+    @cached_property
+    def used(self) -> tuple[Source, ...]:
+        """The sources that reach an output, or an angle that one hangs on."""
+        return tuple(self.sources[at] for step in self.steps for at in step.sources)
 
-    def motion(self, angle: Floats, on_done: Callable[[int], None] = lambda _: None) -> tuple[Floats, Floats]:
-        """Errors of the links asked for (rad) and of their speeds per radian of the input, (links, positions)."""
-        error = np.empty((len(self.response), len(angle)))
-        speed = np.empty_like(error)
-        for start in range(0, len(angle), _CHUNK):
-            part = slice(start, start + _CHUNK)
-            delta, rate = self.errors(angle[part])
-            error[:, part], speed[:, part] = self.response @ delta, self.response @ rate
-            on_done(delta.shape[1])
-        return error, speed
+    def driver_shift(self, source: Source, error: Floats) -> float:
+        """What errors of links (rad, by index) add to the forward angle of a source's driver."""
+        joint = self.spread.joints[source.pair]
+        own, carried = source.driver_sense * error[joint.driver], source.carrier_sense * error[joint.carrier]
+        return float(source.forward * (own - carried))
+
+    def _ends(self, source: int) -> tuple[int, int]:
+        joint = self.spread.joints[self.sources[source].pair]
+        return joint.driver, joint.carrier
+
+    @cached_property
+    def _place(self) -> dict[int, int]:
+        """Where a lively link stands in the arrays."""
+        return {link: at for at, link in enumerate(link for step in self.steps for link in step.links)}
+
+    @cached_property
+    def chunk(self) -> int:
+        """Positions worked on at once: memory is bounded however long the train."""
+        widest = max((len(step.sources) ** 2 for step in self.steps if step.coupled), default=0)
+        return max(64, min(_CHUNK, _NUMBERS // (2 * (len(self._place) + widest) + 1)))
+
+    def at(self, turns: Floats) -> Passage:
+        """Errors and rates of the outputs where the input has made some turns, at most a chunk of them."""
+        angle = Angle(turns)
+        error = np.empty((len(self._place), len(turns)))
+        rate = np.empty_like(error)
+        for step in self.steps:
+            self._take(step, angle, error, rate)
+        found = [np.zeros((len(self.outputs), len(turns))) for _ in range(2)]
+        for at, ends in enumerate(self.outputs):
+            for link, sign in zip(ends, (1, -1), strict=True):
+                if link in self._place:
+                    found[0][at] += sign * error[self._place[link]]
+                    found[1][at] += sign * rate[self._place[link]]
+        return Passage(turns, found[0], found[1])
+
+    def _take(self, step: Step, angle: Angle, error: Floats, rate: Floats) -> None:
+        known = [self._place[link] for link in step.known]
+        first = self._place[step.links[0]]
+        own = slice(first, first + len(step.links))
+        error[own] = step.from_known @ error[known] if known else 0.0
+        rate[own] = step.from_known @ rate[known] if known else 0.0
+        if not step.sources:
+            return
+        # angles of the drivers and their speeds, without what the step's own pairs add
+        where = [self._driver_angle(source, angle, error, rate) for source in step.sources]
+        sources = [self.sources[source] for source in step.sources]
+        if step.coupled:
+            delta, slope, turning = settle(self._coupled(step), np.stack([S for S, _ in where]), [w for _, w in where])
+        else:
+            parts = [source.law.error_and_speed(S) for source, (S, _) in zip(sources, where, strict=True)]
+            turning = [w for _, w in where]
+            delta = np.stack([s.sense * e for s, (e, _) in zip(sources, parts, strict=True)])
+            slope = np.stack(
+                [
+                    s.sense * (tau - float(s.law.ratio)) * w
+                    for s, (_, tau), w in zip(sources, parts, turning, strict=True)
+                ]
+            )
+        self._watch(sources, turning)
+        error[own] += step.from_sources @ delta
+        rate[own] += step.from_sources @ slope
+
+    def _driver_angle(self, at: int, angle: Angle, error: Floats, rate: Floats) -> tuple[Floats, Floats | float]:
+        """Forward angle (rad) and speed of a source's driver; links of its own step count as they stand."""
+        source = self.sources[at]
+        S = angle.cycles(source.cycles) * source.law.period
+        if source.start:
+            S += source.start
+        turning: Floats | float = source.mean
+        for link, sense in zip(self._ends(at), (source.driver_sense, -source.carrier_sense), strict=True):
+            place = self._place.get(link)
+            if place is not None:
+                sign = source.forward * sense
+                S += sign * error[place]
+                turning = turning + sign * rate[place]
+        return S, turning
+
+    def _coupled(self, step: Step) -> Coupled:
+        """What each driver of a step gains from the errors of the step's own pairs."""
+        inside = {link: at for at, link in enumerate(step.links)}
+        gain = np.zeros((len(step.sources), len(step.sources)))
+        for row, at in enumerate(step.sources):
+            source = self.sources[at]
+            for link, sense in zip(self._ends(at), (source.driver_sense, -source.carrier_sense), strict=True):
+                if link in inside:
+                    gain[row] += source.forward * sense * step.from_sources[inside[link]]
+        sources = [self.sources[at] for at in step.sources]
+        return Coupled(
+            tuple(source.id for source in sources),
+            tuple(source.law for source in sources),
+            np.array([float(source.sense) for source in sources]),
+            gain,
+        )
+
+    def _watch(self, sources: Sequence[Source], turning: Sequence[Floats | float]) -> None:
+        for source, speed in zip(sources, turning, strict=True):
+            if source.id not in self.turned_back and np.min(speed) < 0:
+                self.turned_back.add(source.id)
 
 
-def _tightest(hangs: NDArray[np.bool_], left: Sequence[int]) -> list[int]:
-    """The sources that hang on each other, and on nothing else that is left."""
-    best = list(left)
-    for m in left:
-        seen, queue = {m}, [m]
-        while queue:
-            for n in left:
-                if hangs[queue[0], n] and n not in seen:
-                    seen.add(n)
-                    queue.append(n)
-            queue.pop(0)
-        if len(seen) < len(best):
-            best = sorted(seen)
-    return best
+class Angle:
+    """Positions of the input, in turns, and the fraction of a law's period at which they find it."""
+
+    def __init__(self, turns: Floats) -> None:
+        self.turns = turns
+        self.most = float(np.max(np.abs(turns), initial=0.0))
+
+    @cached_property
+    def _halves(self) -> tuple[Floats, Floats]:
+        c = _SPLITTER * self.turns
+        high = c - (c - self.turns)
+        return high, self.turns - high
+
+    def cycles(self, ratio: Fraction) -> Floats:
+        """turns times an exact ratio, whole periods taken off where there are many: right to rounding at any length."""
+        factor = float(ratio)
+        product: Floats = self.turns * factor
+        if factor * self.most <= _PLAIN:
+            return product
+        # Dekker's product: what rounding took from it is found exactly
+        c = _SPLITTER * factor
+        high = c - (c - factor)
+        low = factor - high
+        left, right = self._halves
+        lost = left * high - product
+        lost += left * low
+        lost += right * high
+        lost += right * low
+        if rest := float(ratio - Fraction(factor)):
+            lost += self.turns * rest
+        product -= np.floor(product)
+        product += lost
+        return product

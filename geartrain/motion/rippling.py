@@ -1,168 +1,293 @@
-"""From a solved train to its composition: which meshes ripple, who drives, and how their errors spread."""
+"""From a solved train to its motion: which pairs ripple, who drives, where they start, and how their errors spread."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import cached_property
-from math import pi
+from math import gcd, lcm, pi
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from geartrain.circuits import Circuit
-from geartrain.errors import GearTrainError, Problem
-from geartrain.motion.composition import Composition, Source
+from geartrain.errors import GearTrainError, Loop, Problem
+from geartrain.motion.composition import Composition, Passage, Source
+from geartrain.motion.spreading import Joint, find_spread
+from geartrain.motion.tally import Tally
 
 if TYPE_CHECKING:
-    from geartrain.meshes import Mesh, PinJoint
-    from geartrain.motion.composition import Floats
-    from geartrain.system import System
+    from numpy.random import Generator
+    from numpy.typing import NDArray
 
-_ROUNDING = 1e-15  # of the greatest response: what is less is none
+    from geartrain.meshes import Driver, Mesh, PinJoint
+    from geartrain.motion.spreading import Spread
+    from geartrain.system import System
+    from geartrain.teeth.base import Law
+
+    Floats = NDArray[np.float64]
+
+_HALVINGS = 54  # of four pitches: the driver's start is found from its driven wheel's to rounding
 
 
 @dataclass(frozen=True)
 class Moving:
     """What motion needs to know of a train in one case.
 
-    system      the labelled rows, redundant circuits left out; `redundant` names those
-    speeds      exact mean speeds; `lead` is the input whose angle is given
+    system    the labelled rows without redundant circuits
+    speeds    exact mean speeds; `lead` is the input whose angle is given
+    drivers   who drives each gear pair, and how that is known
+    angles    starting angles of links (rad); `phases`, of pairs, in pitches of their first wheel
+    loops     loops that are redundant: real teeth in them contradict the rest
     """
 
     system: System
-    redundant: frozenset[str]
     circuits: Sequence[Circuit]
     signs: Mapping[str, int]
     speeds: Mapping[str, Fraction]
     lead: str
     teeth: Sequence[Mesh]
     pins: Sequence[PinJoint]
+    drivers: Mapping[str, Driver]
+    angles: Mapping[str, float] = field(default_factory=dict)
+    phases: Mapping[str, float] = field(default_factory=dict)
+    loops: Sequence[Loop] = ()
 
-    def mean(self, link: str) -> float:
-        """Mean speed of a link over the lead's."""
-        return float(self.speeds[link] / self.speeds[self.lead])
+    def ratio(self, link: str) -> Fraction:
+        """Mean speed of a link over the lead's, exactly."""
+        return self.speeds[link] / self.speeds[self.lead]
+
+    def relative(self, link: str, carrier: str) -> Fraction:
+        """Mean speed of a link seen from its carrier, over the lead's, both about the direction of their parallels."""
+        return self.signs.get(link, 1) * self.ratio(link) - self.signs.get(carrier, 1) * self.ratio(carrier)
 
 
 @dataclass(frozen=True)
 class Ripple:
     """What real teeth and pins do to one output over the positions asked for.
 
-    error   transmission error (rad): angle less its mean motion; `speed` over its mean, both by position
+    ratio   exact mean speed over the input's
+    error   transmission error (rad): angle less its mean motion; `speed` over the input's, both by position
     """
 
     name: str
-    mean: float
+    ratio: Fraction
     error: Floats
     speed: Floats
 
     @property
+    def mean(self) -> float:
+        """Mean speed over the input's."""
+        return float(self.ratio)
+
+    @cached_property
+    def tally(self) -> Tally:
+        """Peaks and moments."""
+        tally = Tally(self.name, self.ratio)
+        tally.add(self.error, self.speed - self.mean)
+        return tally
+
+    @property
     def peak_to_peak(self) -> float:
         """Greatest less least error (rad)."""
-        return float(np.ptp(self.error))
+        return self.tally.peak_to_peak
 
     @property
     def rms(self) -> float:
         """Root mean square of the error about its mean (rad)."""
-        return float(np.std(self.error))
+        return self.tally.rms
 
     def to_dict(self) -> dict[str, Any]:
         """Plain data for JSON."""
-        relative = self.speed / self.mean if self.mean else self.speed
-        return {
-            "transmission_error": {"peak_to_peak": self.peak_to_peak, "rms": self.rms},
-            "speed": {"min": float(relative.min()), "max": float(relative.max()), "mean": self.mean},
-        }
+        return self.tally.to_dict()
 
 
 class Motion:
-    """A train's motion as a function of the angle of its input."""
+    """A train's motion as a function of the turns of its input.
 
-    def __init__(self, train: Moving, outputs: Mapping[str, tuple[str, str]]) -> None:
-        self.train, self.outputs = train, outputs
-        self._links = {link: at for at, link in enumerate(train.system.links)}
+    outputs     name -> the link, and the link it is seen from
+    tolerance   laws are read from tables of this accuracy (in pitches); None asks the laws themselves
+    """
+
+    def __init__(self, train: Moving, outputs: Mapping[str, tuple[str, str]], tolerance: float | None = None) -> None:
+        self.train, self.outputs, self.tolerance = train, outputs, tolerance
+        self._index = {link: at for at, link in enumerate(train.system.links)}
+        self._refuse_loops()
+
+    # ----------------------------------------------------------------------------------------------- what it is made of
 
     @cached_property
-    def _sources(self) -> list[tuple[Source, Circuit, int]]:
-        """Each rippling mesh with its circuit and the side that is driven, 0 for i, 1 for j."""
-        teeth = {mesh.name: mesh for mesh in self.train.teeth}
-        pins = {joint.coupling.name: joint for joint in self.train.pins}
-        found = []
-        for circuit in self.train.circuits:
-            if circuit.id in teeth:
-                mesh = teeth[circuit.id]
-                driven = 1 if mesh.driver == circuit.wheels[0] else 0
-                found.append((self._source(circuit, driven, mesh.law), circuit, driven))
-            elif circuit.id in pins:
-                found.append((self._source(circuit, 0, pins[circuit.id].law), circuit, 0))
-        for source, _, _ in found:
-            if source.id in self.train.redundant:
-                raise GearTrainError(
-                    Problem(
-                        f"pair '{source.id}' closes a loop that is redundant",
-                        "its real teeth contradict those of the rest of the loop, pitch by pitch",
-                        "give one pair of the loop ideal teeth",
-                    )
+    def spread(self) -> Spread:
+        """The solved order of the train, over all pairs."""
+        joints = {circuit.id: self._joint(circuit) for circuit in self.train.circuits}
+        held = {row.label for row in self.train.system.equations}
+        found = find_spread(self.train.system, {name: joint for name, joint in joints.items() if name in held})
+        if found is None:
+            raise GearTrainError(
+                Problem(
+                    "the motion of this train has no solved order",
+                    "some of its pairs say what others say already, though they close no loop on one carrier",
+                    "leave out a pair that is redundant (`geartrain check` names the link at which they meet)",
                 )
+            )
         return found
 
-    def _source(self, circuit: Circuit, driven: int, law: Any) -> Source:
+    def _joint(self, circuit: Circuit) -> Joint:
+        driven = self._driven_side(circuit)
         ends = (circuit.i, circuit.j)
-        driver, follower = (self._relative(ends[1 - driven], circuit), self._relative(ends[driven], circuit))
-        sense = 1 if follower >= 0 else -1
-        if circuit.kind != "gear":  # a pin's error has the sense of the slot's own angle
-            sense = -1 if driver < 0 else 1
-        return Source(circuit.id, law, driver, sense)
+        driver, follower, carrier = (self._index[link] for link in (ends[1 - driven], ends[driven], circuit.carrier))
+        return Joint(driver, follower, carrier, (circuit.a, circuit.b)[driven])
 
-    def _relative(self, link: str, circuit: Circuit) -> float:
-        signs, carrier = self.train.signs, circuit.carrier
-        return signs.get(link, 1) * self.train.mean(link) - signs.get(carrier, 1) * self.train.mean(carrier)
+    def _driven_side(self, circuit: Circuit) -> int:
+        """0 where the circuit's first link is driven, 1 where its second is; a pin drives its slot."""
+        driver = self.train.drivers.get(circuit.id)
+        return 0 if driver is None else int(driver.wheel == circuit.wheels[0])
 
     @cached_property
-    def composition(self) -> Composition:
-        """Sources, their influence on each other, and the response of the outputs."""
-        spread = self._spread()
-        signs = self.train.signs
-        influence = np.array(
-            [
-                signs.get(driver, 1) * spread[self._links[driver]]
-                - signs.get(circuit.carrier, 1) * spread[self._links[circuit.carrier]]
-                for driver, circuit in ((_driver(each), each[1]) for each in self._sources)
-            ]
-        ).reshape(len(self._sources), len(self._sources))
-        rows = [spread[self._links[of]] - spread[self._links[base]] for of, base in self.outputs.values()]
-        response = np.array(rows).reshape(len(self.outputs), len(self._sources))
-        return Composition(tuple(source for source, _, _ in self._sources), influence, response)
+    def ahead(self) -> Composition:
+        """The composition while the input turns as declared."""
+        return self._compose(1)
 
-    def _spread(self) -> Floats:
-        """Radians of every link per radian of each source's driven error, (links, sources)."""
-        equations = [row for row in self.train.system.equations if row.label not in self.train.redundant]
-        at = {row.label: number for number, row in enumerate(equations)}
-        matrix = np.zeros((len(equations), len(self._links)))
-        for number, row in enumerate(equations):
-            for link, coefficient in row.terms:
-                matrix[number, self._links[link]] += float(coefficient)
-        right = np.zeros((len(equations), len(self._sources)))
-        for column, (_, circuit, driven) in enumerate(self._sources):
-            right[at[circuit.id], column] = float((circuit.a, circuit.b)[driven])
-        spread = np.asarray(np.linalg.solve(matrix, right), dtype=np.float64)
-        spread[np.abs(spread) < _ROUNDING * np.max(np.abs(spread), initial=0.0)] = 0.0
-        return spread
+    @cached_property
+    def back(self) -> Composition:
+        """The composition while the input turns the other way: the other flanks drive."""
+        return self._compose(-1)
+
+    def _compose(self, way: int) -> Composition:
+        outputs = tuple((self._index[of], self._index[base]) for of, base in self.outputs.values())
+        return Composition(self.spread, tuple(self._sources(way)), outputs)
+
+    def _sources(self, way: int) -> Iterator[Source]:
+        laws: dict[str, Law] = {mesh.name: mesh.law for mesh in self.train.teeth}
+        laws |= {joint.coupling.name: joint.law for joint in self.train.pins}
+        circuits = {circuit.id: circuit for circuit in self.train.circuits}
+        for at, name in enumerate(self.spread.pairs):
+            if name in laws:
+                law = laws[name] if way > 0 else laws[name].turned_back()
+                yield self._source(at, circuits[name], laws[name], self._read(law))
+
+    def _read(self, law: Law) -> Law:
+        if self.tolerance is None:
+            return law
+        from geartrain.teeth.table import Tabulated
+
+        return Tabulated(law, self.tolerance)
+
+    def _source(self, at: int, circuit: Circuit, ahead: Law, law: Law) -> Source:
+        driven = self._driven_side(circuit)
+        ends, signs, carrier = (circuit.i, circuit.j), self.train.signs, circuit.carrier
+        driver, follower = (self.train.relative(ends[side], carrier) for side in (1 - driven, driven))
+        forward = -1 if driver < 0 else 1
+        sense = -1 if follower < 0 else 1
+        teeth = 1
+        if circuit.kind != "gear":  # a pin's error has the sense of the slot's own angle
+            sense = forward
+        else:
+            teeth = abs((circuit.b, circuit.a)[driven])
+        senses = signs.get(ends[1 - driven], 1), signs.get(carrier, 1)
+        angles = [self.train.angles.get(link, 0.0) for link in (ends[1 - driven], carrier)]
+        start = self._phase(circuit, ahead, driven) + forward * (senses[0] * angles[0] - senses[1] * angles[1])
+        return Source(circuit.id, law, at, *senses, abs(driver) * teeth, start, forward, sense)
+
+    def _phase(self, circuit: Circuit, law: Law, driven: int) -> float:
+        """The driver's forward angle (rad) that puts a tooth of the first wheel at the pair's phase."""
+        phase = self.train.phases.get(circuit.id, 0.0)
+        if not phase or driven == 1:
+            return phase * law.period
+        wanted = phase * float(law.ratio) * law.period
+        low, high = (phase - 2) * law.period, (phase + 2) * law.period
+        for _ in range(_HALVINGS):
+            middle = (low + high) / 2
+            low, high = (middle, high) if float(law.angle(middle)) < wanted else (low, middle)
+        return (low + high) / 2
+
+    def _refuse_loops(self) -> None:
+        rippling = {mesh.name for mesh in self.train.teeth} | {joint.coupling.name for joint in self.train.pins}
+        for loop in self.train.loops:
+            if real := [pair for pair in loop.pairs if pair in rippling]:
+                path = " - ".join((*loop.links, loop.links[0]))
+                raise GearTrainError(
+                    Problem(
+                        f"the pairs {', '.join(loop.pairs)} close a loop, {path}, that real teeth do not let turn",
+                        f"the loop holds in the mean, and the errors of {', '.join(real)} would have to cancel at "
+                        "every instant",
+                        f"leave out one of the loop's pairs: `--without {loop.pairs[-1]}` follows the rest",
+                    )
+                )
+
+    def at_random(self, random: Generator) -> Motion:
+        """The same train with a random phase for every pair with real teeth that declares none."""
+        declared = self.train.phases
+        drawn = {mesh.name: float(random.random()) for mesh in self.train.teeth if mesh.name not in declared}
+        return Motion(replace(self.train, phases={**drawn, **declared}), self.outputs, self.tolerance)
+
+    # -------------------------------------------------------------------------------------------------- what it answers
+
+    @cached_property
+    def period(self) -> Fraction | None:
+        """Turns of the input after which every rippling pair stands as at the start; None where nothing ripples."""
+        cycles = [source.cycles for source in self.ahead.used if source.cycles]
+        if not cycles:
+            return None
+        return Fraction(lcm(*(each.denominator for each in cycles)), gcd(*(each.numerator for each in cycles)))
+
+    @cached_property
+    def sensitivity(self) -> Mapping[str, Mapping[str, float]]:
+        """Radians of each output per radian of error of the driven side of each pair, real teeth or not."""
+        found = {}
+        for name, (of, base) in self.outputs.items():
+            row = self.spread.sensitivity(self._index[of], self._index[base])
+            found[name] = dict(zip(self.spread.pairs, row.tolist(), strict=True))
+        return found
+
+    def tallies(self) -> list[Tally]:
+        """An empty tally for each output."""
+        return [Tally(name, self._ratio(of) - self._ratio(base)) for name, (of, base) in self.outputs.items()]
+
+    @property
+    def starts(self) -> list[float]:
+        """Starting angle of each output (rad)."""
+        angles = self.train.angles
+        return [angles.get(of, 0.0) - angles.get(base, 0.0) for of, base in self.outputs.values()]
+
+    def _ratio(self, link: str) -> Fraction:
+        return self.train.ratio(link)
+
+    def passages(self, turns: float, samples: int, first: int = 0) -> Iterator[Passage]:
+        """The run in stretches that fit in memory: `samples` positions from 0 to `turns` of the input, ends included.
+
+        Negative turns go the other way, on the other flanks. `first` is the position to begin with.
+        """
+        composition = self.ahead if turns >= 0 else self.back
+        chunk = composition.chunk
+        for start in range(first, samples, chunk):
+            at = np.arange(start, min(start + chunk, samples))
+            yield composition.at(turns * (at / (samples - 1)))
+
+    def at(self, turns: Floats) -> Passage:
+        """Errors and rates at given turns of the input, in any order, turning as declared."""
+        turns = np.asarray(turns, dtype=float)
+        chunk = self.ahead.chunk
+        parts = [self.ahead.at(turns[start : start + chunk]) for start in range(0, len(turns), chunk)]
+        return Passage(turns, *(np.concatenate([part[column] for part in parts], axis=1) for column in (1, 2)))
 
     def ripples(
         self, turns: float, samples: int, on_done: Callable[[int], None] = lambda _: None
     ) -> tuple[Floats, dict[str, Ripple]]:
         """Angles of the input (rad) and the ripple of every output at them; `on_done` is told of each chunk."""
-        angle = np.linspace(0.0, 2 * pi * turns, samples)
-        error, rate = self.composition.motion(angle, on_done)
-        found = {}
-        for at, (name, (of, base)) in enumerate(self.outputs.items()):
-            mean = self.train.mean(of) - self.train.mean(base)
-            found[name] = Ripple(name, mean, error[at], mean + rate[at])
+        error = np.empty((len(self.outputs), samples))
+        rate = np.empty_like(error)
+        angle = np.empty(samples)
+        done = 0
+        for passage in self.passages(turns, samples):
+            part = slice(done, done + len(passage.turns))
+            angle[part], error[:, part], rate[:, part] = passage
+            done = part.stop
+            on_done(len(passage.turns))
+        angle *= 2 * pi
+        found = {
+            tally.name: Ripple(tally.name, tally.ratio, error[at], tally.mean + rate[at])
+            for at, tally in enumerate(self.tallies())
+        }
         return angle, found
-
-
-def _driver(each: tuple[Source, Circuit, int]) -> str:
-    _, circuit, driven = each
-    return circuit.i if driven == 1 else circuit.j

@@ -2,47 +2,109 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import TYPE_CHECKING
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
 from geartrain.plot.library import Figure
-from geartrain.plot.parts import BLUE, GREY, WIDTH
+from geartrain.plot.parts import BLUE, GREY, RED, WIDTH
 
 if TYPE_CHECKING:
-    from geartrain.teeth.base import Floats
+    from numpy.typing import NDArray
 
-_ROW = 220  # pixels of a panel, at 100 to the inch
-_MOST = 4000  # points drawn in a panel: of each stretch its least and greatest
+    from geartrain.motion import Run
+
+    Floats = NDArray[np.float64]
+
+_ROW = 200  # pixels of a panel, at 100 to the inch
+_MOST = 6000  # points drawn in a panel: of each stretch the first, its least and its greatest
+_ROUNDS = 15  # turns of a pointer beyond which its angle would be a grey block
 
 
-def motion_figure(turns: Floats, errors: Mapping[str, Floats], speeds: Mapping[str, Floats]) -> Figure:
-    """Transmission error and speed of each output over the input's turns.
+class _Trace(NamedTuple):
+    """One output over the turns of the input: angle (turns), error (rad), speed over the mean (or the input's)."""
 
-    turns    (n,) of the input
-    errors   (n,) in rad by output; `speeds` (n,) over their mean by output
-    """
-    rows = 2 * len(errors)
+    name: str
+    turns: Floats
+    angle: Floats
+    mean: Floats
+    error: Floats
+    speed: Floats
+
+
+def motion_figure(run: Run, on_done: Callable[[int], None] = lambda _: None) -> Figure:
+    """Of each output: its angle against its mean motion, the error, and the speed; where it goes back, in red."""
+    traces = _traces(run, on_done)
+    panels_of = [(_angle, _error, _speed) if np.ptp(trace.mean) <= _ROUNDS else (_error, _speed) for trace in traces]
+    rows = sum(map(len, panels_of))
     figure = Figure(figsize=(WIDTH, max(2, rows) * _ROW / 100), dpi=100, layout="constrained")
-    panels = figure.subplots(rows, 1, sharex=True, squeeze=False)[:, 0]
-    for at, name in enumerate(errors):
-        for panel, values, label in (
-            (panels[2 * at], np.degrees(errors[name] - errors[name].mean()), f"{name}\nerror less its mean (deg)"),
-            (panels[2 * at + 1], speeds[name], f"{name}\nspeed over mean"),
-        ):
-            panel.plot(*_envelope(turns, values), color=BLUE, linewidth=0.8)
-            panel.set_ylabel(label)
+    panels = iter(figure.subplots(rows, 1, sharex=True, squeeze=False)[:, 0])
+    for trace, drawers in zip(traces, panels_of, strict=True):
+        for drawer in drawers:
+            panel = next(panels)
+            drawer(panel, trace)
             panel.grid(color=GREY, alpha=0.25)
             panel.spines[["top", "right"]].set_visible(False)
-    panels[-1].set_xlabel("turns of the input")
+    panel.set_xlabel(f"turns of {run.motion.train.lead}")
     return figure
 
 
-def _envelope(x: Floats, y: Floats) -> tuple[Floats, Floats]:
-    """No more points than can be seen: of each stretch the first, the least and the greatest in their order."""
-    if len(x) <= _MOST:
-        return x, y
-    bins = np.array_split(np.arange(len(x)), _MOST // 3)
-    kept = np.unique(np.concatenate([[b[0], b[np.argmin(y[b])], b[np.argmax(y[b])]] for b in bins]))
-    return x[kept], y[kept]
+def _traces(run: Run, on_done: Callable[[int], None]) -> list[_Trace]:
+    """Every output, thinned stretch by stretch to what can be seen."""
+    motion = run.motion
+    parts: list[list[tuple[Floats, Floats, Floats]]] = [[] for _ in motion.outputs]
+    for passage in motion.passages(run.turns, run.samples):
+        share = max(1, round(_MOST / 3 * len(passage.turns) / run.samples))
+        for at, part in enumerate(parts):
+            kept = _kept(passage.error[at], passage.rate[at], share)
+            part.append((passage.turns[kept], passage.error[at][kept], passage.rate[at][kept]))
+        on_done(len(passage.turns))
+    found = []
+    for tally, start, part in zip(motion.tallies(), motion.starts, parts, strict=True):
+        turns, error, rate = (np.concatenate(column) for column in zip(*part, strict=True))
+        mean = start / (2 * np.pi) + tally.mean * turns
+        angle = mean + error / (2 * np.pi)
+        found.append(_Trace(tally.name, turns, angle, mean, error, (tally.mean + rate) / (tally.mean or 1.0)))
+    return found
+
+
+def _kept(error: Floats, rate: Floats, bins: int) -> NDArray[np.intp]:
+    """Of each bin the first position, and those of the least and the greatest error and speed, in their order."""
+    if len(error) <= 3 * bins:
+        return np.arange(len(error))
+    kept = []
+    for part in np.array_split(np.arange(len(error)), bins):
+        kept += [part[0], *(part[find(y[part])] for y in (error, rate) for find in (np.argmin, np.argmax))]
+    return np.unique(kept)
+
+
+def _angle(panel: Any, trace: _Trace) -> None:
+    for values, colour, width, label in ((trace.mean, GREY, 0.8, "mean"), (trace.angle, BLUE, 1.2, "true")):
+        panel.plot(*_broken(trace.turns, values), color=colour, linewidth=width, label=label)
+    back = np.where(trace.speed < 0, trace.angle, np.nan)
+    if np.isfinite(back).any():
+        panel.plot(*_broken(trace.turns, back), color=RED, linewidth=2, label="going back")
+    panel.set_ylabel(f"{trace.name}\nangle (deg)")
+    panel.set_ylim(0, 360)
+    panel.set_yticks(range(0, 361, 90))
+    panel.legend(loc="lower right", bbox_to_anchor=(1, 1), borderpad=0, frameon=False, fontsize="small", ncols=3)
+
+
+def _broken(x: Floats, turns: Floats) -> tuple[Floats, Floats]:
+    """Degrees round the dial, the line broken where the pointer passes 0."""
+    degrees = 360 * np.mod(turns, 1)
+    cuts = np.flatnonzero(np.abs(np.diff(degrees)) > 180) + 1
+    return np.insert(x, cuts, np.nan), np.insert(degrees, cuts, np.nan)
+
+
+def _error(panel: Any, trace: _Trace) -> None:
+    panel.plot(trace.turns, np.degrees(trace.error - trace.error.mean()), color=BLUE, linewidth=0.8)
+    panel.set_ylabel(f"{trace.name}\nerror less its mean (deg)")
+
+
+def _speed(panel: Any, trace: _Trace) -> None:
+    panel.plot(trace.turns, trace.speed, color=BLUE, linewidth=0.8)
+    if (trace.speed < 0).any():
+        panel.fill_between(trace.turns, trace.speed, 0, where=trace.speed < 0, color=RED, alpha=0.6, linewidth=0)
+    panel.set_ylabel(f"{trace.name}\nspeed over mean")

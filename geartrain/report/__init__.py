@@ -7,7 +7,7 @@ from geartrain.report.content import report_train
 from geartrain.report.data import train_data
 from geartrain.report.document import Document, Section, Table
 from geartrain.report.meshing import Running, mesh_document
-from geartrain.report.moving import motion_document
+from geartrain.report.moving import motion_data, motion_document
 from geartrain.report.pins import pin_data, pin_document
 from geartrain.report.power import torques_data, torques_document
 from geartrain.report.rendering import to_html, to_markdown, to_terminal
@@ -21,6 +21,7 @@ __all__ = [
     "compare_trains",
     "mesh_data",
     "mesh_document",
+    "motion_data",
     "motion_document",
     "pin_data",
     "pin_document",

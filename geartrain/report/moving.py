@@ -1,35 +1,177 @@
-"""What real teeth and pins do to outputs, as a page."""
+"""What real teeth and pins do to outputs, as a page and as plain data."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator
 from math import degrees
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from geartrain.report.document import Document, Section, Table, figure
 
 if TYPE_CHECKING:
-    from geartrain.motion import Ripple
+    from geartrain.motion import Estimates, Line, Run, Tally
 
 
-def motion_document(lead: str, turns: float, found: Mapping[str, Ripple]) -> Document:
-    """Error and speed of each output while the input `lead` makes some turns."""
+def motion_document(run: Run) -> Document:
+    """Error and speed of each output of a run, and what else was asked of it."""
+    train, period = run.motion.train, run.motion.period
+    lead = [
+        f"While '{train.lead}' makes {run.turns:g} turns, in {run.done} positions. Speeds are over that of "
+        f"'{train.lead}'; the error is the angle less its mean motion."
+    ]
+    if run.done < run.samples:
+        lead.append(f"PARTIAL: stopped after {run.done} of {run.samples} positions.")
+    if period is not None:
+        lead.append(f"Everything repeats after {period} turns of '{train.lead}'.")
+    return Document("Motion with real teeth and pins", lead, list(motion_sections(run)))
+
+
+def motion_sections(run: Run) -> Iterator[Section]:
+    """Outputs, the pairs that make their errors, and whatever else was asked for."""
+    yield Section("Outputs", tuple(_remarks(run)), (_outputs(run.tallies),))
+    if run.motion.ahead.used:
+        yield _pairs(run)
+    if run.phased:
+        yield _phased(run)
+    if run.estimates:
+        yield _estimates(run.estimates)
+    for name, lines in run.spectra.items():
+        if lines:
+            yield _spectrum(name, lines)
+
+
+def _outputs(tallies: list[Tally]) -> Table:
     rows = []
-    for name, ripple in found.items():
-        scale = ripple.mean or 1.0
-        low, high = sorted((float(ripple.speed.min()) / scale, float(ripple.speed.max()) / scale))
+    for tally in tallies:
+        low, high = tally.speeds
         rows.append(
             (
-                name,
-                figure(ripple.mean, 9),
-                f"{degrees(ripple.peak_to_peak):.6g}",
-                f"{degrees(ripple.rms):.6g}",
-                f"{low:.5f}..{high:.5f}" if ripple.mean else f"{low:.5f}..{high:.5f} (absolute)",
+                tally.name,
+                figure(tally.ratio, 9),
+                f"{degrees(tally.peak_to_peak):.6g}",
+                f"{degrees(tally.rms):.6g}",
+                f"{low:.5f}..{high:.5f}" + ("" if tally.ratio else " (over the input's)"),
             )
         )
-    text = (
-        f"While '{lead}' makes {turns:g} turns. Speeds are over that of '{lead}'; the error is the angle less its mean "
-        "motion."
-    )
-    header = ("output", "mean speed", "error p-p (deg)", "error rms (deg)", "speed over its mean")
-    return Document("Motion with real teeth and pins", (text,), (Section("Outputs", (), (Table(header, rows),)),))
+    return Table(("output", "mean speed", "error p-p (deg)", "error rms (deg)", "speed over its mean"), rows)
+
+
+def _remarks(run: Run) -> Iterator[str]:
+    composition = run.motion.ahead if run.turns >= 0 else run.motion.back
+    if composition.turned_back:
+        names = ", ".join(source.id for source in composition.used if source.id in composition.turned_back)
+        yield (
+            f"At times the driver of {names} turns back: there the other flanks take over, and the play between them "
+            "is not followed."
+        )
+
+
+def _pairs(run: Run) -> Section:
+    motion = run.motion
+    outputs = list(motion.outputs)[:_ABREAST]
+    rows = []
+    for source in motion.ahead.used:
+        driver = motion.train.drivers.get(source.id)
+        low, high = source.law.error_range()
+        shares = [f"{degrees(abs(motion.sensitivity[name][source.id]) * (high - low)):.4g}" for name in outputs]
+        who = (driver.wheel, driver.why) if driver else ("its pin", "a pin drives its slot")
+        rows.append((source.id, *who, str(source.cycles), *shares))
+    header = ("pair", "driver", "how that is known", "periods a turn", *(f"{name} (deg)" for name in outputs))
+    text = "What each pair gives to an output: the range of its own error times the output's sensitivity to it."
+    return Section("Pairs", (text,), (Table(header, rows, wide=True),))
+
+
+_ABREAST = 8
+
+
+def _phased(run: Run) -> Section:
+    rows = []
+    for at, tally in enumerate(run.tallies):
+        sets = [tallies[at] for tallies in run.phased]
+        peaks, rms = ([degrees(value) for value in values] for values in zip(*_sizes(sets), strict=True))
+        speeds = [each.speeds for each in sets]
+        rows.append(
+            (
+                tally.name,
+                f"{min(peaks):.5g}..{max(peaks):.5g}",
+                f"{min(rms):.5g}..{max(rms):.5g}",
+                f"{min(low for low, _ in speeds):.5f}..{max(high for _, high in speeds):.5f}",
+            )
+        )
+    header = ("output", "error p-p (deg)", "error rms (deg)", "speed over its mean")
+    text = f"{len(run.phased)} sets of random phases of the teeth, seed {run.seed}."
+    return Section("Random phases", (text,), (Table(header, rows),))
+
+
+def _sizes(sets: list[Tally]) -> list[tuple[float, float]]:
+    return [(tally.peak_to_peak, tally.rms) for tally in sets]
+
+
+def _estimates(found: dict[str, Estimates]) -> Section:
+    rows = []
+    for name, each in found.items():
+        true = each.true
+        rows += [
+            (name, "composed", *_degrees(true.peak_to_peak, true.rms), "0", "0"),
+            ("", "bound by the sum", *_degrees(each.bound), "-", "-", "-"),
+            ("", "independent phases", "-", *_degrees(each.independent), "-", "-"),
+        ]
+        for how, superposed in (("superposed", each.nominal), ("superposed with lag", each.lagged)):
+            data = superposed.to_dict()
+            off = data["difference"]
+            rows.append(("", how, *_degrees(data["peak_to_peak"], data["rms"]), *_degrees(off["greatest"], off["rms"])))
+    header = ("output", "method", "error p-p (deg)", "rms (deg)", "greatest difference (deg)", "rms of it (deg)")
+    text = "Cheap estimates beside the composed motion; the difference is pointwise, each about its own mean."
+    return Section("Estimates", (text,), (Table(header, rows),))
+
+
+def _degrees(*values: float) -> tuple[str, ...]:
+    return tuple(f"{degrees(value):.6g}" for value in values)
+
+
+def _spectrum(name: str, lines: list[Line]) -> Section:
+    rows = [
+        (
+            str(line.order),
+            figure(float(line.order), 8),
+            ", ".join(f"{pair} x{harmonic}" for pair, harmonic, _ in line.shares),
+            *_degrees(line.expected, line.measured),
+        )
+        for line in lines
+    ]
+    header = ("order", "per turn of the input", "pair and harmonic", "expected (deg)", "measured (deg)")
+    text = "Amplitudes by exact order: expected to first order, and measured in the composed motion."
+    return Section(f"Spectrum of {name}", (text,), (Table(header, rows),))
+
+
+def motion_data(run: Run) -> dict[str, Any]:
+    """A run as plain data with stable keys; angles in rad."""
+    motion, period = run.motion, run.motion.period
+    used = {source.id for source in motion.ahead.used}
+    drivers = {name: {"driver": d.wheel, "why": d.why} for name, d in motion.train.drivers.items() if name in used}
+    composition = motion.ahead if run.turns >= 0 else motion.back
+    outputs: dict[str, Any] = {}
+    for at, tally in enumerate(run.tallies):
+        data = tally.to_dict() | {"sensitivity": dict(motion.sensitivity[tally.name])}
+        if run.phased:
+            peaks, rms = zip(*_sizes([tallies[at] for tallies in run.phased]), strict=True)
+            data["phases"] = {"peak_to_peak": [min(peaks), max(peaks)], "rms": [min(rms), max(rms)]}
+        if tally.name in run.estimates:
+            data["estimates"] = run.estimates[tally.name].to_dict()
+        if tally.name in run.spectra:
+            data["spectrum"] = [line.to_dict() for line in run.spectra[tally.name]]
+        outputs[tally.name] = data
+    found: dict[str, Any] = {
+        "input": motion.train.lead,
+        "turns": run.turns,
+        "positions": run.done,
+        "period": None if period is None else str(period),
+        "drivers": drivers,
+        "turned_back": sorted(composition.turned_back),
+        "outputs": outputs,
+    }
+    if run.done < run.samples:
+        found["partial"] = {"done": run.done, "of": run.samples}
+    if run.phased:
+        found["phases"] = {"sets": len(run.phased), "seed": run.seed}
+    return found

@@ -62,6 +62,14 @@ class Law(ABC):
         """Driver angles (rad) where the law or a slope of it is not smooth; none by default."""
         return []
 
+    def error_and_speed(self, S: ArrayLike) -> tuple[Floats, Floats]:
+        """Both at driver angles S (rad), for less than the two apart where a law can."""
+        return self.error(S), self.speed(S)
+
+    def turned_back(self) -> Law:
+        """The law while the driver's angle decreases: the same, but for teeth with play."""
+        return self
+
     def angle(self, S: ArrayLike) -> Floats:
         """Driven angle q (rad) at driver angles S (rad)."""
         import numpy as np

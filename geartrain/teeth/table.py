@@ -163,3 +163,8 @@ class Tabulated(Law):
     def corners(self) -> list[float]:
         """The law's own."""
         return self.law.corners()
+
+    def turned_back(self) -> Tabulated:
+        """Tables of the law turned back."""
+        back = self.law.turned_back()
+        return self if back is self.law else Tabulated(back, self.tolerance, self.degree)

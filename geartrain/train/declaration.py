@@ -125,6 +125,11 @@ class Train(Declared):
         loc: Loc = ("states", state, "inputs") if state is not None and own.inputs is not None else ("inputs",)
         return Case(state, self._speeds(inputs), tuple(dict.fromkeys(fixed)), tuple(locks), outputs, loc, clutches)
 
+    def is_loaded(self, state: str | None) -> bool:
+        """True if torques follow from something declared: loads, or friction of bearings."""
+        own = self.states[state].loads if state is not None else None
+        return bool(self.loads if own is None else own) or any(link.bearing for link in self.links.values())
+
     def _speeds(self, inputs: Mapping[str, Quantity]) -> dict[str, Fraction]:
         """Input speeds in the train's unit; named units are counted in the first one's."""
         scale = self._input_scale(inputs)

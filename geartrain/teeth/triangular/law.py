@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
@@ -93,30 +93,46 @@ class TriangularLaw(Law):
         """Sliding efficiency at driver angles S (rad); NaN in a standstill."""
         return self._map(S, self._eta)
 
+    def error_and_speed(self, S: ArrayLike) -> tuple[Floats, Floats]:
+        """Transmission error (rad of the driven wheel) and tau; where in the path an angle falls is found once."""
+        lag, tau = self._map_all(S, (self._lag, self._tau))
+        return (-lag if self.direction > 0 else self.sizes.p2 + lag), tau
+
+    def turned_back(self) -> TriangularLaw:
+        """The law of the other flanks; angles keep their sense and decrease."""
+        return TriangularLaw(self.sizes, self.friction, -self.direction)
+
     def alpha1(self, S: ArrayLike) -> Floats:
         """alpha_1 (rad) of the couple that drives at driver angles S (rad)."""
         return self._map(S, lambda interval, x: x)
 
     def _map(self, S: ArrayLike, what: Callable[[Interval, Floats], Any]) -> Floats:
+        return self._map_all(S, (what,))[0]
+
+    def _map_all(self, S: ArrayLike, what: Sequence[Callable[[Interval, Floats], Any]]) -> list[Floats]:
         S = np.asarray(S, dtype=float)
         flat = S.ravel()
-        found = np.empty_like(flat)
+        found = [np.empty_like(flat) for _ in what]
         for start in range(0, len(flat), _BLOCK):
-            self._block(flat[start : start + _BLOCK], what, found[start : start + _BLOCK])
-        return found.reshape(S.shape)
+            part = slice(start, start + _BLOCK)
+            self._block(flat[part], what, [each[part] for each in found])
+        return [each.reshape(S.shape) for each in found]
 
-    def _block(self, S: Floats, what: Callable[[Interval, Floats], Any], found: Floats) -> None:
+    def _block(self, S: Floats, what: Sequence[Callable[[Interval, Floats], Any]], found: Sequence[Floats]) -> None:
         edges, gone = self._edges, np.empty_like(S)
         behind(S if self.direction > 0 else -S, self.period, gone, np.empty_like(S))
         gone += self._start
         gone -= np.where(gone < self.period, 0.0, self.period)
         if len(self.intervals) == 1:
-            found[:] = what(self.intervals[0], self.intervals[0].start - gone)
+            for each, function in zip(found, what, strict=True):
+                each[:] = function(self.intervals[0], self.intervals[0].start - gone)
             return
         which = np.searchsorted(edges[1:-1], gone, side="right")
         for at, interval in enumerate(self.intervals):
             chosen = np.flatnonzero(which == at)
-            found[chosen] = what(interval, interval.start - (gone[chosen] - edges[at]))
+            x = interval.start - (gone[chosen] - edges[at])
+            for each, function in zip(found, what, strict=True):
+                each[chosen] = function(interval, x)
 
     @cached_property
     def _start(self) -> float:

@@ -22,7 +22,7 @@ from geartrain.train import Case, Train, declare, suggest
 if TYPE_CHECKING:
     from geartrain.graph import Graph
     from geartrain.meshes import Driver, Mesh, PinJoint
-    from geartrain.motion import Motion, Moving
+    from geartrain.motion import Impact, Motion, Moving
     from geartrain.speeds import FloatSpeeds
     from geartrain.torques import Setting, Torques
 
@@ -153,6 +153,16 @@ class GearTrain:
             _, links = self._only(case, name)
             wanted[name] = (links[0], links[1] if len(links) > 1 else self.declaration.frame)
         return Motion(self._moving(case, without), wanted, tolerance)
+
+    def impacts(self, state: str | None = None) -> Mapping[str, Impact]:
+        """What the collisions of each pair with triangular teeth cost; empty unless inertias and a rate are declared."""
+        declared, case = self.declaration, self._case(state)
+        inertias = {name: link.inertia.si for name, link in declared.links.items() if link.inertia is not None}
+        if not inertias or declared.rate is None or declared.rate.unit is None or not self.meshes:
+            return {}
+        from geartrain.motion import Motion, find_impacts
+
+        return find_impacts(Motion(self._moving(case, ()), {}), inertias, declared.rate.si)
 
     def _moving(self, case: Case, without: Sequence[str]) -> Moving:
         from geartrain.motion import Moving

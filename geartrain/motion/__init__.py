@@ -2,6 +2,7 @@
 
 from geartrain.motion.composition import Composition, Passage, Source
 from geartrain.motion.estimates import Estimates, Superposition, find_estimates
+from geartrain.motion.impacts import Impact, find_impacts
 from geartrain.motion.rippling import Motion, Moving, Ripple
 from geartrain.motion.run import Run
 from geartrain.motion.spectrum import Line, find_spectrum
@@ -10,6 +11,7 @@ from geartrain.motion.tally import Tally
 __all__ = [
     "Composition",
     "Estimates",
+    "Impact",
     "Line",
     "Motion",
     "Moving",
@@ -20,5 +22,6 @@ __all__ = [
     "Superposition",
     "Tally",
     "find_estimates",
+    "find_impacts",
     "find_spectrum",
 ]

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     Floats = NDArray[np.float64]
 
 _CHUNK = 32768  # most positions worked on at once
-_NUMBERS = 1 << 22  # most angles kept at once: longer trains take shorter chunks
+_NUMBERS = 1 << 23  # most angles kept at once: longer trains take shorter chunks
 _PLAIN = 2048  # periods of a law up to which a plain product tells where in it the driver stands
 _SPLITTER = 134217729.0  # 2^27 + 1: cuts a float in two halves
 

@@ -13,6 +13,7 @@ import numpy as np
 
 from geartrain.circuits import Circuit
 from geartrain.errors import GearTrainError, Loop, Problem
+from geartrain.exact import log10
 from geartrain.motion.composition import Composition, Passage, Source
 from geartrain.motion.spreading import Joint, find_spread
 from geartrain.motion.tally import Tally
@@ -28,6 +29,7 @@ if TYPE_CHECKING:
 
     Floats = NDArray[np.float64]
 
+_FASTEST = 2**90  # periods a turn: a position is a float, and its product with the ratio is kept to 106 bits
 _HALVINGS = 54  # of four pitches: the driver's start is found from its driven wheel's to rounding
 
 
@@ -188,7 +190,16 @@ class Motion:
         senses = signs.get(ends[1 - driven], 1), signs.get(carrier, 1)
         angles = [self.train.angles.get(link, 0.0) for link in (ends[1 - driven], carrier)]
         start = self._phase(circuit, ahead, driven) + forward * (senses[0] * angles[0] - senses[1] * angles[1])
-        return Source(circuit.id, law, at, *senses, abs(driver) * teeth, start, forward, sense)
+        cycles = abs(driver) * teeth
+        if cycles > _FASTEST:
+            raise GearTrainError(
+                Problem(
+                    f"pair '{circuit.id}' passes 10^{log10(cycles):.0f} teeth while '{self.train.lead}' turns once",
+                    "no position of the input can be told so finely that it says where these teeth stand",
+                    "drive the train nearer to this pair, or give it ideal teeth",
+                )
+            )
+        return Source(circuit.id, law, at, *senses, cycles, start, forward, sense)
 
     def _phase(self, circuit: Circuit, law: Law, driven: int) -> float:
         """The driver's forward angle (rad) that puts a tooth of the first wheel at the pair's phase."""

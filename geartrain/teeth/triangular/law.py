@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import cached_property
+from functools import cached_property, lru_cache
 from itertools import pairwise
 from math import inf, nan, sqrt
 from typing import TYPE_CHECKING, Any
@@ -55,6 +55,12 @@ def matches(last: Interval, new: Interval, pitch: float) -> bool:
     return faces and abs(last.end - new.start) < 1e-9 * pitch
 
 
+@lru_cache(maxsize=4096)
+def _contact(sizes: Sizes) -> Contact:
+    """Equal pairs of a long train share one contact."""
+    return Contact(sizes)
+
+
 class TriangularLaw(Law):
     """The law of a pair of wheels, the first of `sizes` driving.
 
@@ -66,7 +72,7 @@ class TriangularLaw(Law):
     def __init__(self, sizes: Sizes, friction: float = 0.0, direction: int = 1) -> None:
         self.sizes, self.friction, self.direction = sizes, friction, direction
         self.ratio, self.period = Fraction(sizes.z1, sizes.z2), sizes.p1
-        self.contact = Contact(sizes)
+        self.contact = _contact(sizes)
 
     @property
     def intervals(self) -> tuple[Interval, ...]:

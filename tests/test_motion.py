@@ -404,3 +404,50 @@ def test_an_interrupted_summary_says_what_it_has_seen(tmp_path: Path, monkeypatc
     assert not out.exists()
     data = json.loads((tmp_path / "run.partial.json").read_text(encoding="utf-8"))
     assert data["partial"] == {"done": sum(seen), "of": 100_001}
+
+
+BLOWS = PAIR.replace("b: {wheels", "b: {inertia: 3 g cm2, wheels").replace("c: {wheels", "c: {inertia: 5 g cm2, wheels")
+
+
+def test_a_blow_strikes_the_inertia_of_all_that_turns_with_the_driven_wheel() -> None:
+    train = load(BLOWS + "rate: 2 turn/s\n")
+    first, second = train.impacts().values()
+    ratio = 20 / 30
+    assert first.inertia == pytest.approx((3 + 5 * ratio**2) * 1e-7, rel=1e-12)
+    assert second.inertia == pytest.approx(5e-7, rel=1e-12)
+    law = train.meshes[0].law
+    _, dissipated, _ = law.impact((3 + 5 * ratio**2) * 1e-7, 4 * pi)
+    assert first.power == pytest.approx(dissipated * 2 * 24, rel=1e-12)
+    assert second.rate == pytest.approx(2 * 24 / 36 * 20, rel=1e-12)
+    assert load(PAIR).impacts() == {}
+    assert load(BLOWS).impacts() == {}
+
+
+def test_around_a_differential_every_link_is_struck_by_its_own_jump() -> None:
+    """The power a blow takes is the kinetic energy of the velocities lost, whatever links share it."""
+    inertias = {"planet": 2e-7, "right": 7e-7, "arm": 9e-7, "left": 1e-3}
+    text = DIFFERENTIAL.replace("inputs: {left: 1, arm: 1/3}", "inputs: {left: 1, arm: 1/3}\nrate: 1 turn/s")
+    for link, inertia in inertias.items():
+        text = text.replace(f"  {link}: {{", f"  {link}: {{inertia: {inertia * 1e7:.12g} g cm2, ")
+    found = load(text).impacts()
+    # l~p: the planet jumps by 1, and right with it by -18/44; both inputs keep their speed
+    assert found["l~p"].inertia == pytest.approx(2e-7 + 7e-7 * (18 / 44) ** 2, rel=1e-12)
+    assert found["q~r"].inertia == pytest.approx(7e-7, rel=1e-12)
+
+
+def test_the_picture_shows_where_a_pointer_goes_back() -> None:
+    from geartrain.plot import motion_figure
+
+    year = motion_figure(Run(load("freeth-2021").motion(outputs=["mars"]), 3.0, 5001))
+    labels = [panel.get_ylabel() for panel in year.axes]
+    assert labels == ["mars\nangle (deg)", "mars\nerror less its mean (deg)", "mars\nspeed over mean"]
+    back = year.axes[0].lines[2]
+    assert back.get_label() == "going back"
+    y = np.asarray(back.get_ydata(), dtype=float)
+    assert (np.diff(y)[np.isfinite(np.diff(y))] < 0).all()
+    long = motion_figure(Run(load("freeth-2021").motion(outputs=["mars"]), 284.0, 100_001))
+    assert long.axes[0].get_ylabel() == "mars\nwhere it goes back (deg)"
+    (arcs,) = long.axes[0].lines
+    starts = np.flatnonzero(np.diff(np.isfinite(np.append(np.nan, arcs.get_ydata())).astype(int)) == 1)
+    # 133 arcs, the first cut in two by the ends of the run; those that pass 0 on the dial are broken there
+    assert 134 <= len(starts) < 150

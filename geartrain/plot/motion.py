@@ -36,7 +36,7 @@ class _Trace(NamedTuple):
 def motion_figure(run: Run, on_done: Callable[[int], None] = lambda _: None) -> Figure:
     """Of each output: its angle against its mean motion, the error, and the speed; where it goes back, in red."""
     traces = _traces(run, on_done)
-    panels_of = [(_angle, _error, _speed) if np.ptp(trace.mean) <= _ROUNDS else (_error, _speed) for trace in traces]
+    panels_of = [_drawers(trace) for trace in traces]
     rows = sum(map(len, panels_of))
     figure = Figure(figsize=(WIDTH, max(2, rows) * _ROW / 100), dpi=100, layout="constrained")
     panels = iter(figure.subplots(rows, 1, sharex=True, squeeze=False)[:, 0])
@@ -50,14 +50,22 @@ def motion_figure(run: Run, on_done: Callable[[int], None] = lambda _: None) -> 
     return figure
 
 
+def _drawers(trace: _Trace) -> list[Callable[[Any, _Trace], None]]:
+    """Over few rounds the pointer's whole way; over many, only where it goes back."""
+    if np.ptp(trace.mean) <= _ROUNDS:
+        return [_angle, _error, _speed]
+    return [_arcs, _error, _speed] if (trace.speed < 0).any() else [_error, _speed]
+
+
 def _traces(run: Run, on_done: Callable[[int], None]) -> list[_Trace]:
     """Every output, thinned stretch by stretch to what can be seen."""
     motion = run.motion
     parts: list[list[tuple[Floats, Floats, Floats]]] = [[] for _ in motion.outputs]
+    means = [tally.mean for tally in motion.tallies()]
     for passage in motion.passages(run.turns, run.samples):
         share = max(1, round(_MOST / 3 * len(passage.turns) / run.samples))
         for at, part in enumerate(parts):
-            kept = _kept(passage.error[at], passage.rate[at], share)
+            kept = _kept(passage.error[at], means[at] + passage.rate[at], share)
             part.append((passage.turns[kept], passage.error[at][kept], passage.rate[at][kept]))
         on_done(len(passage.turns))
     found = []
@@ -69,14 +77,15 @@ def _traces(run: Run, on_done: Callable[[int], None]) -> list[_Trace]:
     return found
 
 
-def _kept(error: Floats, rate: Floats, bins: int) -> NDArray[np.intp]:
-    """Of each bin the first position, and those of the least and the greatest error and speed, in their order."""
+def _kept(error: Floats, speed: Floats, bins: int) -> NDArray[np.intp]:
+    """Of each bin the first position and those of the least and greatest error and speed; and every turning back."""
     if len(error) <= 3 * bins:
         return np.arange(len(error))
-    kept = []
+    kept: list[Any] = []
     for part in np.array_split(np.arange(len(error)), bins):
-        kept += [part[0], *(part[find(y[part])] for y in (error, rate) for find in (np.argmin, np.argmax))]
-    return np.unique(kept)
+        kept += [part[0], *(part[find(y[part])] for y in (error, speed) for find in (np.argmin, np.argmax))]
+    turning = np.flatnonzero(np.diff(np.signbit(speed)))
+    return np.unique(np.concatenate([kept, turning[:_MOST], turning[:_MOST] + 1]))
 
 
 def _angle(panel: Any, trace: _Trace) -> None:
@@ -85,10 +94,20 @@ def _angle(panel: Any, trace: _Trace) -> None:
     back = np.where(trace.speed < 0, trace.angle, np.nan)
     if np.isfinite(back).any():
         panel.plot(*_broken(trace.turns, back), color=RED, linewidth=2, label="going back")
-    panel.set_ylabel(f"{trace.name}\nangle (deg)")
+    _dial(panel, f"{trace.name}\nangle (deg)")
+    panel.legend(loc="lower right", bbox_to_anchor=(1, 1), borderpad=0, frameon=False, fontsize="small", ncols=3)
+
+
+def _arcs(panel: Any, trace: _Trace) -> None:
+    back = np.where(trace.speed < 0, trace.angle, np.nan)
+    panel.plot(*_broken(trace.turns, back), color=RED, linewidth=1.5)
+    _dial(panel, f"{trace.name}\nwhere it goes back (deg)")
+
+
+def _dial(panel: Any, label: str) -> None:
+    panel.set_ylabel(label)
     panel.set_ylim(0, 360)
     panel.set_yticks(range(0, 361, 90))
-    panel.legend(loc="lower right", bbox_to_anchor=(1, 1), borderpad=0, frameon=False, fontsize="small", ncols=3)
 
 
 def _broken(x: Floats, turns: Floats) -> tuple[Floats, Floats]:

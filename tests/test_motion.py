@@ -451,3 +451,12 @@ def test_the_picture_shows_where_a_pointer_goes_back() -> None:
     starts = np.flatnonzero(np.diff(np.isfinite(np.append(np.nan, arcs.get_ydata())).astype(int)) == 1)
     # 133 arcs, the first cut in two by the ends of the run; those that pass 0 on the dial are broken there
     assert 134 <= len(starts) < 150
+
+
+def test_a_report_has_motion_only_where_teeth_or_pins_are_real() -> None:
+    page = call("report", "moon-triangular").stdout
+    assert "## Motion" in page
+    data = json.loads(call("report", "moon-triangular", "--json").stdout)["motion"]
+    assert data[0]["outputs"]["moon"]["transmission_error"]["peak_to_peak"] > 0.1
+    assert "## Motion" not in call("report", "pennestri-2002").stdout
+    assert json.loads(call("report", "pennestri-2002", "--json").stdout)["motion"] == []

@@ -6,10 +6,16 @@ from collections.abc import Iterator
 from math import degrees
 from typing import TYPE_CHECKING, Any
 
+from geartrain.errors import GearTrainError
 from geartrain.report.document import Document, Section, Table, figure
 
 if TYPE_CHECKING:
+    from geartrain.analysis import GearTrain
     from geartrain.motion import Estimates, Line, Run, Tally
+
+
+_ABREAST = 8  # outputs side by side
+_TURNS, _POSITIONS = 20.0, 20_001  # of the run in a report
 
 
 def motion_document(run: Run) -> Document:
@@ -38,6 +44,45 @@ def motion_sections(run: Run) -> Iterator[Section]:
     for name, lines in run.spectra.items():
         if lines:
             yield _spectrum(name, lines)
+
+
+def moving_sections(train: GearTrain) -> Iterator[Section]:
+    """Motion in every state of a train with real teeth or pins; nothing, and no computation, for others."""
+    for state, run in _runs(train):
+        head = "Motion" if state is None else f"State {state}: motion"
+        if isinstance(run, GearTrainError):
+            yield Section(head, [f"{problem.what}: {problem.why}." for problem in run.problems])
+            continue
+        text = f"While '{run.motion.train.lead}' makes {run.turns:g} turns; `geartrain motion` has more."
+        yield Section(head, (text, *_remarks(run)), (_outputs(_rippling(run)),))
+
+
+def moving_data(train: GearTrain) -> list[dict[str, Any]]:
+    """Motion in every state as plain data; empty for a train of ideal teeth and pins without sizes."""
+    found = []
+    for state, run in _runs(train):
+        data = {"error": str(run)} if isinstance(run, GearTrainError) else motion_data(run)
+        found.append({"state": state, **data})
+    return found
+
+
+def _runs(train: GearTrain) -> Iterator[tuple[str | None, Run | GearTrainError]]:
+    if not train.meshes and not train.pins:
+        return
+    from geartrain.motion import Run
+
+    for state in train.states or (None,):
+        try:
+            run = Run(train.motion(state), _TURNS, _POSITIONS)
+            run.go()
+        except GearTrainError as error:
+            yield state, error
+        else:
+            yield state, run
+
+
+def _rippling(run: Run) -> list[Tally]:
+    return [tally for tally in run.tallies if tally.peak_to_peak] or run.tallies
 
 
 def _outputs(tallies: list[Tally]) -> Table:
@@ -79,9 +124,6 @@ def _pairs(run: Run) -> Section:
     header = ("pair", "driver", "how that is known", "periods a turn", *(f"{name} (deg)" for name in outputs))
     text = "What each pair gives to an output: the range of its own error times the output's sensitivity to it."
     return Section("Pairs", (text,), (Table(header, rows, wide=True),))
-
-
-_ABREAST = 8
 
 
 def _phased(run: Run) -> Section:

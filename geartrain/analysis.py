@@ -155,14 +155,15 @@ class GearTrain:
         return Motion(self._moving(case, without), wanted, tolerance)
 
     def impacts(self, state: str | None = None) -> Mapping[str, Impact]:
-        """What the collisions of each pair with triangular teeth cost; empty unless inertias and a rate are declared."""
+        """What collisions of triangular teeth cost, by pair; empty unless inertias and a rate are declared."""
         declared, case = self.declaration, self._case(state)
         inertias = {name: link.inertia.si for name, link in declared.links.items() if link.inertia is not None}
         if not inertias or declared.rate is None or declared.rate.unit is None or not self.meshes:
             return {}
         from geartrain.motion import Motion, find_impacts
 
-        return find_impacts(Motion(self._moving(case, ()), {}), inertias, declared.rate.si)
+        moving = self._moving(case, ())
+        return {} if moving.contradictions() else find_impacts(Motion(moving, {}), inertias, declared.rate.si)
 
     def _moving(self, case: Case, without: Sequence[str]) -> Moving:
         from geartrain.motion import Moving

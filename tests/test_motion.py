@@ -15,8 +15,10 @@ from scipy.optimize import fsolve
 from geartrain import GearTrainError, load
 from geartrain.components import Part
 from geartrain.motion import Composition, Passage, Run, Tally
+from geartrain.motion.coupling import Coupled, settle
 from geartrain.pins.laws import SlotLaw
 from geartrain.speeds import solve
+from geartrain.teeth.base import Rigid
 from geartrain.teeth.triangular.law import TriangularLaw
 
 
@@ -460,3 +462,110 @@ def test_a_report_has_motion_only_where_teeth_or_pins_are_real() -> None:
     assert data[0]["outputs"]["moon"]["transmission_error"]["peak_to_peak"] > 0.1
     assert "## Motion" not in call("report", "pennestri-2002").stdout
     assert json.loads(call("report", "pennestri-2002", "--json").stdout)["motion"] == []
+
+
+REVERSED_PIN = """
+links:
+  frame: {}
+  a: {wheels: {p: 24}}
+  k: {wheels: {w: 36}}
+  out: {wheels: {x: 30}}
+  last: {wheels: {y: 40}}
+revolutes:
+  - {pair: [frame, a], axis: A}
+  - {pair: [frame, k], axis: B}
+  - {pair: [frame, out], axis: C}
+  - {pair: [frame, last], axis: D}
+gears: [{pair: [p, w]}, {pair: [x, y]}]
+couplings: [{id: pin, kind: KIND, pin: k, slot: out, pin_radius: RADIUS mm, offset: 5 mm}]
+tooth_form: {form: triangular, half_angle: 30 deg, window: 0.5}
+inputs: {a: 1}
+outputs: {k: {}, out: {}, last: {}}
+"""
+
+
+@pytest.mark.parametrize(("kind", "radius"), [("pin_and_slot", 9), ("pin_follower", 4)])
+@pytest.mark.parametrize("turns", [2.0, -2.0])
+def test_a_slot_points_to_its_pin_whichever_way_the_pin_goes(kind: str, radius: float, turns: float) -> None:
+    motion = load(REVERSED_PIN.replace("KIND", kind).replace("RADIUS", str(radius))).motion()
+    passage = next(motion.passages(turns, 1001))
+    ratios = [float(tally.ratio) for tally in motion.tallies()]
+    k, out, _ = (2 * pi * ratio * passage.turns + e for ratio, e in zip(ratios, passage.error, strict=True))
+    # the slot's axis is 5 mm from the pin's, in the direction from which the pin's angle counts
+    to_pin = radius * np.exp(1j * k) - 5
+    seen = to_pin if kind == "pin_and_slot" else -to_pin
+    assert np.allclose(np.exp(1j * out), seen / np.abs(seen), rtol=0, atol=1e-12)
+    if kind == "pin_and_slot":
+        assert not motion.ahead.turned_back
+    else:  # its slot rocks, and the wheel on it with it
+        assert (motion.ahead if turns > 0 else motion.back).turned_back == {"x~y"}
+
+
+@pytest.mark.parametrize("name", ["freeth-2021-teeth", "pennestri-2002-teeth"])
+def test_every_law_holds_at_the_angle_where_its_driver_stands(name: str) -> None:
+    train = load(name)
+    links = list(train.declaration.links)
+    motion = train.motion(outputs=links)
+    turns = np.linspace(0, 1.7, 400)
+    passage = motion.at(turns)
+    angle = dict(zip(links, passage.error, strict=True))
+    for link in links:
+        angle[link] = angle[link] + 2 * pi * float(motion.train.ratio(link)) * turns
+    meshes = {mesh.name: mesh for mesh in train.meshes}
+    for circuit in train.circuits:
+        i, j, k = (train.signs.get(link, 1) * angle[link] for link in (circuit.i, circuit.j, circuit.carrier))
+        mesh = meshes.get(circuit.id)
+        if mesh is None:
+            continue
+        first = mesh.driver == circuit.wheels[0]
+        driver, driven = (i - k, j - k) if first else (j - k, i - k)
+        way = np.sign(driver[-1] - driver[0])
+        turned = np.sign(circuit.a * circuit.b) * way * mesh.law.angle(way * driver)
+        assert np.allclose(driven, -turned, rtol=0, atol=1e-9), circuit.id
+
+
+def test_a_tally_of_stretches_is_that_of_the_whole() -> None:
+    random = np.random.default_rng(3)
+    error, rate = random.normal(size=(2, 1000)) + np.linspace(0, 5, 1000)
+    tally = Tally("x", Fraction(1))
+    for part in np.split(np.arange(1000), [10, 300, 950]):
+        tally.add(error[part], rate[part])
+    assert tally.rms == pytest.approx(float(np.std(error)), rel=1e-13)
+    assert (tally.least, tally.most, tally.slow) == (error.min(), error.max(), rate.min())
+
+
+def test_speeds_of_pairs_that_hang_on_each_other_are_the_slopes_of_their_angles() -> None:
+    motion = load(SHUNT).motion()
+    turns = np.linspace(0.1, 0.1 + 1e-4, 5)
+    passage = motion.at(turns)
+    slope = np.gradient(passage.error, 2 * pi * turns, axis=1)[:, 1:-1]
+    assert np.allclose(slope, passage.rate[:, 1:-1], rtol=0, atol=1e-5)
+    assert np.abs(passage.rate).max() > 0.01
+
+
+class Saw(Rigid):
+    """A law of straight pieces: its error climbs steeply and falls gently."""
+
+    def __init__(self, height: float, rise: float) -> None:
+        super().__init__(Fraction(1), 2 * pi)
+        self.height, self.rise = height, rise
+
+    def error(self, S: np.ndarray) -> np.ndarray:
+        x = np.mod(S, 2 * pi)
+        return self.height * np.interp(x, [0, self.rise, 2 * pi], [-1, 1, -1])
+
+    def speed(self, S: np.ndarray) -> np.ndarray:
+        x = np.mod(S, 2 * pi)
+        return 1 + 2 * self.height * np.where(x < self.rise, 1 / self.rise, -1 / (2 * pi - self.rise))
+
+
+def test_newton_is_kept_from_leaping_over_corners_and_refuses_a_dead_centre() -> None:
+    base = np.linspace(0, 2 * pi, 5001)[None]
+    one = Coupled(("m",), (Saw(0.5, 0.2),), np.array([1.0]), np.array([[-4.0]]))
+    delta, rate, turning = settle(one, base, [1.0])
+    law = one.laws[0]
+    assert np.abs(delta[0] - law.error(base[0] - 4 * delta[0])).max() < 1e-13
+    assert np.allclose(turning[0], 1 - 4 * rate[0])
+    # the driven side drives its own driver faster than it is driven: past a dead centre
+    with pytest.raises(GearTrainError, match="dead centre"):
+        settle(Coupled(("m",), one.laws, np.array([1.0]), np.array([[4.0]])), base, [1.0])

@@ -2,24 +2,88 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
 import typer
 
-from geartrain.cli.common import GOOD, VERDICT, File, Json, Out, StateName, as_json, emit, show, suffix_of
+from geartrain.cli.common import (
+    GOOD,
+    PICTURES,
+    VERDICT,
+    File,
+    Json,
+    Out,
+    StateName,
+    as_json,
+    draw,
+    emit,
+    show,
+    suffix_of,
+)
+
+if TYPE_CHECKING:
+    from geartrain.analysis import GearTrain
+    from geartrain.torques import Torques
 
 
-def run(file: File, state: StateName = None, json: Json = False, out: Out = None) -> None:
+def run(
+    file: File,
+    state: StateName = None,
+    json: Json = False,
+    plot: Annotated[
+        Path | None, typer.Option("--plot", help="Draw the flow of power of one state to this file.")
+    ] = None,
+    out: Out = None,
+) -> None:
     """Torques on links and pairs under the declared loads, flow of power and losses, efficiency there and back."""
     from geartrain import report
     from geartrain.files import load
 
     suffix = suffix_of(out, (".md", ".html", ".json"))
+    picture = suffix_of(plot, PICTURES) or ".svg"
     train = load(file)
     states = (state,) if state is not None else train.states or (None,)
     found = {name: train.torques(name) for name in states}
     sound = all(each.verdict or each.verdict.kind == "unloaded" for each in found.values())
+    if plot is not None:
+        _draw(train, list(found.values()), plot, picture)
     if json or suffix == ".json":
         data = [report.torques_data(train, each) for each in found.values()]
         emit(as_json(data[0] if len(data) == 1 else {"states": {str(each["state"]): each for each in data}}), out)
     else:
         show([report.torques_document(train, list(found.values()))], out, suffix)
     raise typer.Exit(GOOD if sound else VERDICT)
+
+
+def _draw(train: GearTrain, found: Sequence[Torques], path: Path, suffix: str) -> None:
+    """The flow under the declared loads; without any, that of a unit of power from the input to the output."""
+    from geartrain import report
+    from geartrain.plot import power_figure
+    from geartrain.torques import watts_per_unit
+
+    loaded = [each for each in found if each.verdict.kind != "unloaded"] if len(found) > 1 else list(found)
+    if len(loaded) != 1:
+        names = ", ".join(train.states)
+        raise typer.BadParameter(f"one state is drawn: name it with --state, of {names}", param_hint="--plot")
+    (torques,) = loaded
+    name = train.name if torques.state is None else f"{train.name}, state {torques.state}"
+    watts = watts_per_unit(train.declaration, train.declaration.case(torques.state))
+    if torques.verdict.kind == "unloaded" and (ways := report.there_and_back(train, torques.state)):
+        torques, source, load = ways[0]
+        name, watts = f"{name}, while a unit of power leaves at '{load}', driven from '{source}'", None
+    draw(power_figure(report.flow_of(train, torques), f"{name}: {_summary(torques)}", watts), path, suffix)
+
+
+def _summary(torques: Torques) -> str:
+    """Efficiency, or why there is none, and what is lost where."""
+    from geartrain.torques import share
+
+    if not torques.verdict or not torques.power_in:
+        return torques.verdict.text
+    teeth = torques.loss - torques.bearing_loss
+    lost = {"teeth": teeth, "bearings": torques.bearing_loss}
+    named = [f"{share(power / torques.power_in)} is lost in {where}" for where, power in lost.items() if power]
+    out = share(1 - torques.loss / torques.power_in)
+    return "; ".join([f"{out} of the power that enters comes out", *named])

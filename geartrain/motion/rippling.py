@@ -65,6 +65,13 @@ class Moving:
         return self.signs.get(link, 1) * self.ratio(link) - self.signs.get(carrier, 1) * self.ratio(carrier)
 
 
+    def contradictions(self) -> list[tuple[Loop, list[str]]]:
+        """Redundant loops in which something ripples, with what does."""
+        rippling = {mesh.name for mesh in self.teeth} | {joint.coupling.name for joint in self.pins}
+        found = ((loop, [pair for pair in loop.pairs if pair in rippling]) for loop in self.loops)
+        return [(loop, real) for loop, real in found if real]
+
+
 @dataclass(frozen=True)
 class Ripple:
     """What real teeth and pins do to one output over the positions asked for.
@@ -214,18 +221,16 @@ class Motion:
         return (low + high) / 2
 
     def _refuse_loops(self) -> None:
-        rippling = {mesh.name for mesh in self.train.teeth} | {joint.coupling.name for joint in self.train.pins}
-        for loop in self.train.loops:
-            if real := [pair for pair in loop.pairs if pair in rippling]:
-                path = " - ".join((*loop.links, loop.links[0]))
-                raise GearTrainError(
-                    Problem(
-                        f"the pairs {', '.join(loop.pairs)} close a loop, {path}, that real teeth do not let turn",
-                        f"the loop holds in the mean, and the errors of {', '.join(real)} would have to cancel at "
-                        "every instant",
-                        f"leave out one of the loop's pairs: `--without {loop.pairs[-1]}` follows the rest",
-                    )
+        for loop, real in self.train.contradictions():
+            path = " - ".join((*loop.links, loop.links[0]))
+            raise GearTrainError(
+                Problem(
+                    f"the pairs {', '.join(loop.pairs)} close a loop, {path}, that real teeth do not let turn",
+                    f"the loop holds in the mean, and the errors of {', '.join(real)} would have to cancel at "
+                    "every instant",
+                    f"leave out one of the loop's pairs: `--without {loop.pairs[-1]}` follows the rest",
                 )
+            )
 
     def at_random(self, random: Generator) -> Motion:
         """The same train with a random phase for every pair with real teeth that declares none."""

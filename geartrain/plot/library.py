@@ -9,9 +9,9 @@ try:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
     from matplotlib.lines import Line2D
-    from matplotlib.patches import Circle, FancyArrowPatch, Patch, Polygon
+    from matplotlib.patches import Circle, FancyArrowPatch, Patch, PathPatch, Polygon, Rectangle
     from matplotlib.path import Path
-    from matplotlib.patheffects import withStroke
+    from matplotlib.patheffects import Stroke, withStroke
 except ImportError:
     raise MissingExtraError("matplotlib", "plot", "a plot") from None
 
@@ -23,7 +23,10 @@ __all__ = [
     "Line2D",
     "Patch",
     "Path",
+    "PathPatch",
     "Polygon",
+    "Rectangle",
+    "Stroke",
     "rc_context",
     "withStroke",
 ]

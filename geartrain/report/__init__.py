@@ -9,7 +9,7 @@ from geartrain.report.document import Document, Section, Table
 from geartrain.report.meshing import Running, mesh_document
 from geartrain.report.moving import motion_data, motion_document
 from geartrain.report.pins import pin_data, pin_document
-from geartrain.report.power import torques_data, torques_document
+from geartrain.report.power import flow_of, there_and_back, torques_data, torques_document
 from geartrain.report.rendering import to_html, to_markdown, to_terminal
 from geartrain.report.teeth import mesh_data
 
@@ -19,6 +19,7 @@ __all__ = [
     "Section",
     "Table",
     "compare_trains",
+    "flow_of",
     "mesh_data",
     "mesh_document",
     "motion_data",
@@ -26,6 +27,7 @@ __all__ = [
     "pin_data",
     "pin_document",
     "report_train",
+    "there_and_back",
     "to_html",
     "to_markdown",
     "to_terminal",

@@ -9,6 +9,8 @@ from geartrain.answer import Answer
 from geartrain.circuits import Circuit
 from geartrain.errors import Loop
 from geartrain.report.document import MOST_ROWS, Document, Section, Table, cut
+from geartrain.report.moving import moving_sections
+from geartrain.report.power import loaded_sections
 from geartrain.report.results import answer_sections, doubts, shift_table
 from geartrain.report.teeth import teeth_sections
 from geartrain.train import Train, Wheel
@@ -31,6 +33,8 @@ def report_train(train: GearTrain) -> Document:
     for answer in answers:
         sections += answer_sections(train, answer)
     sections += teeth_sections(train)
+    sections += loaded_sections(train)
+    sections += moving_sections(train)
     sections += doubts(train, answers)
     if declared.errata:
         rows = [(e.place, e.printed, e.right, e.why) for e in declared.errata]

@@ -6,6 +6,8 @@ from typing import Any
 
 from geartrain.analysis import GearTrain
 from geartrain.answer import Answer
+from geartrain.report.moving import moving_data
+from geartrain.report.power import loaded_data
 from geartrain.report.teeth import teeth_data
 from geartrain.speeds import Mobility
 
@@ -75,5 +77,7 @@ def train_data(train: GearTrain) -> dict[str, Any]:
         for s in train.sensitivity(answer)
     ]
     data |= teeth_data(train)
+    data["torques"] = loaded_data(train)
+    data["motion"] = moving_data(train)
     data["errata"] = [erratum.model_dump() for erratum in declared.errata]
     return data

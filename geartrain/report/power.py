@@ -2,80 +2,227 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
 from fractions import Fraction
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from geartrain.analysis import GearTrain
-from geartrain.report.document import Document, Section, Table, figure
-from geartrain.torques import Torques, declared_loads
+from geartrain.report.document import Document, Section, Table, cut, figure
+
+if TYPE_CHECKING:
+    from geartrain.torques import PowerFlow, Torques
 
 _UNITS = (
     "Torques as loads are given; power is torque times speed in the train's unit, positive into the train; in a pair, "
     "in its carrier's frame."
+)
+_UNITS_IN_WATTS = (
+    "Torques in N m; power is torque times speed in real time, positive into the train; in a pair, in its carrier's "
+    "frame."
 )
 
 
 def torques_document(train: GearTrain, found: Sequence[Torques]) -> Document:
     """Torques under the declared loads, one answer a state, and the efficiency there and back."""
     sections = [section for each in found for section in torque_sections(train, each)]
-    lead = [f"Train '{train.name}'. {_UNITS}"]
+    lead = [f"Train '{train.name}'. {_units(train, found)}"]
     return Document(f"Torques of {train.name}", lead, sections)
 
 
+def loaded_sections(train: GearTrain) -> Iterator[Section]:
+    """Sections of all states with loads or friction of bearings; nothing, and free of cost, where there are none."""
+    found = list(_loaded(train))
+    sections = (section for each in found for section in torque_sections(train, each))
+    for at, section in enumerate(sections):
+        yield section if at else replace(section, paragraphs=(_units(train, found), *section.paragraphs))
+
+
+def loaded_data(train: GearTrain) -> list[dict[str, Any]]:
+    """Torques of all states with loads or friction of bearings as plain data."""
+    return [torques_data(train, each) for each in _loaded(train)]
+
+
+def _loaded(train: GearTrain) -> Iterator[Torques]:
+    for state in train.states or (None,):
+        if train.declaration.is_loaded(state):
+            yield train.torques(state)
+
+
 def torque_sections(train: GearTrain, found: Torques) -> Iterator[Section]:
-    """Links, pairs and verdict of one state."""
+    """Links, pairs and verdict of one state, then how power flows and where it is lost."""
     state = found.state
     head = "Torques" if state is None else f"State {state}: torques"
     lines = [f"Verdict: {found.verdict.kind}: {found.verdict.text}."]
-    if found.verdict.candidates and not found.verdict:
+    if found.verdict.kind == "undecided" and found.verdict.candidates:
         lines.append(f"It can be one of {', '.join(found.verdict.candidates)}.")
     lines += _there_and_back(train, state)
     if not found.verdict:
         yield Section(head, lines)
         return
+    amounts = _Amounts(train, found)
     efficiency, circulating = found.efficiency, found.circulating
     if efficiency is not None and circulating is not None:
         lines.append(
-            f"Power in {figure(found.power_in, 9)}, lost {figure(found.loss, 9)}, efficiency {figure(efficiency, 10)}; "
-            f"the greatest power through a pair is {figure(circulating, 5)} of it."
+            f"Power in {amounts.text(found.power_in, 9)}, lost {amounts.text(found.loss, 9)}, efficiency "
+            f"{figure(efficiency, 10)}; the greatest power through a pair is {figure(circulating, 5)} of it."
         )
-    yield Section(head, lines, (_links(found), _pairs(found)))
+    if found.bearing_loss:
+        needed = ", ".join(f"at '{link}' {amounts.torque(found.external[link])}" for link in found.asked)
+        lines.append(f"Torque needed, with the friction of bearings: {needed}.")
+    yield Section(head, lines, (_links(found, amounts), _pairs(found, amounts)))
+    flow = flow_of(train, found)
+    parts = tuple(_loops(flow, amounts)), tuple(_losses(flow, amounts, _blows(train, found)))
+    if any(parts):
+        yield Section("Flow of power" if state is None else f"State {state}: flow of power", *parts)
 
 
-def _links(found: Torques) -> Table:
+def _blows(train: GearTrain, found: Torques) -> Mapping[str, float]:
+    """What the collisions of each pair dissipate (W), where inertias and a rate are declared."""
+    return {pair: impact.power for pair, impact in train.impacts(found.state).items()}
+
+
+def flow_of(train: GearTrain, found: Torques) -> PowerFlow:
+    """The streams of power under some torques of a train."""
+    from geartrain.torques import trace_power
+
+    return trace_power(train.declaration, train.tree, train.signs, found)
+
+
+class _Amounts:
+    """Powers and torques in words: in watts and N m where they are real."""
+
+    def __init__(self, train: GearTrain, found: Torques) -> None:
+        from geartrain.torques import in_newton_metres
+
+        self.watts = _watts(train, found)
+        self.unit = " N m" if in_newton_metres(train.declaration, found.state) else ""
+
+    def text(self, power: Fraction, digits: int = 7) -> str:
+        from geartrain.torques import in_watts
+
+        return figure(power, digits) if self.watts is None else in_watts(float(power) * self.watts)
+
+    def torque(self, torque: Fraction) -> str:
+        return f"{figure(torque, 9)}{self.unit}"
+
+
+def _watts(train: GearTrain, found: Torques) -> float | None:
+    from geartrain.torques import watts_per_unit
+
+    return watts_per_unit(train.declaration, train.declaration.case(found.state))
+
+
+def _units(train: GearTrain, found: Sequence[Torques]) -> str:
+    real = [_watts(train, each) is not None for each in found if each.verdict]
+    return _UNITS_IN_WATTS if real and all(real) else _UNITS
+
+
+def _links(found: Torques, amounts: _Amounts) -> Table:
     rows = [
         (
             link + (" (asked)" if link in found.asked else ""),
             figure(torque, 9),
             figure(found.speeds[link], 9),
-            figure(found.powers[link], 9),
+            amounts.text(found.powers[link], 9),
         )
         for link, torque in found.external.items()
     ]
     return Table(("link", "torque", "speed", "power"), rows)
 
 
-def _pairs(found: Torques) -> Table:
+def _pairs(found: Torques, amounts: _Amounts) -> Table:
     rows = [
         (
             pair.id + (" (shared)" if pair.loose else ""),
             pair.driver or "idle",
             *(figure(torque, 7) for torque in pair.torques),
-            figure(pair.power, 7),
-            figure(pair.loss, 7),
+            amounts.text(pair.power),
+            amounts.text(pair.loss),
         )
         for pair in found.pairs.values()
     ]
     return Table(("pair", "driver", "torque on first", "on second", "on carrier", "power", "loss"), rows)
 
 
+# ------------------------------------------------------------------------------------------------------ flow and losses
+
+
+def _loops(flow: PowerFlow, amounts: _Amounts) -> Iterator[str]:
+    """Which pairs hand power round in circles, and how much."""
+    from geartrain.torques import share_of
+
+    if flow.loops:
+        yield "Here power is torque times absolute speed, so that every shaft and pair gives on what it takes in."
+    for loop in flow.loops:
+        part = share_of(loop.power / flow.power_in, "the power in") if flow.power_in else "no power in"
+        yield (
+            f"{amounts.text(loop.power)} circulates, {part}: through pairs {', '.join(loop.pairs)} and shafts "
+            f"{', '.join(loop.shafts)}."
+        )
+
+
+def _losses(flow: PowerFlow, amounts: _Amounts, blows: Mapping[str, float]) -> Iterator[Table]:
+    """What each pair and bearing loses, the total last; what collisions take stands in columns of its own."""
+    if not flow.losses and not blows:
+        return
+    struck = [node for node in flow.nodes if node.kind == "pair" and node.name in blows]
+    nodes = dict.fromkeys((*flow.losses, *struck))
+    rows = []
+    for node in nodes:
+        pair = node.kind == "pair"
+        row = _loss_row(flow, amounts, flow.losses.get(node, Fraction(0)), blows.get(node.name) if pair else None)
+        rows.append((node.name if pair else f"bearing of {node.name}", *row))
+    teeth = sum((loss for node, loss in flow.losses.items() if node.kind == "pair"), Fraction(0))
+    if 0 < teeth < flow.loss:
+        sums = {"all pairs": teeth, "all bearings": flow.loss - teeth}
+        rows += [(name, *_loss_row(flow, amounts, lost, None)) for name, lost in sums.items()]
+    rows.append(("total", *_loss_row(flow, amounts, flow.loss, sum(blows.values()) if blows else None)))
+    header: tuple[str, ...] = ("where", "lost", "of power in", "of all lost")
+    if blows:
+        header = ("where", "sliding", "of power in", "of all sliding", "impact", "of power in")
+    yield Table(header, cut([row[: len(header)] for row in rows]))
+
+
+def _loss_row(flow: PowerFlow, amounts: _Amounts, lost: Fraction, blow: float | None) -> tuple[str, ...]:
+    """A loss with its shares, then what collisions dissipate, and its share."""
+    from geartrain.torques import in_watts, share
+
+    parts = (share(lost / whole) if whole else "-" for whole in (flow.power_in, flow.loss))
+    if blow is None:
+        return (amounts.text(lost), *parts, "", "")
+    whole = float(flow.power_in) * (amounts.watts or 0.0)
+    return (amounts.text(lost), *parts, in_watts(blow), share(Fraction(blow / whole)) if whole else "-")
+
+
+def losses_data(flow: PowerFlow, blows: Mapping[str, float]) -> list[dict[str, Any]]:
+    """Losses by pair and bearing as plain data; `impact` (W) where collisions are known."""
+    found = []
+    for node, lost in flow.losses.items():
+        item: dict[str, Any] = {
+            "kind": node.kind,
+            "name": node.name,
+            "power": float(lost),
+            "of_power_in": float(lost / flow.power_in) if flow.power_in else None,
+            "of_loss": float(lost / flow.loss),
+        }
+        if node.kind == "pair" and node.name in blows:
+            item["impact"] = blows[node.name]
+        found.append(item)
+    return found
+
+
+# ------------------------------------------------------------------------------------------------------ there and back
+
+
 def ends(train: GearTrain, state: str | None) -> tuple[str, str] | None:
     """The one input and the one link that power leaves by: an output, loaded or alone; None if that is not plain."""
+    from geartrain.torques import declared_loads
+
     case = train.declaration.case(state if state is not None or not train.states else train.states[0])
     if len(case.inputs) != 1:
         return None
-    (source,) = case.inputs
+    source = train.declaration.crank or next(iter(case.inputs))
     links = dict.fromkeys(output.of or name for name, output in case.outputs.items())
     loads = [link for link in declared_loads(train.declaration, case)[0] if link != source]
     chosen = loads if len(loads) == 1 else [link for link in links if link != source]
@@ -106,7 +253,13 @@ def torques_data(train: GearTrain, found: Torques) -> dict[str, Any]:
     """Torques of one state as plain data with stable keys."""
     ways = zip(("forward", "backward"), there_and_back(train, found.state), strict=False)
     drives = {name: _drive_data(each) for name, (each, _, _) in ways}
-    return found.to_dict() | {"drives": drives or None}
+    flow, watts = flow_of(train, found), _watts(train, found)
+    return found.to_dict() | {
+        "drives": drives or None,
+        "watts_per_unit": watts,
+        "losses": losses_data(flow, _blows(train, found)),
+        "flow": flow.to_dict(),
+    }
 
 
 def _drive_data(found: Torques) -> dict[str, Any]:

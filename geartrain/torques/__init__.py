@@ -1,22 +1,33 @@
 """Torques, power and losses: balances of links, directions of power, verdicts on self-locking."""
 
+from geartrain.torques.amounts import in_newton_metres, in_watts, share, share_of, watts_per_unit
 from geartrain.torques.asking import Setting, declared_loads, drive, find_torques
-from geartrain.torques.balance import Balance, Mesh, Solved, solve_balance
+from geartrain.torques.balance import Balance, Mesh, Solved
 from geartrain.torques.directions import Flow, find_flows
+from geartrain.torques.flowing import Circulation, Node, PowerFlow, Stream, trace_power
 from geartrain.torques.result import PairTorque, Torques, TorqueVerdict
 
 __all__ = [
     "Balance",
+    "Circulation",
     "Flow",
     "Mesh",
+    "Node",
     "PairTorque",
+    "PowerFlow",
     "Setting",
     "Solved",
+    "Stream",
     "TorqueVerdict",
     "Torques",
     "declared_loads",
     "drive",
+    "trace_power",
     "find_flows",
     "find_torques",
-    "solve_balance",
+    "in_newton_metres",
+    "in_watts",
+    "share",
+    "share_of",
+    "watts_per_unit",
 ]

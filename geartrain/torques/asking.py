@@ -12,7 +12,9 @@ from geartrain.circuits import Circuit, Tree
 from geartrain.meshes import Mesh as ToothMesh
 from geartrain.torques.balance import Balance, Mesh
 from geartrain.torques.directions import Flow, find_flows
+from geartrain.torques.judging import Question, judge
 from geartrain.torques.result import PairTorque, Torques, TorqueVerdict
+from geartrain.torques.sharing import find_shares, find_ties
 from geartrain.train import Case, GearPair, Train
 
 
@@ -52,10 +54,10 @@ def declared_loads(train: Train, case: Case) -> tuple[dict[str, Fraction], str |
 
 
 def find_torques(setting: Setting) -> Torques:
-    """Torques under the declared loads."""
+    """Torques under the declared loads, or under the friction of bearings alone."""
     loads, solve_for = declared_loads(setting.train, setting.case)
-    if not loads:
-        text = "no load is declared: give `loads` on links, resisting where power over speed is negative"
+    if not loads and not any(_bearings(setting).values()):
+        text = "no load is declared: give `loads` on links, negative against their turning, or `bearing` friction"
         return Torques(setting.case.state, TorqueVerdict("unloaded", text))
     asked, verdict = _asked(setting, loads, solve_for)
     return _balanced(setting, loads, asked) if verdict is None else Torques(setting.case.state, verdict)
@@ -73,62 +75,83 @@ def _asked(
     setting: Setting, loads: Mapping[str, Fraction], solve_for: str | None
 ) -> tuple[tuple[str, ...], TorqueVerdict | None]:
     """The links whose torque is unknown, as many as there are inputs, or why that is not plain."""
-    inputs = setting.case.inputs
-    free = tuple(link for link in inputs if link not in loads)
-    missing = len(inputs) - len(free)
-    if not missing:
-        return free, None
-    links = dict.fromkeys(output.of or name for name, output in setting.case.outputs.items())
-    candidates = (solve_for,) if solve_for else tuple(link for link in links if link not in loads and link not in free)
+    inputs, entries = setting.case.inputs, _entries(setting)
+    free = tuple(link for link in entries if link not in loads)
+    needed = len(inputs)
+    if needed == 1 and solve_for is not None:
+        free = (solve_for,)
+    if len(free) == needed:
+        return free, _still(setting, free)
+    if len(free) > needed:  # the crank, and inputs of which one has no torque
+        certain, candidates = free[:1], free[1:]
+    else:
+        links = dict.fromkeys(output.of or name for name, output in setting.case.outputs.items())
+        certain, candidates = free, tuple(link for link in links if link not in loads and link not in free)
+    candidates = (solve_for,) if solve_for else candidates
+    missing = needed - len(certain)
     if len(candidates) == missing:
-        return free + candidates, None
-    loaded = ", ".join(link for link in inputs if link in loads)
+        return certain + candidates, None
+    loaded = ", ".join(link for link in entries if link in loads)
+    why = f"{loaded} carries a load" if loaded else f"power enters at {entries[0]}, which is no input"
     text = (
-        f"{loaded} carries a load, so {missing} other torque{'s' if missing > 1 else ''} must be unknown, and "
+        f"{why}, so {missing} other torque{'s' if missing > 1 else ''} must be unknown, and "
         f"{len(candidates)} can be: name one with `solve_for`"
     )
     return (), TorqueVerdict("undecided", text, candidates)
 
 
+def _entries(setting: Setting) -> tuple[str, ...]:
+    """Where power may enter: the inputs, or, where only their speeds are given, the crank in place of one of them."""
+    inputs, crank = tuple(setting.case.inputs), setting.train.crank
+    if crank is None or crank in inputs:
+        return inputs
+    return (crank,) if len(inputs) == 1 else (crank, *inputs)
+
+
+def _still(setting: Setting, asked: tuple[str, ...]) -> TorqueVerdict | None:
+    """A link at rest moves nothing; a single input at rest is a train at rest, which balances."""
+    speeds = setting.speeds
+    if len(asked) == 1 and not speeds[asked[0]] and any(speeds[link] for link in setting.case.inputs):
+        return TorqueVerdict("still", f"'{asked[0]}' does not turn, so no torque on it does any work")
+    return None
+
+
 def _balanced(
     setting: Setting, loads: Mapping[str, Fraction], asked: tuple[str, ...], bearings: bool = True
 ) -> Torques:
-    case, train = setting.case, setting.train
     rubbing = _bearings(setting) if bearings else {}
     known = dict(loads)
     for link, torque in rubbing.items():
         known[link] = known.get(link, Fraction(0)) + torque
-    balance = Balance(
+    balance = _balance(setting, known, asked)
+    found, complete = find_flows(balance)
+    question = Question(balance, setting.speeds, loads, rubbing)
+    # all else being known, the power asked for tells the order of losses
+    flows = sorted(found, key=lambda flow: (len(flow.solved.open), question.power(flow)))
+    verdict = judge(question, flows, complete)
+    if not flows:
+        return Torques(setting.case.state, verdict, asked)
+    return _torques(setting, balance, flows[0], rubbing, verdict)
+
+
+def _balance(setting: Setting, known: Mapping[str, Fraction], asked: tuple[str, ...]) -> Balance:
+    case, train = setting.case, setting.train
+    meshes = tuple(_mesh(setting, circuit) for circuit in setting.circuits)
+    locks = tuple((a, b) for a, b in case.locks if a != b)
+    held = {*asked, *case.fixed, *(link for lock in locks for link in lock)}
+    shares = find_shares(train, setting.circuits, {*held, *known})
+    shared = {name for _, parts in shares for name in parts}
+    planets = {link for mesh in meshes if mesh.id in shared for link in mesh.links[:2]}
+    return Balance(
         tuple(link for link in train.links if link != train.frame),
-        tuple(_mesh(setting, circuit) for circuit in setting.circuits),
+        meshes,
         known,
         asked,
         tuple(link for link in case.fixed if link != train.frame),
-        tuple(((a, setting.sense(a)), (b, setting.sense(b))) for a, b in case.locks if a != b),
+        tuple(((a, setting.sense(a)), (b, setting.sense(b))) for a, b in locks),
+        find_ties(setting.circuits, meshes, known, held | planets),
+        shares,
     )
-    flows, complete = find_flows(balance, _ties(setting.circuits, {*known, *asked, *balance.held}))
-    verdict = _judge(setting, flows, complete, asked)
-    if not flows:
-        return Torques(case.state, verdict, asked)
-    found = (_torques(setting, balance, flow, rubbing, verdict) for flow in flows)
-    return min(found, key=lambda each: each.loss)
-
-
-def _judge(setting: Setting, flows: Sequence[Flow], complete: bool, asked: tuple[str, ...]) -> TorqueVerdict:
-    names = ", ".join(asked)
-    if not flows:
-        sure = "" if complete else " (not every pattern of power flow was tried)"
-        return TorqueVerdict(
-            "self-locking", f"no torque on {names} balances the load while the train turns this way{sure}", asked
-        )
-    if len(flows) > 1:
-        return TorqueVerdict("ambiguous", f"{len(flows)} patterns of power flow balance the load", asked)
-    if loose := flows[0].solved.loose:
-        return TorqueVerdict(
-            "indeterminate", f"how {', '.join(loose)} share their load is not determined: redundant pairs", loose
-        )
-    sure = "" if complete else "; other patterns of power flow were not tried"
-    return TorqueVerdict("determined", f"every torque follows from the loads{sure}")
 
 
 def _mesh(setting: Setting, circuit: Circuit) -> Mesh:
@@ -137,7 +160,10 @@ def _mesh(setting: Setting, circuit: Circuit) -> Mesh:
     senses = (setting.sense(i), setting.sense(j), setting.sense(k))
     relative = senses[0] * setting.speeds[i] - senses[2] * setting.speeds[k]
     forward, backward = _efficiencies(setting, circuit)
-    return Mesh(circuit.id, (i, j, k), senses, circuit.a, circuit.b, circuit.a * relative, forward, backward)
+    a, b = circuit.a, circuit.b
+    if min(a, b, key=abs) < 0:  # the sign of a row is free: one for both orders of a planet and its ring
+        a, b = -a, -b
+    return Mesh(circuit.id, (i, j, k), senses, a, b, a * relative, forward, backward)
 
 
 def _efficiencies(setting: Setting, circuit: Circuit) -> tuple[Fraction, Fraction]:
@@ -176,30 +202,6 @@ def _bearings(setting: Setting) -> dict[str, Fraction]:
     return found
 
 
-def _ties(circuits: Sequence[Circuit], singled: set[str]) -> list[list[str]]:
-    """Pairs of equal planets share alike: links that mesh with the same wheels by the same counts on one carrier.
-
-    singled   links with a torque of their own: a loaded planet is not like the others
-    """
-    by_planet: dict[str, list[tuple[tuple[object, ...], str]]] = {}
-    for circuit in circuits:
-        if circuit.kind != "gear":
-            continue
-        first, second = circuit.wheels
-        for planet, own, mate, other in (
-            (circuit.i, circuit.a, second, circuit.b),
-            (circuit.j, circuit.b, first, circuit.a),
-        ):
-            if planet not in singled:
-                by_planet.setdefault(planet, []).append(((circuit.carrier, mate, own, other), circuit.id))
-    alike: dict[tuple[object, ...], list[list[str]]] = {}
-    for meshes in by_planet.values():
-        meshes.sort(key=lambda mesh: str(mesh[0]))
-        alike.setdefault(tuple(key for key, _ in meshes), []).append([name for _, name in meshes])
-    groups = [group for group in alike.values() if len(group) > 1]
-    return [list(names) for group in groups for names in zip(*group, strict=True)]
-
-
 def _torques(
     setting: Setting, balance: Balance, flow: Flow, rubbing: Mapping[str, Fraction], verdict: TorqueVerdict
 ) -> Torques:
@@ -211,18 +213,16 @@ def _torques(
     pairs = {}
     for mesh, circuit in zip(balance.meshes, setting.circuits, strict=True):
         x = solved.multipliers[mesh.id]
-        side = flow.pattern.get(mesh.id, 0)
-        through = mesh.power(x)
-        torques = tuple(x * each for each in mesh.torques(side))
-        share = mesh.forward if through > 0 else mesh.backward
-        driver = "" if not through else circuit.wheels[0] if through > 0 else circuit.wheels[1]
+        torques = tuple(x * each for each in mesh.torques(flow.pattern.get(mesh.id, 0)))
+        ahead = ((x < 0) - (x > 0)) * mesh.turn
         pairs[mesh.id] = PairTorque(
             mesh.id,
-            driver,
+            circuit.wheels[0 if ahead > 0 else 1] if ahead else "",
             mesh.links,
             (torques[0], torques[1], torques[2]),
-            abs(through),
-            abs(through) * (1 - share),
+            x,
+            mesh.rolling,
+            mesh.efficiency(ahead),
             mesh.id in solved.loose,
         )
     lost = -sum((torque * setting.speeds[link] for link, torque in rubbing.items()), Fraction(0))
@@ -233,7 +233,7 @@ def _torques(
         setting.case.state,
         verdict,
         balance.unknown,
-        {link: torque for link, torque in external.items() if torque or link in balance.unknown},
+        {link: torque for link, torque in external.items() if torque or link in solved.external},
         setting.speeds,
         pairs,
         lost,

@@ -7,16 +7,18 @@ eta of its torque; where j drives, i does. The loss is the driver's power in tha
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import cached_property
 
-from geartrain.exact import Row, eliminate
+from geartrain.exact import Row
 
 Pattern = Mapping[str, int]
 """Mesh id -> 1 where its first link drives in the carrier's frame, -1 where the second does, 0 without loss."""
 
-_KNOWN = -1  # the column in which known torques stand
+Shares = tuple[str, Mapping[str, Fraction]]
+"""A link, and the meshes on one wheel of it with the parts of a torque that they carry."""
 
 
 @dataclass(frozen=True)
@@ -43,6 +45,22 @@ class Mesh:
         """True if it matters which of the two drives."""
         return bool(self.rolling) and (self.forward != 1 or self.backward != 1)
 
+    @property
+    def turn(self) -> int:
+        """Sign of the rolling: power flows from i to j where the multiplier has the other sign."""
+        return (self.rolling > 0) - (self.rolling < 0)
+
+    @property
+    def sides(self) -> tuple[int, ...]:
+        """The ways power may flow: one that locks can only idle, which the other way tells as well."""
+        if not self.loses:
+            return (0,)
+        return tuple(side for side in (1, -1) if self.efficiency(side) > 0) or (1,)
+
+    def efficiency(self, side: int) -> Fraction:
+        """Efficiency with i driving (1) or j (-1)."""
+        return self.forward if side > 0 else self.backward if side < 0 else Fraction(1)
+
     def torques(self, side: int) -> tuple[Fraction, Fraction, Fraction]:
         """Torques on i, j, k per unit of the multiplier."""
         left = self.a * (self.backward if side < 0 else Fraction(1))
@@ -55,6 +73,33 @@ class Mesh:
 
 
 @dataclass(frozen=True)
+class Column:
+    """One unknown torque, the same in all its meshes, and what a unit of it does to each row.
+
+    pieces   side of the first mesh that loses -> row -> coefficient; side 0 is without loss
+    sides    which of them are tried
+    turn     sign of that mesh's rolling
+    barred   no power can pass: the torque must vanish
+    """
+
+    pieces: Mapping[int, Row]
+    meshes: tuple[Mesh, ...] = ()
+    sides: tuple[int, ...] = (0,)
+    turn: int = 0
+    barred: bool = False
+
+    def admits(self, side: int, torque: Fraction) -> bool:
+        """True if power flows the way `side` says, or not at all."""
+        if self.barred and torque:
+            return False
+        return side == 0 or ((torque > 0) - (torque < 0)) * side * self.turn <= 0
+
+    def side_of(self, mesh: Mesh, side: int) -> int:
+        """The side of one of its meshes: they have one multiplier, but may name their wheels in another order."""
+        return side * mesh.turn * self.turn if mesh.loses else 0
+
+
+@dataclass(frozen=True)
 class Balance:
     """What is known and what is not in one case.
 
@@ -62,6 +107,8 @@ class Balance:
     known     external torque by link: loads and friction of bearings; links not named have none
     unknown   links whose external torque is asked for
     held      links held to the frame; `locks`, pairs of links that turn together, with the senses of both axes
+    ties      groups of meshes with equal multipliers, as of equal planets
+    shares    declared parts of the torque on a wheel
     """
 
     links: tuple[str, ...]
@@ -70,37 +117,100 @@ class Balance:
     unknown: tuple[str, ...]
     held: tuple[str, ...] = ()
     locks: tuple[tuple[tuple[str, int], tuple[str, int]], ...] = ()
+    ties: tuple[tuple[str, ...], ...] = ()
+    shares: tuple[Shares, ...] = ()
 
-    @property
-    def size(self) -> int:
-        """Number of unknown torques: meshes, then external ones, brakes and locks."""
-        return len(self.meshes) + len(self.unknown) + len(self.held) + len(self.locks)
-
-    def rows(self, pattern: Pattern) -> Iterator[Row]:
-        """One row a link: all torques on it vanish."""
-        rows: dict[str, Row] = {link: {} for link in self.links}
-        for link, torque in self.known.items():
-            if torque and link in rows:
-                rows[link][_KNOWN] = torque
-        for column, entries in enumerate(self._columns(pattern)):
-            for link, coefficient in entries:
-                if coefficient and link in rows:
-                    rows[link][column] = rows[link].get(column, Fraction(0)) + coefficient
-        return iter([{c: value for c, value in row.items() if value} for row in rows.values()])
-
-    def _columns(self, pattern: Pattern) -> Iterator[Sequence[tuple[str, Fraction]]]:
+    @cached_property
+    def columns(self) -> tuple[Column, ...]:
+        """All unknowns: torques of meshes, then external ones, brakes and locks."""
+        tied = {name: group for group in self.ties for name in group}
+        groups: dict[tuple[str, ...], list[Mesh]] = {}
         for mesh in self.meshes:
-            yield tuple(zip(mesh.links, mesh.torques(pattern.get(mesh.id, 0)), strict=True))
+            groups.setdefault(tied.get(mesh.id, (mesh.id,)), []).append(mesh)
         one = Fraction(1)
-        yield from ([(link, one)] for link in (*self.unknown, *self.held))
-        yield from ([(a, Fraction(s)), (b, Fraction(-t))] for (a, s), (b, t) in self.locks)
+        outside: list[Iterable[tuple[str, Fraction]]] = [((link, one),) for link in (*self.unknown, *self.held)]
+        outside += [((a, Fraction(s)), (b, Fraction(-t))) for (a, s), (b, t) in self.locks]
+        plain = [Column({0: _row((self._at[link], value) for link, value in each if link in self._at)})
+                 for each in outside]  # fmt: skip
+        return (*(self._column(tuple(group)) for group in groups.values()), *plain)
+
+    @cached_property
+    def rows(self) -> Mapping[int, Fraction]:
+        """Rows that must vanish, each with its known torque: one a link and one a share.
+
+        Rows of equal planets are proportional: one of them is enough.
+        """
+        links, shared = len(self.links), sum(len(parts) - 1 for _, parts in self.shares)
+        known = {row: self.known.get(link, Fraction(0)) for row, link in enumerate(self.links)}
+        held: dict[int, list[tuple[int, int, Fraction]]] = {row: [] for row in range(links + shared)}
+        for at, column in enumerate(self.columns):
+            for side, piece in column.pieces.items():
+                for row, value in piece.items():
+                    held[row].append((at, side, value))
+        alike: dict[tuple[int, ...], list[int]] = {}
+        for row, entries in held.items():
+            if entries or known.get(row):
+                alike.setdefault(tuple(at for at, _, _ in entries), []).append(row)
+        kept: list[int] = []
+        for group in alike.values():
+            said = {_direction(held[row], known.get(row, Fraction(0))): row for row in reversed(group)}
+            kept += said.values() if len(group) > 1 else group
+        return {row: known.get(row, Fraction(0)) for row in sorted(kept)}
+
+    @cached_property
+    def _at(self) -> Mapping[str, int]:
+        return {link: at for at, link in enumerate(self.links)}
+
+    @cached_property
+    def _parts(self) -> Mapping[str, Sequence[tuple[int, str, Fraction]]]:
+        """By mesh, the rows of shares it stands in: its torque on a link, by its share, equals that of the first."""
+        found: dict[str, list[tuple[int, str, Fraction]]] = {}
+        row = len(self.links)
+        for link, shares in self.shares:
+            (first, whole), *others = shares.items()
+            for name, part in others:
+                found.setdefault(first, []).append((row, link, 1 / whole))
+                found.setdefault(name, []).append((row, link, -1 / part))
+                row += 1
+        return found
+
+    def _column(self, meshes: tuple[Mesh, ...]) -> Column:
+        lossy = [mesh for mesh in meshes if mesh.loses]
+        turn = lossy[0].turn if lossy else 0
+        sides = lossy[0].sides if lossy else (0,)
+        blank = Column({}, meshes, sides, turn, bool(lossy) and lossy[0].efficiency(sides[0]) <= 0)
+        pieces = {
+            side: _row(entry for mesh in meshes for entry in self._entries(mesh, blank.side_of(mesh, side)))
+            for side in dict.fromkeys((0, *sides))
+        }
+        return Column(pieces, meshes, sides, turn, blank.barred)
+
+    def _entries(self, mesh: Mesh, side: int) -> Iterator[tuple[int, Fraction]]:
+        torques = dict(zip(mesh.links, mesh.torques(side), strict=True))
+        yield from ((self._at[link], torque) for link, torque in torques.items() if link in self._at)
+        yield from ((row, torques[link] * factor) for row, link, factor in self._parts.get(mesh.id, ()))
+
+
+def _direction(entries: Sequence[tuple[int, int, Fraction]], known: Fraction) -> tuple[object, ...]:
+    """A row up to a factor."""
+    lead = entries[0][2] if entries else known
+    return (known / lead, *((at, side, value / lead) for at, side, value in entries))
+
+
+def _row(entries: Iterable[tuple[int, Fraction]]) -> Row:
+    """Entries of one row summed up, zeros left out."""
+    row: Row = {}
+    for at, value in entries:
+        row[at] = row.get(at, Fraction(0)) + value
+    return {at: value for at, value in row.items() if value}
 
 
 @dataclass(frozen=True)
 class Solved:
     """Torques under one pattern: multipliers by mesh, external torques asked for, and on brakes and locks.
 
-    `loose` are meshes whose share of a torque is not determined, as between equal planets.
+    loose   meshes whose torque is not determined, as between planets; they count 0
+    open    links asked for or held whose external torque is not determined for that; left out
     """
 
     multipliers: Mapping[str, Fraction]
@@ -108,51 +218,4 @@ class Solved:
     brakes: Mapping[str, Fraction]
     locks: tuple[Fraction, ...]
     loose: tuple[str, ...]
-
-
-def solve_balance(balance: Balance, pattern: Pattern, ties: Sequence[Sequence[str]] = ()) -> Solved | None:
-    """All torques under one pattern, or None where no torques balance the known ones.
-
-    ties   groups of meshes that share alike: equal multipliers
-    """
-    columns = {mesh.id: column for column, mesh in enumerate(balance.meshes)}
-    shares: list[Row] = [
-        {columns[first]: Fraction(1), columns[other]: Fraction(-1)} for first, *others in ties for other in others
-    ]
-    echelon = eliminate([*balance.rows(pattern), *shares])
-    if echelon.conditions:
-        return None
-    forms = echelon.forms()
-    values: list[Fraction | None] = []
-    for column in range(balance.size):
-        form = forms.get(column)
-        loose = form is None or any(other >= 0 for other in form)
-        values.append(None if loose or form is None else form.get(_KNOWN, Fraction(0)))
-    return _named(balance, values)
-
-
-def _named(balance: Balance, values: Sequence[Fraction | None]) -> Solved:
-    meshes, unknown, held = len(balance.meshes), len(balance.unknown), len(balance.held)
-    zero = Fraction(0)
-    plain = [zero if value is None else value for value in values]
-    external = plain[meshes : meshes + unknown]
-    brakes = plain[meshes + unknown : meshes + unknown + held]
-    return Solved(
-        {mesh.id: plain[at] for at, mesh in enumerate(balance.meshes)},
-        dict(zip(balance.unknown, external, strict=True)),
-        dict(zip(balance.held, brakes, strict=True)),
-        tuple(plain[meshes + unknown + held :]),
-        tuple(mesh.id for at, mesh in enumerate(balance.meshes) if values[at] is None),
-    )
-
-
-def is_consistent(balance: Balance, pattern: Pattern, solved: Solved) -> bool:
-    """True if power flows through every mesh the way the pattern says, and none must pass one that locks."""
-    for mesh in balance.meshes:
-        side = pattern.get(mesh.id, 0)
-        power = mesh.power(solved.multipliers[mesh.id])
-        if power * side < 0:
-            return False
-        if power and side and (mesh.forward if side > 0 else mesh.backward) <= 0:
-            return False
-    return True
+    open: tuple[str, ...]

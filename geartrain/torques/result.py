@@ -5,9 +5,20 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
+from functools import cached_property
 from typing import Any, Literal
 
-Kind = Literal["determined", "self-locking", "ambiguous", "indeterminate", "undecided", "unloaded", "still"]
+Kind = Literal[
+    "determined",
+    "self-locking",
+    "stalled",
+    "ambiguous",
+    "indeterminate",
+    "contradictory",
+    "undecided",
+    "unloaded",
+    "still",
+]
 
 
 @dataclass(frozen=True)
@@ -15,11 +26,13 @@ class TorqueVerdict:
     """Whether the torques follow from the loads.
 
     determined      they do
-    self-locking    no torques balance the load while the train turns this way
+    self-locking    no torques balance the load, however great, while the train turns this way
+    stalled         none balance this load, which is too small to overcome the friction of bearings
     ambiguous       several patterns of power flow do; the one that loses least is given
     indeterminate   some tooth torques share a load in proportions that nothing here decides
+    contradictory   declared shares of pairs do not go with the balance
     undecided       it is not plain which torque is to be found: `candidates`
-    unloaded        no load is declared
+    unloaded        no load and no friction of a bearing is declared
     still           the train does not turn, or its speeds are not determined
     """
 
@@ -39,18 +52,31 @@ class TorqueVerdict:
 class PairTorque:
     """One gear pair or coupling under load.
 
-    driver    the wheel (or link) that drives in the carrier's frame; "" where nothing flows
-    torques   on the first link, the second and the carrier
-    power     that the driver puts in, in the carrier's frame, and `loss` of it; torque times the train's speeds
+    driver      the wheel (or link) that drives in the carrier's frame; "" where nothing flows
+    torques     on the first link, the second and the carrier
+    multiplier  of its row, `rolling` of which is the power, and `efficiency` what is left of it
+    loose       the balance does not determine it
     """
 
     id: str
     driver: str
     links: tuple[str, str, str]
     torques: tuple[Fraction, Fraction, Fraction]
-    power: Fraction
-    loss: Fraction
+    multiplier: Fraction
+    rolling: Fraction
+    efficiency: Fraction
     loose: bool = False
+
+    @cached_property
+    def power(self) -> Fraction:
+        """Power that the driver puts in, in the carrier's frame: torque times the train's speeds."""
+        # worked out when asked for: both factors have many digits in a long train
+        return abs(self.multiplier * self.rolling)
+
+    @property
+    def loss(self) -> Fraction:
+        """Power lost."""
+        return self.power * (1 - self.efficiency)
 
     def to_dict(self) -> dict[str, Any]:
         """Plain data for JSON."""
@@ -69,7 +95,6 @@ class Torques:
 
     external    on every link that has one: loads, bearings, what was asked for, brakes
     asked       the links whose torque was found
-    efficiency  power out over power in; None where nothing goes in
     """
 
     state: str | None
@@ -92,18 +117,26 @@ class Torques:
 
     @property
     def loss(self) -> Fraction:
-        """Power lost in pairs and bearings."""
+        """Power lost in pairs and bearings; what goes in and does not come out, where some pairs are open."""
+        if any(pair.loose for pair in self.pairs.values()):
+            return self._missing
         return sum((pair.loss for pair in self.pairs.values()), self.bearing_loss)
 
     @property
     def efficiency(self) -> Fraction | None:
-        """Power out over power in."""
-        return 1 - self.loss / self.power_in if self.power_in else None
+        """Power out over power in; None where nothing goes in, or a torque asked for is open."""
+        if not self.power_in or any(link not in self.external for link in self.asked):
+            return None
+        return 1 - self._missing / self.power_in
+
+    @property
+    def _missing(self) -> Fraction:
+        return sum(self.powers.values(), Fraction(0))
 
     @property
     def circulating(self) -> Fraction | None:
-        """The greatest power through a pair over the power put in; above 1 power circulates."""
-        if not self.power_in:
+        """The greatest power through a pair over the power put in; above 1 power circulates. None where one is open."""
+        if not self.power_in or any(pair.loose for pair in self.pairs.values()):
             return None
         return max((pair.power for pair in self.pairs.values()), default=Fraction(0)) / self.power_in
 

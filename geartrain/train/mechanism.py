@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import Annotated, Any, Literal
 
-from pydantic import BeforeValidator, Discriminator, Field, GetJsonSchemaHandler, Tag, model_validator
+from pydantic import AfterValidator, BeforeValidator, Discriminator, Field, GetJsonSchemaHandler, Tag, model_validator
 from pydantic_core import PydanticCustomError
 
-from geartrain.quantity import Angle, Figure, Friction, Inertia, Length, Torque
+from geartrain.quantity import Angle, Figure, Friction, Inertia, Length, Quantity, Torque
 from geartrain.teeth import ToothForm
 from geartrain.train.common import Boolean, Count, Declared, Id, Status, also, short_for, side
 
@@ -111,6 +111,14 @@ class Wheel(Declared):
         return also({"type": "integer", "minimum": 1}, handler(schema))
 
 
+def _not_negative(torque: Quantity) -> Quantity:
+    if torque.value < 0:
+        raise PydanticCustomError(
+            "bearing", "a friction torque is not negative", {"fix": "give its magnitude: it acts against the turning"}
+        )
+    return torque
+
+
 class Link(Declared):
     """A rigid body: an arbor with its wheels, a carrier, the frame."""
 
@@ -118,7 +126,9 @@ class Link(Declared):
         {}, description="The wheels fixed on this link, by id"
     )
     inertia: Inertia | None = Field(None, description="Moment of inertia about its axis")
-    bearing: Torque | None = Field(None, description="Friction torque of its bearing")
+    bearing: Annotated[Torque, AfterValidator(_not_negative)] | None = Field(
+        None, description="Friction torque of its bearing, against its turning"
+    )
     angle: Angle | None = Field(None, description="Angle at the start")
     note: str | None = Field(None, description="A remark for the reader")
 
@@ -160,9 +170,23 @@ class Efficiencies(Declared):
     forward: Figure = Field(description="With the first wheel driving")
     backward: Figure = Field(description="With the second wheel driving; 0 or less locks")
 
+    @classmethod
+    def __get_pydantic_json_schema__(cls, schema: Any, handler: GetJsonSchemaHandler) -> dict[str, Any]:
+        return also({"type": ["number", "string"]}, handler(schema))
+
 
 def _efficiency(raw: object) -> object:
     return raw if isinstance(raw, dict | Efficiencies) else {"forward": raw, "backward": raw}
+
+
+def _positive(figure: Figure) -> Figure:
+    if figure.value <= 0:
+        raise PydanticCustomError(
+            "share",
+            "a share of {text} carries nothing",
+            {"text": figure.text, "fix": "a share is above 0; leave it out where it is not known"},
+        )
+    return figure
 
 
 class GearPair(Declared):
@@ -174,6 +198,9 @@ class GearPair(Declared):
     friction: Friction | None = Field(None, description="Coefficient of friction between teeth")
     efficiency: Annotated[Efficiencies, BeforeValidator(_efficiency)] | None = Field(
         None, description="Basic efficiency with the carrier held: a number, or {forward, backward}"
+    )
+    share: Annotated[Figure, AfterValidator(_positive)] | None = Field(
+        None, description="Part of a torque it carries, among the pairs that have a wheel in common and a share"
     )
     driver: Id | None = Field(None, description="The wheel that drives")
     phase: Figure | None = Field(

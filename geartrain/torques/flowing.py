@@ -1,0 +1,240 @@
+"""Where power flows: absolute powers from shaft to pair to shaft, what each pair sheds, and what runs in circles.
+
+The power that a link gives to a pair is minus its torque there times its absolute speed. A pair takes in what it gives
+on and what it loses; a shaft gives on all it takes in. Links that are locked together are one shaft. A friction of a
+bearing stands between its link and the carrier like a pair that only loses.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from fractions import Fraction
+from typing import Any, Literal, NamedTuple
+
+from geartrain.circuits import Tree
+from geartrain.torques.result import Torques
+from geartrain.train import Train
+
+Kind = Literal["in", "shaft", "pair", "bearing", "out"]
+
+
+class Node(NamedTuple):
+    """A place that power passes: an `in` or `out` is named by its link, a bearing by the link that turns in it."""
+
+    kind: Kind
+    name: str
+
+
+@dataclass(frozen=True)
+class Stream:
+    """Power from one node to the next, above 0; `circling` of it runs in closed loops."""
+
+    source: Node
+    target: Node
+    power: Fraction
+    circling: Fraction = Fraction(0)
+
+    def to_dict(self) -> dict[str, Any]:
+        """Plain data for JSON."""
+        return {
+            "from": self.source._asdict(),
+            "to": self.target._asdict(),
+            "power": float(self.power),
+            "circling": float(self.circling),
+        }
+
+
+@dataclass(frozen=True)
+class Circulation:
+    """Nodes that feed each other in closed loops, and the power that runs round in them without leaving."""
+
+    nodes: tuple[Node, ...]
+    power: Fraction
+
+    @property
+    def pairs(self) -> tuple[str, ...]:
+        """The pairs of the loop."""
+        return tuple(node.name for node in self.nodes if node.kind == "pair")
+
+    @property
+    def shafts(self) -> tuple[str, ...]:
+        """The shafts of the loop."""
+        return tuple(node.name for node in self.nodes if node.kind == "shaft")
+
+
+@dataclass(frozen=True)
+class PowerFlow:
+    """All streams of a train in one case, in the unit of its powers.
+
+    losses   by pair and bearing, only where there are some
+    loops    circulating power, the greatest first
+    """
+
+    power_in: Fraction = Fraction(0)
+    streams: tuple[Stream, ...] = ()
+    losses: Mapping[Node, Fraction] = field(default_factory=dict)
+    loops: tuple[Circulation, ...] = ()
+
+    @property
+    def nodes(self) -> tuple[Node, ...]:
+        """Every node that power passes."""
+        return tuple(dict.fromkeys(end for stream in self.streams for end in (stream.source, stream.target)))
+
+    @property
+    def loss(self) -> Fraction:
+        """Power lost in all pairs and bearings."""
+        return sum(self.losses.values(), Fraction(0))
+
+    def surplus(self, node: Node) -> Fraction:
+        """What a node takes in and neither gives on nor loses: 0 everywhere but at the ends."""
+        taken = sum((stream.power for stream in self.streams if stream.target == node), Fraction(0))
+        given = sum((stream.power for stream in self.streams if stream.source == node), Fraction(0))
+        return taken - given - self.losses.get(node, Fraction(0))
+
+    def to_dict(self) -> dict[str, Any]:
+        """Plain data for JSON."""
+        return {
+            "streams": [stream.to_dict() for stream in self.streams],
+            "loops": [
+                {
+                    "pairs": list(loop.pairs),
+                    "shafts": list(loop.shafts),
+                    "power": float(loop.power),
+                    "of_power_in": float(loop.power / self.power_in) if self.power_in else None,
+                }
+                for loop in self.loops
+            ],
+        }
+
+
+def trace_power(train: Train, tree: Tree, signs: Mapping[str, int], found: Torques) -> PowerFlow:
+    """The streams of power under some torques; empty where none were found, or some are shared in no certain way.
+
+    signs   -1 for links whose axis points against its parallels
+    """
+    if not found.verdict or any(pair.loose for pair in found.pairs.values()):
+        return PowerFlow()
+    shafts = _shafts(train.case(found.state).locks)
+    streams: list[Stream] = []
+    losses: dict[Node, Fraction] = {}
+    ends = [(shafts.get(link, Node("shaft", link)), link, power) for link, power in found.powers.items()]
+    streams += [Stream(Node("in", link), shaft, power) for shaft, link, power in ends if power > 0]
+    for node, given in _takers(train, tree, signs, found):
+        net: dict[Node, Fraction] = {}
+        for link, power in given:
+            shaft = shafts.get(link, Node("shaft", link))
+            net[shaft] = net.get(shaft, Fraction(0)) + power
+        streams += [Stream(shaft, node, power) for shaft, power in net.items() if power > 0]
+        streams += [Stream(node, shaft, -power) for shaft, power in net.items() if power < 0]
+        if lost := sum(net.values(), Fraction(0)):
+            losses[node] = lost
+    streams += [Stream(shaft, Node("out", link), -power) for shaft, link, power in ends if power < 0]
+    streams, loops = _circulation(streams)
+    return PowerFlow(found.power_in, tuple(streams), losses, tuple(loops))
+
+
+def _shafts(locks: Iterable[tuple[str, str]]) -> dict[str, Node]:
+    """The shaft of every link that is locked to another one, named by all its links."""
+    groups: dict[str, tuple[str, ...]] = {}
+    for a, b in locks:
+        joined = tuple(dict.fromkeys((*groups.get(a, (a,)), *groups.get(b, (b,)))))
+        groups |= dict.fromkeys(joined, joined)
+    return {link: Node("shaft", " + ".join(group)) for link, group in groups.items()}
+
+
+def _takers(
+    train: Train, tree: Tree, signs: Mapping[str, int], found: Torques
+) -> Iterator[tuple[Node, Sequence[tuple[str, Fraction]]]]:
+    """Pairs and bearings with the power that each of their links gives them."""
+    speed = found.speeds
+    for pair in found.pairs.values():
+        yield (
+            Node("pair", pair.id),
+            [(link, -torque * speed[link]) for link, torque in zip(pair.links, pair.torques, strict=True)],
+        )
+    if not found.bearing_loss:
+        return
+    for link, part in train.links.items():
+        if part.bearing is None or link == train.frame:
+            continue
+        carrier = tree.parent[link][0]
+        own, other = signs.get(link, 1) * speed[link], signs.get(carrier, 1) * speed.get(carrier, Fraction(0))
+        torque = (part.bearing.base or part.bearing.value) * ((own > other) - (own < other))
+        yield Node("bearing", link), [(link, torque * own), (carrier, -torque * other)]
+
+
+# -------------------------------------------------------------------------------------------------------------- loops
+
+
+def _circulation(streams: Sequence[Stream]) -> tuple[list[Stream], list[Circulation]]:
+    """Streams with the part that circles, and the loops: closed ways are taken out, the widest first."""
+    left = [stream.power for stream in streams]
+    rounds: list[tuple[Node, Fraction]] = []
+    while way := _widest(streams, left):
+        least = min(left[at] for at in way)
+        for at in way:
+            left[at] -= least
+        rounds.append((streams[way[0]].source, least))
+    marked = [replace(stream, circling=stream.power - rest) for stream, rest in zip(streams, left, strict=True)]
+    loops: dict[frozenset[Node], Fraction] = {}
+    for node, power in rounds:
+        members = _mutual(streams, node)
+        loops[members] = loops.get(members, Fraction(0)) + power
+    order = dict.fromkeys(end for stream in streams for end in (stream.source, stream.target))
+    found = [Circulation(tuple(node for node in order if node in members), power) for members, power in loops.items()]
+    return marked, sorted(found, key=lambda loop: -loop.power)
+
+
+def _widest(streams: Sequence[Stream], left: Sequence[Fraction]) -> list[int]:
+    """The closed way whose narrowest stream is the widest, as places of its streams; empty where there is none."""
+    best = _closed(streams, [at for at, power in enumerate(left) if power])
+    if not best:
+        return []
+    widths = sorted({power for power in left if power > min(left[at] for at in best)})
+    low, high = 0, len(widths)
+    while low < high:
+        middle = (low + high) // 2
+        way = _closed(streams, [at for at, power in enumerate(left) if power >= widths[middle]])
+        best, low, high = (way, middle + 1, high) if way else (best, low, middle)
+    return best
+
+
+def _closed(streams: Sequence[Stream], open_: Iterable[int]) -> list[int]:
+    """One closed way through the streams at these places, or none."""
+    after: dict[Node, list[int]] = {}
+    for at in open_:
+        after.setdefault(streams[at].source, []).append(at)
+    done: set[Node] = set()
+    for start in after:
+        way: list[int] = []
+        ahead = {start: iter(after[start])}  # the nodes of the way with what is still to be tried from each
+        while ahead:
+            for at in ahead[next(reversed(ahead))]:
+                target = streams[at].target
+                if target in ahead:
+                    return [*way, at][list(ahead).index(target) :]
+                if target not in done:
+                    way.append(at)
+                    ahead[target] = iter(after.get(target, ()))
+                    break
+            else:
+                done.add(ahead.popitem()[0])
+                way = way[:-1]
+    return []
+
+
+def _mutual(streams: Sequence[Stream], node: Node) -> frozenset[Node]:
+    """All nodes that power from this one reaches and that reach it."""
+    ways: list[set[Node]] = []
+    for pairs in (((s.source, s.target) for s in streams), ((s.target, s.source) for s in streams)):
+        after: dict[Node, list[Node]] = {}
+        for source, target in pairs:
+            after.setdefault(source, []).append(target)
+        seen, todo = {node}, [node]
+        while todo:
+            fresh = [each for each in after.get(todo.pop(), ()) if each not in seen]
+            seen.update(fresh)
+            todo += fresh
+        ways.append(seen)
+    return frozenset(ways[0] & ways[1])

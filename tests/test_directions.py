@@ -1,0 +1,394 @@
+"""Directions of power: all patterns by brute force, long trains by closed forms, parts of a balance."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from collections.abc import Mapping, Sequence
+from fractions import Fraction
+from itertools import product
+from math import prod
+from typing import NamedTuple
+
+import networkx as nx
+import pytest
+from hypothesis import assume, event, given, reject, settings
+from hypothesis import strategies as st
+
+from geartrain import load
+from geartrain.torques import Balance, Mesh, find_flows
+from geartrain.torques.parting import find_parts
+
+ZERO, ONE = Fraction(0), Fraction(1)
+
+
+def eliminated(matrix: list[list[Fraction]]) -> tuple[list[Fraction] | None, bool]:
+    """The solution of a dense system, right side in the last column, and whether it is the only one."""
+    matrix = [list(row) for row in matrix]
+    width = len(matrix[0]) - 1
+    at, pivots = 0, []
+    for column in range(width):
+        best = next((row for row in range(at, len(matrix)) if matrix[row][column]), None)
+        if best is None:
+            continue
+        matrix[at], matrix[best] = matrix[best], matrix[at]
+        lead = matrix[at][column]
+        matrix[at] = [value / lead for value in matrix[at]]
+        for row, other in enumerate(matrix):
+            if row != at and other[column]:
+                factor = other[column]
+                matrix[row] = [value - factor * own for value, own in zip(other, matrix[at], strict=True)]
+        pivots.append(column)
+        at += 1
+    if any(row[-1] for row in matrix[at:]):
+        return None, False
+    solution = [ZERO] * width
+    for row, column in enumerate(pivots):
+        solution[column] = matrix[row][-1]
+    return solution, len(pivots) == width
+
+
+def on_links(mesh: Mesh, side: int) -> dict[str, Fraction]:
+    """Torques of a mesh by link for a multiplier of 1, from the loss of one wheel's torque."""
+    first, second = Fraction(mesh.a), Fraction(mesh.b)
+    if side > 0:
+        second *= mesh.forward
+    elif side < 0:
+        first *= mesh.backward
+    found: dict[str, Fraction] = {}
+    for link, sense, torque in zip(mesh.links, mesh.senses, (first, second, -first - second), strict=True):
+        found[link] = found.get(link, ZERO) + sense * torque
+    return found
+
+
+class OpenError(Exception):
+    """Some pattern leaves a torque open: no example."""
+
+
+def by_force(balance: Balance) -> set[tuple[Fraction, ...]]:
+    """Torques of meshes and outside under every pattern that agrees with itself."""
+    ways = [(1, -1) if mesh.rolling and (mesh.forward, mesh.backward) != (1, 1) else (0,) for mesh in balance.meshes]
+    found = set()
+    for sides in product(*ways):
+        columns = [on_links(mesh, side) for mesh, side in zip(balance.meshes, sides, strict=True)]
+        columns += [{link: ONE} for link in (*balance.unknown, *balance.held)]
+        rows = [
+            [*(column.get(link, ZERO) for column in columns), -balance.known.get(link, ZERO)] for link in balance.links
+        ]
+        solution, only = eliminated(rows)
+        if solution is None:
+            continue
+        if not only:
+            raise OpenError
+        powers = [-x * mesh.rolling for x, mesh in zip(solution, balance.meshes, strict=False)]
+        shares = [m.forward if side > 0 else m.backward for m, side in zip(balance.meshes, sides, strict=True)]
+        if all(power * side >= 0 for power, side in zip(powers, sides, strict=True)) and not any(
+            power and side and share <= 0 for power, side, share in zip(powers, sides, shares, strict=True)
+        ):
+            found.add(tuple(solution))
+    return found
+
+
+def by_blocks(balance: Balance) -> set[tuple[Fraction, ...]]:
+    flows, complete = find_flows(balance)
+    assert complete
+    found = {(*f.solved.multipliers.values(), *f.solved.external.values(), *f.solved.brakes.values()) for f in flows}
+    assert len(found) == len(flows)
+    for flow in flows:
+        for mesh in balance.meshes:
+            assert mesh.power(flow.solved.multipliers[mesh.id]) * flow.pattern.get(mesh.id, 0) >= 0
+    return found
+
+
+counts = st.integers(10, 60)
+losses = st.sampled_from([ONE, *(Fraction(n, 10) for n in (-1, 0, 3, 5, 7, 9)), Fraction(97, 100)])
+torques = st.integers(-9, 9).filter(bool).map(Fraction)
+
+
+@st.composite
+def balances(draw: st.DrawFn) -> Balance:
+    """Any meshes between any links, with powers of any sense: far worse than trains."""
+    links = tuple("abcde"[: draw(st.integers(2, 5))])
+    meshes = []
+    for at in range(draw(st.integers(1, len(links)))):
+        i, j, k = draw(st.permutations([*links, "frame"]))[:3]
+        sign, rolling = draw(st.sampled_from([1, -1])), draw(st.sampled_from([-2, -1, 0, 1, 3]))
+        meshes.append(
+            Mesh(f"m{at}", (i, j, k), (1, draw(st.sampled_from([1, -1])), 1), draw(counts), sign * draw(counts),
+                 Fraction(rolling), draw(losses), draw(losses))
+        )  # fmt: skip
+    outside = draw(st.permutations(links))[: len(links) - len(meshes)]
+    cut = draw(st.integers(0, len(outside)))
+    known = draw(st.dictionaries(st.sampled_from(links), torques, min_size=1, max_size=2))
+    return Balance(links, tuple(meshes), known, tuple(outside[:cut]), tuple(outside[cut:]))
+
+
+@settings(max_examples=300)
+@given(balances())
+def test_blocks_find_what_a_trial_of_all_patterns_finds(balance: Balance) -> None:
+    try:
+        wanted = by_force(balance)
+    except OpenError:
+        reject()
+    event(f"{len(wanted)} flows")
+    assert by_blocks(balance) == wanted
+
+
+class Stage(NamedTuple):
+    """One stage from shaft to shaft: a pair, or a compound set whose ring is held or turned by another pair."""
+
+    kind: str
+    turned: bool
+    teeth: tuple[int, int, int, int, int, int]
+    losses: tuple[Fraction, Fraction, Fraction]
+
+
+near = st.integers(28, 33)  # basic ratios near 1, which lock
+stages = st.builds(
+    Stage,
+    st.sampled_from(["pair", "set", "coupled"]),
+    st.booleans(),
+    st.tuples(near, near, near, near, counts, counts),
+    st.tuples(*[st.sampled_from([Fraction(n, 100) for n in (60, 80, 90, 95, 98, 99)])] * 3),
+)
+
+
+def joined(parts: Sequence[Stage]) -> tuple[list[str], list[tuple[str, str, str, int, int, Fraction]], list[str]]:
+    """Links, meshes (i, j, carrier, a, b, efficiency) and links held, shafts s0, s1 ... in their order."""
+    links, meshes, held = ["s0"], [], []
+    for at, stage in enumerate(parts):
+        first, last, ring, planet = f"s{at}", f"s{at + 1}", f"r{at}", f"p{at}"
+        links.append(last)
+        s, p, q, r, u, v = stage.teeth
+        if stage.kind == "pair":
+            meshes.append((first, last, "frame", u, v, stage.losses[0]))
+            continue
+        links += [ring, planet]
+        sun, arm = (last, first) if stage.turned else (first, last)
+        meshes += [(sun, planet, arm, s, p, stage.losses[0]), (planet, ring, arm, q, r, stage.losses[1])]
+        if stage.kind == "set":
+            held.append(ring)
+        else:
+            meshes.append((first, ring, "frame", u, v, stage.losses[2]))
+    return links, meshes, held
+
+
+def speeds_of(
+    links: Sequence[str], meshes: Sequence[tuple[str, str, str, int, int, Fraction]], held: Sequence[str]
+) -> dict[str, Fraction] | None:
+    """Speeds with s0 at 1; None where they are not determined."""
+    rows = []
+    for i, j, k, a, b, _ in meshes:
+        row = dict.fromkeys([*links, "frame"], ZERO)
+        row[i], row[j], row[k] = row[i] + a, row[j] + b, row[k] - a - b
+        rows.append([*(row[link] for link in links), ZERO])
+    for given_link, speed in (("s0", ONE), *((link, ZERO) for link in held)):
+        rows.append([*(ONE if link == given_link else ZERO for link in links), speed])
+    solution, only = eliminated(rows)
+    return dict(zip(links, solution, strict=True)) if only and solution else None
+
+
+@settings(max_examples=80, deadline=None)
+@given(st.lists(stages, min_size=1, max_size=3), st.sampled_from([-1, 1]), st.booleans())
+def test_trains_have_the_flows_that_a_trial_of_all_patterns_finds(
+    parts: list[Stage], sense: int, at_input: bool
+) -> None:
+    links, meshes, held = joined(parts)
+    assume(len(meshes) <= 6)
+    speeds = speeds_of(links, meshes, held)
+    assume(speeds is not None)
+    moving: Mapping[str, Fraction] = {**speeds, "frame": ZERO}
+    assume(all(moving[f"s{at}"] for at in range(len(parts) + 1)))
+    ends = ("s0", f"s{len(parts)}")
+    loaded, asked = ends if at_input else ends[::-1]
+    balance = Balance(
+        tuple(links),
+        tuple(
+            Mesh(str(at), (i, j, k), (1, 1, 1), a, b, a * (moving[i] - moving[k]), eta, eta)
+            for at, (i, j, k, a, b, eta) in enumerate(meshes)
+        ),
+        {loaded: sense / moving[loaded]},
+        (asked,),
+        tuple(held),
+    )
+    try:
+        wanted = by_force(balance)
+    except OpenError:
+        reject()
+    event(f"{len(wanted)} flows, load {'drives' if sense > 0 else 'resists'}")
+    assert by_blocks(balance) == wanted
+
+
+LOCKING = Stage("set", False, (30, 29, 30, 32, 1, 1), (Fraction(9, 10), Fraction(9, 10), ONE))
+PLAIN = Stage("pair", False, (1, 1, 1, 1, 23, 41), (Fraction(19, 20), ONE, ONE))
+
+
+def long_train(parts: Sequence[Stage], loaded: str, asked: str, power: int) -> Balance:
+    """Speeds stage by stage; a set has the speed ratio arm/sun of 1/(1 - i0), i0 its basic ratio."""
+    links, meshes, held = joined(parts)
+    speeds = {"frame": ZERO, "s0": ONE}
+    for at, stage in enumerate(parts):
+        s, p, q, r, u, v = stage.teeth
+        if stage.kind == "pair":
+            speeds[f"s{at + 1}"] = -speeds[f"s{at}"] * u / v
+        else:
+            # ring at rest: (w_sun - w_arm) = (p r)/(s q) (0 - w_arm)
+            speeds[f"r{at}"] = ZERO
+            speeds[f"s{at + 1}"] = speeds[f"s{at}"] / (1 - Fraction(p * r, s * q))
+            speeds[f"p{at}"] = speeds[f"s{at + 1}"] * (1 + Fraction(r, q))
+    return Balance(
+        tuple(links),
+        tuple(
+            Mesh(str(at), (i, j, k), (1, 1, 1), a, b, a * (speeds[i] - speeds[k]), eta, eta)
+            for at, (i, j, k, a, b, eta) in enumerate(meshes)
+        ),
+        {loaded: power / speeds[loaded]},
+        (asked,),
+        tuple(held),
+    )
+
+
+@pytest.mark.parametrize("size", [1, 20, 1500])
+def test_a_chain_of_any_length_multiplies_its_efficiencies(size: int) -> None:
+    parts = [PLAIN._replace(teeth=(1, 1, 1, 1, 20 + at % 7, 31 + at % 11)) for at in range(size)]
+    flows, complete = find_flows(long_train(parts, f"s{size}", "s0", -1))
+    assert complete
+    (flow,) = flows
+    assert flow.solved.external["s0"] == 1 / Fraction(19, 20) ** size
+    assert set(flow.pattern.values()) == {1}
+    flows, complete = find_flows(long_train(parts, "s0", f"s{size}", -1))
+    assert complete
+    assert set(flows[0].pattern.values()) == {-1}
+
+
+@pytest.mark.parametrize("where", [0, 30, 60])
+def test_one_set_decides_whether_a_long_train_locks(where: int) -> None:
+    parts = [PLAIN] * where + [LOCKING] + [PLAIN] * (60 - where)
+    # i0 = (29*32)/(30*30) and e = 0.81: the sun cannot drive the arm, for i0 e < 1; the arm drives with (i0-1)/(i0/e-1)
+    forward, complete = find_flows(long_train(parts, "s61", "s0", -1))
+    assert (forward, complete) == ((), True)
+    ratio, eta = Fraction(29 * 32, 30 * 30), Fraction(81, 100)
+    back, complete = find_flows(long_train(parts, "s0", "s61", -1))
+    assert complete
+    (flow,) = back
+    speed = long_train(parts, "s61", "s0", 1).known["s61"]  # 1/w
+    assert flow.solved.external["s61"] / speed == 1 / ((ratio - 1) / (ratio / eta - 1) * Fraction(19, 20) ** 60)
+
+
+def test_a_long_train_has_both_flows_where_its_set_has_two() -> None:
+    parts = [PLAIN] * 20 + [LOCKING] + [PLAIN] * 20
+    flows, complete = find_flows(long_train(parts, "s41", "s0", 1))
+    assert complete
+    taken = sorted(flow.solved.external["s0"] for flow in flows)
+    assert len(taken) == 2
+    # the arm drives: what arrives leaves at s0; or s0 drives as well, and all is lost
+    ratio, eta, pair = Fraction(29 * 32, 30 * 30), Fraction(81, 100), Fraction(19, 20) ** 20
+    assert taken[0] == -((ratio - 1) / (ratio / eta - 1)) * pair * pair
+    assert taken[1] == -((ratio - 1) / (ratio * eta - 1)) * pair / pair > 0
+
+
+def test_of_two_locking_sets_the_first_has_two_flows_for_one_of_the_second() -> None:
+    # where the second hands power on, the first has two answers; where it must be driven too, the first has none
+    balance = long_train([LOCKING, PLAIN, LOCKING], "s3", "s0", 1)
+    found = by_blocks(balance)
+    assert len(found) == 2
+    assert found == by_force(balance)
+
+
+def test_what_hangs_on_two_equal_pairs_between_two_links_is_left_open() -> None:
+    # as many unknowns as rows, and yet any share of the two pairs balances
+    balance = Balance(
+        ("a", "b", "c", "d"),
+        (
+            Mesh("near", ("a", "b", "d"), (1, 1, 1), 20, 30, ONE),
+            Mesh("far", ("a", "b", "frame"), (1, 1, 1), 20, 30, ONE),
+            Mesh("next", ("b", "c", "frame"), (1, 1, 1), 10, 50, ONE, Fraction(9, 10), Fraction(9, 10)),
+        ),
+        # b drives c, which gets 0.9 * 50 for 10 on b; two thirds of these act on a
+        {"c": Fraction(45), "a": Fraction(-20, 30) * 10},
+        ("d",),
+    )
+    (flow,), complete = find_flows(balance)
+    assert complete
+    assert flow.solved.multipliers["next"] == -1
+    assert (flow.solved.loose, flow.solved.open) == (("near", "far"), ("d",))
+    assert "d" not in flow.solved.external
+    heavier = Balance(balance.links, balance.meshes, {**balance.known, "a": ONE}, balance.unknown)
+    assert find_flows(heavier) == ((), True)
+
+
+def test_directions_of_trains_with_few_losses_a_block_bring_no_array_library() -> None:
+    code = "import sys, geartrain; t = geartrain.load('norton-compound'); t.torques(); t.driven('arm', 'F'); "
+    code += "geartrain.load('zf-8hp70').driven('OUT', 'IN', '4'); print({'numpy', 'scipy'} & set(sys.modules))"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True, timeout=120)
+    assert done.stdout.strip() == "set()"
+
+
+def ring(size: int, losing: int) -> Balance:
+    """Links each of which hangs on the next two: one block, with as many meshes as links."""
+    links = tuple(f"l{at}" for at in range(size))
+    meshes = tuple(
+        Mesh(f"m{at}", (links[at], links[(at + 1) % size], links[(at + 2) % size]), (1, 1, 1), 20 + at, 37,
+             Fraction(1 if at % 2 else -1), *[Fraction(9, 10) if at < losing else ONE] * 2)
+        for at in range(size)
+    )  # fmt: skip
+    return Balance(links, meshes, {"l0": ONE}, ())
+
+
+def test_a_block_of_some_losses_is_tried_in_floats_first_and_agrees() -> None:
+    balance = ring(9, 7)
+    assert by_blocks(balance) == by_force(balance)
+
+
+def test_a_block_with_too_many_losses_is_iterated_and_says_so() -> None:
+    balance = ring(19, 17)
+    flows, complete = find_flows(balance)
+    assert not complete
+    for flow in flows:
+        sums = dict(balance.known)
+        for mesh in balance.meshes:
+            x, side = flow.solved.multipliers[mesh.id], flow.pattern.get(mesh.id, 0)
+            assert mesh.power(x) * side >= 0
+            for link, torque in on_links(mesh, side).items():
+                sums[link] = sums.get(link, ZERO) + x * torque
+        assert not any(sums.values())
+
+
+def test_what_hangs_on_an_open_share_stays_open_and_the_rest_is_certain() -> None:
+    gears = ", ".join(f"{{pair: [{a}, {b}], efficiency: 0.9}}" for a, b in (("a20", "b30"), ("b30", "c40"),
+                      ("c40", "d50"), ("d50", "a20"), ("e1", "f1"), ("c2", "e2")))  # fmt: skip
+    train = load(f"""
+extends: four-gear-loop
+links: {{c: {{wheels: {{c2: 30}}}}, e: {{wheels: {{e1: 20, e2: 60}}}}, f: {{wheels: {{f1: 70}}}}}}
+revolutes: [{{pair: [plate, e], axis: e}}, {{pair: [plate, f], axis: f}}]
+gears: [{gears}]
+loads: {{f: -1}}
+""")
+    found = train.torques()
+    assert found.verdict.kind == "indeterminate"
+    assert set(found.verdict.candidates) == {"a20~b30", "b30~c40", "c40~d50", "d50~a20"}
+    # two pairs away from the load nothing is open
+    assert abs(found.pairs["c2~e2"].torques[0]) == Fraction(20, 70) * Fraction(30, 60) / Fraction(81, 100)
+
+
+@given(st.dictionaries(st.integers(0, 7), st.sets(st.integers(0, 6), max_size=4), min_size=1))
+def test_parts_need_only_what_stands_before_them(rows: dict[int, set[int]]) -> None:
+    parts = find_parts(rows, 7)
+    assert sorted(row for part in parts for row in part.rows) == sorted(rows)
+    assert sorted(column for part in parts for column in part.columns) == list(range(7))
+    known: set[int] = set()
+    for at, part in enumerate(parts):
+        known.update(part.columns)
+        assert all(rows[row] <= known for row in part.rows)
+        assert len(part.rows) <= len(part.columns) or at == 0
+        assert len(part.rows) >= len(part.columns) or at == len(parts) - 1
+    graph = nx.Graph()
+    graph.add_nodes_from(("row", row) for row in rows)
+    graph.add_edges_from((("row", row), ("column", column)) for row, held in rows.items() for column in held)
+    matching = nx.bipartite.maximum_matching(graph, [("row", row) for row in rows])
+    assert sum(min(len(part.rows), len(part.columns)) for part in parts) == len(matching) // 2
+
+
+def test_an_ordinary_chain_has_one_unknown_a_part() -> None:
+    parts = find_parts({at: {at, at + 1} for at in range(5000)} | {5000: {0}}, 5001)
+    assert prod(len(part.columns) for part in parts) == 1

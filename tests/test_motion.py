@@ -455,6 +455,23 @@ def test_the_picture_shows_where_a_pointer_goes_back() -> None:
     assert 134 <= len(starts) < 150
 
 
+def test_every_key_of_the_json_is_documented() -> None:
+    arguments = ("motion", "moon-triangular", "--turns", 1, "--samples", 501, "--output", "moon", "--json")
+    data = json.loads(call(*arguments, "--estimates", "--spectrum", "--phases", 2).stdout)
+    text = (Path(__file__).parent.parent / "docs" / "json.md").read_text(encoding="utf-8")
+    part = text[text.index("## motion --json") :]
+    part = part[: part.index("\n## ", 5)]
+    moon = data["outputs"]["moon"]
+    nested = [
+        *moon["estimates"],
+        *moon["estimates"]["superposed"],
+        *moon["spectrum"][0],
+        *moon["spectrum"][0]["pairs"][0],
+    ]
+    for key in [*data, *moon, *nested, *data["phases"], *moon["transmission_error"], *moon["speed"]]:
+        assert f"`{key}`" in part, key
+
+
 def test_a_report_has_motion_only_where_teeth_or_pins_are_real() -> None:
     page = call("report", "moon-triangular").stdout
     assert "## Motion" in page

@@ -22,6 +22,7 @@ def run(
     turns: Annotated[str, typer.Option("--turns", help="Turns of the input, or 'period'; negative: back.")] = "20",
     samples: Annotated[int, typer.Option("--samples", min=2, help="Positions of the input.")] = 200_000,
     output: Annotated[Names, typer.Option("--output", help="Output or link; may be repeated.")] = None,
+    links: Annotated[bool, typer.Option("--links", help="Every link, not only the outputs.")] = False,
     state: StateName = None,
     without: Annotated[Names, typer.Option("--without", help="Leave out a pair, to open a loop of real teeth.")] = None,
     phases: Annotated[int, typer.Option("--phases", min=0, help="Runs with random phases of the teeth.")] = 0,
@@ -43,7 +44,9 @@ def run(
 
     suffix = suffix_of(out, (".md", ".html", ".json", ".csv"))
     picture = suffix_of(plot, PICTURES) or ".svg"
-    motion = load(file).motion(state, tuple(output or ()), tuple(without or ()), tolerance)
+    train = load(file)
+    outputs = (*(output or ()), *(train.declaration.links if links else ()))
+    motion = train.motion(state, tuple(dict.fromkeys(outputs)), tuple(without or ()), tolerance)
     asked = Run(motion, _turns(turns, motion), samples)
     if suffix == ".csv" and out is not None:
         _write_table(asked, out, resume)

@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 
 _CHUNK = 32768  # most positions worked on at once
 _NUMBERS = 1 << 23  # most angles kept at once: longer trains take shorter chunks
-_PLAIN = 2048  # periods of a law up to which a plain product tells where in it the driver stands
+_PLAIN = 1  # period up to which a plain product tells where in it the driver stands, to rounding
 _SPLITTER = 134217729.0  # 2^27 + 1: cuts a float in two halves
 
 

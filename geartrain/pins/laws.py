@@ -66,9 +66,11 @@ class SlotLaw(PinLaw):
     def error(self, S: ArrayLike) -> Floats:
         """Slot angle less its mean motion (rad)."""
         S = np.asarray(S, dtype=float)
-        if self.r > self.e:
-            return np.asarray(np.arctan2(self.e * np.sin(S), self.r - self.e * np.cos(S)))
-        return np.asarray(-np.arctan2(self.r * np.sin(S), self.e - self.r * np.cos(S)))
+        less, more = min(self.r, self.e), max(self.r, self.e)
+        # more - less cos S, as a sum: near r = e the difference would cancel
+        along = (more - less) + 2 * less * np.sin(S / 2) ** 2
+        error = np.asarray(np.arctan2(less * np.sin(S), along))
+        return error if self.r > self.e else -error
 
     def speed(self, S: ArrayLike) -> Floats:
         """r (r - e cos S)/(r^2 + e^2 - 2 r e cos S)."""

@@ -205,21 +205,21 @@ class TriangularLaw(Law):
     @cached_property
     def nodes(self) -> list[tuple[Interval, Floats, Floats]]:
         """Each stretch with nodes in alpha_1 and weights whose sum over all stretches is 1."""
-        return [node for interval, high, low in self.stretches for node in self._graded(interval, high, low)]
+        return [node for stretch in self.stretches for node in self._graded(self._tau, *stretch)]
 
     def _graded(
-        self, interval: Interval, high: float, low: float, depth: int = 0
+        self, what: Callable[[Interval, Floats], Any], interval: Interval, high: float, low: float, depth: int = 0
     ) -> list[tuple[Interval, Floats, Floats]]:
-        """Nodes on one stretch, halved until tau is integrated to rounding: near a grazing flank it is steep."""
+        """Nodes on one stretch, halved until `what` is integrated to rounding: near a grazing flank tau is steep."""
         x, weights = self._gauss(high, low)
         middle = (high + low) / 2
         halves = [self._gauss(high, middle), self._gauss(middle, low)]
-        whole = float(weights @ np.broadcast_to(self._tau(interval, x), x.shape))
-        finer = sum(float(w @ np.broadcast_to(self._tau(interval, y), y.shape)) for y, w in halves)
-        if abs(finer - whole) <= _ROUNDING * self.sizes.ratio or depth == _DEEPEST:
+        whole = float(weights @ np.broadcast_to(what(interval, x), x.shape))
+        finer = sum(float(w @ np.broadcast_to(what(interval, y), y.shape)) for y, w in halves)
+        if abs(finer - whole) <= _ROUNDING * max(self.sizes.ratio, abs(finer)) or depth == _DEEPEST:
             return [(interval, x, weights)]
         ends = ((high, middle), (middle, low))
-        return [node for pair in ends for node in self._graded(interval, *pair, depth + 1)]
+        return [node for pair in ends for node in self._graded(what, interval, *pair, depth + 1)]
 
     def _gauss(self, high: float, low: float) -> tuple[Floats, Floats]:
         points, weights = _GAUSS
@@ -264,7 +264,9 @@ class TriangularLaw(Law):
         return turned / self._contact_mean(lambda interval, x: self._tau(interval, x) / self._eta(interval, x))
 
     def _contact_mean(self, what: Callable[[Interval, Any], Any]) -> float:
-        held = [(interval, x, weights) for interval, x, weights in self.nodes if interval.held is None]
+        """Mean over the driver's angle in contact; near the locking friction 1/eta is steeper than tau."""
+        stretches = [stretch for stretch in self.stretches if stretch[0].held is None]
+        held = [node for stretch in stretches for node in self._graded(what, *stretch)]
         whole = sum(float(weights.sum()) for _, _, weights in held)
         return sum(float(weights @ what(interval, x)) for interval, x, weights in held) / whole
 

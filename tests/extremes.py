@@ -1,0 +1,702 @@
+"""Extreme trains and their answers in 50 digits: what the floats are judged by, and how far off they are.
+
+A train's angles are found from the laws of `sorge`, as the solution of all of them at once; the tooth sizes in floats
+are taken as exact. Torques are balanced in fractions, from the statics of each wheel. `CASES` measures each train
+against its reference; the tests bound the errors, and a page of the documentation lists them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cached_property, partial
+from itertools import product
+from math import pi, radians
+from time import perf_counter
+from typing import Any, NamedTuple
+
+import numpy as np
+from marching import Pair, Slot, Train, declared
+from sorge import APPROACH, Segment, mp
+from sorge import Pair as Couple
+
+from geartrain import load
+from geartrain.teeth.triangular.law import TriangularLaw
+from geartrain.teeth.triangular.sizes import Sizes, equal_depth
+
+FRAME, ARM = "frame", "arm"
+SETS = {"left": (FRAME, "A"), "right": (FRAME, "A"), ARM: (FRAME, "A"), "planet": (ARM, "P")}
+EPS = 2.0**-53
+
+
+@dataclass(frozen=True)
+class Wheels:
+    """Two external wheels, and how their teeth are declared; without a form they are ideal."""
+
+    z1: int
+    z2: int
+    teeth: str = ""
+    external = True
+    mean = property(lambda self: self.z1 / self.z2)
+
+    @property
+    def form(self) -> str:
+        """As a pair declares it."""
+        return f", {self.teeth}" if self.teeth else ""
+
+
+def triangular(window: float | str = 0.5, half_angle: float = 30, radii: str = "equal_depth") -> str:
+    """A tooth form, as a pair or a train declares it."""
+    return f"tooth_form: {{form: triangular, half_angle: {half_angle} deg, window: {window}, radii: {radii}}}"
+
+
+# ----------------------------------------------------------------------------------------------------- laws, 50 digits
+
+
+def contact(couple: Couple, S: Any) -> tuple[Segment, Any]:
+    """Which couple drives at the forward angle S, and its alpha_1."""
+    for segment in couple.path:
+        over = mp.floor((segment.start + S) / couple.p1 - segment.k) + segment.k
+        x = over * couple.p1 - S
+        if x >= segment.end:
+            return segment, x
+    raise AssertionError("the path has a hole")
+
+
+class Toothed:
+    """The law of triangular teeth."""
+
+    def __init__(self, sizes: Any) -> None:
+        self.couple = Couple.of(sizes)
+        self.mean = mp.mpf(sizes.z1) / sizes.z2
+
+    def angle(self, S: Any) -> Any:
+        """Driven angle."""
+        return self.mean * S + self.couple.error(S)
+
+    def speed(self, S: Any) -> Any:
+        """tau; 0 in a standstill."""
+        segment, x = contact(self.couple, S)
+        return mp.mpf(0) if segment.held is not None else self.couple.speed(x, segment.phase)
+
+
+class Pinned:
+    """The law of a pin at radius r in a slot whose axis is e away, r > e."""
+
+    mean = mp.mpf(1)
+
+    def __init__(self, r: float, e: float) -> None:
+        self.r, self.e = mp.mpf(r), mp.mpf(e)
+
+    def angle(self, S: Any) -> Any:
+        """Direction of the pin from the slot's axis, turn after turn."""
+        return S + mp.atan2(self.e * mp.sin(S), self.r - self.e * mp.cos(S))
+
+    def speed(self, S: Any) -> Any:
+        """Its derivative."""
+        r, e = self.r, self.e
+        return r * (r - e * mp.cos(S)) / (r * r + e * e - 2 * r * e * mp.cos(S))
+
+
+class Even:
+    """Ideal teeth."""
+
+    def __init__(self, by: Wheels) -> None:
+        self.mean = mp.mpf(by.z1) / by.z2
+
+    def angle(self, S: Any) -> Any:
+        """The mean ratio times S."""
+        return self.mean * S
+
+    def speed(self, S: Any) -> Any:
+        """The mean ratio."""
+        return self.mean
+
+
+# ---------------------------------------------------------------------------------------------------- trains, 50 digits
+
+
+class Exactly:
+    """A train's angles in 50 digits. Tooth sizes are those of the loaded train; everything else is worked out here."""
+
+    def __init__(self, train: Train, loaded: Any) -> None:
+        self.train = train
+        sizes = {mesh.name: mesh.law.sizes for mesh in loaded.meshes}
+        known: dict[Any, Toothed] = {}
+        self.laws = []
+        for at, pair in enumerate(train.pairs):
+            own = sizes.get(f"d{at}~f{at}")
+            if isinstance(pair.by, Slot):
+                self.laws.append(Pinned(pair.by.r, pair.by.e))
+            elif own is None:
+                self.laws.append(Even(pair.by))
+            else:
+                self.laws.append(known.setdefault(own, Toothed(own)))
+
+    @cached_property
+    def means(self) -> list[Any]:
+        """Mean speeds of all links."""
+        signs = [-1 if pair.by.external else 1 for pair in self.train.pairs]
+        ratios = [sign * law.mean for sign, law in zip(signs, self.laws, strict=True)]
+        return self._solved(ratios, [mp.mpf(0)] * len(ratios), 1)
+
+    @cached_property
+    def senses(self) -> list[tuple[int, int]]:
+        """Of each pair, the signs of its forward angles S and q."""
+        found = []
+        for pair in self.train.pairs:
+            driver, carrier = (self.means[self.train.at[link]] for link in (pair.driver, pair.carrier))
+            ahead = 1 if driver >= carrier else -1
+            found.append((ahead, -ahead if pair.by.external else ahead))
+        return found
+
+    def _solved(self, ratios: Sequence[Any], ahead: Sequence[Any], turning: Any) -> list[Any]:
+        """Speeds of all links, each driven side so much ahead of its ratio to the driver, as seen from the carrier."""
+        train, size = self.train, len(self.train.at)
+        rows, right = [], []
+        for pair, ratio, more in zip(train.pairs, ratios, ahead, strict=True):
+            row = {train.at[pair.driven]: mp.mpf(1)}
+            for link, part in ((pair.driver, -ratio), (pair.carrier, ratio - 1)):
+                row[train.at[link]] = row.get(train.at[link], 0) + part
+            rows.append(row)
+            right.append(more)
+        for link, speed in (train.inputs | {FRAME: 0}).items():
+            exact = Fraction(speed).limit_denominator(10**6)
+            rows.append({train.at[link]: mp.mpf(1)})
+            right.append(mp.mpf(exact.numerator) / exact.denominator * turning)
+        return eliminated(rows, right, size)
+
+    def forward(self, angles: Sequence[Any], number: int) -> tuple[Any, Any]:
+        """Forward angles S and q of one pair."""
+        pair, (first, second), at = self.train.pairs[number], self.senses[number], self.train.at
+        carrier = angles[at[pair.carrier]]
+        return first * (angles[at[pair.driver]] - carrier), second * (angles[at[pair.driven]] - carrier)
+
+    def misfits(self, angles: Sequence[Any]) -> list[Any]:
+        """How far each driven side is behind what its law asks for."""
+        places = [self.forward(angles, number) for number in range(len(self.laws))]
+        return [law.angle(S) - q for law, (S, q) in zip(self.laws, places, strict=True)]
+
+    def ratios(self, angles: Sequence[Any]) -> list[Any]:
+        """Instantaneous ratios, driven over driver as seen from the carrier, signed."""
+        speeds = [law.speed(self.forward(angles, number)[0]) for number, law in enumerate(self.laws)]
+        return [first * second * tau for (first, second), tau in zip(self.senses, speeds, strict=True)]
+
+    def moved(self, turns: float, errors: Sequence[float]) -> list[Any]:
+        """All angles with these errors where the lead has made so many turns."""
+        turned = 2 * mp.pi * mp.mpf(turns)
+        return [mean * turned + mp.mpf(error) for mean, error in zip(self.means, errors, strict=True)]
+
+    def at(self, turns: float, guess: Sequence[float]) -> list[Any]:
+        """All angles where the lead has made so many turns: Newton's steps, from a guess of the errors."""
+        angles = self.moved(turns, guess)
+        for _ in range(60):
+            misfits = self.misfits(angles)
+            ahead = [second * misfit for (_, second), misfit in zip(self.senses, misfits, strict=True)]
+            step = self._solved(self.ratios(angles), ahead, 0)
+            angles = [angle + more for angle, more in zip(angles, step, strict=True)]
+            if max(map(abs, step)) < mp.mpf(10) ** -42:
+                return angles
+        raise AssertionError("no angles fit all laws")
+
+    def errors(self, turns: float, angles: Sequence[Any]) -> list[Any]:
+        """Angles less their mean motion."""
+        turned = 2 * mp.pi * mp.mpf(turns)
+        return [angle - mean * turned for angle, mean in zip(angles, self.means, strict=True)]
+
+    def rates(self, angles: Sequence[Any]) -> list[Any]:
+        """Speeds of all links over the lead's."""
+        return self._solved(self.ratios(angles), [mp.mpf(0)] * len(self.laws), 1)
+
+
+def eliminated(rows: Sequence[dict[int, Any]], right: Sequence[Any], size: int) -> list[Any]:
+    """The solution of sparse equations by elimination with the largest pivot of each row in turn."""
+    rows, right, order = [dict(row) for row in rows], list(right), []
+    left = list(range(size))
+    while left:
+        at = min(left, key=lambda number: len(rows[number]))
+        column = max(rows[at], key=lambda link: abs(rows[at][link]))
+        left.remove(at)
+        order.append((at, column))
+        for other in left:
+            if column in rows[other]:
+                factor = rows[other].pop(column) / rows[at][column]
+                for link, value in rows[at].items():
+                    if link != column:
+                        rows[other][link] = rows[other].get(link, 0) - factor * value
+                right[other] -= factor * right[at]
+    found: list[Any] = [mp.mpf(0)] * size
+    for at, column in reversed(order):
+        known = sum(value * found[link] for link, value in rows[at].items() if link != column)
+        found[column] = (right[at] - known) / rows[at][column]
+    return found
+
+
+def composed(laws: Sequence[Any], turns: float) -> tuple[Any, Any, Any]:
+    """The last wheel of a plain chain: its error, its speed over the mean, and radians of it per error of each pair."""
+    S, mean, gain, summed = 2 * mp.pi * mp.mpf(turns), mp.mpf(1), mp.mpf(1), mp.mpf(0)
+    for law in laws:
+        tau = law.speed(S)
+        S, mean, gain, summed = law.angle(S), mean * law.mean, gain * tau / law.mean, 1 + tau * summed
+    return S - mean * 2 * mp.pi * mp.mpf(turns), gain, summed
+
+
+# ------------------------------------------------------------------------------------------------------------ measuring
+
+
+@dataclass(frozen=True)
+class Run:
+    """A run of a train in floats beside its reference at some positions; rad, and speeds over the greatest of a link.
+
+    off        greatest difference of each link's transmission error, and `speed_off` of its speed
+    misfit     how far the float angles miss the laws, in 50 digits
+    refused    what the train says where it cannot be followed
+    """
+
+    found: dict[str, Any]
+    off: dict[str, float]
+    speed_off: dict[str, float]
+    misfit: float
+    seconds: float
+
+
+def run(train: Train, turns: float, samples: int, places: int) -> Run:
+    """Positions from 0 to `turns`, compared at so many of them."""
+    loaded = load(declared(train))
+    motion = loaded.motion()
+    since = perf_counter()
+    _, found = motion.ripples(turns, samples)
+    seconds = perf_counter() - since
+    exactly = Exactly(train, loaded)
+    off, speed_off, misfit = dict.fromkeys(train.bases, 0.0), dict.fromkeys(train.bases, 0.0), 0.0
+    for at in np.linspace(0, samples - 1, places).round().astype(int).tolist():
+        where = turns * (np.float64(at) / (samples - 1))
+        mine = [float(found[link].error[at]) for link in train.bases] + [0.0]
+        misfit = max(misfit, *(float(abs(each)) for each in exactly.misfits(exactly.moved(where, mine))))
+        angles = exactly.at(where, mine)
+        rates, errors = exactly.rates(angles), exactly.errors(where, angles)
+        for link, number in list(train.at.items())[:-1]:
+            most = float(np.abs(found[link].speed).max()) or 1.0
+            off[link] = max(off[link], float(abs(mp.mpf(found[link].error[at]) - errors[number])))
+            speed_off[link] = max(speed_off[link], float(abs(found[link].speed[at] - rates[number])) / most)
+    return Run(found, off, speed_off, misfit, seconds)
+
+
+class Measured(NamedTuple):
+    """An error against 50 digits, and the seconds the floats took."""
+
+    error: float
+    seconds: float
+
+
+@dataclass(frozen=True)
+class Case:
+    """One extreme train.
+
+    extreme   how extreme
+    of        what the error is of, and in which unit
+    bound     what the roundings of float64 come to, times what the train makes of them
+    why       where it stops, and why
+    slow      takes longer than a quick test should
+    """
+
+    name: str
+    extreme: str
+    of: str
+    measure: Callable[[], Measured]
+    bound: float
+    why: str
+    slow: bool = False
+
+
+def power(value: float) -> str:
+    """One digit and a power of ten; plain if that is shorter."""
+    digit, exponent = f"{value:.0e}".split("e")
+    return f"{value:g}" if 0.01 < value < 1000 else f"{digit}e{int(exponent)}"
+
+
+def timed(work: Callable[[], Any]) -> tuple[Any, float]:
+    """What it gives, and the seconds it takes."""
+    since = perf_counter()
+    found = work()
+    return found, perf_counter() - since
+
+
+# --------------------------------------------------------------------------------------------------- epicyclic trains
+
+
+def suns(counts: tuple[int, int, int, int], inputs: dict[str, float], form: str = "") -> Train:
+    """Two suns and a planet with two wheels on an arm: left, planet; planet, right."""
+    left, p, q, right = counts
+    form = form or triangular()
+    pairs = (Pair("left", "planet", ARM, Wheels(left, p, form)), Pair("planet", "right", ARM, Wheels(q, right, form)))
+    return Train(SETS, pairs, inputs)
+
+
+def near_locking(teeth: int, turns: float) -> Measured:
+    """The arm turns, one sun is held, and the other moves by 1/(teeth^2 - 1) of the arm's speed."""
+    train = suns((teeth, teeth + 1, teeth, teeth - 1), {ARM: 1, "left": 0})
+    found = run(train, turns, 997, 9)
+    return Measured(found.off["right"], found.seconds)
+
+
+def at_rest(turns: float) -> Measured:
+    """As before with a ratio of exactly 1: the second sun stands still but for the errors of its teeth."""
+    found = run(suns((100, 50, 50, 100), {ARM: 1, "left": 0}), turns, 997, 9)
+    assert not found.found["right"].mean
+    return Measured(found.off["right"], found.seconds)
+
+
+def pin_of_ratio_one(offset: float, turns: float) -> Measured:
+    """A pin and slot on an arm between two pairs of equal wheels: all mean ratios seen from the arm are 1 or -1."""
+    bases = {ARM: (FRAME, "A"), "sun": (FRAME, "A"), "p": (ARM, "P"), "s": (ARM, "Q"), "out": (FRAME, "A")}
+    even = Wheels(50, 50, triangular())
+    pairs = (Pair("sun", "p", ARM, even), Pair("p", "s", ARM, Slot(1.0, offset)), Pair("s", "out", ARM, even))
+    found = run(Train(bases, pairs, {ARM: 1, "sun": 0}), turns, 997, 9)
+    return Measured(found.off["out"], found.seconds)
+
+
+def hanging(window: float, last: tuple[int, int]) -> Measured:
+    """An arm turned by the wheel that its own planet turns, at many positions: how far all laws are missed."""
+    form = triangular(window)
+    pairs = (
+        *suns((40, 20, 18, 44), {}, form).pairs,
+        Pair("right", "lay", FRAME, Wheels(50, 40, form)),
+        Pair("lay", ARM, FRAME, Wheels(*last, form)),
+    )
+    found = run(Train(SETS | {"lay": (FRAME, "B")}, pairs, {"left": 1}), 30.0, 20_001, 25)
+    return Measured(found.misfit, found.seconds)
+
+
+# ------------------------------------------------------------------------------------------------------ plain trains
+
+
+def chain(kinds: Sequence[tuple[int, int]], pairs: int, form: str) -> Train:
+    """So many pairs one after another."""
+    bases = {f"s{at}": (FRAME, f"A{at}") for at in range(pairs + 1)}
+    meshing = (Wheels(*kinds[at % len(kinds)], form) for at in range(pairs))
+    pairs_of = tuple(Pair(f"s{at}", f"s{at + 1}", FRAME, by) for at, by in enumerate(meshing))
+    return Train(bases, pairs_of, {"s0": 1})
+
+
+def twelve(teeth: tuple[int, int], turns: float) -> Measured:
+    """Twelve pairs of 10 to 1 or 1 to 10: the error of the last wheel over its own greatest."""
+    found = run(chain([teeth], 12, triangular()), turns, 97, 7)
+    return Measured(found.off["s12"] / float(np.abs(found.found["s12"].error).max()), found.seconds)
+
+
+KINDS = ((100, 101), (103, 102), (99, 100), (101, 100))
+
+
+def long_chain(pairs: int, places: Sequence[int]) -> Measured:
+    """Many pairs in a row, only the last wheel asked for: the greatest difference of its error, over that error."""
+    last, train = f"s{pairs}", chain(KINDS, pairs, triangular())
+    every = ", ".join(f"{link}: {{}}" for link in train.bases)
+    loaded = load(declared(train).replace(f"outputs: {{{every}}}", f"outputs: {{{last}: {{}}}}"))
+    (_, found), seconds = timed(lambda: loaded.motion().ripples(3.3, 201))
+    known: dict[Any, Toothed] = {}
+    laws = [known.get(sizes) or known.setdefault(sizes, Toothed(sizes)) for sizes in _sizes(loaded)]
+    off = 0.0
+    for at in places:
+        error, _, _ = composed(laws, 3.3 * (np.float64(at) / 200))
+        mine = float(found[last].error[at]) * (1 if pairs % 2 == 0 else -1)
+        off = max(off, float(abs(mine / error - 1)))
+    return Measured(off, seconds)
+
+
+def _sizes(loaded: Any) -> list[Any]:
+    return [mesh.law.sizes for mesh in loaded.meshes]
+
+
+def at_the_edge(window: float) -> Measured:
+    """Price's train to the Moon with each pair so far into its own window of clearance, over the common period."""
+    form = triangular(repr(window))
+    bases = {"crank": (FRAME, "A"), "sun": (FRAME, "B"), "c": (FRAME, "C"), "d": (FRAME, "D"), "moon": (FRAME, "E")}
+    counts, links = ((45, 225), (64, 38), (48, 24), (127, 32)), list(bases)
+    pairs = [Pair(links[at], links[at + 1], FRAME, Wheels(*each, form)) for at, each in enumerate(counts)]
+    found = run(Train(bases, tuple(pairs), {"crank": 1}), 95.0, 10_007, 15)
+    return Measured(found.off["moon"], found.seconds)
+
+
+# ------------------------------------------------------------------------------------------------------ teeth and pins
+
+DRAWN = [0.013, 0.29, 0.41, 0.67, 0.83, 0.999]  # of a pitch
+
+
+def thirty(z1: int, z2: int, excess: float) -> Sizes:
+    """Equally deep teeth of 30 degrees."""
+    beta = radians(30)
+    return Sizes(z1, z2, *equal_depth(z1, z2, beta, beta), beta, beta, excess)
+
+
+def almost_apart(share: float) -> Measured:
+    """48 and 96 teeth at nearly the clearance where tips cease to touch: the error of the law, in driven pitches."""
+    sizes = thirty(48, 96, 0.01)
+    sizes = sizes.at(sizes.greatest_excess * share)
+    law, couple = TriangularLaw(sizes), Couple.of(sizes)
+    S = np.array(DRAWN) * sizes.p1
+    errors, seconds = timed(lambda: law.error(S))
+    pairs = zip(S.tolist(), errors.tolist(), strict=True)
+    return Measured(max(float(abs(error - couple.error(x)) / couple.p2) for x, error in pairs), seconds)
+
+
+def near_friction_locking(teeth: tuple[int, int], digits: int, at_load: bool) -> Measured:
+    """The mean efficiency with friction a little below the one that locks, relative."""
+    sizes = thirty(*teeth, 0.01)
+    friction = TriangularLaw(sizes).locking_friction * (1 - 10.0**-digits)
+    law = TriangularLaw(sizes, friction)
+    mine, seconds = timed(law.efficiency_at_constant_load if at_load else law.efficiency_mean)
+    true = Couple.of(sizes).mean_efficiency(mp.mpf(friction))[int(at_load)]
+    return Measured(float(abs(mine / true - 1)), seconds)
+
+
+def locking(teeth: tuple[int, int]) -> Measured:
+    """The friction that locks: flank and friction before the line of centres, relative."""
+    sizes = thirty(*teeth, 0.01)
+    couple = Couple.of(sizes)
+    mine, seconds = timed(lambda: TriangularLaw(sizes).locking_friction)
+    starts = [segment.start for segment in couple.path if segment.phase == APPROACH]
+    most = max(mp.tan(couple.lean(x, APPROACH)) for x in starts if couple.angle(x, APPROACH) > 0)
+    return Measured(float(abs(mine * most - 1)), seconds)
+
+
+def pin_near_offset(more: float, turns: float) -> Measured:
+    """A pin at r = (1 + more) e, each turn a little further past the place where it is fast: the error of the slot."""
+    train = Train(
+        {"pin": (FRAME, "B"), "slot": (FRAME, "C")}, (Pair("pin", "slot", FRAME, Slot(1 + more, 1.0)),), {"pin": 1}
+    )
+    found = run(train, turns * (1 + 1e-7), round(turns) + 1, 31)
+    return Measured(found.off["slot"], found.seconds)
+
+
+# ------------------------------------------------------------------------------------------------ circulating power
+
+CIRCULATING = (50, 45, 40, 44)  # basic ratio 100/99: the right sun makes 1/99 turn back for a turn of the arm
+
+
+def balanced(counts: tuple[int, int, int, int], etas: Sequence[Fraction]) -> list[Fraction]:
+    """Efficiencies from the arm, at one turn, to the right sun, the left held: one for each way power can flow.
+
+    Moments of one pair on its two wheels have one sign and the ratio of the teeth, times eta where the first wheel
+    drives as seen from the arm, over eta where the second does.
+    """
+    left_teeth, p, q, r = counts
+    left = Fraction(-1)
+    planet = -left * left_teeth / p
+    right = -planet * q / r
+    resisting = Fraction(-1 if right + 1 > 0 else 1)
+    found = []
+    for first, second in product((1, -1), repeat=2):
+        from_planet = -resisting
+        from_left = -from_planet * q / (r * etas[1] ** second)  # on the planet, against what the right sun does to it
+        held = -from_left * left_teeth / (p * etas[0] ** first)
+        if from_left * planet * first >= 0 and from_planet * right * second >= 0:
+            found.append(resisting * (right + 1) / (resisting + held))
+    return found
+
+
+def circulating(teeth: str) -> Any:
+    """The set with the arm driving, its torques to be asked for."""
+    return load(declared(suns(CIRCULATING, {ARM: 1}, teeth)) + "\nfixed: [left]")
+
+
+def lost_in_circulation(friction: float) -> Measured:
+    """Efficiency from the arm to the slow sun, of teeth that rub: relative."""
+    train = circulating(f"{triangular()}, friction: {friction}")
+    torques, seconds = timed(lambda: train.driven("right", ARM))
+    exact = (Couple.of(sizes).mean_efficiency(mp.mpf(friction))[0] for sizes in _sizes(train))
+    (true,) = balanced(CIRCULATING, [Fraction(str(eta)) for eta in exact])
+    return Measured(float(abs(torques.efficiency / true - 1)), seconds)
+
+
+def amplified(turns: float) -> Measured:
+    """A pair with real teeth ahead of ideal wheels that make 99 turns of one: the arm's error, over its greatest."""
+    left_teeth, p, q, r = CIRCULATING
+    pairs = (
+        Pair("crank", "right", FRAME, Wheels(60, 60, triangular())),
+        Pair("right", "planet", ARM, Wheels(r, q)),
+        Pair("planet", "left", ARM, Wheels(p, left_teeth)),
+    )
+    train = Train(SETS | {"crank": (FRAME, "B")}, pairs, {"crank": 1, "left": 0})
+    found = run(train, turns, 997, 9)
+    return Measured(found.off[ARM] / float(np.abs(found.found[ARM].error).max()), found.seconds)
+
+
+# ---------------------------------------------------------------------------------------------------------- every case
+
+RADIANS, SHARE, PITCHES = "rad of the output", "of itself", "driven pitches"
+
+
+def plain(periods: float) -> float:
+    """Roundings of a period in a mean angle that is a plain product; none where whole periods are taken off first."""
+    return periods if periods <= 2048 else 0
+
+
+REDUCED = "Whole periods are taken off the exact mean angle, so that the length of the run costs nothing."
+CASES = (
+    *(
+        Case(
+            "differential near locking",
+            f"output {power(1 / teeth**2)} of the arm, {power(turns)} turns",
+            RADIANS,
+            partial(near_locking, teeth, turns),
+            (4 + plain(teeth * turns)) * EPS * 2 * pi / teeth,
+            "Nothing cancels: means are fractions, and only errors, a small part of a pitch, are floats. " + REDUCED,
+            slow=teeth > 1000,
+        )
+        for teeth, turns in ((32, 10.0), (1000, 1e3), (31_623, 1e6))
+    ),
+    Case(
+        "ratio of exactly 1 on an arm",
+        "output at rest in the mean, 1e6 turns",
+        RADIANS,
+        partial(at_rest, 1e6),
+        2 * EPS,
+        REDUCED,
+    ),
+    *(
+        Case(
+            "pin and slot of ratio 1 on an arm",
+            f"offset {power(offset)} of the pin's radius, 1e6 turns",
+            RADIANS,
+            partial(pin_of_ratio_one, offset, 1e6),
+            8 * EPS,
+            REDUCED,
+        )
+        for offset in (0.5, 1e-9)
+    ),
+    *(
+        Case(
+            "twelve pairs, 10 to 1 each",
+            f"speed times 1e12, {power(turns)} turns of the slow end",
+            SHARE,
+            partial(twelve, (300, 30), turns),
+            64 * EPS,
+            "The first error is rounded to one part in 1e16 and then turned 1e11 times: the fast end is right to "
+            "1e-15 of an error of 1e10 rad, which is some 1e-5 rad. Its own mean angle is exact.",
+        )
+        for turns in (1e-12, 10.0, 1e6)
+    ),
+    Case(
+        "twelve pairs, 1 to 10 each",
+        "speed over 1e12, 1e6 turns of the fast end",
+        SHARE,
+        partial(twelve, (30, 300), 1e6),
+        64 * EPS,
+        "Only the last pair's error is left at the slow end. " + REDUCED,
+    ),
+    *(
+        Case(
+            "pairs in a row, an error in each",
+            f"{pairs:,} pairs",
+            SHARE,
+            partial(long_chain, pairs, places),
+            pairs * EPS,
+            "Each pair rounds the angle of the next, and the errors of all add up.",
+            slow,
+        )
+        for pairs, places, slow in ((300, (77, 200), False), (10_000, (77,), True))
+    ),
+    *(
+        Case(
+            "efficiency near friction locking",
+            f"{teeth[0]}/{teeth[1]} teeth, friction 1 - 1e-{digits} of the locking one, constant driver torque",
+            SHARE,
+            partial(near_friction_locking, teeth, digits, False),
+            40 * EPS,
+            "The efficiency falls to 0 at one end of the path only; its mean stays well determined.",
+            slow=digits > 3,
+        )
+        for teeth, digits in (((96, 72), 3), ((96, 72), 9), ((48, 24), 6))
+    ),
+    *(
+        Case(
+            "efficiency near friction locking",
+            f"96/72 teeth, friction 1 - 1e-{digits} of the locking one, constant load",
+            SHARE,
+            partial(near_friction_locking, (96, 72), digits, True),
+            40 * EPS * 10**digits,
+            "The inverse of the efficiency grows without bound towards one end of the path, and what is left before "
+            "locking is the small difference of two floats.",
+        )
+        for digits in (1, 3, 6)
+    ),
+    Case(
+        "friction that locks",
+        "96/72 teeth",
+        SHARE,
+        partial(locking, (96, 72)),
+        16 * EPS,
+        "A tangent at the end of the path.",
+    ),
+    *(
+        Case(
+            "clearance at an end of the window",
+            f"window {text}, the Moon's train over 95 turns",
+            RADIANS,
+            partial(at_the_edge, window),
+            600 * EPS,
+            "An angle of many pitches is rounded before its place in the pitch is known.",
+        )
+        for window, text in ((1e-9, "1e-9"), (1 - 1e-9, "1 - 1e-9"))
+    ),
+    *(
+        Case(
+            "teeth almost apart",
+            f"48/96 teeth, tips overlap by 1e-{digits} of the most",
+            PITCHES,
+            partial(almost_apart, 1 - 10.0**-digits),
+            8 * EPS * 10 ** (digits / 2),
+            "The reach of a couple is the root of the overlap: it loses half as many digits as the overlap does.",
+        )
+        for digits in (6, 9, 12)
+    ),
+    *(
+        Case(
+            "power that circulates",
+            f"100 times the throughput, friction {friction:g}",
+            SHARE,
+            partial(lost_in_circulation, friction),
+            400 * 5e-16,
+            "Efficiencies of teeth enter the balance with 15 digits, and the circulation multiplies what was cut off.",
+            slow=friction > 0.01,
+        )
+        for friction in (0.01, 0.1)
+    ),
+    *(
+        Case(
+            "one pair's error enlarged",
+            f"99 times, {power(turns)} turns",
+            SHARE,
+            partial(amplified, turns),
+            (8 + plain(60 * turns)) * EPS,
+            REDUCED,
+        )
+        for turns in (10.0, 1e6)
+    ),
+    *(
+        Case(
+            "pin near the offset",
+            f"r/e = 1 + {power(more)}, {power(turns)} turns, about the fast place",
+            RADIANS,
+            partial(pin_near_offset, more, turns),
+            16 * EPS,
+            "The slot makes half a turn while the pin passes; the pin's distance from the fast place keeps its digits "
+            "if whole turns are taken off first.",
+        )
+        for more, turns in ((1e-3, 1000.0), (1e-3, 1e4), (1e-6, 1000.0), (1e-6, 1e4))
+    ),
+    *(
+        Case(
+            "pairs that hang on each other",
+            f"four in a ring, window {window:g}, {last[0]}/{last[1]} teeth at its end, 30 turns: laws missed by",
+            "rad",
+            partial(hanging, window, last),
+            64 * EPS * 2 * pi * 30,
+            "Angles of all turns are added in floats before the laws are asked.",
+            slow=window < 0.5 or last != (30, 60),
+        )
+        for window, last in ((0.5, (30, 60)), (0.1, (40, 60)), (0.5, (60, 60)))
+    ),
+)

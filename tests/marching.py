@@ -1,0 +1,333 @@
+"""Motion of a train of real teeth by brute force: angles advanced by small steps, from contact to contact.
+
+Nothing here knows a transmission law. A pair is a tooth of the driver against a tooth of the driven wheel: the
+distance of an apex from the other's flank says whether they touch, its derivatives say how fast the touching wheels
+turn. At each step the speeds of all links follow from the linear equations of the train with these instantaneous
+ratios; where another couple of teeth comes to touch, the step ends and that couple drives.
+
+Angles of one pair are forward angles S and q as seen from the carrier, growing as the pair turns; apices stand at
+x = k p1 - S and y = k p2 - q from the line of centres, positive on the entry side.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cached_property, partial
+from math import acos, asin, cos, pi, radians, sin
+from typing import Any, NamedTuple
+
+import numpy as np
+from scipy.optimize import brentq
+
+APPROACH, RECESS = 0, 1
+METHODS = {  # stages: how far on and along which stage; then the weights of all stages
+    "Euler": ([], [1.0]),
+    "midpoint": ([(0.5, 0)], [0.0, 1.0]),
+    "Runge-Kutta": ([(0.5, 0), (0.5, 1), (1.0, 2)], [1 / 6, 1 / 3, 1 / 3, 1 / 6]),
+}
+
+MOST_MEETINGS = 60  # within one step
+
+
+class JammedError(AssertionError):
+    """Whatever touches, the step cannot be finished: the links push back on what drives them."""
+
+
+class Contact(NamedTuple):
+    """A couple of teeth, and which apex lies on which flank: the driven on the driver's in approach."""
+
+    k: int
+    phase: int
+
+
+@dataclass(frozen=True)
+class Teeth:
+    """Two external wheels of equally deep triangular teeth, the first driving; angles in degrees."""
+
+    z1: int
+    z2: int
+    clearance: float
+    half_angle: float = 30.0
+    external = True
+    mean = property(lambda self: self.z1 / self.z2)
+
+    @property
+    def form(self) -> str:
+        """As a pair declares it."""
+        return f", tooth_form: {{form: triangular, half_angle: {self.half_angle} deg, clearance: {self.clearance}}}"
+
+    @cached_property
+    def sizes(self) -> tuple[float, float, float, float]:
+        """R1, R2, D and the half aperture; teeth of equal depth, R1 = 1."""
+        b = radians(self.half_angle)
+        h1, h2 = (1 - sin(b) / sin(b + pi / z) for z in (self.z1, self.z2))
+        return 1.0, h1 / h2, self.clearance * (1 + h1 / h2 - h1), b
+
+    @cached_property
+    def reach(self) -> float:
+        """Greatest |x| at which the driver's apex is within the driven tip circle."""
+        R1, R2, D, _ = self.sizes
+        return acos((D * D + R1 * R1 - R2 * R2) / (2 * D * R1))
+
+    def place(self, contact: Contact, S: float, q: float) -> tuple[float, float]:
+        """Angles of both apices of a couple from the line of centres."""
+        return contact.k * 2 * pi / self.z1 - S, contact.k * 2 * pi / self.z2 - q
+
+    def gap(self, contact: Contact, S: float, q: float) -> float:
+        """Distance of an apex from the line of the other tooth's flank; negative inside."""
+        R1, R2, D, b = self.sizes
+        x, y = self.place(contact, S, q)
+        if contact.phase == APPROACH:
+            return D * sin(x + b) - R1 * sin(b) - R2 * sin(x + b + y)
+        return D * sin(b - y) - R2 * sin(b) - R1 * sin(b - y - x)
+
+    def speed(self, contact: Contact, S: float, q: float) -> float:
+        """dq/dS that leaves the gap as it is."""
+        R1, R2, D, b = self.sizes
+        x, y = self.place(contact, S, q)
+        if contact.phase == APPROACH:
+            return D * cos(x + b) / (R2 * cos(x + b + y)) - 1
+        return R1 * cos(b - y - x) / (D * cos(b - y) - R1 * cos(b - y - x))
+
+    def near(self, S: float) -> Iterator[Contact]:
+        """Every couple whose driver's tooth is within reach, in both phases."""
+        p1 = 2 * pi / self.z1
+        for k in range(int(np.ceil((S - self.reach) / p1)), int(np.floor((S + self.reach) / p1)) + 1):
+            yield Contact(k, APPROACH)
+            yield Contact(k, RECESS)
+
+    def touching(self, S: float) -> tuple[Contact, float]:
+        """What the driven wheel meets first when it is turned back, and its angle there."""
+        R1, R2, D, _ = self.sizes
+        reach = acos((D * D + R2 * R2 - R1 * R1) / (2 * D * R2))
+        found = []
+        for contact in self.near(S):
+            low, high = (contact.k * 2 * pi / self.z2 + end for end in (-reach, reach))
+            if self.gap(contact, S, low) < 0 < self.gap(contact, S, high):
+                found.append((brentq(partial(self.gap, contact, S), low, high, xtol=1e-15), contact))
+        q, contact = max(found)
+        return contact, q
+
+
+@dataclass(frozen=True)
+class Slot:
+    """A pin at radius r in a slot whose axis lies e away, within the pin's circle."""
+
+    r: float
+    e: float
+    external = False
+    mean = 1.0
+
+    @property
+    def form(self) -> str:
+        """As a coupling declares it."""
+        return f", pin_radius: {self.r}, offset: {self.e}"
+
+    def gap(self, contact: Contact, S: float, q: float) -> float:
+        """Distance of the pin from the slot's middle."""
+        return (self.r * cos(S) - self.e) * sin(q) - self.r * sin(S) * cos(q)
+
+    def speed(self, contact: Contact, S: float, q: float) -> float:
+        """The pin's speed across the slot over its distance from the slot's axis."""
+        across = self.r * cos(S - q)
+        return across / (across - self.e * cos(q))
+
+    def near(self, S: float) -> Iterator[Contact]:
+        """Nothing else can come to touch."""
+        return iter(())
+
+    def touching(self, S: float) -> tuple[Contact, float]:
+        """The slot's angle with the pin in it."""
+        only, most = Contact(0, 0), asin(self.e / self.r) + 0.1
+        return only, brentq(partial(self.gap, only, S), S - most, S + most, xtol=1e-15)
+
+
+@dataclass(frozen=True)
+class Pair:
+    """Who drives whom, seen from which carrier, and by what: `Teeth`, a `Slot`, or what has their attributes."""
+
+    driver: str
+    driven: str
+    carrier: str
+    by: Any
+
+
+@dataclass(frozen=True)
+class Train:
+    """Links with the link that bears them and their axis, pairs, and the speeds of the inputs; `frame` stands still."""
+
+    bases: dict[str, tuple[str, str]]
+    pairs: tuple[Pair, ...]
+    inputs: dict[str, float]
+
+    @cached_property
+    def at(self) -> dict[str, int]:
+        """Numbers of the links; the frame is last."""
+        return {link: number for number, link in enumerate([*self.bases, "frame"])}
+
+    def solved(self, ratios: Sequence[float], ahead: Sequence[float], turning: float) -> np.ndarray:
+        """Speeds of all links, each driven side so much ahead of its ratio to the driver, as seen from the carrier."""
+        size = len(self.at)
+        matrix, right = np.zeros((size, size)), np.zeros(size)
+        for row, (pair, ratio) in enumerate(zip(self.pairs, ratios, strict=True)):
+            matrix[row, self.at[pair.driven]] += 1.0
+            matrix[row, self.at[pair.driver]] -= ratio
+            matrix[row, self.at[pair.carrier]] += ratio - 1.0
+            right[row] = ahead[row]
+        for row, (link, speed) in enumerate((self.inputs | {"frame": 0.0}).items(), start=len(self.pairs)):
+            matrix[row, self.at[link]], right[row] = 1.0, speed * turning
+        return np.linalg.solve(matrix, right)
+
+    def speeds(self, ratios: Sequence[float]) -> np.ndarray:
+        """Speeds of all links where each pair has this ratio, driven over driver, signed."""
+        return self.solved(ratios, [0.0] * len(self.pairs), 1.0)
+
+    @cached_property
+    def means(self) -> np.ndarray:
+        """Mean speeds."""
+        return self.speeds([-pair.by.mean if pair.by.external else pair.by.mean for pair in self.pairs])
+
+    @cached_property
+    def senses(self) -> list[tuple[int, int]]:
+        """Of each pair, the signs by which driver and driven angles become forward angles."""
+        means = self.means
+        ahead = [1 if means[self.at[pair.driver]] >= means[self.at[pair.carrier]] else -1 for pair in self.pairs]
+        return [(a, -a if pair.by.external else a) for a, pair in zip(ahead, self.pairs, strict=True)]
+
+    def forward(self, angles: np.ndarray, number: int) -> tuple[float, float]:
+        """Forward angles S and q of one pair."""
+        pair, (first, second) = self.pairs[number], self.senses[number]
+        carrier = angles[self.at[pair.carrier]]
+        S, q = angles[self.at[pair.driver]] - carrier, angles[self.at[pair.driven]] - carrier
+        return float(first * S), float(second * q)
+
+    def rates(self, angles: np.ndarray, contacts: Sequence[Contact]) -> np.ndarray:
+        """Speeds of all links at these angles, each pair touching as given."""
+        ratios = []
+        for number, (pair, contact) in enumerate(zip(self.pairs, contacts, strict=True)):
+            first, second = self.senses[number]
+            ratios.append(first * second * pair.by.speed(contact, *self.forward(angles, number)))
+        return self.speeds(ratios)
+
+    def start(self, turned: float = 0.0) -> tuple[np.ndarray, list[Contact]]:
+        """All angles and contacts where the inputs have turned so far and every pair touches."""
+        angles = self.means * turned
+        for _ in range(200):
+            ratios, ahead, contacts = [], [], []
+            for number, pair in enumerate(self.pairs):
+                S, q = self.forward(angles, number)
+                contact, touches = pair.by.touching(S)
+                first, second = self.senses[number]
+                ratios.append(first * second * pair.by.speed(contact, S, touches))
+                ahead.append(second * (touches - q))
+                contacts.append(contact)
+            step = self.solved(ratios, ahead, 0.0)
+            angles = angles + step
+            if np.abs(step).max() < 2e-15 * max(1.0, np.abs(angles).max()):
+                return angles, contacts
+        raise AssertionError("the teeth do not come to touch")
+
+
+def declared(train: Train) -> str:
+    """The train as geartrain reads it: two wheels of their own for each pair, or a pin and a slot."""
+    wheels: dict[str, list[str]] = {link: [] for link in train.bases}
+    gears, slots = [], []
+    for at, pair in enumerate(train.pairs):
+        if pair.by.external:
+            wheels[pair.driver].append(f"d{at}: {pair.by.z1}")
+            wheels[pair.driven].append(f"f{at}: {pair.by.z2}")
+            gears.append(f"  - {{pair: [d{at}, f{at}], driver: d{at}{pair.by.form}}}")
+        else:
+            slots.append(f"  - {{kind: pin_and_slot, pin: {pair.driver}, slot: {pair.driven}{pair.by.form}}}")
+    lines = ["links:", "  frame: {}"]
+    lines += [f"  {link}: {{wheels: {{{', '.join(each)}}}}}" for link, each in wheels.items()]
+    lines += ["revolutes:"]
+    lines += [f"  - {{pair: [{base}, {link}], axis: {axis}}}" for link, (base, axis) in train.bases.items()]
+    lines += ["gears:", *gears] if gears else []
+    lines += ["couplings:", *slots] if slots else []
+    inputs = ", ".join(f"{link}: {Fraction(speed).limit_denominator(10**6)}" for link, speed in train.inputs.items())
+    lines += [f"inputs: {{{inputs}}}", f"outputs: {{{', '.join(f'{link}: {{}}' for link in train.bases)}}}"]
+    return "\n".join(lines)
+
+
+# ------------------------------------------------------------------------------------------------------------- marching
+
+
+def march(train: Train, turned: float, steps: int, method: str, locate: bool = True) -> Iterator[np.ndarray]:
+    """Angles of all links after each of so many equal steps of the inputs, the start first.
+
+    `locate` ends a step where other teeth come to touch; else they are noticed at the end of the step.
+    """
+    angles, contacts = train.start()
+    yield angles
+    for _ in range(steps):
+        angles, contacts = (_located if locate else _noticed)(train, angles, contacts, turned / steps, method)
+        yield angles
+
+
+def _noticed(
+    train: Train, angles: np.ndarray, contacts: list[Contact], step: float, method: str
+) -> tuple[np.ndarray, list[Contact]]:
+    new = _step(train, angles, contacts, step, method)
+    for meeting in list(_met(train, contacts, angles, new)):
+        contacts = meeting.made(contacts)
+    return new, contacts
+
+
+def _located(
+    train: Train, angles: np.ndarray, contacts: list[Contact], step: float, method: str
+) -> tuple[np.ndarray, list[Contact]]:
+    left = step
+    for _ in range(MOST_MEETINGS):
+        new = _step(train, angles, contacts, left, method)
+        met = list(_met(train, contacts, angles, new))
+        if not met:
+            return new, contacts
+        times = [meeting.when(angles, contacts, left, method) for meeting in met]
+        first = times.index(min(times))
+        angles, left = _step(train, angles, contacts, times[first], method), left - times[first]
+        contacts = met[first].made(contacts)
+    raise JammedError
+
+
+def _step(train: Train, angles: np.ndarray, contacts: list[Contact], step: float, method: str) -> np.ndarray:
+    """One step of an explicit method; the teeth that touch stay the same."""
+    earlier, weights = METHODS[method]
+    rates = [train.rates(angles, contacts)]
+    for part, stage in earlier:
+        rates.append(train.rates(angles + part * step * rates[stage], contacts))
+    return angles + step * sum(weight * rate for weight, rate in zip(weights, rates, strict=True))
+
+
+def _met(train: Train, contacts: list[Contact], old: np.ndarray, new: np.ndarray) -> Iterator[_Meeting]:
+    """Apices that have come through a flank within a step."""
+    for number, pair in enumerate(train.pairs):
+        before, after = train.forward(old, number), train.forward(new, number)
+        for contact in pair.by.near(after[0]):
+            gap = pair.by.gap(contact, *after)
+            if contact != contacts[number] and gap < 0 and gap < pair.by.gap(contact, *before):
+                yield _Meeting(train, number, contact)
+
+
+@dataclass(frozen=True)
+class _Meeting:
+    """An apex that comes to lie on a flank."""
+
+    train: Train
+    number: int
+    contact: Contact
+
+    def when(self, angles: np.ndarray, contacts: list[Contact], step: float, method: str) -> float:
+        """The part of the step until it does."""
+
+        def gap(part: float) -> float:
+            at = self.train.forward(_step(self.train, angles, contacts, part, method), self.number)
+            return self.train.pairs[self.number].by.gap(self.contact, *at)
+
+        return 0.0 if gap(0.0) <= 0 else float(brentq(gap, 0.0, step, xtol=1e-15))
+
+    def made(self, contacts: list[Contact]) -> list[Contact]:
+        """The contacts with this one."""
+        return [self.contact if number == self.number else each for number, each in enumerate(contacts)]

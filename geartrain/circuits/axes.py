@@ -26,6 +26,9 @@ class Axes:
         self.positions = {label: axis.position for label, axis in train.axes.items() if axis.position}
         self.directions = {label: _vector(axis.direction) for label, axis in train.axes.items()}
         self.plain = all(direction == _Z for direction in self.directions.values())
+        self._first: dict[Vector, Vector] = {}
+        for direction in (_Z, *self.directions.values()):
+            self._first.setdefault(_line(direction), direction)
 
     def direction(self, label: str | None) -> Vector:
         """Direction of an axis; z where none is declared."""
@@ -34,8 +37,7 @@ class Axes:
     def sign(self, label: str | None) -> int:
         """-1 if the axis points against the first declared direction parallel to it."""
         own = self.direction(label)
-        first = next((d for d in (_Z, *self.directions.values()) if _parallel(d, own)), own)
-        return 1 if _dot(first, own) > 0 else -1
+        return 1 if _dot(self._first[_line(own)], own) > 0 else -1
 
     def coefficients(self, i: str, j: str, carrier: str, wheel_i: Wheel, wheel_j: Wheel) -> tuple[int, int, str]:
         """a and b of the circuit, and a note where a sign is a convention."""
@@ -107,6 +109,13 @@ def _vector(figures: Iterable[Any]) -> Vector:
     """Three figures as numbers, or three lengths in metres."""
     x, y, z = (figure.value if isinstance(figure, Figure) else figure.base for figure in figures)
     return x, y, z
+
+
+def _line(direction: Vector) -> Vector:
+    """The same for all directions parallel to one."""
+    scale = next(part for part in direction if part)
+    x, y, z = direction
+    return x / scale, y / scale, z / scale
 
 
 def _dot(u: Vector, v: Vector) -> Fraction:

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from geartrain.files.declaring import as_yaml
 from geartrain.files.loading import load, shipped
 from geartrain.files.long import LongTable, partial_name
 from geartrain.files.writing import write_bytes, write_text
 
-__all__ = ["LongTable", "load", "partial_name", "shipped", "write_bytes", "write_text"]
+__all__ = ["LongTable", "as_yaml", "load", "partial_name", "shipped", "write_bytes", "write_text"]

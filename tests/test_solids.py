@@ -1,0 +1,807 @@
+"""Gears on polyhedra: the solids, their symmetries, where gears stand on them, and the trains they make."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from collections import Counter, deque
+from collections.abc import Sequence
+from fractions import Fraction
+from itertools import product
+from math import acos, asin, atan, cos, degrees, pi, radians, sin, sqrt
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from scipy.optimize import brentq
+
+from geartrain import GearTrain, GearTrainError, load
+from geartrain.files import as_yaml
+from geartrain.spherical import Configuration, from_polyhedron, polyhedron, solid, solid_names, to_train
+from geartrain.spherical.arranging import regular
+from geartrain.spherical.survey import SURVEYED, least_drop, survey
+
+PHI = (1 + sqrt(5)) / 2
+NAMES = [name for name in solid_names() if not name.startswith("n-")]
+FAMILIES = [
+    f"{n}-{family}" for n in (3, 4, 5, 6, 11) for family in ("prism", "antiprism", "bipyramid", "trapezohedron")
+]
+
+
+def angles(configuration: Configuration, *kinds: str) -> set[float]:
+    """Angles (deg) of the meshes between two kinds, to 12 digits after the point."""
+    return {
+        round(degrees(configuration.angle(i, j)), 12)
+        for i, j in configuration.meshes
+        if not kinds or sorted(kinds) == sorted((configuration.kinds[i], configuration.kinds[j]))
+    }
+
+
+def angle(configuration: Configuration, *kinds: str) -> float:
+    """The angle (deg) of all meshes between two kinds."""
+    found = [
+        configuration.angle(i, j)
+        for i, j in configuration.meshes
+        if sorted(kinds) == sorted((configuration.kinds[i], configuration.kinds[j]))
+    ]
+    assert max(found) - min(found) < 1e-13
+    return degrees(found[0])
+
+
+def refusal(*arguments: object, **options: object) -> str:
+    with pytest.raises(GearTrainError) as caught:
+        from_polyhedron(*arguments, **options)  # type: ignore[arg-type]
+    return str(caught.value)
+
+
+# the solids -----------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("name", NAMES + FAMILIES)
+def test_a_solid_is_closed_and_its_faces_look_outwards(name: str) -> None:
+    shape = solid(name)
+    assert len(shape.vertices) - len(shape.edges) + len(shape.faces) == 2
+    for face, normal, height in zip(shape.faces, shape.normals, shape.heights, strict=True):
+        corners = shape.vertices[list(face)]
+        assert corners @ normal == pytest.approx(np.full(len(face), height), abs=3e-15 * shape.size)
+        turn = sum(np.cross(a, b) for a, b in zip(corners, np.roll(corners, -1, axis=0), strict=True))
+        assert turn @ normal > 0, "counterclockwise seen from outside"
+
+
+@pytest.mark.parametrize("name", [*SURVEYED, *(name for name in FAMILIES if "prism" in name)])
+def test_all_edges_of_a_uniform_solid_have_length_two(name: str) -> None:
+    shape = solid(name)
+    ends = np.array(shape.edges)
+    lengths = np.linalg.norm(shape.vertices[ends[:, 0]] - shape.vertices[ends[:, 1]], axis=1)
+    assert np.abs(lengths - 2).max() < 2e-15 * shape.size
+    assert np.ptp(np.linalg.norm(shape.vertices, axis=1)) < 2e-15 * shape.size
+
+
+def even_images(*points: tuple[float, float, float]) -> set[tuple[float, ...]]:
+    """Even permutations and all signs, the way tables give solids of icosahedral symmetry."""
+    even = [(0, 1, 2), (1, 2, 0), (2, 0, 1)]
+    images = (
+        np.array(signs) * np.array(point)[list(order)]
+        for point in points
+        for order in even
+        for signs in product((1, -1), repeat=3)
+    )
+    return {tuple(np.round(image, 9) + 0.0) for image in images}
+
+
+@pytest.mark.parametrize(
+    ("name", "points"),
+    [
+        ("icosahedron", [(0, 1, PHI)]),
+        ("icosidodecahedron", [(0, 0, 2 * PHI), (1, PHI, PHI**2)]),
+        ("truncated icosahedron", [(0, 1, 3 * PHI), (1, 2 + PHI, 2 * PHI), (PHI, 2, 2 * PHI + 1)]),
+        ("rhombicosidodecahedron", [(1, 1, PHI**3), (PHI**2, PHI, 2 * PHI), (2 + PHI, 0, PHI**2)]),
+    ],
+)
+def test_coordinates_are_those_of_the_tables(name: str, points: list[tuple[float, float, float]]) -> None:
+    # a table may have the mirror image, in which x and y change places
+    found = {tuple(np.round(vertex, 9) + 0.0) for vertex in solid(name).vertices}
+    turned = {(y, x, z) for x, y, z in found}
+    assert even_images(*points) in (found, turned)
+
+
+def test_the_snub_cube_has_the_tribonacci_constant() -> None:
+    t = brentq(lambda t: t**3 - t**2 - t - 1, 1, 3, xtol=1e-16, rtol=1e-15)
+    shape = solid("snub cube")
+    expected = np.sort(np.array([1 / t, 1, t]) * sqrt(shape.size**2 / (1 + t**2 + t**-2)))
+    assert np.sort(np.abs(shape.vertices), axis=1) == pytest.approx(np.tile(expected, (24, 1)), abs=3e-15)
+
+
+def test_the_snub_dodecahedron_has_the_circumradius_of_its_cubic() -> None:
+    x = brentq(lambda x: x**3 + 2 * x**2 - PHI**2, 0, 1, xtol=1e-16, rtol=1e-15)
+    assert solid("snub dodecahedron").size / 2 == pytest.approx(sqrt((2 - x) / (1 - x)) / 2, rel=2e-14)
+
+
+@pytest.mark.parametrize(
+    ("name", "order"),
+    [
+        ("tetrahedron", 24),
+        ("cube", 48),
+        ("snub cube", 24),
+        ("icosidodecahedron", 120),
+        ("snub dodecahedron", 60),
+        ("J37", 16),
+        ("6-prism", 24),
+        ("4-prism", 48),
+        ("3-antiprism", 48),
+        ("7-trapezohedron", 28),
+    ],
+)
+def test_a_solid_has_the_symmetries_of_its_group(name: str, order: int) -> None:
+    found = solid(name).symmetries
+    assert len(found) == order
+    assert np.abs(found @ found.transpose(0, 2, 1) - np.eye(3)).max() < 3e-15
+    assert len({tuple(np.round(matrix, 6).ravel() + 0.0) for matrix in found}) == order
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_the_dual_of_the_dual_is_the_solid(name: str) -> None:
+    shape = solid(name)
+    again = shape.dual().dual()
+    assert Counter(map(len, again.faces)) == Counter(map(len, shape.faces))
+    nearest = np.linalg.norm(again.vertices[:, None] - shape.vertices[None], axis=2).min(axis=1)
+    assert nearest.max() < 1e-14 * shape.size
+
+
+@pytest.mark.parametrize(
+    ("dual", "dihedral"),  # deg, from closed forms of tables of Catalan solids
+    [
+        ("rhombic dodecahedron", 120.0),
+        ("rhombic triacontahedron", 144.0),
+        ("tetrakis hexahedron", degrees(acos(-4 / 5))),
+        ("disdyakis dodecahedron", degrees(acos(-(71 + 12 * sqrt(2)) / 97))),
+        ("disdyakis triacontahedron", degrees(acos(-(179 + 24 * sqrt(5)) / 241))),
+        ("deltoidal hexecontahedron", degrees(acos(-(19 + 8 * sqrt(5)) / 41))),
+    ],
+)
+def test_a_catalan_solid_has_one_dihedral_angle(dual: str, dihedral: float) -> None:
+    assert angles(from_polyhedron(dual)) <= {round(180 - dihedral + slip, 12) for slip in (-1e-12, 0, 1e-12)}
+
+
+@pytest.mark.parametrize(
+    ("said", "meant"),
+    [
+        ("buckyball", "truncated icosahedron"),
+        ("5-3", "icosidodecahedron"),
+        ("5-4-3", "rhombicosidodecahedron"),
+        ("hexagonal antiprism", "6-antiprism"),
+        (" Snub  Cube", "snub cube"),
+        ("pseudo-rhombicuboctahedron", "J37"),
+    ],
+)
+def test_a_solid_goes_by_several_names(said: str, meant: str) -> None:
+    assert solid(said).name == meant
+
+
+@pytest.mark.parametrize(
+    ("said", "answer"),
+    [
+        ("icosidodecahedrn", "did you mean 'icosidodecahedron'"),
+        ("teapot", "use a name such as"),
+        ("2-prism", "3 to 360"),
+        ("7-antiprisma", "'7-antiprism'"),
+        ("999999999-prism", "3 to 360"),
+    ],
+)
+def test_an_unknown_solid_is_refused_with_a_suggestion(said: str, answer: str) -> None:
+    assert answer in refusal(said)
+
+
+# a user's own vertices ------------------------------------------------------------------------------------------------
+
+BOX = list(product((-1, 1), (-2, 2), (-3, 3)))
+
+
+def test_vertices_in_any_order_make_the_solid() -> None:
+    shape = polyhedron(BOX)
+    assert (len(shape.faces), len(shape.edges), len(shape.symmetries)) == (6, 12, 8)
+    assert not shape.vertices.flags.writeable
+    assert not from_polyhedron(shape).axes.flags.writeable
+    assert from_polyhedron(BOX).kinds == ("4a", "4a", "4b", "4b", "4c", "4c")
+
+
+@pytest.mark.parametrize(
+    ("points", "answer"),
+    [
+        ([*BOX, (0, 0, 0.5)], "vertices[8] (0, 0, 0.5) is no corner"),
+        ([*BOX, (0, 0, 3)], "vertices[8] (0, 0, 3) is no corner"),
+        ([*BOX, (0, 2, 3)], "vertices[8] (0, 2, 3) is no corner"),
+        ([*BOX, (0, 0, 3 + 1e-12)], "vertices[8] (0, 0, 3) is no corner"),
+        ([*BOX, (1, 2, 3)], "vertices[8] repeats vertices[7] (1, 2, 3)"),
+        ([*BOX, (1, 2, 3 + 1e-9)], "vertices[8] repeats vertices[7]"),
+        (BOX[:3], "3 points make no solid"),
+        (BOX[:4], "lie in one plane"),
+        ([(0, 0, 0)] * 5, "lie in one plane"),
+        ([(0, 0), (1, 1)], "no list of points"),
+        ([(0, 0, float("inf"))] * 4, "no list of points"),
+        ([(0, 0, 1), (0, 1)], "no list of points"),
+        ([[x + 5, y, z] for x, y, z in BOX], "the sphere's centre is the origin"),
+        ([[x + 1, y, z] for x, y, z in BOX], "recentre=True"),
+    ],
+)
+def test_points_that_are_no_solid_about_the_origin_are_refused(points: object, answer: str) -> None:
+    assert answer in refusal(points)
+
+
+def test_a_solid_beside_the_origin_can_be_moved() -> None:
+    moved = from_polyhedron([[x + 5, y, z] for x, y, z in BOX], recentre=True)
+    assert moved.axes == pytest.approx(from_polyhedron(BOX).axes, abs=1e-15)
+
+
+@settings(max_examples=30, deadline=None)
+@given(st.integers(0, 10**6), st.integers(4, 30))
+def test_random_points_on_a_sphere_make_a_triangulation(seed: int, count: int) -> None:
+    points = np.random.default_rng(seed).normal(size=(count, 3))
+    points /= np.linalg.norm(points, axis=1)[:, None]
+    shape = polyhedron(points, recentre=True)
+    assert (len(shape.edges), len(shape.faces)) == (3 * count - 6, 2 * count - 4)
+    assert len(shape.symmetries) == 1 or count == 4
+
+
+@settings(max_examples=20, deadline=None)
+@given(st.sampled_from([*SURVEYED, "6-antiprism"]), st.integers(0, 10**6))
+def test_turning_and_shuffling_a_solid_changes_no_kind_and_no_angle(name: str, seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    turn = np.linalg.qr(rng.normal(size=(3, 3)))[0]
+    still = from_polyhedron(name)
+    turned = from_polyhedron(3.7 * rng.permutation(solid(name).vertices @ turn))
+    assert Counter(turned.kinds) == Counter(still.kinds)
+    assert Counter(zip(turned.kinds, turned.regular, strict=True)) == Counter(
+        zip(still.kinds, still.regular, strict=True)
+    )
+    for pair in {(still.kinds[i], still.kinds[j]) for i, j in still.meshes}:
+        assert angle(turned, *pair) == pytest.approx(angle(still, *pair), abs=1e-11)
+
+
+# arrangements ---------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("name", "gears", "count", "meshes"),
+    [
+        ("icosidodecahedron", "faces", 32, 60),
+        ("rhombicosidodecahedron", "faces", 62, 120),
+        ("disdyakis triacontahedron", "faces", 120, 180),
+        ("truncated octahedron", "vertices", 24, 36),
+        ("3-prism", "faces+vertices", 11, 18),
+        ("tetrahedron", "faces+edges", 10, 12),
+        ("cube", "faces+edges", 18, 24),
+        ("octahedron", "faces+edges", 20, 24),
+        ("dodecahedron", "faces+edges", 42, 60),
+        ("icosahedron", "faces+edges", 50, 60),
+        ("cuboctahedron", "faces+edges", 38, 48),
+        ("icosidodecahedron", "faces+edges", 92, 120),
+        ("icosahedron", "faces+vertices+edges", 92, 180),
+    ],
+)
+def test_an_arrangement_has_its_gears_and_meshes(name: str, gears: str, count: int, meshes: int) -> None:
+    found = from_polyhedron(name, gears)  # type: ignore[arg-type]
+    assert (len(found.names), len(found.meshes)) == (count, meshes)
+    assert len(set(found.names)) == count
+    assert all(i < j for i, j in found.meshes)
+    assert np.linalg.norm(found.axes, axis=1) == pytest.approx(np.ones(count), abs=1e-15)
+
+
+def test_gears_on_faces_and_vertices_are_those_on_the_faces_of_the_rectified_solid() -> None:
+    incident = from_polyhedron("icosahedron", "faces+vertices")
+    assert angles(incident) == {round(degrees(atan(3 - sqrt(5))), 12)}
+    assert Counter(incident.kinds) == {"3": 20, "v": 12}
+
+
+@pytest.mark.parametrize(
+    ("name", "kinds"),
+    [
+        ("rhombicuboctahedron", {"4a": 6, "4b": 12, "3": 8}),
+        ("J37", {"4a": 2, "4b": 8, "4c": 8, "3": 8}),
+        ("snub cube", {"4": 6, "3a": 8, "3b": 24}),
+        ("snub dodecahedron", {"5": 12, "3a": 20, "3b": 60}),
+        ("truncated icosidodecahedron", {"10": 12, "6": 20, "4": 30}),
+        ("disdyakis triacontahedron", {"3": 120}),
+        ("6-prism", {"6": 2, "4": 6}),
+        ("4-prism", {"4": 6}),
+    ],
+)
+def test_kinds_are_orbits_and_not_polygons(name: str, kinds: dict[str, int]) -> None:
+    assert Counter(from_polyhedron(name).kinds) == kinds
+
+
+def test_the_squares_of_j37_are_named_from_the_caps_to_the_equator() -> None:
+    found = from_polyhedron("J37")
+    kinds = {tuple(sorted((found.kinds[i], found.kinds[j]))) for i, j in found.meshes}
+    assert kinds == {("4a", "4b"), ("4b", "4c"), ("3", "4b"), ("4c", "4c"), ("3", "4c")}
+
+
+def test_gears_are_numbered_from_the_top_down() -> None:
+    found = from_polyhedron("cube")
+    assert found.names == ("4-1", "4-2", "4-3", "4-4", "4-5", "4-6")
+    assert found.axes == pytest.approx(np.array([[0, 0, 1], [1, 0, 0], [0, 1, 0], [-1, 0, 0], [0, -1, 0], [0, 0, -1]]))
+
+
+@pytest.mark.parametrize(
+    ("name", "gears", "parts"),
+    [
+        ("icosidodecahedron", "faces", {"5": 5, "3": 3}),
+        ("rhombicuboctahedron", "faces", {"4a": 4, "4b": 4, "3": 3}),
+        ("J37", "faces", {"4a": 4, "4b": 4, "4c": 4, "3": 3}),
+        ("6-antiprism", "faces", {"6": 6, "3": 3}),
+        ("100-prism", "faces", {"100": 100, "4": 4}),
+        ("cuboctahedron", "vertices", {"v": 0}),  # rectangles of neighbours
+        ("icosidodecahedron", "faces+edges", {"5": 5, "3": 3, "e": 2}),
+        ("octahedron", "faces+vertices", {"3": 3, "v": 4}),
+        ("tetrakis hexahedron", "faces", {"3": 0}),
+    ],
+)
+def test_contacts_at_equal_angles_are_known_exactly(name: str, gears: str, parts: dict[str, int]) -> None:
+    found = from_polyhedron(name, gears)  # type: ignore[arg-type]
+    assert dict(zip(found.kinds, found.regular, strict=True)) == parts
+
+
+def test_contacts_of_rounded_coordinates_are_not_called_exact() -> None:
+    rounded = from_polyhedron(np.round(solid("icosidodecahedron").vertices, 9))
+    assert Counter(rounded.kinds) == {"5": 12, "3": 20}
+    assert 0 in rounded.regular
+
+
+def test_a_gear_may_lose_contacts_and_stays_regular() -> None:
+    found = from_polyhedron("cube", drop=["4-6", "4-2~4-3"])
+    assert found.names == ("4-1", "4-2", "4-3", "4-4", "4-5")
+    assert len(found.meshes) == 12 - 4 - 1
+    assert regular(found).regular == found.regular == (4, 4, 4, 4, 4)
+
+
+def test_without_its_meshes_of_hexagons_a_buckyball_is_an_icosidodecahedron() -> None:
+    found = from_polyhedron("buckyball", drop=["6~6"])
+    assert len(found.meshes) == 60
+    assert angles(found) == {round(degrees(atan(3 - sqrt(5))), 12)}
+
+
+@pytest.mark.parametrize(
+    ("options", "answer"),
+    [
+        ({"gears": "face"}, "did you mean 'faces'"),
+        ({"drop": ["4"]}, "no gear or kind '4'"),
+        ({"drop": ["5-13"]}, "no gear or kind '5-13'"),
+        ({"drop": ["5~5"]}, "no mesh '5~5'"),
+        ({"drop": [""]}, "no gear or kind ''"),
+        ({"teeth": {"4": 12}}, "no kind of gear '4'"),
+        ({"teeth": {"5": 0}}, "0 is no tooth number"),
+        ({"teeth": 12.5}, "12.5 is no tooth number"),
+        ({"teeth": {"5": 20}, "exact": True}, "need the teeth of 3"),
+        ({"gears": "faces+vertices+edges"}, "takes no two gears on each edge"),
+    ],
+)
+def test_what_a_set_does_not_have_is_refused(options: dict[str, object], answer: str) -> None:
+    assert answer in refusal("icosidodecahedron", **options)
+
+
+def test_a_number_of_sides_stands_for_all_kinds_that_share_it() -> None:
+    found = from_polyhedron("rhombicuboctahedron", teeth={4: 52, "3": 30, "4b": 50})
+    assert found.teeth == {"4a": 52, "4b": 50, "3": 30}
+
+
+# angles (deg) at the digits printed -----------------------------------------------------------------------------------
+
+MESH_ANGLES = [
+    ("octahedron", "3", "3", 70.5287793655093),
+    ("cuboctahedron", "4", "3", 54.7356103172453),
+    ("icosidodecahedron", "5", "3", 37.3773681406497),
+    ("rhombicuboctahedron", "4a", "4b", 45),
+    ("rhombicuboctahedron", "4b", "3", 35.2643896827547),
+    ("rhombicosidodecahedron", "5", "4", 31.7174744114610),
+    ("rhombicosidodecahedron", "4", "3", 20.9051574478893),
+    ("dodecahedron", "5", "5", 63.4349488229220),
+    ("icosahedron", "3", "3", 41.8103148957786),
+    ("4-antiprism", "4", "3", 76.163839520744),
+    ("4-antiprism", "3", "3", 52.448397094208),
+    ("5-antiprism", "5", "3", 79.187683036428),
+    ("5-antiprism", "3", "3", 41.810314895779),
+    ("6-antiprism", "6", "3", 81.100571120189),
+    ("6-antiprism", "3", "3", 34.778108668097),
+    ("8-antiprism", "8", "3", 83.405481783846),
+    ("8-antiprism", "3", "3", 26.037617110551),
+]
+
+
+@pytest.mark.parametrize(("name", "first", "second", "printed"), MESH_ANGLES)
+def test_angles_of_meshes_are_those_printed(name: str, first: str, second: str, printed: float) -> None:
+    assert angle(from_polyhedron(name), first, second) == pytest.approx(printed, abs=6e-13)
+
+
+@pytest.mark.parametrize(
+    ("name", "printed", "closed"),
+    [
+        ("truncated octahedron", 36.8698976458440, acos(4 / 5)),
+        ("truncated cuboctahedron", 24.9178203833816, 2 * asin(1 / sqrt(13 + 6 * sqrt(2)))),
+        ("truncated icosidodecahedron", 15.1121080923375, 2 * asin(1 / sqrt(31 + 12 * sqrt(5)))),
+    ],
+)
+def test_gears_on_vertices_stand_on_the_axes_of_the_dual_s_faces(name: str, printed: float, closed: float) -> None:
+    found = angle(from_polyhedron(name, "vertices"), "v", "v")
+    assert found == pytest.approx(printed, abs=6e-14)
+    assert found == pytest.approx(degrees(closed), abs=3e-14)
+    assert angle(from_polyhedron(solid(name).dual()), "3", "3") == pytest.approx(found, abs=3e-14)
+
+
+def test_pentagons_that_share_no_edge_stand_at_the_angle_whose_tangent_is_two() -> None:
+    found = from_polyhedron("icosidodecahedron")
+    fives = [at for at, kind in enumerate(found.kinds) if kind == "5"]
+    threes = [at for at, kind in enumerate(found.kinds) if kind == "3"]
+    nearest = min(found.angle(fives[0], other) for other in fives[1:])
+    assert degrees(nearest) == pytest.approx(63.4349488229220, abs=6e-14)
+    # the triangles of the source, by its formula with an arc sine; its 41.8103148828 is wrong in the eighth decimal
+    nearest = min(found.angle(threes[0], other) for other in threes[1:])
+    assert degrees(nearest) == pytest.approx(degrees(asin(2 / 3)), abs=1e-13)
+    assert degrees(nearest) == pytest.approx(41.8103148957786, abs=6e-14)
+
+
+@pytest.mark.parametrize("n", [4, 5, 6, 8, 20])
+def test_the_sides_of_an_antiprism_have_the_latitude_of_a_triangle_of_its_height(n: int) -> None:
+    # a side is sqrt 3 high, and leans out by a cap's circumradius less its apothem: tan(pi/2n)
+    found = from_polyhedron(f"{n}-antiprism")
+    sides = [abs(axis[2]) for axis, kind in zip(found.axes, found.kinds, strict=True) if kind == "3"]
+    assert sides == pytest.approx([np.tan(pi / (2 * n)) / sqrt(3)] * 2 * n, abs=1e-14)
+
+
+# the table of solids --------------------------------------------------------------------------------------------------
+
+# gears, meshes, moves, gears less meshes, least drop, kinds of gear and of mesh, free positions, angles (deg)
+TABLE = """
+tetrahedron | 4 | 6 | no | -2 | 2 | 1 | 1 | 0 | 109.471220634
+cube | 6 | 12 | no | -6 | 4 | 1 | 1 | 0 | 90
+octahedron | 8 | 12 | yes | -4 | 0 | 1 | 1 | 0 | 70.528779366
+dodecahedron | 12 | 30 | no | -18 | 10 | 1 | 1 | 0 | 63.434948823
+icosahedron | 20 | 30 | no | -10 | 6 | 1 | 1 | 0 | 41.810314896
+truncated tetrahedron | 8 | 18 | no | -10 | 6 | 2 | 2 | 0 | 70.528779366 109.471220634
+cuboctahedron | 14 | 24 | yes | -10 | 0 | 2 | 1 | 0 | 54.735610317
+truncated cube | 14 | 36 | no | -22 | 12 | 2 | 2 | 0 | 54.735610317 90
+truncated octahedron | 14 | 36 | no | -22 | 12 | 2 | 2 | 0 | 54.735610317 70.528779366
+rhombicuboctahedron | 26 | 48 | yes | -22 | 0 | 3 | 2 | 0 | 35.264389683 45
+truncated cuboctahedron | 26 | 72 | no | -46 | 24 | 3 | 3 | 0 | 35.264389683 45 54.735610317
+snub cube | 38 | 60 | no | -22 | 12 | 3 | 3 | 2 | 26.765412287 37.016569926
+icosidodecahedron | 32 | 60 | yes | -28 | 0 | 2 | 1 | 0 | 37.377368141
+truncated dodecahedron | 32 | 90 | no | -58 | 30 | 2 | 2 | 0 | 37.377368141 63.434948823
+truncated icosahedron | 32 | 90 | no | -58 | 30 | 2 | 2 | 0 | 37.377368141 41.810314896
+rhombicosidodecahedron | 62 | 120 | yes | -58 | 0 | 3 | 2 | 0 | 20.905157448 31.717474411
+truncated icosidodecahedron | 62 | 180 | no | -118 | 60 | 3 | 3 | 0 | 20.905157448 31.717474411 37.377368141
+snub dodecahedron | 92 | 150 | no | -58 | 30 | 3 | 3 | 2 | 15.824633944 27.070079724
+J37 | 26 | 48 | yes | -22 | 0 | 4 | 5 | 3 | 35.264389683 45
+3-prism | 5 | 9 | no | -4 | 3 | 2 | 2 | 0 | 90 120
+5-prism | 7 | 15 | no | -8 | 5 | 2 | 2 | 0 | 72 90
+6-prism | 8 | 18 | no | -10 | 6 | 2 | 2 | 0 | 60 90
+4-antiprism | 10 | 16 | yes | -6 | 0 | 2 | 2 | 1 | 52.448397094 76.163839521
+5-antiprism | 12 | 20 | yes | -8 | 0 | 2 | 2 | 1 | 41.810314896 79.187683036
+6-antiprism | 14 | 24 | yes | -10 | 0 | 2 | 2 | 1 | 34.778108668 81.100571120
+8-antiprism | 18 | 32 | yes | -14 | 0 | 2 | 2 | 1 | 26.037617111 83.405481784
+"""
+ROWS = [[cell.strip() for cell in line.split("|")] for line in TABLE.split("\n") if line]
+
+
+@pytest.mark.parametrize("cells", ROWS, ids=lambda cells: cells[0])
+def test_the_survey_has_the_numbers_of_its_table(cells: list[str]) -> None:
+    (row,) = survey([cells[0]])
+    numbers = (row.gears, row.meshes, row.gruebler, row.drop, row.types, row.mesh_kinds, row.positions)
+    assert numbers == tuple(int(cells[at]) for at in (1, 2, 4, 5, 6, 7, 8))
+    assert row.bipartite == (cells[3] == "yes")
+    assert row.angles == pytest.approx([float(text) for text in cells[9].split()], abs=6e-10)
+    assert row.exact == (row.positions + 1 >= row.mesh_kinds)
+    assert row.to_dict()["solid"] == cells[0]
+
+
+@pytest.mark.parametrize(
+    ("name", "gears", "meshes", "drop"),
+    [
+        ("triakis tetrahedron", 12, 18, 4),
+        ("rhombic dodecahedron", 12, 24, 8),
+        ("triakis octahedron", 24, 36, 8),
+        ("tetrakis hexahedron", 24, 36, 0),
+        ("deltoidal icositetrahedron", 24, 48, 8),
+        ("disdyakis dodecahedron", 48, 72, 0),
+        ("pentagonal icositetrahedron", 24, 60, 16),
+        ("rhombic triacontahedron", 30, 60, 20),
+        ("triakis icosahedron", 60, 90, 20),
+        ("pentakis dodecahedron", 60, 90, 12),
+        ("deltoidal hexecontahedron", 60, 120, 32),
+        ("disdyakis triacontahedron", 120, 180, 0),
+        ("pentagonal hexecontahedron", 60, 150, 46),
+        ("6-bipyramid", 12, 18, 0),
+        ("8-bipyramid", 16, 24, 0),
+        ("5-bipyramid", 10, 15, 2),
+    ],
+)
+def test_of_the_duals_three_and_the_even_bipyramids_move(name: str, gears: int, meshes: int, drop: int) -> None:
+    (row,) = survey([name])
+    assert (row.gears, row.meshes, row.drop, row.bipartite) == (gears, meshes, drop, drop == 0)
+
+
+@pytest.mark.parametrize(
+    ("name", "cone"),  # half-angle of all pitch cones, deg
+    [
+        ("tetrakis hexahedron", 18.434948822922),
+        ("disdyakis dodecahedron", 12.458910191691),
+        ("disdyakis triacontahedron", 7.556054046169),
+        ("6-bipyramid", 26.565051177078),
+        ("8-bipyramid", 20.941020472244),
+    ],
+)
+def test_the_movable_duals_have_identical_gears(name: str, cone: float) -> None:
+    assert angle(from_polyhedron(name), "3", "3") / 2 == pytest.approx(cone, abs=6e-13)
+
+
+def test_trapezohedra_do_not_move() -> None:
+    assert [row.bipartite for row in survey([f"{n}-trapezohedron" for n in range(3, 9)])] == [False] * 6
+
+
+def colours(count: int, meshes: Sequence[tuple[int, int]]) -> list[int] | None:
+    """A colour 1 or -1 for each gear, neighbours apart, breadth first; None where there is none."""
+    mates: list[list[int]] = [[] for _ in range(count)]
+    for i, j in meshes:
+        mates[i].append(j)
+        mates[j].append(i)
+    colour = [0] * count
+    for start in range(count):
+        queue = deque([start] if not colour[start] else [])
+        colour[start] = colour[start] or 1
+        while queue:
+            gear = queue.popleft()
+            for mate in mates[gear]:
+                if colour[mate] == colour[gear]:
+                    return None
+                if not colour[mate]:
+                    colour[mate] = -colour[gear]
+                    queue.append(mate)
+    return colour
+
+
+@pytest.mark.parametrize("name", [*SURVEYED, "6-prism", "6-bipyramid", "5-bipyramid"])
+def test_a_set_moves_if_its_meshes_have_two_colours(name: str) -> None:
+    found = from_polyhedron(name)
+    (row,) = survey([name])
+    assert row.bipartite == (colours(len(found.names), found.meshes) is not None)
+
+
+@pytest.mark.parametrize("name", ["tetrahedron", "cube", "3-prism", "truncated tetrahedron", "3-bipyramid"])
+def test_no_smaller_drop_frees_a_small_set(name: str) -> None:
+    # by trying all ways to colour the gears: a mesh between two of one colour must go
+    found = from_polyhedron(name)
+    count = len(found.names)
+    least = min(sum(colour[i] == colour[j] for i, j in found.meshes) for colour in product((1, -1), repeat=count))
+    assert least_drop(solid(name)) == least
+
+
+def test_a_drop_may_be_counted_by_another_method() -> None:
+    (row,) = survey(["cube"], drop=lambda configuration: len(configuration.meshes))
+    assert row.drop == 12
+
+
+# places that follow from the teeth ------------------------------------------------------------------------------------
+
+
+def cones(configuration: Configuration, *kinds: str) -> tuple[float, float]:
+    """Half-angles (deg) of the pitch cones of a mesh: rho_i = atan2(sin S, cos S + z_j/z_i)."""
+    angle_ = radians(angle(configuration, *kinds))
+    z_i, z_j = (configuration.teeth[kind] for kind in kinds)
+    first = np.arctan2(sin(angle_), cos(angle_) + z_j / z_i)
+    return degrees(first), degrees(angle_ - first)
+
+
+def pitches(configuration: Configuration) -> list[float]:
+    """sin(rho)/z of every kind of mesh."""
+    kinds = {tuple(sorted((configuration.kinds[i], configuration.kinds[j]))) for i, j in configuration.meshes}
+    return [sin(radians(cones(configuration, *pair)[0])) / configuration.teeth[pair[0]] for pair in kinds]
+
+
+@pytest.mark.parametrize(
+    ("name", "teeth", "printed"),
+    [
+        (
+            "cuboctahedron",
+            {"4": 16, "3": 12, "e": 8},
+            {"4": 20.066771092874, "3": 14.912063400687, "e": 9.878387911842},
+        ),
+        (
+            "icosidodecahedron",
+            {"5": 20, "3": 12, "e": 8},
+            {"5": 15.660040467283, "3": 9.320528125152, "e": 6.198399774108},
+        ),
+    ],
+)
+def test_idlers_stand_where_both_their_pitches_are_equal(
+    name: str, teeth: dict[str, int], printed: dict[str, float]
+) -> None:
+    found = from_polyhedron(name, "faces+edges", teeth=teeth)
+    for face in teeth.keys() - {"e"}:
+        assert cones(found, face, "e") == pytest.approx((printed[face], printed["e"]), abs=6e-13)
+    assert set(found.regular) == {2, *(int(kind) for kind in teeth if kind != "e")}
+
+
+@settings(max_examples=40, deadline=None)
+@given(
+    st.sampled_from([("cuboctahedron", "4"), ("icosidodecahedron", "5")]),
+    st.integers(3, 100),
+    st.integers(3, 100),
+    st.integers(3, 100),
+)
+def test_idlers_stand_where_four_cones_fill_the_arc(solid_: tuple[str, str], a: int, b: int, e: int) -> None:
+    name, kind = solid_
+    arc = radians(angle(from_polyhedron(name), kind, "3"))
+
+    def excess(pitch: float) -> float:
+        return asin(pitch * a) + asin(pitch * b) + 2 * asin(pitch * e) - arc
+
+    pitch = brentq(excess, 0, 1 / max(a, b, e), xtol=1e-18, rtol=1e-15)
+    found = from_polyhedron(name, "faces+edges", teeth={kind: a, "3": b, "e": e})
+    assert radians(angle(found, kind, "e")) == pytest.approx(asin(pitch * a) + asin(pitch * e), abs=1e-12)
+
+
+def test_idlers_stand_in_the_middle_while_their_teeth_are_not_known() -> None:
+    found = from_polyhedron("icosidodecahedron", "faces+edges", teeth={"5": 20, "3": 12})
+    half = degrees(atan(3 - sqrt(5))) / 2
+    assert angle(found, "5", "e") == pytest.approx(half, abs=1e-13)
+    assert angle(found, "3", "e") == pytest.approx(half, abs=1e-13)
+
+
+@pytest.mark.parametrize(
+    ("teeth", "pitch", "place", "printed"),
+    [
+        ((35, 36, 16), 0.007584691983, 22.364852671356, (15.394538607, 15.845775704, 6.970314064)),
+        ((25, 36, 11), 0.008972473198, 18.626569299234, (12.962414599, 18.844996535, 5.664154700)),
+        ((20, 42, 11), 0.008537056822, 15.219363340421, (9.830913080, 21.011565220, 5.388450260)),
+        ((45, 57, 27), 0.004879252123, 20.253704374064, (12.683563666, 16.147875611, 7.570140708)),
+        ((15, 18, 12), 0.013497136794, 21.001685174950, (11.680677640, 14.060626578, 9.321007535)),
+    ],
+)
+def test_two_gears_on_each_edge_of_an_icosahedron_have_one_pitch_for_all_teeth(
+    teeth: tuple[int, int, int], pitch: float, place: float, printed: tuple[float, float, float]
+) -> None:
+    found = from_polyhedron("icosahedron", "faces+vertices+edges", teeth=dict(zip("v3e", teeth, strict=True)))
+    assert angle(found, "v", "e") == pytest.approx(place, abs=6e-13)
+    assert cones(found, "v", "e") == pytest.approx((printed[0], printed[2]), abs=6e-10)
+    assert cones(found, "3", "e") == pytest.approx((printed[1], printed[2]), abs=6e-10)
+    assert max(pitches(found)) == pytest.approx(pitch, abs=6e-13)
+    assert max(pitches(found)) - min(pitches(found)) < 3e-15
+
+
+@pytest.mark.parametrize(
+    ("n", "teeth", "printed", "latitude"),
+    [
+        (4, (16, 16), (32.765099739649, 32.765099739649), 24.469800520702),
+        (4, (20, 13), (45.675215687530, 27.710471900205), 16.614312412264),
+        (6, (18, 6), (63.711516786140, 17.389054334048), 8.899428879811),
+    ],
+)
+def test_moved_antiprisms_have_one_pitch(
+    n: int, teeth: tuple[int, int], printed: tuple[float, float], latitude: float
+) -> None:
+    found = from_polyhedron(f"{n}-antiprism", teeth={n: teeth[0], 3: teeth[1]}, exact=True)
+    assert cones(found, str(n), "3") == pytest.approx(printed, abs=6e-13)
+    assert cones(found, "3", "3") == pytest.approx((printed[1], printed[1]), abs=6e-13)
+    tilts = [abs(degrees(asin(axis[2]))) for axis, kind in zip(found.axes, found.kinds, strict=True) if kind == "3"]
+    assert tilts == pytest.approx([latitude] * 2 * n, abs=6e-13)
+
+
+@pytest.mark.parametrize("n", range(4, 13))
+def test_equal_gears_of_an_antiprism_stand_at_the_closed_latitude(n: int) -> None:
+    found = from_polyhedron(f"{n}-antiprism", teeth=12, exact=True)
+    k = cos(pi / n)
+    assert max(axis[2] for axis in found.axes[2:]) == pytest.approx(k / (1 + k), abs=1e-13)
+    # contacts of a side at theta = pi - pi/n from each other: known exactly
+    assert found.regular[-1] > 0
+    assert 4 * n % found.regular[-1] == 0
+
+
+def test_a_set_with_one_kind_of_mesh_is_exact_where_it_stands() -> None:
+    still = from_polyhedron("icosidodecahedron", teeth={5: 20, 3: 12})
+    moved = from_polyhedron("icosidodecahedron", teeth={5: 20, 3: 12}, exact=True)
+    assert moved.axes == pytest.approx(still.axes, abs=3e-15)
+
+
+@pytest.mark.parametrize(
+    ("name", "gears", "teeth"),
+    [
+        ("rhombicuboctahedron", "faces", {"4a": 22, "4b": 25, "3": 12}),
+        ("5-4-3", "faces", {"5": 25, "4": 14, "3": 12}),
+        ("4-antiprism", "faces", {"4": 42, "3": 5}),  # the caps would reach over the equator
+        ("icosahedron", "faces+vertices+edges", {"v": 36, "3": 6, "e": 25}),  # no place within the edge
+    ],
+)
+def test_where_no_place_gives_one_pitch_it_is_refused(name: str, gears: str, teeth: dict[str, int]) -> None:
+    answer = refusal(name, gears, teeth=teeth, exact=True)
+    assert "no place with one pitch" in answer
+    assert "positions free" in answer
+
+
+def test_exact_places_ask_nothing_of_gears_and_meshes_that_are_left_out() -> None:
+    found = from_polyhedron("buckyball", drop=["6~6"], teeth={5: 20, 6: 12}, exact=True)
+    assert len(pitches(found)) == 1
+    assert from_polyhedron("rhombicuboctahedron", drop=["3"], teeth={4: 12}, exact=True).teeth == {"4a": 12, "4b": 12}
+
+
+# trains ---------------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("name", "gears", "teeth"),
+    [
+        ("octahedron", "faces", 13),  # every gear has one right behind it, on the same line
+        ("icosidodecahedron", "faces", {"5": 20, "3": 12}),
+        ("rhombicosidodecahedron", "faces", {"5": 25, "4": 14, "3": 12}),
+        ("6-antiprism", "faces", {"6": 18, "3": 6}),
+        ("cuboctahedron", "faces+edges", {"4": 16, "3": 12, "e": 8}),
+        ("cube", "faces+vertices", {"4": 12, "v": 7}),
+    ],
+)
+def test_speeds_about_outward_axes_alternate_with_the_colour(
+    name: str, gears: str, teeth: dict[str, int] | int
+) -> None:
+    found = from_polyhedron(name, gears, teeth=teeth)  # type: ignore[arg-type]
+    answer = GearTrain.declare(to_train(found)).solve()
+    colour = colours(len(found.names), found.meshes)
+    assert answer.verdict.kind == "determined"
+    assert colour is not None
+    z = [found.teeth[kind] for kind in found.kinds]
+    assert [answer[gear] for gear in found.names] == [Fraction(c * z[0], n) for c, n in zip(colour, z, strict=True)]
+
+
+def test_gears_that_roll_on_each_other_have_one_velocity_where_they_touch() -> None:
+    found = from_polyhedron("icosidodecahedron", teeth={5: 20, 3: 12})
+    answer = GearTrain.declare(to_train(found)).solve()
+    for i, j in found.meshes:
+        n_i, n_j = found.axes[i], found.axes[j]
+        rho = radians(cones(found, found.kinds[i], found.kinds[j])[0])
+        across = n_j - (n_i @ n_j) * n_i
+        point = cos(rho) * n_i + sin(rho) * across / np.linalg.norm(across)
+        velocities = [float(answer[found.names[k]]) * np.cross(found.axes[k], point) for k in (i, j)]
+        assert velocities[0] == pytest.approx(velocities[1], abs=1e-14)
+
+
+@pytest.mark.parametrize("name", ["cube", "truncated icosahedron", "snub cube"])
+def test_a_gridlocked_solid_is_a_locked_train(name: str) -> None:
+    train = GearTrain.declare(to_train(from_polyhedron(name, teeth=12)))
+    assert train.solve().verdict.kind == "locked"
+
+
+def test_a_train_on_a_solid_counts_its_redundant_meshes() -> None:
+    train = GearTrain.declare(to_train(from_polyhedron("icosidodecahedron", teeth={5: 20, 3: 12}), "scorg"))
+    assert (train.name, train.mobility.by_rank, train.mobility.redundant) == ("scorg", 1, 29)
+
+
+@pytest.mark.parametrize("name", ["icosidodecahedron", "snub cube", "J37"])
+def test_a_train_written_as_yaml_is_read_back_the_same(name: str) -> None:
+    data = to_train(from_polyhedron(name, teeth=24))
+    train = load(as_yaml(data))
+    assert train.declaration.model_dump() == GearTrain.declare(data).declaration.model_dump()
+    found = from_polyhedron(name, teeth=24)
+    for gear, axis in zip(found.names, found.axes, strict=True):
+        assert [float(figure.value) for figure in train.declaration.axes[gear].direction] == axis.tolist()
+
+
+def test_awkward_texts_survive_yaml() -> None:
+    names = ["1", "null", "no", "a, b", "c: d", "{e}", "é", "#", "'", '"', " x "]
+    data = {
+        "title": "a, b: [c] {d} # e 'q' \"z\"",
+        "note": "two\n\nlines  \n and more",
+        "links": {"frame": {}} | {name: {"wheels": {f"w{name}": {"teeth": 12, "internal": False}}} for name in names},
+        "revolutes": [{"pair": ["frame", name], "axis": name} for name in names],
+        "inputs": {"1": -1.5},
+        "outputs": {},
+    }
+    assert load(as_yaml(data)).declaration.model_dump() == GearTrain.declare(data).declaration.model_dump()
+
+
+def test_a_set_without_teeth_or_gears_is_no_train() -> None:
+    with pytest.raises(GearTrainError, match="no tooth number for 3"):
+        to_train(from_polyhedron("icosidodecahedron", teeth={5: 20}))
+    with pytest.raises(GearTrainError, match="without gears"):
+        to_train(from_polyhedron("cube", teeth=12, drop=["4"]))
+
+
+def test_solids_bring_no_large_library_until_they_are_asked_for() -> None:
+    code = "import sys, geartrain.spherical; print({'scipy', 'networkx', 'matplotlib'} & set(sys.modules))"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == "set()"

@@ -9,8 +9,10 @@ from pathlib import Path
 import make_accuracy
 import make_commands
 import make_errata
+import make_extremes
 import make_images
 import make_mesh_accuracy
+import make_motion_accuracy
 import make_outputs
 
 DOCS = Path(__file__).resolve().parent
@@ -20,7 +22,8 @@ def main() -> None:
     """Run all makers, and the command that writes the reference."""
     reference = DOCS / "reference.md"
     subprocess.run([sys.executable, "-m", "geartrain", "schema", "--as", "markdown", "-o", str(reference)], check=True)
-    for maker in (make_accuracy, make_commands, make_errata, make_images, make_mesh_accuracy, make_outputs):
+    accuracy = (make_accuracy, make_mesh_accuracy, make_motion_accuracy)
+    for maker in (*accuracy, make_commands, make_errata, make_extremes, make_images, make_outputs):
         maker.main()
 
 

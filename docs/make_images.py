@@ -1,5 +1,6 @@
 """Draw the pictures of docs/images: a report as a terminal shows it, triangular teeth in contact, their law,
-pointers in motion."""
+pointers in motion,
+power that circulates, gears on a sphere."""
 
 from __future__ import annotations
 
@@ -12,8 +13,9 @@ from rich.console import Console
 
 import geartrain
 from geartrain.motion import Run
-from geartrain.plot import law_figure, motion_figure, render, teeth_figure
-from geartrain.report import Document, report_train, to_terminal
+from geartrain.plot import law_figure, motion_figure, power_figure, render, sphere_figure, teeth_figure
+from geartrain.report import Document, SphereAnswers, flow_of, report_train, to_terminal
+from geartrain.spherical import from_polyhedron
 
 IMAGES = Path(__file__).resolve().parent / "images"
 SECTIONS = ("Fundamental circuits", "Mobility", "Against the targets")
@@ -25,6 +27,8 @@ def main() -> None:
     report()
     teeth()
     pointers()
+    power()
+    sphere()
 
 
 def teeth() -> None:
@@ -43,6 +47,21 @@ def pointers() -> None:
         figure = motion_figure(Run(train.motion(outputs=outputs), turns, 100_001))
         (IMAGES / f"{name}.svg").write_bytes(render(figure, ".svg"))
         print(f"wrote docs/images/{name}.svg")
+
+
+def power() -> None:
+    """The power that circulates in Norton's compound train."""
+    train = geartrain.load("norton-compound")
+    figure = power_figure(flow_of(train, train.torques()), train.name)
+    (IMAGES / "power.svg").write_bytes(render(figure, ".svg"))
+    print("wrote docs/images/power.svg")
+
+
+def sphere() -> None:
+    """The gears of the icosidodecahedron, 20 and 12 teeth."""
+    found = SphereAnswers(from_polyhedron("icosidodecahedron", teeth={"5": 20, "3": 12}))
+    (IMAGES / "sphere.svg").write_bytes(render(sphere_figure(*found.pose()), ".svg"))
+    print("wrote docs/images/sphere.svg")
 
 
 def report() -> None:

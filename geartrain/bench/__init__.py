@@ -5,16 +5,23 @@ from __future__ import annotations
 from geartrain.bench.families import FAMILIES
 from geartrain.bench.kinematics import count_steps, kinematics
 from geartrain.bench.mesh import MeshRecord, MeshRecords, count_mesh_steps, mesh
+from geartrain.bench.motion import GrowthRecord, MotionRecord, MotionRecords, TrainRecord, count_motion_steps, motion
 from geartrain.bench.record import Record, Records
 
 __all__ = [
     "FAMILIES",
+    "GrowthRecord",
     "MeshRecord",
     "MeshRecords",
+    "MotionRecord",
+    "MotionRecords",
     "Record",
     "Records",
+    "TrainRecord",
     "count_mesh_steps",
+    "count_motion_steps",
     "count_steps",
     "kinematics",
     "mesh",
+    "motion",
 ]

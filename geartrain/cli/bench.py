@@ -57,3 +57,22 @@ def mesh(
         task = progress.add_task("mesh", total=bench.count_mesh_steps(quick))
         results = bench.mesh(quick, lambda step: progress.update(task, advance=1, description=step))
     emit(as_json(results.to_dict()) if json else results.to_markdown(), out)
+
+
+@app.command()
+def motion(
+    quick: Annotated[bool, typer.Option("--quick", help="Two trains and at most 20 000 positions.")] = False,
+    positions: Annotated[int, typer.Option("--positions", min=1000, help="Positions of each train.")] = 1_000_000,
+    json: Json = False,
+    out: Out = None,
+) -> None:
+    """Time and error of every way to the motion of whole trains: direct, tabulated, superposed, estimated, marched."""
+    from rich.console import Console
+    from rich.progress import Progress
+
+    from geartrain import bench
+
+    with Progress(console=Console(stderr=True), transient=True) as progress:
+        task = progress.add_task("motion", total=bench.count_motion_steps(quick))
+        results = bench.motion(quick, positions, lambda step: progress.update(task, advance=1, description=step))
+    emit(as_json(results.to_dict()) if json else results.to_markdown(), out)

@@ -149,19 +149,40 @@ class Composition:
 
     @cached_property
     def _place(self) -> dict[int, int]:
-        """Where a lively link stands in the arrays."""
-        return {link: at for at, link in enumerate(link for step in self.steps for link in step.links)}
+        """The row in which a lively link stands until it is read for the last time; then another takes the row."""
+        last: dict[int, int] = {}
+        for at, step in enumerate(self.steps):
+            last.update(dict.fromkeys((*step.known, *(end for s in step.sources for end in self._ends(s))), at))
+        for ends in self.outputs:
+            last.update(dict.fromkeys(ends, len(self.steps)))
+        place: dict[int, int] = {}
+        free: list[int] = []
+        count = 0
+        for at, step in enumerate(self.steps):
+            for link in step.links:
+                if not free:
+                    free.append(count)
+                    count += 1
+                place[link] = free.pop()
+            read = {*step.links, *step.known, *(end for s in step.sources for end in self._ends(s))}
+            free += [place[link] for link in read if link in place and last.get(link, at) == at]
+        return place
+
+    @cached_property
+    def _rows(self) -> int:
+        """How many links are kept at once."""
+        return max(self._place.values(), default=-1) + 1
 
     @cached_property
     def chunk(self) -> int:
         """Positions worked on at once: memory is bounded however long the train."""
         widest = max((len(step.sources) ** 2 for step in self.steps if step.coupled), default=0)
-        return max(64, min(_CHUNK, _NUMBERS // (2 * (len(self._place) + widest) + 1)))
+        return max(64, min(_CHUNK, _NUMBERS // (2 * (self._rows + widest) + 1)))
 
     def at(self, turns: Floats) -> Passage:
         """Errors and rates of the outputs where the input has made some turns, at most a chunk of them."""
         angle = Angle(turns)
-        error = np.empty((len(self._place), len(turns)))
+        error = np.empty((self._rows, len(turns)))
         rate = np.empty_like(error)
         for step in self.steps:
             self._take(step, angle, error, rate)
@@ -176,7 +197,7 @@ class Composition:
     def _take(self, step: Step, angle: Angle, error: Floats, rate: Floats) -> None:
         known = [self._place[link] for link in step.known]
         first = self._place[step.links[0]]
-        own = slice(first, first + len(step.links))
+        own = slice(first, first + 1) if len(step.links) == 1 else [self._place[link] for link in step.links]
         error[own] = step.from_known @ error[known] if known else 0.0
         rate[own] = step.from_known @ rate[known] if known else 0.0
         if not step.sources:

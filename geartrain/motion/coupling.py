@@ -62,8 +62,7 @@ def settle(
     base      (pairs, n) rad; `turning` by pair over the input's speed
     Raises `GearTrainError` where the laws have no single solution: the train would jump or lock there.
     """
-    delta = _newton(pairs, base)
-    _, slope = pairs.laws_at(base + pairs.gain @ delta)
+    delta, slope = _newton(pairs, base)
     jacobian = pairs.jacobian(slope)
     speed = np.stack([np.broadcast_to(w, base.shape[1:]) for w in turning])
     if not (_determinant(jacobian) > 0).all():
@@ -72,9 +71,10 @@ def settle(
     return delta, rate, list(speed + pairs.gain @ rate)
 
 
-def _newton(pairs: Coupled, base: Floats) -> Floats:
+def _newton(pairs: Coupled, base: Floats) -> tuple[Floats, Floats]:
+    """Errors, and the slopes of the laws there."""
     tolerance = _SETTLED * (1 + np.max(np.abs(base), initial=0.0) + np.abs(pairs.gain).sum(axis=1).max())
-    delta, _ = pairs.laws_at(base)
+    delta, slopes = pairs.laws_at(base)
     active = np.arange(base.shape[1])
     now = delta.copy()
     length, size, step = np.ones(len(active)), np.full(len(active), np.inf), np.zeros_like(now)
@@ -89,15 +89,17 @@ def _newton(pairs: Coupled, base: Floats) -> Floats:
         length = np.where(better, 1.0, length / 2)
         now, size = np.where(better, trial, now), np.where(better, found, size)
         delta[:, active] = now
-        if better.any():
-            step[:, better] = _solve(pairs.jacobian(slope[:, better]), residual[:, better])
+        slopes[:, active[better]] = slope[:, better]
+        onward = better & ~done
+        if onward.any():
+            step[:, onward] = _solve(pairs.jacobian(slope[:, onward]), residual[:, onward])
         left = ~done
         if not left.any():
-            return delta
+            return delta, slopes
         active, now, step, length, size = active[left], now[:, left], step[:, left], length[left], size[left]
     if float(size.max()) > _FORGIVEN:
         raise _refusal(pairs, "no angles of theirs fit all laws at once")
-    return delta
+    return delta, slopes
 
 
 def _solve(matrices: Floats, right: Floats) -> Floats:

@@ -120,12 +120,12 @@ class Tabulated(Law):
     @cached_property
     def error_table(self) -> Table:
         """Table of the transmission error, whose `uncertainty` is in rad of the driven side."""
-        return self._fit(self.law.error, float(self.ratio) * self.period)
+        return self._fit(self.law.error, (float(self.ratio) or 1.0) * self.period)
 
     @cached_property
     def speed_table(self) -> Table:
         """Table of the speed ratio."""
-        return self._fit(self.law.speed, float(self.ratio))
+        return self._fit(self.law.speed, float(self.ratio) or 1.0)
 
     @cached_property
     def efficiency_table(self) -> Table:

@@ -228,7 +228,7 @@ def find_window(sizes: Sizes) -> Window:
     return _window(sizes.at(0.0))
 
 
-@lru_cache(maxsize=1024)
+@lru_cache(maxsize=8192)
 def _window(sizes: Sizes) -> Window:
     reach = sizes.greatest_excess
     jam = _least_excess(sizes)

@@ -8,7 +8,21 @@ from typing import Annotated
 
 import typer
 
-from geartrain.cli import bench, check, compare, equations, graph, listing, mesh, motion, report, schema, solve, torques
+from geartrain.cli import (
+    bench,
+    check,
+    compare,
+    equations,
+    graph,
+    listing,
+    mesh,
+    motion,
+    report,
+    schema,
+    solve,
+    sphere,
+    torques,
+)
 from geartrain.cli.common import NOT_USABLE, complain
 from geartrain.errors import GearTrainError, Problem
 
@@ -28,6 +42,7 @@ app.command("equations")(equations.run)
 app.command("graph")(graph.run)
 app.command("torques")(torques.run)
 app.command("motion")(motion.run)
+app.command("sphere")(sphere.run)
 app.command("schema")(schema.run)
 app.command("list")(listing.trains)
 app.command("periods")(listing.periods)

@@ -5,6 +5,17 @@ from __future__ import annotations
 from geartrain.files.declaring import as_yaml
 from geartrain.files.loading import load, shipped
 from geartrain.files.long import LongTable, partial_name
+from geartrain.files.tables import read_edges, read_points
 from geartrain.files.writing import write_bytes, write_text
 
-__all__ = ["LongTable", "as_yaml", "load", "partial_name", "shipped", "write_bytes", "write_text"]
+__all__ = [
+    "LongTable",
+    "as_yaml",
+    "load",
+    "partial_name",
+    "read_edges",
+    "read_points",
+    "shipped",
+    "write_bytes",
+    "write_text",
+]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -24,7 +25,7 @@ _COLOURS = (BLUE, ORANGE, GREEN, RED, PURPLE, SKY)
 
 
 def sphere_figure(
-    configuration: Configuration, cones: Floats, phases: Floats, view: tuple[float, float, float] = _VIEW
+    configuration: Configuration, cones: Floats, phases: Sequence[float], view: tuple[float, float, float] = _VIEW
 ) -> Figure:
     """Every gear of a set on its sphere.
 

@@ -11,12 +11,21 @@ from geartrain.report.moving import motion_data, motion_document
 from geartrain.report.pins import pin_data, pin_document
 from geartrain.report.power import flow_of, there_and_back, torques_data, torques_document
 from geartrain.report.rendering import to_html, to_markdown, to_terminal
+from geartrain.report.sphere import (
+    SphereAnswers,
+    sphere_data,
+    sphere_document,
+    suggestions_data,
+    suggestions_document,
+    survey_document,
+)
 from geartrain.report.teeth import mesh_data
 
 __all__ = [
     "Document",
     "Running",
     "Section",
+    "SphereAnswers",
     "Table",
     "compare_trains",
     "flow_of",
@@ -27,6 +36,11 @@ __all__ = [
     "pin_data",
     "pin_document",
     "report_train",
+    "sphere_data",
+    "sphere_document",
+    "suggestions_data",
+    "suggestions_document",
+    "survey_document",
     "there_and_back",
     "to_html",
     "to_markdown",

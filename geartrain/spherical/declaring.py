@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 from geartrain.errors import Problem, QuestionError
@@ -13,6 +14,8 @@ _NOTE = (
     "All axes go through the centre of the sphere and point outwards; a speed is positive counterclockwise, "
     "seen from outside. Two wheels in mesh turn against each other."
 )
+
+_SHORT = 1 << 20
 
 
 def to_train(configuration: Configuration, name: str = "") -> dict[str, Any]:
@@ -39,11 +42,19 @@ def to_train(configuration: Configuration, name: str = "") -> dict[str, Any]:
         "note": _NOTE,
         "frame": "frame",
         "links": {"frame": {}} | {gear: _link(gear, configuration.teeth[kind]) for gear, kind, _ in gears},
-        "axes": {gear: {"direction": axis, "position": ["0 mm", "0 mm", "0 mm"]} for gear, _, axis in gears},
+        "axes": {
+            gear: {"direction": _direction(axis), "position": ["0 mm", "0 mm", "0 mm"]} for gear, _, axis in gears
+        },
         "revolutes": [{"pair": ["frame", gear], "axis": gear} for gear, _, _ in gears],
         "gears": [{"pair": [configuration.names[i], configuration.names[j]]} for i, j in configuration.meshes],
         "inputs": {configuration.names[0]: 1},
     }
+
+
+def _direction(axis: list[float]) -> list[str]:
+    """Floats at full length, short ones as fractions: a decimal counts as known to its last digit only."""
+    exact = [Fraction(part) for part in axis]
+    return [str(part) if part.denominator < _SHORT else f"{float(part):.17g}" for part in exact]
 
 
 def _link(gear: str, teeth: int) -> dict[str, Any]:

@@ -9,8 +9,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from math import inf
 
+from geartrain.roots import bracketed_root
 from geartrain.teeth.triangular.path import STANDSTILL, Interval, RealPath
-from geartrain.teeth.triangular.roots import bracketed_root
 
 _ROUNDING = 1e-10  # of a pitch: a lesser leap or gap is none
 

@@ -204,8 +204,8 @@ def sizes_window(sizes: Sizes) -> Window:
 
 def _excess_of_backlash(sizes: Sizes, backlash: float, text: str) -> float:
     """The excess whose least play, on the second wheel's pitch circle, is `backlash`; play only grows with excess."""
+    from geartrain.roots import root
     from geartrain.teeth.triangular.meshing import Contact
-    from geartrain.teeth.triangular.roots import root
 
     def play(excess: float) -> float:
         D = (1 + excess) * sizes.least_distance

@@ -13,11 +13,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from geartrain.errors import GearTrainError, Problem
+from geartrain.roots import bracketed_root
 from geartrain.teeth.base import Law, behind
 from geartrain.teeth.triangular.contact import APPROACH
 from geartrain.teeth.triangular.meshing import Contact, Meshing
 from geartrain.teeth.triangular.path import Interval
-from geartrain.teeth.triangular.roots import bracketed_root
 from geartrain.teeth.triangular.sizes import Sizes
 
 if TYPE_CHECKING:

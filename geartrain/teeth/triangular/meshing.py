@@ -9,10 +9,10 @@ from itertools import pairwise
 from math import degrees, inf, pi
 from typing import Literal
 
+from geartrain.roots import bracketed_root, root
 from geartrain.teeth.triangular.contact import APPROACH
 from geartrain.teeth.triangular.dragging import Dragged, drag
 from geartrain.teeth.triangular.path import STANDSTILL, Interval, RealPath
-from geartrain.teeth.triangular.roots import bracketed_root, root
 from geartrain.teeth.triangular.sizes import Sizes
 
 Kind = Literal["runs", "no valley", "overhang", "jam", "clash", "standstill", "apart"]

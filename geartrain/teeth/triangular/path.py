@@ -15,8 +15,8 @@ from functools import cached_property
 from itertools import pairwise
 from math import ceil, floor, inf, ulp
 
+from geartrain.roots import bracketed_root, sign_changes
 from geartrain.teeth.triangular.contact import APPROACH, RECESS, RETURN, SLIP, Couple
-from geartrain.teeth.triangular.roots import bracketed_root, sign_changes
 from geartrain.teeth.triangular.sizes import Sizes
 
 STANDSTILL = "standstill"

@@ -1,0 +1,150 @@
+"""`geartrain sphere`: gears on polyhedra and graphs, whether they turn, close and fit."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from geartrain.cli.common import GOOD, PICTURES, VERDICT, Json, Out, as_json, draw, emit, show, suffix_of
+
+if TYPE_CHECKING:
+    from geartrain.report.sphere import SphereAnswers
+    from geartrain.spherical import Configuration, GraphSet
+
+_YAML = (".yaml", ".yml")
+_FILES = (".txt", ".csv", ".dat")
+
+
+def run(
+    solid: Annotated[
+        str | None, typer.Argument(help="A solid by name, or a file of vertices, one a line.", metavar="SOLID")
+    ] = None,
+    gears: Annotated[
+        str, typer.Option("--gears", help="faces, vertices, faces+vertices, faces+edges, faces+vertices+edges.")
+    ] = "faces",
+    teeth: Annotated[str | None, typer.Option("--teeth", help="Tooth numbers by kind, such as 5=20,3=12.")] = None,
+    drop: Annotated[list[str] | None, typer.Option("--drop", help="Kind, gear or mesh to leave out.")] = None,
+    exact: Annotated[bool, typer.Option("--exact", help="Move the axes until all pitches are equal.")] = False,
+    graph: Annotated[Path | None, typer.Option("--graph", help="Gears of a graph: two names a line.")] = None,
+    aim: Annotated[str, typer.Option("--aim", help="With --graph: equal 'pitch' or closed 'phases'.")] = "pitch",
+    least: Annotated[int, typer.Option("--least", help="With --graph: teeth of the smallest gear.")] = 12,
+    radius: Annotated[str, typer.Option("--radius", help="Of the sphere, or of a wheel: 5=1.25.")] = "1",
+    suggest: Annotated[int, typer.Option("--suggest", help="List the best tooth sets up to so many teeth.")] = 0,
+    best: Annotated[int, typer.Option("--best", help="How many suggestions.")] = 20,
+    survey: Annotated[bool, typer.Option("--survey", help="The table of solids.")] = False,
+    json: Json = False,
+    plot: Annotated[Path | None, typer.Option("--plot", help="Draw the sphere and its gears to this file.")] = None,
+    out: Out = None,
+) -> None:
+    """Gears on a sphere: mobility, gridlock, closure of the teeth, sizes; with -o x.yaml as a train."""
+    from geartrain import report
+
+    suffix = suffix_of(out, (".md", ".html", ".json", *_YAML))
+    if survey:
+        _survey(json or suffix == ".json", out, suffix)
+        return
+    if (solid is None) == (graph is None):
+        raise typer.BadParameter("name a solid or a graph, or ask for --survey", param_hint="SOLID")
+    made = _graph(graph, aim, least) if graph else None
+    configuration = made.configuration if made else _solid(solid or "", gears, teeth, drop or [], exact)
+    if suggest:
+        _suggest(configuration, suggest, best, json or suffix == ".json", out, suffix)
+        return
+    found = report.SphereAnswers(configuration, _sphere_radius(configuration, radius), made)
+    if suffix in _YAML:
+        from geartrain.files import as_yaml
+        from geartrain.spherical import to_train
+
+        emit(as_yaml(to_train(configuration)), out)
+    elif json or suffix == ".json":
+        emit(as_json(report.sphere_data(found)), out)
+    else:
+        show([report.sphere_document(found)], out, suffix)
+    if plot is not None:
+        _draw(found, plot)
+    raise typer.Exit(GOOD if found.moves and (found.closure is None or found.closure) else VERDICT)
+
+
+def _survey(json: bool, out: Path | None, suffix: str) -> None:
+    from rich.console import Console
+    from rich.progress import track
+
+    from geartrain import report
+    from geartrain.spherical.survey import SURVEYED
+    from geartrain.spherical.survey import survey as survey_solids
+
+    names = track(SURVEYED, "survey", console=Console(stderr=True), transient=True)
+    rows = [row for name in names for row in survey_solids((name,))]
+    if json:
+        emit(as_json([row.to_dict() for row in rows]), out)
+    else:
+        show([report.survey_document(rows)], out, suffix)
+
+
+def _suggest(configuration: Configuration, most: int, best: int, json: bool, out: Path | None, suffix: str) -> None:
+    from geartrain import report
+    from geartrain.spherical.compromise import suggest
+
+    found = suggest(configuration, most, best)
+    if json:
+        emit(as_json(report.suggestions_data(found)), out)
+    else:
+        show([report.suggestions_document(found)], out, suffix)
+    raise typer.Exit(GOOD if len(found) else VERDICT)
+
+
+def _solid(solid: str, gears: Any, teeth: str | None, drop: list[str], exact: bool) -> Configuration:
+    from geartrain.spherical import from_polyhedron
+
+    shape: Any = solid
+    if solid.endswith(_FILES):
+        from geartrain.files import read_points
+
+        shape = read_points(Path(solid))
+    return from_polyhedron(shape, gears, teeth=_teeth(teeth), drop=drop, exact=exact)
+
+
+def _graph(file: Path, aim: Any, least: int) -> GraphSet:
+    from geartrain.files import read_edges
+    from geartrain.spherical import from_graph
+
+    return from_graph(read_edges(file), least, aim)
+
+
+def _teeth(text: str | None) -> dict[str, int] | int | None:
+    """`5=20,3=12` or one number for all."""
+    if text is None:
+        return None
+    try:
+        if "=" not in text:
+            return int(text)
+        pairs = (part.partition("=") for part in text.split(","))
+        return {kind.strip(): int(count) for kind, _, count in pairs}
+    except ValueError:
+        raise typer.BadParameter(f"'{text}' is not of the form 5=20,3=12", param_hint="--teeth") from None
+
+
+def _sphere_radius(configuration: Configuration, text: str) -> float:
+    """The sphere's radius, given itself or through the pitch radius of one kind of wheel."""
+    from geartrain.spherical.sizing import size, sphere_radius
+
+    kind, wheel, number = text.rpartition("=")
+    try:
+        value = float(number)
+    except ValueError:
+        raise typer.BadParameter(f"'{text}' is no radius", param_hint="--radius") from None
+    if not wheel:
+        return value
+    if kind not in configuration.kinds:
+        kinds = ", ".join(dict.fromkeys(configuration.kinds))
+        raise typer.BadParameter(f"there are no gears '{kind}'; kinds are {kinds}", param_hint="--radius")
+    cones = size(configuration).outer
+    return sphere_radius(value, float(cones[configuration.kinds.index(kind)]))
+
+
+def _draw(found: SphereAnswers, plot: Path) -> None:
+    from geartrain.plot import sphere_figure
+
+    draw(sphere_figure(*found.pose()), plot, suffix_of(plot, PICTURES) or ".svg")

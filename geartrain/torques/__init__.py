@@ -22,12 +22,12 @@ __all__ = [
     "Torques",
     "declared_loads",
     "drive",
-    "trace_power",
     "find_flows",
     "find_torques",
     "in_newton_metres",
     "in_watts",
     "share",
     "share_of",
+    "trace_power",
     "watts_per_unit",
 ]

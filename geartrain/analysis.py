@@ -20,7 +20,9 @@ from geartrain.system import System, assemble
 from geartrain.train import Case, Train, declare, suggest
 
 if TYPE_CHECKING:
+    from geartrain.closure import Closure
     from geartrain.graph import Graph
+    from geartrain.gridlock import Gridlock
     from geartrain.meshes import Driver, Mesh, PinJoint
     from geartrain.motion import Impact, Motion, Moving
     from geartrain.speeds import FloatSpeeds
@@ -89,6 +91,27 @@ class GearTrain:
     def mobility(self) -> Mobility:
         """Degrees of freedom by count and by exact rank, with redundant and locking loops."""
         return find_mobility(self._whole.reduced, len(self.declaration.revolutes))
+
+    @cached_property
+    def gridlock(self) -> Gridlock:
+        """Why meshes lock the train or a part of it, and the least set of them to disengage; cheap where none does."""
+        from geartrain.gridlock import find_gridlock
+
+        return find_gridlock(self._whole, self.mobility)
+
+    @cached_property
+    def is_placed(self) -> bool:
+        """True if it can be asked whether teeth meet: some axis has a position, and pairs close loops."""
+        placed = any(axis.position is not None for axis in self.declaration.axes.values())
+        return placed and bool(self.mobility.redundant or self.mobility.locked)
+
+    @cached_property
+    def closure(self) -> Closure:
+        """Whether the teeth of every loop meet, where positions of axes are declared, and angles to put wheels in."""
+        from geartrain.closure import find_closure
+
+        plays = {mesh.name: mesh.verdict.play / mesh.law.sizes.p2 for mesh in self.meshes}
+        return find_closure(self.declaration, self.tree, self.circuits, plays)
 
     @cached_property
     def remarks(self) -> tuple[Problem, ...]:

@@ -42,8 +42,7 @@ def dual(solid: Map) -> Map:
 
 def ambo(solid: Map) -> Map:
     """Cut to the middles of the edges."""
-    edge = lambda a, b: frozenset((a, b))  # noqa: E731
-    return [tuple(edge(*step) for step in steps(face)) for face in solid] + [
+    return [tuple(frozenset(step) for step in steps(face)) for face in solid] + [
         _ring(solid, vertex) for vertex in dict.fromkeys(vertex for face in solid for vertex in face)
     ]
 
@@ -56,7 +55,7 @@ def _ring(solid: Map, vertex: Hashable) -> Face:
     while not ring or step != start:
         ring.append(frozenset(step))
         step = (vertex, next(a for a, b in steps(solid[left[step]]) if b == vertex))
-    return tuple(ring[::-1])[::-1]
+    return tuple(ring)
 
 
 def kis(solid: Map) -> Map:

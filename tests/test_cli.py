@@ -203,7 +203,20 @@ VERDICT = {"kind", "text", "links", "fixes", "prescriptions", "loops"}
 MOBILITY = {"by_count", "by_rank", "rank", "redundant", "redundant_loops", "locked_loops", "still", "never_rolling"}
 OUTPUT = {"exact", "value", "of", "relative_to", "output/input", "expect", "published", "targets"}
 TARGET = {"target", "speed", "ppm", "days_per_century", "degrees_per_unit", "met"}
-REPORT = {"sources", "circuits", "adjacency", "remarks", "sensitivity", "teeth", "pins", "torques", "errata"}
+REPORT = {
+    "closure",
+    "gridlock",
+    "sources",
+    "circuits",
+    "adjacency",
+    "remarks",
+    "sensitivity",
+    "teeth",
+    "pins",
+    "torques",
+    "motion",
+    "errata",
+}
 
 
 def check_answer(answer: Mapping[str, Any]) -> None:

@@ -47,6 +47,11 @@ def _check(file: str, quiet: bool) -> int:
     for fault in faults:
         typer.echo(f"FAIL {fault.place}: {fault.what}; {fault.why or fault.fix}")
         good = VERDICT
+    if good != GOOD or not quiet:
+        for line in train.gridlock.lines():
+            typer.echo(f"note {file}: {line}")
+    if train.is_placed and train.closure.kind in ("misses", "unclear"):
+        typer.echo(f"note {file}: {train.closure.text}")
     if good == GOOD and not quiet:
         held = sum(result.expect_holds is not None for answer in answers for result in answer.outputs.values())
         loops = f", {plural(train.mobility.redundant, 'redundant circuit')}" if train.mobility.redundant else ""

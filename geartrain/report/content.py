@@ -8,6 +8,7 @@ from geartrain.analysis import GearTrain
 from geartrain.answer import Answer
 from geartrain.circuits import Circuit
 from geartrain.errors import Loop
+from geartrain.report.assembling import closure_sections
 from geartrain.report.document import MOST_ROWS, Document, Section, Table, cut
 from geartrain.report.moving import moving_sections
 from geartrain.report.power import loaded_sections
@@ -25,6 +26,7 @@ def report_train(train: GearTrain) -> Document:
     declared = train.declaration
     answers = tuple(train.answers())
     sections = [*_structure(train), _circuits(train), _mobility(train)]
+    sections += closure_sections(train)
     if train.remarks:
         notes = [f"{remark.what}" + (f": {remark.why}" if remark.why else "") + "." for remark in train.remarks]
         sections.append(Section("Remarks", notes))
@@ -161,7 +163,7 @@ def _mobility(train: GearTrain) -> Section:
     if len(found.loops) > 12:
         lines.append(f"... and {len(found.loops) - 12} more redundant loops.")
     lines += [f"Redundant: the circuits that meet at link '{link}' repeat each other." for link in found.shared[:12]]
-    lines += [f"Locks: {_loop(loop)} does not close." for loop in found.locked[:12]]
+    lines += [f"{line[0].upper()}{line[1:]}." for line in train.gridlock.lines()]
     if found.idle:
         lines.append(f"Never rolling: {', '.join(found.idle[:20])}.")
     if found.still and found.by_rank:

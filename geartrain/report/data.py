@@ -6,6 +6,7 @@ from typing import Any
 
 from geartrain.analysis import GearTrain
 from geartrain.answer import Answer
+from geartrain.report.assembling import closure_data
 from geartrain.report.moving import moving_data
 from geartrain.report.power import loaded_data
 from geartrain.report.teeth import teeth_data
@@ -46,6 +47,8 @@ def train_data(train: GearTrain) -> dict[str, Any]:
     declared = train.declaration
     answers = list(train.answers())
     data = answers_data(train, answers)
+    data["gridlock"] = train.gridlock.to_dict()
+    data["closure"] = closure_data(train)
     data["sources"] = {key: source.cite for key, source in declared.sources.items()}
     data["circuits"] = [
         {

@@ -260,7 +260,8 @@ def find_mobility(reduced: Reduced, turning_pairs: int, budget: int | None = EXA
         with suppress(TooDenseError):
             forms = echelon.forms(budget)
             still, idle = _still(reduced, forms), _idle(reduced, forms)
-        shared = [parts.links[reduced.origin[row][1]] for row in echelon.redundant]
+        repeated = (reduced.origin[row] for row in echelon.redundant)
+        shared = [parts.links[link] for kind, link, _ in repeated if kind == "share"]
     freedom = reduced.unknowns - rank
     redundant = len(parts.circuits) - (len(parts.links) - 1 - freedom)
     return Mobility(

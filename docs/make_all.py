@@ -14,6 +14,7 @@ import make_images
 import make_mesh_accuracy
 import make_motion_accuracy
 import make_outputs
+import make_sphere_accuracy
 
 DOCS = Path(__file__).resolve().parent
 
@@ -22,7 +23,7 @@ def main() -> None:
     """Run all makers, and the command that writes the reference."""
     reference = DOCS / "reference.md"
     subprocess.run([sys.executable, "-m", "geartrain", "schema", "--as", "markdown", "-o", str(reference)], check=True)
-    accuracy = (make_accuracy, make_mesh_accuracy, make_motion_accuracy)
+    accuracy = (make_accuracy, make_mesh_accuracy, make_motion_accuracy, make_sphere_accuracy)
     for maker in (*accuracy, make_commands, make_errata, make_extremes, make_images, make_outputs):
         maker.main()
 

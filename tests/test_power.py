@@ -333,6 +333,7 @@ def test_shares_are_percent_or_multiples() -> None:
 
 # --------------------------------------------------------------------------------------------------------------- report
 
+
 def test_a_friction_torque_is_not_negative() -> None:
     with pytest.raises(GearTrainError, match="not negative"):
         load("extends: planetary\nlinks: {carrier: {bearing: -1 N m}}\n")

@@ -23,6 +23,7 @@ BEHIND_A_CORNER = {
     "freeth-2008": {"a"},
     "freeth-2008-b224": {"a"},
     "freeth-2021": {"a", "ph1"},
+    "freeth-2021-teeth": {"a", "ph1"},
     "freeth-jones-2012": {"a"},
     "freeth-jones-2012-shambaugh": {"a"},
     "price-1974": {"crank", "sun"},

@@ -7,21 +7,37 @@ from geartrain.bench.kinematics import count_steps, kinematics
 from geartrain.bench.mesh import MeshRecord, MeshRecords, count_mesh_steps, mesh
 from geartrain.bench.motion import GrowthRecord, MotionRecord, MotionRecords, TrainRecord, count_motion_steps, motion
 from geartrain.bench.record import Record, Records
+from geartrain.bench.sphere import (
+    ClosureRecord,
+    FitRecord,
+    PackRecord,
+    SphereRecords,
+    count_sphere_steps,
+    growth,
+    sphere,
+)
 
 __all__ = [
     "FAMILIES",
+    "ClosureRecord",
+    "FitRecord",
     "GrowthRecord",
     "MeshRecord",
     "MeshRecords",
     "MotionRecord",
     "MotionRecords",
+    "PackRecord",
     "Record",
     "Records",
+    "SphereRecords",
     "TrainRecord",
     "count_mesh_steps",
     "count_motion_steps",
+    "count_sphere_steps",
     "count_steps",
+    "growth",
     "kinematics",
     "mesh",
     "motion",
+    "sphere",
 ]

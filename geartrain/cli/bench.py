@@ -76,3 +76,21 @@ def motion(
         task = progress.add_task("motion", total=bench.count_motion_steps(quick))
         results = bench.motion(quick, positions, lambda step: progress.update(task, advance=1, description=step))
     emit(as_json(results.to_dict()) if json else results.to_markdown(), out)
+
+
+@app.command()
+def sphere(
+    quick: Annotated[bool, typer.Option("--quick", help="Graphs of up to 32 gears, and few loops.")] = False,
+    json: Json = False,
+    out: Out = None,
+) -> None:
+    """Residual against steps and time of gears on a sphere: circles, axes moved, loops by fractions and by floats."""
+    from rich.console import Console
+    from rich.progress import Progress
+
+    from geartrain import bench
+
+    with Progress(console=Console(stderr=True), transient=True) as progress:
+        task = progress.add_task("sphere", total=bench.count_sphere_steps(quick))
+        results = bench.sphere(quick, lambda step: progress.update(task, advance=1, description=step))
+    emit(as_json(results.to_dict()) if json else results.to_markdown(), out)

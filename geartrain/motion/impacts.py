@@ -55,5 +55,3 @@ def find_impacts(motion: Motion, inertias: Mapping[str, float], speed: float) ->
         blows = tuple((jump.after - jump.before) * driver for jump in law.jumps)
         found[source.id] = Impact(struck, driver / law.period, blows)
     return found
-
-

@@ -64,7 +64,6 @@ class Moving:
         """Mean speed of a link seen from its carrier, over the lead's, both about the direction of their parallels."""
         return self.signs.get(link, 1) * self.ratio(link) - self.signs.get(carrier, 1) * self.ratio(carrier)
 
-
     def contradictions(self) -> list[tuple[Loop, list[str]]]:
         """Redundant loops in which something ripples, with what does."""
         rippling = {mesh.name for mesh in self.teeth} | {joint.coupling.name for joint in self.pins}

@@ -1,0 +1,139 @@
+"""Teeth as points in space, looked at mesh by mesh: an independent check of phase closure, with no azimuth in it.
+
+Wheels turn by rotation matrices; every tooth is a point on the circle about the wheel's axis through the pitch point.
+A mesh fits if, along the common tangent at the pitch point, each tooth of one wheel stands midway between two of the
+other. Sets are put together as a fitter would: wheel after wheel, each turned until it fits the one already in.
+"""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from itertools import product
+
+import numpy as np
+from numpy.typing import NDArray
+
+Vector = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Wheel:
+    """A wheel: its link, tooth count, a point of its axis, the axis (right-handed), and where its mark points.
+
+    The link's angle turns the mark about the axis; there stands a tooth. outward: the side to which its cone opens.
+    """
+
+    link: str
+    teeth: int
+    centre: Vector
+    axis: Vector
+    mark: Vector
+    internal: bool = False
+    outward: Vector | None = None
+
+
+Pairs = Sequence[tuple[str, str]]
+
+
+def turned(v: Vector, axis: Vector, angles: Vector) -> Vector:
+    """A vector turned about an axis by many angles (Rodrigues)."""
+    k = axis / np.linalg.norm(axis)
+    c, s = np.cos(angles)[:, None], np.sin(angles)[:, None]
+    return v * c + np.cross(k, v) * s + k * (k @ v) * (1 - c)
+
+
+def pitch_point(first: Wheel, second: Wheel) -> Vector:
+    """Where the pitch circles or pitch cones touch."""
+    if np.linalg.norm(np.cross(first.axis, second.axis)) > 1e-9:
+        n, m = (wheel.axis if wheel.outward is None else wheel.outward for wheel in (first, second))
+        # sin of the half-angles are as the teeth, and the point lies between the axes
+        point = second.teeth * n / np.linalg.norm(n) + first.teeth * m / np.linalg.norm(m)
+        return point / np.linalg.norm(point)
+    apart = second.centre - first.centre
+    apart = apart - first.axis * (apart @ first.axis) / (first.axis @ first.axis)
+    if first.internal:
+        return first.centre + apart * first.teeth / (first.teeth - second.teeth)
+    if second.internal:
+        return first.centre - apart * first.teeth / (second.teeth - first.teeth)
+    return first.centre + apart * first.teeth / (first.teeth + second.teeth)
+
+
+def offset(wheel: Wheel, angle: float, point: Vector, tangent: Vector) -> float:
+    """The tooth nearest to the pitch point, in pitches along the tangent."""
+    k = wheel.axis / np.linalg.norm(wheel.axis)
+    foot = wheel.centre + k * ((point - wheel.centre) @ k)
+    arm = point - foot
+    mark = wheel.mark - k * (wheel.mark @ k)
+    mark = mark / np.linalg.norm(mark) * np.linalg.norm(arm)
+    teeth = foot + turned(mark, wheel.axis, angle + 2 * np.pi * np.arange(wheel.teeth) / wheel.teeth)
+    nearest = teeth[np.argmin(np.linalg.norm(teeth - point, axis=1))]
+    chord = float(np.linalg.norm(nearest - point))
+    arc = 2 * np.arcsin(min(1.0, chord / 2 / float(np.linalg.norm(arm))))
+    ahead = np.sign((nearest - point) @ tangent) or 1.0
+    return float(ahead * arc * wheel.teeth / (2 * np.pi))
+
+
+def misfit(wheels: Mapping[str, Wheel], pair: tuple[str, str], angles: Mapping[str, float]) -> float:
+    """How far a mesh is from a tooth in the middle of a gap (pitches, -1/2 to 1/2)."""
+    first, second = wheels[pair[0]], wheels[pair[1]]
+    point = pitch_point(first, second)
+    k = first.axis / np.linalg.norm(first.axis)
+    tangent = np.cross(k, point - first.centre)
+    tangent = tangent / np.linalg.norm(tangent)
+    apart = offset(first, angles[first.link], point, tangent) - offset(second, angles[second.link], point, tangent)
+    return apart % 1.0 - 0.5
+
+
+def misfits(wheels: Mapping[str, Wheel], pairs: Pairs, angles: Mapping[str, float]) -> list[float]:
+    """All meshes at given angles of links (rad)."""
+    return [misfit(wheels, pair, angles) for pair in pairs]
+
+
+def put_together(wheels: Mapping[str, Wheel], pairs: Pairs, most: int = 20_000) -> Iterator[dict[str, float]]:
+    """Angles of links, each put in so that one tooth fits the wheel it hangs on, in every way to engage them.
+
+    Only links with several wheels need to be tried in more than one engagement.
+    """
+    order: list[tuple[str, str, tuple[str, str]]] = []
+    seen: dict[str, None] = {}
+    mates: dict[str, list[tuple[str, str]]] = {}
+    for pair in pairs:
+        for wheel in pair:
+            mates.setdefault(wheels[wheel].link, []).append(pair)
+    for root in mates:
+        if root in seen:
+            continue
+        seen[root] = None
+        queue = deque([root])
+        while queue:
+            here = queue.popleft()
+            for pair in mates[here]:
+                own, other = pair if wheels[pair[0]].link == here else pair[::-1]
+                if wheels[other].link not in seen:
+                    seen[wheels[other].link] = None
+                    queue.append(wheels[other].link)
+                    order.append((own, other, pair))
+    used: dict[str, set[str]] = {}
+    for pair in pairs:
+        for wheel in pair:
+            used.setdefault(wheels[wheel].link, set()).add(wheel)
+    ways = [range(wheels[new].teeth if len(used[wheels[new].link]) > 1 else 1) for _, new, _ in order]
+    assert np.prod([float(len(way)) for way in ways]) <= most, "too many ways to try"
+    for choice in product(*ways):
+        angles = dict.fromkeys(seen, 0.0)
+        for (_, new, pair), tooth in zip(order, choice, strict=True):
+            wheel = wheels[new]
+            angles[wheel.link] = 2 * np.pi * tooth / wheel.teeth
+            off = misfits(wheels, [pair], angles)[0]
+            # turn it by what it is off: one of both senses is right
+            step = 2 * np.pi / wheel.teeth * off
+            tries = [angles[wheel.link] + step, angles[wheel.link] - step]
+            angles[wheel.link] = min(tries, key=lambda a: abs(misfits(wheels, [pair], {**angles, wheel.link: a})[0]))
+        yield angles
+
+
+def best(wheels: Mapping[str, Wheel], pairs: Pairs) -> float:
+    """The largest misfit of the best way to put the set together (pitches)."""
+    return min(max(map(abs, misfits(wheels, pairs, angles))) for angles in put_together(wheels, pairs))

@@ -225,19 +225,22 @@ def _phase_steps(
     axes: Floats, meshes: Meshes, z: Floats, corners: Corners, target: Floats, steps: list[Step]
 ) -> Iterator[tuple[float, Floats]]:
     previous = np.inf
+    sums, J = loop_sums(axes, corners, z)
+    residual = float(np.abs(sums - target).max(initial=0.0))
+    yield residual, axes
     for _ in range(_MOST_STEPS):
         start = perf_counter()
-        sums, J = loop_sums(axes, corners, z)
         logs, A = pitch_rows(axes, meshes, z)
-        residual = float(np.abs(sums - target).max(initial=0.0))
-        yield residual, axes
         step = phase_step(J, sums - target, A, logs - logs.mean(), _PHASE_DAMPING)
         longest = float(np.abs(step).max())
         step *= min(1.0, _LONGEST / max(longest, 1e-300))
         axes = moved(axes, step.reshape(-1, 2))
+        sums, J = loop_sums(axes, corners, z)
+        residual = float(np.abs(sums - target).max(initial=0.0))
         steps.append(Step(perf_counter() - start, residual))
+        yield residual, axes
         if longest < 1e-12 or (longest < 1e-7 and longest > previous / 2 and residual < 1e-12):
-            break
+            return
         previous = longest
 
 

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from geartrain.closure import Closure
     from geartrain.graph import Graph
     from geartrain.gridlock import Gridlock
-    from geartrain.meshes import Driver, Mesh, PinJoint
+    from geartrain.meshes import Mesh, PinJoint
     from geartrain.motion import Impact, Motion, Moving
     from geartrain.speeds import FloatSpeeds
     from geartrain.torques import Setting, Torques
@@ -189,30 +189,15 @@ class GearTrain:
         return {} if moving.contradictions() else find_impacts(Motion(moving, {}), inertias, declared.rate.si)
 
     def _moving(self, case: Case, without: Sequence[str]) -> Moving:
-        from geartrain.motion import Moving
+        from geartrain.motion import find_moving
 
-        answer = self.solve(case.state, method="exact")
+        declared, answer = self.declaration, self.solve(case.state, method="exact")
         if not answer.verdict or not any(case.inputs.values()):
             raise QuestionError(Problem(f"'{self.name}' does not move", answer.verdict.text, "drive it from an input"))
+        speeds = {link: Fraction(speed) for link, speed in answer.speeds.items()}
+        loaded = self.torques(case.state) if declared.is_loaded(case.state) else None
         circuits = self._circuits_without(without)
-        components = self._part(circuits, tuple(self.declaration.links)).reduced.components
-        redundant = {components.circuits[chord].id for chord in components.closing}
-        system = self._assembled(circuits, case)
-        drivers = self._drivers(case)
-        declared = self.declaration
-        return Moving(
-            System(system.links, tuple(row for row in system.equations if row.label not in redundant)),
-            circuits,
-            self.signs,
-            {link: Fraction(speed) for link, speed in answer.speeds.items()},
-            next(link for link, speed in case.inputs.items() if speed),
-            [mesh.driven_by(drivers[mesh.name]) for mesh in self.meshes if mesh.name not in without],
-            [joint for joint in self.pins if joint.coupling.name not in without],
-            drivers,
-            {name: link.angle.si for name, link in declared.links.items() if link.angle is not None},
-            {gear.name: float(gear.phase.value) for gear in declared.gears if gear.phase is not None},
-            [components.loop(chord) for chord in components.closing] if self.meshes or self.pins else [],
-        )
+        return find_moving(declared, case, circuits, self.signs, speeds, self.meshes, self.pins, loaded)
 
     def _circuits_without(self, names: Sequence[str]) -> tuple[Circuit, ...]:
         known = [circuit.id for circuit in self.circuits]
@@ -221,18 +206,6 @@ class GearTrain:
                 what = Problem(f"'{self.name}' has no pair '{name}'", "it is not declared", suggest(name, known))
                 raise QuestionError(what)
         return tuple(circuit for circuit in self.circuits if circuit.id not in names)
-
-    def _drivers(self, case: Case) -> dict[str, Driver]:
-        """Who drives each gear pair: declared, or as power flows under the loads, or by the way from the input."""
-        from geartrain.meshes import Driver, find_drivers
-
-        drivers = find_drivers(self.declaration)
-        if self.declaration.is_loaded(case.state) and (found := self.torques(case.state)).verdict:
-            why = "power flows so under the loads"
-            declared = {gear.name for gear in self.declaration.gears if gear.driver is not None}
-            flows = {name: pair.driver for name, pair in found.pairs.items() if name in drivers and pair.driver}
-            drivers |= {name: Driver(wheel, why) for name, wheel in flows.items() if name not in declared}
-        return drivers
 
     def _setting(self, state: str | None) -> Setting | None:
         """What torques need to know of one state, solved once; None where its speeds are not determined."""
@@ -251,10 +224,8 @@ class GearTrain:
 
     def equations(self, state: str | None = None) -> System:
         """The labelled Willis system of one state."""
-        return self._assembled(self.circuits, self._case(state))
-
-    def _assembled(self, circuits: Sequence[Circuit], case: Case) -> System:
-        return assemble(tuple(self.declaration.links), self.declaration.frame, circuits, case, self.signs)
+        case = self._case(state)
+        return assemble(tuple(self.declaration.links), self.declaration.frame, self.circuits, case, self.signs)
 
     def solve(self, state: str | None = None, output: str | None = None, method: Method = "auto") -> Answer:
         """Speeds and judged outputs in one state.

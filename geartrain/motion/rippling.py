@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
 from math import gcd, lcm, pi
@@ -12,9 +12,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from geartrain.circuits import Circuit
-from geartrain.errors import GearTrainError, Loop, Problem
+from geartrain.errors import GearTrainError, Problem
 from geartrain.exact import log10
 from geartrain.motion.composition import Composition, Passage, Source
+from geartrain.motion.moving import Moving
 from geartrain.motion.spreading import Joint, find_spread
 from geartrain.motion.tally import Tally
 
@@ -22,53 +23,13 @@ if TYPE_CHECKING:
     from numpy.random import Generator
     from numpy.typing import NDArray
 
-    from geartrain.meshes import Driver, Mesh, PinJoint
     from geartrain.motion.spreading import Spread
-    from geartrain.system import System
     from geartrain.teeth.base import Law
 
     Floats = NDArray[np.float64]
 
 _FASTEST = 2**90  # periods a turn: a position is a float, and its product with the ratio is kept to 106 bits
 _HALVINGS = 54  # of four pitches: the driver's start is found from its driven wheel's to rounding
-
-
-@dataclass(frozen=True)
-class Moving:
-    """What motion needs to know of a train in one case.
-
-    system    the labelled rows without redundant circuits
-    speeds    exact mean speeds; `lead` is the input whose angle is given
-    drivers   who drives each gear pair, and how that is known
-    angles    starting angles of links (rad); `phases`, of pairs, in pitches of their first wheel
-    loops     loops that are redundant: real teeth in them contradict the rest
-    """
-
-    system: System
-    circuits: Sequence[Circuit]
-    signs: Mapping[str, int]
-    speeds: Mapping[str, Fraction]
-    lead: str
-    teeth: Sequence[Mesh]
-    pins: Sequence[PinJoint]
-    drivers: Mapping[str, Driver]
-    angles: Mapping[str, float] = field(default_factory=dict)
-    phases: Mapping[str, float] = field(default_factory=dict)
-    loops: Sequence[Loop] = ()
-
-    def ratio(self, link: str) -> Fraction:
-        """Mean speed of a link over the lead's, exactly."""
-        return self.speeds[link] / self.speeds[self.lead]
-
-    def relative(self, link: str, carrier: str) -> Fraction:
-        """Mean speed of a link seen from its carrier, over the lead's, both about the direction of their parallels."""
-        return self.signs.get(link, 1) * self.ratio(link) - self.signs.get(carrier, 1) * self.ratio(carrier)
-
-    def contradictions(self) -> list[tuple[Loop, list[str]]]:
-        """Redundant loops in which something ripples, with what does."""
-        rippling = {mesh.name for mesh in self.teeth} | {joint.coupling.name for joint in self.pins}
-        found = ((loop, [pair for pair in loop.pairs if pair in rippling]) for loop in self.loops)
-        return [(loop, real) for loop, real in found if real]
 
 
 @dataclass(frozen=True)

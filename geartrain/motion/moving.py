@@ -1,0 +1,102 @@
+"""What motion needs to know of a train in one case, gathered: rows, mean speeds, laws, who drives, loops."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from fractions import Fraction
+from typing import TYPE_CHECKING
+
+from geartrain.circuits import Circuit
+from geartrain.components import Part
+from geartrain.errors import Loop
+from geartrain.meshes import Driver, find_drivers
+from geartrain.system import System, assemble
+
+if TYPE_CHECKING:
+    from geartrain.meshes import Mesh, PinJoint
+    from geartrain.torques import Torques
+    from geartrain.train import Case, Train
+
+
+@dataclass(frozen=True)
+class Moving:
+    """What motion needs to know of a train in one case.
+
+    system    the labelled rows without redundant circuits
+    speeds    exact mean speeds; `lead` is the input whose angle is given
+    drivers   who drives each gear pair, and how that is known
+    angles    starting angles of links (rad); `phases`, of pairs, in pitches of their first wheel
+    loops     loops that are redundant: real teeth in them contradict the rest
+    """
+
+    system: System
+    circuits: Sequence[Circuit]
+    signs: Mapping[str, int]
+    speeds: Mapping[str, Fraction]
+    lead: str
+    teeth: Sequence[Mesh]
+    pins: Sequence[PinJoint]
+    drivers: Mapping[str, Driver]
+    angles: Mapping[str, float] = field(default_factory=dict)
+    phases: Mapping[str, float] = field(default_factory=dict)
+    loops: Sequence[Loop] = ()
+
+    def ratio(self, link: str) -> Fraction:
+        """Mean speed of a link over the lead's, exactly."""
+        return self.speeds[link] / self.speeds[self.lead]
+
+    def relative(self, link: str, carrier: str) -> Fraction:
+        """Mean speed of a link seen from its carrier, over the lead's, both about the direction of their parallels."""
+        return self.signs.get(link, 1) * self.ratio(link) - self.signs.get(carrier, 1) * self.ratio(carrier)
+
+    def contradictions(self) -> list[tuple[Loop, list[str]]]:
+        """Redundant loops in which something ripples, with what does."""
+        rippling = {mesh.name for mesh in self.teeth} | {joint.coupling.name for joint in self.pins}
+        found = ((loop, [pair for pair in loop.pairs if pair in rippling]) for loop in self.loops)
+        return [(loop, real) for loop, real in found if real]
+
+
+def find_moving(
+    train: Train,
+    case: Case,
+    circuits: Sequence[Circuit],
+    signs: Mapping[str, int],
+    speeds: Mapping[str, Fraction],
+    teeth: Sequence[Mesh],
+    pins: Sequence[PinJoint],
+    loaded: Torques | None,
+) -> Moving:
+    """A train in one case, moving along some circuits: those that are left out leave their teeth out too.
+
+    loaded   torques of the case, if it has loads: power then decides who drives
+    """
+    parts = Part(tuple(train.links), train.frame, circuits, tuple(case.inputs)).reduced.components
+    redundant = {parts.circuits[chord].id for chord in parts.closing}
+    whole = assemble(tuple(train.links), train.frame, circuits, case, signs)
+    kept = {circuit.id for circuit in circuits}
+    drivers = _drivers(train, loaded)
+    return Moving(
+        System(whole.links, tuple(row for row in whole.equations if row.label not in redundant)),
+        circuits,
+        signs,
+        speeds,
+        next(link for link, speed in case.inputs.items() if speed),
+        [mesh.driven_by(drivers[mesh.name]) for mesh in teeth if mesh.name in kept],
+        [joint for joint in pins if joint.coupling.name in kept],
+        drivers,
+        {name: link.angle.si for name, link in train.links.items() if link.angle is not None},
+        {gear.name: float(gear.phase.value) for gear in train.gears if gear.phase is not None},
+        [parts.loop(chord) for chord in parts.closing] if teeth or pins else [],
+    )
+
+
+def _drivers(train: Train, loaded: Torques | None) -> dict[str, Driver]:
+    """Who drives each gear pair: declared, or as power flows under the loads, or by the way from the input."""
+    drivers = find_drivers(train)
+    if loaded is not None and loaded.verdict:
+        declared = {gear.name for gear in train.gears if gear.driver is not None}
+        flows = {name: pair.driver for name, pair in loaded.pairs.items() if name in drivers and pair.driver}
+        why = "power flows so under the loads"
+        drivers |= {name: Driver(wheel, why) for name, wheel in flows.items() if name not in declared}
+    return drivers

@@ -11,7 +11,9 @@ from scipy.optimize import brentq
 
 from geartrain import GearTrain, load
 from geartrain.bench import MotionRecord, MotionRecords, count_motion_steps, motion
-from geartrain.bench.motion import _Case, _Effort, _Marching, _Truth, chain_of_pairs
+from geartrain.bench.marching import Marching
+from geartrain.bench.motion import _Case, _Effort, chain_of_pairs
+from geartrain.bench.truth import Truth
 
 MOON, PRICE = "moon-triangular", "price-1974, triangular teeth"
 
@@ -135,16 +137,16 @@ def test_the_digits_agree_with_an_equation_solved_for_its_one_unknown() -> None:
     crank = brentq(residue, abs(ratio) * given - 0.2, abs(ratio) * given + 0.2, xtol=1e-14)
     found = np.sign(ratio) * crank - ratio * given
     assert float(whole.at(np.array([turns])).error[0, 0]) == pytest.approx(found, abs=1e-12)
-    assert _Truth(whole).off(turns, np.array([found]))[0] == pytest.approx(0, abs=1e-12)
+    assert Truth(whole).off(turns, np.array([found]))[0] == pytest.approx(0, abs=1e-12)
     # an error that is there is told
-    assert _Truth(whole).off(turns, np.array([found + 1e-6]))[0] == pytest.approx(1e-6, rel=1e-5)
+    assert Truth(whole).off(turns, np.array([found + 1e-6]))[0] == pytest.approx(1e-6, rel=1e-5)
 
 
 def test_marching_follows_pins_without_a_corner_to_many_digits() -> None:
     train = load("freeth-2021")
     outputs = ["mars", "moon", "venus"]
     turns = np.linspace(0, 0.1, 21)
-    error = _Marching(train, outputs).follow(turns, 10)
+    error = Marching(train, outputs).follow(turns, 10)
     assert np.abs(error - train.motion(outputs=outputs).at(turns).error).max() < 1e-7
 
 

@@ -363,13 +363,13 @@ def reference(sizes: Sizes, S: Floats) -> tuple[Floats, Floats]:
     Contact of one couple from the two lines of flanks, every couple in reach asked, 40 digits if mpmath is installed,
     else the longest floats there are. Teeth past their reach hold the driven wheel where they left it.
     """
-    real: Any = _Multiple() if find_spec("mpmath") else _Long()
-    exact = _Exact(sizes, real)
+    real: Any = Multiple() if find_spec("mpmath") else Long()
+    exact = Exact(sizes, real)
     answers = [exact.at(float(each)) for each in S]
     return np.array([error for error, _ in answers]), np.array([speed for _, speed in answers])
 
 
-class _Multiple:
+class Multiple:
     """40-digit arithmetic."""
 
     def __init__(self) -> None:
@@ -380,7 +380,7 @@ class _Multiple:
         self.atan2, self.sqrt = context.atan2, context.sqrt
 
 
-class _Long:
+class Long:
     """The longest floats of the machine: 64 bits of mantissa on most."""
 
     def __init__(self) -> None:
@@ -390,7 +390,7 @@ class _Long:
         self.atan2, self.sqrt = np.arctan2, np.sqrt
 
 
-class _Exact:
+class Exact:
     """The definition of the law, in whatever numbers `real` has, written as in a textbook: many digits may cancel."""
 
     def __init__(self, sizes: Sizes, real: Any) -> None:

@@ -11,13 +11,9 @@ import math
 import random
 import time
 import tracemalloc
-from bisect import bisect_right
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import asdict, dataclass, field
-from fractions import Fraction
 from functools import cached_property, partial
-from importlib.util import find_spec
-from itertools import accumulate
 from statistics import median
 from typing import Any, NamedTuple
 
@@ -25,16 +21,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from geartrain.analysis import GearTrain
-from geartrain.bench.mesh import _Exact, _Long, _Multiple
+from geartrain.bench.marching import Marching
 from geartrain.bench.record import Record, Records
-from geartrain.exact import Row, eliminate
+from geartrain.bench.truth import Truth
 from geartrain.files import load
-from geartrain.motion import Motion, Source, Superposition, Tally
-from geartrain.pins.laws import SlotLaw
-from geartrain.teeth.base import Law
+from geartrain.motion import Motion, Superposition, Tally
 from geartrain.teeth.triangular import law as _laws
 from geartrain.teeth.triangular import meshing as _meshing
-from geartrain.teeth.triangular.law import TriangularLaw
 
 Floats = NDArray[np.float64]
 Ask = Callable[[Floats], Floats]
@@ -55,7 +48,6 @@ _PAIRS = (10, 100, 1_000, 10_000)
 _FEW_PAIRS = (10, 30)
 _GROWN = 4_000  # positions of the chains
 _QUICKEST = 20_000  # most positions of a quick run
-_SETTLED = 1e-25  # rad: far below what a float resolves, far above what 40 digits do
 
 
 @dataclass(frozen=True, slots=True)
@@ -408,7 +400,7 @@ class _Case:
         last = self.effort.positions - 1
         at = np.random.default_rng(3).integers(0, last + 1, self.effort.sample)
         turns = np.append(self.turns * (at / last), [turn for _, turn in self.doubted.values()])
-        truth, found = _Truth(self.direct), self.direct.ahead.at(turns).error
+        truth, found = Truth(self.direct), self.direct.ahead.at(turns).error
         self.off[DIRECT] = _Off.none(len(self.outputs))
         self.off[DIRECT].add(np.array([truth.off(float(each), found[:, n]) for n, each in enumerate(turns)]).T)
 
@@ -422,7 +414,7 @@ class _Case:
 
     def _march(self, method: str, steps: int) -> None:
         """March to the first positions, and compare there; the time is extrapolated to all."""
-        marching = _Marching(self.train, self.outputs)
+        marching = Marching(self.train, self.outputs)
         turns = np.concatenate(list(self.stretches(self.effort.marched)))
         start = time.perf_counter()
         error = marching.follow(turns, steps)
@@ -591,225 +583,3 @@ def _grow(pairs: int) -> GrowthRecord:
     marks.append(time.perf_counter())
     took = dict(zip(_TIMES, np.diff(marks).tolist(), strict=True))
     return GrowthRecord(pairs, _GROWN, built.ahead.chunk, **took)
-
-
-# -------------------------------------------------------------------------------------------------------- alternative
-
-
-class _Marching:
-    """All links advanced in time, as a general multibody program does: no solved order, no law in closed form.
-
-    At each stage every pair says its instantaneous ratio at the angles reached so far, and one linear system gives all
-    speeds. The ratios come for free from the laws' own formulas, and so do the angles of the start.
-    """
-
-    def __init__(self, train: GearTrain, outputs: Sequence[str]) -> None:
-        motion, whole = train.motion(outputs=outputs), train.motion(outputs=list(train.declaration.links))
-        moving = self.moving = motion.train
-        names = moving.system.links
-        at = {link: number for number, link in enumerate(names)}
-        lead = float(moving.speeds[moving.lead])
-        self.matrix = np.zeros((len(names), len(names)))
-        self.right = np.array([float(row.right) / lead for row in moving.system.equations])
-        row_of = {}
-        for number, row in enumerate(moving.system.equations):
-            row_of[row.label] = number
-            for link, coefficient in row.terms:
-                self.matrix[number, at[link]] = float(coefficient)
-        self.pairs = [self._pair(motion, source, row_of[source.id]) for source in motion.ahead.sources]
-        self.ends = [(at[of], at[base]) for of, base in motion.outputs.values()]
-        self.means = np.array([tally.mean for tally in motion.tallies()])
-        start = whole.at(np.zeros(1)).error[:, 0]
-        self.start = np.zeros(len(names))
-        self.start[[at[link] for link in train.declaration.links]] = start
-
-    @staticmethod
-    def _pair(motion: Motion, source: Source, row: int) -> _Marched:
-        joint = motion.spread.joints[source.pair]
-        own, carried = source.forward * source.driver_sense, source.forward * source.carrier_sense
-        ratio, scale = float(source.law.ratio), joint.coefficient * source.sense
-        return _Marched(
-            _speed_of(source.law), ratio, source.start, joint.driver, joint.carrier, own, carried, row, scale
-        )
-
-    def speeds(self, angle: Floats) -> Floats:
-        """Speeds of all links over the input's, at angles (rad) of all links."""
-        matrix = self.matrix.copy()
-        for pair in self.pairs:
-            S = pair.own * angle[pair.driver] - pair.carried * angle[pair.carrier] + pair.start
-            ahead = pair.scale * (pair.speed(float(S)) - pair.ratio)
-            matrix[pair.row, pair.driver] -= ahead * pair.own
-            matrix[pair.row, pair.carrier] += ahead * pair.carried
-        return np.linalg.solve(matrix, self.right)
-
-    def follow(self, turns: Floats, steps: int) -> Floats:
-        """Errors (rad) of the outputs at equidistant turns from 0, with so many steps to each; 0 leaves it to RK45."""
-        time = 2 * np.pi * turns
-        angles = self._adaptive(time) if steps == 0 else self._fixed(time, steps)
-        found = [angles[:, of] - angles[:, base] for of, base in self.ends]
-        return np.array(found) - self.means[:, None] * time
-
-    def _fixed(self, time: Floats, steps: int) -> Floats:
-        """The classical method of Runge and Kutta."""
-        angle, found = self.start, [self.start]
-        h = (time[1] - time[0]) / steps
-        for _ in range(len(time) - 1):
-            for _ in range(steps):
-                a = self.speeds(angle)
-                b = self.speeds(angle + h / 2 * a)
-                c = self.speeds(angle + h / 2 * b)
-                d = self.speeds(angle + h * c)
-                angle = angle + h / 6 * (a + 2 * b + 2 * c + d)
-            found.append(angle)
-        return np.array(found)
-
-    def _adaptive(self, time: Floats) -> Floats:
-        from scipy.integrate import solve_ivp
-
-        ends = (float(time[0]), float(time[-1]))
-        solved = solve_ivp(lambda _, angle: self.speeds(angle), ends, self.start, t_eval=time, rtol=1e-9, atol=1e-12)
-        return np.asarray(solved.y.T)
-
-
-class _Marched(NamedTuple):
-    """A pair as marching sees it: where its driver and carrier stand among the links, its row, and its ratio."""
-
-    speed: Callable[[float], float]
-    ratio: float
-    start: float
-    driver: int
-    carrier: int
-    own: int
-    carried: int
-    row: int
-    scale: int
-
-
-def _speed_of(law: Law) -> Callable[[float], float]:
-    """dq/dS at one angle, in plain floats: arrays of one element would cost ten times as much."""
-    if isinstance(law, TriangularLaw):
-        return _Path(law).speed
-    return lambda S: float(law.speed(S))
-
-
-class _Path:
-    """Triangular teeth in plain floats: which stretch of the path an angle falls in, and its formula."""
-
-    def __init__(self, law: TriangularLaw) -> None:
-        self.intervals, self.period, self.couple = law.intervals, law.period, law.contact.path.couple
-        self.edges = [0.0, *accumulate(interval.width for interval in law.intervals)]
-        first = law.intervals[0]
-        self.first = first.start - first.couple * law.period
-
-    def speed(self, S: float) -> float:
-        """dq/dS at S (rad)."""
-        gone = (S + self.first) % self.period
-        at = min(bisect_right(self.edges, gone), len(self.intervals)) - 1
-        interval = self.intervals[at]
-        if interval.held is not None:
-            return 0.0
-        return float(self.couple.speed(interval.phase, interval.start - (gone - self.edges[at]), math))
-
-
-# ---------------------------------------------------------------------------------------------------------- reference
-
-
-class _Truth:
-    """Errors of the outputs in 40 digits (the longest floats without mpmath).
-
-    Teeth answer from the contact of one couple, as in the benchmark of meshes, pins from their triangle. How errors
-    spread is solved exactly from all rows of the train at once. Each pair is asked at the angle that the errors of all
-    pairs give its driver, again and again until nothing changes.
-    """
-
-    def __init__(self, motion: Motion) -> None:
-        self.real: Any = _Multiple() if find_spec("mpmath") else _Long()
-        self.settled = _SETTLED if find_spec("mpmath") else 1e-18
-        self.motion, self.sources = motion, motion.ahead.used
-        self.laws = [self._law(source.law) for source in self.sources]
-        errors = self._spread()
-        self.gains = [self._gain(source, errors) for source in self.sources]
-        ends = motion.ahead.outputs
-        self.responses = [self._terms({of: 1, base: -1}, errors) for of, base in ends]
-
-    def _law(self, law: Law) -> Callable[[Any], Any]:
-        if isinstance(law, TriangularLaw) and law.direction > 0:
-            return _Teeth(law.sizes, self.real).error
-        assert isinstance(law, SlotLaw)
-        return partial(_slot_error, self.real, self.real.number(law.r), self.real.number(law.e))
-
-    def _spread(self) -> dict[int, Row]:
-        """Every link's error as a sum over the errors of the sources, by -1 less their number, exactly."""
-        system, spread = self.motion.train.system, self.motion.spread
-        at = {link: number for number, link in enumerate(system.links)}
-        own = {source.id: number for number, source in enumerate(self.sources)}
-        forms: list[Row] = []
-        for row in system.equations:
-            form = {at[link]: Fraction(coefficient) for link, coefficient in row.terms}
-            if row.label in own:
-                joint = spread.joints[self.sources[own[row.label]].pair]
-                form[-1 - own[row.label]] = Fraction(-joint.coefficient)
-            forms.append(form)
-        return dict(eliminate(forms).forms())
-
-    def _terms(self, links: dict[int, int], errors: dict[int, Row]) -> list[tuple[int, Any]]:
-        """A signed sum of links' errors, as sources with their factors."""
-        total: dict[int, Fraction] = {}
-        for link, sign in links.items():
-            for symbol, factor in errors[link].items():
-                total[-1 - symbol] = total.get(-1 - symbol, Fraction(0)) + sign * factor
-        number = self.real.number
-        return [(at, number(each.numerator) / number(each.denominator)) for at, each in total.items() if each]
-
-    def _gain(self, source: Source, errors: dict[int, Row]) -> list[tuple[int, Any]]:
-        joint = self.motion.spread.joints[source.pair]
-        links = {joint.driver: source.forward * source.driver_sense}
-        links[joint.carrier] = links.get(joint.carrier, 0) - source.forward * source.carrier_sense
-        return self._terms(links, errors)
-
-    def off(self, turns: float, found: Floats) -> list[float]:
-        """What errors found at some turns of the input differ by (rad), by output."""
-        deltas = self._deltas(Fraction(turns))
-        truth = [sum((factor * deltas[at] for at, factor in row), self.real.number(0)) for row in self.responses]
-        return [float(self.real.number(float(each)) - true) for each, true in zip(found, truth, strict=True)]
-
-    def _deltas(self, turns: Fraction) -> list[Any]:
-        """Errors of all pairs, in the order of the train: where none hangs on itself one pass is enough."""
-        number = self.real.number
-        stands = [self._stands(source, turns) for source in self.sources]
-        deltas = [number(0)] * len(stands)
-        last: list[Any] = [None] * len(stands)
-        changed = True
-        while changed:
-            changed = False
-            for at, source in enumerate(self.sources):
-                S = stands[at] + sum((factor * deltas[other] for other, factor in self.gains[at]), number(0))
-                if last[at] is not None and abs(S - last[at]) < self.settled:
-                    continue
-                deltas[at], last[at], changed = source.sense * self.laws[at](S), S, True
-        return deltas
-
-    def _stands(self, source: Source, turns: Fraction) -> Any:
-        """The driver's forward angle (rad, whole turns left out) in mean motion."""
-        joint, train = self.motion.spread.joints[source.pair], self.motion.train
-        links = train.system.links
-        part = abs(train.relative(links[joint.driver], links[joint.carrier])) * turns % 1
-        number = self.real.number
-        return 2 * self.real.pi * number(part.numerator) / number(part.denominator) + number(source.start)
-
-
-class _Teeth(_Exact):
-    """The definition of the law of triangular teeth at angles of any length, kept in its own numbers."""
-
-    def error(self, S: Any) -> Any:
-        """Transmission error (rad) at driver angle S (rad)."""
-        t = -(S % self.p1)
-        y, _ = min(self._couple(t, k) for k in self._candidates(float(-t)))
-        return -y + t * self.sizes.z1 / self.sizes.z2
-
-
-def _slot_error(real: Any, r: Any, e: Any, S: Any) -> Any:
-    """Angle of the slot less its mean motion (rad): the direction from its axis to the pin."""
-    if r > e:
-        return real.atan2(e * real.sin(S), r - e * real.cos(S))
-    return -real.atan2(r * real.sin(S), e - r * real.cos(S))

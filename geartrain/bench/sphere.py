@@ -21,7 +21,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from geartrain.bench.mesh import _Long, _Multiple
+from geartrain.bench.mesh import Long, Multiple
 from geartrain.closure.accuracy import Measured, measure
 from geartrain.closure.problem import judge
 from geartrain.spherical import GraphSet, from_graph, from_polyhedron, size
@@ -462,7 +462,7 @@ def _thinned(trace: list[tuple[int, float]]) -> list[tuple[int, float]]:
 
 def judged(packing: Packing) -> float:
     """Largest error of a tangency or right angle (rad): floats taken as they are, angles between them in 40 digits."""
-    real: Any = _Multiple() if find_spec("mpmath") else _Long()
+    real: Any = Multiple() if find_spec("mpmath") else Long()
     return max(float(abs(each)) for each in _misses(packing, real))
 
 

@@ -101,8 +101,9 @@ class GearTrain:
 
     @cached_property
     def is_placed(self) -> bool:
-        """True if it can be asked whether teeth meet: some axis has a position, and pairs close loops."""
-        placed = any(axis.position is not None for axis in self.declaration.axes.values())
+        """True if it can be asked whether teeth meet: axes have positions or directions, and pairs close loops."""
+        axes = self.declaration.axes.values()
+        placed = any(axis.position is not None or "direction" in axis.model_fields_set for axis in axes)
         return placed and bool(self.mobility.redundant or self.mobility.locked)
 
     @cached_property

@@ -586,3 +586,24 @@ def test_newton_is_kept_from_leaping_over_corners_and_refuses_a_dead_centre() ->
     # the driven side drives its own driver faster than it is driven: past a dead centre
     with pytest.raises(GearTrainError, match="dead centre"):
         settle(Coupled(("m",), one.laws, np.array([1.0]), np.array([[4.0]])), base, [1.0])
+
+
+def test_extremes_are_found_between_the_positions() -> None:
+    """Twenty turns in 20,000 positions miss the peaks of the teeth by half a percent; looked at closer, they do not."""
+    motion = load("moon-triangular").motion(outputs=["moon"])
+    run = Run(motion, 20.0, 200_001)
+    run.go()
+    (tally,) = run.tallies
+    assert degrees(tally.peak_to_peak) == pytest.approx(5.968, abs=5e-4)
+    least, most = tally.speeds
+    assert (least, most) == (pytest.approx(0.634, abs=5e-4), pytest.approx(1.763, abs=5e-4))
+    fine = motion.at(np.linspace(0, 20, 4_000_001)).error[0]
+    assert tally.least <= fine.min() + 1e-9
+    assert tally.most >= fine.max() - 1e-6
+    assert tally.most <= fine.max() + 2e-5
+    # nothing beyond the ends of the run is counted
+    short = Run(motion, 0.05, 51)
+    short.go()
+    inside = motion.at(np.linspace(0, 0.05, 200_001)).error[0]
+    assert short.tallies[0].most <= inside.max() + 1e-9
+    assert short.tallies[0].least >= inside.min() - 1e-9

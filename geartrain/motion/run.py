@@ -11,6 +11,7 @@ import numpy as np
 
 from geartrain.errors import GearTrainError, Problem
 from geartrain.motion.estimates import Estimates, find_estimates
+from geartrain.motion.peaks import Peaks
 from geartrain.motion.spectrum import Line, find_spectrum
 
 if TYPE_CHECKING:
@@ -49,11 +50,14 @@ class Run:
     def go(self, on_done: OnDone = _nobody) -> None:
         """Count every position; `on_done` is told of each stretch."""
         self.tallies = self.motion.tallies()
+        peaks = Peaks(len(self.tallies), self.turns / (self.samples - 1))
         for passage in self.motion.passages(self.turns, self.samples):
             for at, tally in enumerate(self.tallies):
                 tally.add(passage.error[at], passage.rate[at])
+            peaks.add(passage)
             self.done += len(passage.turns)
             on_done(len(passage.turns))
+        peaks.sharpen(self.motion.ahead if self.turns >= 0 else self.motion.back, self.turns, self.tallies)
 
     def try_phases(self, count: int, seed: int, on_done: OnDone = _nobody) -> None:
         """The same run with `count` sets of random phases."""

@@ -42,6 +42,10 @@ class Tally:
         self.square += float(((error - centre) ** 2).sum()) + gap**2 * self.count * new / total
         self.centre += gap * new / total
         self.count = total
+        self.reach(error, rate)
+
+    def reach(self, error: Floats, rate: Floats) -> None:
+        """Let extremes count, and nothing else."""
         self.least, self.most = min(self.least, float(error.min())), max(self.most, float(error.max()))
         self.slow, self.fast = min(self.slow, float(rate.min())), max(self.fast, float(rate.max()))
 

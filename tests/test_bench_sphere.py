@@ -13,17 +13,10 @@ import pytest
 from commands import call
 
 from geartrain.bench import ClosureRecord, PackRecord, SphereRecords, count_sphere_steps, growth, sphere
-from geartrain.bench.sphere import (
-    TARGET,
-    FixedPoint,
-    draw_teeth,
-    hull,
-    judged,
-    overlaps,
-    trapezohedron,
-    true_residue,
-    zonohedron,
-)
+from geartrain.bench.circles import FixedPoint, judged, overlaps
+from geartrain.bench.closing import draw_teeth, true_residue
+from geartrain.bench.maps import hull, trapezohedron, zonohedron
+from geartrain.bench.sphere_records import TARGET
 from geartrain.spherical.maps import propped, regions_of, sound
 from geartrain.spherical.packing import Packing, pack
 from geartrain.spherical.plane import Plane

@@ -7,15 +7,8 @@ from geartrain.bench.kinematics import count_steps, kinematics
 from geartrain.bench.mesh import MeshRecord, MeshRecords, count_mesh_steps, mesh
 from geartrain.bench.motion import GrowthRecord, MotionRecord, MotionRecords, TrainRecord, count_motion_steps, motion
 from geartrain.bench.record import Record, Records
-from geartrain.bench.sphere import (
-    ClosureRecord,
-    FitRecord,
-    PackRecord,
-    SphereRecords,
-    count_sphere_steps,
-    growth,
-    sphere,
-)
+from geartrain.bench.sphere import count_sphere_steps, sphere
+from geartrain.bench.sphere_records import ClosureRecord, FitRecord, PackRecord, SphereRecords, growth
 
 __all__ = [
     "FAMILIES",

@@ -11,8 +11,9 @@ from scipy.optimize import brentq
 
 from geartrain import GearTrain, load
 from geartrain.bench import MotionRecord, MotionRecords, count_motion_steps, motion
+from geartrain.bench.chains import chain_of_pairs
 from geartrain.bench.marching import Marching
-from geartrain.bench.motion import _Case, _Effort, chain_of_pairs
+from geartrain.bench.methods import Case, Effort
 from geartrain.bench.truth import Truth
 
 MOON, PRICE = "moon-triangular", "price-1974, triangular teeth"
@@ -105,8 +106,8 @@ def test_records_survive_json_and_the_command_prints_a_table_for_each_train(
 
 
 def test_memory_is_that_of_a_stretch_of_positions() -> None:
-    effort = _Effort(200_000, rounds=1, marched=10, sample=1)
-    case = _Case(MOON, MOON, ("moon",), 95.0, effort)
+    effort = Effort(200_000, rounds=1, marched=10, sample=1)
+    case = Case(MOON, MOON, ("moon",), 95.0, effort)
     case._trace()
     short, chunk, many = case.peaks.values()
     assert many < 1.2 * case.memory["direct"]

@@ -1,0 +1,62 @@
+"""`geartrain mesh pin`: the law of a pin in a slot or in a follower."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from geartrain.cli.common import Json, Out, as_json, emit, show, suffix_of
+from geartrain.cli.mesh.options import friction as _friction
+from geartrain.cli.mesh.options import quantity as _quantity
+from geartrain.errors import GearTrainError, Problem
+
+if TYPE_CHECKING:
+    from geartrain.pins.laws import PinLaw
+
+
+def run(
+    pin_radius: Annotated[str, typer.Option("--pin-radius", help="Distance of the pin from its own axis.")],
+    offset: Annotated[str, typer.Option("--offset", help="Distance of the two axes.")],
+    friction: Annotated[str, typer.Option("--friction", help="Friction of the pin along the slot.")] = "0",
+    driver: Annotated[str, typer.Option("--driver", help="Which drives: pin or slot.")] = "pin",
+    json: Json = False,
+    out: Out = None,
+) -> None:
+    """Law of a pin in a slot or in a follower: mean ratio, amplitude, extreme speeds."""
+    from geartrain import report
+
+    law = _pin_law(pin_radius, offset, _friction(friction), driver)
+    suffix = suffix_of(out, (".md", ".html", ".json"))
+    if json or suffix == ".json":
+        emit(as_json(report.pin_data(law)), out)
+    else:
+        show([report.pin_document(law, driver)], out, suffix)
+
+
+def _pin_law(pin_radius: str, offset: str, friction: float, driver: str) -> PinLaw:
+    from geartrain.pins.laws import BackLaw, SlotLaw
+
+    if driver not in ("pin", "slot"):
+        raise typer.BadParameter(f"'{driver}' is neither pin nor slot", param_hint="--driver")
+    r = _quantity("--pin-radius", pin_radius, "length", plain=True)
+    e = _quantity("--offset", offset, "length", plain=True)
+    if r <= 0 or e < 0:
+        fix = "give a pin radius above 0 and an offset of 0 or more"
+        raise GearTrainError(Problem(f"{pin_radius} and {offset} are no distances", "", fix, "--pin-radius"))
+    if r == e:
+        what = f"a pin radius of {pin_radius} equals the offset: the pin would pass through the slot's axis"
+        why = "there the slot's direction is undetermined; the mean ratio is 1 above and 0 below"
+        raise GearTrainError(Problem(what, why, "make them differ", "--pin-radius"))
+    if driver == "pin":
+        return SlotLaw(r, e, friction)
+    if r < e:
+        what = f"a follower cannot drive a pin of radius {pin_radius} at an offset of {offset}"
+        why = "it swings, and stands at its dead points while the pin goes on"
+        raise GearTrainError(Problem(what, why, "let the pin drive", "--driver"))
+    law = BackLaw(r, e, friction)
+    if friction >= law.locking_friction:
+        what = f"a friction of {friction:g} locks the pin in its slot"
+        why = f"the pin locks from {law.locking_friction:.6g} on when the slot drives"
+        raise GearTrainError(Problem(what, why, "give less friction, or let the pin drive", "--friction"))
+    return law

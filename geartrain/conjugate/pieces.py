@@ -1,0 +1,140 @@
+"""Pieces of one side of a path of contact, each a law of the pressure angle over the distance d >= 0."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from math import asin, cos, sin
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from geartrain.conjugate.chebyshev import Series
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from geartrain.conjugate.pitch import Floats, Pitch
+
+
+class Piece(ABC):
+    """sin psi as a function of d from `start` to `end`. Arrays in, arrays out; d counts from the pitch point."""
+
+    start: float
+    end: float
+
+    @abstractmethod
+    def sin_psi(self, d: Floats) -> Floats:
+        """Sine of the pressure angle."""
+
+    @abstractmethod
+    def slope(self, d: Floats) -> Floats:
+        """d(sin psi)/dd, which is also d(psi)/dX."""
+
+    @abstractmethod
+    def travel(self, d: Floats) -> Floats:
+        """Pitch-line displacement X since `start`: the integral of 1/cos psi."""
+
+
+class Ray(Piece):
+    """A constant pressure angle: the involute."""
+
+    def __init__(self, psi: float, end: float, start: float = 0.0) -> None:
+        self.psi, self.start, self.end = psi, start, end
+
+    def sin_psi(self, d: Floats) -> Floats:
+        """sin psi everywhere."""
+        return np.full(np.shape(d), sin(self.psi))
+
+    def slope(self, d: Floats) -> Floats:
+        """0 everywhere."""
+        return np.zeros(np.shape(d))
+
+    def travel(self, d: Floats) -> Floats:
+        """(d - start) / cos psi."""
+        return (np.asarray(d) - self.start) / cos(self.psi)
+
+
+class Circle(Piece):
+    """A circle through the pitch point, centred on the line of centres: the cycloid of a spur pair.
+
+    d = 2 rho sin psi, X = 2 rho psi; `rho` the radius of the rolling circle (modules).
+    """
+
+    def __init__(self, rho: float, end: float) -> None:
+        self.rho, self.start, self.end = rho, 0.0, end
+
+    def sin_psi(self, d: Floats) -> Floats:
+        """d / 2 rho."""
+        return np.asarray(d) / (2 * self.rho)
+
+    def slope(self, d: Floats) -> Floats:
+        """1 / 2 rho."""
+        return np.full(np.shape(d), 1 / (2 * self.rho))
+
+    def travel(self, d: Floats) -> Floats:
+        """2 rho psi."""
+        return 2 * self.rho * np.arcsin(np.asarray(d) / (2 * self.rho))
+
+
+class Sampled(Piece):
+    """sin psi given as a function, its travel as a Chebyshev series of 1 / cos psi."""
+
+    def __init__(
+        self,
+        sin_psi: Callable[[Floats], Floats],
+        slope: Callable[[Floats], Floats],
+        start: float,
+        end: float,
+        nodes: int = 64,
+    ) -> None:
+        self._sin, self._slope, self.start, self.end = sin_psi, slope, start, end
+        self._travel = Series.of(lambda d: 1 / np.sqrt(1 - sin_psi(d) ** 2), start, end, nodes).integral()
+
+    def sin_psi(self, d: Floats) -> Floats:
+        """As given."""
+        return self._sin(d)
+
+    def slope(self, d: Floats) -> Floats:
+        """As given."""
+        return self._slope(d)
+
+    def travel(self, d: Floats) -> Floats:
+        """By the integrated series."""
+        return self._travel(d)
+
+
+class Steady(Sampled):
+    """A constant speed of contact along the dedendum: w - b S = u, so that sin psi = eta / S follows in closed form.
+
+    eta = S(start) sin psi(start) + u (d - start) + b (integral of S), b being the coefficient of the gear
+    whose dedendum it is.
+    """
+
+    def __init__(self, pitch: Pitch, b: float, u: float, start: float, sin_start: float, end: float) -> None:
+        first = float(pitch.S(start)) * sin_start
+        below = float(pitch.S_integral(start))
+
+        def sine(d: Floats) -> Floats:
+            return (first + u * (d - start) + b * (pitch.S_integral(d) - below)) / pitch.S(d)
+
+        def slope(d: Floats) -> Floats:
+            S = pitch.S(d)
+            found: Floats = (u + b * S - pitch.S_slope(d) * sine(d)) / S
+            return found
+
+        super().__init__(sine, slope, start, end)
+
+
+def ray_end(psi: float, X: float) -> float:
+    """Distance d at which a ray has travelled X."""
+    return X * cos(psi)
+
+
+def circle_end(rho: float, X: float) -> float:
+    """Distance d at which a cycloid's circle has travelled X."""
+    return 2 * rho * sin(X / (2 * rho))
+
+
+def circle_angle(rho: float, d: float) -> float:
+    """Pressure angle of a cycloid's circle at d."""
+    return asin(d / (2 * rho))

@@ -1,0 +1,128 @@
+"""Whether teeth with a path of contact can be made and can drive: undercut, pointed tips, contact ratio."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from math import cos, degrees, pi, sin
+from typing import TYPE_CHECKING, Literal
+
+import numpy as np
+
+from geartrain.conjugate.path import Path
+from geartrain.roots import root
+
+if TYPE_CHECKING:
+    from geartrain.conjugate.pitch import Floats
+
+Kind = Literal["undercut", "pointed", "contact ratio"]
+_SCAN = 257
+
+
+@dataclass(frozen=True, slots=True)
+class Fault:
+    """One reason why teeth cannot run.
+
+    gear    1 or 2; 0 for the pair
+    X       pitch-line displacement at which it begins; NaN for the pair
+    what, why, fix   in words
+    """
+
+    kind: Kind
+    gear: int
+    X: float
+    what: str
+    why: str
+    fix: str
+
+
+def faults(path: Path) -> tuple[Fault, ...]:
+    """All reasons why teeth with this path cannot run; empty if they can."""
+    return (*_undercuts(path), *_pointed(path), *_broken(path))
+
+
+def _undercuts(path: Path) -> Iterator[Fault]:
+    """Where the contact would stand still on a profile: U = 0, a cusp, and undercut beyond it."""
+    for recess in (False, True):
+        side = path.recess if recess else path.approach
+        d = side.end * np.linspace(0, 1, _SCAN)[1:]
+        contact = path.along(d, recess)
+        for gear, U in ((1, contact.U1), (2, contact.U2)):
+            if (U <= 0).any():
+                X = _standstill(path, d, U, gear, recess)
+                angle = degrees(X / (path.pitch.reach if gear == 1 else abs(path.pitch.reach2)))
+                where = "recess" if recess else "approach"
+                yield Fault(
+                    "undercut",
+                    gear,
+                    X,
+                    f"gear {gear} is undercut",
+                    f"in {where} the contact stands still on its dedendum {abs(angle):.6g} deg from the pitch point",
+                    f"end the {where} before {abs(X) / path.pitch.p:.6g} pitches, or take more teeth or a larger "
+                    "pressure angle",
+                )
+
+
+def _standstill(path: Path, d: Floats, U: Floats, gear: int, recess: bool) -> float:
+    """X at the first distance where U of one gear is 0."""
+    at = int(np.argmax(U <= 0))
+    if at == 0:
+        return 0.0
+
+    def speed(x: float) -> float:
+        contact = path.along(np.array([x]), recess)
+        return float((contact.U1 if gear == 1 else contact.U2)[0])
+
+    low, high = float(d[at - 1]), float(d[at])
+    found = root(speed, low, high, float(U[at - 1]), float(U[at])) if U[at] < 0 else high
+    return float(path.along(np.array([found]), recess).X[0])
+
+
+def _pointed(path: Path) -> Iterator[Fault]:
+    """Where the two flanks of a tooth would meet before its tip; at the pitch line a tooth is half a pitch wide."""
+    approach, recess = path.arcs
+    for gear, X in ((1, recess), (2, -approach)):
+        if X and (room := tip_thickness(path, gear)) < 0:
+            z = path.pitch.z1 if gear == 1 else path.pitch.z2
+            yield Fault(
+                "pointed",
+                gear,
+                X,
+                f"the teeth of gear {gear} come to a point before their tips",
+                f"their flanks would cross by {-degrees(room):.4g} deg of its {360 / z:.4g} deg pitch",
+                f"shorten the {'recess' if gear == 1 else 'approach'}, or take a smaller pressure angle",
+            )
+
+
+def tip_thickness(path: Path, gear: int) -> float:
+    """Angle (rad) of the top land of a gear's tooth with standard thickness; negative where its flanks cross."""
+    approach, recess = path.arcs
+    X = recess if gear == 1 else -approach
+    z = path.pitch.z1 if gear == 1 else path.pitch.z2
+    points = (path.flank1 if gear == 1 else path.flank2)(np.array([X]))[0]
+    return float(pi / z - 2 * abs(_azimuth(path, gear, points)))
+
+
+def _azimuth(path: Path, gear: int, point: Floats) -> float:
+    """Angle (rad) of a body point about its gear's axis, from the direction of the pitch point."""
+    pitch = path.pitch
+    R = -pitch.R1 if gear == 1 else pitch.R2
+    if not pitch.bevel:
+        return float(np.arctan2(point[0], (point[1] - R) * np.sign(-R)))
+    axis = np.array([0.0, sin(R), cos(R)])
+    start = np.array([0.0, 0.0, 1.0]) - cos(R) * axis
+    across = point - (point @ axis) * axis
+    return float(np.arctan2(np.cross(start, across) @ axis, start @ across))
+
+
+def _broken(path: Path) -> Iterator[Fault]:
+    ratio = path.contact_ratio
+    if ratio < 1 - 1e-12:
+        yield Fault(
+            "contact ratio",
+            0,
+            float("nan"),
+            f"the contact ratio is {ratio:.6g}",
+            "one pair of teeth parts before the next one meets",
+            "lengthen approach or recess until they are a pitch together",
+        )

@@ -12,6 +12,7 @@ import make_errata
 import make_extremes
 import make_images
 import make_mesh_accuracy
+import make_missing
 import make_motion_accuracy
 import make_outputs
 import make_sphere_accuracy
@@ -24,7 +25,7 @@ def main() -> None:
     reference = DOCS / "reference.md"
     subprocess.run([sys.executable, "-m", "geartrain", "schema", "--as", "markdown", "-o", str(reference)], check=True)
     accuracy = (make_accuracy, make_mesh_accuracy, make_motion_accuracy, make_sphere_accuracy)
-    for maker in (*accuracy, make_commands, make_errata, make_extremes, make_images, make_outputs):
+    for maker in (*accuracy, make_commands, make_errata, make_extremes, make_images, make_missing, make_outputs):
         maker.main()
 
 

@@ -22,7 +22,8 @@ def test_a_shipped_train_holds_all_it_expects_and_names_its_sources(name: str) -
     for answer in train.answers():
         assert answer.verdict.kind == "determined"
         assert not answer.failures
-        assert all(result.output.expect is not None for result in answer.outputs.values())
+        for result in answer.outputs.values():  # what is still to be found has a target to be met instead
+            assert result.output.expect is not None or any(target.met for target in result.targets)
 
 
 @pytest.mark.parametrize("name", shipped())

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from geartrain.files.declaring import as_yaml
-from geartrain.files.loading import load, shipped
+from geartrain.files.loading import load, read_declaration, shipped
 from geartrain.files.long import LongTable, partial_name
 from geartrain.files.tables import read_edges, read_points
 from geartrain.files.writing import write_bytes, write_text
@@ -13,6 +13,7 @@ __all__ = [
     "as_yaml",
     "load",
     "partial_name",
+    "read_declaration",
     "read_edges",
     "read_points",
     "shipped",

@@ -12,7 +12,7 @@ from geartrain.analysis import GearTrain
 from geartrain.errors import DeclarationError, Problem
 from geartrain.files.merging import merged
 from geartrain.files.nodes import Node, parse
-from geartrain.train import declare
+from geartrain.train import Train, declare
 
 _MOST_BYTES = 64 * 2**20
 
@@ -31,22 +31,29 @@ def load(source: str | Path | Mapping[str, Any]) -> GearTrain:
     All circuits are found here, so that whatever is wrong with the declaration is said at once, with its place.
     Raises `DeclarationError`.
     """
-    if isinstance(source, Mapping):
-        train = GearTrain.declare(source)
-    elif isinstance(source, str) and "\n" in source:
-        train = _build(parse(source, "text"), Path.cwd(), (), "train")
-    else:
-        path = _find(source)
-        train = _build(parse(_read(path), str(path)), path.parent, (path.resolve(),), path.stem)
+    train = GearTrain(read_declaration(source))
     _ = train.circuits
     return train
 
 
-def _build(root: Node, folder: Path, chain: tuple[Path, ...], stem: str) -> GearTrain:
+def read_declaration(source: str | Path | Mapping[str, Any]) -> Train:
+    """What `load` reads, its circuits not asked for: wheels may be without a tooth count that is still to be found.
+
+    Raises `DeclarationError`.
+    """
+    if isinstance(source, Mapping):
+        return declare(source)
+    if isinstance(source, str) and "\n" in source:
+        return _build(parse(source, "text"), Path.cwd(), (), "train")
+    path = _find(source)
+    return _build(parse(_read(path), str(path)), path.parent, (path.resolve(),), path.stem)
+
+
+def _build(root: Node, folder: Path, chain: tuple[Path, ...], stem: str) -> Train:
     node = _with_parents(root, folder, chain)
     data = node.plain()
     data.setdefault("name", stem)
-    return GearTrain(declare(data, node.place_of))
+    return declare(data, node.place_of)
 
 
 def _with_parents(child: Node, folder: Path, chain: tuple[Path, ...]) -> Node:

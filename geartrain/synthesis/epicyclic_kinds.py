@@ -1,0 +1,235 @@
+"""Kinds of epicyclic sets: which wheels they have, which run on one axis, and in which ways they can be used.
+
+Every central wheel of a set turns, seen from the carrier, `f = sign P / z` times as fast as the planets' reference
+wheel, with P the planet wheel that reaches it (Willis 1841, with the carrier held). That table is all a kind is:
+ratios of every mode, places of equal planets and the coaxial equation follow from it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from functools import cache
+from itertools import permutations
+from types import MappingProxyType
+
+from geartrain.errors import Problem, QuestionError
+
+CARRIER = "carrier"
+
+
+@dataclass(frozen=True, slots=True)
+class Member:
+    """A central wheel.
+
+    link      its link
+    wheel     its wheel
+    mesh      the planet wheel it meets
+    sign      of its speed against the planets' reference wheel, carrier held
+    step      the planet wheel P in f = sign P / z; empty where all of a kind have the same, which then cancels
+    internal  True for a ring
+    """
+
+    link: str
+    wheel: str
+    mesh: str
+    sign: int
+    step: str = ""
+    internal: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Mode:
+    """A way to use a set: which member is driven, which drives, which is held."""
+
+    input: str
+    output: str
+    held: str
+
+    @property
+    def key(self) -> str:
+        """As it is asked for: `sun:carrier:ring` for input, output, held."""
+        return f"{self.input}:{self.output}:{self.held}"
+
+    def __str__(self) -> str:
+        return f"{self.input} in, {self.output} out, {self.held} held"
+
+
+@dataclass(frozen=True, slots=True)
+class Kind:
+    """A kind of epicyclic set.
+
+    members     its central wheels
+    planets     the wheels of each planet link
+    between     meshes of planets with each other
+    free        wheels whose counts are chosen freely; coaxiality gives those of the other central wheels
+    idle        planet wheels that change no ratio and stand under no equation: they take the least count that fits
+    with_carrier  True if the carrier may be driven, drive or be held in `modes`
+    mirrored    link -> link: exchanging these gives the same set again, so half of the modes say all
+    bevel       True if the planets' axes cross the central one
+    """
+
+    name: str
+    title: str
+    members: tuple[Member, ...]
+    planets: tuple[tuple[str, ...], ...]
+    free: tuple[str, ...]
+    between: tuple[tuple[str, str], ...] = ()
+    idle: tuple[str, ...] = ()
+    with_carrier: bool = True
+    mirrored: tuple[tuple[str, str], ...] = ()
+    bevel: bool = False
+
+    @property
+    def wheels(self) -> tuple[str, ...]:
+        """All wheels: central ones and planets, in the order a reader expects."""
+        planets = [wheel for link in self.planets for wheel in link]
+        return tuple(sorted([*(member.wheel for member in self.members), *planets], key=_ORDER.index))
+
+    @property
+    def links(self) -> tuple[str, ...]:
+        """Links that a mode may name."""
+        return (*(member.link for member in self.members), CARRIER)
+
+    @property
+    def modes(self) -> tuple[Mode, ...]:
+        """All modes; of two that are mirror images, the first."""
+        links = self.links if self.with_carrier else self.links[:-1]
+        swap = {a: b for pair in self.mirrored for a, b in (pair, pair[::-1])}
+        found: dict[Mode, None] = {}
+        for mode in (Mode(*three) for three in permutations(links, 3)):
+            if Mode(*(swap.get(link, link) for link in (mode.input, mode.output, mode.held))) not in found:
+                found[mode] = None
+        return tuple(found)
+
+    def member(self, link: str) -> Member | None:
+        """The central wheel of a link; None for the carrier."""
+        return next((member for member in self.members if member.link == link), None)
+
+    def chosen(self, modes: str | Iterable[str | Mode]) -> tuple[Mode, ...]:
+        """Modes by name: "all", or `input:output:held` each. Raises `QuestionError` for members it does not have."""
+        if isinstance(modes, str):
+            if modes == "all":
+                return self.modes
+            modes = [modes]
+        return tuple(mode if isinstance(mode, Mode) else self._mode(mode) for mode in modes)
+
+    def _mode(self, text: str) -> Mode:
+        parts = [part.strip() for part in text.split(":")]
+        if len(parts) == 3 and len(set(parts)) == 3 and set(parts) <= set(self.links):
+            return Mode(*parts)
+        raise QuestionError(
+            Problem(
+                f"'{text}' is no mode of the kind '{self.name}'",
+                f"a mode is input:output:held, of three different ones of {', '.join(self.links)}",
+                f"write one such as {self.modes[0].key}, or all",
+            )
+        )
+
+
+_ORDER = ("s", "s1", "p", "ps", "pl", "p1", "r", "r1", "p2", "s2", "r2")
+_TWO = (("sun1", "sun2"),)
+
+_KINDS = (
+    Kind(
+        "planetary",
+        "sun, planet, ring",
+        (Member("sun", "s", "p", -1), Member("ring", "r", "p", 1, internal=True)),
+        (("p",),),
+        ("s", "p"),
+    ),
+    Kind(
+        "stepped-suns",
+        "two suns, stepped planet",
+        (Member("sun1", "s1", "p1", -1, "p1"), Member("sun2", "s2", "p2", -1, "p2")),
+        (("p1", "p2"),),
+        ("s1", "p1", "p2"),
+        mirrored=_TWO,
+    ),
+    Kind(
+        "stepped-sun-ring",
+        "sun and ring, stepped planet",
+        (Member("sun", "s1", "p1", -1, "p1"), Member("ring", "r2", "p2", 1, "p2", internal=True)),
+        (("p1", "p2"),),
+        ("s1", "p1", "p2"),
+    ),
+    Kind(
+        "stepped-rings",
+        "two rings, stepped planet",
+        (Member("ring1", "r1", "p1", 1, "p1", internal=True), Member("ring2", "r2", "p2", 1, "p2", internal=True)),
+        (("p1", "p2"),),
+        ("r1", "p1", "p2"),
+        mirrored=(("ring1", "ring2"),),
+    ),
+    Kind(
+        "meshed-planets",
+        "sun and ring, two equal planets in mesh between them",
+        (Member("sun", "s", "p1", -1), Member("ring", "r", "p2", -1, internal=True)),
+        (("p1",), ("p2",)),
+        ("s", "r"),
+        between=(("p1", "p2"),),
+        idle=("p1", "p2"),
+    ),
+    Kind(
+        "ravigneaux",
+        "small sun on short planets, large sun and ring on long ones",
+        (
+            Member("small", "s1", "ps", 1),
+            Member("large", "s2", "pl", -1),
+            Member("ring", "r", "pl", 1, internal=True),
+        ),
+        (("ps",), ("pl",)),
+        ("s1", "s2", "pl"),
+        between=(("ps", "pl"),),
+        idle=("ps",),
+    ),
+    Kind(
+        "bevel",
+        "two side wheels and a planet across them",
+        (Member("sun1", "s1", "p", -1), Member("sun2", "s2", "p", 1)),
+        (("p",),),
+        ("s1", "s2"),
+        idle=("p",),
+        mirrored=_TWO,
+        bevel=True,
+    ),
+    Kind(
+        "wolfrom",
+        "3K: sun and ring on one step of the planet, a second ring on the other",
+        (
+            Member("sun", "s1", "p1", -1, "p1"),
+            Member("ring1", "r1", "p1", 1, "p1", internal=True),
+            Member("ring2", "r2", "p2", 1, "p2", internal=True),
+        ),
+        (("p1", "p2"),),
+        ("s1", "p1", "p2"),
+        with_carrier=False,
+    ),
+    Kind(
+        "3k-two-suns",
+        "3K: sun and ring on one step of the planet, a second sun on the other",
+        (
+            Member("sun1", "s1", "p1", -1, "p1"),
+            Member("ring", "r1", "p1", 1, "p1", internal=True),
+            Member("sun2", "s2", "p2", -1, "p2"),
+        ),
+        (("p1", "p2"),),
+        ("s1", "p1", "p2"),
+        with_carrier=False,
+    ),
+)
+
+
+@cache
+def kinds() -> Mapping[str, Kind]:
+    """All kinds by name."""
+    return MappingProxyType({kind.name: kind for kind in _KINDS})
+
+
+def kind_named(name: str) -> Kind:
+    """A kind by name. Raises `QuestionError`."""
+    if name in kinds():
+        return kinds()[name]
+    raise QuestionError(
+        Problem(f"there is no kind of epicyclic set '{name}'", "it is not in the list", f"one of {', '.join(kinds())}")
+    )

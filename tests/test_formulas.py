@@ -1,0 +1,635 @@
+"""Outputs as rational functions of tooth counts: against solved trains, closed forms, brute force and exact values."""
+
+from __future__ import annotations
+
+import copy
+import itertools
+import pickle
+import random
+from collections.abc import Iterator, Mapping
+from fractions import Fraction
+from functools import cache
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+from reference_solver import solve_naively
+from strategies import Data, asked_trains, driven_trains, overdriven_trains
+
+from geartrain import GearTrain, load, shipped
+from geartrain.errors import QuestionError
+from geartrain.synthesis import laurent
+from geartrain.synthesis.formulas import Formula, Formulas, find_formulas, with_counts
+from geartrain.synthesis.functions import make_formula
+from geartrain.synthesis.laurent import Laurent
+from geartrain.train import Train, declare
+
+ANY = (1,)
+"""Allowed counts where only the formula is asked for."""
+
+
+@cache
+def loaded(name: str) -> GearTrain:
+    return load(name)
+
+
+def all_free(train: Train) -> dict[str, tuple[int, ...]]:
+    return dict.fromkeys(train.wheels, ANY)
+
+
+def formulas_of(name: str, state: str | None = None) -> Formulas:
+    train = loaded(name).declaration
+    return find_formulas(train, state, all_free(train))
+
+
+def nearby(train: Train, draw: random.Random) -> dict[str, int]:
+    """Counts within a fifth of the declared ones."""
+    return {
+        name: draw.randint(max(1, wheel.count * 4 // 5), wheel.count * 6 // 5)
+        for name, (_, wheel) in train.wheels.items()
+        if wheel.count is not None
+    }
+
+
+@pytest.mark.parametrize("name", sorted(shipped()))
+def test_every_output_of_a_shipped_train_is_what_the_train_solved_with_these_counts_gives(name: str) -> None:
+    train = loaded(name).declaration
+    draw = random.Random(name)
+    declared = {wheel: part.count or 1 for wheel, (_, part) in train.wheels.items()}
+    for state in train.states or (None,):
+        found = find_formulas(train, state, all_free(train))
+        assert not found.undetermined
+        for counts in (declared, nearby(train, draw), nearby(train, draw)):
+            assert found.turns(counts)
+            answer = GearTrain(with_counts(train, counts)).solve(state, method="exact")
+            assert answer.verdict
+            assert {output: formula.value(counts) for output, formula in found.items()} == {
+                output: result.speed for output, result in answer.outputs.items()
+            }
+
+
+@pytest.mark.parametrize("name", ["freeth-2021", "zf-8hp70", "pennestri-2002", "humpage", "worm"])
+def test_wheels_that_are_not_free_keep_their_counts(name: str) -> None:
+    train = loaded(name).declaration
+    draw = random.Random(1)
+    free = dict.fromkeys(draw.sample(sorted(train.wheels), max(1, len(train.wheels) // 3)), ANY)
+    for state in train.states or (None,):
+        few, many = find_formulas(train, state, free), find_formulas(train, state, all_free(train))
+        others = {wheel: part.count or 1 for wheel, (_, part) in train.wheels.items() if wheel not in free}
+        for output, formula in few.items():
+            assert set(formula.wheels) <= set(free)
+            part = many[output].fixed(others)
+            assert (part.wheels, part.numerator, part.denominator) == (
+                formula.wheels,
+                formula.numerator,
+                formula.denominator,
+            )
+
+
+def check_closed_form(formula: Formula, form: str) -> None:
+    """Both agree exactly at random counts. `form` is an expression with the wheels as names."""
+    draw = random.Random(form)
+    for _ in range(20):
+        counts = {wheel: draw.randint(5, 200) for wheel in formula.wheels}
+        assert formula.value(counts) == eval(form, {}, {wheel: Fraction(count) for wheel, count in counts.items()})
+
+
+@pytest.mark.parametrize(
+    ("name", "state", "output", "form", "groups"),
+    [
+        ("wolfrom-175", None, "output", "(1 - r72*p28/(p30*r70)) / (1 + r72/s12)", 3),
+        ("two-k-h-10000", None, "output", "1 - p101*g99/(g100*p100)", 1),
+        ("humpage", None, "output", "i20/(i20+f76) - i20/(i20+f76) * f76*p24/(p56*o35)", 3),
+        ("ferguson-paradox", None, "less", "100 * (1 - w100/w99)", 1),
+        ("ravigneaux-set", "1", "OUT", "a/r", 1),
+        ("ravigneaux-set", "2", "OUT", "a*(b+r)/(r*(a+b))", 3),
+        ("ravigneaux-set", "4", "OUT", "1 + b/r", 1),
+        ("ravigneaux-set", "R", "OUT", "-b/r", 1),
+        ("zf-8hp70", "1", "OUT", "1 / (1 + r4/s4)", 1),
+        ("zf-8hp70", "2", "OUT", "(1 + s2/r2) / (1 + r4/s4)", 2),
+        ("zf-8hp70", "8", "OUT", "1 + s2/r2", 1),
+        ("zf-8hp70", "R", "OUT", "(1 + s2/r2) / (1 - r3*r4/(s3*s4))", 2),
+        ("nrel-grc-750", None, "high", "(1 + ring/s21) * g82*g88/(g23*g22)", 2),
+        ("prague-orloj", None, "sidereal month", "s366/m379 - s366/z365", 3),
+        ("prague-orloj", None, "synodic month", "s366/m379 - 1", 1),
+        ("worm", None, "wheel", "-w2/w60", 1),
+    ],
+)
+def test_known_sets_have_their_closed_forms_in_few_groups(
+    name: str, state: str | None, output: str, form: str, groups: int
+) -> None:
+    formula = formulas_of(name, state)[output]
+    check_closed_form(formula, form)
+    assert len(formula.groups) == groups
+    assert formula.is_moebius
+
+
+def test_an_ordinary_train_is_one_group_of_ratios() -> None:
+    moon = formulas_of("pennestri-2002")["moon"]
+    assert str(moon) == "(5 Za2 Za4 Za10 Za11) / (Z4 Za5 Z10 Z11)"
+    (group,) = moon.groups
+    assert group.exponents == (1, -1, 1, -1, -1, 1, -1, 1)
+    assert group.degree == 1
+    assert not moon.has_poles
+
+
+def elasticities(formula: Formula, monomials: list[Fraction]) -> list[Fraction] | None:
+    """x df/dx for the monomial of every group, by exact central differences; None near a pole."""
+    step = Fraction(1, 10**6)
+    found = []
+    for at in range(len(monomials)):
+        ends = []
+        for factor in (1 + step, 1 - step):
+            value = formula.of_groups([x * factor if k == at else x for k, x in enumerate(monomials)])
+            if value is None:
+                return None
+            ends.append(value)
+        found.append((ends[0] - ends[1]) / (2 * step))
+    return found
+
+
+@pytest.mark.parametrize("name", ["wolfrom-175", "humpage", "zf-8hp70", "prague-orloj", "freeth-2021", "price-1974"])
+def test_a_group_enters_by_its_monomial_alone_and_no_two_groups_can_be_one(name: str) -> None:
+    train = loaded(name).declaration
+    draw = random.Random(name)
+    for state in train.states or (None,):
+        for formula in find_formulas(train, state, all_free(train)).values():
+            assert sorted(wheel for group in formula.groups for wheel in group.wheels) == sorted(formula.wheels)
+            counts = {wheel: draw.randint(10, 99) for wheel in formula.wheels}
+            value = formula.value(counts)
+            assert value == formula.of_groups([group.monomial(counts) for group in formula.groups])
+            for group in formula.groups:
+                for (one, p), (other, q) in itertools.pairwise(zip(group.wheels, group.exponents, strict=True)):
+                    up, down = {one: counts[one] * 6 ** abs(q)}, {other: counts[other] * 6 ** abs(p)}
+                    if p * q > 0:  # either moves the monomial by as much as the other
+                        assert formula.value({**counts, **up}) == formula.value({**counts, **down})
+                    else:
+                        assert formula.value({**counts, **up, **down}) == value
+            points = [[Fraction(draw.randint(3, 99), draw.randint(3, 99)) for _ in formula.groups] for _ in range(6)]
+            slopes = [found for x in points if (found := elasticities(formula, x)) and all(found)]
+            for a, b in itertools.combinations(range(len(formula.groups)), 2):
+                # a function of x^s y^t alone has elasticities in the ratio s : t everywhere
+                ratios = [float(slope[a] / slope[b]) for slope in slopes]
+                assert max(ratios) - min(ratios) > 1e-6 * max(map(abs, ratios))
+
+
+# what a train with loops or too many prescriptions asks of its counts
+
+
+def put(data: Data, counts: Mapping[str, int]) -> Data:
+    """The plain declaration with other counts."""
+    data = copy.deepcopy(data)
+    for part in data["links"].values():
+        for name, wheel in (part.get("wheels") or {}).items():
+            if name in counts:
+                part["wheels"][name] = counts[name] if isinstance(wheel, int) else {**wheel, "teeth": counts[name]}
+    return data
+
+
+def check_against_naive(data: Data, found: Formulas, counts: Mapping[str, int]) -> None:
+    """Where the formulas say that the train turns, it does, at their speeds; and it does nowhere else."""
+    known = solve_naively(put(data, counts))
+    values = {name: formula.value(counts) for name, formula in found.items()}
+    if found.turns(counts) and None not in values.values():
+        still = known.kind == "locked" and not any(data.get("inputs", {}).values())
+        assert still or known.kind in ("determined", "free")
+        if not still:
+            assert values == {name: known.speeds[name] for name in values}
+    elif not any(formula.value(counts) == 0 for formula in found.exclusions):
+        loops = [formula for formula in found.conditions if formula.label.startswith("loop")]
+        held = any(formula.value(counts) != 0 for formula in loops)
+        assert held or known.kind != "determined"
+
+
+STEPPED = {
+    "links": {
+        "frame": {"wheels": {"ring": {"teeth": 80, "internal": True}}},
+        "sun": {"wheels": {"s": 20}},
+        "arm": {},
+        "one": {"wheels": {"p1": 20, "q1": 30}},
+        "two": {"wheels": {"p2": 20, "q2": 30}},
+    },
+    "revolutes": [
+        {"pair": ["frame", "sun"], "axis": "main"},
+        {"pair": ["frame", "arm"], "axis": "main"},
+        {"pair": ["arm", "one"], "axis": "a"},
+        {"pair": ["arm", "two"], "axis": "b"},
+    ],
+    "gears": [{"pair": pair} for pair in (["s", "p1"], ["s", "p2"], ["q1", "ring"], ["q2", "ring"])],
+    "inputs": {"sun": 1},
+    "outputs": {"arm": {}},
+}
+
+
+def test_two_stepped_planets_turn_if_their_counts_are_in_one_proportion() -> None:
+    found = find_formulas(declare(STEPPED), None, dict.fromkeys(["p1", "q1", "p2", "q2"], ANY))
+    (condition,) = found.conditions
+    assert condition.label in ("loop sun - one - frame - two closes", "loop sun - two - frame - one closes")
+    assert len(condition.groups) == 1
+    assert len(condition.numerator) == 2
+    for counts in itertools.product((20, 24, 30), repeat=4):
+        chosen = dict(zip(("p1", "q1", "p2", "q2"), counts, strict=True))
+        turns = solve_naively(put(STEPPED, chosen)).kind == "determined"
+        assert turns == (chosen["p1"] * chosen["q2"] == chosen["p2"] * chosen["q1"])
+        assert found.turns(chosen) == turns
+        check_against_naive(STEPPED, found, chosen)
+
+
+def test_equal_planets_between_one_sun_and_one_ring_ask_nothing() -> None:
+    found = formulas_of("planets-in-place")
+    assert found.conditions == ()
+    check_closed_form(found["carrier"], "s / (s + ring)")
+
+
+def test_a_loop_of_counts_that_are_not_free_holds_its_wheels_as_ever() -> None:
+    data = put(STEPPED, {"q2": 31})
+    found = find_formulas(declare(data), None, {"s": ANY})
+    assert not found.turns({"s": 20}), "the sun is locked on its carrier, which the ring then holds"
+    assert solve_naively(data).kind == "locked"
+    free = {**data, "inputs": {}, "fixed": ["arm"], "outputs": {"sun": {}}}
+    assert find_formulas(declare(free), None, {"s": ANY})["sun"].constant == 0
+
+
+TWO_SUNS = {
+    "links": {
+        "frame": {"wheels": {"r": {"teeth": 60, "internal": True}, "f": 30}},
+        "one": {"wheels": {"s": 24}},
+        "two": {"wheels": {"e": 30}},
+        "arm": {},
+        "planet": {"wheels": {"p": 18}},
+        "other": {"wheels": {"q": 20}},
+    },
+    "revolutes": [
+        {"pair": ["frame", "one"], "axis": "main"},
+        {"pair": ["frame", "two"], "axis": "main"},
+        {"pair": ["frame", "arm"], "axis": "main"},
+        {"pair": ["arm", "planet"], "axis": "a"},
+        {"pair": ["arm", "other"], "axis": "b"},
+    ],
+    "gears": [{"pair": pair} for pair in (["s", "p"], ["p", "r"], ["q", "f"], ["q", "e"])],
+    "outputs": {"arm": {}},
+}
+
+
+@pytest.mark.parametrize(
+    ("inputs", "fixed"),
+    [({"one": 7, "two": 1}, []), ({"one": 7}, ["two"]), ({"one": 7, "arm": 2}, []), ({"arm": 2, "two": 1}, [])],
+)
+@pytest.mark.parametrize("given", [True, False])
+def test_inputs_too_many_by_one_are_a_condition_on_the_counts(
+    inputs: dict[str, int], fixed: list[str], given: bool
+) -> None:
+    # seven turns of the first sun are two of the arm with 24 and 60 teeth; the other wheel follows by 1 - f/e
+    data: Data = {**TWO_SUNS, "inputs": inputs, "fixed": fixed}
+    sought = copy.deepcopy(data)
+    for link, wheel in (("one", "s"), ("two", "e"), ("frame", "f")):
+        sought["links"][link]["wheels"][wheel] = {"teeth": {"search": [10, 99]}}
+    declared = declare(data if given else sought)
+    found = find_formulas(declared, None, dict.fromkeys("srfe", ANY))
+    assert len(found.conditions) == 1
+    turned = 0
+    for s, r, f, e in itertools.product((20, 24, 30), (60, 75), (15, 30), (15, 20, 30)):
+        counts = {"s": s, "r": r, "f": f, "e": e}
+        check_against_naive(data, found, counts)
+        turned += found.turns(counts)
+    assert turned > 0
+
+
+def test_a_factor_that_is_cancelled_excludes_the_counts_where_the_train_is_free() -> None:
+    data: Data = {**TWO_SUNS, "inputs": {"two": 0}, "outputs": {"arm": {}, "two": {}}}
+    found = find_formulas(declare(data), None, dict.fromkeys("fe", ANY))
+    assert found["arm"].constant == 0
+    (exclusion,) = found.exclusions
+    assert exclusion.wheels == ("f", "e")
+    assert found.turns({"f": 30, "e": 31})
+    assert not found.turns({"f": 30, "e": 30})
+    assert solve_naively(put(data, {"e": 31})).speeds["arm"] == 0
+    assert "arm" in solve_naively(data).undetermined
+
+
+def test_a_pole_has_no_value() -> None:
+    data: Data = {**TWO_SUNS, "inputs": {"two": 1}}
+    arm = find_formulas(declare(data), None, dict.fromkeys("fe", ANY))["arm"]
+    check_closed_form(arm.fixed({"f": 30}), "1 / (1 - 30/e)")
+    assert arm.value({"f": 30, "e": 30}) is None
+    assert arm.has_poles
+    assert arm.exact_bounds({"f": (29, 29), "e": (28, 31)}) == (None, None)
+    low, high = arm.bounds({"f": (29, 29), "e": (np.array([28, 30]), 31)})
+    assert low.tolist()[0] == -np.inf
+    assert high.tolist()[0] == np.inf
+    assert low[1] == pytest.approx(15.5)
+    assert high[1] == pytest.approx(30)
+    never = arm.fixed({"f": 30, "e": 30})
+    assert never.value({}) is None
+    assert never.constant is None
+    assert np.isinf(never.accuracy({}))
+    assert never.bounds({}) == (-np.inf, np.inf)
+
+
+def test_outputs_that_hang_on_more_inputs_are_undetermined_and_the_others_are_not() -> None:
+    data: Data = {**TWO_SUNS, "inputs": {"one": 1}, "outputs": {"one": {}, "other": {}, "planet": {}, "arm": {}}}
+    cut = {**data, "gears": data["gears"][:1] + data["gears"][2:]}
+    found = find_formulas(declare(cut), None, all_free(declare(cut)))
+    assert set(found) == {"one"}
+    assert found.undetermined == ("other", "planet", "arm")
+
+
+def test_a_train_held_whatever_its_counts_never_turns() -> None:
+    data: Data = {**TWO_SUNS, "inputs": {"one": 1}, "fixed": ["arm"]}
+    found = find_formulas(declare(data), None, all_free(declare(data)))
+    assert any(condition.constant for condition in found.conditions)
+    assert not found.turns(dict.fromkeys("srpqfe", 20))
+
+
+def test_a_difference_of_axes_that_point_apart_has_the_signs_of_the_solver() -> None:
+    data: Data = {
+        "links": {
+            "frame": {},
+            "a": {"wheels": {"x": {"teeth": 20, "kind": "bevel"}}},
+            "b": {
+                "wheels": {
+                    "y": {"teeth": 30, "kind": "bevel", "facing": -1},
+                    "w": {"teeth": 11, "hand": "left", "kind": "worm"},
+                }
+            },
+            "c": {"wheels": {"z": 50}},
+        },
+        "axes": {
+            "A": {"direction": [0, 0, -1]},
+            "B": {"direction": [1, 0, 0]},
+            "C": {"direction": [0, 0, 1]},
+        },
+        "revolutes": [{"pair": ["frame", link], "axis": link.upper()} for link in "abc"],
+        "gears": [{"pair": ["x", "y"]}, {"pair": ["w", "z"]}],
+        "inputs": {"a": 1},
+        "outputs": {
+            "b": {},
+            "c": {},
+            "apart": {"of": "c", "relative_to": "a"},
+            "other": {"of": "a", "relative_to": "c"},
+        },
+    }
+    train = declare(data)
+    found = find_formulas(train, None, all_free(train))
+    for counts in ({"x": 20, "y": 30, "w": 11, "z": 50}, {"x": 7, "y": 9, "w": 2, "z": 31}):
+        answer = GearTrain(with_counts(train, counts)).solve()
+        assert {name: formula.value(counts) for name, formula in found.items()} == {
+            name: result.speed for name, result in answer.outputs.items()
+        }
+    assert found["apart"].value(counts) != found["c"].value(counts) - 1, "the axes point apart"
+
+
+def asked_for_all(data: Data, draw: random.Random) -> tuple[Data, dict[str, tuple[int, ...]]]:
+    """Every link is an output; some wheels are free, with counts so few that loops often close."""
+    data = {**data, "outputs": {link: {} for link in data["links"]}}
+    wheels = [wheel for part in data["links"].values() for wheel in part["wheels"]]
+    share, least, most = draw.choice([(0.4, 8, 40), (1, 8, 40), (1, 2, 4), (1, 1, 3)])
+    return data, {wheel: tuple(range(least, most + 1)) for wheel in wheels if draw.random() < share}
+
+
+@settings(max_examples=80)
+@given(st.one_of(asked_trains(), driven_trains(), overdriven_trains()), st.integers(0, 10**6))
+def test_formulas_of_any_train_agree_with_naive_elimination_and_say_when_it_turns(data: Data, seed: int) -> None:
+    draw = random.Random(seed)
+    data, free = asked_for_all(data, draw)
+    found = find_formulas(declare(data), None, free)
+    for _ in range(4):
+        counts = {wheel: draw.choice(allowed) for wheel, allowed in free.items()}
+        check_against_naive(data, found, counts)
+
+
+# values, accuracy and bounds
+
+WHEELS = ("u", "v", "w")
+
+
+@st.composite
+def random_formulas(draw: st.DrawFn) -> Formula:
+    powers = st.tuples(*[st.integers(0, draw(st.integers(1, 2)))] * 3)
+    sizes = st.one_of(st.integers(-9, 9), st.integers(-(10**13), 10**13)).filter(bool).map(Fraction)
+    top, bottom = (draw(st.dictionaries(powers, sizes, min_size=at, max_size=3)) for at in (0, 1))
+    return make_formula("f", WHEELS, Laurent(3, top), Laurent(3, bottom))[0]
+
+
+@st.composite
+def moebius_formulas(draw: st.DrawFn) -> Formula:
+    return draw(random_formulas().filter(lambda formula: formula.is_moebius))
+
+
+@st.composite
+def boxes(draw: st.DrawFn, widest: int = 2) -> dict[str, tuple[int, int]]:
+    found = {}
+    for wheel in WHEELS:
+        low = draw(st.one_of(st.integers(1, 30), st.integers(1, 10**12 - 9)))
+        found[wheel] = (low, low + draw(st.integers(0, widest)))
+    return found
+
+
+def inside(box: Mapping[str, tuple[int, int]]) -> Iterator[dict[str, int]]:
+    for counts in itertools.product(*(range(low, high + 1) for low, high in box.values())):
+        yield dict(zip(box, counts, strict=True))
+
+
+@settings(max_examples=80)
+@given(random_formulas(), boxes())
+def test_every_exact_value_in_a_box_lies_within_its_bounds_and_fast_values_within_their_accuracy(
+    formula: Formula, box: dict[str, tuple[int, int]]
+) -> None:
+    every = list(inside(box))
+    exact = [formula.value(counts) for counts in every]
+    low, high = (float(end) for end in formula.bounds(box))
+    least, greatest = formula.exact_bounds(box)
+    columns = {wheel: np.array([counts[wheel] for counts in every]) for wheel in WHEELS}
+    values = np.broadcast_to(formula.values(columns), len(every))
+    accuracy = np.broadcast_to(formula.accuracy(columns), len(every))
+    for value, fast, bound in zip(exact, values, accuracy, strict=True):
+        if value is None:
+            assert (low, high) == (-np.inf, np.inf)
+            assert (least, greatest) == (None, None)
+            assert bound == np.inf
+            continue
+        assert low == -np.inf or Fraction(low) <= value
+        assert high == np.inf or value <= Fraction(high)
+        assert least is None or greatest is None or least <= value <= greatest
+        assert bound == np.inf or abs(Fraction(float(fast)) - value) <= Fraction(float(bound)) * abs(value)
+
+
+@settings(max_examples=80)
+@given(moebius_formulas(), boxes())
+def test_bounds_of_functions_of_degree_one_are_attained(formula: Formula, box: dict[str, tuple[int, int]]) -> None:
+    values = [formula.value(counts) for counts in inside(box)]
+    least, greatest = formula.exact_bounds(box)
+    if least is None:
+        bottoms = [make_formula("d", formula.wheels, *denominator_of(formula))[0].value(c) for c in inside(box)]
+        signs = {bottom is not None and bottom > 0 for bottom in bottoms}
+        assert 0 in bottoms or len(signs) == 2, "the denominator vanishes somewhere between the counts"
+        return
+    assert (least, greatest) == (min(values), max(values))  # type: ignore[type-var]
+
+
+def denominator_of(formula: Formula) -> tuple[Laurent, Laurent]:
+    return Laurent.of(formula.denominator, len(formula.wheels)), Laurent.constant(1, len(formula.wheels))
+
+
+@pytest.mark.parametrize(
+    ("name", "state", "output"),
+    [("two-k-h-10000", None, "output"), ("zf-8hp70", "R", "OUT"), ("humpage", None, "output")],
+)
+def test_bounds_over_many_boxes_at_once_are_those_of_brute_force(name: str, state: str | None, output: str) -> None:
+    formula = formulas_of(name, state)[output]
+    draw = random.Random(name)
+    lows = {wheel: [draw.randint(15, 60) for _ in range(25)] for wheel in formula.wheels}
+    highs = {wheel: [low + draw.randint(0, 2) for low in lows[wheel]] for wheel in formula.wheels}
+    low, high = formula.bounds({wheel: (np.array(lows[wheel]), np.array(highs[wheel])) for wheel in formula.wheels})
+    seen = 0
+    for at in range(25):
+        box = {wheel: (lows[wheel][at], highs[wheel][at]) for wheel in formula.wheels}
+        values = [formula.value(counts) for counts in inside(box)]
+        if np.isinf(low[at]):
+            continue
+        seen += 1
+        known = [float(value) for value in values if value is not None]
+        assert low[at] == pytest.approx(min(known), rel=1e-11, abs=1e-13)
+        assert high[at] == pytest.approx(max(known), rel=1e-11, abs=1e-13)
+    assert seen > 10
+
+
+def test_accuracy_knows_of_cancellation_and_is_of_use() -> None:
+    formula = formulas_of("two-k-h-10000")["output"]
+    near = {"g100": 10**6, "p100": 10**6, "p101": 10**6 + 1, "g99": 10**6 - 1}  # 1 - (1 - 1e-12)
+    columns = {wheel: np.array([count, 57]) for wheel, count in near.items()}
+    exact = formula.value(near)
+    accuracy = formula.accuracy(columns)
+    assert exact == Fraction(1, 10**12)
+    assert abs(Fraction(float(formula.values(columns)[0])) / exact - 1) <= Fraction(float(accuracy[0]))
+    assert 1e-5 < accuracy[0] < 1e-2
+    for name in ("freeth-2021", "pennestri-2002"):
+        train = loaded(name).declaration
+        counts = {wheel: np.array(part.count) for wheel, (_, part) in train.wheels.items()}
+        found = formulas_of(name).values()
+        assert max(float(formula.accuracy(counts)) for formula in found if formula.values(counts)) < 1e-12
+
+
+@settings(max_examples=40)
+@given(moebius_formulas(), boxes(0))
+def test_moebius_coefficients_give_the_value(formula: Formula, box: dict[str, tuple[int, int]]) -> None:
+    counts = {wheel: low for wheel, (low, _) in box.items()}
+    monomials = [group.monomial(counts) for group in formula.groups]
+    for at, x in enumerate(monomials):
+        others = {k: monomial for k, monomial in enumerate(monomials) if k != at}
+        a, b, c, d = formula.moebius(at, others)
+        bottom = c * x + d
+        assert formula.value(counts) == ((a * x + b) / bottom if bottom else None)
+        fast = formula.moebius_columns(at, {k: np.array([float(value)] * 2) for k, value in others.items()})
+        sizes = [abs(term.coefficient) for term in (*formula.upper, *formula.lower)]
+        assume(max(sizes) < 2**53)
+        for exact, column in zip((a, b, c, d), fast, strict=True):
+            assert np.allclose(
+                np.broadcast_to(column, 2),
+                float(exact),
+                rtol=1e-9,
+                atol=1e-9 * max(sizes) * max([1.0, *(float(value) for value in others.values())]) ** 2,
+            )
+
+
+def test_a_group_of_higher_degree_is_flagged() -> None:
+    u = Laurent.variable(0, 3)
+    formula, _ = make_formula("f", WHEELS, u * u + u, Laurent.constant(1, 3))
+    assert [group.degree for group in formula.groups] == [2]
+    assert not formula.is_moebius
+    with pytest.raises(QuestionError, match="power 2"):
+        formula.moebius(0, {})
+    assert formula.exact_bounds({"u": (2, 5)}) == (6, 30)
+
+
+def test_a_common_factor_is_cancelled_and_reported() -> None:
+    u, v, w = (Laurent.variable(at, 3) for at in range(3))
+    one = Laurent.constant(1, 3)
+    formula, cancelled = make_formula("f", WHEELS, (u * v - w) * (u + one), (u * v - w) * w * w)
+    assert str(formula) == "(u + 1) / w^2"
+    assert cancelled.primitive() in ((u * v - w), (w - u * v))
+    assert [dict(zip(group.wheels, group.exponents, strict=True)) for group in formula.groups] == [{"u": 1}, {"w": 2}]
+
+
+# the interface
+
+
+def test_formulas_are_a_mapping_plain_data_and_can_be_sent_to_other_processes() -> None:
+    import json
+
+    found = formulas_of("zf-8hp70", "R")
+    assert list(found) == ["OUT"]
+    assert len(found) == 1
+    plain = json.loads(json.dumps(found.to_dict()))
+    assert plain["outputs"]["OUT"]["text"] == "(-s2 s3 s4 - r2 s3 s4) / (r4 r2 r3 - r2 s3 s4)"
+    assert plain["conditions"] == []
+    again = pickle.loads(pickle.dumps(found))
+    assert again == found
+    assert hash(again["OUT"]) == hash(found["OUT"])
+    counts = {wheel: np.int64(10**12) for wheel in found["OUT"].wheels}
+    assert found["OUT"].value(dict(counts, s3=np.int64(10**11))) == Fraction(-2, 9), "numpy's whole numbers are whole"
+
+
+def test_changed_counts_leave_the_train_as_it_was_and_keep_marks_and_doubts(train_file: Any) -> None:
+    path = train_file(
+        """
+        links:
+          frame: {}
+          a: {wheels: {p: {teeth: {value: 20, range: [18, 24]}, module: 2 mm}, o: {teeth: {search: [10, 20]}}}}
+          b: {wheels: {w: 60}}
+        revolutes: [{pair: [frame, a], axis: A}, {pair: [frame, b], axis: B}]
+        gears: [{pair: [p, w]}]
+        inputs: {a: 1}
+        outputs: {b: {}}
+        """
+    )
+    train = load(path).declaration
+    assert train.wheels["p"][1].count == 20
+    changed = with_counts(train, {"p": 24, "w": np.int64(48), "o": 11})
+    assert {name: wheel.count for name, (_, wheel) in changed.wheels.items()} == {"p": 24, "o": 11, "w": 48}
+    assert {name: wheel.count for name, (_, wheel) in train.wheels.items()} == {"p": 20, "o": None, "w": 60}
+    assert GearTrain(changed).solve()["b"] == Fraction(-1, 2)
+    assert GearTrain(train).solve()["b"] == Fraction(-1, 3)
+    assert changed.place("gears", 0) == train.place("gears", 0) == f"{path}:6"
+    assert changed.wheels["p"][1].doubt is not None
+    assert changed.wheels["p"][1].module == train.wheels["p"][1].module
+    assert with_counts(train, {"p": 30}).wheels["p"][1].doubt is None, "the evidence does not allow 30"
+    assert type(changed.wheels["w"][1].count) is int
+
+
+@pytest.mark.parametrize(
+    ("ask", "said"),
+    [
+        (lambda train: with_counts(train, {"rnig": 60}), "did you mean 'ring'"),
+        (lambda train: with_counts(train, {"ring": 0}), "0 is not a tooth count"),
+        (lambda train: with_counts(train, {"ring": 2.5}), "2.5 is not a tooth count"),
+        (lambda train: find_formulas(train, None, {"rnig": ANY}), "did you mean 'ring'"),
+        (lambda train: find_formulas(train, None, {"ring": ()}), "no counts to choose from"),
+        (lambda train: find_formulas(train, "4", {"ring": ANY}), "no state '4'"),
+    ],
+)
+def test_what_the_train_does_not_have_is_refused(ask: Any, said: str) -> None:
+    with pytest.raises(QuestionError, match=said) as caught:
+        ask(loaded("planetary-24-18-60").declaration)
+    assert all(problem.what and problem.why and problem.fix for problem in caught.value.problems)
+
+
+def test_a_train_that_is_too_coupled_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(laurent, "MOST_PRODUCTS", 3)
+    with pytest.raises(QuestionError, match="too coupled for formulas"):
+        formulas_of("zf-8hp70", "5")
+
+
+def test_formulas_need_no_array_library_until_columns_are_asked_for() -> None:
+    import subprocess
+    import sys
+
+    code = (
+        "import geartrain, sys; from geartrain.synthesis.formulas import find_formulas;"
+        "t = geartrain.load('wolfrom-175').declaration; f = find_formulas(t, None, {'s12': (12, 13)})['output'];"
+        "assert f.value({'s12': 12}) == geartrain.load('wolfrom-175').solve()['output'];"
+        "assert f.exact_bounds({'s12': (12, 13)})[0]; assert 'numpy' not in sys.modules"
+    )
+    subprocess.run([sys.executable, "-c", code], check=True, timeout=120)

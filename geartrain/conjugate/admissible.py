@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from math import cos, degrees, pi, sin
+from math import cos, degrees, sin
 from typing import TYPE_CHECKING, Literal
 
 import numpy as np
@@ -15,7 +15,10 @@ from geartrain.roots import root
 if TYPE_CHECKING:
     from geartrain.conjugate.pitch import Floats
 
-Kind = Literal["undercut", "pointed", "contact ratio"]
+Kind = Literal["undercut", "pointed", "contact ratio", "jam", "clearance", "interference"]
+Halves = tuple[float, float]
+"""Half the thickness of a tooth of each gear on its pitch surface, as X; infinite for pins, which have no point."""
+
 _SCAN = 257
 
 
@@ -36,16 +39,18 @@ class Fault:
     fix: str
 
 
-def faults(path: Path) -> tuple[Fault, ...]:
-    """All reasons why teeth with this path cannot run; empty if they can."""
-    return (*_undercuts(path), *_pointed(path), *_broken(path))
+def faults(path: Path, halves: Halves | None = None) -> tuple[Fault, ...]:
+    """All reasons why teeth with this path cannot run; empty if they can. `halves` default to a quarter pitch."""
+    return (*_undercuts(path), *_pointed(path, halves), *_broken(path))
 
 
 def _undercuts(path: Path) -> Iterator[Fault]:
     """Where the contact would stand still on a profile: U = 0, a cusp, and undercut beyond it."""
     for recess in (False, True):
         side = path.recess if recess else path.approach
-        d = side.end * np.linspace(0, 1, _SCAN)[1:]
+        if side.end == side.start:
+            continue
+        d = side.start + (side.end - side.start) * np.linspace(0, 1, _SCAN)[1:]
         contact = path.along(d, recess)
         for gear, U in ((1, contact.U1), (2, contact.U2)):
             if (U <= 0).any():
@@ -78,29 +83,47 @@ def _standstill(path: Path, d: Floats, U: Floats, gear: int, recess: bool) -> fl
     return float(path.along(np.array([found]), recess).X[0])
 
 
-def _pointed(path: Path) -> Iterator[Fault]:
-    """Where the two flanks of a tooth would meet before its tip; at the pitch line a tooth is half a pitch wide."""
-    approach, recess = path.arcs
-    for gear, X in ((1, recess), (2, -approach)):
-        if X and (room := tip_thickness(path, gear)) < 0:
+def _pointed(path: Path, halves: Halves | None) -> Iterator[Fault]:
+    """Where the two flanks of a tooth would meet before its tip."""
+    for gear, X in ((1, path.arcs[1]), (2, -path.arcs[0])):
+        if X and (room := tip_thickness(path, gear, halves)) < 0:
             z = path.pitch.z1 if gear == 1 else path.pitch.z2
+            name = "recess" if gear == 1 else "approach"
+            point = _point(path, gear, X, halves)
+            shorter = (
+                f"end the {name} before {abs(point) / path.pitch.p:.6g} pitches" if point else "take thicker teeth"
+            )
             yield Fault(
                 "pointed",
                 gear,
                 X,
                 f"the teeth of gear {gear} come to a point before their tips",
                 f"their flanks would cross by {-degrees(room):.4g} deg of its {360 / z:.4g} deg pitch",
-                f"shorten the {'recess' if gear == 1 else 'approach'}, or take a smaller pressure angle",
+                f"{shorter}, or take a smaller pressure angle",
             )
 
 
-def tip_thickness(path: Path, gear: int) -> float:
-    """Angle (rad) of the top land of a gear's tooth with standard thickness; negative where its flanks cross."""
-    approach, recess = path.arcs
-    X = recess if gear == 1 else -approach
-    z = path.pitch.z1 if gear == 1 else path.pitch.z2
+def _point(path: Path, gear: int, X: float, halves: Halves | None) -> float:
+    """X of the contact at which the flanks of a tooth cross; 0 where they do from the first."""
+
+    def room(x: float) -> float:
+        return _thickness(path, gear, x, halves)
+
+    at_foot, at_tip = room(0.0), room(X)
+    return root(room, 0.0, X, at_foot, at_tip) if at_foot > 0 else 0.0
+
+
+def tip_thickness(path: Path, gear: int, halves: Halves | None = None) -> float:
+    """Angle (rad) of the top land of a gear's tooth; negative where its flanks cross. `halves` as in `faults`."""
+    return _thickness(path, gear, path.arcs[1] if gear == 1 else -path.arcs[0], halves)
+
+
+def _thickness(path: Path, gear: int, X: float, halves: Halves | None) -> float:
+    """Angle (rad) between the flanks of a tooth where they touch at X."""
+    reach = path.pitch.reach if gear == 1 else abs(path.pitch.reach2)
+    half = (halves[gear - 1] if halves else path.pitch.p / 4) / reach
     points = (path.flank1 if gear == 1 else path.flank2)(np.array([X]))[0]
-    return float(pi / z - 2 * abs(_azimuth(path, gear, points)))
+    return float(2 * (half - abs(_azimuth(path, gear, points))))
 
 
 def _azimuth(path: Path, gear: int, point: Floats) -> float:

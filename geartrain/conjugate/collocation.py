@@ -20,26 +20,40 @@ if TYPE_CHECKING:
 Both = Callable[["Floats", "Floats"], "tuple[Floats, Floats]"]
 
 _NODES = (24, 48, 96, 192)
-_FALLEN = 1e-14
-_STEPS = 60
+FALLEN = 1e-14
+_UNFINISHED = 1e-5  # coefficients that have not fallen so far with the most nodes: beyond 84 deg or so
+_STEPS = 25
 _ROUGH = 1e-9  # residuals below this are left to rounding
 
 
-def solved(pitch: Pitch, f: Both, first: float, end: float, start: float = 0.0) -> Series:
+def solved(pitch: Pitch, f: Both, first: float, end: float, start: float = 0.0, near: Series | None = None) -> Series:
     """v on [start, end] with S v' + f = 0 and v = `first` at `start`.
 
-    f   d, v -> f and its derivative by v; at the pitch point f(0, first) = 0 is what makes the solution bounded
+    f      d, v -> f and its derivative by v; at the pitch point f(0, first) = 0 is what makes the solution bounded
+    near   the solution up to another end, to begin with
     Nodes are doubled until the last coefficients have fallen to 1e-14 of the greatest. Raises `RangeError` where the
-    solution leaves what f is defined for.
+    solution leaves what f is defined for, or comes so near that the coefficients do not fall.
     """
-    series = Series.through(np.full(_NODES[0], first), start, end)
+    series = near or Series.through(np.full(_NODES[0], first), start, end)
     for nodes in _NODES:
-        x, _ = points(nodes)
-        d = start + (end - start) * (x + 1) / 2
-        series = Series.through(_Collocated(pitch, f, first, d).newton(series(d)), start, end)
-        if series.tail < _FALLEN:
+        if near and nodes < len(near.coefficients):
+            continue
+        series = fitted(pitch, f, first, end, start, nodes, series)
+        if series.tail < FALLEN:
             break
+    if series.tail > _UNFINISHED:
+        raise lost(end)
     return series
+
+
+def fitted(
+    pitch: Pitch, f: Both, first: float, end: float, start: float, nodes: int, near: Series | None = None
+) -> Series:
+    """As `solved`, with so many nodes and no more."""
+    x, _ = points(nodes)
+    d = start + (end - start) * (x + 1) / 2
+    guess = near(np.minimum(d, near.end)) if near else np.full(nodes, first)
+    return Series.through(_Collocated(pitch, f, first, d).newton(guess), start, end)
 
 
 class _Collocated:
@@ -66,20 +80,23 @@ class _Collocated:
             while not np.isfinite(left).all() or (np.abs(left).max() > size and part > 1e-3 and size > _ROUGH):
                 part /= 2
                 if part < 1e-9:
-                    raise _lost(float(self.d[-1]))
+                    raise lost(float(self.d[-1]))
                 trial, (left, slope) = v - part * step, self.residual(v - part * step)
             done = np.abs(trial - v).max() <= 4e-16 * np.abs(trial).max() or not np.abs(left).max() < size
             v = trial
             if done:
                 break
+        if not np.abs(left).max() < _ROUGH:
+            raise lost(float(self.d[-1]))
         return v
 
 
-def _lost(end: float) -> RangeError:
+def lost(end: float) -> RangeError:
+    """What to say of an end that cannot be reached."""
     return RangeError(
         Problem(
             f"the path of contact does not reach {end:.6g} from the pitch point",
-            "its pressure angle would pass a right angle before",
+            "its pressure angle would come to a right angle before",
             "ask for shorter arcs, more teeth, or a smaller pressure angle",
         )
     )

@@ -6,14 +6,16 @@ a = A, b = B in recess, exchanged in approach.
 
 from __future__ import annotations
 
-from math import atan, cos, sin, sqrt
+from functools import partial
+from math import atan, cos, inf, sin, sqrt
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from geartrain.conjugate.collocation import Both, solved
+from geartrain.conjugate.collocation import FALLEN, Both, lost, solved
 from geartrain.conjugate.pieces import Circle, Piece, Ray, Sampled, Steady, circle_end, ray_end
 from geartrain.conjugate.side import Side
+from geartrain.errors import RangeError
 from geartrain.roots import root
 
 if TYPE_CHECKING:
@@ -22,7 +24,15 @@ if TYPE_CHECKING:
     from geartrain.conjugate.chebyshev import Series
     from geartrain.conjugate.pitch import Floats, Pitch
 
+    Made = Callable[[Pitch, Both, Series, float], Piece]
+
 _NEAR = 0.05  # of a side: nearer to the pitch point slopes are those of the series
+_GAUSS = np.polynomial.legendre.leggauss(64)
+_TRIES, _CUTS = 20, 4
+_BEYOND = 1e-7  # of a series' length: so far past its end it is as good as inside
+_SETTLED = 1e-9  # of the end: so near, one more Newton step on the piece's own series is exact
+_FARTHER, _REACH = 0.1, 8.0  # so far past its end a series still tells where to solve next: this, or (8 / nodes)^2
+_GIVEN_UP = 1e-4  # of the end: what cannot be reached nearer than this cannot be reached
 
 
 def involute(X: float, psi: float) -> Side:
@@ -37,6 +47,11 @@ def cycloid(X: float, rho: float) -> Side:
 
 def uniform_stress(pitch: Pitch, a: float, b: float, X: float, psi: float) -> Side:
     """kr / cos psi constant: w = ((b - a) S + sqrt((a + b)^2 S^2 + 4 k tan psi)) / 2, k = sin psi0 cos psi0."""
+    return Side((_reached(pitch, stress_law(pitch, a, b, psi), sin(psi), ray_end(psi, X), X),))
+
+
+def stress_law(pitch: Pitch, a: float, b: float, psi: float) -> Both:
+    """The equation of uniform stress for v = sin psi: S v' + f(d, v) = 0, `psi` the pressure angle at the pitch."""
     k = sin(psi) * cos(psi)
 
     def f(d: Floats, v: Floats) -> tuple[Floats, Floats]:
@@ -47,14 +62,70 @@ def uniform_stress(pitch: Pitch, a: float, b: float, X: float, psi: float) -> Si
             w = ((b - a) * S + under) / 2
             return pitch.S_slope(d) * v - w, pitch.S_slope(d) - k / (under * cosine**3)
 
-    return Side((_to_arc(lambda end: _piece(pitch, f, sin(psi), end), ray_end(psi, X), X),))
+    return f
 
 
-def _piece(pitch: Pitch, f: Both, first: float, end: float, start: float = 0.0) -> Piece:
-    """sin psi itself as the solution of S v' + f = 0."""
-    v = solved(pitch, f, first, end, start)
-    slope = _slope(pitch, f, v)
-    return Sampled(v, slope, start, end, max(len(v.coefficients), 64))
+def _reached(
+    pitch: Pitch, f: Both, first: float, guess: float, X: float, start: float = 0.0, made: Made | None = None
+) -> Piece:
+    """The piece that has travelled X at its end, where S v' + f = 0.
+
+    The solution is one function whatever its end. So it is solved up to a guessed end, and again only where the true
+    end lies beyond; a guess that it cannot reach is drawn in.
+    """
+    made = made or _plain
+    v: Series | None = None
+    low, end = start, guess
+    for _ in range(_TRIES):
+        try:
+            v = solved(pitch, f, first, end, start, v)
+        except RangeError:
+            if end - low < _GIVEN_UP * end:
+                raise
+            end = (low + end) / 2
+            continue
+        low, end, piece = end, *_cut(partial(made, pitch, f, v), X, v)
+        if piece is not None:
+            return piece
+    raise lost(end)
+
+
+def _cut(made: Callable[[float], Piece], X: float, v: Series) -> tuple[float, Piece | None]:
+    """Where X is reached, and the piece up to there; None where the series must first be solved up to there."""
+    end = v.end
+    for _ in range(_CUTS):
+        piece = made(end)
+        found = _end(piece, X, v)
+        if found > v.end + _BEYOND * (v.end - v.start) or (v.tail > FALLEN and found < v.end * (1 - _BEYOND)):
+            return found, None
+        if abs(found - end) <= _SETTLED * end:
+            return found, piece if found == end else made(found)
+        end = found
+    return end, made(end)
+
+
+def _end(piece: Piece, X: float, v: Series) -> float:
+    """Where the piece has travelled X: Newton on its own series, or one step where that would lead out of it."""
+    most = piece.end + min(_FARTHER, (_REACH / len(v.coefficients)) ** 2) * (piece.end - v.start)
+    end, last, first = piece.end, inf, 0.0
+    for _ in range(30):
+        sine = float(piece.sin_psi(np.array(end)))
+        if abs(sine) >= 1:
+            return (piece.end + end) / 2
+        step = (float(piece.travel(np.array(end))) - X) * sqrt(1 - sine * sine)
+        first = first or step
+        if not v.start < end - step <= most:
+            return piece.end - first
+        end -= step
+        if abs(step) <= 4e-16 * end or (abs(step) < 1e-12 * end and abs(step) >= last):
+            break
+        last = abs(step)
+    return end
+
+
+def _plain(pitch: Pitch, f: Both, v: Series, end: float) -> Piece:
+    """sin psi is the solution itself."""
+    return Sampled(v, _slope(pitch, f, v), v.start, end, max(len(v.coefficients), 64))
 
 
 def _slope(pitch: Pitch, f: Both, v: Series) -> Callable[[Floats], Floats]:
@@ -71,31 +142,26 @@ def _slope(pitch: Pitch, f: Both, v: Series) -> Callable[[Floats], Floats]:
 
 def _to_arc(made: Callable[[float], Piece], guess: float, X: float) -> Piece:
     """The piece whose end has travelled X: Newton on the end, its slope being 1 / cos psi there."""
-    end = guess
+    end, last = guess, inf
     piece = made(end)
     for _ in range(30):
         at = np.array(end)
         step = (float(piece.travel(at)) - X) * sqrt(1 - float(piece.sin_psi(at)) ** 2)
-        if abs(step) <= 4e-16 * end:
+        if abs(step) <= 4e-16 * end or (abs(step) < 1e-12 * end and abs(step) >= last):
             break
-        end -= step
+        end, last = end - step, abs(step)
         piece = made(end)
     return piece
 
 
 def uniform_heat(pitch: Pitch, beta: float, gamma: float, X: float) -> Side:
     """w = beta S + gamma S / cos psi with psi = 0 at the pitch point; beta = b of the hotter surface (reading b)."""
-    return Side((_to_arc(lambda end: _heated(pitch, beta, gamma, end), _short(beta, gamma, X), X),))
+    f, first = heat_law(pitch, beta, gamma), (beta + gamma) / 2
+    return Side((_reached(pitch, f, first, _short(beta, gamma, X), X, made=_raised),))
 
 
-def _short(beta: float, gamma: float, X: float) -> float:
-    """A first guess of the end: the cycloid that touches the path at the pitch point."""
-    rho = 1 / (beta + gamma)
-    return circle_end(rho, min(X, 2 * rho))
-
-
-def _heated(pitch: Pitch, beta: float, gamma: float, end: float) -> Piece:
-    """g = sin psi / S solves 2 S' g + S g' = beta + gamma / cos psi."""
+def heat_law(pitch: Pitch, beta: float, gamma: float) -> Both:
+    """The equation of uniform heat for g = sin psi / S: S g' + f(d, g) = 0."""
 
     def f(d: Floats, g: Floats) -> tuple[Floats, Floats]:
         S = pitch.S(d)
@@ -104,7 +170,17 @@ def _heated(pitch: Pitch, beta: float, gamma: float, end: float) -> Piece:
             slope = 2 * pitch.S_slope(d) - gamma * S**2 * g / cosine**3
             return 2 * pitch.S_slope(d) * g - beta - gamma / cosine, slope
 
-    g = solved(pitch, f, (beta + gamma) / 2, end)
+    return f
+
+
+def _short(beta: float, gamma: float, X: float) -> float:
+    """A first guess of the end: the cycloid that touches the path at the pitch point."""
+    rho = 1 / (beta + gamma)
+    return circle_end(rho, min(X, 2 * rho))
+
+
+def _raised(pitch: Pitch, f: Both, g: Series, end: float) -> Piece:
+    """The solution is g = sin psi / S, of 2 S' g + S g' = beta + gamma / cos psi."""
     steep = _slope(pitch, f, g)
     return Sampled(
         lambda d: pitch.S(d) * g(d),
@@ -131,11 +207,8 @@ def bounded_heat(pitch: Pitch, b: float, gamma: float, X: float, psi: float) -> 
             cosine = np.sqrt(1 - v * v)
             return pitch.S_slope(d) * v - b * S - gamma * S / cosine, pitch.S_slope(d) - gamma * S * v / cosine**3
 
-    def made(end: float) -> Piece:
-        return _piece(pitch, f, sin(psi), end, first)
-
     rest = X - first / cos(psi)
-    return Side((Ray(psi, first), _to_arc(made, first + rest * cos(psi), rest)))
+    return Side((Ray(psi, first), _reached(pitch, f, sin(psi), first + rest * cos(psi), rest, first)))
 
 
 def least_friction(pitch: Pitch, b: float, X: float, psi: float, u: float) -> Side:
@@ -145,29 +218,51 @@ def least_friction(pitch: Pitch, b: float, X: float, psi: float, u: float) -> Si
     """
     longest = ray_end(psi, X)
 
-    def lifted(first: float) -> Steady:
-        def made(end: float) -> Piece:
-            return Steady(pitch, b, u, first, sin(psi), end)
-
-        rest = X - first / cos(psi)
-        piece = _to_arc(made, first + rest * cos(psi), rest)
-        assert isinstance(piece, Steady)
-        return piece
-
     def variation(first: float) -> float:
-        return _variation(pitch, lifted(first))
+        sine = _lifted(pitch, b, u, first, psi)
+        return _variation(pitch, sine, first, _lifted_end(sine, first, X - first / cos(psi), psi))
 
     least, most = 1e-3 * longest, longest * (1 - 1e-6)
     first = root(variation, least, most, variation(least), variation(most))
-    return Side((Ray(psi, first), lifted(first)))
+    rest = X - first / cos(psi)
+    guess = _lifted_end(_lifted(pitch, b, u, first, psi), first, rest, psi)
+    piece = _to_arc(lambda end: Steady(pitch, b, u, first, sin(psi), end), guess, rest)
+    return Side((Ray(psi, first), piece))
 
 
-def _variation(pitch: Pitch, piece: Steady) -> float:
+def _lifted(pitch: Pitch, b: float, u: float, first: float, psi: float) -> Callable[[Floats], Floats]:
+    """sin psi of the second piece by itself, the same as `Steady`'s without its series of travel."""
+    eta, below = float(pitch.S(first)) * sin(psi), float(pitch.S_integral(first))
+
+    def sine(d: Floats) -> Floats:
+        found: Floats = (eta + u * (d - first) + b * (pitch.S_integral(d) - below)) / pitch.S(d)
+        return found
+
+    return sine
+
+
+def _lifted_end(sine: Callable[[Floats], Floats], first: float, rest: float, psi: float) -> float:
+    """Where the second piece has travelled `rest`: Newton's method, travel by Gauss's rule."""
+    x, weights = _GAUSS
+    end, last = first + rest * cos(psi), inf
+    for _ in range(30):
+        travelled = (
+            float(weights @ (1 / np.sqrt(1 - sine(first + (end - first) * (x + 1) / 2) ** 2))) * (end - first) / 2
+        )
+        step = (travelled - rest) * sqrt(1 - float(sine(np.array(end))) ** 2)
+        end -= step
+        if abs(step) <= 4e-16 * end or (abs(step) < 1e-12 * end and abs(step) >= last):
+            break
+        last = abs(step)
+    return end
+
+
+def _variation(pitch: Pitch, sine_of: Callable[[Floats], Floats], first: float, end: float) -> float:
     """The integral of eta / (S^2 cos psi) (2 S / cos^3 psi - lambda / cos^2 psi) over the lifted piece."""
-    x, weights = np.polynomial.legendre.leggauss(64)
-    d = piece.start + (piece.end - piece.start) * (x + 1) / 2
-    S, sine = pitch.S(d), piece.sin_psi(d)
+    x, weights = _GAUSS
+    d = first + (end - first) * (x + 1) / 2
+    S, sine = pitch.S(d), sine_of(d)
     cosine = np.sqrt(1 - sine**2)
-    last = np.array(piece.end)
-    pull = float(pitch.S(last)) / sqrt(1 - float(piece.sin_psi(last)) ** 2)
+    last = np.array(end)
+    pull = float(pitch.S(last)) / sqrt(1 - float(sine_of(last)) ** 2)
     return float(weights @ (sine / (S * cosine) * (2 * S / cosine**3 - pull / cosine**2)))

@@ -54,11 +54,11 @@ def measure(path: Path) -> Measures:
     sides = (path.approach, path.recess)
     total = sum(rubbing(pitch, side) for side in sides)
     bound = 0.1 * pitch.p
-    stress = max(_greatest(path, recess, lambda c: c.H) for recess in (False, True))
-    off = max(_greatest(path, recess, lambda c: c.H, bound) for recess in (False, True))
-    heat = max(_greatest(path, recess, lambda c: np.maximum(c.Q1, c.Q2)) for recess in (False, True))
-    flash = max(_greatest(path, recess, lambda c: c.flash) for recess in (False, True))
-    slowest = min(-_greatest(path, recess, lambda c: -np.minimum(c.U1, c.U2)) for recess in (False, True))
+    stress = max(greatest(path, recess, lambda c: c.H) for recess in (False, True))
+    off = max(greatest(path, recess, lambda c: c.H, bound) for recess in (False, True))
+    heat = max(greatest(path, recess, lambda c: np.maximum(c.Q1, c.Q2)) for recess in (False, True))
+    flash = max(greatest(path, recess, lambda c: c.flash) for recess in (False, True))
+    slowest = min(-greatest(path, recess, lambda c: -np.minimum(c.U1, c.U2)) for recess in (False, True))
     slowest = min(slowest, float(path.at(0.0).sin_psi))
     return Measures(
         loss=(pitch.A + pitch.B) * total / sum(path.arcs),
@@ -75,26 +75,27 @@ def measure(path: Path) -> Measures:
 def rubbing(pitch: Pitch, side: Side) -> float:
     """J of one side: the integral of S / cos^2 psi over d."""
     x, weights = _GAUSS
-    total, start = 0.0, 0.0
+    total = 0.0
     for piece in side.pieces:
+        start = piece.start
         d = start + (piece.end - start) * (x + 1) / 2
         total += float(weights @ (pitch.S(d) / (1 - piece.sin_psi(d) ** 2))) * (piece.end - start) / 2
-        start = piece.end
     return total
 
 
 def height(pitch: Pitch, side: Side) -> float:
-    """Height of the last contact over the pitch line, |eta|."""
-    end = np.array(side.end)
-    return float(pitch.S(end) * side.sin_psi(end))
+    """Height of the last contact over the first, |eta|; over the pitch line but for paths that keep off it."""
+    ends = np.array([side.start, side.end])
+    low, high = pitch.S(ends) * side.sin_psi(ends)
+    return float(high - low)
 
 
-def _greatest(path: Path, recess: bool, what: Callable[[Contact], Floats], beyond: float = 0.0) -> float:
+def greatest(path: Path, recess: bool, what: Callable[[Contact], Floats], beyond: float = 0.0) -> float:
     """The greatest value of a quantity on one side, where |X| >= `beyond`: scanned piece by piece, then narrowed."""
     side = path.recess if recess else path.approach
     if beyond >= side.arc:
         return -np.inf
-    start = float(side.distance(np.array(beyond))) if beyond else 0.0
+    start = float(side.distance(np.array(beyond))) if beyond else side.start
     best = -np.inf
     for piece in side.pieces:
         if piece.end <= start:

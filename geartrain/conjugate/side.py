@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from geartrain.conjugate.pieces import Piece
+from geartrain.conjugate.pieces import Piece, Ray
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -18,9 +18,17 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Side:
-    """Pieces that follow each other from d = 0. `pole`: the pressure angle is 0 at the pitch point."""
+    """Pieces that follow each other outwards, from the pitch point or from the first contact beyond it.
+
+    X of a side that begins beyond the pitch point counts from its first contact.
+    """
 
     pieces: Sequence[Piece]
+
+    @property
+    def start(self) -> float:
+        """Distance of the first contact from the pitch point; 0 but for paths that keep off it."""
+        return self.pieces[0].start
 
     @property
     def end(self) -> float:
@@ -59,10 +67,10 @@ class Side:
         """d at X, by Newton's method on dd/dX = cos psi."""
         X = np.asarray(X, dtype=float)
         arc = self.arc
-        d = np.clip(X / arc, 0.0, 1.0) * self.end if arc else np.zeros(X.shape)
+        d = self.start + (np.clip(X / arc, 0.0, 1.0) * (self.end - self.start) if arc else np.zeros(X.shape))
         for _ in range(40):
             step = (self.travel(d) - X) * np.sqrt(np.maximum(1 - self.sin_psi(d) ** 2, 0.0))
-            d = np.clip(d - step, 0.0, self.end)
+            d = np.clip(d - step, self.start, self.end)
             if np.abs(step).max(initial=0.0) <= 4e-16 * self.end:
                 break
         return d
@@ -78,3 +86,8 @@ class Side:
             if here.any():
                 found[here] = ask(piece, d[here])
         return found
+
+
+def none(psi: float) -> Side:
+    """A side without contact: the path begins or ends at the pitch point, under a pressure angle `psi` (rad)."""
+    return Side((Ray(psi, 0.0),))

@@ -6,9 +6,29 @@ from typing import Annotated
 
 from pydantic import Field
 
+from geartrain.teeth.cycloidal import Cycloidal
 from geartrain.teeth.ideal import Ideal
+from geartrain.teeth.involute import Involute
+from geartrain.teeth.lantern import Lantern
+from geartrain.teeth.least_friction import LeastFriction
 from geartrain.teeth.triangular import Triangular
+from geartrain.teeth.uniform_stress import UniformStress
+from geartrain.teeth.uniform_temperature import UniformTemperature
 
-ToothForm = Annotated[Ideal | Triangular, Field(discriminator="form")]
+ConjugateForm = Involute | Cycloidal | Lantern | UniformStress | UniformTemperature | LeastFriction
+"""Teeth that keep their ratio at every instant at the distance they are made for."""
 
-__all__ = ["Ideal", "ToothForm", "Triangular"]
+ToothForm = Annotated[Ideal | ConjugateForm | Triangular, Field(discriminator="form")]
+
+__all__ = [
+    "ConjugateForm",
+    "Cycloidal",
+    "Ideal",
+    "Involute",
+    "Lantern",
+    "LeastFriction",
+    "ToothForm",
+    "Triangular",
+    "UniformStress",
+    "UniformTemperature",
+]

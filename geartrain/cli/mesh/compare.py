@@ -1,0 +1,170 @@
+"""`geartrain mesh compare`: what several tooth forms cost, beside the 20 degree involute of the same pair and arcs."""
+
+from __future__ import annotations
+
+from math import pi, radians
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from geartrain.cli.common import GOOD, PICTURES, VERDICT, Json, Out, as_json, draw, emit, show, suffix_of
+from geartrain.cli.mesh.options import quantity
+from geartrain.cli.mesh.shaping import FORMS, NAMES, Question, pair, question, shape, unknown
+from geartrain.errors import GearTrainError, Problem
+
+if TYPE_CHECKING:
+    from geartrain.report import Compared, Shaped
+    from geartrain.teeth.conjugate import Pair
+
+_BASE = 20.0  # deg
+_USUAL = "involute,uniform_stress,uniform_temperature_b,least_friction,cycloidal,lantern"
+
+
+def run(
+    teeth: Annotated[tuple[int, int], typer.Option("--teeth", help="Teeth of the driving and the driven wheel.")],
+    forms: Annotated[str, typer.Option("--forms", help=f"With commas, of {', '.join(NAMES)}.")] = _USUAL,
+    pressure_angle: Annotated[
+        str | None,
+        typer.Option("--pressure-angle", help="Of involute, uniform_stress and least_friction; default 20, 20, 25deg."),
+    ] = None,
+    arcs: Annotated[str, typer.Option("--arcs", help="Approach and recess in pitches.")] = "0.5,0.5",
+    bevel: Annotated[str | None, typer.Option("--bevel", help="Angle between the axes, such as 90deg.")] = None,
+    internal: Annotated[bool, typer.Option("--internal", help="The second wheel is a ring.")] = False,
+    plot: Annotated[
+        Path | None, typer.Option("--plot", help="Draw flanks, paths of contact and costs of all forms to this file.")
+    ] = None,
+    json: Json = False,
+    out: Out = None,
+) -> None:
+    """Loss, stress, heat, flash, depth of tooth forms as ratios to the 20 degree involute of the same pair and arcs."""
+    from geartrain import report
+
+    suffix, picture = suffix_of(out, (".md", ".html", ".json")), suffix_of(plot, PICTURES) or ".svg"
+    asked = question(teeth, internal, bevel)
+    found = _compared(asked, _names(forms), _arcs(arcs), _angle(pressure_angle), pressure_angle)
+    if json or suffix == ".json":
+        emit(as_json(report.compared_data(found)), out)
+    else:
+        show([report.compared_document(found)], out, suffix)
+    if plot is not None:
+        from geartrain.plot import shapes_figure
+
+        draw(shapes_figure({form.name: form.path for form in found.forms if form.path and form.runs}), plot, picture)
+    raise typer.Exit(GOOD if all(form.runs for form in found.forms) else VERDICT)
+
+
+def _names(text: str) -> list[str]:
+    names = list(dict.fromkeys(part.strip() for part in text.split(",") if part.strip()))
+    if not names:
+        raise GearTrainError(Problem("no form is named", "", f"use some of: {', '.join(NAMES)}", "--forms"))
+    for name in names:
+        if name not in NAMES:
+            raise unknown(name)
+    return names
+
+
+def _arcs(text: str) -> tuple[float, float]:
+    """Approach and recess in pitches."""
+    parts = text.split(",")
+    try:
+        first, second = float(parts[0]), float(parts[-1])
+    except ValueError:
+        first = second = -1.0
+    if len(parts) > 2 or not 0 <= min(first, second) <= max(first, second) <= 100 or first + second <= 0:
+        fix = "give those of approach and recess in pitches, such as 0.5,0.5; together 1 or more"
+        raise GearTrainError(Problem(f"arcs {text} are none", "", fix, "--arcs"))
+    return first, second
+
+
+def _angle(text: str | None) -> float | None:
+    """A pressure angle that all forms can have (rad)."""
+    if text is None:
+        return None
+    angle = quantity("--pressure-angle", text, "angle")
+    if not 0 < angle < pi / 4:
+        why = "at 45 deg and above teeth of uniform stress are no longer determined by it"
+        fix = "give one between 0 and 45 deg; 20 deg is usual"
+        raise GearTrainError(Problem(f"a pressure angle of {text} is out of range", why, fix, "--pressure-angle"))
+    return angle
+
+
+# ------------------------------------------------------------------------------------------------------------ the forms
+
+
+def _compared(
+    asked: Question, names: list[str], arcs: tuple[float, float], angle: float | None, text: str | None
+) -> Compared:
+    from geartrain.report import Compared
+
+    base = _shaped("involute", _involute(asked, arcs, radians(_BASE)))
+    if not base.runs:
+        raise _no_base(base)
+    found = []
+    for name in names:
+        if name == "involute":
+            found.append(_shaped(name, _involute(asked, arcs, angle or radians(_BASE))))
+        else:
+            found.append(_made(name, asked, arcs, text))
+    pins = next((form.path for form in found if form.name == "lantern" and form.runs and form.path), None)
+    if pins is not None and arcs[0]:
+        # the pins work on one side only: the involute with their arcs tells what is due to these
+        beside = (0.0, pins.arcs[1] / pins.pitch.p)
+        found.append(_shaped("involute, recess only", _involute(asked, beside, angle or radians(_BASE))))
+    matched = (
+        f"Matched: arcs, {arcs[0]:g} pitches of approach and {arcs[1]:g} of recess"
+        + ("; the pins of a lantern have all of it in recess, beyond what they cut off" if "lantern" in names else "")
+        + ("; of uniform temperature also the working depth" if any("temperature" in name for name in names) else "")
+        + ". One pair of teeth bears the load; first order in friction."
+    )
+    return Compared(base, tuple(found), matched)
+
+
+def _no_base(base: Shaped) -> GearTrainError:
+    """What keeps the involute with which forms are compared from running; its pressure angle is not to choose."""
+    what = "the 20 deg involute, with which forms are compared, cannot run: "
+    fixes = (fault.fix.partition(", or ")[0] for fault in base.faults)
+    return GearTrainError(
+        Problem(what + fault.what, fault.why, f"{fix}, or give other teeth", "--arcs")
+        for fault, fix in zip(base.faults, fixes, strict=True)
+    )
+
+
+def _involute(asked: Question, arcs: tuple[float, float], psi: float) -> Pair:
+    """An involute pair with given arcs, whatever addenda they take."""
+    from geartrain.conjugate.forms import involute
+    from geartrain.conjugate.path import Path as Contact
+    from geartrain.teeth.conjugate import Pair
+
+    pitch = asked.wheels.pitch
+    approach, recess = (involute(arc * pitch.p, psi) for arc in arcs)
+    return Pair(Contact(pitch, approach, recess), (pitch.p / 4, pitch.p / 4))
+
+
+def _made(name: str, asked: Question, arcs: tuple[float, float], angle: str | None) -> Shaped:
+    from geartrain.report import Shaped
+
+    reading = name[-1] if name.startswith("uniform_temperature_") else None
+    form = name[:-2] if reading else name
+    given: dict[str, str | None] = {"arcs": ",".join(map(repr, arcs)), "reading": reading}
+    if "pressure_angle" in FORMS[form]:
+        given["pressure_angle"] = angle
+    try:
+        if form == "lantern":
+            given["arcs"] = f"0,{sum(arcs) + _lost(asked)!r}"
+        return _shaped(name, pair(shape(form, given), asked))
+    except GearTrainError as error:
+        return Shaped(name, None, None, error.problems)
+
+
+def _lost(asked: Question) -> float:
+    """What the pins of a lantern cut off the recess, in pitches."""
+    found = pair(shape("lantern", {}), asked)
+    return float(max(-found.arcs[0], 0.0) / found.path.pitch.p * (1 + 1e-8))
+
+
+def _shaped(name: str, found: Pair) -> Shaped:
+    from geartrain.conjugate.measures import measure
+    from geartrain.report import Shaped
+
+    return Shaped(name, found.path, None if found.faults else measure(found.path), found.faults)

@@ -1,0 +1,235 @@
+"""A page on one pair of wheels with conjugate teeth."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from math import degrees, isfinite
+from typing import TYPE_CHECKING, Any
+
+from geartrain.report.document import Document, Section, Table, figure
+
+if TYPE_CHECKING:
+    from geartrain.conjugate.measures import Measures
+    from geartrain.conjugate.path import Path
+    from geartrain.outlines import Wheel
+    from geartrain.teeth.conjugate import ConjugateLaw
+
+RATIOS = ("loss", "stress", "off_pitch", "heat", "flash", "depth", "contact_ratio", "slowest")
+"""The measures of a path, in the order of tables."""
+
+
+def shape_document(name: str, law: ConjugateLaw, wheels: Sequence[Wheel] = ()) -> Document:
+    """Wheels, path of contact, costs and faults of one pair."""
+    from geartrain.conjugate.measures import measure
+
+    pitch = law.path.pitch
+    driver, driven = (pitch.z1, pitch.z2) if law.driver == 1 else (pitch.z2, pitch.z1)
+    lead = [f"The wheel of {driver} drives the wheel of {driven}.", _verdict(law)]
+    sections = [_wheels(law), _path(law)]
+    if law.verdict:
+        sections += [_costs(law, measure(law.path)), _friction(law), *map(_outline, wheels)]
+    return Document(f"{name.replace('_', ' ').capitalize()} teeth {pair_name(law.path)}", lead, sections)
+
+
+def _verdict(law: ConjugateLaw) -> str:
+    verdict = law.verdict
+    if verdict:
+        return "Verdict: the teeth run, and keep the ratio exactly at every instant."
+    reasons = " ".join(f"{f.what.capitalize()}: {f.why}. What to do: {f.fix}." for f in verdict.faults)
+    return f"Verdict: these teeth cannot run. {reasons}"
+
+
+def _wheels(law: ConjugateLaw) -> Section:
+    from geartrain.conjugate.admissible import tip_thickness
+
+    pitch, p = law.path.pitch, law.path.pitch.p
+    rows = []
+    for gear, (z, R) in enumerate(((pitch.z1, pitch.R1), (pitch.z2, pitch.R2)), 1):
+        low, high = reaches(law.path, gear, law.pair.arcs)
+        thick = 2 * law.pair.halves[gear - 1] / p
+        solid = law.pair.solid[gear - 1]
+        land = degrees(tip_thickness(law.path, gear, law.pair.halves)) if solid else float("nan")
+        size = degrees if pitch.bevel else float
+        rows.append(
+            (
+                str(gear),
+                str(z),
+                *(figure(size(value), 9) for value in (abs(R), low, high)),
+                f"{thick:.6g}",
+                f"{land:.4g}" if solid else "-",
+            )
+        )
+    what = "cone (deg)" if pitch.bevel else "radius"
+    header = ("wheel", "teeth", f"pitch {what}", f"flank from {what}", f"to {what}", "thickness", "top land (deg)")
+    distance = "" if pitch.bevel else f"Centre distance {figure(abs(pitch.R1 + pitch.R2), 9)} modules. "
+    text = f"{distance}Radii in modules; thickness of a tooth, or pin, on the pitch circle in pitches."
+    if pitch.bevel:
+        text = "Half-angles of cones; thickness of a tooth on the pitch cone in pitches."
+    return Section("Wheels", (text,), (Table(header, rows),))
+
+
+def reaches(path: Path, gear: int, arcs: tuple[float, float]) -> tuple[float, float]:
+    """Radii (modules; half-angles of cones, rad) between which a flank works, root end first."""
+    import numpy as np
+
+    approach, recess = arcs
+    ends = np.array([-approach, recess] if gear == 1 else [recess, -approach])
+    pitch = path.pitch
+    points = (path.flank1 if gear == 1 else path.flank2)(ends)
+    R = -pitch.R1 if gear == 1 else pitch.R2
+    if pitch.bevel:
+        axis = np.array([0.0, np.sin(R), np.cos(R)])
+        low, high = np.arctan2(np.linalg.norm(np.cross(points, axis), axis=1), points @ axis)
+    else:
+        low, high = np.hypot(points[:, 0], points[:, 1] - R)
+    return float(low), float(high)
+
+
+def _path(law: ConjugateLaw) -> Section:
+    from geartrain.conjugate.measures import height
+
+    path = law.path
+    depth = sum(height(path.pitch, side) for side in (path.approach, path.recess))
+    rows = []
+    for name, arc, side in zip(("approach", "recess"), law.pair.arcs, (path.approach, path.recess), strict=True):
+        X = -max(arc, 0.0) if name == "approach" else max(arc, 0.0)
+        end, start = path.at(X), path.at(0.0)
+        psi = [degrees(float(contact.psi)) for contact in (start, end)]
+        rows.append((name, f"{arc / path.pitch.p:.6g}", figure(side.end), *(f"{value:.6f}" for value in psi)))
+    header = ("side", "pitches", "length of path", "psi at the pitch point (deg)", "psi at the end (deg)")
+    ratio = sum(law.pair.arcs) / path.pitch.p
+    text = (
+        f"Contact ratio {ratio:.6g}, working depth {figure(depth)}; psi is the pressure angle. "
+        f"Lengths in {'rad on the unit sphere' if path.pitch.bevel else 'modules'}."
+    )
+    lines = [text]
+    if min(law.pair.arcs) < 0:
+        lines.append("A negative arc: contact begins, or ends, so far beyond the pitch point.")
+    return Section("Path of contact", lines, (Table(header, rows),))
+
+
+def _costs(law: ConjugateLaw, found: Measures) -> Section:
+    slide, specific = sliding(law.path)
+    rows = [
+        ("mean loss over friction", cost(found.loss)),
+        ("greatest Hertz pressure over the root of tangential force", cost(found.stress)),
+        ("the same more than a tenth of a pitch from the pitch point", cost(found.off_pitch)),
+        ("greatest heat per area over friction times tangential force", cost(found.heat)),
+        ("greatest flash proxy", cost(found.flash)),
+        ("greatest sliding over the pitch-line speed", cost(slide)),
+        ("greatest sliding over the contact's speed along a flank", cost(specific)),
+        ("least speed along a dedendum over the pitch-line speed", cost(found.slowest)),
+    ]
+    return Section("Costs", ("To first order in friction.",), (Table(("quantity", "value"), rows),))
+
+
+def sliding(path: Path) -> tuple[float, float]:
+    """Greatest sliding over the pitch-line speed, and over the slower of the contact's speeds along the flanks."""
+    import numpy as np
+
+    from geartrain.conjugate.measures import greatest
+
+    pitch = path.pitch
+    sides = [recess for recess, arc in zip((False, True), path.arcs, strict=True) if arc]
+    slide = max(greatest(path, recess, lambda c: (pitch.A + pitch.B) * np.abs(pitch.S(c.d))) for recess in sides)
+    specific = max(greatest(path, recess, lambda c: c.Q1.clip(c.Q2) * c.cos_psi) for recess in sides)
+    return slide, specific
+
+
+def _friction(law: ConjugateLaw) -> Section:
+    if not law.friction:
+        return Section("Friction", ("No friction is given: nothing is lost by sliding.",))
+    if law.friction >= law.locking_friction:
+        return Section(
+            "Friction", (f"A friction of {law.friction:g} locks these teeth, as any from {law.locking_friction:.6g}.",)
+        )
+    return Section(
+        "Friction",
+        (
+            f"Coefficient of friction {law.friction:g}. Efficiency, exact in friction, teeth in contact sharing the "
+            f"load equally: mean {law.efficiency_mean():.9f} at constant driver torque, "
+            f"{law.efficiency_at_constant_load():.9f} at constant load torque, least {law.efficiency_least():.9f}.",
+        ),
+    )
+
+
+def _outline(wheel: Wheel) -> Section:
+    sizes = wheel.to_dict()
+    names = ("module", "pitch_diameter", "tip_diameter", "root_diameter", "thickness", "fillet", "clearance")
+    rows = [
+        (name.replace("_", " "), f"{sizes[name]:.6g}") for name in (*names, "backlash", "centre_distance", "tolerance")
+    ]
+    kinds = {"pins": "a disc with a hole for each pin", "ring": "teeth inwards", "external": "teeth outwards"}
+    text = (
+        f"Wheel {wheel.gear}, {kinds[wheel.kind]}; lengths in mm, thickness along the pitch circle. The axle is at "
+        "the origin, a tooth or pin on the x axis."
+    )
+    lines = [text]
+    if wheel.relief:
+        lines.append(f"The root is turned {degrees(wheel.relief):.3g} deg off the flank so that the mate's tip passes.")
+    return Section("Outline", lines, (Table(("quantity", "mm"), rows),))
+
+
+def shape_data(name: str, law: ConjugateLaw, wheels: Sequence[Wheel] = ()) -> dict[str, Any]:
+    """One pair as plain data; lengths in modules (bevel: rad), angles in rad, infinite values null.
+
+    Costs and efficiency of teeth that cannot run are null.
+    """
+    path, pitch = law.path, law.path.pitch
+    return {
+        "form": name,
+        "teeth": [pitch.z1, pitch.z2],
+        "verdict": law.verdict.to_dict(),
+        "pitch_radii": [pitch.R1, pitch.R2],
+        "flanks": [list(reaches(path, gear, law.pair.arcs)) for gear in (1, 2)],
+        "thickness": [2 * half / pitch.p for half in law.pair.halves],
+        "arcs": [arc / pitch.p for arc in law.pair.arcs],
+        "contact_ratio": sum(law.pair.arcs) / pitch.p,
+        "pressure_angles": [float(path.at(X).psi) for X in (-path.arcs[0], 0.0, path.arcs[1])],
+        "costs": _costs_data(law) if law.verdict else None,
+        "efficiency": _efficiency_data(law) if law.verdict else None,
+        "outlines": [wheel.to_dict() for wheel in wheels],
+    }
+
+
+def _costs_data(law: ConjugateLaw) -> dict[str, float | None]:
+    from geartrain.conjugate.measures import measure
+
+    slide, specific = sliding(law.path)
+    return measures_data(measure(law.path)) | {"sliding": slide, "specific_sliding": finite(specific)}
+
+
+def _efficiency_data(law: ConjugateLaw) -> dict[str, float | None]:
+    locks = law.friction >= law.locking_friction
+    return {
+        "friction": law.friction,
+        "mean": None if locks else law.efficiency_mean(),
+        "at_constant_load": None if locks else law.efficiency_at_constant_load(),
+        "min": None if locks else law.efficiency_least(),
+        "locks_at": finite(law.locking_friction),
+    }
+
+
+# ------------------------------------------------------------------------------------------------------------- shared
+
+
+def pair_name(path: Path) -> str:
+    """Tooth numbers and kind of a pair."""
+    pitch = path.pitch
+    kind = f"bevel, {degrees(pitch.R1 + pitch.R2):.6g} deg" if pitch.bevel else "internal" if pitch.R2 < 0 else "spur"
+    return f"{pitch.z1}/{pitch.z2} {kind}"
+
+
+def cost(value: float) -> str:
+    """A cost as text."""
+    return f"{value:.9g}" if isfinite(value) else "inf"
+
+
+def measures_data(found: Measures) -> dict[str, float | None]:
+    """Measures as plain data; infinite ones are null."""
+    return {name: finite(getattr(found, name)) for name in RATIOS}
+
+
+def finite(value: float) -> float | None:
+    """None for what is infinite or undetermined: JSON has neither."""
+    return value if isfinite(value) else None

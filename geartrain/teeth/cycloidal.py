@@ -1,0 +1,113 @@
+"""Cycloidal teeth: epicycloids outside the pitch circles, hypocycloids inside, of one rolling circle a side."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from typing import TYPE_CHECKING, Literal
+
+from pydantic import Field, model_validator
+
+from geartrain.quantity import Figure
+from geartrain.teeth.shape import Shape, TwoFigures, TwoLengths, Wheels, arcs_of, bad, check_arcs, refused
+
+if TYPE_CHECKING:
+    from geartrain.conjugate.pitch import Pitch
+    from geartrain.teeth.conjugate import Pair
+
+_HALF = Figure.parse("1/2")
+
+
+class Cycloidal(Shape):
+    """Cycloidal teeth, as in clocks: by default every dedendum is radial."""
+
+    form: Literal["cycloidal"] = Field(description="The name of this form")
+    rolling: TwoLengths | None = Field(
+        None, description="Radius of the rolling circle in modules or with a unit; a list of two: approach, recess"
+    )
+    rolling_fraction: TwoFigures | None = Field(
+        None,
+        description="The same as a fraction of the pitch radius of the wheel whose dedendum it makes, or of a ring's "
+        "pinion; default 1/2, radial flanks",
+    )
+    arcs: TwoFigures | None = Field(None, description="Arcs of approach and recess in pitches; default half each")
+    addendum: TwoFigures | None = Field(None, description="In place of arcs: addenda in modules; 0 for none")
+
+    @model_validator(mode="after")
+    def _parameters_make_sense(self) -> Cycloidal:
+        if self.rolling is not None and self.rolling_fraction is not None:
+            raise bad("rolling", "the rolling circles are given twice", "give rolling or rolling_fraction")
+        for circle in (*(self.rolling or ()), *(self.rolling_fraction or ())):
+            if circle.value <= 0:
+                raise bad("rolling", f"a rolling circle of {circle.text} does not roll", "write a radius above 0")
+        if any(figure.value >= 1 for figure in self.rolling_fraction or ()):
+            raise bad(
+                "rolling",
+                "a rolling circle as large as the pitch circle makes a dedendum of no length",
+                "give a fraction below 1; 1/2 makes the flanks radial, more undercuts them",
+            )
+        if self.arcs is not None and self.addendum is not None:
+            raise bad("arcs", "arcs and addendum are both given", "give one of them: each follows from the other")
+        if self.arcs is not None:
+            check_arcs(self.arcs)
+        elif self.addendum is not None and (
+            min(height.value for height in self.addendum) < 0 or not sum(height.value for height in self.addendum)
+        ):
+            raise bad("height", "an addendum is no height", "write modules, 0 or more, not 0 for both wheels")
+        return self
+
+    def pair(self, wheels: Wheels) -> Pair:
+        """The pair at its design distance."""
+        from geartrain.conjugate.cycloid import cycloid
+        from geartrain.conjugate.path import Path
+
+        pitch = wheels.pitch
+        circles = self._circles(pitch, wheels)
+        arcs = self._arcs(pitch, circles)
+        approach, recess = (cycloid(pitch, X, rho) for X, rho in zip(arcs, circles, strict=True))
+        return self.standard(Path(pitch, approach, recess), wheels)
+
+    def _circles(self, pitch: Pitch, wheels: Wheels) -> tuple[float, float]:
+        """Rolling circles of approach and recess: modules, or rad."""
+        if self.rolling is not None:
+            if wheels.bevel:
+                raise refused(
+                    "rolling circles of a bevel pair are cones", "they have no radius", "give rolling_fraction"
+                )
+            first, second = (wheels.modules(length, "rolling circle") for length in self.rolling)
+            return first, second
+        first, second = (float(figure.value) for figure in self.rolling_fraction or (_HALF, _HALF))
+        return first * pitch.R1, second * (pitch.R1 if wheels.internal else pitch.R2)
+
+    def _arcs(self, pitch: Pitch, circles: tuple[float, float]) -> tuple[float, float]:
+        if self.addendum is None:
+            return arcs_of(self.arcs or (_HALF, _HALF), pitch)
+        # the addendum of the second wheel ends the approach, that of the first the recess
+        heights = tuple(figure.value for figure in reversed(self.addendum))
+        found = [
+            _arc(pitch, R, z, rho, height)
+            for R, z, rho, height in zip((pitch.R2, pitch.R1), (pitch.z2, pitch.z1), circles, heights, strict=True)
+        ]
+        return found[0], found[1]
+
+
+def _arc(pitch: Pitch, R: float, z: int, rho: float, height: Fraction) -> float:
+    """The arc (X) that ends at an addendum."""
+    from math import asin, sin
+
+    from geartrain.conjugate.cycloid import circle_reach, cone_reach
+    from geartrain.conjugate.involutes import cone_height
+
+    if pitch.bevel:
+        d, size = cone_reach(R, rho, R + cone_height(R, z, float(height))), sin(rho)
+        chord = sin(d / 2)
+    else:
+        size = rho
+        # a ring's tips are inside its pitch circle
+        chord = circle_reach(R, rho, abs(R) + (float(height) if R > 0 else -float(height))) / 2
+    if chord >= size:
+        raise refused(
+            f"an addendum of {float(height):g} modules is higher than these cycloids rise",
+            "the rolling circle has turned by half before",
+            "give a lower addendum or a larger rolling circle",
+        )
+    return 2 * size * asin(chord / size)

@@ -1,0 +1,129 @@
+"""Involute teeth: a constant pressure angle, and so the same ratio at any centre distance."""
+
+from __future__ import annotations
+
+from math import pi, tan
+from typing import TYPE_CHECKING, Literal
+
+from pydantic import Field, model_validator
+
+from geartrain.quantity import Angle
+from geartrain.teeth.shape import Shape, TwoFigures, Wheels, bad, check_angle, refused
+
+if TYPE_CHECKING:
+    from geartrain.conjugate.involutes import Involutes, Wheel
+    from geartrain.conjugate.pitch import Pitch
+    from geartrain.teeth.conjugate import Pair
+
+_PAIR = "give a sum of 0, such as `shift: [0.3, -0.3]`"
+
+
+class Involute(Shape):
+    """Involute teeth as a rack cuts them, shifted or not; spherical involutes on bevels."""
+
+    form: Literal["involute"] = Field(description="The name of this form")
+    pressure_angle: Angle = Field("20 deg", validate_default=True, description="Pressure angle of the rack")
+    shift: TwoFigures = Field(
+        "0", validate_default=True, description="How far the rack is shifted outwards, in modules; one or one a wheel"
+    )
+    addendum: TwoFigures = Field(
+        "1", validate_default=True, description="Height of the tips over the rack's pitch line, in modules"
+    )
+    dedendum: TwoFigures = Field(
+        "1.25", validate_default=True, description="Depth of the roots under the rack's pitch line, in modules"
+    )
+
+    @model_validator(mode="after")
+    def _parameters_make_sense(self) -> Involute:
+        check_angle("pressure_angle", self.pressure_angle)
+        for name in ("addendum", "dedendum"):
+            for height in getattr(self, name):
+                if height.value <= 0:
+                    raise bad("height", f"{name} {height.text} is no height", "write modules above 0")
+        return self
+
+    def misplaced(self, wheels: Wheels) -> float | None:
+        """None: these teeth are at home at any distance, which `pair` takes into account."""
+        return None
+
+    def pair(self, wheels: Wheels) -> Pair:
+        """The pair at its own centre distance, declared or without play."""
+        wheels.check()
+        return self._bevel(wheels) if wheels.bevel else self._spur(wheels)
+
+    # ------------------------------------------------------------------------------------------------ parallel axes
+
+    def involutes(self, wheels: Wheels) -> Involutes:
+        """Sizes of a pair with parallel axes, in modules."""
+        from geartrain.conjugate.involutes import Involutes, free_distance
+
+        first, second = self._wheel(wheels, 0), self._wheel(wheels, 1)
+        if self.centre_distance is None:
+            distance = free_distance(first, second)
+        else:
+            distance = wheels.modules(self.centre_distance, "centre_distance")
+            least = second.base - first.base if wheels.internal else second.base + first.base
+            if distance <= least:
+                raise refused(
+                    f"a centre distance of {distance:.6g} modules is too short for these involutes",
+                    f"their base circles need more than {least:.6g}; the unshifted design has {wheels.distance:g}",
+                    "give a longer centre_distance or a larger pressure_angle",
+                )
+        thinned = wheels.modules(self.backlash, "backlash")
+        return Involutes(first, second, distance, thinned)
+
+    def _wheel(self, wheels: Wheels, at: int) -> Wheel:
+        from geartrain.conjugate.involutes import Wheel
+
+        add, mate, ded = (
+            float(figure.value) for figure in (self.addendum[at], self.addendum[1 - at], self.dedendum[at])
+        )
+        z = wheels.z2 if at else wheels.z1
+        shift, ring = float(self.shift[at].value), bool(at and wheels.internal)
+        return Wheel(z, self.pressure_angle.si, shift, add, ded, min(mate, ded), ring)
+
+    def _spur(self, wheels: Wheels) -> Pair:
+        from geartrain.conjugate import forms
+        from geartrain.conjugate.involute_faults import involute_faults
+        from geartrain.conjugate.path import Path
+        from geartrain.teeth.conjugate import Pair
+
+        found = self.involutes(wheels)
+        approach, recess = (forms.involute(X, found.psi) for X in found.arcs)
+        path = Path(found.pitch, approach, recess)
+        return Pair(path, found.halves, involute_faults(found, path))
+
+    # ----------------------------------------------------------------------------------------------- axes that meet
+
+    def _bevel(self, wheels: Wheels) -> Pair:
+        from geartrain.conjugate import forms
+        from geartrain.conjugate.involutes import cone_height, spherical_arc
+        from geartrain.conjugate.path import Path
+        from geartrain.teeth.conjugate import Pair
+
+        if sum(figure.value for figure in self.shift):
+            raise refused("the shifts of a bevel pair do not sum to 0", "its axes keep their pitch cones", _PAIR)
+        if self.centre_distance is not None:
+            raise refused("bevel wheels have no centre distance", "their axes meet", "leave out centre_distance")
+        pitch, psi = wheels.pitch, self.pressure_angle.si
+        arcs = []
+        for at, R, z in ((1, pitch.R2, wheels.z2), (0, pitch.R1, wheels.z1)):
+            height = float(self.addendum[at].value + self.shift[at].value)
+            tip = R + cone_height(R, z, height)
+            if height <= 0 or tip >= pi:
+                raise refused(
+                    f"the tips of wheel {at + 1} do not lie beyond its pitch cone",
+                    f"they stand {height:g} modules over it",
+                    "give it a greater addendum or a smaller shift inwards",
+                )
+            arcs.append(spherical_arc(R, psi, tip))
+        approach, recess = (forms.involute(X, psi) for X in arcs)
+        return Pair(Path(pitch, approach, recess), self._bevel_halves(pitch, wheels))
+
+    def _bevel_halves(self, pitch: Pitch, wheels: Wheels) -> tuple[float, float]:
+        """Half the thickness of the teeth on the pitch cones, as X; a shift thickens by 2 x tan psi modules."""
+        module, thin = pitch.p / pi, self.play(pitch, wheels) / 4
+        first, second = (
+            pitch.p / 4 + float(figure.value) * tan(self.pressure_angle.si) * module - thin for figure in self.shift
+        )
+        return first, second

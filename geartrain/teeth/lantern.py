@@ -1,0 +1,142 @@
+"""Lantern wheels: round pins on one wheel, and on the other the teeth that are their exact mate."""
+
+from __future__ import annotations
+
+from math import pi, sin
+from typing import TYPE_CHECKING, Literal
+
+from pydantic import Field, model_validator
+
+from geartrain.errors import Problem, RangeError
+from geartrain.quantity import Figure, Length
+from geartrain.teeth.shape import Shape, TwoFigures, Wheels, arcs_of, bad, check_arcs, refused
+
+if TYPE_CHECKING:
+    from geartrain.conjugate.admissible import Fault
+    from geartrain.conjugate.pitch import Pitch
+    from geartrain.teeth.conjugate import Pair
+
+
+class Lantern(Shape):
+    """Round pins on one wheel, a lantern, and teeth that mate with them on the other."""
+
+    form: Literal["lantern"] = Field(description="The name of this form")
+    pins: Literal[1, 2] = Field(2, description="Which wheel of the pair is the lantern")
+    pin_diameter: Length = Field("1.5", validate_default=True, description="In modules or with a unit")
+    pin_radius: Length | None = Field(
+        None,
+        description="Distance of the pins from the lantern's axis, in modules or with a unit; default pitch radius",
+    )
+    arcs: TwoFigures | None = Field(
+        None,
+        description="Arcs of approach and recess in pitches; default one, on the addendum of the pins' "
+        "mate, and what the pins cut off it",
+    )
+    addendum: Figure | None = Field(None, description="In place of arcs: addendum of the pins' mate in modules")
+
+    @model_validator(mode="after")
+    def _parameters_make_sense(self) -> Lantern:
+        lengths = {"pin_diameter": self.pin_diameter, "pin_radius": self.pin_radius, "addendum": self.addendum}
+        for name, length in lengths.items():
+            if length is not None and length.value <= 0:
+                raise bad("length", f"{name} {length.text} is no length", "write it above 0")
+        if self.arcs is not None and self.addendum is not None:
+            raise bad("arcs", "arcs and addendum are both given", "give one of them: each follows from the other")
+        if self.arcs is not None:
+            check_arcs(self.arcs)
+        return self
+
+    def misplaced(self, wheels: Wheels) -> float | None:
+        """Always None: raises `RangeError` where the declared centre distance is not the design's."""
+        if (distance := super().misplaced(wheels)) is not None:
+            raise RangeError(
+                Problem(
+                    f"this lantern is {distance - wheels.distance:+.6g} modules off its centre distance",
+                    "its mate keeps the ratio at the design distance only, and off it the law of pins is not covered",
+                    "leave out centre_distance, or take another tooth_form",
+                )
+            )
+        return None
+
+    def pair(self, wheels: Wheels) -> Pair:
+        """The pair at its design distance."""
+        from geartrain.conjugate.lantern import lantern, pin_angle
+        from geartrain.conjugate.path import Path
+        from geartrain.conjugate.pin_cut import flank_start
+        from geartrain.teeth.conjugate import Pair
+
+        if wheels.bevel:
+            raise _beyond("a bevel lantern", "round pins on a cone have no mate in closed form")
+        if wheels.internal and self.pins == 2:
+            raise _beyond("a ring of pins", "its path of contact does not pass the pitch point")
+        pitch = wheels.pitch
+        R, mate = (pitch.R2, pitch.R1) if self.pins == 2 else (pitch.R1, pitch.R2)
+        A, B = self._sizes(R, wheels)
+        start = flank_start(R, A, B, mate)
+        outside, inside = self._arcs(pitch, R, A, B, mate, start)
+        sides = lantern(R, A, B, outside), lantern(R, A, B, inside, inside=True)
+        real = outside, min(inside, -start)
+        pin = pin_angle(R, A, B) * R
+        tooth = pitch.p / 2 - pin - self.play(pitch, wheels) / 2
+        halves = (pin, tooth) if self.pins == 1 else (tooth, pin)
+        (approach, recess), arcs = (sides, real) if self.pins == 1 else (sides[::-1], real[::-1])
+        path, cut = Path(pitch, approach, recess), self._cut(pitch, start, outside, inside)
+        return Pair(path, halves, extra=cut, solid=(self.pins != 1, self.pins != 2), real=arcs)
+
+    def _cut(self, pitch: Pitch, start: float, outside: float, inside: float) -> tuple[Fault, ...]:
+        """A fault where the pins on their way in leave less of the mate's flank than the arcs need."""
+        from geartrain.conjugate.admissible import Fault
+
+        left = (outside + min(inside, -start)) / pitch.p
+        if inside <= -start or (left >= 1 - 1e-12 and not inside):
+            return ()
+        mate, where = 3 - self.pins, start / pitch.p
+        side = f"{abs(where):.4g} pitches {'beyond' if where > 0 else 'short of'} the pitch point"
+        fault = Fault(
+            "undercut",
+            mate,
+            -start if self.pins == 1 else start,
+            f"gear {mate} is undercut by the pins on their way in",
+            f"they leave of its flanks what begins {side}, with {left:.6g} pitches of contact",
+            f"give an arc of {max(-where, 0):.4g} pitches at most on its dedendum and of at least {1 + where:.6g} on "
+            "its addendum, a smaller pin_diameter, or a smaller pin_radius",
+        )
+        return (fault,)
+
+    def _sizes(self, R: float, wheels: Wheels) -> tuple[float, float]:
+        """Distance of the pins from the axle, and their radius, in modules."""
+        A = R if self.pin_radius is None else wheels.modules(self.pin_radius, "pin_radius")
+        B = wheels.modules(self.pin_diameter, "pin_diameter") / 2
+        z = wheels.z1 if self.pins == 1 else wheels.z2
+        if abs(A - R) >= B:
+            raise refused(
+                f"pins at {A:.6g} modules from the axis do not reach the pitch circle",
+                f"its radius is {R:.6g} modules and theirs {B:.6g}, so no contact passes the pitch point",
+                f"give a pin_radius between {R - B:.6g} and {R + B:.6g} modules",
+            )
+        most = 2 * A * sin(pi / z)
+        if most <= 2 * B:
+            raise refused(
+                f"pins of {2 * B:.6g} modules touch each other",
+                f"{z} of them stand {most:.6g} modules apart",
+                f"give a pin_diameter below {most:.6g} modules, half of which leaves room for the mate's teeth",
+            )
+        return A, B
+
+    def _arcs(self, pitch: Pitch, R: float, A: float, B: float, mate: float, start: float) -> tuple[float, float]:
+        """Arcs (X) on the mate's addendum and on its dedendum; by default a pitch from where the flank begins."""
+        from geartrain.conjugate.lantern import pin_arc, pin_reach
+
+        if self.addendum is not None:
+            height = float(self.addendum.value)
+            return pin_arc(R, A, B, pin_reach(R, A, B, mate, abs(mate) + (height if mate > 0 else -height))), 0.0
+        if self.arcs is None:
+            return pitch.p + max(start, 0.0) * (1 + 1e-9), 0.0
+        approach, recess = arcs_of(self.arcs, pitch)
+        return (approach, recess) if self.pins == 1 else (recess, approach)
+
+
+def _beyond(what: str, why: str) -> RangeError:
+    return RangeError(
+        Problem(f"{what} is not covered", why, "let a spur wheel carry the pins, or take another tooth_form")
+    )

@@ -1,0 +1,99 @@
+"""Teeth of least friction within a greatest pressure angle; and, for the record, the source's own extremal."""
+
+from __future__ import annotations
+
+from math import pi
+from typing import TYPE_CHECKING, Literal
+
+from pydantic import Field, model_validator
+
+from geartrain.quantity import Angle, Figure, Quantity
+from geartrain.teeth.shape import Shape, TwoFigures, Wheels, arcs_of, bad, check_angle, check_arcs
+
+if TYPE_CHECKING:
+    from geartrain.conjugate.path import Path
+    from geartrain.conjugate.pitch import Pitch
+    from geartrain.teeth.conjugate import Pair
+
+_HALF, _NONE, _WHOLE = Figure.parse("1/2"), Figure.parse("0"), Figure.parse("1")
+_STEEP, _FLAT = Quantity.parse("80 deg", "angle", False), Quantity.parse("50 deg", "angle", False)
+_CEILING, _MARGIN = Quantity.parse("25 deg", "angle", False), Figure.parse("0.15")
+
+
+class LeastFriction(Shape):
+    """A constant pressure angle from the pitch point, then the slowest contact allowed along the dedendum.
+
+    `literal` gives the source's shape instead: above 45 deg, clear of the pitch point, and of no use as a pair.
+    """
+
+    form: Literal["least_friction"] = Field(description="The name of this form")
+    pressure_angle: Angle | None = Field(
+        None, description="Greatest pressure angle, at the pitch point, at most 45 deg; default 25 deg"
+    )
+    margin: Figure | None = Field(
+        None, description="Least speed of the contact along a dedendum over the pitch-line speed; default 0.15"
+    )
+    literal: bool = Field(False, description="The source's extremal, from pressure_angles down, on one side")
+    pressure_angles: tuple[Angle, Angle] | None = Field(
+        None, description="First and last pressure angle of the literal shape; default [80 deg, 50 deg]"
+    )
+    arcs: TwoFigures | None = Field(
+        None, description="Arcs of approach and recess in pitches; default half each, literal [0, 1]"
+    )
+
+    @model_validator(mode="after")
+    def _parameters_make_sense(self) -> LeastFriction:
+        if self.arcs is not None:
+            check_arcs(self.arcs)
+        return self._literal_makes_sense() if self.literal else self._usual_makes_sense()
+
+    def _usual_makes_sense(self) -> LeastFriction:
+        if self.pressure_angles is not None:
+            raise bad("literal", "pressure_angles belong to the literal shape", "give pressure_angle, or literal: true")
+        if self.pressure_angle is not None:
+            check_angle("pressure_angle", self.pressure_angle, 0.125)
+        if self.margin is not None and self.margin.value <= 0:
+            raise bad("margin", f"a margin of {self.margin.text} lets the contact stand still", "write it above 0")
+        return self
+
+    def _literal_makes_sense(self) -> LeastFriction:
+        if self.pressure_angle is not None or self.margin is not None:
+            raise bad("literal", "the literal shape has neither pressure_angle nor margin", "give pressure_angles")
+        first, last = (angle.si for angle in self.pressure_angles or (_STEEP, _FLAT))
+        if not pi / 4 <= last < first < pi / 2:
+            raise bad(
+                "pressure_angle",
+                "the pressure angles of the literal shape do not fall between 90 and 45 deg",
+                "its flanks have a cusp at 45 deg: give two angles above, the greater first",
+            )
+        if self.arcs is not None and min(arc.value for arc in self.arcs) > 0:
+            raise bad("arcs", "the literal shape has one side only", "give `arcs: [0, 1]` or `arcs: [1, 0]`")
+        return self
+
+    def pair(self, wheels: Wheels) -> Pair:
+        """The pair at its design distance."""
+        pitch = wheels.pitch
+        return self.standard(self._literal(pitch) if self.literal else self._usual(pitch), wheels)
+
+    def _usual(self, pitch: Pitch) -> Path:
+        from geartrain.conjugate.forms import least_friction
+        from geartrain.conjugate.path import Path
+        from geartrain.conjugate.side import none
+
+        psi, u = (self.pressure_angle or _CEILING).si, float((self.margin or _MARGIN).value)
+        approach, recess = (
+            least_friction(pitch, b, X, psi, u) if X else none(psi)
+            for b, X in zip((pitch.A, pitch.B), arcs_of(self.arcs or (_HALF, _HALF), pitch), strict=True)
+        )
+        return Path(pitch, approach, recess)
+
+    def _literal(self, pitch: Pitch) -> Path:
+        from geartrain.conjugate.extremal import extremal
+        from geartrain.conjugate.path import Path
+        from geartrain.conjugate.side import none
+
+        first, last = (angle.si for angle in self.pressure_angles or (_STEEP, _FLAT))
+        approach, recess = (
+            extremal(pitch, X, first, last) if X else none(0.0) for X in arcs_of(self.arcs or (_NONE, _WHOLE), pitch)
+        )
+        return Path(pitch, approach, recess)

@@ -1,0 +1,43 @@
+"""Teeth of uniform Hertz stress: the shortest for a given limit of contact pressure."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Literal
+
+from pydantic import Field, model_validator
+
+from geartrain.quantity import Angle
+from geartrain.teeth.shape import Shape, TwoFigures, Wheels, arcs_of, check_angle, check_arcs
+
+if TYPE_CHECKING:
+    from geartrain.teeth.conjugate import Pair
+
+
+class UniformStress(Shape):
+    """Teeth whose contact pressure is the same at every instant while one pair bears the load."""
+
+    form: Literal["uniform_stress"] = Field(description="The name of this form")
+    pressure_angle: Angle = Field(
+        "20 deg", validate_default=True, description="Pressure angle at the pitch point, below 45 deg"
+    )
+    arcs: TwoFigures = Field("1/2", validate_default=True, description="Arcs of approach and recess in pitches")
+
+    @model_validator(mode="after")
+    def _parameters_make_sense(self) -> UniformStress:
+        check_angle("pressure_angle", self.pressure_angle, 0.125)
+        check_arcs(self.arcs)
+        return self
+
+    def pair(self, wheels: Wheels) -> Pair:
+        """The pair at its design distance."""
+        from geartrain.conjugate.forms import uniform_stress
+        from geartrain.conjugate.path import Path
+        from geartrain.conjugate.side import none
+
+        pitch, psi = wheels.pitch, self.pressure_angle.si
+        A, B = pitch.A, pitch.B
+        approach, recess = (
+            uniform_stress(pitch, a, b, X, psi) if X else none(psi)
+            for a, b, X in zip((B, A), (A, B), arcs_of(self.arcs, pitch), strict=True)
+        )
+        return self.standard(Path(pitch, approach, recess), wheels)

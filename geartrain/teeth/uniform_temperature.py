@@ -1,0 +1,107 @@
+"""Teeth of uniform temperature: the frictional heat on each bit of profile, all of it carried off by the lubricant."""
+
+from __future__ import annotations
+
+from math import pi
+from typing import TYPE_CHECKING, Literal
+
+from pydantic import Field, model_validator
+
+from geartrain.quantity import Angle, Figure, Quantity
+from geartrain.teeth.shape import Shape, TwoFigures, Wheels, arcs_of, bad, check_angle, check_arcs, refused
+
+if TYPE_CHECKING:
+    from geartrain.conjugate.pitch import Pitch
+    from geartrain.conjugate.side import Side
+    from geartrain.teeth.conjugate import Pair
+
+_USUAL = Quantity.parse("12 deg", "angle", False)
+_INVOLUTE = pi / 9  # 20 deg, whose working depth is the default
+
+
+class UniformTemperature(Shape):
+    """Teeth whose heat per area of profile is the same at every instant.
+
+    Three readings: a, on the first wheel only; b, on the hotter of the two, which is always the dedendum; c, as b, but
+    a constant pressure angle from the pitch point until that heat is reached, which keeps the stress there finite.
+    """
+
+    form: Literal["uniform_temperature"] = Field(description="The name of this form")
+    reading: Literal["a", "b", "c"] = Field("b", description="Which surface is kept uniform: a, b or c")
+    heat: Figure | None = Field(
+        None, description="Heat per area over friction times tangential force; less makes taller teeth"
+    )
+    depth: Figure | None = Field(
+        None, description="In place of heat: working depth in modules; default that of the 20 deg involute"
+    )
+    least_pressure_angle: Angle | None = Field(
+        None, description="Pressure angle at the pitch point in reading c; default 12 deg"
+    )
+    arcs: TwoFigures = Field("1/2", validate_default=True, description="Arcs of approach and recess in pitches")
+
+    @model_validator(mode="after")
+    def _parameters_make_sense(self) -> UniformTemperature:
+        if self.heat is not None and self.depth is not None:
+            raise bad("heat", "heat and depth are both given", "give one of them: each follows from the other")
+        for name, figure in (("heat", self.heat), ("depth", self.depth)):
+            if figure is not None and figure.value <= 0:
+                raise bad(name, f"a {name} of {figure.text} is none", "write a number above 0")
+        if self.least_pressure_angle is not None:
+            if self.reading != "c":
+                raise bad("pressure_angle", "only reading c has a least_pressure_angle", "give `reading: c`")
+            check_angle("least_pressure_angle", self.least_pressure_angle)
+        check_arcs(self.arcs)
+        return self
+
+    def pair(self, wheels: Wheels) -> Pair:
+        """The pair at its design distance."""
+        from geartrain.conjugate.path import Path
+
+        pitch = wheels.pitch
+        if self.heat is not None:
+            approach, recess = self._sides(pitch, (pitch.A + pitch.B) / float(self.heat.value))
+        else:
+            approach, recess = self._deep(pitch)
+        return self.standard(Path(pitch, approach, recess), wheels)
+
+    def _sides(self, pitch: Pitch, gamma: float) -> tuple[Side, Side]:
+        """Approach and recess with gamma = (A + B) / heat."""
+        from geartrain.conjugate.forms import bounded_heat, uniform_heat
+        from geartrain.conjugate.side import none
+
+        psi = (self.least_pressure_angle or _USUAL).si
+        arcs = arcs_of(self.arcs, pitch)
+        found = []
+        for X, b in zip(arcs, (pitch.A, -pitch.A if self.reading == "a" else pitch.B), strict=True):
+            if not X:
+                found.append(none(0.0))
+            elif self.reading == "c":
+                found.append(bounded_heat(pitch, b, gamma, X, psi))
+            elif b + gamma <= 0:
+                raise _cold(pitch, gamma)
+            else:
+                found.append(uniform_heat(pitch, b, gamma, X))
+        return found[0], found[1]
+
+    def _deep(self, pitch: Pitch) -> tuple[Side, Side]:
+        """The sides with the wanted working depth, which grows with gamma."""
+        from geartrain.conjugate.depths import to_depth, working_depth
+        from geartrain.conjugate.forms import involute
+
+        arcs = arcs_of(self.arcs, pitch)
+        if self.depth is not None:
+            wanted = float(self.depth.value) * pitch.p / pi
+        else:
+            wanted = working_depth(pitch, [involute(X, _INVOLUTE) for X in arcs])
+        # near the pitch point a side is a cycloid of rolling radius 1 / (b + gamma) and height X^2 (b + gamma) / 2
+        start = max(2 * wanted / (arcs[0] ** 2 + arcs[1] ** 2) - (pitch.A + pitch.B) / 2, (pitch.A + pitch.B) / 2)
+        gamma = to_depth(lambda g: working_depth(pitch, self._sides(pitch, g)), wanted, start, sum(arcs))
+        return self._sides(pitch, gamma)
+
+
+def _cold(pitch: Pitch, gamma: float) -> Exception:
+    return refused(
+        f"a heat of {(pitch.A + pitch.B) / gamma:.6g} is more than these teeth can have",
+        "the contact would stand still beside the pitch point",
+        "give less heat or more depth",
+    )

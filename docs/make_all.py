@@ -15,7 +15,9 @@ import make_mesh_accuracy
 import make_missing
 import make_motion_accuracy
 import make_outputs
+import make_shapes_accuracy
 import make_sphere_accuracy
+import make_teeth_accuracy
 
 DOCS = Path(__file__).resolve().parent
 
@@ -24,7 +26,14 @@ def main() -> None:
     """Run all makers, and the command that writes the reference."""
     reference = DOCS / "reference.md"
     subprocess.run([sys.executable, "-m", "geartrain", "schema", "--as", "markdown", "-o", str(reference)], check=True)
-    accuracy = (make_accuracy, make_mesh_accuracy, make_motion_accuracy, make_sphere_accuracy)
+    accuracy = (
+        make_accuracy,
+        make_mesh_accuracy,
+        make_motion_accuracy,
+        make_sphere_accuracy,
+        make_teeth_accuracy,
+        make_shapes_accuracy,
+    )
     for maker in (*accuracy, make_commands, make_errata, make_extremes, make_images, make_missing, make_outputs):
         maker.main()
 

@@ -7,6 +7,7 @@ from fractions import Fraction
 from math import asin, degrees
 from pathlib import Path
 
+from errata_smith import smith
 from errata_sorge import sorge
 
 import geartrain
@@ -342,7 +343,7 @@ def main() -> None:
     """Write the page."""
     parts = (
         lead, teeth_of_18, months, table_4, table_6, freeth_2006, freeth_jones, freeth_2021, voulgaris, price, huygens,
-        sorge,
+        sorge, smith,
     )  # fmt: skip
     lines = [line for part in parts for line in part()]
     PAGE.write_text("\n".join(lines).rstrip() + "\n", encoding="utf-8")

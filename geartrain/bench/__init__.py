@@ -8,14 +8,20 @@ from geartrain.bench.mesh import MeshRecord, MeshRecords, count_mesh_steps, mesh
 from geartrain.bench.motion import count_motion_steps, motion
 from geartrain.bench.motion_records import GrowthRecord, MotionRecord, MotionRecords, TrainRecord
 from geartrain.bench.record import Record, Records
+from geartrain.bench.shapes import count_shape_steps, shapes
+from geartrain.bench.shapes_records import ExtremeRecord, InwardRecord, ShapeRecords, WorkRecord, quickest
 from geartrain.bench.sphere import count_sphere_steps, sphere
 from geartrain.bench.sphere_records import ClosureRecord, FitRecord, PackRecord, SphereRecords, growth
+from geartrain.bench.teeth import count_teeth_steps, teeth
+from geartrain.bench.teeth_records import TeethGrowth, TeethRecord, TeethRecords
 
 __all__ = [
     "FAMILIES",
     "ClosureRecord",
+    "ExtremeRecord",
     "FitRecord",
     "GrowthRecord",
+    "InwardRecord",
     "MeshRecord",
     "MeshRecords",
     "MotionRecord",
@@ -23,15 +29,25 @@ __all__ = [
     "PackRecord",
     "Record",
     "Records",
+    "ShapeRecords",
     "SphereRecords",
+    "TeethGrowth",
+    "TeethRecord",
+    "TeethRecords",
     "TrainRecord",
+    "WorkRecord",
     "count_mesh_steps",
     "count_motion_steps",
+    "count_shape_steps",
     "count_sphere_steps",
     "count_steps",
+    "count_teeth_steps",
     "growth",
     "kinematics",
     "mesh",
     "motion",
+    "quickest",
+    "shapes",
     "sphere",
+    "teeth",
 ]

@@ -94,3 +94,39 @@ def sphere(
         task = progress.add_task("sphere", total=bench.count_sphere_steps(quick))
         results = bench.sphere(quick, lambda step: progress.update(task, advance=1, description=step))
     emit(as_json(results.to_dict()) if json else results.to_markdown(), out)
+
+
+@app.command()
+def shapes(
+    quick: Annotated[bool, typer.Option("--quick", help="Few settings, and few extreme pairs.")] = False,
+    json: Json = False,
+    out: Out = None,
+) -> None:
+    """Time and true error of every way to optimal tooth shapes: marched, collocated, in closed form, searched."""
+    from rich.console import Console
+    from rich.progress import Progress
+
+    from geartrain import bench
+
+    with Progress(console=Console(stderr=True), transient=True) as progress:
+        task = progress.add_task("shapes", total=bench.count_shape_steps(quick))
+        results = bench.shapes(quick, lambda step: progress.update(task, advance=1, description=step))
+    emit(as_json(results.to_dict()) if json else results.to_markdown(), out)
+
+
+@app.command()
+def teeth(
+    quick: Annotated[bool, typer.Option("--quick", help="Few and small questions.")] = False,
+    json: Json = False,
+    out: Out = None,
+) -> None:
+    """Best error and time of ways to tooth numbers: factored, by stage, sorted products, in a train, every set."""
+    from rich.console import Console
+    from rich.progress import Progress
+
+    from geartrain import bench
+
+    with Progress(console=Console(stderr=True), transient=True) as progress:
+        task = progress.add_task("teeth", total=bench.count_teeth_steps(quick))
+        results = bench.teeth(quick, lambda step: progress.update(task, advance=1, description=step))
+    emit(as_json(results.to_dict()) if json else results.to_markdown(), out)

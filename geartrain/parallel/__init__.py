@@ -1,1 +1,13 @@
-"""Independent work on one machine or many: which executor runs it, and what is kept when it is cut."""
+"""Independent work on one machine or many: which executor runs it, and what is kept when it is cut.
+
+This room knows no gears. `run(work, tasks, executor, journal)` yields the results in the order of the tasks, whoever
+does them; `open_executor()` says who; a `Journal` keeps what is finished, so that a run killed at any moment is taken
+up again and ends the same. Journals are the one thing that does not go through `files`, the door to disk: they are no
+result for a reader, and they live and die with the run.
+"""
+
+from geartrain.parallel.journal import Journal
+from geartrain.parallel.opening import cores, open_executor
+from geartrain.parallel.running import run
+
+__all__ = ["Journal", "cores", "open_executor", "run"]

@@ -28,6 +28,7 @@ _PATIENCE = 60.0  # seconds of one fixed point
 
 
 def packed(family: str, given: int, rounds: int) -> list[PackRecord]:
+    """One circle packing by both ways, its time the median of some rounds."""
     named = sound(graph(family, given))
     gears, regions = propped(len(named), regions_of(named), list(named))
     radii = [Plane(gears, regions).radii()[1] for _ in range(3 * rounds)]
@@ -58,6 +59,7 @@ def _middle(rounds: Sequence[Sequence[Step]]) -> list[tuple[float, float]]:
 
 
 def fitted(family: str, given: int, aim: Aim, least: int, rounds: int) -> list[FitRecord]:
+    """One set of gears fitted to its graph."""
     edges = graph(family, given)
     runs = [timed(lambda: from_graph(edges, least, aim)) for _ in range(rounds)]
     found: GraphSet = runs[0][1]

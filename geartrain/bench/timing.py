@@ -8,6 +8,7 @@ from typing import Any
 
 
 def timed(task: Callable[[], Any]) -> tuple[float, Any]:
+    """Seconds, and what the task returned."""
     start = time.perf_counter()
     found = task()
     return time.perf_counter() - start, found

@@ -19,6 +19,7 @@ def quantity(place: str, text: str, dimension: str, plain: bool = False) -> floa
 
 
 def friction(text: str) -> float:
+    """A coefficient of friction."""
     found = quantity("--friction", text, "fraction", plain=True)
     if found < 0:
         raise GearTrainError(
@@ -28,6 +29,7 @@ def friction(text: str) -> float:
 
 
 def placed(error: GearTrainError, place: str) -> GearTrainError:
+    """The error with the option it came from, where it names no place itself."""
     from dataclasses import replace
 
     return GearTrainError(

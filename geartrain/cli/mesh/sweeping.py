@@ -16,6 +16,7 @@ if TYPE_CHECKING:
 
 
 def sweep(pair: Pair, vary: list[str], plot: Path | None, picture: str, json: bool, out: Path | None) -> None:
+    """The table of a sweep, as text and as a picture."""
     from rich.console import Console
     from rich.progress import Progress
 

@@ -248,7 +248,8 @@ def growing(records: TeethRecords) -> str:
 
 def forked(row: TeethGrowth) -> str:
     """One train of two outputs."""
-    return f"{row.shared} of {row.free} shared, {seconds_text(row.seconds)} ({row.solutions:,} solution{'s' if row.solutions > 1 else ''})"
+    many = f"{row.solutions:,} solution{'s' if row.solutions > 1 else ''}"
+    return f"{row.shared} of {row.free} shared, {seconds_text(row.seconds)} ({many})"
 
 
 def exponent(records: TeethRecords, stages: int) -> float:
@@ -288,7 +289,8 @@ def draw(records: TeethRecords) -> None:
         for ax in axes.flat:
             ax.grid(color="0.88", lw=0.6)
             ax.spines[["top", "right"]].set_visible(False)
-        axes[0, 0].legend(frameon=False, loc="upper right", fontsize=9)
+        handles, names = axes[0, 0].get_legend_handles_labels()
+        figure.legend(handles, names, frameon=False, loc="outside upper center", ncols=len(names), fontsize=10)
         figure.savefig(PICTURE, metadata={"Date": None})
         plt.close(figure)
 
@@ -306,7 +308,6 @@ def errors(ax: Axes, records: TeethRecords, name: str, stages: int) -> None:
             )
     best = float(last(rows, PRODUCTS).miss or 0)
     ax.axhline(best, color="0.55", lw=1, ls="--")
-    ax.text(0.02, 0.01, "dashed: the least error there is", color="0.4", fontsize=9, transform=ax.transAxes)
     ax.set(xscale="log", yscale="log", xlabel="seconds", ylabel="best error, part of the ratio")
     ax.set_title(f"{name}, {stages} stages of {WIDE}", fontsize=11)
 
@@ -367,7 +368,7 @@ def trains(ax: Axes, records: TeethRecords) -> None:
         for row in found:
             place = ((row.free, row.seconds or 0), (5, -12))
             ax.annotate(f"{row.shared} shared", *place, textcoords="offset points", fontsize=8, color="0.35")
-    ax.set(yscale="log", xlabel="free wheels", ylabel="seconds")
+    ax.set(yscale="log", xlabel="free wheels", ylabel="seconds", ylim=(3e-3, 3e2))
     ax.set_title("All solutions in a train, counted", fontsize=11)
     ax.legend(frameon=False, loc="upper left", fontsize=9)
 
@@ -379,8 +380,10 @@ Written by `python docs/make_teeth_accuracy.py` from the run
     geartrain bench teeth --json -o docs/data/teeth.json
 
 on a machine with two cores, busy with other work too: times are medians of three rounds in which the ways take turns,
-of one round where a task is long; compare them within a table only, as ratios. Errors are exact fractions, rounded
-only to be printed. A set of counts is unordered; a candidate is a set on top over a set beneath.
+of one round where a task is long; compare them within a table only, as ratios. A round of growth is the best of the
+repeats within a fifth of a second, in a process of its own, every time with tables made anew.
+Errors are exact fractions, rounded only to be printed. A set of counts is unordered; a candidate is a set on top over a
+set beneath.
 
 The ways:
 
@@ -420,7 +423,7 @@ public brute-force tool (jes/clock-gear-train-calculator, under Node on another 
 PLOT = """![Best error over time for three questions; growth of time and memory](images/teeth-accuracy.svg)
 
 Above: each mark is a run; lines join runs of one way with more tries, steps are the loop over every set as it gets
-better. Below, hollow marks are extrapolated.
+better; the dashed line is the least error there is. Below, hollow marks are extrapolated.
 """
 
 COMPARED = """
@@ -447,11 +450,12 @@ The best by sorted products, with n counts for every wheel: from 100 to 200 coun
 only milliseconds are taken, most of them are the same for all.
 
 Four stages of 200 counts, {pairs} candidates, took {four}. A few pieces evenly spread over all, {part} percent of
-them, forecast {guessed} for one sweep; the whole took {over} times that, since the search also tries pieces first to
-know how good the best will be, and may sweep more than once. Five stages of 200 ({five_pairs} candidates) were measured in such pieces only: {five_share} percent of the
-work took {ran}, so a sweep is extrapolated to {five} in one process, and one of 100 counts to {hundred}; a whole
-search will take longer by some such factor. 50 counts, measured whole, took {fifty}.
-The pieces are independent: with an executor they run on as many cores or machines as there are.
+them, forecast {guessed} for one sweep; the whole search took {over} times that. Besides sweeping it tries pieces
+first, to know how good the best will be, and may have to widen its tolerance and sweep again. Five stages of 200
+({five_pairs} candidates) were measured in such pieces only: {five_share} percent of the work took {ran}, so a sweep
+is extrapolated to {five} in one process, and one of 100 counts to {hundred}; a whole search will take longer by some
+such factor. 50 counts, measured whole, took {fifty}. The pieces are independent: with an executor they run on as many
+cores or machines as there are.
 
 In a train, all solutions within 1e-3 counted, and the best one brought out: with 46 counts for each wheel one output
 takes {chain} free wheels. With ten that is {most} assignments, of which {solutions} are solutions; they are counted

@@ -21,6 +21,7 @@ from geartrain.cli import (
     schema,
     solve,
     sphere,
+    teeth,
     torques,
 )
 from geartrain.cli.common import NOT_USABLE, complain
@@ -43,6 +44,7 @@ app.command("graph")(graph.run)
 app.command("torques")(torques.run)
 app.command("motion")(motion.run)
 app.command("sphere")(sphere.run)
+app.command("teeth")(teeth.run)
 app.command("schema")(schema.run)
 app.command("list")(listing.trains)
 app.command("periods")(listing.periods)

@@ -11,6 +11,8 @@ from geartrain.report.moving import motion_data, motion_document
 from geartrain.report.pins import pin_data, pin_document
 from geartrain.report.power import flow_of, there_and_back, torques_data, torques_document
 from geartrain.report.rendering import to_html, to_markdown, to_terminal
+from geartrain.report.shapes import shape_data, shape_document
+from geartrain.report.shapes_compared import Compared, Shaped, compared_data, compared_document
 from geartrain.report.sphere import (
     SphereAnswers,
     sphere_data,
@@ -35,15 +37,19 @@ from geartrain.report.synthesis import (
 from geartrain.report.teeth import mesh_data
 
 __all__ = [
+    "Compared",
     "Document",
     "Running",
     "Section",
+    "Shaped",
     "SphereAnswers",
     "Table",
     "approximants_document",
     "assignment_rows",
     "assignments_document",
     "compare_trains",
+    "compared_data",
+    "compared_document",
     "flow_of",
     "kinds_document",
     "mesh_data",
@@ -58,6 +64,8 @@ __all__ = [
     "report_train",
     "set_row",
     "sets_document",
+    "shape_data",
+    "shape_document",
     "sphere_data",
     "sphere_document",
     "stages_document",

@@ -18,10 +18,14 @@ if TYPE_CHECKING:
     from geartrain.synthesis.stages_findings import StageFindings
     from geartrain.synthesis.targets import Wanted
 
+_MANY = 3  # outputs beyond which a table of assignments tells only the greatest error; the JSON has all
+
 
 def error(value: Fraction) -> str:
-    """A relative error: parts per million where it is small, exactly 0 where it is."""
-    return "0" if not value else f"{float(value) * 1e6:+.6g} ppm"
+    """A relative error: in parts per million where it is small, in per cent where it is not, 0 where it is exactly."""
+    if abs(value) < Fraction(1, 1000):
+        return "0" if not value else f"{float(value) * 1e6:+.6g} ppm"
+    return f"{float(value) * 100:+.6g} %"
 
 
 def stages_row(found: Stages) -> dict[str, Any]:
@@ -121,9 +125,8 @@ def assignments_document(found: TrainFindings, standings: Sequence[Standing] = (
 
 def _part(part: PartFindings) -> list[Section]:
     """One independent part: what is asked, how many there are, the best of them."""
-    lines = [
-        f"Asked: {'; '.join([*part.demands, *part.rules])}." if part.demands or part.rules else "Nothing is asked."
-    ]
+    asked = "; ".join([*part.demands, *part.rules])
+    lines = [f"Asked: {asked}." if asked else "Nothing is asked."]
     within = "" if part.tolerance is None else f" within {figure(float(part.tolerance), 4)}"
     whole = "complete" if part.complete else f"not complete: {part.reason}"
     lines.append(f"{part.count} of {figure(float(part.considered), 6)} assignments{within} ({whole}).")
@@ -136,7 +139,11 @@ def _part(part: PartFindings) -> list[Section]:
 
 
 def _assignments(solutions: Sequence[Assignment]) -> Table:
-    header = [*solutions[0].teeth, *(f"{name}, {what}" for name in solutions[0].outputs for what in ("speed", "error"))]
+    outputs = tuple(solutions[0].outputs)
+    if len(outputs) > _MANY:
+        rows = [[*map(str, one.teeth.values()), error(one.error)] for one in solutions]
+        return Table([*solutions[0].teeth, "greatest error"], cut(rows), wide=True)
+    header = [*solutions[0].teeth, *(f"{name}, {what}" for name in outputs for what in ("speed", "error"))]
     rows = [
         [
             *map(str, one.teeth.values()),

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from functools import cache
 from itertools import permutations
 from types import MappingProxyType
+from typing import Any
 
 from geartrain.errors import Problem, QuestionError
 
@@ -101,6 +102,10 @@ class Kind:
             if Mode(*(swap.get(link, link) for link in (mode.input, mode.output, mode.held))) not in found:
                 found[mode] = None
         return tuple(found)
+
+    def to_dict(self) -> dict[str, Any]:
+        """Plain data for JSON."""
+        return {"title": self.title, "wheels": list(self.wheels), "modes": [mode.key for mode in self.modes]}
 
     def member(self, link: str) -> Member | None:
         """The central wheel of a link; None for the carrier."""

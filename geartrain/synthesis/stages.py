@@ -150,7 +150,7 @@ def _wrong_sense(question: Question, considered: int) -> Shortfall:
     return Shortfall(
         considered,
         {SENSE: considered},
-        f"{stages} stages, {internal} of them with a ring, give the output {has} the input, whatever the counts",
+        f"{stages} stage{'s' if stages > 1 else ''}, {internal} with a ring, give{'' if stages > 1 else 's'} the output {has} the input, whatever the counts",
         f"add an idler, or a stage (stages={stages + 1}), or make a mesh internal (internal={rings})",
     )
 

@@ -1,0 +1,198 @@
+"""What every search for tooth numbers is asked with: bounds, tolerance, order, who works, and where results go."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import sys
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+from fractions import Fraction
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import typer
+
+from geartrain.cli.common import GOOD, INTERRUPTED, VERDICT, as_json, emit, show, suffix_of
+
+if TYPE_CHECKING:
+    from concurrent.futures import Executor
+
+    from geartrain.parallel import Journal
+    from geartrain.report import Document
+    from geartrain.synthesis.counts import Runs
+
+YAML = (".yaml", ".yml")
+FORMS = (".md", ".html", ".json", ".csv", *YAML)
+
+
+@dataclass(frozen=True)
+class Asked:
+    """Options that all searches share."""
+
+    tolerance_text: str | None
+    best: int
+    by: str
+    range: str
+    wheels_text: str | None
+    pinions_text: str | None
+    csv: bool
+    json: bool
+    out: Path | None
+    pick: int
+
+    @property
+    def suffix(self) -> str:
+        """Of the output file."""
+        return suffix_of(self.out, FORMS)
+
+    @property
+    def tolerance(self) -> Fraction | None:
+        """The greatest relative error."""
+        from pydantic_core import PydanticCustomError
+
+        from geartrain.quantity import Quantity
+
+        if self.tolerance_text is None:
+            return None
+        try:
+            found = Quantity.parse(self.tolerance_text, "fraction", plain=True)
+        except PydanticCustomError as error:
+            raise typer.BadParameter(error.message(), param_hint="--tolerance") from None
+        return found.base if found.base is not None else found.value
+
+    @property
+    def counts(self) -> Runs:
+        """Counts of any wheel."""
+        from geartrain.synthesis.counts import read_counts
+
+        return read_counts(self.range)
+
+    @property
+    def wheels(self) -> Runs:
+        """Counts of the larger wheels."""
+        from geartrain.synthesis.counts import read_counts
+
+        return read_counts(self.wheels_text or self.range)
+
+    @property
+    def pinions(self) -> Runs:
+        """Counts of the smaller wheels."""
+        from geartrain.synthesis.counts import read_counts
+
+        return read_counts(self.pinions_text or self.range)
+
+    def answer(
+        self,
+        data: Mapping[str, Any],
+        rows: Sequence[Mapping[str, Any]],
+        document: Callable[[], Document],
+        declared: Callable[[int], Mapping[str, Any]] | None = None,
+    ) -> None:
+        """Print or write an answer in the form asked for; exit 0 if something was found, 1 if not, 130 if cut.
+
+        rows       the solutions as a flat table
+        declared   number of a solution, from 0 -> its declaration
+        """
+        if self.suffix in YAML:
+            self._declare(declared, len(rows))
+        if self.json or self.suffix == ".json":
+            emit(as_json(data), self.out if self.suffix == ".json" else None)
+        elif self.csv or self.suffix == ".csv":
+            emit(_csv(rows), self.out if self.suffix == ".csv" else None)
+        else:
+            plain = self.suffix not in YAML
+            show([document()], self.out if plain else None, self.suffix if plain else "")
+        if "interrupted" in str(data.get("ended", "")):
+            raise typer.Exit(INTERRUPTED)
+        raise typer.Exit(GOOD if rows else VERDICT)
+
+    def _declare(self, declared: Callable[[int], Mapping[str, Any]] | None, found: int) -> None:
+        from geartrain.files import as_yaml
+
+        if declared is None:
+            raise typer.BadParameter("a ratio alone is no train to be written", param_hint="-o")
+        if self.pick <= found:
+            emit(as_yaml(declared(self.pick - 1)), self.out)
+        elif found:
+            raise typer.BadParameter(f"there are {found} solutions in the list", param_hint="--pick")
+
+
+@dataclass(frozen=True)
+class Means:
+    """Who does the work, and where what is done is kept."""
+
+    workers: int | None
+    scheduler: str | None
+    resume: bool
+    out: Path | None
+
+    @contextmanager
+    def work(
+        self, question: Mapping[str, Any]
+    ) -> Iterator[tuple[Executor | None, Journal | None, Callable[[int, int], None]]]:
+        """An executor, a journal and a progress bar for one search. Where no file can be made, there is no journal."""
+        from rich.console import Console
+        from rich.progress import Progress
+
+        from geartrain.parallel import open_executor
+
+        plain = json.loads(json.dumps(question, default=str))
+        mark = hashlib.sha256(json.dumps(plain, sort_keys=True).encode()).hexdigest()[:8]
+        path = (self.out.parent if self.out else Path()) / f"teeth-{mark}.partial.jsonl"
+        with (
+            open_executor(self.workers, self.scheduler) as executor,
+            self._journal(path, plain) as journal,
+            Progress(console=Console(stderr=True), transient=True, disable=not sys.stderr.isatty()) as progress,
+        ):
+            task = progress.add_task("teeth", total=None, visible=False)
+            yield (
+                executor,
+                journal,
+                lambda done, total: progress.update(task, completed=done, total=total or None, visible=total > 1),
+            )
+
+    @contextmanager
+    def _journal(self, path: Path, question: Mapping[str, Any]) -> Iterator[Journal | None]:
+        import os
+
+        from geartrain.parallel import Journal
+
+        if not self.resume and not os.access(path.parent, os.W_OK):
+            yield None
+            return
+        with Journal(path, question, resume=self.resume) as journal:
+            yield journal
+
+
+def end(journal: Journal | None, cut: bool) -> None:
+    """A search that is whole needs no journal; for one that was cut, say where it can be taken up."""
+    if not cut:
+        if journal is not None:
+            journal.finish()
+    elif journal is not None and len(journal):
+        typer.echo(f"stopped; what is done is in {journal.path}: give the same command with --resume", err=True)
+    else:
+        if journal is not None:
+            journal.finish()
+        typer.echo("stopped before anything was done that could be kept", err=True)
+
+
+def is_train(text: str) -> bool:
+    """True if a text names a file or a shipped train rather than a ratio."""
+    from geartrain.files import shipped
+
+    return text.endswith(YAML) or text in shipped()
+
+
+def _csv(rows: Sequence[Mapping[str, Any]]) -> str:
+    import csv
+    import io
+
+    text = io.StringIO()
+    if rows:
+        writer = csv.DictWriter(text, list(rows[0]), lineterminator="\n")
+        writer.writeheader()
+        writer.writerows(rows)
+    return text.getvalue().rstrip("\n")

@@ -1,0 +1,80 @@
+"""`geartrain teeth RATIO --kind ...`: epicyclic sets."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import typer
+
+from geartrain.cli.common import as_json, emit, show
+from geartrain.cli.teeth.asking import Asked
+
+
+def run(
+    asked: Asked,
+    texts: list[str],
+    kind: str,
+    mode: str,
+    ratio_is: Any,
+    planets: str | None,
+    clearance: str | None,
+    per: str | None,
+    shift: int,
+) -> None:
+    """Answer for one kind of set."""
+    from geartrain import report
+
+    if kind == "list":
+        listing(asked.json)
+        return
+    from geartrain.synthesis.epicyclic import find_sets
+    from geartrain.synthesis.epicyclic_declaring import declaration_of
+    from geartrain.synthesis.targets import read_ratio
+
+    wanted = read_ratio(texts[0], per)
+    found = find_sets(
+        wanted,
+        kind,
+        "all" if mode == "all" else tuple(mode.split(",")),
+        asked.counts,
+        _number(planets, "3", "--planets"),
+        asked.tolerance,
+        asked.best,
+        ratio_is=ratio_is,
+        by=asked.by,  # type: ignore[arg-type]
+        spaced=planets is not None,
+        clearance=float(_decimal(clearance)),
+        slack=shift,
+    )
+    rows = [report.set_row(solution) for solution in found.solutions]
+    asked.answer(
+        found.to_dict(),
+        rows,
+        lambda: report.sets_document(found),
+        lambda at: declaration_of(found.solutions[at]),
+    )
+
+
+def listing(json: bool) -> None:
+    """The kinds there are."""
+    from geartrain import report
+    from geartrain.synthesis.epicyclic_kinds import kinds
+
+    if json:
+        emit(as_json({name: kind.to_dict() for name, kind in kinds().items()}))
+    else:
+        show([report.kinds_document(kinds())], None, "")
+
+
+def _number(text: str | None, default: str, option: str) -> int:
+    try:
+        return int(text or default)
+    except ValueError:
+        raise typer.BadParameter(f"'{text}' is no number of planets", param_hint=option) from None
+
+
+def _decimal(text: str | None) -> float:
+    try:
+        return float(text or 0)
+    except ValueError:
+        raise typer.BadParameter(f"'{text}' is no number of modules", param_hint="--clearance") from None

@@ -1,0 +1,50 @@
+"""`geartrain teeth moon=29.53 venus=224.7 ...`: several periods from one arbor."""
+
+from __future__ import annotations
+
+import sys
+from fractions import Fraction
+
+import typer
+
+from geartrain.cli.teeth.asking import Asked
+
+_TOLERANCE = Fraction(1, 10**6)
+
+
+def run(asked: Asked, texts: list[str], effort: int) -> None:
+    """Answer for an orrery."""
+    from rich.console import Console
+    from rich.progress import Progress
+
+    from geartrain import report
+    from geartrain.synthesis.sharing import share
+
+    periods = _periods(texts)
+    with Progress(console=Console(stderr=True), transient=True, disable=not sys.stderr.isatty()) as progress:
+        task = progress.add_task("trees", total=None)
+        found = share(
+            periods,
+            asked.counts,
+            _TOLERANCE if asked.tolerance is None else asked.tolerance,
+            effort=effort,
+            tell=lambda done, total: progress.update(task, completed=done, total=total),
+        )
+    ended = {"interrupt": "interrupted"}.get(found.ended, found.ended)
+    data = {**found.to_dict(), "ended": ended}
+    asked.answer(data, report.orrery_rows(found), lambda: report.orrery_document(found), lambda _: found.to_train())
+
+
+def _periods(texts: list[str]) -> dict[str, Fraction]:
+    """Name -> period in turns of the first arbor."""
+    from geartrain.synthesis.targets import read_ratio
+
+    found: dict[str, Fraction] = {}
+    for text in texts:
+        name, sign, period = text.partition("=")
+        if not sign or not name.strip():
+            raise typer.BadParameter(f"'{text}' is not of the form moon=29.53058853", param_hint="WANTED")
+        if name.strip() in found:
+            raise typer.BadParameter(f"two periods are named '{name.strip()}'", param_hint="WANTED")
+        found[name.strip()] = read_ratio(period).value
+    return found

@@ -1,0 +1,92 @@
+"""`geartrain teeth RATIO`: stages of gear pairs, or the fractions on the way to the ratio."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from geartrain.cli.teeth.asking import Asked, Means, end
+
+if TYPE_CHECKING:
+    from geartrain.synthesis.stages import StageFindings
+    from geartrain.synthesis.targets import Wanted
+
+_LONG = 100_000
+
+
+def run(
+    asked: Asked, means: Means, text: str, per: str | None, stages: int, fit: dict[str, Any], approximants: bool
+) -> None:
+    """Answer for one ratio."""
+    from geartrain import report
+    from geartrain.synthesis.targets import read_ratio
+
+    wanted = read_ratio(text, per)
+    if approximants:
+        _fractions(asked, wanted)
+    if stages == 1 and max(len(asked.wheels), len(asked.pinions)) > _LONG:
+        _pairs(asked, wanted)
+    found, cut = _search(asked, means, wanted, stages, fit)
+    data = {**found.to_dict(), "ended": "interrupted" if cut else "whole"}
+    rows = [report.stages_row(solution) for solution in found]
+    asked.answer(data, rows, lambda: report.stages_document(found))
+
+
+def _search(asked: Asked, means: Means, wanted: Wanted, stages: int, fit: dict[str, Any]) -> tuple[StageFindings, bool]:
+    from geartrain.synthesis.stages import Fit, find_stages
+
+    question = {
+        "ratio": str(wanted.value),
+        "stages": stages,
+        "wheels": str(asked.wheels),
+        "pinions": str(asked.pinions),
+        "tolerance": str(asked.tolerance),
+        "best": asked.best,
+        "by": asked.by,
+        "fit": fit,
+    }
+    with means.work(question) as (executor, journal, tell):
+        found = find_stages(
+            wanted,
+            stages,
+            asked.wheels,
+            asked.pinions,
+            tolerance=asked.tolerance,
+            best=asked.best,
+            by=asked.by,
+            fit=Fit(**fit),
+            executor=executor,
+            journal=journal,
+            tell=tell,
+        )
+        cut = not found.complete
+        end(journal, cut)
+    return found, cut
+
+
+def _pairs(asked: Asked, wanted: Wanted) -> None:
+    """One pair in long ranges: by the tree, without a list of counts."""
+    from geartrain import report
+    from geartrain.synthesis.pairs import count_pairs, find_pairs
+
+    solutions = find_pairs(wanted, asked.wheels, asked.pinions, asked.tolerance, asked.best)
+    count = None if asked.tolerance is None else count_pairs(wanted, asked.wheels, asked.pinions, asked.tolerance)
+    data = {
+        "wanted": wanted.to_dict(),
+        "stages": 1,
+        "complete": True,
+        "count": count,
+        "tolerance": None if asked.tolerance is None else float(asked.tolerance),
+        "solutions": [solution.to_dict() for solution in solutions],
+    }
+    rows = [report.stages_row(solution) for solution in solutions]
+    asked.answer(data, rows, lambda: report.pairs_document(wanted, solutions, count))
+
+
+def _fractions(asked: Asked, wanted: Wanted) -> None:
+    from geartrain import report
+    from geartrain.synthesis.approximants import approximants
+
+    most = max(asked.wheels.most, asked.pinions.most)
+    found = approximants(wanted.value, most)
+    data = {"wanted": wanted.to_dict(), "most": most, "solutions": [each.to_dict() for each in found]}
+    asked.answer(data, data["solutions"], lambda: report.approximants_document(wanted, most, found))  # type: ignore[arg-type]

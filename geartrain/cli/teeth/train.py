@@ -1,0 +1,101 @@
+"""`geartrain teeth TRAIN`: the free wheels of a train."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import typer
+
+from geartrain.cli.teeth.asking import Asked, Means, end
+
+if TYPE_CHECKING:
+    from geartrain.synthesis.findings import Standing, TrainFindings
+    from geartrain.train import Train
+
+
+def run(
+    asked: Asked, means: Means, file: str, state: str | None, free: str, rules: dict[str, Any], where: list[str]
+) -> None:
+    """Answer for the free wheels of a train."""
+    from geartrain import report
+    from geartrain.files import read_declaration
+    from geartrain.synthesis.asked import read_rules
+
+    train = read_declaration(file)
+    options = {name: value for name, value in rules.items() if value is not None}
+    chosen = free if free in ("search", "uncertain") else tuple(name.strip() for name in free.split(","))
+    stands = [_assignment(text) for text in where]
+    found, standings, cut = _search(asked, means, train, state, chosen, read_rules(**options), options, stands)
+    data = {
+        **found.to_dict(),
+        "where": [standing.to_dict() for standing in standings],
+        "ended": "interrupted" if cut else "whole",
+    }
+    solutions = found.solutions
+    asked.answer(
+        data,
+        report.assignment_rows(found),
+        lambda: report.assignments_document(found, standings),
+        lambda at: found.declaration(solutions[at], _parent(file, asked.out)),
+    )
+
+
+def _search(
+    asked: Asked,
+    means: Means,
+    train: Train,
+    state: str | None,
+    free: Any,
+    rules: Any,
+    options: dict[str, Any],
+    stands: list[dict[str, int]],
+) -> tuple[TrainFindings, list[Standing], bool]:
+    from geartrain.synthesis.searching import search
+
+    question = {
+        "train": train.model_dump(mode="json"),
+        "state": state,
+        "free": free,
+        "rules": options,
+        "tolerance": str(asked.tolerance),
+        "best": asked.best,
+        "by": asked.by,
+    }
+    with means.work(question) as (executor, journal, tell):
+        found = search(
+            train,
+            state,
+            free=free,
+            rules=rules,
+            tolerance=asked.tolerance,
+            best=asked.best,
+            by=asked.by,  # type: ignore[arg-type]
+            executor=executor,
+            journal=journal,
+            tell=tell,
+        )
+        cut = any(part.reason.startswith("interrupted") for part in found.parts)
+        standings = [standing for teeth in stands for standing in found.standing(teeth)]
+        end(journal, cut)
+    return found, standings, cut
+
+
+def _assignment(text: str) -> dict[str, int]:
+    """`o1=32,o2=50`."""
+    try:
+        pairs = (part.split("=") for part in text.split(","))
+        return {name.strip(): int(count) for name, count in pairs}
+    except ValueError:
+        raise typer.BadParameter(f"'{text}' is not of the form wheel=32,wheel=50", param_hint="--where") from None
+
+
+def _parent(file: str, out: Path | None) -> str:
+    """What a solution extends, as seen from the file it is written to."""
+    import os
+
+    from geartrain.files import shipped
+
+    if file in shipped() or out is None:
+        return file
+    return os.path.relpath(file, out.parent)

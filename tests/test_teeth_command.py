@@ -1,0 +1,231 @@
+"""`geartrain teeth`, as a user runs it."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+from fractions import Fraction
+from math import prod
+from pathlib import Path
+
+import pytest
+from commands import call
+
+from geartrain import load
+
+HANDS = """
+name: hands
+links:
+  frame: {}
+  minute: {wheels: {cannon: {teeth: {search: [8, 40]}}}}
+  arbor: {wheels: {minute-wheel: {teeth: {search: [20, 80]}}, nut: {teeth: {search: [6, 30]}}}}
+  hour: {wheels: {hour-wheel: {teeth: {search: [20, 90]}}}}
+revolutes:
+  - {pair: [frame, minute], axis: centre}
+  - {pair: [frame, arbor], axis: side}
+  - {pair: [frame, hour], axis: centre}
+gears:
+  - {pair: [cannon, minute-wheel]}
+  - {pair: [nut, hour-wheel]}
+inputs: {minute: 1}
+outputs:
+  hour: {expect: 1/12}
+"""
+
+
+@pytest.fixture
+def hands(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.chdir(tmp_path)
+    path = tmp_path / "hands.yaml"
+    path.write_text(HANDS, encoding="utf-8")
+    return path
+
+
+def answer(*arguments: object) -> dict[str, object]:
+    done = call("teeth", *arguments, "--workers", 1, "--json")
+    assert done.exit_code in (0, 1), done.stderr
+    return json.loads(done.stdout)
+
+
+@pytest.mark.parametrize(
+    ("stages", "pinions", "wheels", "tolerance", "count"),
+    [(2, "12:40", "30:130", "0.001 %", 9), (3, "15:40", "30:100", "0.0001%", 85)],
+)
+def test_a_month_has_the_solutions_that_trying_everything_finds(
+    stages: int, pinions: str, wheels: str, tolerance: str, count: int, hands: Path
+) -> None:
+    options = ("--stages", stages, "--pinions", pinions, "--wheels", wheels, "--tolerance", tolerance, "--best", 100)
+    found = answer("13.368267", *options)
+    assert found["complete"] is True
+    assert found["count"] == len(found["solutions"]) == count
+    for one in found["solutions"]:
+        top, beneath = one["teeth"]
+        ratio = Fraction(prod(top), prod(beneath))
+        assert str(ratio) == one["ratio"]
+        assert one["error"] == pytest.approx(float(ratio / Fraction("13.368267") - 1), rel=1e-12)
+        assert sorted(a for a, _ in one["stages"]) == sorted(top)
+    if stages == 3:
+        best = [one["teeth"] for one in found["solutions"] if one["ratio"] == found["solutions"][0]["ratio"]]
+        assert [[39, 73, 91], [15, 34, 38]] in best
+        assert found["solutions"][0]["error"] == pytest.approx(-5.58e-8, abs=5e-11)
+
+
+def test_csv_and_json_tell_the_same(hands: Path) -> None:
+    asked = ("235 months / 19 years", "--range", "15:60", "--best", 4)
+    rows = list(csv.DictReader(io.StringIO(call("teeth", *asked, "--workers", 1, "--csv").stdout)))
+    for row, one in zip(rows, answer(*asked)["solutions"], strict=True):
+        assert [list(map(int, row[side].split("*"))) for side in ("top", "beneath")] == one["teeth"]
+        assert row["ratio"] == one["ratio"]
+
+
+def test_an_unwanted_sense_is_refused_by_name(hands: Path) -> None:
+    done = call("teeth", "+235/19", "--stages", 1, "--range", "15:240", "--workers", 1)
+    assert done.exit_code == 1
+    assert "idler" in done.stdout
+    assert call("teeth", "--stages", 1, "--range", "15:240", "--workers", 1, "--", "-235/19").exit_code == 0
+    assert call("teeth", "+235/19", "--stages", 1, "--range", "15:240", "--internal", 1, "--workers", 1).exit_code == 0
+
+
+def test_fractions_on_the_way_are_told_with_their_kinds(hands: Path) -> None:
+    found = answer("365.2422", "--approximants", "--range", "1:60000")["solutions"]
+    kinds = {row["value"]: row["kind"] for row in found}  # type: ignore[index]
+    assert kinds["1461/4"] == kinds["10592/29"] == kinds["12053/33"] == "convergent"
+
+
+def test_long_ranges_are_searched_by_the_tree(hands: Path) -> None:
+    found = answer("3.14159265358979", "--stages", 1, "--range", "12:1000000000", "--best", 1)
+    assert found["solutions"][0]["teeth"][0][0] > 10**6  # type: ignore[index]
+    assert abs(found["solutions"][0]["error"]) < 1e-14  # type: ignore[index]
+
+
+def test_the_wheels_of_a_train_are_those_that_looking_at_all_of_them_finds(hands: Path) -> None:
+    found = answer(hands, "--best", 100)
+    rows = {tuple(one["teeth"].values()) for one in found["solutions"]}  # type: ignore[union-attr]
+    expected = {
+        (a, b, c, d)
+        for a in range(8, 41)
+        for b in range(20, 81)
+        for c in range(6, 31)
+        for d in [a + b - c]
+        if 20 <= d <= 90 and a * c * 12 == b * d
+    }
+    assert found["complete"] is True
+    assert found["count"] == len(expected)
+    assert rows == expected
+
+
+def test_a_solution_is_written_as_a_train_that_does_what_is_asked(hands: Path) -> None:
+    done = call("teeth", hands, "--by", "total", "--pick", 2, "-o", hands.parent / "found.yaml", "--workers", 1)
+    assert done.exit_code == 0
+    made = load(hands.parent / "found.yaml")
+    assert made.solve()["hour"] == Fraction(1, 12)
+    assert call("check", hands.parent / "found.yaml").exit_code == 0
+    assert sum(wheel.count or 0 for _, wheel in made.declaration.wheels.values()) == 80
+
+
+def test_nothing_found_tells_what_to_relax_and_exits_with_one(hands: Path) -> None:
+    done = call("teeth", hands, "--least", 40, "--workers", 1)
+    assert done.exit_code == 1
+    assert "To relax" in done.stdout
+    assert "candidates" in done.stdout
+
+
+def test_where_a_printed_row_stands(hands: Path) -> None:
+    asked = ("pennestri-2002-missing", "--best", 1, "--where", "VO1=32,VO2=50,VX=40", "--where", "VO1=32,VO2=48,VX=41")
+    right, wrong = answer(*asked)["where"]  # type: ignore[misc]
+    assert right["rank"] == 21
+    assert right["refused"] == []
+    assert wrong["rank"] is None
+    assert wrong["assignment"]["outputs"]["venus"]["error"] == pytest.approx(-0.0641622, abs=1e-7)
+
+
+def test_an_exact_wolfrom_set_is_found_and_written(hands: Path) -> None:
+    asked = ("teeth", 142, "--kind", "wolfrom", "--planets", 3, "--range", "12:100")
+    done = call(*asked, "-o", hands.parent / "set.yaml")
+    assert done.exit_code == 0
+    made = load(hands.parent / "set.yaml")
+    (output,) = made.solve().outputs.values()
+    assert output.ratio == Fraction(1, 142)
+    assert "wolfrom" in call("teeth", "x", "--kind", "list").stdout
+
+
+def test_an_orrery_is_found_and_holds_as_a_train(hands: Path) -> None:
+    asked = ("teeth", "moon=29.53059", "venus=224.701", "--range", "12:120", "--tolerance", "1e-4")
+    done = call(*asked, "-o", hands.parent / "orrery.yaml")
+    assert done.exit_code == 0
+    made = load(hands.parent / "orrery.yaml").solve()
+    for name, period in (("moon", Fraction("29.53059")), ("venus", Fraction("224.701"))):
+        assert abs(abs(made[name]) * period - 1) < Fraction(1, 10**4)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "what"),
+    [
+        (["13.3683x"], "half a pair of counts"),
+        (["months_per_yea"], "did you mean"),
+        (["3", "--range", "5:2"], "backwards"),
+        (["3", "--kind", "planetry"], "no kind"),
+        (["3", "--by", "size"], "no order"),
+        (["3", "--tolerance", "-1"], "tolerance"),
+        (["hands.yaml", "--free", "nut,screw"], "screw"),
+        (["hands.yaml", "--where", "nut"], "wheel=32"),
+        (["3", "-o", "x.yaml"], "no train"),
+        (["moon=29.5", "29.5"], "moon=29.53"),
+    ],
+    ids=lambda each: " ".join(each) if isinstance(each, list) else "",
+)
+def test_bad_input_is_refused_with_a_way_out(arguments: list[str], what: str, hands: Path) -> None:
+    done = call("teeth", *arguments, "--workers", 1)
+    assert done.exit_code == 2
+    assert what in done.stderr
+    assert not list(hands.parent.glob("*.partial.jsonl"))
+
+
+# cut and taken up ----------------------------------------------------------------------------------------------------
+
+LONG = ("teeth", "13.36838", "--stages", "4", "--range", "12:150", "--tolerance", "1e-9", "--best", "5", "--json")
+
+
+def start(folder: Path, *more: str) -> subprocess.Popen[str]:
+    command = [sys.executable, "-m", "geartrain", *LONG, *more]
+    pipe = subprocess.PIPE
+    return subprocess.Popen(command, cwd=folder, stdout=pipe, stderr=pipe, text=True, start_new_session=True)
+
+
+def wait_for_work(folder: Path) -> None:
+    """Until some tasks are in the journal."""
+    for _ in range(1200):
+        if any(path.read_bytes().count(b"\n") > 3 for path in folder.glob("*.partial.jsonl")):
+            return
+        time.sleep(0.05)
+    raise AssertionError("no work was kept")
+
+
+@pytest.mark.parametrize("cut", [signal.SIGKILL, signal.SIGINT], ids=["killed", "interrupted"])
+def test_a_search_that_was_cut_is_taken_up_and_ends_the_same(cut: signal.Signals, tmp_path: Path) -> None:
+    whole, cut_here = tmp_path / "whole", tmp_path / "cut"
+    whole.mkdir()
+    cut_here.mkdir()
+    running = start(cut_here, "--workers", "1")
+    wait_for_work(cut_here)
+    os.killpg(running.pid, cut)
+    out, err = running.communicate()
+    if running.returncode == 0:
+        pytest.skip("it ended before it was cut")
+    if cut == signal.SIGINT:
+        assert running.returncode == 130
+        assert "--resume" in err
+        assert json.loads(out)["complete"] is False
+    again = start(cut_here, "--resume", "--workers", "2")
+    first, _ = again.communicate()
+    uncut = start(whole, "--workers", "1")
+    second, _ = uncut.communicate()
+    assert (again.returncode, uncut.returncode) == (0, 0)
+    assert first == second
+    assert not list(tmp_path.rglob("*.partial.jsonl"))

@@ -11,8 +11,8 @@ from make_errata import changed, number, rows
 
 from geartrain import GearTrain, load
 from geartrain.periods import table
-from geartrain.synthesis.findings import Assignment, PartFindings, TrainFindings
-from geartrain.synthesis.searching import search
+from geartrain.synthesis.trains.findings import Assignment, PartFindings, TrainFindings
+from geartrain.synthesis.trains.searching import search
 
 PAGE = Path(__file__).resolve().parent / "missing-parts.md"
 NAME = "pennestri-2002-missing"

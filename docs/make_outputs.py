@@ -18,7 +18,19 @@ from collections.abc import Iterator
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
-NAMES = ("tutorial", "how-to", "json", "theory", "teeth", "torques", "motion", "closure", "sphere", "tooth-numbers", "shapes")
+NAMES = (
+    "tutorial",
+    "how-to",
+    "json",
+    "theory",
+    "teeth",
+    "torques",
+    "motion",
+    "closure",
+    "sphere",
+    "tooth-numbers",
+    "shapes",
+)
 PAGES = (ROOT / "README.md", *(ROOT / "docs" / f"{name}.md" for name in NAMES))
 COLUMNS = "100"
 

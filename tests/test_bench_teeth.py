@@ -32,7 +32,7 @@ from geartrain.bench.teeth_records import (
     times,
 )
 from geartrain.bench.teeth_ways import Case
-from geartrain.synthesis.formulas import with_counts
+from geartrain.synthesis.formulas.finding import with_counts
 
 
 @pytest.fixture(scope="module")

@@ -15,12 +15,12 @@ from hypothesis import strategies as st
 
 from geartrain import GearTrain
 from geartrain.errors import QuestionError, RangeError
-from geartrain.synthesis.epicyclic import find_sets
-from geartrain.synthesis.epicyclic_declaring import declaration_of, declare
-from geartrain.synthesis.epicyclic_found import EpicyclicSet
-from geartrain.synthesis.epicyclic_kinds import Kind, kinds
-from geartrain.synthesis.searching import search
+from geartrain.synthesis.epicyclic.declaring import declaration_of, declare
+from geartrain.synthesis.epicyclic.finding import find_sets
+from geartrain.synthesis.epicyclic.found import EpicyclicSet
+from geartrain.synthesis.epicyclic.kinds import Kind, kinds
 from geartrain.synthesis.targets import read_ratio
+from geartrain.synthesis.trains.searching import search
 
 F = Fraction
 NAMES = list(kinds())

@@ -15,20 +15,20 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-import geartrain.synthesis.items as items
-import geartrain.synthesis.joining as joining
-import geartrain.synthesis.rows as rows
-from geartrain.synthesis.bands import Band, possible
-from geartrain.synthesis.bundles import Asked, find_bundles
-from geartrain.synthesis.conditions import Condition, Equation, Rule
-from geartrain.synthesis.items import Item, Recipe, forecast
-from geartrain.synthesis.joining import Join
-from geartrain.synthesis.merging import Work, do_task, merged
-from geartrain.synthesis.plans import Question, find_question
-from geartrain.synthesis.pooling import Order, Pool
-from geartrain.synthesis.rows import Rows
-from geartrain.synthesis.signs import Polynomial
-from geartrain.synthesis.windows import Half
+import geartrain.synthesis.trains.items as items
+import geartrain.synthesis.trains.joining as joining
+import geartrain.synthesis.trains.rows as rows
+from geartrain.synthesis.rules.conditions import Condition, Equation, Rule
+from geartrain.synthesis.trains.bands import Band, possible
+from geartrain.synthesis.trains.bundles import Asked, find_bundles
+from geartrain.synthesis.trains.items import Item, Recipe, forecast
+from geartrain.synthesis.trains.joining import Join
+from geartrain.synthesis.trains.merging import Work, do_task, merged
+from geartrain.synthesis.trains.plans import Question, find_question
+from geartrain.synthesis.trains.pooling import Order, Pool
+from geartrain.synthesis.trains.rows import Rows
+from geartrain.synthesis.trains.signs import Polynomial
+from geartrain.synthesis.trains.windows import Half
 
 Terms = tuple[tuple[int, tuple[int, ...]], ...]
 

@@ -18,18 +18,18 @@ from hypothesis import HealthCheck, assume, given, settings
 from hypothesis import strategies as st
 from strategies import driven_trains, ordinary_trains
 
-import geartrain.synthesis.merging as merging
-import geartrain.synthesis.passes as passes
-import geartrain.synthesis.tasks as tasks
+import geartrain.synthesis.trains.merging as merging
+import geartrain.synthesis.trains.passes as passes
+import geartrain.synthesis.trains.tasks as tasks
 from geartrain import GearTrain, GearTrainError, load
 from geartrain.errors import QuestionError
 from geartrain.files import as_yaml
 from geartrain.parallel import Journal, open_executor
-from geartrain.synthesis.conditions import Condition, Equation
-from geartrain.synthesis.findings import By, TrainFindings
-from geartrain.synthesis.formulas import find_formulas, with_counts
-from geartrain.synthesis.rules import Rules
-from geartrain.synthesis.searching import search
+from geartrain.synthesis.formulas.finding import find_formulas, with_counts
+from geartrain.synthesis.rules.conditions import Condition, Equation
+from geartrain.synthesis.rules.finding import Rules
+from geartrain.synthesis.trains.findings import By, TrainFindings
+from geartrain.synthesis.trains.searching import search
 from geartrain.train import Train
 
 Data = dict[str, Any]

@@ -15,12 +15,12 @@ from geartrain import load
 from geartrain.analysis import GearTrain
 from geartrain.errors import QuestionError, RangeError
 from geartrain.periods import table
-from geartrain.synthesis.orrery import Orrery
-from geartrain.synthesis.orrery_aims import read_aims
-from geartrain.synthesis.orrery_table import pair_ratios, reach
-from geartrain.synthesis.orrery_trees import Enumeration
-from geartrain.synthesis.orrery_wheels import fewest_wheels
-from geartrain.synthesis.sharing import share
+from geartrain.synthesis.orrery.aims import read_aims
+from geartrain.synthesis.orrery.orrery import Orrery
+from geartrain.synthesis.orrery.sharing import share
+from geartrain.synthesis.orrery.table import pair_ratios, reach
+from geartrain.synthesis.orrery.trees import Enumeration
+from geartrain.synthesis.orrery.wheels import fewest_wheels
 
 HILLIS = {
     "moon": "29.53058853",

@@ -19,11 +19,11 @@ from hypothesis import strategies as st
 
 from geartrain.errors import QuestionError, RangeError
 from geartrain.parallel import Journal, open_executor
-from geartrain.synthesis import stages_work
-from geartrain.synthesis.pairing import best_pairing, suited
-from geartrain.synthesis.products import expand, products_of
-from geartrain.synthesis.products_windows import cuts, errors, neighbours, rounded_up
-from geartrain.synthesis.stages import Fit, StageFindings, find_stages
+from geartrain.synthesis.stages import work as stages_work
+from geartrain.synthesis.stages.finding import Fit, StageFindings, find_stages
+from geartrain.synthesis.stages.pairing import best_pairing, suited
+from geartrain.synthesis.stages.products import expand, products_of
+from geartrain.synthesis.stages.windows import cuts, errors, neighbours, rounded_up
 from geartrain.synthesis.targets import Wanted
 
 Set = tuple[int, ...]
@@ -543,7 +543,7 @@ def test_an_interrupt_keeps_what_was_found_and_a_journal_takes_it_up(
             raise KeyboardInterrupt
         return real(task)
 
-    monkeypatch.setattr("geartrain.synthesis.stages_sweep.search_segment", some)
+    monkeypatch.setattr("geartrain.synthesis.stages.sweep.search_segment", some)
     with Journal(tmp_path / "journal", {"month": 1}) as journal:
         part = find_stages(*QUESTION, tolerance=Fraction(1, 10**5), journal=journal)
         assert 0 < len(journal) < 9

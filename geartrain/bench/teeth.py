@@ -32,14 +32,14 @@ from geartrain.bench.teeth_records import (
 )
 from geartrain.bench.teeth_ways import Case, Found, Pair
 from geartrain.bench.timing import timed
-from geartrain.synthesis.products import multisets, products_of
-from geartrain.synthesis.searching import search
-from geartrain.synthesis.stages import find_stages
-from geartrain.synthesis.stages_fit import Fit
-from geartrain.synthesis.stages_plan import lay_out
-from geartrain.synthesis.stages_question import Question
-from geartrain.synthesis.stages_work import search_segment, task_of
+from geartrain.synthesis.stages.finding import find_stages
+from geartrain.synthesis.stages.fit import Fit
+from geartrain.synthesis.stages.plan import lay_out
+from geartrain.synthesis.stages.products import multisets, products_of
+from geartrain.synthesis.stages.question import Question
+from geartrain.synthesis.stages.work import search_segment, task_of
 from geartrain.synthesis.targets import Wanted, read_ratio
+from geartrain.synthesis.trains.searching import search
 from geartrain.train import Train
 
 Advance = Callable[[str], None]

@@ -18,10 +18,10 @@ from geartrain.analysis import GearTrain
 from geartrain.synthesis.approximants import approximants
 from geartrain.synthesis.counts import Counts
 from geartrain.synthesis.pairs import find_pairs
-from geartrain.synthesis.products import expand, multisets
-from geartrain.synthesis.searching import search
-from geartrain.synthesis.stages import find_stages
+from geartrain.synthesis.stages.finding import find_stages
+from geartrain.synthesis.stages.products import expand, multisets
 from geartrain.synthesis.targets import Wanted
+from geartrain.synthesis.trains.searching import search
 from geartrain.train import Train
 
 Pair = tuple[int, int]

@@ -10,13 +10,13 @@ from geartrain.report.document import Document, Section, Table, cut, exact, figu
 
 if TYPE_CHECKING:
     from geartrain.synthesis.approximants import Approximant
-    from geartrain.synthesis.epicyclic_found import EpicyclicSet, SetFindings
-    from geartrain.synthesis.epicyclic_kinds import Kind
-    from geartrain.synthesis.findings import Assignment, PartFindings, Standing, TrainFindings
-    from geartrain.synthesis.orrery import Orrery
+    from geartrain.synthesis.epicyclic.found import EpicyclicSet, SetFindings
+    from geartrain.synthesis.epicyclic.kinds import Kind
+    from geartrain.synthesis.orrery.orrery import Orrery
     from geartrain.synthesis.result import Shortfall, Stages
-    from geartrain.synthesis.stages_findings import StageFindings
+    from geartrain.synthesis.stages.findings import StageFindings
     from geartrain.synthesis.targets import Wanted
+    from geartrain.synthesis.trains.findings import Assignment, PartFindings, Standing, TrainFindings
 
 _MANY = 3  # outputs beyond which a table of assignments tells only the greatest error; the JSON has all
 

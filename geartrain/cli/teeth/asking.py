@@ -163,7 +163,11 @@ class Means:
             yield None
             return
         with Journal(path, question, resume=self.resume) as journal:
-            yield journal
+            try:
+                yield journal
+            finally:
+                if not len(journal):  # nothing worth keeping
+                    journal.finish()
 
 
 def end(journal: Journal | None, cut: bool) -> None:
@@ -174,8 +178,6 @@ def end(journal: Journal | None, cut: bool) -> None:
     elif journal is not None and len(journal):
         typer.echo(f"stopped; what is done is in {journal.path}: give the same command with --resume", err=True)
     else:
-        if journal is not None:
-            journal.finish()
         typer.echo("stopped before anything was done that could be kept", err=True)
 
 

@@ -27,8 +27,8 @@ def run(
     if kind == "list":
         listing(asked.json)
         return
-    from geartrain.synthesis.epicyclic import find_sets
-    from geartrain.synthesis.epicyclic_declaring import declaration_of
+    from geartrain.synthesis.epicyclic.declaring import declaration_of
+    from geartrain.synthesis.epicyclic.finding import find_sets
     from geartrain.synthesis.targets import read_ratio
 
     wanted = read_ratio(texts[0], per)
@@ -58,7 +58,7 @@ def run(
 def listing(json: bool) -> None:
     """The kinds there are."""
     from geartrain import report
-    from geartrain.synthesis.epicyclic_kinds import kinds
+    from geartrain.synthesis.epicyclic.kinds import kinds
 
     if json:
         emit(as_json({name: kind.to_dict() for name, kind in kinds().items()}))

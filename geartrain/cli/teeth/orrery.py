@@ -18,7 +18,7 @@ def run(asked: Asked, texts: list[str], effort: int) -> None:
     from rich.progress import Progress
 
     from geartrain import report
-    from geartrain.synthesis.sharing import share
+    from geartrain.synthesis.orrery.sharing import share
 
     periods = _periods(texts)
     with Progress(console=Console(stderr=True), transient=True, disable=not sys.stderr.isatty()) as progress:

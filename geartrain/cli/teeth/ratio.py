@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 from geartrain.cli.teeth.asking import Asked, Means, end
 
 if TYPE_CHECKING:
-    from geartrain.synthesis.stages import StageFindings
+    from geartrain.synthesis.stages.finding import StageFindings
     from geartrain.synthesis.targets import Wanted
 
 _LONG = 100_000
@@ -32,7 +32,7 @@ def run(
 
 
 def _search(asked: Asked, means: Means, wanted: Wanted, stages: int, fit: dict[str, Any]) -> tuple[StageFindings, bool]:
-    from geartrain.synthesis.stages import Fit, find_stages
+    from geartrain.synthesis.stages.finding import Fit, find_stages
 
     question = {
         "ratio": str(wanted.value),

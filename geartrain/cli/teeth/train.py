@@ -10,7 +10,7 @@ import typer
 from geartrain.cli.teeth.asking import Asked, Means, end
 
 if TYPE_CHECKING:
-    from geartrain.synthesis.findings import Standing, TrainFindings
+    from geartrain.synthesis.trains.findings import Standing, TrainFindings
     from geartrain.train import Train
 
 
@@ -20,7 +20,7 @@ def run(
     """Answer for the free wheels of a train."""
     from geartrain import report
     from geartrain.files import read_declaration
-    from geartrain.synthesis.asked import read_rules
+    from geartrain.synthesis.rules.asked import read_rules
 
     train = read_declaration(file)
     options = {name: value for name, value in rules.items() if value is not None}
@@ -51,7 +51,7 @@ def _search(
     options: dict[str, Any],
     stands: list[dict[str, int]],
 ) -> tuple[TrainFindings, list[Standing], bool]:
-    from geartrain.synthesis.searching import search
+    from geartrain.synthesis.trains.searching import search
 
     question = {
         "train": train.model_dump(mode="json"),

@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from geartrain import GearTrain
-from geartrain.synthesis.asked import Rules
-from geartrain.synthesis.rules import Rule, find_rules
+from geartrain.synthesis.rules.asked import Rules
+from geartrain.synthesis.rules.finding import Rule, find_rules
 from geartrain.train import Train
 
 Central = Mapping[str, tuple[int, bool]]

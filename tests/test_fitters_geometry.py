@@ -22,8 +22,8 @@ from shapely import affinity
 from geartrain import GearTrain, load
 from geartrain.errors import QuestionError
 from geartrain.quantity import Quantity
-from geartrain.synthesis.decimals import cosine, is_positive, sine
-from geartrain.synthesis.interference import (
+from geartrain.synthesis.rules.decimals import cosine, is_positive, sine
+from geartrain.synthesis.rules.interference import (
     InRing,
     OnInvolute,
     external_terms,

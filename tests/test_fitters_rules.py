@@ -21,10 +21,10 @@ from test_closure import in_space
 from geartrain import GearTrain, load
 from geartrain.errors import QuestionError
 from geartrain.quantity import Quantity
-from geartrain.synthesis.asked import Rules, read_rules
-from geartrain.synthesis.conditions import Condition, Equation
-from geartrain.synthesis.planets import bezout
-from geartrain.synthesis.rules import Rule, find_rules
+from geartrain.synthesis.rules.asked import Rules, read_rules
+from geartrain.synthesis.rules.conditions import Condition, Equation
+from geartrain.synthesis.rules.finding import Rule, find_rules
+from geartrain.synthesis.rules.planets import bezout
 
 Data = dict[str, Any]
 

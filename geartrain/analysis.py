@@ -17,7 +17,7 @@ from geartrain.exact import TooDenseError
 from geartrain.outputs import Number, Sensitivity, judge_outputs, sensitivity
 from geartrain.speeds import EXACT_BUDGET, Mobility, exact_verdict, find_mobility, solve
 from geartrain.system import System, assemble
-from geartrain.train import Case, Train, declare, suggest
+from geartrain.train import Case, GearPair, Train, declare, suggest
 
 if TYPE_CHECKING:
     from geartrain.closure import Closure
@@ -111,7 +111,7 @@ class GearTrain:
         """Whether the teeth of every loop meet, where positions of axes are declared, and angles to put wheels in."""
         from geartrain.closure import find_closure
 
-        plays = {mesh.name: mesh.verdict.play / mesh.law.sizes.p2 for mesh in self.meshes}
+        plays = {mesh.name: mesh.play for mesh in self.meshes}
         return find_closure(self.declaration, self.tree, self.circuits, plays)
 
     @cached_property
@@ -129,7 +129,16 @@ class GearTrain:
         """The gear pairs with real teeth, each with its law; empty, and free of cost, where none declares a form."""
         from geartrain.meshes import find_meshes
 
-        return find_meshes(self.declaration)
+        return find_meshes(self.declaration, self._shaft_angle)
+
+    def _shaft_angle(self, gear: GearPair) -> float | None:
+        from geartrain.circuits.shafts import shaft_angle
+
+        return shaft_angle(self.declaration, self.tree, self._circuit_of[gear.name])
+
+    @cached_property
+    def _circuit_of(self) -> Mapping[str, Circuit]:
+        return {circuit.id: circuit for circuit in self.circuits}
 
     @cached_property
     def pins(self) -> tuple[PinJoint, ...]:

@@ -27,7 +27,7 @@ def _check(file: str, quiet: bool) -> int:
     try:
         train = load(file)
         answers = list(train.answers())
-        faults = [mesh.fault for mesh in train.meshes if mesh.fault]
+        faults = [fault for mesh in train.meshes for fault in mesh.faults]
     except GearTrainError as error:
         complain(error)
         return NOT_USABLE
@@ -45,7 +45,7 @@ def _check(file: str, quiet: bool) -> int:
             typer.echo(f"FAIL {head}:{state} output '{result.name}' is {speed}{_wanted(result)}{tail}")
             good = VERDICT
     for fault in faults:
-        typer.echo(f"FAIL {fault.place}: {fault.what}; {fault.why or fault.fix}")
+        typer.echo(f"FAIL {fault.place}: " + "; ".join(filter(None, (fault.what, fault.why, fault.fix))))
         good = VERDICT
     if good != GOOD or not quiet:
         for line in train.gridlock.lines():

@@ -84,6 +84,7 @@ class Passage(NamedTuple):
 class Composition:
     """Sources in a train, and the outputs (link, seen from) that are asked for.
 
+    offsets       what teeth that keep their ratio add to each output by their play alone (rad); none by default
     turned_back   pairs whose driver was seen turning against its mean: their flanks change there, and the law, which
                   is that of the flanks in front, does not follow the play
     """
@@ -91,6 +92,7 @@ class Composition:
     spread: Spread
     sources: tuple[Source, ...]
     outputs: tuple[tuple[int, int], ...]
+    offsets: tuple[float, ...] = ()
     turned_back: set[str] = field(default_factory=set)
 
     @cached_property
@@ -192,6 +194,8 @@ class Composition:
                 if link in self._place:
                     found[0][at] += sign * error[self._place[link]]
                     found[1][at] += sign * rate[self._place[link]]
+        for at, offset in enumerate(self.offsets):
+            found[0][at] += offset
         return Passage(turns, found[0], found[1])
 
     def _take(self, step: Step, angle: Angle, error: Floats, rate: Floats) -> None:

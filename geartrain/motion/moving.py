@@ -50,9 +50,19 @@ class Moving:
         """Mean speed of a link seen from its carrier, over the lead's, both about the direction of their parallels."""
         return self.signs.get(link, 1) * self.ratio(link) - self.signs.get(carrier, 1) * self.ratio(carrier)
 
+    @property
+    def rippling(self) -> list[Mesh]:
+        """The pairs whose teeth do not keep their ratio at every instant."""
+        return [mesh for mesh in self.teeth if not mesh.rigid]
+
+    @property
+    def rigid(self) -> list[Mesh]:
+        """The pairs with real teeth that do: nothing of them is worked out position by position."""
+        return [mesh for mesh in self.teeth if mesh.rigid]
+
     def contradictions(self) -> list[tuple[Loop, list[str]]]:
         """Redundant loops in which something ripples, with what does."""
-        rippling = {mesh.name for mesh in self.teeth} | {joint.coupling.name for joint in self.pins}
+        rippling = {mesh.name for mesh in self.rippling} | {joint.coupling.name for joint in self.pins}
         found = ((loop, [pair for pair in loop.pairs if pair in rippling]) for loop in self.loops)
         return [(loop, real) for loop, real in found if real]
 

@@ -125,10 +125,33 @@ class Motion:
 
     def _compose(self, way: int) -> Composition:
         outputs = tuple((self._index[of], self._index[base]) for of, base in self.outputs.values())
-        return Composition(self.spread, tuple(self._sources(way)), outputs)
+        found = Composition(self.spread, tuple(self._sources(way)), outputs)
+        error = self._play(way)
+        if error is None:
+            return found
+        sources = tuple(replace(each, start=each.start + found.driver_shift(each, error)) for each in found.sources)
+        return Composition(self.spread, sources, outputs, tuple(float(error[of] - error[base]) for of, base in outputs))
+
+    def _play(self, way: int) -> Floats | None:
+        """What the play of teeth that keep their ratio adds to the angle of each link (rad); None where it is nothing.
+
+        It is the same at every position, so that no position is asked for it.
+        """
+        laws = {mesh.name: mesh.law if way > 0 else mesh.law.turned_back() for mesh in self.train.rigid}
+        ahead = {name: law.error_moments()[0] for name, law in laws.items()}
+        if not any(ahead.values()):
+            return None
+        circuits = {circuit.id: circuit for circuit in self.train.circuits}
+        deltas = [ahead[name] * self._sense(circuits[name]) if name in ahead else 0.0 for name in self.spread.pairs]
+        return np.asarray(self.spread.errors(np.array(deltas)[:, None])[:, 0])
+
+    def _sense(self, circuit: Circuit) -> int:
+        """1, or -1 where the driven wheel turns backwards on average, seen from its carrier."""
+        end = (circuit.i, circuit.j)[self._driven_side(circuit)]
+        return -1 if self.train.relative(end, circuit.carrier) < 0 else 1
 
     def _sources(self, way: int) -> Iterator[Source]:
-        laws: dict[str, Law] = {mesh.name: mesh.law for mesh in self.train.teeth}
+        laws: dict[str, Law] = {mesh.name: mesh.law for mesh in self.train.rippling}
         laws |= {joint.coupling.name: joint.law for joint in self.train.pins}
         circuits = {circuit.id: circuit for circuit in self.train.circuits}
         for at, name in enumerate(self.spread.pairs):
@@ -146,9 +169,9 @@ class Motion:
     def _source(self, at: int, circuit: Circuit, ahead: Law, law: Law) -> Source:
         driven = self._driven_side(circuit)
         ends, signs, carrier = (circuit.i, circuit.j), self.train.signs, circuit.carrier
-        driver, follower = (self.train.relative(ends[side], carrier) for side in (1 - driven, driven))
+        driver = self.train.relative(ends[1 - driven], carrier)
         forward = -1 if driver < 0 else 1
-        sense = -1 if follower < 0 else 1
+        sense = self._sense(circuit)
         teeth = 1
         if circuit.kind != "gear":  # a pin's error has the sense of the slot's own angle
             sense = forward
@@ -195,7 +218,7 @@ class Motion:
     def at_random(self, random: Generator) -> Motion:
         """The same train with a random phase for every pair with real teeth that declares none."""
         declared = self.train.phases
-        drawn = {mesh.name: float(random.random()) for mesh in self.train.teeth if mesh.name not in declared}
+        drawn = {mesh.name: float(random.random()) for mesh in self.train.rippling if mesh.name not in declared}
         return Motion(replace(self.train, phases={**drawn, **declared}), self.outputs, self.tolerance)
 
     # -------------------------------------------------------------------------------------------------- what it answers

@@ -69,6 +69,9 @@ def find_spectrum(
     for at, name in enumerate(motion.outputs):
         found[name] = _expected(superposed, harmonics, at, most)
     orders = sorted({line.order for lines in found.values() for line in lines})
+    if not orders:
+        on_done(samples)
+        return {name: [] for name in found}
     measured = _measure(motion, turns, samples, orders, on_done)
     return {
         name: [

@@ -29,6 +29,35 @@ class Running:
         return None if self.rate is None else 2 * pi * self.rate
 
 
+@dataclass(frozen=True)
+class Blows:
+    """What collisions of one pair cost, and where its law is void, as far as `Running` tells.
+
+    inertia      kg m2, of all that turns with the driven wheel
+    energies     of one pitch (J): handed to the driven side, dissipated, and their sum
+    least_load   load torque (N m) that keeps the teeth in contact at this rate
+    void         driver's speed (turns per second) above which they part under the declared load
+    """
+
+    inertia: float
+    energies: tuple[float, float, float] | None = None
+    least_load: float | None = None
+    void: float | None = None
+
+
+def find_blows(law: TriangularLaw, running: Running) -> Blows | None:
+    """The figures that page and data give; None where no inertia is known."""
+    if running.inertia is None:
+        return None
+    steepest, omega1 = law.steepest_fall(), running.omega1
+    void = None
+    if running.load is not None and steepest > 0:
+        void = sqrt(running.load / (running.inertia * steepest)) / (2 * pi)
+    if omega1 is None:
+        return Blows(running.inertia, void=void)
+    return Blows(running.inertia, law.impact(running.inertia, omega1), running.inertia * omega1**2 * steepest, void)
+
+
 def mesh_document(law: TriangularLaw, window: Window | None, running: Running, notes: tuple[str, ...] = ()) -> Document:
     """Sizes, clearance, path, law, collisions and losses of one pair."""
     sizes = law.sizes
@@ -152,12 +181,12 @@ def _losses(law: TriangularLaw) -> Section:
 
 
 def _impacts(law: TriangularLaw, running: Running) -> Iterator[Section]:
-    if running.inertia is None:
+    found = find_blows(law, running)
+    if found is None:
         return
-    steepest = law.steepest_fall()
     lines = []
-    if running.omega1 is not None:
-        handed, dissipated, work = law.impact(running.inertia, running.omega1)
+    if found.energies is not None:
+        handed, dissipated, work = found.energies
         lines.append(
             f"At {running.rate:g} turns of the driver a second the collisions of one pitch hand {handed:.6g} J to the "
             f"driven side, dissipate {dissipated:.6g} J, and cost the driver their sum, {work:.6g} J, or "
@@ -165,14 +194,13 @@ def _impacts(law: TriangularLaw, running: Running) -> Iterator[Section]:
             "lose the second."
         )
         lines.append(
-            "The driven inertia stays in contact as tau falls if the load torque is at least "
-            f"{running.inertia * running.omega1**2 * steepest:.6g} N m."
+            f"The driven inertia stays in contact as tau falls if the load torque is at least {found.least_load:.6g} "
+            "N m."
         )
-    if running.load is not None and steepest > 0:
-        void = sqrt(running.load / (running.inertia * steepest))
+    if found.void is not None:
         lines.append(
-            f"With a load torque of {running.load:g} N m the quasi-static law is void above {void / (2 * pi):.6g} "
-            f"turns of the driver a second ({void:.6g} rad/s)."
+            f"With a load torque of {running.load:g} N m the quasi-static law is void above {found.void:.6g} "
+            f"turns of the driver a second ({2 * pi * found.void:.6g} rad/s)."
         )
     if not lines:
         lines.append(

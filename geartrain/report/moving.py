@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from math import degrees
 from typing import TYPE_CHECKING, Any
 
@@ -11,6 +11,7 @@ from geartrain.report.document import Document, Section, Table, figure
 
 if TYPE_CHECKING:
     from geartrain.analysis import GearTrain
+    from geartrain.meshes import Mesh
     from geartrain.motion import Estimates, Line, Run, Tally
 
 
@@ -37,6 +38,8 @@ def motion_sections(run: Run) -> Iterator[Section]:
     yield Section("Outputs", tuple(_remarks(run)), (_outputs(run.tallies),))
     if run.motion.ahead.used:
         yield _pairs(run)
+    if rigid := _rigid(run.motion.train.rigid):
+        yield Section("Pairs that keep their ratio", (rigid,))
     if run.phased:
         yield _phased(run)
     if run.estimates:
@@ -55,6 +58,8 @@ def moving_sections(train: GearTrain) -> Iterator[Section]:
             continue
         text = f"While '{run.motion.train.lead}' makes {run.turns:g} turns; `geartrain motion` has more."
         yield Section(head, (text, *_remarks(run)), (_outputs(_rippling(run)),))
+    if train.meshes and not _ripples(train):
+        yield Section("Motion", (_rigid(train.meshes),))
 
 
 def moving_data(train: GearTrain) -> list[dict[str, Any]]:
@@ -67,7 +72,7 @@ def moving_data(train: GearTrain) -> list[dict[str, Any]]:
 
 
 def _runs(train: GearTrain) -> Iterator[tuple[str | None, Run | GearTrainError]]:
-    if not train.meshes and not train.pins:
+    if not _ripples(train):
         return
     from geartrain.motion import Run
 
@@ -79,6 +84,22 @@ def _runs(train: GearTrain) -> Iterator[tuple[str | None, Run | GearTrainError]]
             yield state, error
         else:
             yield state, run
+
+
+def _ripples(train: GearTrain) -> bool:
+    return bool(train.pins) or any(not mesh.rigid for mesh in train.meshes)
+
+
+def _rigid(meshes: Iterable[Mesh]) -> str:
+    """Which pairs add nothing to any motion, by form."""
+    forms: dict[str, list[str]] = {}
+    for mesh in meshes:
+        if mesh.rigid:
+            forms.setdefault(mesh.form.replace("_", " "), []).append(mesh.name)
+    if not forms:
+        return ""
+    words = "; ".join(f"{', '.join(names)} ({form})" for form, names in forms.items())
+    return f"Keep their ratio at every instant and add nothing to any motion: {words}."
 
 
 def _rippling(run: Run) -> list[Tally]:
@@ -210,6 +231,7 @@ def motion_data(run: Run) -> dict[str, Any]:
         "period": None if period is None else str(period),
         "drivers": drivers,
         "turned_back": sorted(composition.turned_back),
+        "rigid": [mesh.name for mesh in motion.train.rigid],
         "outputs": outputs,
     }
     if run.done < run.samples:

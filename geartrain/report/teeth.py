@@ -2,18 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from math import degrees, isfinite, pi, sqrt
+from collections.abc import Iterator, Sequence
+from math import degrees, isfinite
 from typing import TYPE_CHECKING, Any
 
 from geartrain.analysis import GearTrain
-from geartrain.meshes import Mesh, explain
+from geartrain.meshes import ConjugateMesh, Mesh, TriangularMesh, explain
+from geartrain.report.conjugate import WORDS, conjugate_data, conjugate_table, efficiency_data
 from geartrain.report.document import Section, Table
-from geartrain.report.meshing import Running
+from geartrain.report.meshing import Running, find_blows
 
 if TYPE_CHECKING:
     from geartrain.teeth.triangular.law import TriangularLaw
     from geartrain.teeth.triangular.meshing import Window
+
+
+_TRIANGULAR = (
+    "Triangular teeth, each pair in its carrier's frame. Speed ratio over its mean, transmission error of the driven "
+    "wheel, mean sliding efficiency at constant driver torque, relative leaps of normal velocity."
+)
 
 
 def teeth_sections(train: GearTrain) -> Iterator[Section]:
@@ -25,24 +32,29 @@ def teeth_sections(train: GearTrain) -> Iterator[Section]:
 
 
 def _teeth(train: GearTrain) -> Section:
-    places = Table(("pair", "drives", "clearance", "window", "verdict"), [_place_row(mesh) for mesh in train.meshes])
-    header = ("pair", "tau/mean", "error p-p (deg)", "efficiency", "jumps")
-    laws = Table(header, [_law_row(mesh) for mesh in train.meshes])
-    guessed = [mesh.name for mesh in train.meshes if mesh.why != "declared"]
-    lines = [
-        "Triangular teeth, each pair in its carrier's frame. Speed ratio over its mean, transmission error of the "
-        "driven wheel, mean sliding efficiency at constant driver torque, relative leaps of normal velocity."
-    ]
-    if guessed:
+    lines: list[str] = []
+    tables: list[Table] = []
+    if triangular := [mesh for mesh in train.meshes if isinstance(mesh, TriangularMesh)]:
+        lines.append(_TRIANGULAR)
+        tables += _triangular_tables(triangular)
+    if conjugate := [mesh for mesh in train.meshes if isinstance(mesh, ConjugateMesh)]:
+        lines.append(WORDS)
+        tables.append(conjugate_table(conjugate))
+    if any(mesh.why != "declared" for mesh in train.meshes):
         lines.append("The driving wheel is the one nearer to where power enters, unless `driver` is declared.")
     lines += [f"Pair '{mesh.name}': {mesh.note}." for mesh in train.meshes if mesh.note]
-    for mesh in train.meshes:
-        if fault := mesh.fault:
-            lines.append(f"{fault.what}; {fault.why}. {fault.fix}." if fault.why else f"{fault.what}. {fault.fix}.")
-    return Section("Teeth", lines, (places, laws))
+    for fault in (fault for mesh in train.meshes for fault in mesh.faults):
+        lines.append(f"{fault.what}; {fault.why}. {fault.fix}." if fault.why else f"{fault.what}. {fault.fix}.")
+    return Section("Teeth", lines, tables)
 
 
-def _place_row(mesh: Mesh) -> tuple[str, ...]:
+def _triangular_tables(meshes: Sequence[TriangularMesh]) -> tuple[Table, Table]:
+    places = Table(("pair", "drives", "clearance", "window", "verdict"), [_place_row(mesh) for mesh in meshes])
+    header = ("pair", "tau/mean", "error p-p (deg)", "efficiency", "jumps")
+    return places, Table(header, [_law_row(mesh) for mesh in meshes])
+
+
+def _place_row(mesh: TriangularMesh) -> tuple[str, ...]:
     law, window = mesh.law, mesh.window
     where = (
         "-" if window is None else f"{1 + window.jam:.5f} {window.jam_kind} .. {1 + window.run:.5f} {window.run_kind}"
@@ -50,7 +62,7 @@ def _place_row(mesh: Mesh) -> tuple[str, ...]:
     return (mesh.name, f"{mesh.driver} -> {mesh.driven}", f"{1 + law.sizes.excess:.6g}", where, law.verdict.kind)
 
 
-def _law_row(mesh: Mesh) -> tuple[str, ...]:
+def _law_row(mesh: TriangularMesh) -> tuple[str, ...]:
     law = mesh.law
     if not law.intervals:
         return (mesh.name, "-", "-", "-", "-")
@@ -87,7 +99,7 @@ def teeth_data(train: GearTrain) -> dict[str, Any]:
     """Real teeth and pins of a train as plain data; empty lists where none are declared."""
     return {
         "teeth": [
-            {"pair": mesh.name, "driver": mesh.driver, "driver_is": mesh.why, **mesh_data(mesh.law, mesh.window)}
+            {"pair": mesh.name, "driver": mesh.driver, "driver_is": mesh.why, "form": mesh.form, **_mesh_data(mesh)}
             for mesh in train.meshes
         ],
         "pins": [
@@ -100,6 +112,13 @@ def teeth_data(train: GearTrain) -> dict[str, Any]:
             for joint in train.pins
         ],
     }
+
+
+def _mesh_data(mesh: Mesh) -> dict[str, Any]:
+    if isinstance(mesh, TriangularMesh):
+        return mesh_data(mesh.law, mesh.window)
+    assert isinstance(mesh, ConjugateMesh)
+    return conjugate_data(mesh)
 
 
 def mesh_data(law: TriangularLaw, window: Window | None, running: Running | None = None) -> dict[str, Any]:
@@ -147,18 +166,11 @@ def _law_data(law: TriangularLaw) -> dict[str, Any]:
     least, most = law.speed_range()
     low, high = law.error_range()
     lag, rms = law.error_moments()
-    locks = law.friction >= law.locking_friction
     return {
         "play": law.verdict.play,
         "speed_ratio": {"mean": float(law.ratio), "exact": str(law.ratio), "min": least, "max": most},
         "transmission_error": {"peak_to_peak": high - low, "rms": rms, "mean": lag},
-        "efficiency": {
-            "friction": law.friction,
-            "mean": None if locks else law.efficiency_mean(),
-            "at_constant_load": None if locks else law.efficiency_at_constant_load(),
-            "min": None if locks else law.efficiency_least(),
-            "locks_at": law.locking_friction if isfinite(law.locking_friction) else None,
-        },
+        "efficiency": efficiency_data(law),
         "intervals": [{"phase": i.phase, "start": i.start, "end": i.end} for i in law.intervals],
         "jumps": [
             {"kind": j.kind, "alpha1": j.alpha1, "before": j.before, "after": j.after, "value": j.value}
@@ -168,14 +180,14 @@ def _law_data(law: TriangularLaw) -> dict[str, Any]:
 
 
 def _impact_data(law: TriangularLaw, running: Running) -> dict[str, Any]:
-    if running.inertia is None:
+    found = find_blows(law, running)
+    if found is None:
         return {}
-    steepest = law.steepest_fall()
-    data: dict[str, Any] = {"inertia": running.inertia}
-    if running.omega1 is not None:
-        handed, dissipated, work = law.impact(running.inertia, running.omega1)
+    data: dict[str, Any] = {"inertia": found.inertia}
+    if found.energies is not None:
+        handed, dissipated, work = found.energies
         data |= {"rate": running.rate, "handed": handed, "dissipated": dissipated, "work": work}
-        data["load_to_stay_in_contact"] = running.inertia * running.omega1**2 * steepest
-    if running.load is not None and steepest > 0:
-        data["void_above"] = sqrt(running.load / (running.inertia * steepest)) / (2 * pi)
+        data["load_to_stay_in_contact"] = found.least_load
+    if found.void is not None:
+        data["void_above"] = found.void
     return {"impacts": data}

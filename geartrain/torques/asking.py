@@ -174,7 +174,7 @@ def _efficiencies(setting: Setting, circuit: Circuit) -> tuple[Fraction, Fractio
     if gear.efficiency is not None:
         return gear.efficiency.forward.value, gear.efficiency.backward.value
     tooth = setting.meshes.get(circuit.id)
-    if tooth is None or not tooth.law.friction:
+    if tooth is None or not tooth.rubs:
         return Fraction(1), Fraction(1)
     laws = (tooth.law, tooth.reversed)
     ahead, back = (_mean(law.efficiency_mean()) for law in laws)

@@ -11,6 +11,7 @@ from pydantic import BaseModel, ValidationError
 
 from geartrain.bulk import collector_paused
 from geartrain.errors import DeclarationError, Loc, Marks, Problem, dotted
+from geartrain.teeth import ToothForm
 from geartrain.train.declaration import Train
 from geartrain.train.references import find_problems
 
@@ -45,6 +46,13 @@ def _explain_all(error: ValidationError, place: Marks) -> Iterator[Problem]:
     return (_explain(item, place) for item in errors if item["type"] != "missing" or item["loc"] not in misspelt)
 
 
+def _name(kind: Any) -> tuple[Any, ...]:
+    """The name by which a union chooses a tooth form, alone in a tuple; nothing for other models."""
+    field = kind.model_fields.get("form")
+    return get_args(field.annotation) if field else ()
+
+
+_FORMS = {name for form in get_args(get_args(ToothForm)[0]) for name in _name(form)}
 _SHAPES = {
     "dict_type": "a mapping of keys to values",
     "model_type": "a mapping of keys to values",
@@ -98,7 +106,7 @@ def _where(loc: Loc) -> str:
 
 def _real_steps(loc: Loc) -> Loc:
     """`loc` without the tags pydantic adds for unions, which are not in the file."""
-    tags = {"count", "doubt", "triangular", "ideal", "pin_and_slot", "pin_follower"}
+    tags = {"count", "doubt", "pin_and_slot", "pin_follower", *_FORMS}
     return tuple(
         step
         for at, step in enumerate(loc)
@@ -111,7 +119,7 @@ def _real_steps(loc: Loc) -> Loc:
 
 def suggest(name: str, known: Iterable[str]) -> str:
     """The nearest of the known names, or all of them if they are few."""
-    known = tuple(known)
+    known = tuple(dict.fromkeys(known))
     close = get_close_matches(name, known, n=2, cutoff=0.6)
     if close:
         return f"did you mean {' or '.join(repr(found) for found in close)}?"
@@ -122,7 +130,8 @@ def _keys_at(loc: Loc) -> Iterator[str]:
     """The keys a declaration may have at `loc`, found by walking the models."""
     kinds: list[Any] = [Train]
     for step in loc:
-        kinds = [after for kind in kinds for after in _step(kind, step)]
+        named = [kind for kind in kinds if step in _FORMS and step in _name(kind)]
+        kinds = named or [after for kind in kinds for after in _step(kind, step)]
     for kind in kinds:
         for name, field in kind.model_fields.items():
             yield field.alias or name

@@ -1,0 +1,21 @@
+"""Real teeth and pins of a train: a law for every gear pair with a tooth form and every coupling with dimensions."""
+
+from geartrain.meshes.conjugate import ConjugateMesh
+from geartrain.meshes.driving import find_drivers
+from geartrain.meshes.finding import PinJoint, find_meshes, find_pins
+from geartrain.meshes.mesh import Driver, Fit, Mesh
+from geartrain.meshes.triangular import TriangularMesh, explain, locked_by_friction
+
+__all__ = [
+    "ConjugateMesh",
+    "Driver",
+    "Fit",
+    "Mesh",
+    "PinJoint",
+    "TriangularMesh",
+    "explain",
+    "find_drivers",
+    "find_meshes",
+    "find_pins",
+    "locked_by_friction",
+]

@@ -1,0 +1,126 @@
+"""What a train needs of a gear pair with real teeth, whatever their form."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import TYPE_CHECKING, Protocol, Self
+
+from geartrain.teeth.base import Rigid
+
+if TYPE_CHECKING:
+    from geartrain.errors import Problem
+    from geartrain.teeth.base import Law
+    from geartrain.train import GearPair
+
+
+class Fit(Protocol):
+    """Whether a pair of wheels can turn; true if it can.
+
+    kind   "runs", or one word for why it does not
+    text   the same in words
+    play   play of the teeth (rad of the driven wheel)
+    """
+
+    @property
+    def kind(self) -> str:
+        """One word."""
+
+    @property
+    def text(self) -> str:
+        """In words."""
+
+    @property
+    def play(self) -> float:
+        """Play (rad of the driven wheel)."""
+
+    def __bool__(self) -> bool: ...
+
+
+@dataclass(frozen=True)
+class Driver:
+    """The wheel that drives a gear pair, and how that is known."""
+
+    wheel: str
+    why: str
+
+
+@dataclass(frozen=True)
+class Mesh(ABC):
+    """A gear pair with real teeth: the wheel that drives, how (`why`) that is known, and friction if it is declared.
+
+    form   name of the tooth form
+    law    with `driver` driving, forwards
+    note   what the form takes the wheels for, where it is not what they are
+    """
+
+    gear: GearPair
+    form: str
+    driver: str
+    why: str
+    place: str
+    law: Law
+    friction: float | None = None
+    note: str = ""
+
+    @property
+    def name(self) -> str:
+        """The name of the pair."""
+        return self.gear.name
+
+    @property
+    def driven(self) -> str:
+        """The other wheel."""
+        first, second = self.gear.pair
+        return second if self.driver == first else first
+
+    @property
+    @abstractmethod
+    def reversed(self) -> Law:
+        """The law with the other wheel driving."""
+
+    @property
+    @abstractmethod
+    def verdict(self) -> Fit:
+        """Whether these teeth can turn."""
+
+    @abstractmethod
+    def _faults(self) -> Iterator[Problem]:
+        """Everything that is wrong with these teeth, without pair and place."""
+
+    @property
+    def label(self) -> str:
+        """The pair as a fault names it."""
+        return f"pair '{self.name}'"
+
+    @cached_property
+    def faults(self) -> tuple[Problem, ...]:
+        """Everything that keeps these teeth from turning, with what would let them; empty if they turn."""
+        return tuple(replace(each, what=f"{self.label}: {each.what}", place=self.place) for each in self._faults())
+
+    @property
+    def fault(self) -> Problem | None:
+        """The first of them."""
+        return self.faults[0] if self.faults else None
+
+    @property
+    def play(self) -> float:
+        """Play of the teeth, in pitches."""
+        return self.verdict.play / (self.law.period * float(self.law.ratio))
+
+    @property
+    def rigid(self) -> bool:
+        """True if the pair keeps its ratio at every instant: it adds nothing to any motion but its play."""
+        return isinstance(self.law, Rigid)
+
+    @property
+    def rubs(self) -> bool:
+        """True if something is lost between these teeth."""
+        return bool(self.friction)
+
+    def driven_by(self, driver: Driver) -> Self:
+        """The same teeth with this wheel driving."""
+        law = self.law if driver.wheel == self.driver else self.reversed
+        return replace(self, driver=driver.wheel, why=driver.why, law=law)

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from math import pi, sin
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Annotated, Literal
 
-from pydantic import Field, model_validator
+from pydantic import BeforeValidator, Field, model_validator
 
 from geartrain.errors import Problem, RangeError
 from geartrain.quantity import Figure, Length
@@ -17,11 +17,18 @@ if TYPE_CHECKING:
     from geartrain.teeth.conjugate import Pair
 
 
+def _first_or_second(raw: object) -> object:
+    """A declaration gives numbers as text."""
+    return int(raw) if raw in ("1", "2") else raw
+
+
 class Lantern(Shape):
     """Round pins on one wheel, a lantern, and teeth that mate with them on the other."""
 
     form: Literal["lantern"] = Field(description="The name of this form")
-    pins: Literal[1, 2] = Field(2, description="Which wheel of the pair is the lantern")
+    pins: Annotated[Literal[1, 2], BeforeValidator(_first_or_second)] = Field(
+        2, description="Which wheel of the pair is the lantern"
+    )
     pin_diameter: Length = Field("1.5", validate_default=True, description="In modules or with a unit")
     pin_radius: Length | None = Field(
         None,

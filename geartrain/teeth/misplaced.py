@@ -68,8 +68,11 @@ class MisplacedLaw(Law):
     def verdict(self) -> Fitness:
         """Whether the pair can turn: what is wrong with its teeth, or the play they lack at this distance."""
         S = np.linspace(0, self.period, _SAMPLES, endpoint=False)
-        play = float(np.nanmin(solve(*self._wheels, self.distance, S).play, initial=inf))
+        plays = solve(*self._wheels, self.distance, S).play
+        play = float(np.nanmin(plays, initial=inf))
         found = self.pair.faults if play >= -1e-12 else (*self.pair.faults, _jam(self.distance, play))
+        if not np.isfinite(plays).all():
+            found = (*found, _apart(self.distance, float(np.mean(~np.isfinite(plays)))))
         text = "; ".join(fault.what for fault in found) or "the teeth run"
         return Fitness(found[0].kind if found else "runs", text, play, found)
 
@@ -243,6 +246,17 @@ def _straight(flank: object, foot: float, tip: float) -> Curve:
     length = min(_STRAIGHT, float(np.hypot(*start)) / 3)
     end = start + way / np.hypot(*way) * length
     return Curve(lambda t: end + t[:, None] * (start - end))
+
+
+def _apart(distance: float, share: float) -> Fault:
+    return Fault(
+        "contact ratio",
+        0,
+        nan,
+        "the teeth do not reach each other",
+        f"at a centre distance of {distance:.6g} modules nothing touches during {share:.1%} of a pitch",
+        "move the axles together, or take longer arcs",
+    )
 
 
 def _jam(distance: float, play: float) -> Fault:

@@ -2,11 +2,24 @@
 
 from __future__ import annotations
 
-from typing import Annotated
+from collections.abc import Callable
+from pathlib import Path
+from typing import Annotated, Any, Protocol
 
 import typer
 
 from geartrain.cli.common import Json, Out, as_json, emit
+
+
+class Records(Protocol):
+    """What a benchmark measured."""
+
+    def to_dict(self) -> dict[str, Any]:
+        """Plain data for JSON."""
+
+    def to_markdown(self) -> str:
+        """Tables."""
+
 
 app = typer.Typer(help="Measure error against run time, as ratios within one run.", no_args_is_help=True)
 
@@ -48,15 +61,9 @@ def mesh(
     out: Out = None,
 ) -> None:
     """Time and true error of every way to the law of triangular teeth: direct, tabulated, sampled, scanned."""
-    from rich.console import Console
-    from rich.progress import Progress
-
     from geartrain import bench
 
-    with Progress(console=Console(stderr=True), transient=True) as progress:
-        task = progress.add_task("mesh", total=bench.count_mesh_steps(quick))
-        results = bench.mesh(quick, lambda step: progress.update(task, advance=1, description=step))
-    emit(as_json(results.to_dict()) if json else results.to_markdown(), out)
+    _measure("mesh", bench.count_mesh_steps(quick), lambda tell: bench.mesh(quick, tell), json, out)
 
 
 @app.command()
@@ -67,15 +74,9 @@ def motion(
     out: Out = None,
 ) -> None:
     """Time and error of every way to the motion of whole trains: direct, tabulated, superposed, estimated, marched."""
-    from rich.console import Console
-    from rich.progress import Progress
-
     from geartrain import bench
 
-    with Progress(console=Console(stderr=True), transient=True) as progress:
-        task = progress.add_task("motion", total=bench.count_motion_steps(quick))
-        results = bench.motion(quick, positions, lambda step: progress.update(task, advance=1, description=step))
-    emit(as_json(results.to_dict()) if json else results.to_markdown(), out)
+    _measure("motion", bench.count_motion_steps(quick), lambda tell: bench.motion(quick, positions, tell), json, out)
 
 
 @app.command()
@@ -85,15 +86,9 @@ def sphere(
     out: Out = None,
 ) -> None:
     """Residual against steps and time of gears on a sphere: circles, axes moved, loops by fractions and by floats."""
-    from rich.console import Console
-    from rich.progress import Progress
-
     from geartrain import bench
 
-    with Progress(console=Console(stderr=True), transient=True) as progress:
-        task = progress.add_task("sphere", total=bench.count_sphere_steps(quick))
-        results = bench.sphere(quick, lambda step: progress.update(task, advance=1, description=step))
-    emit(as_json(results.to_dict()) if json else results.to_markdown(), out)
+    _measure("sphere", bench.count_sphere_steps(quick), lambda tell: bench.sphere(quick, tell), json, out)
 
 
 @app.command()
@@ -103,15 +98,9 @@ def shapes(
     out: Out = None,
 ) -> None:
     """Time and true error of every way to optimal tooth shapes: marched, collocated, in closed form, searched."""
-    from rich.console import Console
-    from rich.progress import Progress
-
     from geartrain import bench
 
-    with Progress(console=Console(stderr=True), transient=True) as progress:
-        task = progress.add_task("shapes", total=bench.count_shape_steps(quick))
-        results = bench.shapes(quick, lambda step: progress.update(task, advance=1, description=step))
-    emit(as_json(results.to_dict()) if json else results.to_markdown(), out)
+    _measure("shapes", bench.count_shape_steps(quick), lambda tell: bench.shapes(quick, tell), json, out)
 
 
 @app.command()
@@ -121,12 +110,19 @@ def teeth(
     out: Out = None,
 ) -> None:
     """Best error and time of ways to tooth numbers: factored, by stage, sorted products, in a train, every set."""
+    from geartrain import bench
+
+    _measure("teeth", bench.count_teeth_steps(quick), lambda tell: bench.teeth(quick, tell), json, out)
+
+
+def _measure(
+    name: str, steps: int, run: Callable[[Callable[[str], None]], Records], json: bool, out: Path | None
+) -> None:
+    """Run a benchmark under a progress bar, and print what it measured."""
     from rich.console import Console
     from rich.progress import Progress
 
-    from geartrain import bench
-
     with Progress(console=Console(stderr=True), transient=True) as progress:
-        task = progress.add_task("teeth", total=bench.count_teeth_steps(quick))
-        results = bench.teeth(quick, lambda step: progress.update(task, advance=1, description=step))
+        task = progress.add_task(name, total=steps)
+        results = run(lambda step: progress.update(task, advance=1, description=step))
     emit(as_json(results.to_dict()) if json else results.to_markdown(), out)

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from math import degrees, isfinite
 from typing import TYPE_CHECKING, Any
 
+from geartrain.report.conjugate import efficiency_data
 from geartrain.report.document import Document, Section, Table, figure
 
 if TYPE_CHECKING:
@@ -187,7 +188,7 @@ def shape_data(name: str, law: ConjugateLaw, wheels: Sequence[Wheel] = ()) -> di
         "contact_ratio": sum(law.pair.arcs) / pitch.p,
         "pressure_angles": [float(path.at(X).psi) for X in (-path.arcs[0], 0.0, path.arcs[1])],
         "costs": _costs_data(law) if law.verdict else None,
-        "efficiency": _efficiency_data(law) if law.verdict else None,
+        "efficiency": efficiency_data(law) if law.verdict else None,
         "outlines": [wheel.to_dict() for wheel in wheels],
     }
 
@@ -197,17 +198,6 @@ def _costs_data(law: ConjugateLaw) -> dict[str, float | None]:
 
     slide, specific = sliding(law.path)
     return measures_data(measure(law.path)) | {"sliding": slide, "specific_sliding": finite(specific)}
-
-
-def _efficiency_data(law: ConjugateLaw) -> dict[str, float | None]:
-    locks = law.friction >= law.locking_friction
-    return {
-        "friction": law.friction,
-        "mean": None if locks else law.efficiency_mean(),
-        "at_constant_load": None if locks else law.efficiency_at_constant_load(),
-        "min": None if locks else law.efficiency_least(),
-        "locks_at": finite(law.locking_friction),
-    }
 
 
 # ------------------------------------------------------------------------------------------------------------- shared

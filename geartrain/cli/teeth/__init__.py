@@ -79,6 +79,9 @@ def run(
     ] = None,
     pick: Annotated[int, typer.Option("--pick", min=1, help="Which solution -o writes as a declaration.")] = 1,
     effort: Annotated[int, typer.Option("--effort", min=1, help="Of an orrery: how widely to search.")] = 16,
+    walk: Annotated[
+        int | None, typer.Option("--walk", min=0, help="Of an orrery: extra arbors up to which all trees are walked.")
+    ] = None,
     workers: Annotated[int | None, typer.Option("--workers", min=1, help="Processes; default all cores.")] = None,
     scheduler: Annotated[str | None, typer.Option("--scheduler", help="A dask scheduler, tcp://...")] = None,
     resume: Annotated[Flag, typer.Option("--resume", help="Take up a search that was cut.")] = False,
@@ -92,7 +95,7 @@ def run(
     if kind is not None:
         epicyclic.run(asked, wanted, kind, mode, ratio_is, planets, clearance, per, shift)
     elif len(wanted) > 1 or "=" in wanted[0]:
-        orrery.run(asked, wanted, effort)
+        orrery.run(asked, wanted, effort, walk)
     elif is_train(wanted[0]):
         rules = {
             "planets": planets,

@@ -12,7 +12,7 @@ from geartrain.cli.teeth.asking import Asked
 _TOLERANCE = Fraction(1, 10**6)
 
 
-def run(asked: Asked, texts: list[str], effort: int) -> None:
+def run(asked: Asked, texts: list[str], effort: int, walk: int | None) -> None:
     """Answer for an orrery."""
     from rich.console import Console
     from rich.progress import Progress
@@ -28,6 +28,7 @@ def run(asked: Asked, texts: list[str], effort: int) -> None:
             asked.counts,
             _TOLERANCE if asked.tolerance is None else asked.tolerance,
             effort=effort,
+            walk=walk,
             tell=lambda done, total: progress.update(task, completed=done, total=total),
         )
     ended = {"interrupt": "interrupted"}.get(found.ended, found.ended)

@@ -641,7 +641,7 @@ def test_a_pair_that_parts_before_the_next_meets_has_no_efficiency_in_between() 
         ({"form": "uniform_stress", "pressure_angle": "45 deg"}, "outside 0 to 45"),
         ({"form": "uniform_stress", "arcs": [0, 0]}, "are none"),
         ({"form": "uniform_temperature", "heat": "0.4", "depth": "1"}, "both given"),
-        ({"form": "uniform_temperature", "least_pressure_angle": "12 deg"}, "only reading c"),
+        ({"form": "uniform_temperature", "least_angle": "12 deg"}, "only reading c"),
         ({"form": "least_friction", "margin": "0"}, "stand still"),
         ({"form": "least_friction", "literal": True, "pressure_angles": ["40 deg", "30 deg"]}, "90 and 45"),
         ({"form": "least_friction", "literal": True, "arcs": [0.5, 0.5]}, "one side only"),

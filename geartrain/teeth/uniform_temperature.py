@@ -34,7 +34,7 @@ class UniformTemperature(Shape):
     depth: Figure | None = Field(
         None, description="In place of heat: working depth in modules; default that of the 20 deg involute"
     )
-    least_pressure_angle: Angle | None = Field(
+    least_angle: Angle | None = Field(
         None, description="Pressure angle at the pitch point in reading c; default 12 deg"
     )
     arcs: TwoFigures = Field("1/2", validate_default=True, description="Arcs of approach and recess in pitches")
@@ -46,10 +46,10 @@ class UniformTemperature(Shape):
         for name, figure in (("heat", self.heat), ("depth", self.depth)):
             if figure is not None and figure.value <= 0:
                 raise bad(name, f"a {name} of {figure.text} is none", "write a number above 0")
-        if self.least_pressure_angle is not None:
+        if self.least_angle is not None:
             if self.reading != "c":
-                raise bad("pressure_angle", "only reading c has a least_pressure_angle", "give `reading: c`")
-            check_angle("least_pressure_angle", self.least_pressure_angle)
+                raise bad("pressure_angle", "only reading c has a least_angle", "give `reading: c`")
+            check_angle("least_angle", self.least_angle)
         check_arcs(self.arcs)
         return self
 
@@ -69,7 +69,7 @@ class UniformTemperature(Shape):
         from geartrain.conjugate.forms import bounded_heat, uniform_heat
         from geartrain.conjugate.side import none
 
-        psi = (self.least_pressure_angle or _USUAL).si
+        psi = (self.least_angle or _USUAL).si
         arcs = arcs_of(self.arcs, pitch)
         found = []
         for X, b in zip(arcs, (pitch.A, -pitch.A if self.reading == "a" else pitch.B), strict=True):

@@ -42,7 +42,7 @@ FORMS: dict[str, dict[str, str]] = {
         "reading": "a, on the first wheel; b, on the hotter surface; c, as b with bounded stress. Default b.",
         "heat": "Heat per area over friction times tangential force.",
         "depth": "In place of heat: working depth in modules; default that of the 20 deg involute.",
-        "least_pressure_angle": "At the pitch point, with reading c; default 12deg.",
+        "least_angle": "At the pitch point, with reading c; default 12deg.",
         "arcs": "Approach and recess in pitches; default 0.5,0.5.",
     },
     "least_friction": {

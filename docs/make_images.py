@@ -1,11 +1,12 @@
-"""Draw the pictures of docs/images: a report as a terminal shows it, triangular teeth in contact, their law,
-pointers in motion,
-power that circulates, gears on a sphere."""
+"""Draw the pictures of docs/images: a report as a terminal shows it, triangular teeth in contact, their law, pointers
+in motion, power that circulates, gears on a sphere, tooth shapes side by side."""
 
 from __future__ import annotations
 
 import io
 import re
+import subprocess
+import sys
 from math import radians
 from pathlib import Path
 
@@ -29,6 +30,7 @@ def main() -> None:
     pointers()
     power()
     sphere()
+    shapes()
 
 
 def teeth() -> None:
@@ -55,6 +57,12 @@ def power() -> None:
     figure = power_figure(flow_of(train, train.torques()), train.name)
     (IMAGES / "power.svg").write_bytes(render(figure, ".svg"))
     print("wrote docs/images/power.svg")
+
+
+def shapes() -> None:
+    """Tooth forms of one pair side by side, as the command draws them."""
+    command = [sys.executable, "-m", "geartrain", "mesh", "compare", "--teeth", "24", "36"]
+    subprocess.run([*command, "--plot", str(IMAGES / "shapes.svg")], check=True, stdout=subprocess.DEVNULL)
 
 
 def sphere() -> None:

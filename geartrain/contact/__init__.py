@@ -4,3 +4,9 @@ It knows neither normals nor paths of contact: the driven wheel stands where the
 it. That makes it a judge of teeth that are derived in other ways, and gives a law to teeth that are worn, misplaced or
 displaced.
 """
+
+from geartrain.contact.outline import Curve, Outline, Tooth, polyline
+from geartrain.contact.solving import Contact, Touch, contact, solve
+from geartrain.contact.tabulating import tabulate
+
+__all__ = ["Contact", "Curve", "Outline", "Tooth", "Touch", "contact", "polyline", "solve", "tabulate"]

@@ -16,9 +16,17 @@ from geartrain import GearTrain, load, shipped
 TRAINS = Path(__file__).parent.parent / "trains"
 # The solver here knows parallel axes only: pairs of bevel and contrate wheels and worms are left out of it. In these
 # trains nothing much remains without them:
-OBLIQUE = {"bevel-differential", "humpage", "worm", "south-pointing-chariot", "lu-daolong-hodometer"}
+OBLIQUE = {
+    "bevel-differential",
+    "bevel-differential-involute",
+    "humpage",
+    "worm",
+    "south-pointing-chariot",
+    "lu-daolong-hodometer",
+}
 # in these it is cranks and hands on axes across the others, and the phase ball:
 BEHIND_A_CORNER = {
+    "lantern-mill": {"second", "shaft", "stone"},
     "freeth-2006": {"a"},
     "freeth-2008": {"a"},
     "freeth-2008-b224": {"a"},

@@ -48,8 +48,9 @@ def flank_start(R: float, A: float, B: float, mate: float) -> float:
             high = cusp + step
             break
         low, step = cusp + step, 1.5 * step
-    at_low, at_high = left(low), left(high)
-    if low == cusp or at_low >= 0 or at_high <= 0:
+    at_high = left(high)
+    # at the cusp itself nothing is asked: a pin on its pitch circle may stand at the pitch point there
+    if low == cusp or at_high <= 0 or (at_low := left(low)) >= 0:
         return R * ((cusp if at_high > 0 else far) - first) if found or at_high <= 0 else -inf
     return R * (root(left, low, high, at_low, at_high) - first)
 

@@ -74,6 +74,7 @@ _SPELT = {
 }
 
 _NUMBER = r"[+-]?(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][+-]?\d{1,3})?"
+_MOST = Fraction("1e300")  # what a float holds, with room for units
 _FIGURE = re.compile(rf"^\s*({_NUMBER})\s*(?:([/:])\s*({_NUMBER}))?\s*$")
 _QUANTITY = re.compile(rf"^\s*({_NUMBER}(?:\s*[/:]\s*\d+)?)\s*([^\d\s].*?)?\s*$")
 
@@ -122,8 +123,8 @@ class Figure:
                     "'{text}' divides by zero",
                     {"text": text, "fix": "write a denominator other than 0"},
                 )
-            return cls(value / below, None, text)
-        return cls(value, _half_unit(left), text)
+            return cls(_within(value / below, text), None, text)
+        return cls(_within(value, text), _half_unit(left), text)
 
     @classmethod
     def __get_pydantic_core_schema__(cls, source: Any, handler: GetCoreSchemaHandler) -> core_schema.CoreSchema:
@@ -143,6 +144,16 @@ def _not_a_number(raw: object) -> PydanticCustomError:
         "{shown} is not a number",
         {"shown": shown, "fix": "write an integer, a fraction 254/19 or 1:30, or a decimal"},
     )
+
+
+def _within(value: Fraction, text: str) -> Fraction:
+    if abs(value) > _MOST:
+        raise PydanticCustomError(
+            "number",
+            "{text} is beyond all measure",
+            {"text": text, "fix": "write a number below 1e300"},
+        )
+    return value
 
 
 def _half_unit(text: str) -> Fraction | None:

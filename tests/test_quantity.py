@@ -67,6 +67,12 @@ def test_what_is_no_number_is_refused(raw: object) -> None:
         Figure.parse(raw)
 
 
+@pytest.mark.parametrize("raw", ["1e301", "-1e999", "1e200/1e-200", "9" * 302])
+def test_what_no_float_holds_is_refused(raw: str) -> None:
+    with pytest.raises(ValueError, match="beyond all measure"):
+        Figure.parse(raw)
+
+
 @pytest.mark.parametrize("raw", ["1/0", "3:0", "1/0.0"])
 def test_nothing_is_divided_by_zero(raw: str) -> None:
     with pytest.raises(ValueError, match="divides by zero"):

@@ -307,3 +307,10 @@ def test_one_form_of_a_ring_or_a_bevel_is_drawn_too(more: dict[str, Any]) -> Non
     unit = path.pitch.p / pi
     curvature = (path.pitch.A + path.pitch.B) * unit / (sin(radians(20)) * cos(radians(20)))
     assert stress == pytest.approx(sqrt(curvature), rel=1e-10)
+
+
+def test_a_friction_that_locks_is_part_of_the_verdict() -> None:
+    done = call("mesh", "involute", *PAIR, "--friction", 2)
+    assert done.exit_code == 1
+    assert "but friction locks them" in done.output
+    assert "the teeth run" not in done.output

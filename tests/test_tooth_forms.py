@@ -386,6 +386,39 @@ def test_the_literal_extremal_rubs_least_and_makes_no_pair(angle: float | None) 
     np.testing.assert_allclose(D, D[0], rtol=1e-12)
 
 
+@pytest.mark.parametrize("margin", ["0.01", "0.15", "0.3", "0.35", "0.355", "0.362"])
+@pytest.mark.parametrize("wheels", [{}, {"internal": True}, {"shaft_angle": RIGHT}])
+def test_least_friction_keeps_its_greatest_angle_and_its_margin(margin: str, wheels: dict[str, Any]) -> None:
+    path = shape("least_friction", margin=margin).path(24, 36, **wheels)
+    c = path.at(np.linspace(-path.arcs[0], path.arcs[1], 2001))
+    assert degrees(float(c.psi.max())) <= 25 + 1e-9
+    assert float(np.minimum(c.U1, c.U2).min()) >= float(margin) - 1e-12
+
+
+def test_the_margin_that_leaves_least_friction_no_path_is_the_one_of_its_lowest_path() -> None:
+    # eta = u d + d^2 / 2 R, at the greatest angle where d = 2 R (sin psi - u); 1 / cos psi taken along it
+    u, R, most = 0.363, 12, sin(radians(25))
+    d = (np.arange(200_000) + 0.5) / 200_000 * 2 * R * (most - u)
+    arc = float(np.mean(1 / np.sqrt(1 - (u + d / (2 * R)) ** 2))) * 2 * R * (most - u)
+
+    def path(share: float) -> Path:
+        return shape("least_friction", margin=repr(u), arcs=[repr(share * arc / pi), 0]).path(24, 36)
+
+    assert degrees(float(path(0.99).at(-path(0.99).arcs[0]).psi)) == pytest.approx(25, abs=1e-9)
+    with pytest.raises(GearTrainError, match="too long"):
+        path(1.01)
+
+
+def test_teeth_without_backlash_have_no_play_left_by_rounding() -> None:
+    assert shape("involute", pressure_angle="14.5 deg", addendum="0.8").law(24, 36).pair.play == 0
+
+
+def test_teeth_that_backlash_leaves_no_thickness_are_told_to_have_less_of_it() -> None:
+    found = shape("involute", backlash="5").law(24, 36).verdict.faults
+    assert {fault.gear for fault in found} == {1, 2}
+    assert all("less backlash" in fault.fix for fault in found)
+
+
 # the optimal forms against the tables --------------------------------------------------------------------------------
 
 ROWS = {
@@ -643,6 +676,10 @@ def test_a_pair_that_parts_before_the_next_meets_has_no_efficiency_in_between() 
         ({"form": "uniform_temperature", "heat": "0.4", "depth": "1"}, "both given"),
         ({"form": "uniform_temperature", "least_angle": "12 deg"}, "only reading c"),
         ({"form": "least_friction", "margin": "0"}, "stand still"),
+        ({"form": "least_friction", "margin": "1"}, "not below 0.422618"),
+        ({"form": "least_friction", "pressure_angle": "5 deg"}, "not below 0.0871557"),
+        ({"form": "involute", "shift": ["1e20", 0]}, "taller than any wheel"),
+        ({"form": "involute", "addendum": "1e299"}, "taller than any wheel"),
         ({"form": "least_friction", "literal": True, "pressure_angles": ["40 deg", "30 deg"]}, "90 and 45"),
         ({"form": "least_friction", "literal": True, "arcs": [0.5, 0.5]}, "one side only"),
         ({"form": "least_friction", "pressure_angles": ["80 deg", "50 deg"]}, "literal shape"),
@@ -679,7 +716,10 @@ def test_parameters_that_make_no_teeth_are_refused_with_a_remedy(given: dict[str
         ({"form": "cycloidal", "rolling": "0.1"}, (30, 60), {}, "half the rolling circle"),
         ({"form": "cycloidal", "rolling": "0.5", "addendum": "1.5"}, (30, 60), {}, "higher than"),
         ({"form": "uniform_temperature", "depth": "30"}, (30, 60), {}, "no heat gives"),
+        ({"form": "uniform_temperature", "depth": "0.1"}, (24, 36), {}, "even the hottest are deeper"),
         ({"form": "uniform_temperature", "reading": "a", "heat": "2.5"}, (30, 60), {}, "more than these teeth"),
+        ({"form": "least_friction", "margin": "0.38"}, (24, 36), {}, "too long for a margin of 0.38 at 25 deg"),
+        ({"form": "least_friction", "arcs": [3, 0]}, (24, 36), {}, "too long for a margin"),
         ({"form": "lantern"}, (30, 60), {"internal": True}, "ring of pins"),
         ({"form": "lantern"}, (30, 60), {"shaft_angle": RIGHT}, "bevel lantern"),
     ],

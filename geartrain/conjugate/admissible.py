@@ -90,16 +90,14 @@ def _pointed(path: Path, halves: Halves | None) -> Iterator[Fault]:
             z = path.pitch.z1 if gear == 1 else path.pitch.z2
             name = "recess" if gear == 1 else "approach"
             point = _point(path, gear, X, halves)
-            shorter = (
-                f"end the {name} before {abs(point) / path.pitch.p:.6g} pitches" if point else "take thicker teeth"
-            )
+            shorter = f"end the {name} before {abs(point) / path.pitch.p:.6g} pitches, or take a smaller pressure angle"
             yield Fault(
                 "pointed",
                 gear,
                 X,
                 f"the teeth of gear {gear} come to a point before their tips",
                 f"their flanks would cross by {-degrees(room):.4g} deg of its {360 / z:.4g} deg pitch",
-                f"{shorter}, or take a smaller pressure angle",
+                shorter if point else "leave its teeth some thickness: give less backlash, or shift it outwards",
             )
 
 

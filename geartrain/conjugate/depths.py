@@ -48,9 +48,14 @@ def to_depth(depth: Callable[[float], float], wanted: float, start: float, most:
             high, at_high, low = low, at_low, low / _STEP
             at_low = off(low)
     if not (at_low <= 0 <= at_high):
+        what = f"no heat gives these teeth a working depth of {wanted:.6g}"
+        if at_low > 0:
+            raise GearTrainError(
+                Problem(what, "even the hottest are deeper", "ask for more depth or shorter arcs, or give the heat")
+            )
         raise GearTrainError(
             Problem(
-                f"no heat gives these teeth a working depth of {wanted:.6g}",
+                what,
                 "their pressure angle would reach a right angle, or their contact stand still, before",
                 "ask for another depth, shorter arcs or more teeth, or give the heat",
             )

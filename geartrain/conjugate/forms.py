@@ -7,7 +7,7 @@ a = A, b = B in recess, exchanged in approach.
 from __future__ import annotations
 
 from functools import partial
-from math import atan, cos, inf, sin, sqrt
+from math import atan, cos, degrees, inf, sin, sqrt
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -15,7 +15,7 @@ import numpy as np
 from geartrain.conjugate.collocation import FALLEN, Both, lost, solved
 from geartrain.conjugate.pieces import Circle, Piece, Ray, Sampled, Steady, circle_end, ray_end
 from geartrain.conjugate.side import Side
-from geartrain.errors import RangeError
+from geartrain.errors import Problem, RangeError
 from geartrain.roots import root
 
 if TYPE_CHECKING:
@@ -214,20 +214,45 @@ def bounded_heat(pitch: Pitch, b: float, gamma: float, X: float, psi: float) -> 
 def least_friction(pitch: Pitch, b: float, X: float, psi: float, u: float) -> Side:
     """A ray of the greatest pressure angle, then the least speed `u` along the dedendum, so that the loss is least.
 
-    The length of the ray makes the pooled first variation vanish; see the theory page, "Least friction".
+    The length of the ray makes the pooled first variation vanish; see the theory page, "Least friction". Raises
+    `RangeError` where the arc is longer than teeth within both bounds reach.
     """
     longest = ray_end(psi, X)
 
-    def variation(first: float) -> float:
+    def lifted(first: float) -> tuple[Callable[[Floats], Floats], float]:
         sine = _lifted(pitch, b, u, first, psi)
-        return _variation(pitch, sine, first, _lifted_end(sine, first, X - first / cos(psi), psi))
+        return sine, _lifted_end(sine, first, X - first / cos(psi), psi)
 
+    def variation(first: float) -> float:
+        sine, end = lifted(first)
+        return _variation(pitch, sine, first, end)
+
+    def above(first: float) -> float:
+        sine, end = lifted(first)
+        return float(sine(np.array(end))) - sin(psi)
+
+    # a path below psi ends no nearer than a ray, where even the lowest, of eta = u d + b (integral of S), must be below
+    if u * longest + b * float(pitch.S_integral(longest)) > float(pitch.S(longest)) * sin(psi):
+        raise _too_long(pitch, X, psi, u)
     least, most = 1e-3 * longest, longest * (1 - 1e-6)
     first = root(variation, least, most, variation(least), variation(most))
+    if above(first) > 0:  # back at the greatest pressure angle before the end: a shorter ray gets there at the end
+        if above(least) > 0:
+            raise _too_long(pitch, X, psi, u)
+        first = root(above, least, first, above(least), above(first))
     rest = X - first / cos(psi)
-    guess = _lifted_end(_lifted(pitch, b, u, first, psi), first, rest, psi)
-    piece = _to_arc(lambda end: Steady(pitch, b, u, first, sin(psi), end), guess, rest)
+    piece = _to_arc(lambda end: Steady(pitch, b, u, first, sin(psi), end), lifted(first)[1], rest)
     return Side((Ray(psi, first), piece))
+
+
+def _too_long(pitch: Pitch, X: float, psi: float, u: float) -> RangeError:
+    return RangeError(
+        Problem(
+            f"an arc of {X / pitch.p:.6g} pitches is too long for a margin of {u:g} at {degrees(psi):.6g} deg",
+            "before its end, even contact as slow as that rises above the greatest pressure angle",
+            "ask for a shorter arc, more teeth, a smaller margin or a larger pressure angle",
+        )
+    )
 
 
 def _lifted(pitch: Pitch, b: float, u: float, first: float, psi: float) -> Callable[[Floats], Floats]:

@@ -34,6 +34,8 @@ def shape_document(name: str, law: ConjugateLaw, wheels: Sequence[Wheel] = ()) -
 
 def _verdict(law: ConjugateLaw) -> str:
     verdict = law.verdict
+    if verdict and law.friction >= law.locking_friction:
+        return "Verdict: the teeth keep the ratio exactly at every instant, but friction locks them."
     if verdict:
         return "Verdict: the teeth run, and keep the ratio exactly at every instant."
     reasons = " ".join(f"{f.what.capitalize()}: {f.why}. What to do: {f.fix}." for f in verdict.faults)

@@ -89,7 +89,9 @@ class Pair:
     @property
     def play(self) -> float:
         """Play as X."""
-        return self.path.pitch.p - 2 * sum(self.halves)
+        p = self.path.pitch.p
+        found = p - 2 * sum(self.halves)
+        return found if abs(found) > _TOUCH * p else 0.0
 
 
 class ConjugateLaw(Rigid):

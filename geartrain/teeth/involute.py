@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from geartrain.conjugate.pitch import Pitch
     from geartrain.teeth.conjugate import Pair
 
+_MOST_MODULES = 1_000_000
 _PAIR = "give a sum of 0, such as `shift: [0.3, -0.3]`"
 
 
@@ -40,6 +41,12 @@ class Involute(Shape):
             for height in getattr(self, name):
                 if height.value <= 0:
                     raise bad("height", f"{name} {height.text} is no height", "write modules above 0")
+        for name in ("shift", "addendum", "dedendum"):
+            for length in getattr(self, name):
+                if abs(length.value) > _MOST_MODULES:
+                    raise bad(
+                        "height", f"{name} {length.text} is taller than any wheel", f"write at most {_MOST_MODULES:g}"
+                    )
         return self
 
     def misplaced(self, wheels: Wheels) -> float | None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import pi
+from math import pi, sin
 from typing import TYPE_CHECKING, Literal
 
 from pydantic import Field, model_validator
@@ -54,6 +54,13 @@ class LeastFriction(Shape):
             check_angle("pressure_angle", self.pressure_angle, 0.125)
         if self.margin is not None and self.margin.value <= 0:
             raise bad("margin", f"a margin of {self.margin.text} lets the contact stand still", "write it above 0")
+        fastest = sin((self.pressure_angle or _CEILING).si)
+        if (self.margin or _MARGIN).value >= fastest:
+            raise bad(
+                "margin",
+                f"a margin of {(self.margin or _MARGIN).text} is not below {fastest:.6g}, the speed at the pitch point",
+                "write it below the sine of the pressure angle, or give a larger pressure_angle",
+            )
         return self
 
     def _literal_makes_sense(self) -> LeastFriction:

@@ -483,3 +483,15 @@ def test_what_cannot_be_asked_is_refused_with_what_why_and_what_to_do(asked: dic
 def test_more_sets_than_can_be_looked_at_are_refused() -> None:
     with pytest.raises(RangeError):
         find_sets(F(4), "wolfrom", counts=range(12, 2000))
+
+
+@pytest.mark.parametrize("asked", [{"by": "weight"}, {"ratio_is": "in/out"}, {"clearance": float("nan")}])
+def test_words_and_numbers_that_mean_nothing_are_refused(asked: dict[str, Any]) -> None:
+    with pytest.raises(QuestionError):
+        find_sets(F(4), "planetary", "sun:carrier:ring", range(12, 40), **asked)
+
+
+def test_sets_that_all_turn_the_other_way_say_so() -> None:
+    found = find_sets(F(4), "planetary", "sun:carrier:ring", range(12, 40), sense=-1, spaced=False)
+    assert not found
+    assert "turns the other way" in found.shortfall.advice

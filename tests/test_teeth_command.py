@@ -230,3 +230,52 @@ def test_a_search_that_was_cut_is_taken_up_and_ends_the_same(cut: signal.Signals
     assert (again.returncode, uncut.returncode) == (0, 0)
     assert first == second
     assert not list(tmp_path.rglob("*.partial.jsonl"))
+
+
+@pytest.mark.parametrize(
+    ("asked", "said"),
+    [
+        (("hands.yaml", "--range", "12:20"), "--range"),
+        (("hands.yaml", "-o", "hands.yaml"), "train itself"),
+        (("hands.yaml", "--tolerance", "-1"), "--tolerance"),
+        (("235/19", "--least", "20"), "--least"),
+        (("235/19", "--planets", "3"), "--planets"),
+        (("235/19", "--tolerance", "1e400"), "--tolerance"),
+        (("235/19", "--tolrance", "1e-6"), "--tolrance"),
+        (("4", "--kind", "planetary", "--hunting"), "--hunting"),
+        (("4", "--kind", "planetary", "--clearance", "1"), "--planets"),
+        (("moon=29.5", "--by", "total"), "--by"),
+        (("moon=-29.5",), "sense"),
+    ],
+)
+def test_what_a_search_would_pass_over_is_refused(hands: Path, asked: tuple[str, ...], said: str) -> None:
+    done = call("teeth", *asked)
+    assert done.exit_code == 2
+    assert said in " ".join(done.stderr.split())
+    assert hands.read_text(encoding="utf-8") == HANDS
+
+
+def test_a_negative_ratio_is_no_option() -> None:
+    found = answer("-4", "--range", "12:48", "--stages", 1, "--best", 1)
+    assert (found["wanted"]["sense"], found["solutions"][0]["teeth"]) == (-1, [[48], [12]])
+
+
+def test_conditions_on_one_pair_hold_in_long_ranges_too() -> None:
+    found = answer("3", "--stages", 1, "--range", "12:100050", "--hunting", "--best", 3)
+    assert [one["error"] != 0 for one in found["solutions"]] == [True] * 3  # 3 n over n is never coprime
+    assert answer("+3", "--stages", 1, "--range", "12:100050")["count"] == 0  # an external pair reverses
+
+
+@pytest.mark.parametrize("ratio", ["1e300", "1e-300"])
+def test_a_ratio_beyond_all_pairs_is_refused_at_once(ratio: str) -> None:
+    done = call("teeth", ratio, "--stages", 1, "--range", "12:2000000")
+    assert isinstance(done.exception, GearTrainError)
+    assert "far out of reach" in str(done.exception)
+
+
+def test_a_file_is_written_in_the_form_of_its_name_whatever_is_printed(hands: Path) -> None:
+    done = call("teeth", "235/19", "--best", 1, "--workers", 1, "--json", "-o", "found.csv")
+    assert json.loads(done.stdout)["solutions"]
+    assert (hands.parent / "found.csv").read_text(encoding="utf-8").startswith("top,beneath,ratio")
+    assert not call("teeth", "235/19", "--best", 1, "--workers", 1, "--json", "-o", "found").stdout
+    assert json.loads((hands.parent / "found").read_text(encoding="utf-8"))["solutions"]

@@ -190,7 +190,7 @@ def sets_document(found: SetFindings) -> Document:
     lead = [
         f"Wanted: {found.ratio_is} = {exact(found.wanted)} = {figure(found.wanted, 10)}, in any sense unless asked.",
         f"{found.count} sets in their modes run"
-        + (" within the tolerance." if found.tolerance is not None else "; the best of them:"),
+        + (" within the tolerance." if found.tolerance is not None else "; the best of them:" if found.count else "."),
     ]
     sections = []
     if found.solutions:

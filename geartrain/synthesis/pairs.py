@@ -14,6 +14,7 @@ from heapq import nsmallest
 from itertools import islice, product
 
 from geartrain.errors import Problem, QuestionError, RangeError
+from geartrain.exact import decimal
 from geartrain.synthesis.approximants import nearest_first
 from geartrain.synthesis.counts import Counts, Runs
 from geartrain.synthesis.result import Stages
@@ -22,6 +23,7 @@ from geartrain.synthesis.targets import Wanted
 _MOST_PAIRS = 10**6
 _MOST_SCANNED = 10**6
 _MOST_BOXES = 400
+_FAR = 10**12
 _Pair = tuple[int, int]
 
 
@@ -41,9 +43,11 @@ def find_pairs(
 
     Of pairs with one |error| the fewest teeth come first, then the smaller largest wheel, then the smaller count on
     top. The sense is not looked at: an external pair reverses, an internal one keeps. Ranges may reach 10^12.
-    `RangeError` where more than a million pairs would have to be listed: `count_pairs` tells how many there are.
+    `RangeError` where more than a million pairs would have to be listed: `count_pairs` tells how many there are; and
+    for a ratio 10^12 times beyond all pairs.
     """
     boxes = _boxes(wanted, wheels, pinions)
+    _check_reach(wanted.value, boxes)
     bound = None if tolerance is None else _checked(tolerance)
     number = 20 if best is None and bound is None else best
     if number is not None and number < 1:
@@ -121,6 +125,16 @@ def _boxes(wanted: Wanted, wheels: Counts, pinions: Counts) -> list[_Box]:
             )
         )
     return [_Box(Runs((p,)), Runs((q,))) for p, q in product(top.spans, beneath.spans)]
+
+
+def _check_reach(value: Fraction, boxes: list[_Box]) -> None:
+    """`RangeError` for a ratio so far beyond all pairs that none of them is near."""
+    low = min(Fraction(box.top.least, box.beneath.most) for box in boxes)
+    high = max(Fraction(box.top.most, box.beneath.least) for box in boxes)
+    if not low / _FAR < value < high * _FAR:
+        made = f"these counts make {decimal(low, 3)} to {decimal(high, 3)}"
+        what = f"a ratio of {decimal(value, 3)} is far out of reach"
+        raise RangeError(Problem(what, made, "take more stages, or a wider range of counts"))
 
 
 def _found(value: Fraction, box: _Box, tolerance: Fraction | None, number: int | None) -> list[_Pair]:

@@ -7,7 +7,7 @@ from typing import Annotated
 import typer
 
 from geartrain.cli.common import Json, Out, StateName
-from geartrain.cli.teeth import epicyclic, orrery, ratio, train
+from geartrain.cli.teeth import belonging, epicyclic, orrery, ratio, train
 from geartrain.cli.teeth.asking import Asked, Means, is_train
 
 Names = list[str] | None
@@ -15,6 +15,7 @@ Flag = bool
 
 
 def run(
+    context: typer.Context,
     wanted: Annotated[
         list[str],
         typer.Argument(
@@ -92,11 +93,16 @@ def run(
     """Tooth numbers for a wanted motion: complete, exact, and with a reason where there are none."""
     asked = Asked(tolerance, best, by, counts, wheels, pinions, csv, json, out, pick)
     means = Means(workers, scheduler, resume, out)
+    belonging.check_texts(context, wanted)
     if kind is not None:
+        if kind != "list":
+            belonging.check(context, "an epicyclic set")
         epicyclic.run(asked, wanted, kind, mode, ratio_is, planets, clearance, per, shift)
     elif len(wanted) > 1 or "=" in wanted[0]:
+        belonging.check(context, "an orrery")
         orrery.run(asked, wanted, effort, walk)
     elif is_train(wanted[0]):
+        belonging.check(context, "a train")
         rules = {
             "planets": planets,
             "clearance": clearance,
@@ -115,6 +121,7 @@ def run(
         }
         train.run(asked, means, wanted[0], state, free, rules, where or [])
     else:
+        belonging.check(context, "the fractions on the way" if approximants else "a ratio")
         fit = {
             "internal": internal,
             "hunting": hunting,

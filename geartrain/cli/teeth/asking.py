@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from geartrain.synthesis.counts import Runs
 
 YAML = (".yaml", ".yml")
+_WIDEST = 10**12
 FORMS = (".md", ".html", ".json", ".csv", *YAML)
 
 
@@ -60,7 +61,10 @@ class Asked:
             found = Quantity.parse(self.tolerance_text, "fraction", plain=True)
         except PydanticCustomError as error:
             raise typer.BadParameter(error.message(), param_hint="--tolerance") from None
-        return found.base if found.base is not None else found.value
+        share = found.base if found.base is not None else found.value
+        if not 0 <= share <= _WIDEST:
+            raise typer.BadParameter(f"a relative error is from 0 to {_WIDEST:.0e}", param_hint="--tolerance")
+        return share
 
     @property
     def counts(self) -> Runs:
@@ -97,13 +101,17 @@ class Asked:
         """
         if self.suffix in YAML:
             self._declare(declared, len(rows))
-        if self.json or self.suffix == ".json":
-            emit(as_json(data), self.out if self.suffix == ".json" else None)
-        elif self.csv or self.suffix == ".csv":
-            emit(_csv(rows), self.out if self.suffix == ".csv" else None)
-        else:
-            plain = self.suffix not in YAML
-            show([document()], self.out if plain else None, self.suffix if plain else "")
+        form = self.suffix or (".json" if self.json else ".csv" if self.csv else ".md")
+        asked = {form} if self.out and form not in YAML else set[str]()
+        asked |= {".json"} if self.json else {".csv"} if self.csv else set()
+        for each in sorted(asked or {""}):
+            out = self.out if each == form else None
+            if each == ".json":
+                emit(as_json(data), out)
+            elif each == ".csv":
+                emit(_csv(rows), out)
+            else:
+                show([document()], out, each)
         if "interrupted" in str(data.get("ended", "")):
             raise typer.Exit(INTERRUPTED)
         raise typer.Exit(GOOD if rows else VERDICT)

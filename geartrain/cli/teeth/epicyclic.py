@@ -31,6 +31,10 @@ def run(
     from geartrain.synthesis.epicyclic.finding import find_sets
     from geartrain.synthesis.targets import read_ratio
 
+    if len(texts) > 1:
+        raise typer.BadParameter("a set is made for one ratio", param_hint="WANTED")
+    if clearance is not None and planets is None:
+        raise typer.BadParameter("room is asked of equal planets; give --planets too", param_hint="--clearance")
     wanted = read_ratio(texts[0], per)
     found = find_sets(
         wanted,

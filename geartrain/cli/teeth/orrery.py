@@ -47,5 +47,9 @@ def _periods(texts: list[str]) -> dict[str, Fraction]:
             raise typer.BadParameter(f"'{text}' is not of the form moon=29.53058853", param_hint="WANTED")
         if name.strip() in found:
             raise typer.BadParameter(f"two periods are named '{name.strip()}'", param_hint="WANTED")
-        found[name.strip()] = read_ratio(period).value
+        wanted = read_ratio(period)
+        if wanted.sense:
+            what = f"'{text}' asks for a sense, which is left open here; the answer tells that of every arbor"
+            raise typer.BadParameter(what, param_hint="WANTED")
+        found[name.strip()] = wanted.value
     return found

@@ -18,12 +18,15 @@ def run(
 ) -> None:
     """Answer for one ratio."""
     from geartrain import report
+    from geartrain.synthesis.stages.fit import Fit
     from geartrain.synthesis.targets import read_ratio
 
     wanted = read_ratio(text, per)
     if approximants:
         _fractions(asked, wanted)
-    if stages == 1 and max(len(asked.wheels), len(asked.pinions)) > _LONG:
+    long = stages == 1 and max(len(asked.wheels), len(asked.pinions)) > _LONG
+    if long and asked.by == "error" and Fit(**fit) == Fit() and wanted.sense <= 0:
+        # anything else that is asked is for the search that looks at every pair
         _pairs(asked, wanted)
     found, cut = _search(asked, means, wanted, stages, fit)
     data = {**found.to_dict(), "ended": "interrupted" if cut else "whole"}

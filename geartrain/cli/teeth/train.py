@@ -23,6 +23,7 @@ def run(
     from geartrain.synthesis.rules.asked import read_rules
 
     train = read_declaration(file)
+    _check_kept(file, asked.out)
     options = {name: value for name, value in rules.items() if value is not None}
     chosen = free if free in ("search", "uncertain") else tuple(name.strip() for name in free.split(","))
     stands = [_assignment(text) for text in where]
@@ -88,6 +89,12 @@ def _assignment(text: str) -> dict[str, int]:
         return {name.strip(): int(count) for name, count in pairs}
     except ValueError:
         raise typer.BadParameter(f"'{text}' is not of the form wheel=32,wheel=50", param_hint="--where") from None
+
+
+def _check_kept(file: str, out: Path | None) -> None:
+    """A solution extends the train: it cannot take its place, and a table shall not."""
+    if out is not None and out.exists() and Path(file).exists() and out.samefile(file):
+        raise typer.BadParameter(f"'{out}' is the train itself; write to another file", param_hint="-o")
 
 
 def _parent(file: str, out: Path | None) -> str:

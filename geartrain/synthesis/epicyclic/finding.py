@@ -11,7 +11,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any
+from math import isfinite
+from typing import TYPE_CHECKING, Any, get_args
 
 import numpy as np
 
@@ -83,6 +84,7 @@ def find_sets(
     if tolerance is not None:
         tolerance = Fraction(tolerance)
     _check(asked.value, planets, tolerance, best, slack)
+    _check_words(by, ratio_is, clearance)
     bounds, chosen = read_bounds(kind, counts), kind.chosen(modes)
     search = _Search(kind, asked.value, tolerance, best, ratio_is, by, planets, sense or asked.sense)
     for number, columns in blocks(kind, bounds, planets, clearance if spaced else None, slack):
@@ -111,6 +113,14 @@ def _check(wanted: Fraction, planets: int, tolerance: Fraction | None, best: int
     ):
         if bad:
             raise QuestionError(Problem(what, why, fix))
+
+
+def _check_words(by: str, ratio_is: str, clearance: float) -> None:
+    for word, what, words in ((by, "order of sets", get_args(Order)), (ratio_is, "kind of ratio", get_args(RatioIs))):
+        if word not in words:
+            raise QuestionError(Problem(f"'{word}' is no {what}", "there are others", f"write {' or '.join(words)}"))
+    if not isfinite(clearance):
+        raise QuestionError(Problem(f"a clearance of {clearance}", "it is a length", "give a number of modules"))
 
 
 def _length(columns: Columns) -> int:
@@ -229,6 +239,8 @@ class _Search:
         """The nearest miss and what to relax, in words; empty where something was found."""
         if self.count:
             return "", ""
+        if self.nearest is None and NO_SENSE in self.removed:
+            return "", "every set that runs turns the other way: ask for the other sense, for none, or for other modes"
         if self.nearest is None:
             reason = max(self.removed, key=lambda name: self.removed[name])
             return (

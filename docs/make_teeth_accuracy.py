@@ -25,8 +25,8 @@ from geartrain.bench.teeth_records import (
     RATIO,
     TRAIN,
     WALKED,
-    seconds_text,
 )
+from geartrain.bench.timing import seconds_text
 
 HERE = Path(__file__).resolve().parent
 PICTURE = HERE / "images" / "teeth-accuracy.svg"

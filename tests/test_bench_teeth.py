@@ -28,10 +28,10 @@ from geartrain.bench.teeth_records import (
     TRAIN,
     WALKED,
     error_text,
-    seconds_text,
     times,
 )
 from geartrain.bench.teeth_ways import Case
+from geartrain.bench.timing import seconds_text
 from geartrain.synthesis.formulas.finding import with_counts
 
 

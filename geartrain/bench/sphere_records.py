@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from geartrain.bench.timing import seconds_text
 from geartrain.spherical.graphs import Aim
 
 TARGET = 1e-11
@@ -172,9 +173,9 @@ def _pack_table(rows: Sequence[PackRecord]) -> list[str]:
     ]
     for row in rows:
         sweeps = f"{row.sweeps}" if row.left < TARGET else f"{row.sweeps}, {row.left:.0e} left"
-        sort = (row.family, str(row.gears), str(row.meshes), str(len(row.counted)), _seconds(row.newton), sweeps)
+        sort = (row.family, str(row.gears), str(row.meshes), str(len(row.counted)), seconds_text(row.newton), sweeps)
         ratio = f"{'' if row.left < TARGET else 'over '}{row.ratio:.3g}"
-        ends = (ratio, _seconds(row.seconds), f"{row.residual:.1e}", f"{row.judged:.1e}", str(row.overlaps))
+        ends = (ratio, seconds_text(row.seconds), f"{row.residual:.1e}", f"{row.judged:.1e}", str(row.overlaps))
         lines.append(f"| {' | '.join((*sort, *ends))} |")
     return [*lines, ""]
 
@@ -195,7 +196,7 @@ def _fit_table(rows: Sequence[FitRecord]) -> list[str]:
     ]
     for row in rows:
         sort = (row.family, str(row.gears), row.aim, f"{row.least} to {row.most}", str(row.steps))
-        times = (_seconds(each) for each in (row.seconds, row.whole, row.sizing))
+        times = (seconds_text(each) for each in (row.seconds, row.whole, row.sizing))
         ends = (f"{row.residual:.1e}", "yes" if row.exact else "no", f"{row.moved:.2g} deg")
         lines.append(f"| {' | '.join((*sort, *times, *ends))} |")
     return [*lines, ""]
@@ -210,13 +211,6 @@ def _closure_table(rows: Sequence[ClosureRecord]) -> list[str]:
     for row in rows:
         told = ("-", "-", "-") if row.bound is None else (f"{row.bound:.1e}", str(row.own), str(row.unclear))
         sort = (row.family, row.method, f"10^{row.power}", str(row.loops), f"{row.error:.1e}" if row.error else "0")
-        ends = (told[0], str(row.wrong), str(row.best), *told[1:], _seconds(row.seconds))
+        ends = (told[0], str(row.wrong), str(row.best), *told[1:], seconds_text(row.seconds))
         lines.append(f"| {' | '.join((*sort, *ends))} |")
     return [*lines, ""]
-
-
-def _seconds(value: float) -> str:
-    scale, unit = next(
-        ((scale, unit) for scale, unit in ((1.0, "s"), (1e-3, "ms"), (1e-6, "us")) if value >= scale), (1e-9, "ns")
-    )
-    return f"{value / scale:.3g} {unit}"

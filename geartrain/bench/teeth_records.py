@@ -7,6 +7,8 @@ from dataclasses import asdict, dataclass
 from fractions import Fraction
 from typing import Any
 
+from geartrain.bench.timing import seconds_text
+
 FACTORED, WALKED = "convergents, factored", "Stern-Brocot, factored"
 CONVERGENTS, PAIRS = "convergents by stage", "Stern-Brocot by stage"
 PRODUCTS, TRAIN, EVERY = "sorted products", "in a train", "every set"
@@ -137,15 +139,6 @@ def times(value: Fraction | None, best: Fraction | None) -> str:
 def error_text(value: Fraction | None) -> str:
     """An error in three digits; 0 where it is exactly that."""
     return "none found" if value is None else f"{float(value):.3g}" if value else "0"
-
-
-def seconds_text(value: float | None) -> str:
-    """Three digits with a unit."""
-    if value is None:
-        return "-"
-    scales = ((60.0, "min"), (1.0, "s"), (1e-3, "ms"))
-    scale, unit = next(((scale, unit) for scale, unit in scales if value >= scale), (1e-6, "us"))
-    return f"{value / scale:.3g} {unit}"
 
 
 def _heading(row: TeethRecord) -> list[str]:

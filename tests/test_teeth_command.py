@@ -83,6 +83,10 @@ def test_csv_and_json_tell_the_same(hands: Path) -> None:
     for row, one in zip(rows, answer(*asked)["solutions"], strict=True):
         assert [list(map(int, row[side].split("*"))) for side in ("top", "beneath")] == one["teeth"]
         assert row["ratio"] == one["ratio"]
+        assert [float(row[name]) for name in ("value", "error")] == [one[name] for name in ("value", "error")]
+        assert [int(row[name]) for name in ("total", "largest", "distinct")] == [
+            one[name] for name in ("total", "largest", "distinct")
+        ]
 
 
 def test_an_unwanted_sense_is_refused_by_name(hands: Path) -> None:

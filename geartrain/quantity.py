@@ -240,11 +240,11 @@ class Quantity:
         if quantity.dimension not in dimension.split(" or "):
             raise PydanticCustomError(
                 "unit",
-                "'{text}' is a {found}, and a {dimension} belongs here",
+                "'{text}' is {found}, and {dimension} belongs here",
                 {
                     "text": text,
-                    "found": quantity.dimension,
-                    "dimension": dimension,
+                    "found": _one(quantity.dimension or "number"),
+                    "dimension": " or ".join(map(_one, dimension.split(" or "))),
                     "fix": f"use one of: {_units_of(dimension)}",
                 },
             )
@@ -258,6 +258,11 @@ def _no_unit(text: str, dimension: str) -> PydanticCustomError:
         "'{text}' has no unit",
         {"text": text, "fix": f"write for example '{text} {first}'; units: {_units_of(dimension)}"},
     )
+
+
+def _one(noun: str) -> str:
+    """`a length`, `an angle`."""
+    return f"{'an' if noun[0] in 'aeiou' else 'a'} {noun}"
 
 
 def _units_of(dimension: str) -> str:

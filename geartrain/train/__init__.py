@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from geartrain.train.cutting import AngleError, Cutting, Fitting, LengthError
 from geartrain.train.declaration import Case, Train
 from geartrain.train.explain import declare, suggest
 from geartrain.train.mechanism import Axis, GearPair, Link, Revolute, Source, Teeth, Wheel
@@ -9,13 +10,17 @@ from geartrain.train.questions import Dial, Expect, Output, Published, Target, U
 from geartrain.train.running import Clutch, Erratum, Remove, State
 
 __all__ = [
+    "AngleError",
     "Axis",
     "Case",
     "Clutch",
+    "Cutting",
     "Dial",
     "Erratum",
     "Expect",
+    "Fitting",
     "GearPair",
+    "LengthError",
     "Link",
     "Output",
     "Published",

@@ -16,6 +16,7 @@ from geartrain.pins import Coupling
 from geartrain.quantity import Friction, Quantity, Speed, Torque
 from geartrain.teeth import ToothForm
 from geartrain.train.common import Declared, Id, Nothing
+from geartrain.train.cutting import Cutting, Fitting
 from geartrain.train.mechanism import Axis, GearPair, Link, Revolute, Source, Wheel
 from geartrain.train.questions import Dial, Output, Unit, View
 from geartrain.train.running import Clutch, Erratum, Remove, State
@@ -74,6 +75,12 @@ class Train(Declared):
     couplings: tuple[Coupling, ...] = Field((), description="Pins in slots")
     tooth_form: ToothForm | None = Field(None, description="Form of the teeth of every pair that has none of its own")
     friction: Friction | None = Field(None, description="Friction of the teeth of every pair that has none of its own")
+    cutting: Cutting | None = Field(
+        None, description="How far the teeth of every wheel are off that says nothing of its own"
+    )
+    fitting: Fitting | None = Field(
+        None, description="How far the axes of every pair are off that says nothing of its own"
+    )
     inputs: dict[Id, Speed] = Field({}, description="Prescribed speeds by link")
     crank: Id | None = Field(None, description="The link where power enters; default the inputs")
     rate: Speed | None = Field(None, description="Speed of the input in real time, where watts or impacts are asked")

@@ -62,6 +62,21 @@ def _links(train: Train) -> Iterator[Problem]:
             yield _unknown(train, "turning pair with the axis", label, labels, "axes", label)
 
 
+def _measured(train: Train, link: str, wheel: str) -> Iterator[Problem]:
+    """Tables of a real wheel have a row for each of its teeth."""
+    count, cutting = train.links[link].wheels[wheel].count, train.links[link].wheels[wheel].cutting
+    if cutting is None or cutting.measured is None or count is None:
+        return
+    for name, column in cutting.measured.columns.items():
+        if len(column) != count:
+            yield Problem(
+                f"{len(column)} measured values of '{name}' for the {count} teeth of wheel '{wheel}'",
+                "a table has one value for each tooth, in the order of its turning",
+                "complete the table, or correct the tooth count",
+                train.place("links", link, "wheels", wheel, "cutting", "measured", name),
+            )
+
+
 def _wheels(train: Train) -> Iterator[Problem]:
     owner: dict[str, str] = {}
     for link, part in train.links.items():
@@ -74,6 +89,7 @@ def _wheels(train: Train) -> Iterator[Problem]:
                     train.place("links", link, "wheels", wheel),
                 )
             owner[wheel] = link
+            yield from _measured(train, link, wheel)
     wheels, names = train.wheels, set()
     for at, gear in enumerate(train.gears):
         name, (first, second) = gear.name, gear.pair
@@ -279,9 +295,16 @@ def _sources(train: Train) -> Iterator[Problem]:
                 yield from _source(train, wheel.source, "links", link, "wheels", name)
             if not isinstance(wheel.teeth, int):
                 yield from _source(train, wheel.teeth.source, "links", link, "wheels", name, "teeth")
+            if wheel.cutting is not None:
+                yield from _source(train, wheel.cutting.source, "links", link, "wheels", name, "cutting")
     for at, gear in enumerate(train.gears):
         if gear.source is not None:
             yield from _source(train, gear.source, "gears", at)
+        if gear.fitting is not None:
+            yield from _source(train, gear.fitting.source, "gears", at, "fitting")
+    for key, errors in (("cutting", train.cutting), ("fitting", train.fitting)):
+        if errors is not None:
+            yield from _source(train, errors.source, key)
     for at, coupling in enumerate(train.couplings):
         yield from _source(train, coupling.source, "couplings", at)
     for name, output in train.outputs.items():

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from geartrain.bench.mesh import reference
+from geartrain.bench.mesh_truth import reference
 from geartrain.teeth.base import Law, Rigid
 from geartrain.teeth.table import Table, Tabulated
 from geartrain.teeth.triangular.law import TriangularLaw
@@ -157,3 +157,10 @@ def test_two_corners_in_one_cell_and_one_on_its_edge() -> None:
     S = np.array([-0.5, -1e-9, 0.0, 0.29999, 0.3, 0.30005, 0.3001, 0.49999, 0.5, 0.7])
     for cells in (2, 8, 32):
         assert np.allclose(Table(stairs, period, places, cells)(S), stairs(S), atol=1e-13)
+
+
+def test_the_benchmark_builds_each_law_anew() -> None:
+    from geartrain.bench.mesh import _Pair
+
+    pair = _Pair(48, 96, 30, 0.01, 10)
+    assert pair.build("direct").contact is not pair.build("direct").contact

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from geartrain.bench.families import FAMILIES
 from geartrain.bench.kinematics import count_steps, kinematics
-from geartrain.bench.mesh import MeshRecord, MeshRecords, count_mesh_steps, mesh
+from geartrain.bench.mesh import count_mesh_steps, mesh
+from geartrain.bench.mesh_records import MeshRecord, MeshRecords
 from geartrain.bench.motion import count_motion_steps, motion
 from geartrain.bench.motion_records import GrowthRecord, MotionRecord, MotionRecords, TrainRecord
 from geartrain.bench.record import Record, Records

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from geartrain.bench.maps import graph
-from geartrain.bench.mesh import Long, Multiple
+from geartrain.bench.mesh_truth import Long, Multiple
 from geartrain.bench.sphere_records import TARGET, FitRecord, PackRecord
 from geartrain.bench.timing import timed
 from geartrain.spherical import GraphSet, from_graph, size

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from geartrain.bench.mesh import Exact, Long, Multiple
+from geartrain.bench.mesh_truth import Exact, Long, Multiple
 from geartrain.exact import Row, eliminate
 from geartrain.motion import Motion, Source
 from geartrain.pins.laws import SlotLaw

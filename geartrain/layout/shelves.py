@@ -1,0 +1,85 @@
+"""Broad wheels: where two wheels share a mate and a place, each gets a shelf of its own, and the mate spans both."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+
+Shelf = tuple[int, int]
+"""The lowest and the highest shelf that a wheel stands on."""
+
+_TRIES = 20_000
+
+
+def find_shelves(meshes: Sequence[tuple[str, str]], overlap: Callable[[str, str], bool]) -> dict[str, Shelf]:
+    """Shelves of the wheels that need them, as few as can be; the others of their level are not named.
+
+    meshes   pairs of wheels of parallel axes
+    overlap  whether two wheels at one height would run into each other
+    """
+    found: dict[str, Shelf] = {}
+    for group in _groups(meshes):
+        wheels = list(dict.fromkeys(wheel for mesh in group for wheel in mesh))
+        mates = {frozenset(mesh) for mesh in group}
+        clashes: dict[str, list[str]] = {}
+        for at, wheel in enumerate(wheels):
+            for other in wheels[at + 1 :]:
+                if frozenset((wheel, other)) not in mates and overlap(wheel, other):
+                    clashes.setdefault(wheel, []).append(other)
+                    clashes.setdefault(other, []).append(wheel)
+        if clashes:
+            found |= _Search(group, clashes).found()
+    return found
+
+
+def _groups(meshes: Sequence[tuple[str, str]]) -> list[list[tuple[str, str]]]:
+    head: dict[str, str] = {}
+
+    def find(wheel: str) -> str:
+        while head.setdefault(wheel, wheel) != wheel:
+            wheel = head[wheel]
+        return wheel
+
+    for first, second in meshes:
+        head[find(second)] = find(first)
+    groups: dict[str, list[tuple[str, str]]] = {}
+    for mesh in meshes:
+        groups.setdefault(find(mesh[0]), []).append(mesh)
+    return list(groups.values())
+
+
+class _Search:
+    """Each mesh on a shelf; a wheel spans those of its meshes, and no wheels that overlap share one."""
+
+    def __init__(self, meshes: Sequence[tuple[str, str]], clashes: Mapping[str, Sequence[str]]) -> None:
+        self.meshes, self.clashes = meshes, clashes
+        self.tries = _TRIES
+
+    def found(self) -> dict[str, Shelf]:
+        """Shelves by wheel; none where it cannot be done, or not be found."""
+        for count in range(2, len(self.meshes) + 1):
+            spans = self._try(0, count, {})
+            if spans is not None:
+                return spans
+        return {}
+
+    def _try(self, at: int, count: int, spans: Mapping[str, Shelf]) -> dict[str, Shelf] | None:
+        if at == len(self.meshes):
+            return dict(spans)
+        for shelf in range(count):
+            self.tries -= 1
+            if self.tries < 0:
+                return None
+            wider = dict(spans)
+            for wheel in self.meshes[at]:
+                low, high = spans.get(wheel, (shelf, shelf))
+                wider[wheel] = min(low, shelf), max(high, shelf)
+            if all(self._clear(wheel, wider) for wheel in self.meshes[at]):
+                done = self._try(at + 1, count, wider)
+                if done is not None:
+                    return done
+        return None
+
+    def _clear(self, wheel: str, spans: Mapping[str, Shelf]) -> bool:
+        low, high = spans[wheel]
+        others = (spans[other] for other in self.clashes.get(wheel, ()) if other in spans)
+        return all(high < under or over < low for under, over in others)

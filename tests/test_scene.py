@@ -1,0 +1,268 @@
+"""A scene: bodies, speeds, wheels, dials, pointers and verdict, held against the declaration and exact arithmetic."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from fractions import Fraction
+from functools import cache
+from itertools import pairwise
+from math import hypot, isclose
+from typing import Any
+
+import pytest
+from hypothesis import given, settings
+from models import pair, planetary
+from reference_solver import _dense as solve_rows
+from reference_solver import solve_naively, turning_graph, willis_rows
+from strategies import asked_trains, driven_trains, rerooted
+
+import geartrain
+from geartrain import GearTrain, load
+from geartrain.scene import Scene, make_scene
+
+SHIPPED = [
+    ("freeth-2021", None),
+    ("freeth-2021-teeth", None),
+    ("gm-4t60", "R"),
+    ("bevel-differential", "turn"),
+    ("south-pointing-chariot", None),
+    ("ferguson-paradox", None),
+    ("lantern-mill", None),
+    ("worm", None),
+    ("prius-power-split", "electric"),
+    ("longcase-clock-cycloidal", None),
+    ("vitruvius-hodometer", None),
+]
+
+
+@cache
+def shipped(name: str, state: str | None = None) -> Scene:
+    """A scene made once for several tests."""
+    return make_scene(geartrain.load(name), state)
+
+
+@pytest.mark.parametrize(("name", "state"), SHIPPED)
+def test_speeds_are_the_exact_ones_and_all_numbers_point_somewhere(name: str, state: str | None) -> None:
+    train = geartrain.load(name)
+    scene = shipped(name, state)
+    answer = train.solve(state or (train.states[0] if train.states else None))
+    assert scene.lead is not None
+    lead = Fraction(answer[scene.bodies[scene.lead].id])
+    for body in scene.bodies:
+        assert Fraction(body.shown or "") == answer.speeds[body.id]
+        assert Fraction(body.speed or "") * lead == answer.speeds[body.id]
+    for pointer in scene.pointers:
+        assert Fraction(pointer.shown or "") == answer[pointer.output]
+    _check_numbers(scene)
+    json.dumps(scene.to_dict(), allow_nan=False)
+
+
+def _check_numbers(scene: Scene) -> None:
+    bodies, pairs = range(len(scene.bodies)), {each.id for each in (*scene.pairs, *scene.couplings)}
+    for body in scene.bodies:
+        assert body.parent is None or body.parent in bodies
+        assert isclose(hypot(*body.direction), 1)
+    for wheel in scene.wheels:
+        assert wheel.body in bodies
+        assert wheel.profile in range(len(scene.profiles))
+        assert abs(sum(a * b for a, b in zip(wheel.reference, wheel.direction, strict=True))) < 1e-9
+        assert (wheel.tip < wheel.root) == (wheel.kind == "ring")
+        assert set(wheel.circuits) <= pairs
+    for pointer in scene.pointers:
+        assert set(pointer.pairs) <= pairs
+        assert pointer.dial is None or pointer.dial in range(len(scene.dials))
+
+
+@settings(max_examples=30)
+@given(asked_trains())
+def test_every_train_has_a_scene_whatever_its_verdict(data: dict[str, Any]) -> None:
+    scene = make_scene(GearTrain.declare(data))
+    truth = solve_naively(data)
+    assert scene.verdict["kind"] == truth.kind
+    moves = truth.kind == "determined" and any(data.get("inputs", {}).values())
+    assert scene.movement.kind == ("exact" if moves else "still")
+    for body in scene.bodies:
+        if truth.kind == "determined":
+            assert Fraction(body.shown or "") == truth.speeds[body.id]
+    json.dumps(scene.to_dict(), allow_nan=False)
+
+
+@settings(max_examples=30)
+@given(driven_trains(couplings=False).flatmap(lambda data: rerooted(data).map(lambda other: (data, other))))
+def test_a_body_hangs_on_the_link_that_bears_its_axis_however_coaxial_joints_are_declared(
+    both: tuple[dict[str, Any], dict[str, Any]],
+) -> None:
+    for data in both:
+        graph = turning_graph(data)
+        scene = make_scene(GearTrain.declare(data))
+        for body in scene.bodies:
+            if body.parent is None:
+                assert body.id == "frame"
+                continue
+            parent = scene.bodies[body.parent]
+            # a parent turns about another axis, or is the frame; all joints between lie on the body's own axis
+            assert parent.id == "frame" or parent.axis != body.axis
+            labels = _labels(graph, body.id, parent.id)
+            assert set(labels) == {body.axis}
+
+
+def _labels(graph: Any, a: str, b: str) -> list[str]:
+    import networkx as nx
+
+    path = nx.shortest_path(graph, a, b)
+    return [graph.edges[step]["axis"] for step in pairwise(path)]
+
+
+@settings(max_examples=30)
+@given(driven_trains())
+def test_an_output_hangs_on_the_pairs_whose_error_moves_it(data: dict[str, Any]) -> None:
+    scene = make_scene(GearTrain.declare({**data, "outputs": dict.fromkeys(data["links"])}))
+    rows, _ = willis_rows(data)
+    names = [each.id for each in (*scene.pairs, *scene.couplings)]
+    base = _speeds(data, rows, None)
+    moved = {name: _speeds(data, rows, at) for at, name in enumerate(names)}
+    if not all(moved.values()):
+        return  # an error in a pair that is redundant has no answer
+    for pointer in scene.pointers:
+        wanted = {name for name in names if moved[name][pointer.output] != base[pointer.output]}
+        assert set(pointer.pairs) == wanted
+        assert len(pointer.pairs) == len(wanted)
+
+
+def _speeds(data: Mapping[str, Any], rows: list[dict[str, Fraction]], wrong: int | None) -> dict[str, Fraction]:
+    """Speeds with one circuit wrong by 1/7, by elimination; none where that contradicts the rest."""
+    frame = data.get("frame", "frame")
+    links = [link for link in data["links"] if link != frame]
+    one, zero = Fraction(1), Fraction(0)
+    system = [(row, Fraction(1, 7) if at == wrong else zero) for at, row in enumerate(rows)]
+    system += [({link: one}, zero) for link in data.get("fixed", ()) if link != frame]
+    system += [({a: one, b: -one}, zero) for a, b in data.get("locks", ()) if a != b]
+    system += [({link: one}, Fraction(speed)) for link, speed in data.get("inputs", {}).items()]
+    matrix, pivots, consistent = solve_rows(system, links)
+    return (
+        {}
+        if not consistent
+        else {frame: zero} | {links[column]: row[-1] for row, column in zip(matrix, pivots, strict=False)}
+    )
+
+
+def test_pairs_of_a_path_come_in_order_from_the_input() -> None:
+    scene = make_scene(geartrain.load("longcase-clock"))
+    for pointer in scene.pointers:
+        wheels = {each.id: each.wheels for each in scene.pairs}
+        known = {scene.bodies[scene.lead or 0].id}
+        for name in pointer.pairs:
+            links = {scene.bodies[scene.wheels[at].body].id for at in wheels[name]}
+            assert links & known
+            known |= links
+
+
+def test_all_planets_in_parallel_are_on_the_path() -> None:
+    scene = make_scene(geartrain.load("three-planets"))
+    assert all(set(pointer.pairs) == {each.id for each in scene.pairs} for pointer in scene.pointers)
+
+
+def test_a_loop_that_does_not_close_is_marked_pair_by_pair() -> None:
+    three = {
+        "links": {"frame": {}, **{link: {"wheels": {f"w{link}": 20}} for link in "abcd"}},
+        "revolutes": [{"pair": ["frame", link], "axis": link} for link in "abcd"],
+        "gears": [{"id": f"{i}{j}", "pair": [f"w{i}", f"w{j}"]} for i, j in ("ab", "bc", "ca", "cd")],
+        "inputs": {"a": 1},
+    }
+    scene = make_scene(GearTrain.declare(three))
+    assert scene.verdict["kind"] == "locked"
+    assert [set(loop["pairs"]) for loop in scene.verdict["loops"]] == [{"ab", "bc", "ca"}]
+    assert {each.id for each in scene.pairs if each.broken} == {"ab", "bc", "ca"}
+    assert all(each.fault for each in scene.pairs if each.broken)
+    assert scene.verdict["advice"]
+    assert scene.movement.kind == "still"
+    assert all(body.speed is None for body in scene.bodies if body.id in "abcd")
+
+
+def test_a_train_that_is_free_or_stands_shows_no_speeds_that_it_does_not_have() -> None:
+    free = make_scene(planetary("inputs: {}"))
+    assert (free.verdict["kind"], free.lead, free.movement.kind) == ("free", None, "still")
+    held = make_scene(pair("inputs: {a: 0}"))
+    assert held.movement.kind == "still"
+
+
+def test_the_circuit_reads_as_an_equation() -> None:
+    scene = make_scene(planetary())
+    assert [each.text for each in scene.pairs] == [
+        "24 (sun - carrier) + 18 (planet - carrier) = 0",
+        "18 (planet - carrier) - 60 (frame - carrier) = 0",
+    ]
+    assert [each.ratio for each in scene.pairs] == ["-3/4", "10/3"]
+
+
+def test_the_circuit_in_words_holds_for_the_declared_speeds_of_opposed_axes() -> None:
+    train = load(
+        """
+links: {frame: {}, a: {wheels: {p: 20}}, b: {wheels: {w: 60}}}
+axes: {A: {}, B: {direction: [0, 0, -1]}}
+revolutes: [{pair: [frame, a], axis: A}, {pair: [frame, b], axis: B}]
+gears: [{pair: [p, w]}]
+inputs: {a: 1}
+"""
+    )
+    scene = make_scene(train)
+    assert scene.pairs[0].text == "20 (a - frame) + 60 (-b - frame) = 0"
+    assert [(body.sense, body.direction) for body in scene.bodies][2] == (-1, (0.0, 0.0, 1.0))
+    assert scene.bodies[2].shown == "1/3"
+
+
+DIALS = """
+view: {{from: front, positive: {positive}}}
+links: {{frame: {{}}, a: {{wheels: {{p: 20}}}}, b: {{wheels: {{w: 60}}}}}}
+revolutes: [{{pair: [frame, a], axis: A}}, {{pair: [frame, b], axis: B}}]
+gears: [{{pair: [p, w]}}]
+inputs: {{a: 1}}
+dials: {{near: {{face: front, turns: 4, divisions: 223}}, far: {{face: back}}}}
+outputs: {{a: {{dial: near}}, b: {{dial: far}}, c: {{of: b, relative_to: a}}}}
+"""
+
+
+@pytest.mark.parametrize("positive", ["clockwise", "counter-clockwise"])
+def test_dials_look_to_their_reader_and_stand_clear_of_the_wheels(positive: str) -> None:
+    scene = make_scene(load(DIALS.format(positive=positive)))
+    near, far = scene.dials
+    assert near.normal == (0.0, 0.0, float(scene.front))
+    assert far.normal == (0.0, 0.0, -float(scene.front))
+    assert (near.turns, near.divisions) == (4, 223)
+    assert 0 < near.inner < near.radius
+    for dial in (near, far):
+        for wheel in scene.wheels:
+            assert (dial.centre[2] - wheel.centre[2]) * dial.normal[2] > wheel.thickness / 2
+    a, b, c = scene.pointers
+    assert (a.dial, b.dial, c.dial) == (0, 1, None)
+    # the declared sense holds for one who looks from the front
+    assert a.sense == (1 if positive == "clockwise" else -1)
+    assert b.sense == -a.sense
+    assert a.text == f"{positive} as read"
+    # b turns backwards, and is read from behind
+    assert b.text == f"{positive} as read"
+    assert (c.shown, scene.bodies[c.base].id) == ("-4/3", "a")
+
+
+def test_dials_of_one_face_do_not_cover_each_other() -> None:
+    scene = shipped("freeth-2021")
+    for at, one in enumerate(scene.dials):
+        for other in scene.dials[:at]:
+            if one.normal == other.normal:
+                apart = hypot(*(a - b for a, b in zip(one.centre[:2], other.centre[:2], strict=True)))
+                assert apart < 1e-6 or one.radius + other.radius < apart
+
+
+def test_sizes_stay_small_enough_for_a_page() -> None:
+    assert len(json.dumps(shipped("freeth-2021").to_dict())) < 300_000
+    assert len(json.dumps(shipped("freeth-2021-teeth").to_dict())) < 900_000
+
+
+def test_what_is_lost_at_wheels_sums_to_what_is_lost_between_teeth() -> None:
+    train = geartrain.load("lantern-mill")
+    torques = train.torques()
+    scene = make_scene(train)
+    lost = sum(float(each.loss) for each in torques.pairs.values()) / float(torques.power_in)
+    assert lost > 0.01
+    assert isclose(sum(wheel.loss or 0.0 for wheel in scene.wheels), lost, rel_tol=1e-12)

@@ -1,0 +1,206 @@
+"""What a scene's plain data say of the motion, read as a browser would, against the motion itself."""
+
+from __future__ import annotations
+
+import json
+import struct
+from base64 import b64decode
+from bisect import bisect_right
+from collections.abc import Mapping, Sequence
+from fractions import Fraction
+from math import floor, pi
+from typing import Any
+
+import numpy as np
+import pytest
+
+import geartrain
+from geartrain import GearTrain
+from geartrain.scene import make_scene
+
+TURNS = (0.0, 1 / 3, 17.25, 1234.5678, 98765.4321, 1e6)
+AGREE = 1e-9  # rad
+
+
+class Reader:
+    """Angles of bodies from the plain data of a scene alone, in Fractions and floats."""
+
+    def __init__(self, data: Mapping[str, Any]) -> None:
+        self.data = json.loads(json.dumps(data))
+        self.movement = self.data["movement"]
+        self.laws = [self._law(law) for law in self.movement["laws"]]
+
+    @staticmethod
+    def _law(law: Mapping[str, Any]) -> tuple[float, list[float], list[tuple[float, ...]]]:
+        breaks, numbers = (
+            struct.unpack(f"<{len(raw) // 8}d", raw)
+            for raw in (b64decode(law[key]) for key in ("breaks", "coefficients"))
+        )
+        width = len(numbers) // (len(breaks) - 1)
+        rows = [numbers[at : at + width] for at in range(0, len(numbers), width)]
+        return law["period"], list(breaks), rows
+
+    def error_of_law(self, number: int, S: float) -> float:
+        period, breaks, rows = self.laws[number]
+        u = S - period * floor(S / period)
+        cell = min(max(bisect_right(breaks, u) - 1, 0), len(rows) - 1)
+        x = u - (breaks[cell] + breaks[cell + 1]) / 2
+        found = 0.0
+        for coefficient in reversed(rows[cell]):
+            found = found * x + coefficient
+        return found
+
+    def errors(self, turns: Fraction) -> list[float]:
+        found = [0.0] * len(self.data["bodies"])
+        for step in self.movement["steps"]:
+            base = [sum(g * found[k] for g, k in zip(row, step["known"], strict=True)) for row in step["from_known"]]
+            delta = [0.0] * len(step["sources"])
+            for _ in range(200 if step["coupled"] else 2):
+                for body, start, row in zip(step["bodies"], base, step["from_sources"], strict=True):
+                    found[body] = start + sum(g * d for g, d in zip(row, delta, strict=True))
+                last, delta = delta, [self.delta(number, turns, found) for number in step["sources"]]
+                if delta == last:
+                    break
+        return [
+            error + self.movement["offsets"].get(body["id"], 0.0)
+            for error, body in zip(found, self.data["bodies"], strict=True)
+        ]
+
+    def delta(self, number: int, turns: Fraction, errors: Sequence[float]) -> float:
+        source = self.movement["sources"][number]
+        cycles = Fraction(source["cycles"]) * turns
+        rest = float(cycles - floor(cycles))
+        own = source["driver_sense"] * errors[source["driver"]] - source["carrier_sense"] * errors[source["carrier"]]
+        S = source["start"] + self.laws[source["law"]][0] * rest + source["forward"] * own
+        return float(source["sense"] * self.error_of_law(source["law"], S))
+
+    def angles(self, turns: float) -> list[float]:
+        """Angle of every body about its direction (rad), whole turns taken off its mean."""
+        at = Fraction(turns)
+        found = []
+        for body, error in zip(self.data["bodies"], self.errors(at), strict=True):
+            mean = Fraction(body["speed"]) * at
+            found.append(body["sense"] * (body["start"] + 2 * pi * float(mean - floor(mean)) + error))
+        return found
+
+
+def pointer_angle(scene: Mapping[str, Any], angles: Sequence[float], pointer: Mapping[str, Any]) -> float:
+    """About the pointer's own declared axis."""
+    sense = scene["bodies"][pointer["body"]]["sense"]
+    return float(sense * (angles[pointer["body"]] - angles[pointer["base"]]))
+
+
+def off(a: float, b: float) -> float:
+    """Difference of two angles, whole turns left out."""
+    return abs((a - b + pi) % (2 * pi) - pi)
+
+
+def compared(train: GearTrain, state: str | None = None, turns: Sequence[float] = TURNS) -> float:
+    """The greatest difference of any output between the scene's data and the train's motion (rad)."""
+    scene = make_scene(train, state).to_dict()
+    reader = Reader(scene)
+    motion = train.motion(state)
+    passage = motion.at(np.array(turns))
+    worst = 0.0
+    for column, t in enumerate(turns):
+        angles = reader.angles(t)
+        for row, pointer in enumerate(scene["pointers"]):
+            mean = motion.tallies()[row].ratio * Fraction(t)
+            wanted = motion.starts[row] + 2 * pi * float(mean - floor(mean)) + float(passage.error[row, column])
+            worst = max(worst, off(pointer_angle(scene, angles, pointer), wanted))
+    return worst
+
+
+@pytest.mark.parametrize(
+    "name", ["freeth-2021", "freeth-2021-teeth", "pennestri-2002-teeth", "moon-triangular", "sorge-pairs"]
+)
+def test_the_plain_data_move_every_pointer_as_the_train_does(name: str) -> None:
+    assert compared(geartrain.load(name)) < AGREE
+
+
+TRIANGULAR = "form: triangular, half_angle: 30 deg, clearance: 1.01"
+PAIRS = """
+links:
+  frame: {{}}
+  a: {{wheels: {{p: 24}}, angle: 17 deg}}
+  b: {{wheels: {{q: 60, s: 31}}, angle: -3 deg}}
+  c: {{wheels: {{r: 17}}}}
+axes: {{A: {{}}, B: {{direction: [0, 0, -1]}}, C: {{}}}}
+revolutes: [{{pair: [frame, a], axis: A}}, {{pair: [frame, b], axis: B}}, {{pair: [frame, c], axis: C}}]
+gears: [{{pair: [p, q], phase: 0.3, driver: {driver}}}, {{pair: [s, r], phase: 0.8}}]
+tooth_form: {{{form}}}
+inputs: {{a: {speed}}}
+outputs: {{a: , b: , c: {{relative_to: a}}}}
+"""
+
+
+@pytest.mark.parametrize("speed", ["1", "-3/7"])
+@pytest.mark.parametrize("driver", ["p", "q"])
+@pytest.mark.parametrize(
+    "form", ["form: triangular, half_angle: 30 deg, clearance: 1.01", "form: involute, backlash: 0.1"]
+)
+def test_phases_starting_angles_and_opposed_axes_are_kept(form: str, driver: str, speed: str) -> None:
+    assert compared(geartrain.load(PAIRS.format(form=form, driver=driver, speed=speed))) < AGREE
+
+
+def test_laws_alike_are_written_once() -> None:
+    scene = make_scene(geartrain.load("freeth-2021-teeth"))
+    kinds = {(source.law, scene.movement.laws[source.law].period) for source in scene.movement.sources}
+    assert len(kinds) == len(scene.movement.laws) < len(scene.movement.sources)
+    for law in scene.movement.laws:
+        assert law.breaks[0] == 0
+        assert law.breaks[-1] == law.period
+        assert (np.diff(law.breaks) > 0).all()
+        assert len(law.breaks) == len(law.coefficients) + 1
+
+
+def test_everything_stands_as_before_after_the_period() -> None:
+    scene = make_scene(geartrain.load("moon-triangular")).to_dict()
+    period = Fraction(scene["movement"]["period"])
+    for body in scene["bodies"]:
+        assert (Fraction(body["speed"]) * period).denominator == 1
+    reader = Reader(scene)
+    once, again = reader.errors(Fraction(1, 3)), reader.errors(Fraction(1, 3) + period)
+    assert once == again
+
+
+def test_a_loop_of_real_teeth_moves_in_the_mean_and_says_why() -> None:
+    loop = """
+links: {frame: {}, a: {wheels: {wa: 20}}, b: {wheels: {wb: 30}}, c: {wheels: {wc: 40}}, d: {wheels: {wd: 50}}}
+revolutes:
+  - {pair: [frame, a], axis: A}
+  - {pair: [frame, b], axis: B}
+  - {pair: [frame, c], axis: C}
+  - {pair: [frame, d], axis: D}
+gears: [{pair: [wa, wb]}, {pair: [wb, wc]}, {pair: [wc, wd]}, {pair: [wd, wa]}]
+tooth_form: {form: triangular, half_angle: 30 deg, clearance: 1.01}
+inputs: {a: 1}
+"""
+    scene = make_scene(geartrain.load(loop))
+    assert scene.movement.kind == "mean"
+    assert "loop" in scene.movement.why
+    assert any(notice["what"] in scene.movement.why for notice in scene.notices)
+    assert [body.speed for body in scene.bodies] == ["0", "1", "-2/3", "1/2", "-2/5"]
+
+
+def test_a_pin_stands_where_its_law_has_it() -> None:
+    """The slot, drawn from its axis to the pin in the zero pose and turned with its body, always holds the pin."""
+    train = geartrain.load(
+        """
+links: {frame: {}, pin: {angle: 40 deg}, slot: {angle: 10 deg}}
+axes: {P: {position: [0 mm, 0 mm, 0 mm]}, S: {position: [1.1 mm, 0.4 mm, 0 mm]}}
+revolutes: [{pair: [frame, pin], axis: P}, {pair: [frame, slot], axis: S}]
+couplings: [{id: k, kind: pin_and_slot, pin: pin, slot: slot, pin_radius: 9.6 mm, offset: 1.1704699910719626 mm}]
+inputs: {pin: 1}
+"""
+    )
+    scene = make_scene(train).to_dict()
+    reader, k = Reader(scene), scene["couplings"][0]
+    axis = complex(*scene["bodies"][k["pin"]]["point"][:2])
+    at, of = complex(*k["pin_at"][:2]), complex(*k["slot_at"][:2])
+    assert abs(at - axis) == pytest.approx(9.6)
+    for turns in (0.0, 0.21, 0.5, 7.83):
+        angles = reader.angles(turns)
+        pin = axis + (at - axis) * np.exp(1j * angles[k["pin"]])
+        slot = (at - of) * np.exp(1j * (angles[k["slot"]] + k["slot_turn"]))
+        assert abs(np.angle((pin - of) / slot)) < 1e-9

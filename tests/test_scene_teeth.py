@@ -1,0 +1,210 @@
+"""Teeth as a scene draws them, cut out of the plane and turned: they touch, and do not cut into each other."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from functools import cache
+from math import cos, pi, sin
+from typing import Any
+
+import numpy as np
+import pytest
+from shapely.geometry import Point, Polygon
+from shapely.ops import unary_union
+from test_scene_movement import Reader
+
+import geartrain
+from geartrain import GearTrain
+from geartrain.scene import make_scene
+
+
+def outline(scene: Mapping[str, Any], number: int, turned: float) -> Any:
+    """A wheel about its centre, turned by an angle more than its own; a ring as a disc with a toothed hole."""
+    wheel = scene["wheels"][number]
+    profile = scene["profiles"][wheel["profile"]]
+    x, y, _ = wheel["centre"]
+    ahead = wheel["direction"][2]
+    first = wheel["turn"] + turned
+    base = np.arctan2(wheel["reference"][1], wheel["reference"][0])
+    teeth = []
+    for k in range(wheel["teeth"]):
+        turn = first + 2 * pi * k / wheel["teeth"]
+        teeth.append(
+            [
+                (
+                    x + r * wheel["radius"] * cos(base + ahead * (turn + angle)),
+                    y + r * wheel["radius"] * sin(base + ahead * (turn + angle)),
+                )
+                for r, angle in profile["points"]
+            ]
+        )
+    if profile["hole"]:
+        return unary_union([Polygon(tooth) for tooth in teeth])
+    whole = Polygon([point for tooth in teeth for point in tooth[:-1]])  # a tooth ends where the next begins
+    return Point(x, y).buffer(1.5 * wheel["radius"], 128).difference(whole) if wheel["kind"] == "ring" else whole
+
+
+def standing(scene: Mapping[str, Any], reader: Reader, pair: Mapping[str, Any], turns: float) -> list[Any]:
+    """Both wheels of a pair after some turns of the lead, seen from their carrier."""
+    angles = reader.angles(turns)
+    carrier = angles[pair["carrier"]]
+    return [outline(scene, at, angles[scene["wheels"][at]["body"]] - carrier) for at in pair["wheels"]]
+
+
+@cache
+def shown(train: GearTrain) -> dict[str, Any]:
+    return make_scene(train).to_dict()
+
+
+def meshing(train: GearTrain, names: Sequence[str] = (), steps: int = 12) -> tuple[float, float]:
+    """Over a pitch of each pair: the greatest depth of one wheel in the other, and the greatest gap, in modules."""
+    scene = shown(train)
+    reader = Reader(scene)
+    deepest = widest = 0.0
+    for pair in scene["pairs"]:
+        if names and pair["id"] not in names:
+            continue
+        wheel = scene["wheels"][pair["wheels"][0]]
+        bodies = scene["bodies"]
+        speed = abs(eval_ratio(bodies[wheel["body"]]["speed"]) - eval_ratio(bodies[pair["carrier"]]["speed"]))
+        for k in range(steps):
+            first, second = standing(scene, reader, pair, 0.137 + k / steps / wheel["teeth"] / speed)
+            deepest = max(deepest, depth(first.intersection(second)) / wheel["module"])
+            widest = max(widest, first.distance(second) / wheel["module"])
+    return deepest, widest
+
+
+def depth(common: Any) -> float:
+    """How thick what two wheels have in common is, at most: twice its inner radius by halving."""
+    low, high = 0.0, 10.0
+    for _ in range(40):
+        middle = (low + high) / 2
+        low, high = (low, middle) if common.buffer(-middle).is_empty else (middle, high)
+    return 2 * high
+
+
+def eval_ratio(text: str) -> float:
+    above, _, below = text.partition("/")
+    return int(above) / int(below or 1)
+
+
+def pair_of(z1: int, z2: int, form: Mapping[str, Any], **more: Any) -> GearTrain:
+    ring = more.pop("ring", False)
+    return GearTrain.declare(
+        {
+            "links": {
+                "frame": {},
+                "a": {"wheels": {"p": z1}, **more.pop("a", {})},
+                "b": {"wheels": {"q": {"teeth": z2, "internal": ring}}, **more.pop("b", {})},
+            },
+            "revolutes": [{"pair": ["frame", "a"], "axis": "A"}, {"pair": ["frame", "b"], "axis": "B"}],
+            "gears": [{"pair": ["p", "q"], "tooth_form": form, **more.pop("gear", {})}],
+            "inputs": {"a": 1},
+            **more,
+        }
+    )
+
+
+TRIANGULAR = {"form": "triangular", "half_angle": "30 deg", "clearance": "1.01"}
+
+
+@pytest.mark.parametrize(
+    "train",
+    [
+        pair_of(64, 38, TRIANGULAR),
+        pair_of(38, 64, TRIANGULAR, inputs={"a": -1}),
+        pair_of(24, 60, TRIANGULAR, gear={"phase": "0.3"}),
+        pair_of(24, 60, TRIANGULAR, gear={"driver": "q", "phase": "0.3"}),
+        pair_of(30, 41, TRIANGULAR, a={"angle": "17 deg"}, b={"angle": "5 deg"}),
+    ],
+    ids=["64/38", "backwards", "a phase", "the second drives", "starting angles"],
+)
+def test_triangular_teeth_touch_at_every_instant_and_never_cut_into_each_other(train: GearTrain) -> None:
+    deep, gap = meshing(train)
+    assert deep < 1e-6
+    assert gap < 1e-6
+
+
+@pytest.mark.parametrize(
+    "train",
+    [
+        pair_of(24, 60, {"form": "involute"}),
+        pair_of(24, 60, {"form": "involute", "backlash": "0.1"}),
+        pair_of(40, 25, {"form": "involute", "centre_distance": "32.8"}),
+        pair_of(20, 60, {"form": "involute", "addendum": [1, 0.8]}, ring=True),
+        pair_of(12, 60, {"form": "cycloidal"}, inputs={"a": -1}),
+        pair_of(48, 12, {"form": "lantern"}),
+        pair_of(30, 20, {"form": "involute", "backlash": "0.1"}, b={"angle": "100 deg"}),
+    ],
+    ids=["plain", "play", "apart", "ring", "cycloidal", "lantern", "starting angle"],
+)
+def test_conjugate_teeth_touch_and_do_not_cut_beyond_their_chords(train: GearTrain) -> None:
+    deep, gap = meshing(train)
+    assert deep < 5e-3
+    assert gap < 5e-3
+
+
+def test_likenesses_mesh_without_cutting_into_each_other() -> None:
+    for z1, z2, ring in ((24, 60, False), (8, 8, False), (224, 12, False), (20, 60, True), (50, 60, True)):
+        deep, gap = meshing(pair_of(z1, z2, {"form": "ideal"}, ring=ring), steps=5)
+        assert deep < 1e-6
+        assert gap < 0.1
+
+
+@pytest.mark.parametrize(
+    ("name", "state"),
+    [
+        ("bevel-differential", "turn"),
+        ("south-pointing-chariot", "a bend leftwards"),
+        ("planets-in-place", None),
+        ("freeth-2021", None),
+        ("humpage", None),
+    ],
+)
+def test_where_pitch_circles_touch_a_tooth_meets_a_space(name: str, state: str | None) -> None:
+    """In space, so for bevel wheels too; the point where they touch is found by looking all round both."""
+    scene = make_scene(geartrain.load(name), state).to_dict()
+    reader = Reader(scene)
+    for pair in scene["pairs"]:
+        wheels = [scene["wheels"][at] for at in pair["wheels"]]
+        contact, gap = touching(*wheels)
+        assert gap < 1e-3 * wheels[0]["module"]
+        for turns in (0.0, 0.37, 12.4):
+            angles = reader.angles(turns)
+            teeth = []
+            for wheel, at in zip(wheels, contact, strict=True):
+                pitch = 2 * pi / wheel["teeth"]
+                turned = wheel["turn"] + angles[wheel["body"]] - angles[pair["carrier"]] - at
+                teeth.append((turned % pitch) / pitch * forwards(wheel, at))
+            along = float(np.dot(teeth[0], teeth[1]))
+            where = [float(np.linalg.norm(each)) for each in teeth]
+            off = (where[0] - (where[1] if along > 0 else -where[1])) % 1
+            assert off == pytest.approx(0.5, abs=1e-3)
+
+
+def forwards(wheel: Mapping[str, Any], angle: float) -> Any:
+    """Which way the rim of a wheel goes at an angle, as a unit vector."""
+    u, v = frame_of(wheel)
+    return -sin(angle) * u + cos(angle) * v
+
+
+def frame_of(wheel: Mapping[str, Any]) -> tuple[Any, Any]:
+    u = np.array(wheel["reference"])
+    return u, np.cross(wheel["direction"], u)
+
+
+def touching(first: Mapping[str, Any], second: Mapping[str, Any]) -> tuple[list[float], float]:
+    """Angles at which two pitch circles are nearest, and how near, on grids that grow finer."""
+    middle, reach = np.zeros(2), pi
+    for _ in range(14):
+        grid = [centre + reach * np.linspace(-1, 1, 73) for centre in middle]
+        points = []
+        for wheel, at in zip((first, second), grid, strict=True):
+            u, v = frame_of(wheel)
+            points.append(
+                np.array(wheel["centre"]) + wheel["radius"] * (np.outer(np.cos(at), u) + np.outer(np.sin(at), v))
+            )
+        apart = np.linalg.norm(points[0][:, None] - points[1][None], axis=2)
+        best = np.unravel_index(int(apart.argmin()), apart.shape)
+        middle, reach = np.array([grid[0][best[0]], grid[1][best[1]]]), reach / 4
+    return middle.tolist(), float(apart.min())

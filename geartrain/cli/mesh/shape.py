@@ -126,7 +126,7 @@ def _cut(
     given: dict[str, Any],
 ) -> Wheel:
     """The outline of a wheel, written."""
-    from geartrain.files import OUTLINES, write_outline
+    from geartrain.export import OUTLINES, write_outline
     from geartrain.outlines import outline
 
     if profile.suffix.lower() not in OUTLINES:

@@ -1,0 +1,143 @@
+"""`geartrain export`: files for makers and for other tools."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Iterable, Iterator, Sequence
+from fractions import Fraction
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from geartrain.cli.common import GOOD, INTERRUPTED, VERDICT, File, StateName, may_write, plural
+from geartrain.cli.mesh.options import quantity
+from geartrain.errors import GearTrainError, Problem
+
+if TYPE_CHECKING:
+    from geartrain.export import Making, Workpiece
+
+_PATIENCE = 2.0  # seconds before a progress bar is shown
+_SHOWN = 8  # notices on the terminal; all are in the README
+
+Size = str | None
+
+
+def run(
+    file: File,
+    to: Annotated[Path | None, typer.Option("--to", help="Write all files into this folder.")] = None,
+    out: Annotated[
+        Path | None, typer.Option("--output-file", "-o", help="Write one file: .glb .stl .step .graphml .dot .rexsj")
+    ] = None,
+    kinds: Annotated[
+        str | None, typer.Option("--as", help="With --to: some of svg,dxf,stl,glb,step,graphml,dot,rexs,csv.")
+    ] = None,
+    wheel: Annotated[str | None, typer.Option("--wheel", help="With -o: one wheel as .svg, .dxf or .stl.")] = None,
+    state: StateName = None,
+    module: Annotated[Size, typer.Option("--module", help="Pitch diameter over teeth, such as 1mm.")] = None,
+    thickness: Annotated[Size, typer.Option("--thickness", help="Of wheels and plates, such as 2mm.")] = None,
+    bore: Annotated[Size, typer.Option("--bore", help="Diameter of all arbors; 0mm: no holes.")] = None,
+    backlash: Annotated[
+        Size, typer.Option("--backlash", help="Play of teeth without a declared form, such as 0.05mm.")
+    ] = None,
+    turns: Annotated[str | None, typer.Option("--turns", help="Turns of the lead that the GLB shows.")] = None,
+    force: Annotated[bool, typer.Option("--force", help="Write over existing files.")] = False,
+) -> None:
+    """Write wheels and plates to cut, the assembly as a solid, the graph, REXS and tables of a train."""
+    from geartrain.export import Workpiece
+    from geartrain.files import load
+
+    if (to is None) == (out is None):
+        what = "it is not said what to write" if to is None else "--to and -o are both given"
+        raise GearTrainError(Problem(what, "", "give --to FOLDER for all files, or -o FILE for one", "export"))
+    train = load(file)
+    if state is None and train.states:
+        state = train.states[0]
+    work = Workpiece(train, _making(module, thickness, bore, backlash), state)
+    shown = _turns(turns)
+    if out is not None:
+        _one(work, out, wheel, shown, force)
+    else:
+        assert to is not None
+        _all(work, to, kinds, wheel, shown, force)
+    verdict = train.solve(state, method="exact").verdict
+    raise typer.Exit(GOOD if verdict else VERDICT)
+
+
+def _making(module: Size, thickness: Size, bore: Size, backlash: Size) -> Making:
+    from geartrain.export import Making
+
+    given = {"module": module, "thickness": thickness, "bore": bore, "backlash": backlash}
+    return Making(**{name: None if text is None else 1000 * _length(name, text) for name, text in given.items()})
+
+
+def _length(name: str, text: str) -> float:
+    return quantity(f"--{name}", text, "length")
+
+
+def _turns(text: str | None) -> Fraction | None:
+    if text is None:
+        return None
+    try:
+        return Fraction(text)
+    except (ValueError, ZeroDivisionError):
+        raise GearTrainError(
+            Problem(f"'{text}' is no number of turns", "", "give one such as 4 or 1/2", "--turns")
+        ) from None
+
+
+def _one(work: Workpiece, out: Path, wheel: str | None, turns: Fraction | None, force: bool) -> None:
+    from geartrain.export import WHEEL_SUFFIXES, kind_of, one_wheel, whole
+    from geartrain.files import write_bytes
+
+    suffix = out.suffix.lower()
+    if wheel is not None and suffix not in WHEEL_SUFFIXES:
+        fix = f"use {', '.join(WHEEL_SUFFIXES)}"
+        raise GearTrainError(Problem(f"no wheel is written as '{suffix or out.name}'", "", fix, "-o"))
+    kind = "" if wheel is not None else kind_of(out.name)
+    may_write(out, force)
+    write_bytes(out, one_wheel(work, wheel, suffix) if wheel is not None else whole(work, kind, turns))
+    typer.echo(f"wrote {out}", err=True)
+
+
+def _all(work: Workpiece, to: Path, kinds: str | None, wheel: str | None, turns: Fraction | None, force: bool) -> None:
+    from geartrain.export import KINDS, installed, notices, parcel
+    from geartrain.files import check_folder, write_folder
+
+    if wheel is not None:
+        raise GearTrainError(Problem("--wheel is for one file", "", "give -o FILE in place of --to", "--wheel"))
+    wanted = [kind.strip().lower() for kind in kinds.split(",")] if kinds is not None else list(KINDS)
+    missing: list[Problem] = []
+    if kinds is None:
+        wanted, missing = installed(wanted)
+    files = parcel(work, wanted, turns)
+    check_folder(to, [each.path for each in files], force)
+    try:
+        count = write_folder(to, _shown(((each.path, each.make()) for each in files), len(files)))
+    except KeyboardInterrupt:
+        typer.echo(f"stopped; nothing is written to {to}", err=True)
+        raise typer.Exit(INTERRUPTED) from None
+    _remark([*missing, *notices(work, wanted)])
+    typer.echo(f"wrote {plural(count, 'file')} to {to}", err=True)
+
+
+def _remark(problems: Sequence[Problem]) -> None:
+    for problem in problems[:_SHOWN]:
+        typer.echo(f"note: {problem}", err=True)
+    if len(problems) > _SHOWN:
+        typer.echo(f"note: {len(problems) - _SHOWN} more in README.md", err=True)
+
+
+def _shown(files: Iterable[tuple[str, bytes]], count: int) -> Iterator[tuple[str, bytes]]:
+    """The same files, with a progress bar once it takes long."""
+    from rich.console import Console
+    from rich.progress import Progress
+
+    start, done = time.monotonic(), 0
+    with Progress(console=Console(stderr=True), transient=True, disable=False, auto_refresh=False) as progress:
+        task = progress.add_task("export", total=count, visible=False)
+        for each in files:
+            yield each
+            done += 1
+            if time.monotonic() - start > _PATIENCE:
+                progress.update(task, completed=done, visible=True, refresh=True)

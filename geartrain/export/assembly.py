@@ -1,0 +1,188 @@
+"""The parts of a train as solids, each on its body, in the pose in which all angles are zero."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from math import cos, sin
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from geartrain.export.blanks import Blanks, find_blanks
+from geartrain.export.likeness import likeness_solid
+from geartrain.export.making import Making, bores, scale_of, sized
+from geartrain.export.plates import Plate, basis, find_plates
+from geartrain.export.solid import Solid, cylinder, plate_solid, wheel_solid
+from geartrain.layout import lay_out
+from geartrain.scene import make_scene
+
+if TYPE_CHECKING:
+    from geartrain.analysis import GearTrain
+    from geartrain.errors import Problem
+    from geartrain.export.triangles import Floats
+    from geartrain.layout import Layout
+    from geartrain.outlines import Contour
+    from geartrain.scene import Scene, Wheel
+
+_SHEET = 2.0  # mm, the thickness of plates
+_GAP = 1.0  # mm between a plate and what turns before it
+
+
+@dataclass(frozen=True, slots=True)
+class Part:
+    """One solid of a body.
+
+    body       index of its body in the scene
+    kind       wheel, arbor or plate
+    solid      about its own origin; `turn` (3, 3) and `place` (3,) put it into the zero pose, mm
+    contours   its flat shape, and `height` its thickness; empty where it has none
+    """
+
+    body: int
+    name: str
+    kind: str
+    solid: Solid
+    turn: Floats
+    place: Floats
+    status: str = ""
+    contours: tuple[Contour, ...] = ()
+    height: float = 0.0
+
+    @property
+    def placed(self) -> Solid:
+        """The solid where it stands."""
+        return self.solid.moved(self.turn, self.place.tolist())
+
+
+@dataclass(frozen=True)
+class Workpiece:
+    """A train with all that exports ask for, each made once.
+
+    layout and scene are in mm; the scene's are `scale` times smaller.
+    """
+
+    train: GearTrain
+    making: Making
+    state: str | None = None
+
+    @cached_property
+    def layout(self) -> Layout:
+        """Places of axes and wheels, at the sizes asked for."""
+        return sized(self._laid, self.making)
+
+    @cached_property
+    def scale(self) -> float:
+        """How many times larger this layout is than the scene's."""
+        return scale_of(self._laid, self.making)
+
+    @cached_property
+    def blanks(self) -> Blanks:
+        """Flat shapes of the wheels."""
+        return find_blanks(self.train, self.layout, self.making)
+
+    @cached_property
+    def plates(self) -> tuple[tuple[Plate, ...], tuple[Problem, ...]]:
+        """Plates, and what could not be drawn."""
+        return find_plates(self.train, self.layout, self.making)
+
+    @cached_property
+    def scene(self) -> Scene:
+        """How it moves."""
+        return make_scene(self.train, self.state)
+
+    @cached_property
+    def parts(self) -> tuple[Part, ...]:
+        """All solids: wheels, arbors, and the plates of carriers."""
+        return tuple(_Parts(self).all())
+
+    @cached_property
+    def _laid(self) -> Layout:
+        return lay_out(self.train)
+
+
+class _Parts:
+    def __init__(self, work: Workpiece) -> None:
+        self.work, self.scene, self.scale = work, work.scene, work.scale
+        self.bodies = {body.id: at for at, body in enumerate(self.scene.bodies)}
+        self.bores = bores(work.layout, work.making)
+
+    def all(self) -> Iterator[Part]:
+        for wheel in self.scene.wheels:
+            yield self.wheel(wheel)
+        yield from self.arbors()
+        yield from self.plates()
+
+    def wheel(self, wheel: Wheel) -> Part:
+        """By its flat shape where it has one."""
+        turn, place = _frame(wheel, self.scale)
+        blank = self.work.blanks.wheels.get(wheel.id)
+        if blank is None:
+            declared = self.work.train.declaration.wheels[wheel.id][1]
+            drawn = likeness_solid(wheel, self.scene.profiles[wheel.profile], 1 if declared.hand == "right" else -1)
+            solid = Solid(drawn.vertices * self.scale, drawn.faces)
+            return Part(wheel.body, wheel.id, "wheel", solid, turn, place, wheel.status)
+        solid = wheel_solid(blank)
+        return Part(wheel.body, wheel.id, "wheel", solid, turn, place, wheel.status, blank.contours, blank.thickness)
+
+    def arbors(self) -> Iterator[Part]:
+        """A rod for every body that turns and has wheels, from the lowest to the highest of them."""
+        for at, body in enumerate(self.scene.bodies):
+            own = [wheel for wheel in self.scene.wheels if wheel.body == at and wheel.kind != "ring"]
+            radius = self.bores.get(body.axis, 0.0) / 2
+            if body.parent is None or not own or not radius:
+                continue
+            point, along = np.array(body.point) * self.scale, np.array(body.direction)
+            ends = [
+                float((np.array(wheel.centre) * self.scale - point) @ along) + side * self._thick(wheel) / 2
+                for wheel in own
+                for side in (-1, 1)
+            ]
+            right, up = basis(body.direction)
+            turn = np.column_stack([right, up, body.direction])
+            low, high = min(ends) - _GAP, max(ends) + _GAP
+            solid = cylinder(radius, low, high)
+            yield Part(at, f"{body.id} arbor", "arbor", solid, turn, point)
+
+    def _thick(self, wheel: Wheel) -> float:
+        blank = self.work.blanks.wheels.get(wheel.id)
+        return wheel.thickness * self.scale if blank is None else blank.thickness
+
+    def plates(self) -> Iterator[Part]:
+        """Plates of carriers, under all that turns on them."""
+        plates, _ = self.work.plates
+        thickness = self.work.making.thickness or _SHEET
+        for plate in plates:
+            at = self.bodies[plate.link]
+            if not plate.name.startswith("plate-") or self.scene.bodies[at].parent is None:
+                continue
+            normal = np.array(plate.normal)
+            lowest = min(self._heights(plate, normal), default=0.0)
+            place = np.array(plate.point)
+            place = place + normal * (lowest - place @ normal - _GAP - thickness / 2)
+            right, up = basis(plate.normal)
+            solid = plate_solid(plate.drawing.cut, thickness)
+            turn = np.column_stack([right, up, plate.normal])
+            yield Part(at, f"{plate.link} plate", "plate", solid, turn, place, "", plate.drawing.cut, thickness)
+
+    def _heights(self, plate: Plate, normal: Floats) -> Iterator[float]:
+        for place in self.work.layout.wheels.values():
+            if place.axis in plate.holes:
+                yield float(np.array(place.centre) @ normal) - place.thickness / 2
+
+
+def _frame(wheel: Wheel, scale: float) -> tuple[Floats, Floats]:
+    """Axes of a wheel's own coordinates as columns, x through its first tooth, and its middle (mm)."""
+    along, reference = np.array(wheel.direction), np.array(wheel.reference)
+    across = np.cross(along, reference)
+    x = cos(wheel.turn) * reference + sin(wheel.turn) * across
+    return np.column_stack([x, np.cross(along, x), along]), np.array(wheel.centre) * scale
+
+
+def by_body(parts: Sequence[Part]) -> Mapping[int, list[Part]]:
+    """Parts in the order of their bodies."""
+    found: dict[int, list[Part]] = {}
+    for part in parts:
+        found.setdefault(part.body, []).append(part)
+    return found

@@ -1,0 +1,191 @@
+"""A gear unit as REXS JSON (FVA's Reusable Engineering Exchange Standard, version 1.4): what of a train it can carry.
+
+Component types, attributes and units are those of the REXS 1.4 database; see www.rexs.info.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator, Mapping
+from datetime import UTC, datetime
+from fractions import Fraction
+from math import degrees
+from typing import TYPE_CHECKING, Any
+
+from geartrain.export.plates import basis
+from geartrain.quantity import Quantity
+from geartrain.teeth.involute import Involute
+
+if TYPE_CHECKING:
+    from geartrain.export.assembly import Workpiece
+    from geartrain.layout import WheelPlace
+    from geartrain.train import GearPair, Wheel
+
+VERSION = "1.4"
+_ANGLE = 20.0  # deg, where no form is declared
+_EPOCH = datetime(2000, 1, 1, tzinfo=UTC)  # the same train is the same file
+
+
+def to_rexs(work: Workpiece, date: datetime = _EPOCH) -> str:
+    """The gear unit as text."""
+    return json.dumps({"model": _Unit(work).model(date)}, indent=1, ensure_ascii=False, allow_nan=False) + "\n"
+
+
+class _Unit:
+    def __init__(self, work: Workpiece) -> None:
+        self.work, self.declared = work, work.train.declaration
+        self.components: list[dict[str, Any]] = []
+        self.relations: list[dict[str, Any]] = []
+        self.numbers: dict[tuple[str, str], int] = {}
+        self.speeds = _per_minute(work)
+
+    def model(self, date: datetime) -> dict[str, Any]:
+        from importlib.metadata import version
+
+        unit = self.add("gear_unit", self.declared.name, [*_frame((0.0, 0.0, 0.0), (0.0, 0.0, 1.0), 1)])
+        casing = self.add("gear_casing", self.declared.frame, [])
+        self.relate("assembly", assembly=unit, part=casing)
+        for link in self.declared.links:
+            self.shaft(link, unit)
+        for gear in self.declared.gears:
+            self.stage(gear, unit)
+        load = {"id": 1, "load_cases": [{"id": 1, "components": self.running()}]}
+        return {
+            "version": VERSION,
+            "applicationId": "geartrain",
+            "applicationVersion": version("geartrain"),
+            "date": date.astimezone(UTC).strftime("%Y-%m-%dT%H:%M:%S+00:00"),
+            "applicationLanguage": "en",
+            "relations": self.relations,
+            "components": self.components,
+            **({"load_spectrum": load} if load["load_cases"][0]["components"] else {}),  # type: ignore[index]
+        }
+
+    def add(self, kind: str, name: str, attributes: list[dict[str, Any]]) -> int:
+        number = len(self.components) + 1
+        self.components.append({"id": number, "type": kind, "name": name, "attributes": attributes})
+        return number
+
+    def relate(self, kind: str, **roles: int) -> None:
+        """A relation; each of its members with its role, and its type as a hint."""
+        refs = [
+            {"id": number, "role": role, "hint": self.components[number - 1]["type"]} for role, number in roles.items()
+        ]
+        self.relations.append({"id": len(self.relations) + 1, "type": kind, "refs": refs})
+
+    def shaft(self, link: str, unit: int) -> None:
+        """A shaft for each link that turns, or has wheels; its axis is u."""
+        wheels = self.declared.links[link].wheels
+        label = self.work.train.tree.axis(link)
+        if link == self.declared.frame and not wheels:
+            return
+        axis = self.work.layout.axes.get(label or "")
+        point, along = (axis.point, axis.direction) if axis else ((0.0, 0.0, 0.0), (0.0, 0.0, 1.0))
+        driven = {"id": "defines_speed", "boolean": link in self.declared.case(self.work.scene.state).inputs}
+        number = self.numbers["link", link] = self.add("shaft", link, [driven, *_frame(point, along, 1)])
+        self.relate("assembly", assembly=unit, part=number)
+        for name, wheel in wheels.items():
+            self.gear(name, wheel, number)
+
+    def gear(self, name: str, wheel: Wheel, shaft: int) -> None:
+        place = self.work.layout.wheels[name]
+        axis = self.work.layout.axes.get(place.axis)
+        along = axis.direction if axis else (0.0, 0.0, 1.0)
+        kind = _kind(wheel, place)
+        attributes = [
+            {"id": "number_of_teeth", "integer": wheel.count or 0},
+            *_sizes(kind, place, self.angle(name)),
+            *_frame(place.centre, along, 1),
+        ]
+        if axis is not None:
+            above = sum((a - b) * c for a, b, c in zip(place.centre, axis.point, along, strict=True))
+            attributes.append(_mm("u_coordinate_on_shaft", above))
+        number = self.numbers["wheel", name] = self.add(kind, name, attributes)
+        self.relate("assembly", assembly=shaft, part=number)
+
+    def angle(self, name: str) -> float:
+        """Pressure angle (deg) of a wheel's first pair with involutes; 20 of others."""
+        forms = (gear.tooth_form or self.declared.tooth_form for gear in self.declared.gears if name in gear.pair)
+        return next((degrees(form.pressure_angle.si) for form in forms if isinstance(form, Involute)), _ANGLE)
+
+    def stage(self, gear: GearPair, unit: int) -> None:
+        """The pair as a stage of its kind; a ring is its second gear."""
+        first, second = gear.pair
+        if self.declared.wheels[first][1].internal:
+            first, second = second, first
+        kinds = {self.components[self.numbers["wheel", each] - 1]["type"] for each in (first, second)}
+        worm = "worm_gear" in kinds
+        kind = "worm_stage" if worm else "bevel_stage" if "bevel_gear" in kinds else "cylindrical_stage"
+        attributes = []
+        if kind == "cylindrical_stage":
+            places = [self.work.layout.wheels[each] for each in (first, second)]
+            attributes.append(_mm("center_distance", _distance(*places)))
+        number = self.add(kind, gear.name, attributes)
+        self.relate("assembly", assembly=unit, part=number)
+        if worm and self.declared.wheels[second][1].kind == "worm":
+            first, second = second, first
+        roles = {"gear_1": self.numbers["wheel", first], "gear_2": self.numbers["wheel", second]}
+        self.relate("stage", stage=number, **roles)
+
+    def running(self) -> list[dict[str, Any]]:
+        """Speeds of shafts, where they are so many in a minute."""
+        found = []
+        for (kind, link), number in self.numbers.items():
+            if kind == "link" and link in self.speeds:
+                value = {"id": "rotational_speed", "unit": "1 / min", "floating_point": float(self.speeds[link])}
+                found.append({"id": number, "type": "shaft", "name": link, "attributes": [value]})
+        return found
+
+
+def _per_minute(work: Workpiece) -> Mapping[str, Fraction]:
+    """Speeds in turns a minute; plain numbers, and turns in a length, are taken for these."""
+    answer = work.train.solve(work.scene.state, method="exact")
+    declared = work.train.declaration
+    if declared.unit is None and answer.unit:
+        factor = 60 * (Quantity.parse(f"1 {answer.unit}", "speed", plain=False).base or Fraction(1))
+    elif declared.unit_days is not None:
+        factor = 1 / (declared.unit_days * 1440)
+    else:
+        factor = Fraction(1)
+    return {link: Fraction(speed) * factor for link, speed in answer.speeds.items()} if answer.verdict else {}
+
+
+def _kind(wheel: Wheel, place: WheelPlace) -> str:
+    if wheel.kind == "worm":
+        return "worm_gear"
+    if wheel.kind == "bevel" or wheel.kind == "contrate":
+        return "bevel_gear"
+    return "ring_gear" if wheel.internal else "bevel_gear" if place.cone else "cylindrical_gear"
+
+
+def _sizes(kind: str, place: WheelPlace, angle: float) -> Iterator[dict[str, Any]]:
+    if kind == "bevel_gear":
+        yield _mm("face_width", place.thickness)
+        yield {"id": "pitch_angle", "unit": "deg", "floating_point": degrees(place.cone)}
+    elif kind == "worm_gear":
+        yield _mm("axial_module", place.module)
+    else:
+        yield _mm("normal_module", place.module)
+        yield {"id": "normal_pressure_angle", "unit": "deg", "floating_point": angle}
+        yield {"id": "helix_angle_reference_diameter", "unit": "deg", "floating_point": 0.0}
+        yield _mm("face_width", place.thickness)
+
+
+def _mm(name: str, value: float) -> dict[str, Any]:
+    return {"id": name, "unit": "mm", "floating_point": value}
+
+
+def _frame(
+    point: tuple[float, float, float], along: tuple[float, float, float], reference: int
+) -> Iterator[dict[str, Any]]:
+    """Where a component stands: u along its axis, w across it."""
+    right, _ = basis(along)
+    for name, vector in (("u_axis_vector", along), ("support_vector", point), ("w_axis_vector", right)):
+        yield {"id": name, "unit": "mm", "floating_point_array": [float(each) for each in vector]}
+    yield {"id": "reference_component_for_position", "reference_component": reference}
+
+
+def _distance(first: WheelPlace, second: WheelPlace) -> float:
+    """Of the two wheels' axes (mm), those being parallel: of their centres but for the height."""
+    a, b = first.centre, second.centre
+    return float(((a[0] - b[0]) ** 2 + (a[1] - b[1]) ** 2) ** 0.5)

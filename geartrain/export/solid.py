@@ -1,0 +1,146 @@
+"""Closed surfaces of triangles: shapes raised along an axis, cylinders, and wheels of bevel and crown form."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from math import ceil, pi
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from geartrain.export.triangles import fill
+from geartrain.outlines import Contour
+
+if TYPE_CHECKING:
+    from geartrain.export.blanks import Blank
+    from geartrain.export.triangles import Floats, Integers
+
+FINE = 0.02  # mm, how far the chords of a solid may leave a curve
+_SAME = 7  # decimals of a mm to which points are one
+_STEPS = 24  # sides of an arbor
+
+
+@dataclass(frozen=True, slots=True)
+class Solid:
+    """Vertices (n, 3) in mm, and faces (m, 3) of their indices, counter-clockwise from outside."""
+
+    vertices: Floats
+    faces: Integers
+
+    @property
+    def volume(self) -> float:
+        """Volume within (mm3)."""
+        a, b, c = (self.vertices[self.faces[:, k]] for k in range(3))
+        return float(np.einsum("ij,ij->", a, np.cross(b, c))) / 6
+
+    def moved(self, turn: Floats, by: Sequence[float]) -> Solid:
+        """Turned by a matrix (3, 3), then moved."""
+        return Solid(self.vertices @ turn.T + np.asarray(by), self.faces)
+
+
+def joined(solids: Iterable[Solid]) -> Solid:
+    """Several surfaces as one list of triangles."""
+    parts = list(solids)
+    starts = np.cumsum([0, *(len(part.vertices) for part in parts)])
+    return Solid(
+        np.concatenate([part.vertices for part in parts]),
+        np.concatenate([part.faces + start for part, start in zip(parts, starts[:-1], strict=True)]),
+    )
+
+
+def wheel_solid(blank: Blank, tolerance: float = FINE) -> Solid:
+    """A wheel from its flat shape, its middle at the origin. One pitch is filled and repeated where teeth allow."""
+    contours = blank.contours
+    ring = blank.kind == "ring"
+    teeth = contours[1 if ring else 0]
+    others = [contour for contour in contours if contour is not teeth]
+    if blank.kind == "pins" or len(teeth.points) % blank.teeth:
+        return plate_solid(contours, blank.thickness, tolerance)
+    radius = float(abs(others[0].points).max()) if others else 0.0
+    own = len(teeth.points) // blank.teeth + 1
+    tooth = thinned(_open(teeth, own, tolerance), tolerance)
+    pitch = _pitch(tooth, radius, blank.teeth, tolerance)
+    return raised(*_repeated(*fill(pitch), blank.teeth), blank.thickness)
+
+
+def _open(contour: Contour, count: int, tolerance: float) -> Floats:
+    """The first vertices of a contour, its arcs between them as chords."""
+    bulges = np.append(contour.bulges[: count - 1], 0.0)
+    return Contour(contour.points[:count], bulges).flattened(tolerance)
+
+
+def thinned(points: Floats, tolerance: float) -> Floats:
+    """The fewest of a line's points that stay within a tolerance of it (Douglas and Peucker), its ends among them."""
+    kept = {0, len(points) - 1}
+    todo = [(0, len(points) - 1)]
+    while todo:
+        first, last = todo.pop()
+        if last - first < 2:
+            continue
+        along = points[last] - points[first]
+        away = points[first + 1 : last] - points[first]
+        length = float(np.hypot(*along))
+        off = abs(along[0] * away[:, 1] - along[1] * away[:, 0]) / length if length else np.hypot(*away.T)
+        if off.max() > tolerance:
+            middle = first + 1 + int(off.argmax())
+            kept.add(middle)
+            todo += [(first, middle), (middle, last)]
+    return points[sorted(kept)]
+
+
+def plate_solid(contours: Sequence[Contour], thickness: float, tolerance: float = FINE) -> Solid:
+    """A flat part with holes, its middle plane at z = 0."""
+    outer, *holes = (contour.flattened(tolerance) for contour in contours)
+    return raised(*fill(outer, holes), thickness)
+
+
+def cylinder(radius: float, start: float, end: float) -> Solid:
+    """An arbor along z."""
+    turn = 2 * pi * np.arange(_STEPS) / _STEPS
+    circle = radius * np.stack([np.cos(turn), np.sin(turn)], axis=1)
+    solid = raised(*fill(circle), end - start)
+    return Solid(solid.vertices + np.array([0.0, 0.0, (start + end) / 2]), solid.faces)
+
+
+def raised(points: Floats, triangles: Integers, thickness: float) -> Solid:
+    """A flat shape (n, 2) raised half the thickness to either side; walls stand on edges that have one triangle."""
+    return between(
+        np.column_stack([points, np.full(len(points), -thickness / 2)]),
+        np.column_stack([points, np.full(len(points), thickness / 2)]),
+        triangles,
+    )
+
+
+def between(low: Floats, high: Floats, triangles: Integers) -> Solid:
+    """The solid between two copies (n, 3) of one flat shape."""
+    edges = np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]])
+    known = {(a, b) for a, b in edges.tolist()}
+    rim = np.array([(a, b) for a, b in edges.tolist() if (b, a) not in known], dtype=np.int64)
+    n = len(low)
+    a, b = rim.T
+    walls = np.concatenate([np.stack([a, b, b + n], axis=1), np.stack([a, b + n, a + n], axis=1)])
+    return Solid(np.concatenate([low, high]), np.concatenate([triangles[:, ::-1], triangles + n, walls]))
+
+
+def _pitch(tooth: Floats, radius: float, teeth: int, tolerance: float) -> Floats:
+    """One tooth with its part of the web, from the first point's radius to the last one's."""
+    first, last = (float(np.arctan2(y, x)) for x, y in (tooth[0], tooth[-1]))
+    if not radius:
+        return np.concatenate([tooth, [[0.0, 0.0]]])
+    sweep = 2 * pi / teeth
+    steps = max(1, ceil(sweep / (2 * np.arccos(max(1 - tolerance / radius, -1.0)))))
+    turn = last - sweep * np.arange(steps + 1) / steps
+    assert abs((last - first - sweep + pi) % (2 * pi) - pi) < 1e-6
+    return np.concatenate([tooth, radius * np.stack([np.cos(turn), np.sin(turn)], axis=1)])
+
+
+def _repeated(points: Floats, triangles: Integers, times: int) -> tuple[Floats, Integers]:
+    """The same triangles in every pitch, points that meet made one."""
+    turn = 2 * pi * np.arange(times)[:, None] / times
+    c, s = np.cos(turn), np.sin(turn)
+    x, y = points.T
+    every = np.stack([c * x - s * y, s * x + c * y], axis=-1).reshape(-1, 2)
+    _, first, index = np.unique(every.round(_SAME) + 0.0, axis=0, return_index=True, return_inverse=True)
+    faces = (triangles + len(points) * np.arange(times)[:, None, None]).reshape(-1, 3)
+    return every[first], np.asarray(index).reshape(-1)[faces]

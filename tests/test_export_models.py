@@ -1,0 +1,298 @@
+"""Solids, read back by other libraries than those that write them: STL, animated GLB, STEP."""
+
+from __future__ import annotations
+
+import io
+import json
+import struct
+from fractions import Fraction
+from math import pi
+from pathlib import Path
+
+import numpy as np
+import pytest
+from commands import LOCKED
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from geartrain import GearTrain, GearTrainError, load
+from geartrain.export import Making, Workpiece, one_wheel, whole
+from geartrain.export.likeness import likeness_solid
+from geartrain.export.triangles import fill
+
+shapely = pytest.importorskip("shapely")
+
+
+def workpiece(name: str, state: str | None = None, **making: float) -> Workpiece:
+    return Workpiece(load(name), Making(**making), state)
+
+
+def inline(text: str, **making: float) -> Workpiece:
+    import yaml
+
+    return Workpiece(GearTrain.declare(yaml.safe_load(text)), Making(**making))
+
+
+# ----------------------------------------------------------------------------------------------------------- triangles
+
+
+@settings(max_examples=25)
+@given(st.data())
+def test_triangles_fill_a_polygon_with_holes_and_nothing_else(data: st.DataObject) -> None:
+    """A star-shaped outline with holes in its middle: the area is shapely's, no triangle lies beyond it."""
+    radii = data.draw(st.lists(st.floats(6, 12), min_size=3, max_size=24))
+    turn = 2 * pi * np.arange(len(radii)) / len(radii)
+    outer = np.array(radii)[:, None] * np.stack([np.cos(turn), np.sin(turn)], axis=1)
+    centres = data.draw(st.lists(st.sampled_from([(-1.6, 0), (1.6, 0), (0, 1.6), (0, -1.6), (0, 0)]), unique=True))
+    ring = 0.7 * np.stack([np.cos(turn), np.sin(turn)], axis=1)
+    holes = [ring + np.array(centre) for centre in centres]
+    points, triangles = fill(outer, holes)
+    true = shapely.Polygon(outer, holes)
+    parts = [shapely.Polygon(points[each]) for each in triangles]
+    assert true.is_valid
+    assert sum(part.area for part in parts) == pytest.approx(true.area, rel=1e-9)
+    assert shapely.union_all(parts).symmetric_difference(true).area < 1e-9 * true.area
+
+
+# ----------------------------------------------------------------------------------------------------------------- STL
+
+
+def stl(data: bytes, folder: Path):  # type: ignore[no-untyped-def]
+    mesh = pytest.importorskip("stl.mesh")
+    path = folder / "part.stl"
+    path.write_bytes(data)
+    return mesh.Mesh.from_file(str(path))
+
+
+@pytest.mark.parametrize(
+    ("train", "wheel"),
+    [("planetary-24-18-60", "s"), ("planetary-24-18-60", "ring"), ("moon-triangular", None), ("lantern-mill", "nut15")],
+)
+def test_a_wheel_as_stl_is_watertight_and_its_volume_is_its_area_times_its_thickness(
+    train: str, wheel: str | None, tmp_path: Path
+) -> None:
+    work = workpiece(train, thickness=3)
+    name = wheel or next(iter(work.blanks.wheels))
+    read = stl(one_wheel(work, name, ".stl"), tmp_path)
+    edges: dict[tuple[bytes, bytes], int] = {}
+    for triangle in read.vectors:
+        corners = [corner.tobytes() for corner in triangle]
+        for a, b in zip(corners, corners[1:] + corners[:1], strict=True):
+            edges[a, b] = edges.get((a, b), 0) + 1
+    assert set(edges.values()) == {1}
+    assert all((b, a) in edges for a, b in edges), "every edge is met once from either side"
+    outer, *holes = (contour.flattened(1e-4) for contour in work.blanks.wheels[name].contours)
+    area = shapely.Polygon(outer, holes).area
+    volume = read.get_mass_properties()[0]
+    assert float(volume) == pytest.approx(3 * area, rel=4e-3), "but for chords of 0.02 mm"
+    assert np.ptp(read.z) == pytest.approx(3)
+
+
+def test_every_part_of_an_assembly_is_closed_and_looks_outwards() -> None:
+    trimesh = pytest.importorskip("trimesh")
+    for name, state in (
+        ("worm", None),
+        ("bevel-differential", "straight"),
+        ("lantern-mill", None),
+        ("planetary", "ring fixed"),
+    ):
+        for part in workpiece(name, state).parts:
+            mesh = trimesh.Trimesh(part.placed.vertices, part.placed.faces, process=False)
+            assert mesh.is_watertight, (name, part.name)
+            assert mesh.is_winding_consistent, (name, part.name)
+            assert mesh.volume > 0, (name, part.name)
+
+
+def test_likenesses_stand_where_their_cones_say() -> None:
+    """A bevel wheel narrows to the side its cone opens from; a crown wheel's teeth point along its axis."""
+    work = workpiece("bevel-differential", "straight")
+    for wheel in work.scene.wheels:
+        if wheel.cone and wheel.kind == "bevel":
+            points = likeness_solid(wheel, work.scene.profiles[wheel.profile]).vertices
+            r = np.hypot(points[:, 0], points[:, 1])
+            wide = points[r > 0.99 * r.max(), 2]
+            assert abs(wide).max() < 1e-9, "the widest end lies in the plane of the pitch circle"
+            assert np.sign(points[abs(points[:, 2]) > 1e-9, 2]).tolist() == [wheel.facing] * int(
+                (abs(points[:, 2]) > 1e-9).sum()
+            )
+
+
+# ----------------------------------------------------------------------------------------------------------------- GLB
+
+
+class Glb:
+    """The chunks of a binary glTF file, by its specification: a header, JSON, bytes."""
+
+    def __init__(self, data: bytes) -> None:
+        magic, version, length = struct.unpack_from("<4sII", data)
+        assert (magic, version, length) == (b"glTF", 2, len(data))
+        size, kind = struct.unpack_from("<I4s", data, 12)
+        assert kind == b"JSON"
+        self.json = json.loads(data[20 : 20 + size])
+        _, kind = struct.unpack_from("<I4s", data, 20 + size)
+        assert kind == b"BIN\0"
+        self.bytes = data[28 + size :]
+        self.nodes = {node["name"]: at for at, node in reversed(list(enumerate(self.json["nodes"])))}
+
+    def values(self, accessor: int) -> np.ndarray:
+        found = self.json["accessors"][accessor]
+        width = {"SCALAR": 1, "VEC3": 3, "VEC4": 4}[found["type"]]
+        assert found["componentType"] == 5126
+        view = self.json["bufferViews"][found["bufferView"]]
+        raw = np.frombuffer(self.bytes, "<f4", found["count"] * width, view.get("byteOffset", 0))
+        return raw.reshape(-1, width).astype(float)
+
+    def channels(self) -> dict[str, tuple[np.ndarray, np.ndarray]]:
+        """Moments and quaternions by the name of the node they turn."""
+        (animation,) = self.json["animations"]
+        found = {}
+        for channel in animation["channels"]:
+            assert channel["target"]["path"] == "rotation"
+            sampler = animation["samplers"][channel["sampler"]]
+            name = self.json["nodes"][channel["target"]["node"]]["name"]
+            found[name] = self.values(sampler["input"])[:, 0], self.values(sampler["output"])
+        return found
+
+
+def turned(quaternions: np.ndarray) -> np.ndarray:
+    """Angle about z (rad) along the shorter way from key to key."""
+    angle = 2 * np.arctan2(quaternions[:, 2], quaternions[:, 3])
+    return np.unwrap(angle)
+
+
+def test_trimesh_reads_the_bodies_of_a_glb_in_metres() -> None:
+    trimesh = pytest.importorskip("trimesh")
+    pytest.importorskip("pygltflib")
+    work = workpiece("planetary-24-18-60")
+    scene = trimesh.load(io.BytesIO(whole(work, "glb")), file_type="glb")
+    assert {"frame", "sun", "planet", "carrier", "s", "p", "ring"} <= set(scene.graph.nodes)
+    parts = {part.name: part for part in work.parts}
+    for name, mesh in scene.geometry.items():
+        mesh.merge_vertices(merge_norm=True)
+        assert mesh.is_watertight
+        assert mesh.volume == pytest.approx(parts[name].solid.volume, rel=1e-3)
+    module = work.layout.wheels["ring"].module
+    assert max(scene.extents) == pytest.approx((60 + 2.5 + 4) * module / 1000, rel=2e-2)
+
+
+def test_key_frames_are_the_exact_angles_of_a_planetary_and_close() -> None:
+    """Willis by hand: ring of 60 held, sun of 24 turned: the carrier 2/7, the planet of 18 over the carrier -20/21."""
+    pytest.importorskip("pygltflib")
+    work = workpiece("planetary-24-18-60")
+    glb = Glb(whole(work, "glb"))
+    channels = glb.channels()
+    assert set(channels) == {"sun", "carrier", "planet"}
+    relative = {"sun": Fraction(1), "carrier": Fraction(2, 7), "planet": Fraction(-24, 18) * (1 - Fraction(2, 7))}
+    turns = 21  # the least number after which all three are home
+    for name, (moments, quaternions) in channels.items():
+        angle = turned(quaternions)
+        share = np.arange(len(moments)) / (len(moments) - 1)
+        assert np.allclose(moments / moments[-1], share, atol=1e-6)
+        assert np.abs(angle - angle[0] - 2 * pi * float(relative[name]) * turns * share).max() < 1e-4
+        assert np.abs(np.abs(quaternions[0] @ quaternions[-1]) - 1) < 1e-6, "it loops"
+        assert np.allclose(np.linalg.norm(quaternions, axis=1), 1, atol=1e-6)
+        assert (np.abs(np.diff(angle)) < pi).all(), "no step takes the longer way"
+    nodes = glb.json["nodes"]
+    assert glb.nodes["planet"] in nodes[glb.nodes["carrier"]]["children"], "the planet rides on the carrier"
+
+
+def test_key_frames_of_real_teeth_follow_the_motion() -> None:
+    """At its key frames the driven wheel of triangular teeth stands where the motion has it, and not in the mean."""
+    pytest.importorskip("pygltflib")
+    work = workpiece("moon-triangular")
+    turns = Fraction(1, 2)
+    channels = Glb(whole(work, "glb", turns)).channels()
+    train = work.train
+    links = tuple(train.declaration.links)
+    motion = train.motion(None, links)
+    worst = 0.0
+    for link, (moments, quaternions) in channels.items():
+        at = links.index(link)
+        error = motion.at(float(turns) * moments / moments[-1]).error[at]
+        parent = train.tree.parent[link][0]
+        if parent != train.declaration.frame:
+            continue
+        speed = work.scene.bodies[at].speed
+        mean = 2 * pi * float(Fraction(speed or 0) * turns) * moments / moments[-1]
+        start = work.scene.bodies[at].start
+        way = work.scene.bodies[at].sense * work.scene.bodies[at].direction[2]
+        angle = turned(quaternions)
+        away = angle - way * (start + mean + error)
+        assert np.abs((away + pi) % (2 * pi) - pi).max() < 1e-5
+        worst = max(worst, float(np.ptp(error)))
+    assert worst > 1e-3, "teeth that show"
+
+
+def test_a_train_that_cannot_turn_is_a_model_without_animation() -> None:
+    pytest.importorskip("pygltflib")
+    glb = Glb(whole(inline(LOCKED), "glb"))
+    assert "animations" not in glb.json or not glb.json["animations"]
+    assert glb.json["meshes"]
+
+
+def test_more_turns_than_key_frames_can_show_are_refused() -> None:
+    pytest.importorskip("pygltflib")
+    for turns in (Fraction(0), Fraction(-1), Fraction(10**9)):
+        with pytest.raises(GearTrainError, match="no animation"):
+            whole(workpiece("planetary-24-18-60"), "glb", turns)
+
+
+def test_the_same_train_is_the_same_file() -> None:
+    pytest.importorskip("pygltflib")
+    first, second = (whole(workpiece("planetary-24-18-60"), "glb") for _ in range(2))
+    assert first == second
+
+
+# ---------------------------------------------------------------------------------------------------------------- STEP
+
+
+PAIR = """
+links: {frame: {}, a: {wheels: {p: 11}}, b: {wheels: {w: 17}}}
+revolutes: [{pair: [frame, a], axis: A}, {pair: [frame, b], axis: B}]
+gears: [{pair: [p, w]}]
+inputs: {a: 1}
+"""
+
+
+@pytest.fixture(scope="module")
+def pair() -> tuple[Workpiece, bytes]:
+    """Eleven and seventeen teeth, and their STEP file."""
+    pytest.importorskip("OCP")
+    work = inline(PAIR, thickness=2, bore=4)
+    return work, whole(work, "step")
+
+
+def test_step_read_back_has_every_part_by_name_and_its_volume(pair: tuple[Workpiece, bytes], tmp_path: Path) -> None:
+    cascadio = pytest.importorskip("cascadio")
+    trimesh = pytest.importorskip("trimesh")
+    work, data = pair
+    path, mesh = tmp_path / "pair.step", tmp_path / "pair.glb"
+    path.write_bytes(data)
+    cascadio.step_to_glb(str(path), str(mesh), tol_linear=0.005, tol_angular=0.1)
+    scene = trimesh.load(mesh)
+    text = path.read_text(encoding="latin-1")
+    assert "SI_UNIT(.MILLI.,.METRE.)" in text
+    for part in work.parts:
+        assert f"'{part.name}'" in text, "named"
+    flat = scene.to_mesh()
+    true = sum(part.solid.volume for part in work.parts)
+    assert abs(flat.volume) * 1e9 == pytest.approx(true, rel=1e-2), "metres to millimetres"
+    low = np.min([part.placed.vertices.min(axis=0) for part in work.parts], axis=0)
+    high = np.max([part.placed.vertices.max(axis=0) for part in work.parts], axis=0)
+    assert sorted((flat.extents * 1000).round(1)) == pytest.approx(sorted((high - low).round(1)), abs=0.2)
+
+
+def test_step_keeps_arcs_and_parses_as_part_21(pair: tuple[Workpiece, bytes], tmp_path: Path) -> None:
+    p21 = pytest.importorskip("steputils.p21")
+    work, data = pair
+    path = tmp_path / "pair.step"
+    path.write_bytes(data)
+    kinds: dict[str, int] = {}
+    for section in p21.readfile(str(path)).data:
+        for instance in section.instances.values():
+            if hasattr(instance, "entity"):
+                kinds[instance.entity.name] = kinds.get(instance.entity.name, 0) + 1
+    assert kinds["MANIFOLD_SOLID_BREP"] == len(work.parts)
+    # of a tooth at least the land at its tip, the ground at its root and two fillets between are arcs
+    assert kinds["CIRCLE"] > 4 * (11 + 17)
+    assert kinds["CYLINDRICAL_SURFACE"] > 2 * (11 + 17)

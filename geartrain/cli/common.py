@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import json
+import os
+import re
 import sys
 from collections.abc import Iterable, Sequence
 from pathlib import Path
@@ -88,6 +90,56 @@ def suffix_of(out: Path | None, allowed: Iterable[str]) -> str:
     if suffix and suffix not in allowed:
         raise typer.BadParameter(f"'{suffix}' is no form of output here; use {', '.join(allowed)}", param_hint="-o")
     return suffix
+
+
+def file_name(text: str, ending: str) -> Path:
+    """A file in the current folder called after `text`, with whatever no file name should hold made a hyphen."""
+    stem = re.sub(r"[^\w.+-]+", "-", text).strip("-.")[:120]
+    return Path(f"{stem or 'train'}{ending}")
+
+
+def may_write(path: Path, force: bool = False) -> None:
+    """Make sure that a result may be written to `path`, before it is worked out.
+
+    An existing file is asked about on a terminal, and refused elsewhere, unless `force`. Raises `GearTrainError` for
+    what is no file name, for folders, and for folders that are missing or cannot be written to.
+    """
+    try:
+        trouble = _trouble(path)
+        exists = path.exists()
+    except (OSError, ValueError) as error:
+        why = getattr(error, "strerror", None) or str(error)
+        trouble, exists = _unnamed(path, why), False
+    if trouble is not None:
+        raise GearTrainError(trouble)
+    if not exists or force:
+        return
+    if sys.stdin.isatty() and sys.stderr.isatty():
+        typer.confirm(f"{path} exists; write over it?", abort=True, err=True)
+        return
+    raise GearTrainError(
+        Problem("the file exists", "nothing is written over unasked", "give --force, or another name", str(path))
+    )
+
+
+def _trouble(path: Path) -> Problem | None:
+    """What keeps a file from being written at `path`, its being there already aside."""
+    if path.name in ("", "..") or not path.name.isprintable():
+        return _unnamed(path, "a file has a name of printable letters")
+    folder, place = path.parent, str(path)
+    if path.is_dir():
+        return Problem("this is a folder", "a result is one file", f"name a file in it: {path / 'NAME'}", place)
+    if path.exists() and not path.is_file():
+        return Problem("this is no ordinary file", "a result takes a file's place", "name a file", place)
+    if not folder.is_dir():
+        return Problem("there is no such folder", f"the file would stand in {folder}", "make the folder first", place)
+    if not os.access(folder, os.W_OK | os.X_OK):
+        return Problem("the folder cannot be written to", "its permissions forbid it", "name another", str(folder))
+    return None
+
+
+def _unnamed(path: Path, why: str) -> Problem:
+    return Problem("this is no name for a file", why, "choose a shorter or plainer name", repr(str(path)))
 
 
 def plural(count: int, noun: str) -> str:

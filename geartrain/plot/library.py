@@ -7,6 +7,7 @@ from geartrain.errors import MissingExtraError
 try:
     from matplotlib import rc_context
     from matplotlib.axes import Axes
+    from matplotlib.collections import PolyCollection
     from matplotlib.figure import Figure
     from matplotlib.lines import Line2D
     from matplotlib.patches import Circle, FancyArrowPatch, Patch, PathPatch, Polygon, Rectangle
@@ -24,6 +25,7 @@ __all__ = [
     "Patch",
     "Path",
     "PathPatch",
+    "PolyCollection",
     "Polygon",
     "Rectangle",
     "Stroke",

@@ -3,12 +3,17 @@
 from __future__ import annotations
 
 from math import degrees
+from textwrap import fill
+from typing import TYPE_CHECKING, Any
 
-from geartrain.errors import GearTrainError, Problem
-from geartrain.plot.library import Axes, withStroke
+from geartrain.errors import GearTrainError, Problem, QuestionError
+from geartrain.plot.library import Axes, Figure, Stroke, withStroke
 from geartrain.teeth.triangular.contact import APPROACH, RECESS
 from geartrain.teeth.triangular.law import TriangularLaw
 from geartrain.teeth.triangular.path import STANDSTILL
+
+if TYPE_CHECKING:
+    from geartrain.analysis import GearTrain
 
 WIDTH = 9.0  # inches: 900 pixels at 100 dots per inch
 TEXT, SMALL = 11.0, 10.0  # points
@@ -17,6 +22,8 @@ TEXT, SMALL = 11.0, 10.0  # points
 BLACK, GREY, PALE = "#222222", "#6e6e6e", "#bdbdbd"
 BLUE, SKY, GREEN, ORANGE, RED, PURPLE = "#0072b2", "#56b4e9", "#009e73", "#e69f00", "#d55e00", "#cc79a7"
 HALO = (withStroke(linewidth=3.0, foreground="white"),)  # keeps text readable over lines
+HALO_ONLY = (Stroke(linewidth=3.0, foreground="white"),)
+LETTER = 0.62 / 72  # inches of a letter by points of its size, on the average
 PHASES = {APPROACH: BLUE, RECESS: RED, STANDSTILL: BLACK}
 
 
@@ -47,3 +54,42 @@ def plain(axes: Axes) -> None:
     axes.set_axisbelow(True)
     for side in ("top", "right"):
         axes.spines[side].set_visible(False)
+
+
+def write(axes: Axes, x: float, y: float, text: str, color: str = BLACK, **how: Any) -> None:
+    """Words as they are, and a halo behind them: words with a halo of their own are mere outlines in a vector file."""
+    how = {"ha": "center", "va": "center", "fontsize": SMALL, "color": color, "zorder": 8, "parse_math": False, **how}
+    behind = {key: value for key, value in how.items() if key != "gid"}
+    axes.text(x, y, text, path_effects=HALO_ONLY, **behind)
+    axes.text(x, y, text, **how)
+
+
+def sheet(width: float, height: float, title: str) -> tuple[Figure, Axes]:
+    """A figure whose axes are inches from its lower left corner, with a title at its top (two lines: 0.5 inches)."""
+    figure = Figure(figsize=(width, height), dpi=100)
+    axes = figure.add_axes((0.0, 0.0, 1.0, 1.0))
+    axes.set_xlim(0.0, width)
+    axes.set_ylim(0.0, height)
+    axes.set_axis_off()
+    room = int((width - 0.3) / (TEXT * LETTER))
+    words = fill(title, max(room, 20)).splitlines()
+    text = "\n".join(words[:2]) + (" ..." if len(words) > 2 else "")
+    axes.text(0.15, height - 0.12, text, fontsize=TEXT, color=BLACK, va="top", parse_math=False, gid="title")
+    return figure, axes
+
+
+def title_of(name: str, title: str) -> str:
+    """What stands above a picture of a train."""
+    return f"{name}: {title}" if title else name
+
+
+def too_many(train: GearTrain, count: int, most: int, what: str) -> None:
+    """Raise `QuestionError` where a picture would hold more than `most` of something."""
+    if count > most:
+        raise QuestionError(
+            Problem(
+                f"'{train.name}' has {count} {what}, too many for this picture",
+                f"a page holds {most} that can still be told apart",
+                "draw a part of it, or another kind of picture",
+            )
+        )

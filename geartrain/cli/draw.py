@@ -1,0 +1,54 @@
+"""`geartrain draw`: a train's plan, stick diagram, graph, speed diagram or dials as a picture."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from pathlib import Path
+from typing import Annotated, Literal
+
+import typer
+
+from geartrain.cli.common import PICTURES, VERDICT, File, file_name, may_write, suffix_of
+from geartrain.cli.common import draw as write_figure
+
+
+def run(
+    file: File,
+    kind: Annotated[
+        Literal["plan", "stick", "graph", "lever", "dials"], typer.Option("--kind", "-k", help="What is drawn.")
+    ] = "plan",
+    out: Annotated[
+        Path | None, typer.Option("--output-file", "-o", help="An .svg, .png or .pdf; default NAME-KIND.svg.")
+    ] = None,
+    state: Annotated[str | None, typer.Option("--state", help="The state; default the first, of lever all.")] = None,
+    turns: Annotated[str, typer.Option("--turns", help="Turns of the input, such as 3, -1/4, 2.5.")] = "0",
+    force: Annotated[bool, typer.Option("--force", help="Write over an existing file.")] = False,
+    labels: Annotated[bool, typer.Option("--labels/--no-labels", help="Names and numbers.")] = True,
+    output: Annotated[list[str] | None, typer.Option("--output", help="Of dials: only this; may be repeated.")] = None,
+) -> None:
+    """Draw a train: plan to scale, stick diagram, graph, speed diagram (lever), dials."""
+    from geartrain.files import load
+
+    suffix = suffix_of(out, PICTURES)
+    turned = _number(turns)
+    train = load(file)
+    if out is None:
+        out = file_name(f"{train.name}-{kind}", ".svg")
+    elif not suffix:
+        out = out.with_name(f"{out.name}.svg")
+    may_write(out, force)
+    from geartrain.plot import picture
+
+    figure = picture(train, kind, state, turned, labels, tuple(output or ()))
+    write_figure(figure, out, suffix or ".svg")
+    verdict = train.solve(state if state is not None or not train.states else train.states[0]).verdict
+    if not verdict:
+        typer.echo(f"the train is {verdict}", err=True)
+        raise typer.Exit(VERDICT)
+
+
+def _number(text: str) -> Fraction:
+    try:
+        return Fraction(text)
+    except (ValueError, ZeroDivisionError):
+        raise typer.BadParameter(f"'{text}' is no number of turns", param_hint="--turns") from None

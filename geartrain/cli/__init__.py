@@ -12,7 +12,9 @@ from geartrain.cli import (
     bench,
     check,
     compare,
+    draw,
     equations,
+    export,
     graph,
     listing,
     mesh,
@@ -23,6 +25,7 @@ from geartrain.cli import (
     sphere,
     teeth,
     torques,
+    view,
 )
 from geartrain.cli.common import NOT_USABLE, complain
 from geartrain.errors import GearTrainError, Problem
@@ -36,6 +39,9 @@ app = typer.Typer(
     epilog="Exit codes: 0 determined, every expectation holds; 1 a verdict or a failed expectation; 2 unusable input.",
 )
 app.command("report")(report.run)
+app.command("view")(view.run)
+app.command("draw")(draw.run)
+app.command("export")(export.run)
 app.command("compare")(compare.run)
 app.command("check")(check.run)
 app.command("solve")(solve.run)

@@ -1,0 +1,7 @@
+"""One page of HTML in which a train turns."""
+
+from __future__ import annotations
+
+from geartrain.viewer.page import page
+
+__all__ = ["page"]

@@ -1,0 +1,79 @@
+"""Scenes to one self-contained page: nothing is fetched, and no name in a train is ever read as HTML."""
+
+from __future__ import annotations
+
+import json
+from base64 import b64encode
+from collections.abc import Sequence
+from hashlib import sha256
+from html import escape
+from importlib.resources import files
+from string import Template
+
+from geartrain.errors import Problem, QuestionError
+from geartrain.scene import Scene
+
+_IN_SCRIPTS: dict[str, str | int | None] = {
+    "<": "\\u003c",
+    ">": "\\u003e",
+    "&": "\\u0026",
+    "\u2028": "\\u2028",
+    "\u2029": "\\u2029",
+}
+"""Letters that could end a script element, or start another; within JSON their escapes mean the same."""
+
+
+def page(scenes: Sequence[Scene], compare: bool = False, title: str | None = None, teeth: bool = True) -> str:
+    """HTML that shows one or more scenes, works from a file, and asks the network for nothing.
+
+    compare   the first two scenes side by side, with one crank; else one is shown at a time
+    title     of the page; default the names of the trains
+    teeth     False draws plain discs until the reader wants teeth
+
+    Raises `QuestionError` if there is no scene, or no second one to compare with.
+    """
+    if len(scenes) < 1 + compare:
+        raise QuestionError(Problem("too few scenes for a page", f"it was given {len(scenes)}", "give it one, or two"))
+    data = {"scenes": [scene.to_dict() for scene in scenes], "options": {"compare": compare, "teeth": teeth}}
+    program = _built("viewer.js")
+    return Template(_part("page.html")).substitute(
+        policy=escape(_policy(program)),
+        title=escape(title or _names(scenes)),
+        style=_built("viewer.css"),
+        verdicts="\n".join(_words(scene) for scene in scenes),
+        data=json_in_script(data),
+        program=program,
+    )
+
+
+def json_in_script(data: object) -> str:
+    """JSON that can stand inside a script element, whatever its strings hold."""
+    text = json.dumps(data, ensure_ascii=False, allow_nan=False, separators=(",", ":"))
+    return text.translate(str.maketrans(_IN_SCRIPTS))
+
+
+def _names(scenes: Sequence[Scene]) -> str:
+    return " and ".join(dict.fromkeys(scene.name for scene in scenes))
+
+
+def _words(scene: Scene) -> str:
+    """What a reader without scripts is told."""
+    state = f" ({scene.state})" if scene.state else ""
+    verdict = scene.verdict.get("text", "")
+    return f"<h1>{escape(scene.title or scene.name)}{escape(state)}</h1>\n<p>{escape(str(verdict))}</p>"
+
+
+def _policy(program: str) -> str:
+    """What the page may do: run its own script, be styled, and reach nothing."""
+    digest = b64encode(sha256(program.encode("utf-8")).digest()).decode("ascii")
+    allowed = f"script-src 'sha256-{digest}'; style-src 'unsafe-inline'; img-src data: blob:"
+    return f"default-src 'none'; {allowed}; connect-src 'none'; base-uri 'none'; form-action 'none'"
+
+
+def _built(name: str) -> str:
+    """A file of the built viewer, as it stands between tags."""
+    return _part(f"built/{name}").strip("\n")
+
+
+def _part(name: str) -> str:
+    return files(__package__).joinpath(name).read_text(encoding="utf-8")

@@ -1,0 +1,95 @@
+// Hands on the picture: a tap chooses a wheel, a drag on the crank's handle turns it.
+
+import { Plane, Raycaster, Vector2 } from "three";
+
+import { vector } from "./space.js";
+
+const STILL = 6; // pixels a finger may slip in a tap
+
+export class Hands {
+  constructor(stage) {
+    this.stage = stage;
+    this.ray = new Raycaster();
+    this.plane = new Plane();
+    this.listeners = {
+      pointerdown: (event) => this.down(event),
+      pointermove: (event) => this.move(event),
+      pointerup: (event) => this.up(event),
+      pointercancel: () => this.release(),
+    };
+    // before the camera's own hands
+    for (const [name, listener] of Object.entries(this.listeners)) stage.canvas.addEventListener(name, listener, true);
+  }
+
+  aim(event) {
+    const box = this.stage.canvas.getBoundingClientRect();
+    const x = ((event.clientX - box.left) / box.width) * 2 - 1;
+    const y = 1 - ((event.clientY - box.top) / box.height) * 2;
+    this.ray.setFromCamera(new Vector2(x, y), this.stage.camera);
+  }
+
+  down(event) {
+    this.aim(event);
+    this.from = [event.clientX, event.clientY];
+    const { crank } = this.stage.world;
+    if (!crank || !this.stage.machine.moves || !this.ray.intersectObject(crank.mesh, true).length) return;
+    this.dragged = this.crankAngle();
+    this.stage.controls.enabled = false;
+    this.stage.canvas.setPointerCapture(event.pointerId);
+  }
+
+  move(event) {
+    if (this.dragged === undefined) return;
+    this.aim(event);
+    const angle = this.crankAngle();
+    if (angle === null) return;
+    const raw = this.dragged === null ? 0 : angle - this.dragged;
+    this.dragged = angle;
+    const swept = raw - 2 * Math.PI * Math.round(raw / (2 * Math.PI));
+    const delta = this.stage.leadOf(swept);
+    if (delta) this.stage.onCrank(delta);
+  }
+
+  up(event) {
+    const slipped = Math.hypot(event.clientX - this.from[0], event.clientY - this.from[1]);
+    if (this.dragged === undefined && slipped <= STILL) this.pick(event);
+    this.release();
+  }
+
+  release() {
+    this.dragged = undefined;
+    this.stage.controls.enabled = true;
+  }
+
+  pick(event) {
+    this.aim(event);
+    const hit = this.ray.intersectObject(this.stage.world.root, true).find(({ object }) => shown(object));
+    this.stage.onPick(hit?.object.userData.wheel ?? null);
+  }
+
+  /** The angle (rad) at which the ray meets the plane of the crank, about its axis as its bearer has it. */
+  crankAngle() {
+    const { world, machine } = this.stage;
+    const body = machine.scene.bodies[machine.scene.crank];
+    const bearer = world.nodes[body.parent].matrixWorld;
+    const middle = vector(world.crank.at).applyMatrix4(world.crank.holder.matrix).applyMatrix4(bearer);
+    const normal = vector(body.direction).transformDirection(bearer);
+    this.plane.setFromNormalAndCoplanarPoint(normal, middle);
+    const met = this.ray.ray.intersectPlane(this.plane, vector([0, 0, 0]));
+    if (!met) return null;
+    const [x, y] = [vector([1, 0, 0]), vector([0, 1, 0])];
+    const one = Math.abs(normal.x) < 0.9 ? x : y;
+    one.addScaledVector(normal, -one.dot(normal)).normalize();
+    met.sub(middle);
+    return Math.atan2(met.dot(normal.clone().cross(one)), met.dot(one));
+  }
+
+  dispose() {
+    for (const [name, listener] of Object.entries(this.listeners)) this.stage.canvas.removeEventListener(name, listener, true);
+  }
+}
+
+function shown(object) {
+  for (let at = object; at; at = at.parent) if (!at.visible) return false;
+  return true;
+}

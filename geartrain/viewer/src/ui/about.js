@@ -1,0 +1,61 @@
+// What is to be said of a train as a whole: its note, what could not be shown, its sources.
+import { el, link } from "./element.js";
+
+function notice(each) {
+  return el(
+    "li",
+    {},
+    el("strong", {}, each.what),
+    each.why && `: ${each.why}`,
+    each.fix && el("span", { class: "quiet" }, ` ${each.fix}`),
+    each.place && el("span", { class: "quiet" }, ` (${each.place})`),
+  );
+}
+
+function source([key, each]) {
+  const { cite, url, ...rest } = each;
+  return el(
+    "li",
+    { id: `source-${key}` },
+    el("strong", {}, key),
+    cite && ` ${cite}`,
+    url && [" ", link(url)],
+    Object.values(rest).map((more) => el("span", { class: "quiet" }, ` ${more}`)),
+  );
+}
+
+function movement(scene) {
+  const { kind, why } = scene.movement;
+  const words = {
+    exact: "Every angle is exact: a rational multiple of the turns of the crank.",
+    real: "Mean speeds are exact; teeth and pins ripple as computed beforehand, and nothing is guessed in this page.",
+    mean: "What turns here are the mean speeds; what teeth and pins do could not be followed.",
+    still: "Nothing turns here.",
+  };
+  return el("p", {}, words[kind] ?? "", why && ` ${why}`);
+}
+
+export function about(side, many) {
+  const { scene } = side;
+  const sources = Object.entries(scene.sources);
+  return el(
+    "article",
+    {},
+    el("h3", {}, many ? side.label : "This train"),
+    scene.note && el("p", {}, scene.note),
+    el(
+      "p",
+      { class: "quiet" },
+      `${scene.wheels.length} wheels, ${scene.pairs.length} gear pairs${scene.couplings.length ? `, ${scene.couplings.length} pins` : ""}.`,
+      scene.unit && ` Speeds in ${scene.unit}.`,
+    ),
+    movement(scene),
+    scene.notices.length
+      ? [el("h4", {}, "What could not be shown as it is"), el("ul", { class: "notices" }, scene.notices.map(notice))]
+      : null,
+    el("h4", {}, "Sources"),
+    sources.length
+      ? el("ul", { class: "sources" }, sources.map(source))
+      : el("p", { class: "quiet" }, "None are named."),
+  );
+}

@@ -1,0 +1,37 @@
+// Exact values that go to the clipboard by a click.
+import { el } from "./element.js";
+import { shown } from "./number.js";
+
+async function copy(text) {
+  try {
+    await navigator.clipboard.writeText(text);
+    return true;
+  } catch {
+    const area = el("textarea", { class: "unseen", "aria-hidden": "true" });
+    area.value = text;
+    document.body.append(area);
+    area.select();
+    const done = document.execCommand("copy");
+    area.remove();
+    return done;
+  }
+}
+
+/** A button that shows an exact value and copies it; `say` tells the reader what happened. */
+export function copyable(text, say) {
+  const button = el(
+    "button",
+    { type: "button", class: "copy", title: `Copy ${text}`, "aria-label": `${text}, copy` },
+    shown(text),
+  );
+  button.addEventListener("click", async (event) => {
+    event.stopPropagation();
+    const focus = document.activeElement;
+    const done = await copy(text);
+    if (focus instanceof HTMLElement) focus.focus({ preventScroll: true });
+    button.classList.toggle("copied", done);
+    say(done ? `${text} copied` : "the browser does not let this page copy");
+    setTimeout(() => button.classList.remove("copied"), 1200);
+  });
+  return button;
+}

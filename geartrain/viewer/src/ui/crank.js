@@ -1,0 +1,158 @@
+// The crank: a wheel to drag, and the buttons, speed and place beside it.
+import { el, field, icon, svg } from "./element.js";
+import { parse, turns, typed } from "./number.js";
+
+const PLAY = "M7 4.5v15l12.5-7.5z";
+const PAUSE = "M7 5h3.6v14H7zM13.4 5H17v14h-3.6z";
+
+/** Turns of the hand for one turn of the lead: what the declared crank does, where that is a hand's work. */
+export function gearing(scene) {
+  const speed = scene.crank === null ? null : parse(scene.bodies[scene.crank].speed);
+  const size = speed ? Math.abs(Number(speed)) : 1;
+  return size >= 0.05 && size <= 20 ? size : 1;
+}
+
+export class Crank {
+  constructor(scene, drive) {
+    this.scene = scene;
+    this.drive = drive;
+    this.gearing = gearing(scene);
+    this.lead = scene.lead === null ? "the input" : scene.bodies[scene.lead].id;
+    this.wheel = this.#wheel();
+    this.playing = el("button", { type: "button", class: "round", onclick: () => drive.play() });
+    this.turns = el("output", { class: "turns", "aria-live": "off" });
+    this.fault = el("p", { class: "bad", role: "alert", id: "go-fault", hidden: true });
+    this.node = el(
+      "section",
+      { class: "crank", "aria-label": "crank" },
+      this.wheel,
+      el("div", { class: "where" }, this.turns, el("span", { class: "quiet" }, `turns of ${this.lead}`)),
+      el(
+        "div",
+        { class: "buttons" },
+        el(
+          "button",
+          { type: "button", onclick: () => drive.unit(-1), "aria-label": "one unit of the input back" },
+          icon("M6 5v14M19 5l-9 7 9 7z"),
+        ),
+        this.playing,
+        el(
+          "button",
+          { type: "button", onclick: () => drive.unit(1), "aria-label": "one unit of the input forward" },
+          icon("M18 5v14M5 5l9 7-9 7z"),
+        ),
+      ),
+      this.#speed(),
+      this.#goTo(),
+      this.fault,
+    );
+    if (!drive.movable) for (const each of this.node.querySelectorAll("button, input")) each.disabled = true;
+  }
+
+  #wheel() {
+    const spokes = [0, 60, 120, 180, 240, 300].map((turn) =>
+      svg("path", { d: "M0-7V-33", transform: `rotate(${turn})` }),
+    );
+    this.hand = svg(
+      "g",
+      {},
+      svg("circle", { class: "felloe", r: 36 }),
+      ...spokes,
+      svg("circle", { class: "hub", r: 7 }),
+      svg("circle", { class: "knob", cy: -36, r: 8 }),
+    );
+    const node = svg(
+      "svg",
+      {
+        viewBox: "-50 -50 100 100",
+        class: "handle",
+        tabindex: this.drive.movable ? 0 : -1,
+        role: "slider",
+        "aria-label": `crank, turns of ${this.lead}`,
+        "aria-valuenow": 0,
+        "aria-disabled": this.drive.movable ? null : "true",
+      },
+      this.hand,
+    );
+    node.addEventListener("pointerdown", (event) => this.#grab(event));
+    return node;
+  }
+
+  #grab(event) {
+    if (!this.drive.movable) return;
+    const box = this.wheel.getBoundingClientRect();
+    const angle = (each) =>
+      Math.atan2(each.clientY - box.top - box.height / 2, each.clientX - box.left - box.width / 2);
+    let before = angle(event);
+    this.wheel.setPointerCapture(event.pointerId);
+    const move = (each) => {
+      const now = angle(each);
+      const part = (now - before) / (2 * Math.PI);
+      before = now;
+      this.drive.advance((part - Math.round(part)) / this.gearing);
+    };
+    const end = () => {
+      this.wheel.removeEventListener("pointermove", move);
+      this.drive.advance(0, true);
+    };
+    this.wheel.addEventListener("pointermove", move);
+    this.wheel.addEventListener("lostpointercapture", end, { once: true });
+    event.preventDefault();
+    this.wheel.focus({ preventScroll: true });
+  }
+
+  #speed() {
+    const pace = el("span", { class: "pace" });
+    const slider = el("input", { type: "range", min: -3, max: 2, step: 0.1, value: Math.log10(this.drive.rate) });
+    const set = () => {
+      this.drive.rate = 10 ** Number(slider.value);
+      const text = Number(this.drive.rate.toPrecision(2));
+      pace.textContent = `${text} turns/s`;
+      slider.setAttribute("aria-valuetext", `${text} turns a second`);
+    };
+    slider.addEventListener("input", set);
+    set();
+    return field("Speed", el("span", { class: "with" }, slider, pace), { class: "field speed" });
+  }
+
+  #goTo() {
+    this.place = el("input", {
+      type: "text",
+      inputmode: "text",
+      placeholder: "235/19",
+      autocomplete: "off",
+      spellcheck: "false",
+      "aria-describedby": "go-fault",
+    });
+    return el(
+      "form",
+      { class: "go", onsubmit: (event) => this.#go(event) },
+      field("Go to turn", this.place),
+      el("button", { type: "submit" }, "Go"),
+    );
+  }
+
+  #go(event) {
+    event.preventDefault();
+    const wanted = typed(this.place.value);
+    this.fault.hidden = Boolean(wanted);
+    this.place.setAttribute("aria-invalid", String(!wanted));
+    this.fault.textContent = wanted ? "" : "That is no number of turns: write 12, 2.5, 235/19 or 1e6.";
+    if (wanted) this.drive.goTo(wanted);
+  }
+
+  set(drive, settled) {
+    const { part } = drive.at;
+    const made = Number(drive.at.floor % 1000000n); // the wheel is a likeness: a float will do
+    this.hand.setAttribute("transform", `rotate(${(((made + part) * this.gearing * 360) % 360).toFixed(3)})`);
+    this.turns.textContent = turns(drive.at);
+    if (settled || !drive.playing) {
+      this.wheel.setAttribute("aria-valuenow", String(Number(drive.at)));
+      this.wheel.setAttribute("aria-valuetext", `${turns(drive.at)} turns`);
+    }
+    if (this.shown === drive.playing) return;
+    this.shown = drive.playing;
+    this.playing.replaceChildren(icon(drive.playing ? PAUSE : PLAY));
+    this.playing.setAttribute("aria-label", drive.playing ? "pause" : "play");
+  }
+}

@@ -1,0 +1,90 @@
+// The dials of a train beside its picture, each with what its hands read.
+import { el } from "./element.js";
+import { Dial } from "./dial.js";
+import { Reading, told } from "./reading.js";
+
+const PLAIN = 12; // faces of their own, where the train declares none
+
+/** Dials with their hands; outputs without a dial get plain faces where the train declares no dial at all. */
+function gathered(scene, machine) {
+  const all = scene.pointers.map((_, index) => new Reading(scene, machine, index));
+  const names = [...new Set(scene.dials.map((dial) => dial.id))];
+  const declared = names
+    .map((name) => ({ name, hands: all.filter((each) => each.dial?.id === name) }))
+    .filter(({ hands }) => hands.length)
+    .map(({ name, hands }) => ({ name, hands, dial: hands[0].dial }));
+  if (declared.length) return declared;
+  return all.slice(0, PLAIN).map((each) => ({ name: each.pointer.output, dial: null, hands: [each] }));
+}
+
+class Card {
+  constructor({ name, dial, hands }, onChoose) {
+    this.hands = hands;
+    this.dial = new Dial(name, dial, hands);
+    this.values = hands.map(() => el("span", { class: "value" }));
+    const rows = hands.map((hand, order) =>
+      el(
+        "li",
+        {},
+        el(
+          "button",
+          {
+            type: "button",
+            class: "plain",
+            onclick: () => onChoose(hand.pointer.output),
+            "aria-label": `highlight the path to ${hand.pointer.output}`,
+          },
+          el("span", { class: `key hand-${order % 8}`, "aria-hidden": "true" }),
+          hand.pointer.output,
+        ),
+        this.values[order],
+      ),
+    );
+    const scale =
+      dial && dial.divisions > 1 ? `${dial.divisions} divisions${dial.turns > 1 ? ` on ${dial.turns} turns` : ""}` : "";
+    this.node = el(
+      "figure",
+      { class: "card" },
+      this.dial.node,
+      el(
+        "figcaption",
+        {},
+        el("strong", {}, name),
+        scale && el("span", { class: "quiet" }, ` ${scale}`),
+        dial?.note && el("span", { class: "quiet" }, ` ${dial.note}`),
+        el("ul", { class: "hands" }, rows),
+      ),
+    );
+  }
+
+  set(t, words) {
+    this.dial.set(t);
+    if (words) this.hands.forEach((hand, order) => (this.values[order].textContent = told(hand.at(t))));
+  }
+}
+
+export class Dials {
+  /** `sides` as in `interface.js`; `onChoose(output)`. */
+  constructor(sides, onChoose) {
+    this.cards = [];
+    this.node = el("div", { class: "dials" });
+    for (const side of sides) {
+      const cards = gathered(side.scene, side.machine).map((each) => new Card(each, onChoose));
+      this.cards.push(...cards);
+      if (sides.length > 1) this.node.append(el("h3", {}, side.label));
+      this.node.append(
+        cards.length
+          ? el(
+              "div",
+              { class: "cards" },
+              cards.map((card) => card.node),
+            )
+          : el("p", { class: "quiet" }, "This train declares no output."),
+      );
+    }
+  }
+
+  set(t, words) {
+    if (this.node.isConnected && this.node.offsetParent) for (const card of this.cards) card.set(t, words);
+  }
+}

@@ -1,0 +1,65 @@
+// The head of the page: which train, its verdict, its states, theme and keys.
+import { el, field } from "./element.js";
+import { loopParts, verdict } from "./verdict.js";
+
+export class Head {
+  constructor(all, { compare, theme, onKeys, onShow, onLoop }) {
+    this.all = all;
+    this.onShow = onShow;
+    this.onLoop = onLoop;
+    this.title = el("h1", {});
+    this.names = el("p", { class: "quiet names" });
+    this.verdicts = el("div", { class: "verdicts" });
+    this.first = this.#choice(0, false);
+    this.second = this.#choice(compare && all.length > 1 ? 1 : "", true);
+    const several = all.length > 1;
+    const word = all.some((side) => side.scene.state) && !compare ? "State" : "Train";
+    this.node = el(
+      "header",
+      { class: "head" },
+      el("div", {}, this.title, this.names, this.verdicts),
+      el(
+        "div",
+        { class: "choices" },
+        several && field(word, this.first),
+        several && field("Beside", this.second),
+        field("Theme", theme),
+        el("button", { type: "button", onclick: onKeys, "aria-haspopup": "dialog" }, "Keys"),
+      ),
+    );
+    this.#write();
+  }
+
+  #choice(value, none) {
+    const select = el(
+      "select",
+      { onchange: () => this.#changed() },
+      none && el("option", { value: "" }, "nothing"),
+      this.all.map((side, index) => el("option", { value: index }, side.label)),
+    );
+    select.value = String(value);
+    return select;
+  }
+
+  #changed() {
+    this.#write();
+    this.onShow(this.sides);
+  }
+
+  /** What is chosen: one side or two different ones. */
+  get sides() {
+    const chosen = [this.first.value, this.second.value].filter((value) => value !== "").map(Number);
+    return [...new Set(chosen)].map((index) => this.all[index]);
+  }
+
+  #write() {
+    const { sides } = this;
+    const many = sides.length > 1;
+    const titles = [...new Set(sides.map(({ scene }) => scene.title || scene.name))];
+    this.title.textContent = titles.join(" beside ");
+    this.names.textContent = [...new Set(sides.map(({ scene }) => scene.name))].join(", ");
+    this.verdicts.replaceChildren(
+      ...sides.map((side) => verdict(side, many, (of, loop) => this.onLoop(of, loopParts(of.scene, loop)))),
+    );
+  }
+}

@@ -1,0 +1,96 @@
+// Keys, and the page that tells them.
+import { el } from "./element.js";
+import { whole } from "./number.js";
+
+const ROWS = [
+  ["Left, Right", "turn back or on by five degrees; with Shift by one unit of the input"],
+  ["Page Up, Page Down", "one unit of the input on or back"],
+  ["Home", "back to the start"],
+  ["Space", "play or pause"],
+  ["G", "go to a number of turns"],
+  ["/", "find a wheel"],
+  ["1, 2, 3, 4", "look from the front, the back, the side, or freely"],
+  ["C", "next colours"],
+  ["E", "take apart, put together"],
+  ["H", "hide or show the front"],
+  ["T", "teeth on or off"],
+  ["?", "this list"],
+  ["Escape", "close, or let go of what is chosen"],
+];
+const TEXT = "input:not([type=checkbox]):not([type=range]), textarea, select";
+const LOOKS = { 1: "front", 2: "back", 3: "side", 4: "free" };
+
+export class Keys {
+  /** `actions`: drive, tools, goTo(), find(), escape() */
+  constructor(actions) {
+    this.actions = actions;
+    this.letters = el("input", { type: "checkbox" });
+    this.letters.checked = true;
+    const close = el("button", { type: "button", onclick: () => this.dialog.close() }, "Close");
+    this.dialog = el(
+      "dialog",
+      { "aria-labelledby": "keys-title" },
+      el("h2", { id: "keys-title" }, "Keys"),
+      el(
+        "dl",
+        { class: "keys" },
+        ROWS.map(([key, does]) => [el("dt", {}, el("kbd", {}, key)), el("dd", {}, does)]),
+      ),
+      el(
+        "p",
+        {},
+        "Drag the crank, or the handle in the picture. Drag elsewhere in the picture to look around, pinch or scroll to come nearer, click a wheel to know it.",
+      ),
+      el("label", { class: "field tick" }, el("span", {}, "Single letters are keys"), this.letters),
+      close,
+    );
+    this.node = this.dialog;
+    document.addEventListener("keydown", (event) => this.#press(event));
+  }
+
+  open() {
+    this.dialog.showModal();
+  }
+
+  #press(event) {
+    if (event.ctrlKey || event.metaKey || event.altKey || event.defaultPrevented || this.dialog.open) return;
+    const at = event.target instanceof Element ? event.target : document.body;
+    if (event.key === "Escape") {
+      if (at.matches(TEXT)) at.blur();
+      this.actions.escape();
+      return;
+    }
+    if (at.closest(TEXT)) return;
+    const done = this.#turn(event, at) || (this.letters.checked && this.#letter(event.key));
+    if (done) event.preventDefault();
+  }
+
+  #turn({ key, shiftKey }, at) {
+    const { drive } = this.actions;
+    if (key === " " && !at.closest("button, a, input, summary")) return (drive.play(), true);
+    if (at.closest("[role=tablist], input, .scroll") || (at.closest(".pages") && key.startsWith("Page"))) return false;
+    const sign = { ArrowRight: 1, ArrowUp: 1, ArrowLeft: -1, ArrowDown: -1 }[key];
+    const vertical = key === "ArrowUp" || key === "ArrowDown";
+    if (sign && !(vertical && !at.closest(".handle, canvas")))
+      return (shiftKey ? drive.unit(sign) : drive.nudge(sign), true);
+    if (key === "PageUp" || key === "PageDown") return (drive.unit(key === "PageUp" ? 1 : -1), true);
+    if (key === "Home") return (drive.goTo(whole(0)), true);
+    return false;
+  }
+
+  #letter(key) {
+    const { tools, goTo, find } = this.actions;
+    if (LOOKS[key]) return (tools.look(LOOKS[key]), true);
+    const act = {
+      g: goTo,
+      "/": find,
+      c: () => tools.next(),
+      e: () => tools.takeApart(),
+      h: () => tools.toggle(tools.front),
+      t: () => tools.toggle(tools.teeth),
+      "?": () => this.open(),
+    }[key.toLowerCase()];
+    act?.();
+    return Boolean(act);
+  }
+}

@@ -1,0 +1,89 @@
+// The panels at the side; on a narrow page, a sheet at the bottom.
+import { about } from "./about.js";
+import { Dials } from "./dials.js";
+import { el } from "./element.js";
+import { Outputs } from "./outputs.js";
+import { Path } from "./path.js";
+import { Tabs } from "./tabs.js";
+import { Wheels } from "./wheels.js";
+
+export class Panel {
+  constructor(owner) {
+    this.owner = owner;
+    this.places = Object.fromEntries(["Dials", "Outputs", "Wheels", "About"].map((name) => [name, el("div", {})]));
+    this.way = new Path({ onPair: (side, wheel) => owner.select(side, wheel), onClose: () => owner.letGo() });
+    this.tabs = new Tabs(
+      Object.entries(this.places).map(([name, node]) => ({ name, node })),
+      "panels",
+    );
+    this.tabs.onShow = () => this.open(true);
+    this.grip = el(
+      "button",
+      {
+        type: "button",
+        class: "grip",
+        "aria-expanded": "false",
+        "aria-controls": "panel",
+        onclick: () => this.open(!this.node.classList.contains("open")),
+      },
+      "Open panels",
+    );
+    this.node = el(
+      "aside",
+      { class: "panel", id: "panel", tabindex: -1, "aria-label": "panels" },
+      this.grip,
+      this.way.node,
+      this.tabs.node,
+    );
+  }
+
+  /** Opens or closes the sheet; where there is room the panels always stand open. */
+  open(on) {
+    this.node.classList.toggle("open", on);
+    this.grip.setAttribute("aria-expanded", String(on));
+    this.grip.textContent = on ? "Close panels" : "Open panels";
+    if (on && this.outputs) this.set(this.owner.drive.at, true);
+  }
+
+  use(sides) {
+    const say = (text) => this.owner.live.say(text);
+    const onChoose = (output) => this.owner.choose(output);
+    this.dials = new Dials(sides, onChoose);
+    this.outputs = new Outputs(sides, { onChoose, say });
+    this.wheels = new Wheels(sides, { onSelect: (side, index) => this.owner.select(side, index), say });
+    this.places.Dials.replaceChildren(this.dials.node);
+    this.places.Outputs.replaceChildren(this.outputs.node);
+    this.places.Wheels.replaceChildren(this.wheels.node);
+    this.places.About.replaceChildren(...sides.map((side) => about(side, sides.length > 1)));
+  }
+
+  set(t, words) {
+    this.dials.set(t, words);
+    this.outputs.set(t, words);
+  }
+
+  wheel(side, index) {
+    this.wheels.show(side, index);
+    if (index !== null) this.tabs.show("Wheels");
+    if (index !== null) this.wheels.detail.scrollIntoView({ block: "nearest" });
+  }
+
+  path(output, found) {
+    this.way.show(output, found);
+    this.outputs.mark(output);
+    this.open(true);
+  }
+
+  find() {
+    this.tabs.show("Wheels");
+    this.wheels.search.focus();
+    this.wheels.search.select();
+  }
+
+  letGo() {
+    const inside = this.way.node.contains(document.activeElement);
+    this.way.hide();
+    const pick = this.outputs.mark(null);
+    if (inside) pick?.focus();
+  }
+}

@@ -1,0 +1,25 @@
+// Light or dark: as the system says until the reader chooses.
+import { el } from "./element.js";
+
+const NAMES = { system: "As the system", light: "Light", dark: "Dark" };
+
+export class Theme {
+  constructor(stages) {
+    this.stages = stages.filter(Boolean);
+    this.system = matchMedia("(prefers-color-scheme: dark)");
+    this.system.addEventListener("change", () => this.apply());
+    this.select = el(
+      "select",
+      { "aria-label": "theme", onchange: () => this.apply() },
+      Object.entries(NAMES).map(([value, name]) => el("option", { value }, name)),
+    );
+  }
+
+  apply() {
+    const chosen = this.select.value;
+    const dark = chosen === "dark" || (chosen === "system" && this.system.matches);
+    document.documentElement.dataset.theme = dark ? "dark" : "light";
+    const background = getComputedStyle(document.documentElement).getPropertyValue("--stage").trim();
+    for (const stage of this.stages) stage.theme({ background });
+  }
+}

@@ -1,0 +1,102 @@
+// How the picture is shown: from where, in which colours, taken apart or whole.
+import { MODES, legend } from "./colours.js";
+import { el, field } from "./element.js";
+
+const NARROW = "(max-width: 820px)"; // as in page.css
+const LOOKS = { front: "Front", back: "Back", side: "Side", free: "Free" };
+
+export class Tools {
+  constructor(options) {
+    this.sides = [];
+    this.mode = "plain";
+    this.looking = "front";
+    this.looks = Object.entries(LOOKS).map(([look, name]) =>
+      el(
+        "button",
+        { type: "button", "data-look": look, "aria-pressed": "false", onclick: () => this.look(look) },
+        name,
+      ),
+    );
+    this.colour = el(
+      "select",
+      { onchange: () => this.paint(this.colour.value) },
+      Object.entries(MODES).map(([mode, name]) => el("option", { value: mode }, name)),
+    );
+    this.apart = el("input", { type: "range", min: 0, max: 1, step: 0.01, value: 0, oninput: () => this.#explode() });
+    this.front = el("input", {
+      type: "checkbox",
+      onchange: () => this.#each((stage) => stage.hideFront(this.front.checked)),
+    });
+    this.teeth = el("input", {
+      type: "checkbox",
+      onchange: () => this.#each((stage) => stage.showTeeth(this.teeth.checked)),
+    });
+    this.teeth.checked = options?.teeth !== false;
+    const tools = el(
+      "div",
+      { class: "tools", role: "group", "aria-label": "picture" },
+      el("div", { class: "group", role: "group", "aria-label": "look from" }, this.looks),
+      field("Colours", this.colour),
+      field("Apart", this.apart),
+      field("Hide front", this.front, { class: "field tick" }),
+      field("Teeth", this.teeth, { class: "field tick" }),
+    );
+    this.node = el("details", { class: "fold" }, el("summary", {}, "Picture"), tools);
+    const narrow = matchMedia(NARROW);
+    const fold = () => (this.node.open = !narrow.matches); // where there is room the tools always stand open
+    narrow.addEventListener("change", fold);
+    fold();
+  }
+
+  /** The sides now shown; the picture is brought to what the controls say. */
+  use(sides) {
+    this.sides = sides;
+    this.#each((stage) => {
+      stage.hideFront(this.front.checked);
+      stage.showTeeth(this.teeth.checked);
+    });
+    this.#explode();
+    this.look(this.looking);
+    this.paint(this.mode);
+  }
+
+  #each(act) {
+    for (const side of this.sides) {
+      if (side.stage) act(side.stage);
+    }
+  }
+
+  #explode() {
+    this.apart.setAttribute("aria-valuetext", `${Math.round(this.apart.value * 100)} %`);
+    this.#each((stage) => stage.explode(Number(this.apart.value)));
+  }
+
+  look(look) {
+    this.looking = look;
+    for (const each of this.looks) each.setAttribute("aria-pressed", String(each.dataset.look === look));
+    this.#each((stage) => stage.look(look));
+  }
+
+  paint(mode) {
+    this.mode = mode;
+    this.colour.value = mode;
+    for (const side of this.sides) side.legend.replaceChildren(legend(side.scene, mode));
+    this.#each((stage) => stage.paint(mode));
+  }
+
+  /** The next colours in turn. */
+  next() {
+    const modes = Object.keys(MODES);
+    this.paint(modes[(modes.indexOf(this.mode) + 1) % modes.length]);
+  }
+
+  toggle(control) {
+    control.checked = !control.checked;
+    control.dispatchEvent(new Event("change"));
+  }
+
+  takeApart() {
+    this.apart.value = Number(this.apart.value) > 0 ? 0 : 1;
+    this.#explode();
+  }
+}

@@ -1,0 +1,41 @@
+// The verdict on a train; a loop that holds it still is named in red, and a click shows it.
+import { el } from "./element.js";
+
+/** Pairs of a loop by name and its wheels by index; where it has no pairs, its bodies. */
+export function loopParts(scene, loop) {
+  const pairs = scene.pairs.filter((pair) => (loop.pairs ?? []).includes(pair.id));
+  return {
+    pairs: pairs.map((pair) => pair.id),
+    wheels: [...new Set(pairs.flatMap((pair) => pair.wheels))],
+    bodies: pairs.length
+      ? []
+      : scene.bodies.flatMap((body, index) => ((loop.links ?? []).includes(body.id) ? [index] : [])),
+  };
+}
+
+export function verdict(side, many, onLoop) {
+  const { kind, text, loops = [] } = side.scene.verdict;
+  const bad = kind !== "determined";
+  return el(
+    "div",
+    { class: bad ? "verdict bad" : "verdict", "data-verdict": kind },
+    el("p", {}, many && el("span", {}, `${side.label}: `), el("strong", {}, kind), text && text !== kind && ` ${text}`),
+    loops.length
+      ? el(
+          "ul",
+          { class: "loops" },
+          loops.map((loop) =>
+            el(
+              "li",
+              {},
+              el(
+                "button",
+                { type: "button", class: "loop", onclick: () => onLoop(side, loop) },
+                loop.text || (loop.pairs ?? loop.links ?? []).join(", "),
+              ),
+            ),
+          ),
+        )
+      : null,
+  );
+}

@@ -1,0 +1,120 @@
+"""A browser for the pages: Chromium, headless, drawing WebGL in software; what a page says and asks for is kept."""
+
+from __future__ import annotations
+
+import os
+import shutil
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+pytest.importorskip("playwright", reason="playwright is not installed: no page is tested in a browser")
+
+from playwright.sync_api import Browser, ConsoleMessage, Error, Page, Request, sync_playwright
+
+NAMES = ("chromium", "chromium-browser", "google-chrome")
+SWITCHES = (
+    "--no-sandbox",
+    "--use-gl=angle",
+    "--use-angle=swiftshader",
+    "--enable-unsafe-swiftshader",
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--disable-sync",
+    "--no-first-run",
+)
+PATIENCE = 90_000  # ms: software draws slowly on a busy machine
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    # playwright leaves its loop and its pipes to the interpreter's end
+    config.addinivalue_line("filterwarnings", "ignore::pytest.PytestUnraisableExceptionWarning")
+
+
+@dataclass
+class Shown:
+    """A page in the browser: `errors` and warnings it logged, and the addresses it asked for beside its own."""
+
+    page: Page
+    errors: list[str] = field(default_factory=list)
+    requests: list[str] = field(default_factory=list)
+
+    def run(self, script: str, argument: Any = None) -> Any:
+        """The value of an expression, or of a function of `argument`, in the page."""
+        return self.page.evaluate(script, argument)
+
+    def at(self, turns: str | float, output: str, scene: int = 0) -> float:
+        """The angle (rad) of an output after some turns of the lead."""
+        script = "([t, scene, name]) => { geartrain.setTurns(t); return geartrain.pointer(scene, name).angle; }"
+        return float(self.run(script, [turns, scene, output]))
+
+
+OpenPage = Callable[..., Shown]
+
+
+def find_browser() -> str | None:
+    """The browser's program: that of GEARTRAIN_BROWSER, else the first on the path."""
+    asked = os.environ.get("GEARTRAIN_BROWSER")
+    return shutil.which(asked) if asked else next(filter(None, map(shutil.which, NAMES)), None)
+
+
+@pytest.fixture(scope="session")
+def browser() -> Iterator[Browser]:
+    """One browser for all tests of a process."""
+    program = find_browser()
+    if program is None:
+        why = f"no browser: none of {', '.join(NAMES)} is on the path, and GEARTRAIN_BROWSER names none"
+        if os.environ.get("GEARTRAIN_REQUIRE_BROWSER"):
+            pytest.fail(why)
+        pytest.skip(why)
+    with sync_playwright() as playwright:
+        running = playwright.chromium.launch(executable_path=program, args=list(SWITCHES))
+        yield running
+        running.close()
+
+
+@pytest.fixture
+def open_page(browser: Browser) -> Iterator[OpenPage]:
+    """Opens a file as a user would, after a script of ours; further arguments (viewport, ...) are the window's."""
+    contexts = []
+
+    def show(path: Path, before: str = "", **window: Any) -> Shown:
+        context = browser.new_context(**({"viewport": {"width": 900, "height": 640}} | window))
+        contexts.append(context)
+        context.add_init_script(before)
+        shown = Shown(context.new_page())
+        address = path.resolve().as_uri()
+        _listen(shown, address)
+        shown.page.set_default_timeout(PATIENCE)
+        shown.page.goto(address)
+        shown.page.wait_for_function("globalThis.geartrain?.ready")
+        return shown
+
+    yield show
+    for context in contexts:
+        context.close()
+
+
+def _listen(shown: Shown, address: str) -> None:
+    def heard(message: ConsoleMessage) -> None:
+        if message.type in ("error", "warning") and not _is_of_the_driver(message.text):
+            shown.errors.append(message.text)
+
+    def failed(error: Error) -> None:
+        shown.errors.append(str(error))
+
+    def asked(request: Request) -> None:
+        if not request.url.startswith((address, "data:", "blob:")):
+            shown.requests.append(request.url)
+
+    shown.page.on("console", heard)
+    shown.page.on("pageerror", failed)
+    shown.page.on("request", asked)
+
+
+def _is_of_the_driver(text: str) -> bool:
+    """Software rendering grumbles about itself; a page can do nothing about that."""
+    return "GL Driver Message" in text or "GPU stall" in text

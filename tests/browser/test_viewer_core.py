@@ -1,0 +1,295 @@
+"""The viewer in a browser: exact motion, one self-contained file, pictures that are there."""
+
+from __future__ import annotations
+
+import base64
+import io
+import os
+from collections.abc import Callable, Iterator
+from fractions import Fraction
+from math import pi
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import pytest
+from matplotlib.image import imread, imsave
+
+from geartrain import load
+from geartrain.scene import make_scene
+from geartrain.viewer import page
+
+if TYPE_CHECKING:
+    from conftest import OpenPage, Shown
+
+TURN = 2 * pi
+PICTURES = Path(__file__).parent / "pictures"
+THREE = """
+links: {frame: {}, a: {wheels: {x: 20}}, b: {wheels: {y: 30}}, c: {wheels: {z: 40}}}
+revolutes: [{pair: [frame, a], axis: A}, {pair: [frame, b], axis: B}, {pair: [frame, c], axis: C}]
+"""
+
+
+def write_page(folder: Path, *names: str, **options: Any) -> Path:
+    """The page of shipped trains, in their first states."""
+    path = folder / "page.html"
+    path.write_text(page([make_scene(load(name)) for name in names], **options), encoding="utf-8")
+    return path
+
+
+def apart(one: float, other: float) -> float:
+    """Distance of two directions (rad)."""
+    return abs((one - other + pi) % TURN - pi)
+
+
+def directions(name: str, turns: Fraction) -> Iterator[tuple[str, float]]:
+    """Outputs and their mean directions after some turns of the first input, by Fractions alone."""
+    train = load(name)
+    case = train.declaration
+    state = train.states[0] if train.states else None
+    inputs = case.inputs if state is None else case.states[state].inputs or case.inputs
+    lead = next(link for link, speed in inputs.items() if speed)
+    solved = train.solve(state)
+    for output, asked in case.outputs.items():
+        of, base = asked.of or output, asked.relative_to or case.frame
+        ratio = (solved.speeds[of] - solved.speeds[base]) / solved.speeds[lead]
+        part = ratio * turns
+        yield output, TURN * float(part - part.numerator // part.denominator)
+
+
+@pytest.mark.parametrize("name", ["freeth-2021", "bevel-differential", "zf-8hp70"])
+def test_a_page_opens_from_disk_without_errors_or_requests(open_page: OpenPage, tmp_path: Path, name: str) -> None:
+    shown = open_page(write_page(tmp_path, name))
+    shown.page.wait_for_timeout(300)
+    assert shown.errors == []
+    assert shown.requests == []
+    assert shown.run("geartrain.stages[0] !== null"), "no WebGL"
+
+
+@pytest.mark.parametrize("name", ["price-1974", "prague-orloj", "gosper-2005", "humpage"])
+def test_pointers_of_ideal_trains_stand_where_fractions_say(open_page: OpenPage, tmp_path: Path, name: str) -> None:
+    shown = open_page(write_page(tmp_path, name))
+    for text in ("0", "1", "-3/7", "235/19", "1000000", "123456789/254", "1e15", "987654321987654321987/1000003"):
+        for output, expected in directions(name, Fraction(text)):
+            assert apart(shown.at(text, output), expected) < 1e-12, (output, text)
+
+
+def test_a_float_of_turns_is_taken_as_exactly_what_it_is(open_page: OpenPage, tmp_path: Path) -> None:
+    shown = open_page(write_page(tmp_path, "price-1974"))
+    for turns in (0.1, -2.7, 1e9 + 0.1, 123456.789):
+        for output, expected in directions("price-1974", Fraction(turns)):
+            assert apart(shown.at(turns, output), expected) < 1e-12, (output, turns)
+
+
+@pytest.mark.parametrize(
+    "name", ["freeth-2008", "freeth-2021", "moon-triangular", "freeth-2021-teeth", "pennestri-2002-teeth"]
+)
+def test_pins_and_real_teeth_move_as_the_motion_says(open_page: OpenPage, tmp_path: Path, name: str) -> None:
+    train = load(name)
+    motion = train.motion()
+    turns = np.array([0.0, 0.4140625, 3.25, 1000.0, 76543.21875, 1e6 + 0.8125])
+    errors = motion.at(turns).error
+    shown = open_page(write_page(tmp_path, name))
+    rippled = 0.0
+    for at, turn in enumerate(turns):
+        mean = dict(directions(name, Fraction(turn)))
+        for row, output in enumerate(motion.outputs):
+            expected = mean[output] + motion.starts[row] + errors[row, at]
+            assert apart(shown.at(float(turn), output), expected) < 1e-9, (output, turn)
+            rippled = max(rippled, abs(errors[row, at]))
+    assert rippled > 1e-3, "nothing rippled: this asks nothing"
+
+
+def test_a_slot_follows_its_pin_as_plane_geometry_says(open_page: OpenPage, tmp_path: Path) -> None:
+    """The drawn pin stays in the drawn slot: both parts are asked where they are."""
+    shown = open_page(write_page(tmp_path, "freeth-2008"))
+    script = """t => {
+      geartrain.setTurns(t);
+      const stage = geartrain.stages[0]; stage.render(); stage.world.root.updateMatrixWorld(true);
+      return geartrain.scenes[0].couplings.map(c => {
+        const {nodes} = stage.world;
+        const through = (body, p) => stage.camera.position.clone().set(...p).applyMatrix4(nodes[body].matrixWorld);
+        const [pin, axis] = [through(c.pin, c.pin_at), through(c.slot, c.slot_at)];
+        const rail = through(c.slot, c.pin_at).sub(axis).normalize();
+        return pin.sub(axis).normalize().dot(rail);
+      });
+    }"""
+    for turns in ("0", "1/3", "7/5", "1000001/13"):
+        assert shown.run(script, turns) == pytest.approx([1.0], abs=1e-9)
+
+
+def test_meshing_wheels_have_one_velocity_where_they_touch(open_page: OpenPage, tmp_path: Path) -> None:
+    """Spin of both wheels at the pitch point, by finite differences of what is drawn."""
+    shown = open_page(write_page(tmp_path, "planetary"))
+    script = """h => {
+      const stage = geartrain.stages[0], scene = geartrain.scenes[0], Vector = stage.camera.position.constructor;
+      const at = t => {
+        geartrain.setTurns(t); stage.world.turn(); stage.world.root.updateMatrixWorld(true);
+        return stage.world.nodes.map(n => n.matrixWorld.clone());
+      };
+      const [before, after] = [at(0.3 - h), at(0.3 + h)];
+      return scene.pairs.map(({wheels: [i, j]}) => {
+        const [a, b] = [scene.wheels[i], scene.wheels[j]];
+        const middle = at(0.3);
+        const where = w => new Vector(...w.centre).applyMatrix4(middle[w.body]);
+        const [p, q] = [where(a), where(b)];
+        const [big, small] = a.radius > b.radius ? [a, b] : [b, a];
+        const [from, to] = big === a ? [p, q] : [q, p];
+        const contact = from.clone().add(to.clone().sub(from).setZ(0).setLength(big.radius));
+        const speed = w => {
+          const own = contact.clone().applyMatrix4(middle[w.body].clone().invert());
+          const [ahead, behind] = [after, before].map(pose => own.clone().applyMatrix4(pose[w.body]));
+          return ahead.sub(behind).divideScalar(2 * h);
+        };
+        const [u, v] = [speed(a), speed(b)];
+        return [u.clone().sub(v).length(), u.length()];
+      });
+    }"""
+    for slip, _speed in shown.run(script, 1e-5):
+        assert slip < 1e-4
+
+
+def canvas_of(shown: Shown, size: tuple[int, int] = (240, 180)) -> np.ndarray:
+    """What the first stage shows, drawn at a size of ours: (height, width, 3), 0 to 1."""
+    script = """([width, height]) => {
+      const [stage] = geartrain.stages;
+      const place = {position: 'fixed', left: 0, top: 0, width: `${width}px`, height: `${height}px`};
+      Object.assign(stage.canvas.style, place);
+      stage.theme({background: '#f4f1ea'});
+      stage.resize(); stage.look('free'); stage.setTurns('1/7'); stage.render();
+      return stage.canvas.toDataURL('image/png').split(',')[1];
+    }"""
+    return imread(io.BytesIO(base64.b64decode(shown.run(script, list(size)))))[:, :, :3]
+
+
+@pytest.mark.parametrize("name", ["planetary-24-18-60", "bevel-differential"])
+def test_the_picture_is_the_one_that_was_looked_at_and_approved(open_page: OpenPage, tmp_path: Path, name: str) -> None:
+    """Within a tolerance; GEARTRAIN_NEW_PICTURES=1 stores what is drawn, to be looked at and approved."""
+    drawn = canvas_of(open_page(write_page(tmp_path, name)))
+    stored = PICTURES / f"{name}.png"
+    if os.environ.get("GEARTRAIN_NEW_PICTURES"):
+        imsave(stored, drawn)
+    approved = imread(stored)[:, :, :3]
+    assert drawn.shape == approved.shape
+    assert drawn.std() > 0.05, "the picture is blank"
+    coarse = [picture.reshape(45, 4, 60, 4, 3).mean(axis=(1, 3)) for picture in (drawn, approved)]
+    off = np.abs(coarse[0] - coarse[1])
+    assert off.mean() < 0.01
+    assert np.quantile(off, 0.99) < 0.15
+
+
+def test_dragging_the_crank_turns_the_train(open_page: OpenPage, tmp_path: Path) -> None:
+    """A quarter turn about the arbor, counter-clockwise as seen, is a quarter turn of the sun."""
+    shown = open_page(write_page(tmp_path, "planetary-24-18-60"))
+    script = """() => {
+      const [stage] = geartrain.stages, {crank, root} = stage.world;
+      stage.look('front'); stage.render(); root.updateMatrixWorld(true);
+      const box = stage.canvas.getBoundingClientRect();
+      const seen = p => { p.project(stage.camera);
+        return [box.left + (p.x + 1) / 2 * box.width, box.top + (1 - p.y) / 2 * box.height]; };
+      const knob = crank.mesh.children[1];
+      const Vector = stage.camera.position.constructor;
+      return [seen(new Vector().setFromMatrixPosition(crank.mesh.matrixWorld)),
+              seen(new Vector().setFromMatrixPosition(knob.matrixWorld))];
+    }"""
+    (x, y), (u, v) = shown.run(script)
+    reach, start = np.hypot(u - x, v - y), np.arctan2(y - v, u - x)
+    assert reach > 20
+    shown.page.mouse.move(u, v)
+    shown.page.mouse.down()
+    for angle in start + np.linspace(0, pi / 2, 19)[1:]:
+        shown.page.mouse.move(x + reach * np.cos(angle), y - reach * np.sin(angle))
+    shown.page.mouse.up()
+    turned = float(Fraction(str(shown.run("String(geartrain.turns)"))))
+    assert turned == pytest.approx(0.25, abs=0.03)
+    assert apart(shown.run("geartrain.pointer(0, 'carrier').angle"), TURN * turned * 2 / 7) < 1e-9
+
+
+def test_a_tap_on_a_wheel_tells_which_one(open_page: OpenPage, tmp_path: Path) -> None:
+    shown = open_page(write_page(tmp_path, "planetary-24-18-60"))
+    script = """() => {
+      const [stage] = geartrain.stages;
+      stage.onPick = wheel => { globalThis.picked = wheel; };
+      stage.look('front'); stage.render();
+      const box = stage.canvas.getBoundingClientRect(), Vector = stage.camera.position.constructor;
+      const {wheels} = geartrain.scenes[0], [x, y] = wheels[2].centre, off = Math.hypot(x, y);
+      return wheels.map(w => {  // away from where they mesh
+        const reach = (w.kind === 'ring' ? 1.05 : 0.9) * w.radius / off;
+        const rim = new Vector(...w.centre).add(new Vector(-reach * y, reach * x, 0)).project(stage.camera);
+        return [box.left + (rim.x + 1) / 2 * box.width, box.top + (1 - rim.y) / 2 * box.height];
+      });
+    }"""
+    for wheel, (x, y) in enumerate(shown.run(script)):
+        shown.page.mouse.click(x, y)
+        assert shown.run("globalThis.picked") == wheel
+
+
+@pytest.mark.parametrize(
+    ("rest", "kind"),
+    [
+        ("gears: [{pair: [x, y]}, {pair: [y, z]}, {pair: [z, x]}]\ninputs: {a: 1}", "locked"),
+        ("gears: [{pair: [x, y]}]\ninputs: {a: 1}", "free"),
+        ("gears: [{pair: [x, y]}, {pair: [y, z]}]\ninputs: {a: 1, c: 1}", "contradictory"),
+    ],
+)
+def test_trains_that_cannot_turn_are_shown_standing(open_page: OpenPage, tmp_path: Path, rest: str, kind: str) -> None:
+    scene = make_scene(load(THREE + rest))
+    assert scene.verdict["kind"] == kind
+    path = tmp_path / "page.html"
+    path.write_text(page([scene]), encoding="utf-8")
+    shown = open_page(path)
+    shown.run("geartrain.setTurns('5/7')")
+    assert shown.errors == []
+    assert kind in shown.page.inner_text("body").lower()
+    red = shown.run("""() => geartrain.stages[0].world.wheels.map(({meshes: [mesh]}) => {
+      const [r, g, b] = mesh.instanceColor.array;
+      return r > 3 * g && r > 3 * b;
+    })""")
+    assert red == [any(pair.broken and at in pair.wheels for pair in scene.pairs) for at in range(3)]
+    assert any(red) == (kind == "locked") or kind == "contradictory"
+
+
+def test_without_webgl_all_but_the_picture_is_there(open_page: OpenPage, tmp_path: Path) -> None:
+    blind = "HTMLCanvasElement.prototype.getContext = () => null"
+    shown = open_page(write_page(tmp_path, "price-1974"), before=blind)
+    assert shown.run("geartrain.stages") == [None]
+    for output, expected in directions("price-1974", Fraction(5, 7)):
+        assert apart(shown.at("5/7", output), expected) < 1e-12
+    assert "determined" in shown.page.inner_text("body")
+
+
+def test_nothing_is_drawn_while_nothing_changes(open_page: OpenPage, tmp_path: Path) -> None:
+    shown = open_page(write_page(tmp_path, "planetary-24-18-60"))
+    shown.page.wait_for_timeout(500)
+    frames = "geartrain.stages[0].renderer.info.render.frame"
+    before = shown.run(frames)
+    shown.page.wait_for_timeout(300)
+    assert shown.run(frames) == before
+    shown.run("geartrain.setTurns(1/3)")
+    shown.page.wait_for_function(f"{frames} > {before}")
+
+
+def test_the_work_of_a_frame_is_told(
+    open_page: OpenPage, tmp_path: Path, record_property: Callable[[str, object], None]
+) -> None:
+    """Measured and reported, with calls to the GPU that do nothing: a busy machine proves nothing about a laptop."""
+    shown = open_page(write_page(tmp_path, "freeth-2021"))
+    script = """() => {
+      const [stage] = geartrain.stages, gl = stage.renderer.getContext();
+      const calls = ['drawElementsInstanced', 'drawArraysInstanced', 'drawArrays', 'drawElements'];
+      for (const name of calls) gl[name] = () => {};
+      const took = [];
+      for (let n = 0; n < 40; n += 1) {
+        const began = performance.now();
+        stage.setTurns(n / 37); stage.render();
+        took.push(performance.now() - began);
+      }
+      return {milliseconds: took.sort((a, b) => a - b)[20], calls: stage.renderer.info.render.calls,
+              triangles: stage.renderer.info.render.triangles, first: geartrain.firstPicture};
+    }"""
+    told = shown.run(script)
+    for name, value in told.items():
+        record_property(name, value)
+    print(f"freeth-2021: {told}")
+    assert told["milliseconds"] > 0
+    assert 69 <= told["calls"] < 1000

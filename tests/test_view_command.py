@@ -1,0 +1,206 @@
+"""`geartrain view` and the page it writes: one careful file, and what is refused."""
+
+from __future__ import annotations
+
+import json
+import re
+import shutil
+import subprocess
+from base64 import b64encode
+from collections.abc import Callable
+from dataclasses import replace
+from hashlib import sha256
+from html.parser import HTMLParser
+from pathlib import Path
+
+import pytest
+from commands import LOCKED, RIGHT, call
+
+import geartrain.viewer
+from geartrain import GearTrainError, load
+from geartrain.errors import QuestionError
+from geartrain.scene import make_scene
+from geartrain.viewer import page
+
+VIEWER = Path(geartrain.viewer.__file__).parent
+EVIL = "</script><script>alert(1)</script><!-- \u2028 &amp; <img src=x onerror=alert(2)>"
+Written = Callable[..., Path]
+
+
+class Reader(HTMLParser):
+    """Scripts and tags as a reader of HTML that knows nothing of the page finds them."""
+
+    def __init__(self, text: str) -> None:
+        super().__init__()
+        self.scripts: list[str] = []
+        self.tags: list[tuple[str, dict[str, str | None]]] = []
+        self.inside = False
+        self.feed(text)
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        self.tags.append((tag, dict(attrs)))
+        self.inside = tag == "script"
+        if self.inside:
+            self.scripts.append("")
+
+    def handle_endtag(self, tag: str) -> None:
+        self.inside = False
+
+    def handle_data(self, data: str) -> None:
+        if self.inside:
+            self.scripts[-1] += data
+
+
+@pytest.fixture
+def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """An empty folder, which is the current one."""
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+def test_the_page_of_the_largest_train_is_below_two_megabytes(here: Path) -> None:
+    done = call("view", "freeth-2021")
+    written = here / "freeth-2021.html"
+    assert done.exit_code == 0, done.output
+    assert 100_000 < written.stat().st_size < 2_000_000
+    assert f"{written.stat().st_size / 1000:,.0f} kB" in done.output
+    assert [path.name for path in here.iterdir()] == ["freeth-2021.html"]
+
+
+def test_the_program_in_the_page_is_below_seven_hundred_kilobytes() -> None:
+    assert (VIEWER / "built" / "viewer.js").stat().st_size < 700_000
+
+
+def test_the_page_carries_the_scene_unchanged_and_nothing_that_points_elsewhere() -> None:
+    scene = make_scene(load("freeth-2008"))
+    read = Reader(page([scene]))
+    assert json.loads(read.scripts[0])["scenes"] == json.loads(json.dumps([scene.to_dict()]))
+    kinds = [name for name, _ in read.tags]
+    assert kinds.count("script") == 2
+    for name, attributes in read.tags:
+        assert attributes.get("src") is None, name
+        assert attributes.get("href", "data:,") == "data:,", name
+
+
+def test_the_policy_of_the_page_lets_its_own_script_run_and_nothing_reach_out() -> None:
+    read = Reader(page([make_scene(load("planetary-24-18-60"))]))
+    policy = next(each["content"] for name, each in read.tags if name == "meta" and "http-equiv" in each)
+    assert policy is not None
+    rules = dict(rule.strip().split(" ", 1) for rule in policy.split(";"))
+    digest = b64encode(sha256(read.scripts[1].encode("utf-8")).digest()).decode()
+    assert rules["script-src"] == f"'sha256-{digest}'"
+    assert rules["default-src"] == rules["connect-src"] == "'none'"
+    assert "unsafe-eval" not in policy
+
+
+def test_names_that_look_like_html_stay_names() -> None:
+    scene = replace(make_scene(load("planetary-24-18-60")), name=EVIL, title=EVIL, verdict={"text": EVIL})
+    read = Reader(page([scene]))
+    assert [name for name, _ in read.tags].count("script") == 2
+    assert "img" not in [name for name, _ in read.tags]
+    assert json.loads(read.scripts[0])["scenes"][0]["title"] == EVIL
+
+
+def test_a_page_needs_a_scene_and_a_comparison_two() -> None:
+    with pytest.raises(QuestionError, match="too few scenes"):
+        page([])
+    with pytest.raises(QuestionError, match="too few scenes"):
+        page([make_scene(load("planetary-24-18-60"))], compare=True)
+
+
+def scenes_of(path: Path) -> tuple[list[dict[str, object]], dict[str, object]]:
+    data = json.loads(Reader(path.read_text(encoding="utf-8")).scripts[0])
+    return data["scenes"], data["options"]
+
+
+def test_all_states_stand_in_one_page_or_the_one_that_is_named(here: Path) -> None:
+    states = load("zf-8hp70").states
+    assert call("view", "zf-8hp70").exit_code == 0
+    scenes, _ = scenes_of(here / "zf-8hp70.html")
+    assert [scene["state"] for scene in scenes] == list(states)
+    assert call("view", "zf-8hp70", "--state", states[2], "-o", "one.html").exit_code == 0
+    assert [scene["state"] for scene in scenes_of(here / "one.html")[0]] == [states[2]]
+
+
+def test_two_trains_stand_side_by_side(here: Path) -> None:
+    assert call("view", "price-1974", "freeth-2006", "--no-teeth").exit_code == 0
+    scenes, options = scenes_of(here / "price-1974-freeth-2006.html")
+    assert [scene["name"] for scene in scenes] == ["price-1974", "freeth-2006"]
+    assert options == {"compare": True, "teeth": False}
+
+
+def test_a_train_that_cannot_turn_is_shown_and_the_exit_code_tells(train_file: Written, here: Path) -> None:
+    done = call("view", train_file(LOCKED), "-o", "locked.html")
+    assert done.exit_code == 1
+    scenes, _ = scenes_of(here / "locked.html")
+    assert any(pair["broken"] for pair in scenes[0]["pairs"])  # type: ignore[attr-defined]
+
+
+def refusal(*arguments: object) -> str:
+    done = call("view", *arguments)
+    assert done.exit_code != 0
+    assert isinstance(done.exception, GearTrainError), done.exception
+    for problem in done.exception.problems:
+        assert problem.what
+        assert problem.why
+        assert problem.fix
+    return str(done.exception)
+
+
+def test_a_file_that_is_there_stays_unless_force_is_used(here: Path) -> None:
+    old = here / "planetary-24-18-60.html"
+    old.write_text("mine", encoding="utf-8")
+    assert "--force" in refusal("planetary-24-18-60")
+    assert old.read_text(encoding="utf-8") == "mine"
+    assert call("view", "planetary-24-18-60", "--force").exit_code == 0
+    assert old.stat().st_size > 100_000
+
+
+@pytest.mark.parametrize(
+    ("name", "said"),
+    [
+        (".", "folder"),
+        ("missing/train.html", "folder is not there"),
+        ("train.txt", "no suffix of a page"),
+        ("train", "no suffix"),
+        ("x" * 300 + ".html", "cannot be written"),
+    ],
+)
+def test_output_that_is_no_page_is_refused(here: Path, name: str, said: str) -> None:
+    assert said in refusal("planetary-24-18-60", "-o", name)
+    assert list(here.iterdir()) == []
+
+
+@pytest.mark.skipif(not Path("/proc/self").exists(), reason="there is no /proc, where nobody may write")
+def test_a_folder_that_is_closed_is_said_to_be() -> None:
+    assert "cannot be written" in refusal("planetary-24-18-60", "-o", "/proc/train.html")
+
+
+def test_the_name_of_a_train_becomes_that_of_a_file(train_file: Written, here: Path) -> None:
+    odd = train_file("name: '../a b/<c>'\n" + RIGHT)
+    assert call("view", odd).exit_code == 0
+    assert (here / "a-b-c.html").is_file()
+
+
+def test_built_files_are_what_their_sources_build(tmp_path: Path) -> None:
+    """From a clean copy, with the packages that the lock file names."""
+    npm, node = shutil.which("npm"), shutil.which("node")
+    if npm is None or node is None:
+        pytest.skip("node and npm are not there: the built viewer is not compared with its sources")
+    copy = shutil.copytree(VIEWER, tmp_path / "viewer", ignore=shutil.ignore_patterns("node_modules", "built"))
+    got = subprocess.run([npm, "ci", "--prefer-offline"], cwd=copy, capture_output=True, text=True, check=False)
+    if got.returncode != 0:
+        pytest.skip(f"npm cannot get its packages: the built viewer is not compared with its sources: {got.stderr}")
+    subprocess.run([node, "build.mjs"], cwd=copy, check=True)
+    for name in ("viewer.js", "viewer.css"):
+        built = (copy / "built" / name).read_bytes()
+        assert built == (VIEWER / "built" / name).read_bytes(), f"{name} is stale: npm ci && node build.mjs"
+
+
+def test_the_lock_file_names_exact_packages_and_no_addresses() -> None:
+    wanted = json.loads((VIEWER / "package.json").read_text(encoding="utf-8"))
+    for version in (wanted["dependencies"] | wanted["devDependencies"]).values():
+        assert re.fullmatch(r"\d+\.\d+\.\d+", version)
+    lock = (VIEWER / "package-lock.json").read_text(encoding="utf-8")
+    assert "resolved" not in lock
+    assert "://" not in re.sub(r'"funding": \{[^}]*\}', "", lock)

@@ -1,4 +1,4 @@
-"""Make every generated page and picture of the documentation again: `python docs/make_all.py`."""
+"""Make every generated page and picture of the documentation again, and the site: `python docs/make_all.py`."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ import make_accuracy
 import make_commands
 import make_errata
 import make_extremes
+import make_gallery
 import make_images
 import make_mesh_accuracy
 import make_missing
@@ -23,7 +24,7 @@ DOCS = Path(__file__).resolve().parent
 
 
 def main() -> None:
-    """Run all makers, and the command that writes the reference."""
+    """Run all makers, the command that writes the reference, and mkdocs."""
     reference = DOCS / "reference.md"
     subprocess.run([sys.executable, "-m", "geartrain", "schema", "--as", "markdown", "-o", str(reference)], check=True)
     accuracy = (
@@ -34,8 +35,10 @@ def main() -> None:
         make_teeth_accuracy,
         make_shapes_accuracy,
     )
-    for maker in (*accuracy, make_commands, make_errata, make_extremes, make_images, make_missing, make_outputs):
+    facts = (make_commands, make_errata, make_extremes, make_gallery, make_images, make_missing, make_outputs)
+    for maker in (*accuracy, *facts):
         maker.main()
+    subprocess.run([sys.executable, "-m", "mkdocs", "build", "--strict"], cwd=DOCS.parent, check=True)
 
 
 if __name__ == "__main__":

@@ -7,6 +7,7 @@ import io
 import re
 import subprocess
 import sys
+from fractions import Fraction
 from math import radians
 from pathlib import Path
 
@@ -14,7 +15,7 @@ from rich.console import Console
 
 import geartrain
 from geartrain.motion import Run
-from geartrain.plot import law_figure, motion_figure, power_figure, render, sphere_figure, teeth_figure
+from geartrain.plot import law_figure, motion_figure, picture, power_figure, render, sphere_figure, teeth_figure
 from geartrain.report import Document, SphereAnswers, flow_of, report_train, to_terminal
 from geartrain.spherical import from_polyhedron
 
@@ -31,6 +32,21 @@ def main() -> None:
     power()
     sphere()
     shapes()
+    trains()
+
+
+def trains() -> None:
+    """A train in each kind of picture."""
+    for kind, name in (
+        ("plan", "planetary-24-18-60"),
+        ("stick", "zf-8hp70"),
+        ("graph", "pennestri-2002"),
+        ("lever", "two-k-h-10000"),
+        ("dials", "longcase-clock"),
+    ):
+        figure = picture(geartrain.load(name), kind, turns=Fraction(31, 7))  # type: ignore[arg-type]
+        (IMAGES / f"draw-{kind}.svg").write_bytes(render(figure, ".svg"))
+        print(f"wrote docs/images/draw-{kind}.svg")
 
 
 def teeth() -> None:

@@ -19,7 +19,12 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 NAMES = (
+    "index",
     "tutorial",
+    "for-historians",
+    "for-makers",
+    "for-engineers",
+    "api",
     "how-to",
     "json",
     "theory",
@@ -30,6 +35,7 @@ NAMES = (
     "sphere",
     "tooth-numbers",
     "shapes",
+    "drawing",
 )
 PAGES = (ROOT / "README.md", *(ROOT / "docs" / f"{name}.md" for name in NAMES))
 COLUMNS = "100"

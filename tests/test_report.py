@@ -24,6 +24,7 @@ from geartrain.report import compare_trains, report_train, to_html, to_markdown,
 
 Rows = list[list[str]]
 ROOT = Path(__file__).parent.parent
+SCRIPT = (ROOT / "geartrain" / "report" / "page.js").read_text(encoding="utf-8")
 VOID = {"meta", "link", "br", "hr", "img", "input", "base", "col", "wbr"}
 
 # teeth of pennestri-2002: Tables 1 to 3 and the Maple listing, where they are (z18 = 60)
@@ -36,7 +37,10 @@ TEETH = {
 
 
 class Page(HTMLParser):
-    """Tables as rows of cells, headings, tags that are not closed, and whatever would be fetched or run."""
+    """Tables as rows of cells, headings, tags that are not closed, and whatever would be fetched or run.
+
+    Links within the page fetch nothing; the one script that comes with every page is known.
+    """
 
     def __init__(self, text: str) -> None:
         super().__init__()
@@ -49,9 +53,10 @@ class Page(HTMLParser):
         self.close()
 
     def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
-        self.outside += [f"{key}={value}" for key, value in attrs if key in ("src", "href", "srcset", "action", "data")]
+        fetched = [(key, value) for key, value in attrs if key in ("src", "href", "srcset", "action", "data")]
+        self.outside += [f"{key}={value}" for key, value in fetched if (key, (value or "")[:1]) != ("href", "#")]
         self.outside += [key for key, _ in attrs if key.startswith("on")]
-        if tag in ("script", "iframe", "object", "embed", "link", "base", "form"):
+        if tag in ("iframe", "object", "embed", "link", "base", "form"):
             self.outside.append(tag)
         if tag not in VOID:
             self.open.append(tag)
@@ -74,6 +79,8 @@ class Page(HTMLParser):
             self.tables[-1][-1][-1] += data
         elif last in ("h1", "h2"):
             self.headings[-1] += data
+        elif last == "script" and data != SCRIPT:
+            self.outside.append(data)
         elif last == "style":
             self.outside += re.findall(r"url\([^)]*\)|@import[^;]*|https?:[^\s;]*", data)
 

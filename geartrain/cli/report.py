@@ -2,22 +2,79 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING, Annotated, Literal
+
 import typer
 
 from geartrain.cli.common import GOOD, VERDICT, Files, Json, Out, as_json, emit, load_all, show, suffix_of
+from geartrain.errors import GearTrainError, MissingExtraError
+
+if TYPE_CHECKING:
+    from geartrain.analysis import GearTrain
+    from geartrain.report import Document, Picture
 
 
-def run(files: Files, out: Out = None, json: Json = False) -> None:
-    """Report on trains: Markdown to the terminal, or by the suffix of -o as .md, .html or .json."""
+def run(
+    files: Files,
+    out: Out = None,
+    json: Json = False,
+    view: Annotated[bool, typer.Option("--view", help="Put the train itself into a page, to be turned there.")] = False,
+) -> None:
+    """Report on trains: Markdown to the terminal, or by the suffix of -o as .md, .html or .json.
+
+    A page of .html has pictures of the plan and the dials too, where the extra 'plot' is installed.
+    """
     from geartrain import report
 
     suffix = suffix_of(out, (".md", ".html", ".json"))
+    if view and suffix != ".html":
+        raise typer.BadParameter("a train turns in a page only: give -o x.html too", param_hint="--view")
     trains = load_all(files)
     sound = all(answer for train in trains for answer in train.answers())
     sound = sound and not any(mesh.fault for train in trains for mesh in train.meshes)
     if json or suffix == ".json":
         data = [report.train_data(train) for train in trains]
         emit(as_json(data[0] if len(data) == 1 else data), out)
+    elif suffix == ".html":
+        emit(report.to_html([_shared(train, view) for train in trains]), out)
     else:
         show([report.report_train(train) for train in trains], out, suffix)
     raise typer.Exit(GOOD if sound else VERDICT)
+
+
+def _shared(train: GearTrain, view: bool) -> Document:
+    from geartrain import report
+
+    pictures, notes = _pictures(train)
+    return report.shared_document(train, pictures, _viewer(train) if view else "", notes)
+
+
+def _viewer(train: GearTrain) -> str:
+    from geartrain.scene import make_scene
+    from geartrain.viewer import page
+
+    return page([make_scene(train, state) for state in train.states or (None,)])
+
+
+def _pictures(train: GearTrain) -> tuple[list[Picture], list[str]]:
+    """The plan, and the dials where there are any; and what kept one from being drawn."""
+    from geartrain import report
+
+    drawn: list[Picture] = []
+    notes: list[str] = []
+    kinds: tuple[Literal["plan", "dials"], ...] = ("plan", "dials") if train.declaration.dials else ("plan",)
+    for kind in kinds:
+        caption = {"plan": "The plan, to scale", "dials": "The dials"}[kind]
+        try:
+            drawn.append(report.Picture(caption, _svg(train, kind)))
+        except MissingExtraError as missing:
+            return [], [f"This page has no pictures: {missing.problems[0].what}; {missing.problems[0].fix}."]
+        except GearTrainError as error:
+            notes.append(f"{caption} could not be drawn: {error.problems[0].what}.")
+    return drawn, notes
+
+
+def _svg(train: GearTrain, kind: Literal["plan", "dials"]) -> str:
+    from geartrain.plot import picture, render
+
+    return render(picture(train, kind), ".svg").decode("utf-8")

@@ -5,14 +5,16 @@ from __future__ import annotations
 from geartrain.report.comparing import compare_trains
 from geartrain.report.content import report_train
 from geartrain.report.data import train_data
-from geartrain.report.document import Document, Section, Table
+from geartrain.report.document import Aside, Document, Picture, Section, Table
 from geartrain.report.meshing import Running, mesh_document
 from geartrain.report.moving import motion_data, motion_document
+from geartrain.report.paging import to_html
 from geartrain.report.pins import pin_data, pin_document
 from geartrain.report.power import flow_of, there_and_back, torques_data, torques_document
-from geartrain.report.rendering import to_html, to_markdown, to_terminal
+from geartrain.report.rendering import to_markdown, to_terminal
 from geartrain.report.shapes import shape_data, shape_document
 from geartrain.report.shapes_compared import Compared, Shaped, compared_data, compared_document
+from geartrain.report.sharing import shared_document
 from geartrain.report.sphere import (
     SphereAnswers,
     sphere_data,
@@ -37,8 +39,10 @@ from geartrain.report.synthesis import (
 from geartrain.report.teeth import mesh_data
 
 __all__ = [
+    "Aside",
     "Compared",
     "Document",
+    "Picture",
     "Running",
     "Section",
     "Shaped",
@@ -66,6 +70,7 @@ __all__ = [
     "sets_document",
     "shape_data",
     "shape_document",
+    "shared_document",
     "sphere_data",
     "sphere_document",
     "stages_document",

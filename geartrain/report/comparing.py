@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from geartrain.analysis import GearTrain
 from geartrain.answer import Answer
-from geartrain.report.document import Document, Section, Table, exact, figure, ppm
+from geartrain.report.document import Document, Exact, Section, Table, exact, figure, ppm
 
 
 def compare_trains(trains: Sequence[GearTrain], everything: bool = False) -> Document:
@@ -64,7 +64,7 @@ def _speed(answer: Answer, name: str) -> str:
         return "" if answer.verdict else answer.verdict.kind
     decimal = figure(speed, 7)
     shown = exact(speed) if exact(speed) == decimal else f"{exact(speed)} = {decimal}"
-    return shown + (" FAILS" if result is not None and not result.holds else "")
+    return Exact(shown + (" FAILS" if result is not None and not result.holds else ""), str(speed))
 
 
 def _targets(columns: Sequence[tuple[str, GearTrain, Answer]]) -> list[tuple[str, ...]]:

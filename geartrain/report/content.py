@@ -9,12 +9,12 @@ from geartrain.answer import Answer
 from geartrain.circuits import Circuit
 from geartrain.errors import Loop
 from geartrain.report.assembling import closure_sections
-from geartrain.report.document import MOST_ROWS, Document, Section, Table, cut
+from geartrain.report.document import MOST_ROWS, Document, Exact, Section, Table, cut
 from geartrain.report.moving import moving_sections
 from geartrain.report.power import loaded_sections
 from geartrain.report.results import answer_sections, doubts, shift_table
 from geartrain.report.teeth import teeth_sections
-from geartrain.train import Train, Wheel
+from geartrain.train import Source, Train, Wheel
 
 MOST_MATRIX = 48
 """Trains with more links get their adjacency matrix from 'geartrain graph' only."""
@@ -50,7 +50,7 @@ def _lead(train: GearTrain, answers: Sequence[Answer]) -> Iterator[str]:
     if declared.note:
         yield declared.note
     for key, source in declared.sources.items():
-        yield f"Source {key}: {source.cite}" + (f" ({source.note})" if source.note else "") + "."
+        yield source_line(key, source)
     failed = sum(len(answer.failures) for answer in answers)
     for answer in answers:
         if not answer.verdict:
@@ -65,6 +65,11 @@ def _lead(train: GearTrain, answers: Sequence[Answer]) -> Iterator[str]:
     yield (
         f"Speeds are in {unit}" if unit else "Speeds are plain numbers"
     ) + f", absolute, about each link's own axis{clock}."
+
+
+def source_line(key: str, source: Source) -> str:
+    """A source as the lead tells it."""
+    return f"Source {key}: {source.cite}" + (f" ({source.note})" if source.note else "") + "."
 
 
 def _structure(train: GearTrain) -> Iterator[Section]:
@@ -143,7 +148,7 @@ def _abreast(declared: Train, circuits: Sequence[Circuit]) -> Table:
         ("body k", *(circuit.carrier for circuit in circuits)),
         ("Z_i", *(teeth(circuit, 0) for circuit in circuits)),
         ("Z_j", *(teeth(circuit, 1) for circuit in circuits)),
-        ("tau", *(str(circuit.ratio) for circuit in circuits)),
+        ("tau", *(Exact(str(circuit.ratio)) for circuit in circuits)),
     ]
     return Table(("", *(circuit.id for circuit in circuits)), rows)
 

@@ -2,11 +2,31 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 
 from geartrain.exact import decimal
+
+
+class Exact(str):
+    """A cell that holds an exact value; `full` is all of it where the text is shortened, and what a page copies."""
+
+    __slots__ = ("full",)
+
+    full: str
+
+    def __new__(cls, text: str, full: str | None = None) -> Exact:
+        """`text` as shown; `full` the same unless given."""
+        made = super().__new__(cls, text)
+        made.full = full or text
+        return made
+
+
+class Cited(str):
+    """A cell that names a source by its key; a page links it to the source."""
+
+    __slots__ = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -28,12 +48,50 @@ class Section:
 
 
 @dataclass(frozen=True, slots=True)
+class Picture:
+    """A picture with a caption. `svg` is one whole SVG document, made by a program that escapes what users write."""
+
+    caption: str
+    svg: str
+
+
+@dataclass(frozen=True, slots=True)
+class Reference:
+    """A source in full. A page links `url` if it is of http or https, and shows any other as text."""
+
+    cite: str
+    url: str = ""
+    note: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Aside:
+    """What only a page has room for, beside what a document says in any form.
+
+    badge       the verdict in a word or two; `sound` if there is nothing to complain of
+    notes       short remarks below the lead, such as which extra brings pictures
+    viewer      a whole HTML page in which the train turns
+    sections    further sections at the end
+    references  sources by key
+    """
+
+    badge: str = ""
+    sound: bool = True
+    notes: Sequence[str] = ()
+    pictures: Sequence[Picture] = ()
+    viewer: str = ""
+    sections: Sequence[Section] = ()
+    references: Mapping[str, Reference] = field(default_factory=dict)
+
+
+@dataclass(frozen=True, slots=True)
 class Document:
-    """A title, a lead, and sections."""
+    """A title, a lead, and sections; `aside` is for pages only."""
 
     title: str
     lead: Sequence[str]
     sections: Sequence[Section]
+    aside: Aside = field(default_factory=Aside)
 
 
 def figure(value: Fraction | float | None, digits: int = 8) -> str:
@@ -50,9 +108,9 @@ def exact(value: Fraction | float | None) -> str:
     if not isinstance(value, Fraction):
         return f"~{value:.12g}"
     text = str(value)
-    return (
-        text if len(text) <= 40 else f"({len(str(abs(value.numerator)))} digits)/({len(str(value.denominator))} digits)"
-    )
+    if len(text) <= 40:
+        return Exact(text)
+    return Exact(f"({len(str(abs(value.numerator)))} digits)/({len(str(value.denominator))} digits)", text)
 
 
 def one_to(ratio: Fraction | float | None) -> str:

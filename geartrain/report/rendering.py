@@ -1,12 +1,10 @@
-"""A document as Markdown, as one HTML page, or on a terminal."""
+"""A document as Markdown, or on a terminal."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from importlib import resources
 from typing import TYPE_CHECKING
 
-from geartrain.errors import MissingExtraError
 from geartrain.report.document import Document, Table
 
 if TYPE_CHECKING:
@@ -40,17 +38,6 @@ def _pipes(table: Table) -> Iterator[str]:
     yield lines[0]
     yield "|" + "|".join("-" * (width + 2) for width in widths) + "|"
     yield from lines[1:]
-
-
-def to_html(documents: Sequence[Document]) -> str:
-    """The documents as one self-contained page. Needs the `report` extra."""
-    try:
-        from jinja2 import Environment
-    except ImportError:
-        raise MissingExtraError("jinja2", "report", "a report in HTML") from None
-    source = resources.files(__package__).joinpath("page.html").read_text(encoding="utf-8")
-    template = Environment(autoescape=True, trim_blocks=True, lstrip_blocks=True).from_string(source)
-    return template.render(documents=documents)
 
 
 def to_terminal(documents: Sequence[Document], console: Console) -> None:

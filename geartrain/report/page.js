@@ -1,0 +1,87 @@
+"use strict";
+(() => {
+  const said = document.getElementById("said");
+
+  // what a cell says becomes a button in it, so that it can be reached with the keyboard
+  const button = (cell, label, act) => {
+    const made = document.createElement("button");
+    made.type = "button";
+    made.title = label;
+    made.append(...cell.childNodes);
+    made.addEventListener("click", act);
+    cell.append(made);
+    return made;
+  };
+
+  // a number as a fraction of two whole numbers, exactly; null where there is none
+  const number = (text) => {
+    const found = /^([+\-−~]?)(\d+)(?:\.(\d*))?(?:e([+-]?\d+))?(?:\/(\d+))?(?![\w.])/.exec(text.trim());
+    if (!found) return null;
+    const [, sign, whole, part = "", power = "0", below = "1"] = found;
+    if (Math.abs(Number(power)) > 10000 || BigInt(below) === 0n) return null;
+    const shift = Number(power) - part.length;
+    const size = BigInt(whole + part) * (sign === "-" || sign === "−" ? -1n : 1n);
+    return shift < 0 ? [size, BigInt(below) * 10n ** BigInt(-shift)] : [size * 10n ** BigInt(shift), BigInt(below)];
+  };
+
+  const key = (cell) => {
+    const text = cell.dataset.exact ?? cell.textContent;
+    const ratio = /^1 : (.*)$/.exec(text.trim()); // 1 : n is 1/n
+    const value = number(ratio ? ratio[1] : text);
+    const turned = ratio && value && value[0] !== 0n;
+    return { text, value: turned ? (value[0] < 0n ? [-value[1], -value[0]] : [value[1], value[0]]) : value };
+  };
+
+  // numbers by size, then words; empty cells last, whichever way the column is sorted
+  const compare = (a, b, way) => {
+    if (a.value && b.value) {
+      const difference = a.value[0] * b.value[1] - b.value[0] * a.value[1];
+      return way * (difference > 0n ? 1 : difference < 0n ? -1 : 0);
+    }
+    const rank = ({ text, value }) => (value ? 0 : /^(-|)$/.test(text.trim()) ? 2 : 1);
+    if (rank(a) !== rank(b)) return rank(a) - rank(b);
+    return way * a.text.localeCompare(b.text, "en", { numeric: true });
+  };
+
+  const sort = (table, column, head) => {
+    const way = head.getAttribute("aria-sort") === "ascending" ? -1 : 1;
+    for (const other of table.tHead.rows[0].cells) other.removeAttribute("aria-sort");
+    head.setAttribute("aria-sort", way === 1 ? "ascending" : "descending");
+    const body = table.tBodies[0];
+    const rows = [...body.rows].map((row) => ({ row, key: key(row.cells[column]) }));
+    rows.sort((a, b) => compare(a.key, b.key, way));
+    body.append(...rows.map(({ row }) => row));
+  };
+
+  for (const table of document.querySelectorAll("table.sortable")) {
+    [...table.tHead.rows[0].cells].forEach((head, column) => {
+      button(head, "Sort by this column", () => sort(table, column, head));
+    });
+  }
+
+  const copied = (text) => {
+    const area = document.createElement("textarea"); // where the clipboard is out of reach of scripts
+    area.value = text;
+    document.body.append(area);
+    area.select();
+    const done = document.execCommand("copy");
+    area.remove();
+    return done;
+  };
+
+  const copy = async (text) => {
+    let done = true;
+    try {
+      await navigator.clipboard.writeText(text);
+    } catch {
+      done = copied(text);
+    }
+    said.textContent = done ? `Copied ${text.length > 60 ? `${text.slice(0, 60)}…` : text}` : "Copying is not allowed here";
+    said.classList.add("shown");
+    setTimeout(() => said.classList.remove("shown"), 2000);
+  };
+
+  for (const cell of document.querySelectorAll("[data-exact]")) {
+    button(cell, "Copy the exact value", () => copy(cell.dataset.exact));
+  }
+})();

@@ -1,0 +1,199 @@
+"""The page of a report as people use it: sorted, copied from, printed, read on a phone, in light and in dark."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from fractions import Fraction
+from pathlib import Path
+
+import pytest
+from playwright.sync_api import Browser, Page
+
+from geartrain import load
+from geartrain.report import Picture, shared_document, to_html
+
+EVIL = "<script>alert(1)</script>\"'><img src=x onerror=alert(2)>"
+SVG = (
+    '<svg xmlns="http://www.w3.org/2000/svg" width="720pt" height="72pt"><path d="M 0 0 L 720 72" stroke="red"/></svg>'
+)
+Opened = Callable[..., tuple[Page, list[str]]]
+
+
+@pytest.fixture
+def open_report(browser: Browser, tmp_path: Path) -> Iterator[Opened]:
+    """Opens a page from disk; beside it a list of all that goes wrong: errors, dialogs, requests to anything else."""
+    contexts = []
+
+    def show(text: str, **window: object) -> tuple[Page, list[str]]:
+        path = tmp_path / "report.html"
+        path.write_text(text, encoding="utf-8")
+        context = browser.new_context(**({"viewport": {"width": 1000, "height": 800}} | window))
+        contexts.append(context)
+        page, wrong = context.new_page(), list[str]()
+        page.on("console", lambda said: wrong.append(said.text) if said.type == "error" else None)
+        page.on("pageerror", lambda error: wrong.append(str(error)))
+        page.on("dialog", lambda dialog: wrong.append(dialog.message))
+        own = (path.as_uri(), "data:", "blob:", "about:")
+        page.on("request", lambda asked: None if asked.url.startswith(own) else wrong.append(asked.url))
+        page.goto(path.as_uri())
+        return page, wrong
+
+    yield show
+    for context in contexts:
+        context.close()
+
+
+def table(page: Page, heading: str) -> list[list[str]]:
+    """The rows of the first table under a heading."""
+    script = """heading => {
+      const section = [...document.querySelectorAll("section")].find(
+        (each) => each.querySelector("h2").textContent === heading);
+      return [...section.querySelector("table").rows].map((row) => [...row.cells].map((cell) => cell.innerText.trim()));
+    }"""
+    return page.evaluate(script, heading)
+
+
+def sort_by(page: Page, heading: str, column: str) -> list[str]:
+    """Click a column's head, and read the column."""
+    section = page.locator("section", has=page.locator("h2", has_text=heading)).first
+    section.locator("thead button", has_text=column).first.click()
+    head, *rows = table(page, heading)
+    return [row[head.index(column)] for row in rows]
+
+
+@pytest.fixture(scope="module")
+def freeth() -> str:
+    return to_html([shared_document(load("freeth-2008"), [Picture("a line", SVG)])])
+
+
+def test_a_click_sorts_fractions_by_their_exact_size_and_another_turns_them_round(
+    freeth: str, open_report: Opened
+) -> None:
+    page, wrong = open_report(freeth)
+    before = [row[1] for row in table(page, "Speeds")[1:]]
+    rising, falling = (sort_by(page, "Speeds", "speed") for _ in range(2))
+    assert sorted(rising) == sorted(before)
+    assert [Fraction(cell) for cell in rising] == sorted(Fraction(cell) for cell in before)
+    assert [Fraction(cell) for cell in falling] == sorted((Fraction(cell) for cell in before), reverse=True)
+    assert rising != before
+    heads = page.locator("th[aria-sort]").evaluate_all("all => all.map(head => head.getAttribute('aria-sort'))")
+    assert heads == ["descending"]
+    assert wrong == []
+
+
+def test_names_are_sorted_as_people_count_and_cells_without_a_value_come_last(open_report: Opened) -> None:
+    page, wrong = open_report(to_html([shared_document(load("pennestri-2002"))]))
+    names = sort_by(page, "Structure", "link")
+    assert [int(name) for name in names] == sorted(int(name) for name in names)
+    ratios = sort_by(page, "Speeds", "output : input")
+    assert "-" in ratios
+    assert ratios.index("-") == len(ratios) - ratios.count("-")
+    shown = [cell.split(" : ") for cell in ratios if cell != "-"]
+    sizes = [Fraction(a) / Fraction(b) for a, b in shown]
+    assert sizes == sorted(sizes)
+    assert wrong == []
+
+
+def test_a_click_copies_the_exact_value(freeth: str, open_report: Opened) -> None:
+    page, wrong = open_report(freeth, permissions=["clipboard-read", "clipboard-write"])
+    page.locator("td[data-exact='254/19'] button").first.click()
+    page.wait_for_function("document.getElementById('said').textContent.includes('254/19')")
+    assert page.evaluate("navigator.clipboard.readText()") == "254/19"
+    assert wrong == []
+
+
+def test_the_keyboard_reaches_what_a_click_does(freeth: str, open_report: Opened) -> None:
+    page, wrong = open_report(freeth)
+    page.locator("section#speeds thead button").nth(1).focus()
+    page.keyboard.press("Enter")
+    assert page.locator("th[aria-sort=ascending]").count() == 1
+    assert wrong == []
+
+
+def test_a_train_named_like_a_script_is_harmless(train_file: Callable[..., Path], open_report: Opened) -> None:
+    quoted = EVIL.replace("'", "''")
+    path = train_file(
+        f"extends: worm\nname: '{quoted}'\ntitle: '{quoted}'\nnote: '{quoted}'\n"
+        f"sources: {{'{quoted}': {{cite: '{quoted}', url: 'javascript:alert(3)'}}}}\n"
+    )
+    page, wrong = open_report(to_html([shared_document(load(path))]))
+    page.wait_for_timeout(300)
+    assert page.title() == EVIL
+    assert page.locator("h1").inner_text() == EVIL
+    assert wrong == []
+    assert page.evaluate("[...document.querySelectorAll('a')].every(a => /^(#|https?:)/.test(a.getAttribute('href')))")
+
+
+def test_a_script_smuggled_into_a_page_would_not_run(freeth: str, open_report: Opened) -> None:
+    page, wrong = open_report(freeth.replace("<article>", "<article><script>document.title = 'taken'</script>", 1))
+    assert page.title() != "taken"
+    assert any("Content Security Policy" in said for said in wrong)
+
+
+def test_a_script_in_the_frame_cannot_reach_the_page_round_it(open_report: Opened) -> None:
+    inner = "<p>inside</p><script>document.title = 'inside'; parent.document.title = 'taken'</script>"
+    page, wrong = open_report(to_html([shared_document(load("worm"), viewer=inner)]))
+    (frame,) = [each for each in page.frames if each.parent_frame]
+    frame.wait_for_selector("p")
+    assert frame.title() == "inside", "scripts run in the frame"
+    assert page.title() == load("worm").declaration.title
+    assert len(wrong) == 1
+    assert "Blocked a frame" in wrong[0]
+
+
+def test_all_is_there_without_scripts(freeth: str, open_report: Opened) -> None:
+    page, wrong = open_report(freeth, java_script_enabled=False)
+    assert page.locator("table").count() > 5
+    assert page.locator("section button").count() == 0
+    assert page.locator("figure svg").count() == 1
+    assert wrong == []
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_words_stand_out_from_their_paper_in_light_and_dark(scheme: str, freeth: str, open_report: Opened) -> None:
+    page, _ = open_report(freeth, color_scheme=scheme)
+    script = """() => ["body", "h2", ".badge", "a", "td button"].map((name) => {
+      const colour = getComputedStyle(document.querySelector(name)).color;
+      return [colour, getComputedStyle(document.body).backgroundColor];
+    })"""
+    for ink, paper in page.evaluate(script):
+        light, dark = sorted((luminance(ink), luminance(paper)), reverse=True)
+        assert (light + 0.05) / (dark + 0.05) >= 4.5, f"{ink} on {paper}"
+    assert (luminance(page.evaluate(script)[0][1]) < 0.2) == (scheme == "dark")
+
+
+def luminance(colour: str) -> float:
+    """Relative luminance (WCAG 2.2) of `rgb(r, g, b)`."""
+    parts = [int(part) / 255 for part in colour.removeprefix("rgb(").removesuffix(")").split(",")]
+    linear = [part / 12.92 if part <= 0.04045 else ((part + 0.055) / 1.055) ** 2.4 for part in parts]
+    return 0.2126 * linear[0] + 0.7152 * linear[1] + 0.0722 * linear[2]
+
+
+def test_it_fits_a_phone_and_pictures_shrink_with_it(freeth: str, open_report: Opened) -> None:
+    page, wrong = open_report(freeth, viewport={"width": 360, "height": 740})
+    assert page.evaluate("document.documentElement.scrollWidth") <= 360
+    assert 200 < page.locator("figure svg").evaluate("each => each.getBoundingClientRect().width") <= 360
+    assert wrong == []
+
+
+def test_it_prints_on_white_without_what_can_only_be_clicked(freeth: str, open_report: Opened) -> None:
+    page, wrong = open_report(freeth, color_scheme="dark")
+    assert page.locator("nav.contents").is_visible()
+    page.emulate_media(media="print")
+    assert not page.locator("nav.contents").is_visible()
+    paper, ink = page.evaluate("(s => [s.backgroundColor, s.color])(getComputedStyle(document.body))")
+    assert (paper, ink) == ("rgb(255, 255, 255)", "rgb(0, 0, 0)")
+    assert page.pdf(format="A4").startswith(b"%PDF")
+    assert page.evaluate("document.querySelector('.scroll').clientHeight > 0")
+    assert wrong == []
+
+
+def test_the_train_turns_in_its_frame_within_the_policy_of_the_page(open_report: Opened) -> None:
+    from geartrain.scene import make_scene
+    from geartrain.viewer import page as viewer
+
+    train = load("worm")
+    page, wrong = open_report(to_html([shared_document(train, viewer=viewer([make_scene(train)]))]))
+    (frame,) = [each for each in page.frames if each.parent_frame]
+    frame.wait_for_function("globalThis.geartrain?.ready")
+    assert wrong == []

@@ -1,0 +1,188 @@
+"""The site is built as it is published, with three trains in its gallery, and opened from disk in a browser."""
+
+from __future__ import annotations
+
+import os
+import re
+import subprocess
+import sys
+from collections.abc import Iterator
+from html.parser import HTMLParser
+from pathlib import Path
+from urllib.parse import unquote, urlsplit
+
+import pytest
+import yaml
+from playwright.sync_api import Browser, Page
+
+ROOT = Path(__file__).parent.parent.parent
+DOCS = sorted(path.name for path in (ROOT / "docs").glob("*.md"))
+TRAINS = ("worm", "longcase-clock", "zf-8hp70")
+ACCURACY = sorted(name for name in DOCS if "accuracy" in name)
+
+
+class Links(HTMLParser):
+    """What a page leads to, what it fetches, and its names."""
+
+    def __init__(self, path: Path) -> None:
+        super().__init__()
+        self.links: list[str] = []
+        self.fetched: list[str] = []
+        self.ids: set[str] = set()
+        self.feed(path.read_text(encoding="utf-8"))
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        found = {key: value or "" for key, value in attrs}
+        self.ids |= {found[key] for key in ("id", "name") if key in found}
+        if tag == "a" and "href" in found:
+            self.links.append(found["href"])
+        self.fetched += [found[key] for key in ("src", "srcset", "data", "poster") if key in found]
+        if tag == "link" and found.get("rel") not in ("canonical", "next", "prev"):
+            self.fetched.append(found.get("href", ""))
+
+
+@pytest.fixture(scope="session")
+def site(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The folder of the site."""
+    folder = tmp_path_factory.mktemp("site")
+    environment = os.environ | {"GEARTRAIN_GALLERY": ",".join(TRAINS), "NO_MKDOCS_2_WARNING": "1"}
+    command = [sys.executable, "-m", "mkdocs", "build", "--strict", "--site-dir", str(folder)]
+    done = subprocess.run(command, cwd=ROOT, env=environment, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    return folder
+
+
+def pages(site: Path) -> Iterator[Path]:
+    """Pages of the documentation, without those of trains and the one for wrong addresses."""
+    return (path for path in sorted(site.glob("*.html")) if path.name != "404.html")
+
+
+def test_the_navigation_lists_every_page_once() -> None:
+    nav = re.findall(r"([\w-]+\.md)$", (ROOT / "mkdocs.yml").read_text(encoding="utf-8"), re.M)
+    assert sorted(nav) == DOCS
+
+
+def test_every_page_is_in_the_site_those_of_accuracy_with_their_pictures(site: Path) -> None:
+    assert {path.stem for path in pages(site)} == {name.removesuffix(".md") for name in DOCS}
+    assert len(ACCURACY) >= 6
+    for name in ACCURACY:
+        shown = Links(site / name.replace(".md", ".html")).fetched
+        printed = re.findall(r"!\[[^]]*\]\((images/[^)]+)\)", (ROOT / "docs" / name).read_text(encoding="utf-8"))
+        assert set(printed) <= set(shown)
+        assert all((site / picture).stat().st_size > 1000 for picture in printed)
+
+
+def test_every_link_of_the_site_leads_to_a_file_and_to_a_name_in_it(site: Path) -> None:
+    names = {path: Links(path).ids for path in pages(site)}
+    checked = 0
+    for page in pages(site):
+        for link in Links(page).links:
+            parts = urlsplit(link)
+            if parts.scheme or link == "":
+                continue
+            target = (page.parent / unquote(parts.path)).resolve() if parts.path else page
+            assert target.is_file() or (target / "index.html").is_file(), f"{page.name}: {link}"
+            if parts.fragment and target in names:
+                assert unquote(parts.fragment) in names[target], f"{page.name}: {link}"
+                checked += 1
+    assert checked > 1000
+
+
+def test_nothing_is_fetched_from_elsewhere(site: Path) -> None:
+    for page in pages(site):
+        for address in Links(page).fetched:
+            assert not re.match(r"(\w+:)?//", address), f"{page.name}: {address}"
+            if not address.startswith("data:"):
+                assert (page.parent / unquote(urlsplit(address).path)).is_file(), f"{page.name}: {address}"
+    styles = "".join(path.read_text(encoding="utf-8") for path in site.rglob("*.css"))
+    assert re.findall(r"url\(['\"]?(?:https?:)?//[^)]*", styles) == []
+    assert re.findall(r"@import[^;]*", styles) == []
+
+
+def test_what_makes_the_site_is_no_part_of_it(site: Path) -> None:
+    assert [path.name for path in site.rglob("*.py")] == []
+    assert not (site / "data").exists()
+    assert not (site / "site").exists()
+
+
+def test_the_gallery_has_picture_viewer_and_report_of_each_train(site: Path) -> None:
+    found = Links(site / "gallery.html")
+    for name in TRAINS:
+        assert (site / "plan" / f"{name}.png").read_bytes().startswith(b"\x89PNG")
+        assert {f"view/{name}.html", f"report/{name}.html"} <= set(found.links)
+    text = (site / "gallery.html").read_text(encoding="utf-8")
+    for path in (ROOT / "trains").glob("*/*.yaml"):
+        assert f"<strong>{path.stem}</strong>" in text
+    assert sorted(path.stem for path in (site / "view").iterdir()) == sorted(TRAINS)
+
+
+def test_the_gallery_tells_what_the_trains_declare() -> None:
+    rows = re.findall(r"^\| ([\w.-]+) \| (.*?) \|", (ROOT / "docs" / "gallery.md").read_text(encoding="utf-8"), re.M)
+    titles = {name: title for name, title in rows if name != "train"}
+    declared = {path.stem: yaml.safe_load(path.read_text(encoding="utf-8")) for path in (ROOT / "trains").glob("*/*")}
+    assert titles == {name: (data.get("title") or "").replace("|", "/") for name, data in declared.items()}
+
+
+def test_formulas_are_shown_without_scripts_and_blocks_have_the_names_of_their_files(site: Path) -> None:
+    theory = (site / "theory.html").read_text(encoding="utf-8")
+    source = re.sub(r"^```.*?^```", "", (ROOT / "docs" / "theory.md").read_text(encoding="utf-8"), flags=re.S | re.M)
+    assert theory.count("<math") == len(re.findall(r"\$\$.+?\$\$|\$[^$\n]+(?:\n[^$\n]+)?\$", source, re.S))
+    assert theory.count('class="number"') == source.count(r"\tag{")
+    assert not re.search(r"\\(?:frac|omega|tag|tau)", re.sub(r"<code>.*?</code>", "", theory, flags=re.S))
+    assert ">nodes.yaml<" in (site / "tutorial.html").read_text(encoding="utf-8")
+
+
+def test_the_reference_of_python_is_made_from_the_docstrings(site: Path) -> None:
+    text = (site / "api.html").read_text(encoding="utf-8")
+    assert ":::" not in text
+    names = Links(site / "api.html").ids
+    assert {"geartrain.load", "geartrain.GearTrain.solve", "geartrain.layout.lay_out", "geartrain.scene.Scene"} <= names
+    assert re.search(r"<li><code>centre</code>: middle of its pitch circle", text), "columns of docstrings are lists"
+
+
+# ------------------------------------------------------------------------------------------------------- in a browser
+
+
+@pytest.fixture
+def sheet(browser: Browser) -> Iterator[tuple[Page, list[str]]]:
+    """A sheet of the browser, and all that goes wrong on it: errors, and requests to anything but files."""
+    context = browser.new_context(viewport={"width": 1100, "height": 800})
+    sheet, wrong = context.new_page(), list[str]()
+    sheet.on("console", lambda said: wrong.append(said.text) if said.type == "error" else None)
+    sheet.on("pageerror", lambda error: wrong.append(str(error)))
+    sheet.on("request", lambda asked: wrong.append(asked.url) if not asked.url.startswith(("file:", "data:")) else None)
+    yield sheet, wrong
+    context.close()
+
+
+@pytest.mark.parametrize("name", ["index", "theory", "gallery", "api"])
+def test_a_page_opens_from_disk_without_errors_or_requests(
+    name: str, site: Path, sheet: tuple[Page, list[str]]
+) -> None:
+    page, wrong = sheet
+    page.goto((site / f"{name}.html").as_uri())
+    page.wait_for_load_state("networkidle")
+    assert wrong == []
+    assert page.evaluate("[...document.images].filter(each => each.complete && !each.naturalWidth).length") == 0
+    page.set_viewport_size({"width": 390, "height": 800})
+    assert page.evaluate("document.documentElement.scrollWidth <= innerWidth"), "it fits a phone"
+
+
+def test_the_search_finds_pages_from_disk(site: Path, sheet: tuple[Page, list[str]]) -> None:
+    page, wrong = sheet
+    page.goto((site / "index.html").as_uri())
+    page.locator("input.md-search__input").click()
+    page.keyboard.type("self-locking", delay=20)
+    page.wait_for_selector(".md-search-result__link")
+    assert "torques" in " ".join(page.locator(".md-search-result__link").evaluate_all("all => all.map(a => a.href)"))
+    assert wrong == []
+
+
+def test_light_and_dark_can_be_chosen(site: Path, sheet: tuple[Page, list[str]]) -> None:
+    page, wrong = sheet
+    page.goto((site / "index.html").as_uri())
+    scheme = "document.body.getAttribute('data-md-color-scheme')"
+    before = page.evaluate(scheme)
+    page.locator("label[for^=__palette]:visible").first.click()
+    assert {before, page.evaluate(scheme)} == {"default", "slate"}
+    assert wrong == []

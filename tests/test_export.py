@@ -16,8 +16,9 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from shipped import train as load
 
-from geartrain import GearTrain, GearTrainError, load
+from geartrain import GearTrain, GearTrainError
 from geartrain.export import Making, Workpiece, notices, one_wheel, parcel, whole
 from geartrain.export.plates import around
 from geartrain.export.sheets import file_names
@@ -66,7 +67,10 @@ def from_svg(data: bytes) -> dict[str, list[np.ndarray]]:
                     if isinstance(segment, elements.Line | elements.Close):
                         points.append(complex(*segment.end))
                     elif isinstance(segment, elements.Arc):
-                        points += [complex(*segment.point(k / 64)) for k in range(1, 65)]
+                        spokes = complex(*segment.start) - complex(*segment.center)
+                        turn = np.exp(1j * segment.sweep * np.arange(1, 65) / 64)
+                        assert segment.rx == pytest.approx(segment.ry)
+                        points += (complex(*segment.center) + spokes * turn).tolist()
                 ring = [
                     z
                     for z, following in zip(points, [*points[1:], points[0]], strict=True)
@@ -244,6 +248,27 @@ def test_the_line_around_points_is_their_hull_made_thicker(points: list[tuple[in
     true = shapely.MultiPoint(points).convex_hull.buffer(radius, quad_segs=64)
     assert drawn.is_valid
     assert drawn.symmetric_difference(true).area < 5e-3 * true.area
+
+
+def test_a_wheel_that_two_pairs_would_cut_otherwise_is_named() -> None:
+    text = """
+links: {{frame: {{}}, a: {{wheels: {{p: 20}}}}, b: {{wheels: {{w: 30}}}}, c: {{wheels: {{x: 40}}}}}}
+revolutes: [{{pair: [frame, a], axis: A}}, {{pair: [frame, b], axis: B}}, {{pair: [frame, c], axis: C}}]
+gears: [{{id: one, pair: [p, w], tooth_form: {first}}}, {{id: two, pair: [w, x], tooth_form: {second}}}]
+inputs: {{a: 1}}
+"""
+    for second, told in (("{form: involute, backlash: 0.2}", True), ("{form: cycloidal}", True), (INVOLUTE, False)):
+        work = Workpiece(declared(text.format(first=INVOLUTE, second=second)), Making())
+        said = [each for each in notices(work, ["svg"]) if "'w' has the teeth of pair" in each.what]
+        assert bool(said) == told
+        assert all("'two'" in each.why and each.fix for each in said)
+
+
+@pytest.mark.parametrize("name", ["CON", "aux", "com1.x", "NUL.svg", "../x", "..", "a/b\\c:d", "/etc/passwd", "."])
+def test_no_name_leads_out_of_the_folder_or_is_one_that_windows_keeps(name: str) -> None:
+    (found,) = file_names([name])
+    assert not re.match(r"(?i)(con|prn|aux|nul|com\d|lpt\d)(\.|$)", found)
+    assert re.fullmatch(r"[\w+][\w.+-]*", found)
 
 
 @given(st.lists(st.text(max_size=12), max_size=12))

@@ -14,8 +14,9 @@ import pytest
 from commands import LOCKED
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from shipped import train as load
 
-from geartrain import GearTrain, GearTrainError, load
+from geartrain import GearTrain, GearTrainError
 from geartrain.export import Making, Workpiece, one_wheel, whole
 from geartrain.export.likeness import likeness_solid
 from geartrain.export.triangles import fill
@@ -101,6 +102,29 @@ def test_every_part_of_an_assembly_is_closed_and_looks_outwards() -> None:
             assert mesh.is_watertight, (name, part.name)
             assert mesh.is_winding_consistent, (name, part.name)
             assert mesh.volume > 0, (name, part.name)
+
+
+def test_pins_stand_in_their_slots_and_the_frame_behind_the_whole() -> None:
+    """A pin at 9.6 mm about an axis 1.1 mm off; the slot's bar reaches past 10.7 mm, and the hole holds the pin."""
+    work = workpiece("freeth-2008")
+    parts = {part.name: part for part in work.parts}
+    bodies = [body.id for body in work.scene.bodies]
+    pin, slot, plate = parts["anomaly pin"], parts["anomaly slot"], parts["frame plate"]
+    assert [bodies[part.body] for part in (pin, slot, plate)] == ["k1", "k2", "frame"]
+    k1, k2 = (np.array(work.layout.axes[label].point[:2]) for label in ("K1", "K2"))
+    middle = pin.placed.vertices[:, :2].mean(axis=0)
+    assert np.hypot(*(middle - k1)) == pytest.approx(9.6, abs=1e-6)
+    assert 8.5 - 1e-6 <= np.hypot(*(middle - k2)) <= 10.7 + 1e-6
+    assert np.ptp(pin.placed.vertices[:, 2]) > np.ptp(slot.placed.vertices[:, 2])
+    flat = shapely.Polygon(slot.contours[0].flattened(0.01), [slot.contours[1].flattened(0.01)])
+    own = (pin.placed.vertices - slot.place) @ slot.turn  # the pin as the bar sees it
+    assert own[:, 2].min() < 0 < own[:, 2].max(), "it goes through"
+    assert not flat.intersects(shapely.MultiPoint(own[:, :2]).convex_hull), "in the slot, clear of its sides"
+    assert shapely.Polygon(slot.contours[0].flattened(0.01)).contains(shapely.Point(own[:, :2].mean(axis=0)))
+    turning = [part.placed.vertices[:, 2] for part in work.parts if bodies[part.body] != "frame"]
+    behind = plate.placed.vertices[:, 2]
+    front = work.scene.front
+    assert (front * behind).max() < min((front * each).min() for each in turning)
 
 
 def test_likenesses_stand_where_their_cones_say() -> None:

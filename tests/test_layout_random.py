@@ -174,19 +174,19 @@ def test_a_worm_stands_where_its_hand_and_the_equation_agree(hand: str, worm_fir
     assert GearTrain.declare(placed).solve()["wheel"] == train.solve()["wheel"]
 
 
-def test_a_chain_of_a_thousand_wheels_is_laid_out() -> None:
+def test_a_chain_of_hundreds_of_wheels_is_laid_out() -> None:
     links: dict[str, Any] = {"frame": {}}
-    for at in range(500):
+    for at in range(200):
         links[f"a{at}"] = {"wheels": {f"p{at}": 12, f"w{at}": 30}}
     data = {
         "links": links,
-        "revolutes": [{"pair": ["frame", f"a{at}"], "axis": f"A{at}"} for at in range(500)],
-        "gears": [{"pair": [f"w{at}", f"p{at + 1}"]} for at in range(499)],
+        "revolutes": [{"pair": ["frame", f"a{at}"], "axis": f"A{at}"} for at in range(200)],
+        "gears": [{"pair": [f"w{at}", f"p{at + 1}"]} for at in range(199)],
         "inputs": {"a0": 1},
     }
     layout = lay_out(GearTrain.declare(data))
     assert not layout.apart
-    assert len(layout.wheels) == 1000
+    assert len(layout.wheels) == 400
 
 
 @pytest.mark.parametrize(

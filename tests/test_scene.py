@@ -5,12 +5,12 @@ from __future__ import annotations
 import json
 from collections.abc import Mapping
 from fractions import Fraction
-from functools import cache
 from itertools import pairwise
 from math import hypot, isclose
 from typing import Any
 
 import pytest
+import shipped
 from hypothesis import given, settings
 from models import pair, planetary
 from reference_solver import _dense as solve_rows
@@ -36,16 +36,10 @@ SHIPPED = [
 ]
 
 
-@cache
-def shipped(name: str, state: str | None = None) -> Scene:
-    """A scene made once for several tests."""
-    return make_scene(geartrain.load(name), state)
-
-
 @pytest.mark.parametrize(("name", "state"), SHIPPED)
 def test_speeds_are_the_exact_ones_and_all_numbers_point_somewhere(name: str, state: str | None) -> None:
-    train = geartrain.load(name)
-    scene = shipped(name, state)
+    train = shipped.train(name)
+    scene = shipped.scene(name, state)
     answer = train.solve(state or (train.states[0] if train.states else None))
     assert scene.lead is not None
     lead = Fraction(answer[scene.bodies[scene.lead].id])
@@ -246,7 +240,7 @@ def test_dials_look_to_their_reader_and_stand_clear_of_the_wheels(positive: str)
 
 
 def test_dials_of_one_face_do_not_cover_each_other() -> None:
-    scene = shipped("freeth-2021")
+    scene = shipped.scene("freeth-2021")
     for at, one in enumerate(scene.dials):
         for other in scene.dials[:at]:
             if one.normal == other.normal:
@@ -255,8 +249,8 @@ def test_dials_of_one_face_do_not_cover_each_other() -> None:
 
 
 def test_sizes_stay_small_enough_for_a_page() -> None:
-    assert len(json.dumps(shipped("freeth-2021").to_dict())) < 300_000
-    assert len(json.dumps(shipped("freeth-2021-teeth").to_dict())) < 900_000
+    assert len(json.dumps(shipped.scene("freeth-2021").to_dict())) < 300_000
+    assert len(json.dumps(shipped.scene("freeth-2021-teeth").to_dict())) < 900_000
 
 
 def test_what_is_lost_at_wheels_sums_to_what_is_lost_between_teeth() -> None:

@@ -8,11 +8,13 @@ from base64 import b64decode
 from bisect import bisect_right
 from collections.abc import Mapping, Sequence
 from fractions import Fraction
+from functools import cache
 from math import floor, pi
 from typing import Any
 
 import numpy as np
 import pytest
+import shipped
 
 import geartrain
 from geartrain import GearTrain
@@ -25,9 +27,10 @@ AGREE = 1e-9  # rad
 class Reader:
     """Angles of bodies from the plain data of a scene alone, in Fractions and floats."""
 
-    def __init__(self, data: Mapping[str, Any]) -> None:
+    def __init__(self, data: Mapping[str, Any], back: bool = False) -> None:
+        """`back` for negative turns."""
         self.data = json.loads(json.dumps(data))
-        self.movement = self.data["movement"]
+        self.movement = (back and self.data["back"]) or self.data["movement"]
         self.laws = [self._law(law) for law in self.movement["laws"]]
 
     @staticmethod
@@ -90,6 +93,12 @@ def pointer_angle(scene: Mapping[str, Any], angles: Sequence[float], pointer: Ma
     return float(sense * (angles[pointer["body"]] - angles[pointer["base"]]))
 
 
+@cache
+def drawn(train: GearTrain, state: str | None = None) -> dict[str, Any]:
+    """The data of a scene, made once for both ways."""
+    return make_scene(train, state).to_dict()
+
+
 def off(a: float, b: float) -> float:
     """Difference of two angles, whole turns left out."""
     return abs((a - b + pi) % (2 * pi) - pi)
@@ -97,15 +106,15 @@ def off(a: float, b: float) -> float:
 
 def compared(train: GearTrain, state: str | None = None, turns: Sequence[float] = TURNS) -> float:
     """The greatest difference of any output between the scene's data and the train's motion (rad)."""
-    scene = make_scene(train, state).to_dict()
+    scene = drawn(train, state)
     reader = Reader(scene)
     motion = train.motion(state)
-    passage = motion.at(np.array(turns))
+    tallies, passage = motion.tallies(), motion.at(np.array(turns))
     worst = 0.0
     for column, t in enumerate(turns):
         angles = reader.angles(t)
         for row, pointer in enumerate(scene["pointers"]):
-            mean = motion.tallies()[row].ratio * Fraction(t)
+            mean = tallies[row].ratio * Fraction(t)
             wanted = motion.starts[row] + 2 * pi * float(mean - floor(mean)) + float(passage.error[row, column])
             worst = max(worst, off(pointer_angle(scene, angles, pointer), wanted))
     return worst
@@ -115,7 +124,7 @@ def compared(train: GearTrain, state: str | None = None, turns: Sequence[float] 
     "name", ["freeth-2021", "freeth-2021-teeth", "pennestri-2002-teeth", "moon-triangular", "sorge-pairs"]
 )
 def test_the_plain_data_move_every_pointer_as_the_train_does(name: str) -> None:
-    assert compared(geartrain.load(name)) < AGREE
+    assert compared(shipped.train(name)) < AGREE
 
 
 TRIANGULAR = "form: triangular, half_angle: 30 deg, clearance: 1.01"
@@ -143,8 +152,48 @@ def test_phases_starting_angles_and_opposed_axes_are_kept(form: str, driver: str
     assert compared(geartrain.load(PAIRS.format(form=form, driver=driver, speed=speed))) < AGREE
 
 
+def compared_backwards(train: GearTrain) -> float:
+    """As `compared`, for a run of negative turns."""
+    scene = drawn(train)
+    reader = Reader(scene, back=True)
+    motion = train.motion()
+    tallies, worst = motion.tallies(), 0.0
+    for stretch in (-0.8125, -1234.5):
+        for passage in motion.passages(stretch, 6, first=1):
+            for column, t in enumerate(passage.turns):
+                angles = reader.angles(float(t))
+                for row, pointer in enumerate(scene["pointers"]):
+                    mean = tallies[row].ratio * Fraction(float(t))
+                    wanted = motion.starts[row] + 2 * pi * float(mean - floor(mean)) + passage.error[row, column]
+                    worst = max(worst, off(pointer_angle(scene, angles, pointer), float(wanted)))
+    return worst
+
+
+@pytest.mark.parametrize("name", ["freeth-2021", "freeth-2021-teeth", "pennestri-2002-teeth", "sorge-pairs"])
+def test_backwards_the_plain_data_move_every_pointer_as_the_train_does(name: str) -> None:
+    assert compared_backwards(shipped.train(name)) < AGREE
+
+
+@pytest.mark.parametrize("driver", ["p", "q"])
+@pytest.mark.parametrize(
+    "form", ["form: triangular, half_angle: 30 deg, clearance: 1.01", "form: involute, backlash: 0.1"]
+)
+def test_backwards_play_and_phases_are_kept(form: str, driver: str) -> None:
+    assert compared_backwards(geartrain.load(PAIRS.format(form=form, driver=driver, speed="1"))) < AGREE
+
+
+def test_the_way_back_is_written_only_where_it_differs() -> None:
+    """Pins slide in their slots alike both ways; teeth with play drive with their other flanks."""
+    assert shipped.scene("freeth-2021").back is None
+    assert make_scene(geartrain.load("price-1974")).back is None
+    teeth = make_scene(geartrain.load("moon-triangular"))
+    assert teeth.back is not None
+    forwards, backwards = (Reader(teeth.to_dict(), back).angles(0.3) for back in (False, True))
+    assert max(map(off, forwards, backwards)) > 1e-4
+
+
 def test_laws_alike_are_written_once() -> None:
-    scene = make_scene(geartrain.load("freeth-2021-teeth"))
+    scene = shipped.scene("freeth-2021-teeth")
     kinds = {(source.law, scene.movement.laws[source.law].period) for source in scene.movement.sources}
     assert len(kinds) == len(scene.movement.laws) < len(scene.movement.sources)
     for law in scene.movement.laws:

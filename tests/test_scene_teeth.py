@@ -9,11 +9,11 @@ from typing import Any
 
 import numpy as np
 import pytest
+import shipped
 from shapely.geometry import Point, Polygon
 from shapely.ops import unary_union
 from test_scene_movement import Reader
 
-import geartrain
 from geartrain import GearTrain
 from geartrain.scene import make_scene
 
@@ -163,7 +163,7 @@ def test_likenesses_mesh_without_cutting_into_each_other() -> None:
 )
 def test_where_pitch_circles_touch_a_tooth_meets_a_space(name: str, state: str | None) -> None:
     """In space, so for bevel wheels too; the point where they touch is found by looking all round both."""
-    scene = make_scene(geartrain.load(name), state).to_dict()
+    scene = shipped.scene(name, state).to_dict()
     reader = Reader(scene)
     for pair in scene["pairs"]:
         wheels = [scene["wheels"][at] for at in pair["wheels"]]

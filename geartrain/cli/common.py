@@ -124,11 +124,11 @@ def may_write(path: Path, force: bool = False) -> None:
 
 def _trouble(path: Path) -> Problem | None:
     """What keeps a file from being written at `path`, its being there already aside."""
-    if path.name in ("", "..") or not path.name.isprintable():
-        return _unnamed(path, "a file has a name of printable letters")
     folder, place = path.parent, str(path)
     if path.is_dir():
         return Problem("this is a folder", "a result is one file", f"name a file in it: {path / 'NAME'}", place)
+    if path.name in ("", "..") or not path.name.isprintable():
+        return _unnamed(path, "a file has a name of printable letters")
     if path.exists() and not path.is_file():
         return Problem("this is no ordinary file", "a result takes a file's place", "name a file", place)
     if not folder.is_dir():

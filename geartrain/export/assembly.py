@@ -13,7 +13,7 @@ import numpy as np
 from geartrain.export.blanks import Blanks, find_blanks
 from geartrain.export.likeness import likeness_solid
 from geartrain.export.making import Making, bores, scale_of, sized
-from geartrain.export.plates import Plate, basis, find_plates
+from geartrain.export.plates import Plate, basis, find_plates, pin_diameter, slotted_bar
 from geartrain.export.solid import Solid, cylinder, plate_solid, wheel_solid
 from geartrain.layout import lay_out
 from geartrain.scene import make_scene
@@ -94,7 +94,7 @@ class Workpiece:
 
     @cached_property
     def parts(self) -> tuple[Part, ...]:
-        """All solids: wheels, arbors, and the plates of carriers."""
+        """All solids: wheels, arbors, plates of the frame and of carriers, pins and slots."""
         return tuple(_Parts(self).all())
 
     @cached_property
@@ -113,6 +113,7 @@ class _Parts:
             yield self.wheel(wheel)
         yield from self.arbors()
         yield from self.plates()
+        yield from self.couplings()
 
     def wheel(self, wheel: Wheel) -> Part:
         """By its flat shape where it has one."""
@@ -150,21 +151,83 @@ class _Parts:
         return wheel.thickness * self.scale if blank is None else blank.thickness
 
     def plates(self) -> Iterator[Part]:
-        """Plates of carriers, under all that turns on them."""
+        """Plates of carriers, under all that turns on them, and that of the frame, behind the whole."""
         plates, _ = self.work.plates
         thickness = self.work.making.thickness or _SHEET
         for plate in plates:
-            at = self.bodies[plate.link]
-            if not plate.name.startswith("plate-") or self.scene.bodies[at].parent is None:
+            if not plate.name.startswith("plate-"):
                 continue
+            at = self.bodies[plate.link]
             normal = np.array(plate.normal)
-            lowest = min(self._heights(plate, normal), default=0.0)
             place = np.array(plate.point)
-            place = place + normal * (lowest - place @ normal - _GAP - thickness / 2)
+            if self.scene.bodies[at].parent is None:
+                side, far = self._behind(normal), 2 * _GAP + 1.5 * thickness  # beyond the plates of carriers
+            else:
+                side, far = min(self._heights(plate, normal), default=0.0), _GAP + thickness / 2
+            away = -self.scene.front if self.scene.bodies[at].parent is None else -1
+            place = place + normal * (side - place @ normal + away * far)
             right, up = basis(plate.normal)
             solid = plate_solid(plate.drawing.cut, thickness)
             turn = np.column_stack([right, up, plate.normal])
             yield Part(at, f"{plate.link} plate", "plate", solid, turn, place, "", plate.drawing.cut, thickness)
+
+    def _behind(self, normal: Floats) -> float:
+        """Height of what is farthest from the reader."""
+        places = self.work.layout.wheels.values()
+        front = self.scene.front
+        ends = (float(np.array(place.centre) @ normal) - front * place.thickness / 2 for place in places)
+        return front * min((front * end for end in ends), default=0.0)
+
+    def couplings(self) -> Iterator[Part]:
+        """Pins, from their wheel to the slot's, and bars with a slot as long as the pin wanders."""
+        for coupling in self.scene.couplings:
+            body = self.scene.bodies[coupling.slot]
+            along = np.array(body.direction)
+            pin, hub = (np.array(each) * self.scale for each in (coupling.pin_at, coupling.slot_at))
+            low, high = sorted(
+                (self._level(coupling.pin, pin @ along, along), self._level(coupling.slot, pin @ along, along))
+            )
+            r, e = coupling.pin_radius * self.scale, coupling.offset * self.scale
+            thick = pin_diameter(r)
+            across = np.column_stack([*basis(body.direction), body.direction])
+            middle = pin - along * (pin @ along)
+            yield Part(
+                coupling.pin,
+                f"{coupling.id} pin",
+                "arbor",
+                cylinder(thick / 2, low - _GAP, high + _GAP),
+                across,
+                middle,
+            )
+            out = pin - hub
+            x = out / np.linalg.norm(out)
+            c, s = cos(coupling.slot_turn), sin(coupling.slot_turn)
+            x = c * x + s * np.cross(along, x)
+            turn = np.column_stack([x, np.cross(along, x), along])
+            contours = slotted_bar(r, e, thick)
+            level = self._level(coupling.slot, pin @ along, along)
+            place = hub + along * (level - hub @ along)
+            yield Part(
+                coupling.slot,
+                f"{coupling.id} slot",
+                "plate",
+                plate_solid(contours, _GAP),
+                turn,
+                place,
+                "",
+                contours,
+                _GAP,
+            )
+
+    def _level(self, body: int, height: float, along: Floats) -> float:
+        """The face, nearest to a height, of the wheels of a body."""
+        own = [wheel for wheel in self.scene.wheels if wheel.body == body]
+        faces = [
+            float(np.array(wheel.centre) @ along) * self.scale + side * (self._thick(wheel) + _GAP) / 2
+            for wheel in own
+            for side in (-1, 1)
+        ]
+        return min(faces, key=lambda face: abs(face - height), default=float(height))
 
     def _heights(self, plate: Plate, normal: Floats) -> Iterator[float]:
         for place in self.work.layout.wheels.values():

@@ -8,6 +8,8 @@ from functools import lru_cache
 from math import cos, pi, sin
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from geartrain.errors import GearTrainError, Problem
 from geartrain.export.making import Making, bores
 from geartrain.outlines import Contour, Cut, Pins, Wheel, outline
@@ -23,6 +25,7 @@ LIKENESS = "involute, 20 degrees (no form is declared)"
 _PLAY = 0.05  # modules, of teeth whose form is not declared
 _ADDENDA = (1.0, 0.9, 0.8, 0.7, 0.6, 0.5)  # modules: the tallest that run are taken
 _DEDENDUM = 1.25
+_SAME = 1e-3  # of a size: teeth that differ by less are alike
 _LAND = 0.8  # of the root circle: the widest bore
 
 
@@ -62,6 +65,19 @@ def find_blanks(train: GearTrain, layout: Layout, making: Making) -> Blanks:
     return _Workshop(train, layout, making).all()
 
 
+def _two_shapes(wheel: str, first: Mesh, other: Mesh) -> Problem:
+    return Problem(
+        f"wheel '{wheel}' has the teeth of pair '{first.gear.name}' only",
+        f"pair '{other.gear.name}' gives it others, and a wheel is cut once",
+        "declare one form for both, or try whether they run",
+    )
+
+
+def _area(contour: Contour) -> float:
+    x, y = contour.points.T
+    return float(x @ np.roll(y, -1) - y @ np.roll(x, -1)) / 2
+
+
 class _Workshop:
     def __init__(self, train: GearTrain, layout: Layout, making: Making) -> None:
         self.declared, self.layout, self.making = train.declaration, layout, making
@@ -81,7 +97,28 @@ class _Workshop:
         # a crown wheel is taken for a spur wheel only where nothing better is to be had
         for mesh in sorted(meshes, key=lambda mesh: len({self._kind(wheel) for wheel in mesh.gear.pair})):
             for wheel in mesh.gear.pair:
-                self.meshes.setdefault(wheel, mesh)
+                known = self.meshes.setdefault(wheel, mesh)
+                if mesh is not known and self._other_teeth(wheel, known, mesh):
+                    self.notices.append(_two_shapes(wheel, known, mesh))
+
+    def _other_teeth(self, name: str, mesh: Mesh, other: Mesh) -> bool:
+        """True if two pairs ask for different teeth of one wheel: in form, height or breadth."""
+        if mesh.form != other.form or mesh.form == "triangular":
+            return mesh.form != other.form or self._blade(name, mesh) != self._blade(name, other)
+        try:
+            one, two = (self._declared(name, each) for each in (mesh, other))
+        except GearTrainError:
+            return False  # its fault is told where it is cut
+        sizes = [(each.tip_radius, each.root_radius, *(_area(c) for c in each.contours)) for each in (one, two)]
+        pairs = zip(*sizes, strict=True) if len(sizes[0]) == len(sizes[1]) else [(0.0, 1.0)]
+        return any(abs(a - b) > _SAME * max(abs(a), 1.0) for a, b in pairs)
+
+    def _blade(self, name: str, mesh: Mesh) -> tuple[float, float]:
+        """Tip radius (mm) and half angle (rad) of a wheel of triangular teeth."""
+        sizes = mesh.law.sizes  # type: ignore[attr-defined]
+        scale = sum(self.layout.wheels[each].radius for each in mesh.gear.pair) / sizes.D
+        R, beta = (sizes.R1, sizes.beta1) if name == mesh.driver else (sizes.R2, sizes.beta2)
+        return round(R * scale, 3), round(beta, 9)
 
     def _kind(self, name: str) -> str:
         return self.declared.wheels[name][1].kind

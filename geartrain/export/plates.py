@@ -176,12 +176,23 @@ def _discs(train: GearTrain, diameters: Mapping[str, float], notices: list[Probl
         yield _disc(train, coupling, coupling.slot, diameters, slotted=True)
 
 
+def pin_diameter(radius: float) -> float:
+    """Diameter (mm) of a pin so far from its axis."""
+    return min(2.0, _PIN * radius)
+
+
+def slotted_bar(r: float, e: float, pin: float) -> tuple[Contour, ...]:
+    """A bar from its axis at the origin along x, with a slot for a pin that wanders from |r - e| to r + e (mm)."""
+    low, high = abs(r - e), r + e
+    return around([(0.0, 0.0), (high, 0.0)], 1.2 * pin), around([(low, 0.0), (high, 0.0)], 0.55 * pin)
+
+
 def _disc(train: GearTrain, coupling: Coupling, link: str, diameters: Mapping[str, float], slotted: bool) -> Plate:
     """The disc of a pin, or of its slot: the pin comes as near its axis as |r - e|, and as far as r + e."""
     assert coupling.pin_radius is not None
     assert coupling.offset is not None
     r, e = coupling.pin_radius.si * 1000, coupling.offset.si * 1000
-    pin = min(2.0, _PIN * r)
+    pin = pin_diameter(r)
     low, high = (abs(r - e), r + e) if slotted else (r, r)
     label = train.tree.axis(link) or ""
     own = min(diameters.get(label, 0.0), max(2 * (low - pin), 0.0))

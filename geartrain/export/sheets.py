@@ -12,6 +12,7 @@ from geartrain.outlines import Contour
 
 _LETTER = 0.5  # of the free width of the web: height of letters
 _GREATEST = 5.0  # mm
+_RESERVED = re.compile(r"(con|prn|aux|nul|com\d|lpt\d)(\.|$)", re.I)  # names that Windows keeps for itself
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,7 +41,8 @@ def file_names(names: Iterable[str]) -> list[str]:
     used: set[str] = set()
     found = []
     for name in names:
-        stem = base = re.sub(r"[^\w.+-]+", "-", name).strip("-.")[:80] or "part"
+        base = re.sub(r"[^\w.+-]+", "-", name).strip("-.")[:80] or "part"
+        stem = base = f"part-{base}" if _RESERVED.match(base) else base
         count = 1
         while stem.lower() in used:
             count += 1

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from itertools import pairwise
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -19,7 +19,9 @@ if TYPE_CHECKING:
     from geartrain.export.triangles import Floats
     from geartrain.outlines import Contour
 
-FINE = 0.005  # mm, how far chords may leave a flank
+FINE = 0.005  # mm, how far chords, or the curves through them, may leave a flank
+_CORNER = 0.35  # rad: where a line turns by more it has a corner
+_CURVED = 4  # points from which a run without corners is one curve
 _STRAIGHT = 1e-9
 _DATE = re.compile(rb"'\d{4}-\d\d-\d\dT\d\d:\d\d:\d\d'")  # the same train is the same file
 
@@ -144,21 +146,47 @@ def _wire(contour: Contour, height: float) -> Any:
     from OCP.gp import gp_Pnt
 
     edges = list(_edges(contour))
-    corners = [BRepBuilderAPI_MakeVertex(gp_Pnt(float(x), float(y), height)).Vertex() for (x, y), _, _ in edges]
+    corners = [BRepBuilderAPI_MakeVertex(gp_Pnt(*edge[0].tolist(), height)).Vertex() for edge in edges]
     wire = BRepBuilderAPI_MakeWire()
-    for at, (start, middle, end) in enumerate(edges):
+    for at, line in enumerate(edges):
         ends = corners[at], corners[(at + 1) % len(corners)]
-        if middle is None:
-            edge = BRepBuilderAPI_MakeEdge(*ends)
+        if isinstance(line, _Arc):
+            arc = GC_MakeArcOfCircle(*(gp_Pnt(*point.tolist(), height) for point in line)).Value()
+            edge = BRepBuilderAPI_MakeEdge(arc, *ends)
+        elif len(line) > 2:
+            edge = BRepBuilderAPI_MakeEdge(_curve(line, height), *ends)
         else:
-            points = (gp_Pnt(float(x), float(y), height) for x, y in (start, middle, end))
-            edge = BRepBuilderAPI_MakeEdge(GC_MakeArcOfCircle(*points).Value(), *ends)
+            edge = BRepBuilderAPI_MakeEdge(*ends)
         wire.Add(edge.Edge())
     return wire.Wire()
 
 
-def _edges(contour: Contour) -> Iterator[tuple[Floats, Floats | None, Floats]]:
-    """Start, middle of an arc, and end of every edge; runs of chords as few as they can be."""
+def _curve(line: Floats, height: float) -> Any:
+    """A curve of few poles that stays near the points of a flank."""
+    from OCP.GeomAbs import GeomAbs_C1
+    from OCP.GeomAPI import GeomAPI_PointsToBSpline
+    from OCP.gp import gp_Pnt
+
+    try:
+        from OCP.collections import Array1_gp_Pnt as Points
+    except ImportError:  # its name before release 8
+        from OCP.TColgp import TColgp_Array1OfPnt as Points
+    points = Points(1, len(line))
+    for at, (x, y) in enumerate(line.tolist(), 1):
+        points.SetValue(at, gp_Pnt(x, y, height))
+    return GeomAPI_PointsToBSpline(points, 3, 5, GeomAbs_C1, FINE / 2).Curve()
+
+
+class _Arc(NamedTuple):
+    """Start, middle and end of an arc."""
+
+    start: Floats
+    middle: Floats
+    end: Floats
+
+
+def _edges(contour: Contour) -> Iterator[Floats | _Arc]:
+    """Arcs, chords (two points), and runs of points (more) that are smooth, one after the other."""
     count = len(contour.points)
     straight = abs(contour.bulges) < _STRAIGHT
     # begin after an arc, so that no run of chords is cut in two
@@ -170,10 +198,22 @@ def _edges(contour: Contour) -> Iterator[tuple[Floats, Floats | None, Floats]]:
             run.append(at)
             continue
         if run:
-            line = thinned(contour.points[[*run, (run[-1] + 1) % count]], FINE)
-            yield from ((a, None, b) for a, b in pairwise(line))
+            yield from _smooth(contour.points[[*run, (run[-1] + 1) % count]])
             run = []
         if at >= 0:
             start, end, bulge = contour.points[at], contour.points[(at + 1) % count], contour.bulges[at]
             chord = end - start
-            yield start, (start + end) / 2 + np.array([chord[1], -chord[0]]) * bulge / 2, end
+            yield _Arc(start, (start + end) / 2 + np.array([chord[1], -chord[0]]) * bulge / 2, end)
+
+
+def _smooth(line: Floats) -> Iterator[Floats]:
+    """A line parted at its corners; parts that chords would need many points for stay whole."""
+    steps = np.diff(line, axis=0)
+    turn = np.diff(np.unwrap(np.arctan2(steps[:, 1], steps[:, 0])))
+    ends = [0, *(np.flatnonzero(abs(turn) > _CORNER) + 1).tolist(), len(line) - 1]
+    for low, high in pairwise(ends):
+        part = thinned(line[low : high + 1], FINE)
+        if len(part) < _CURVED:
+            yield from (part[at : at + 2] for at in range(len(part) - 1))
+        else:
+            yield thinned(line[low : high + 1], FINE / 4)

@@ -36,17 +36,19 @@ def balance(bars: Sequence[Bar], modules: Mapping[int, Fraction], free: frozense
 
 
 def _closed(bars: Sequence[Bar]) -> list[Bar]:
-    """Bars of closed chains."""
-    left = list(bars)
-    while True:
-        count: dict[str, int] = {}
-        for bar in left:
-            for end in bar.ends:
-                count[end] = count.get(end, 0) + 1
-        kept = [bar for bar in left if min(count[end] for end in bar.ends) > 1]
-        if len(kept) == len(left):
-            return kept
-        left = kept
+    """Bars of closed chains: what is left when loose ends are taken off."""
+    at: dict[str, set[int]] = {}
+    for number, bar in enumerate(bars):
+        for end in bar.ends:
+            at.setdefault(end, set()).add(number)
+    loose = [end for end, own in at.items() if len(own) == 1]
+    while loose:
+        for number in tuple(at[loose.pop()]):
+            for end in bars[number].ends:
+                at[end].discard(number)
+                if len(at[end]) == 1:
+                    loose.append(end)
+    return [bar for number, bar in enumerate(bars) if number in at[bar.ends[0]]]
 
 
 def _relax(bars: Sequence[Bar], at: int, modules: dict[int, Fraction], free: frozenset[int]) -> bool:

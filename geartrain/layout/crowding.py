@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from geartrain.layout.blocks import Block
 from geartrain.layout.planning import Point
 from geartrain.layout.reading import Line
-from geartrain.layout.stacking import Block
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -60,9 +60,12 @@ def crowding(
     pierce = off[at_axis] < outer[None, :]
     pierce &= (far[np.ix_(at_axis, axis)] >= inner[None, :]) | (inner[None, :] == 0)
     pierce &= axis[None, :] != at_axis[:, None]
-    carried = {line.label: set(line.bearers) for line in lines}
+    own: dict[str, list[int]] = {}
+    for at, block in enumerate(blocks):
+        if not block.mate:
+            own.setdefault(block.link, []).append(at)
     for row, at in enumerate(at_axis.tolist()):  # a plate has holes for the arbors that it bears
-        pierce[row] &= [block.mate or block.link not in carried[lines[at].label] for block in blocks]
+        pierce[row, [block for bearer in lines[at].bearers for block in own.get(bearer, ())]] = False
     return clash, pierce
 
 

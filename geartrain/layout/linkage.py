@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from heapq import heappop, heappush
+from heapq import heapify, heappop, heappush
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -72,22 +72,30 @@ class Linkage:
         return {at: tuple(group) for group in alike.values() for at in group}
 
     def _order(self, placed: set[int]) -> list[Step]:
-        waiting = [at for at in range(len(self.bars)) if at not in placed]
-        stand = sorted(placed)
+        order = sorted(placed)
         count = [len(self.bars[at].keys() & placed) for at in range(len(self.bars))]
         closing = self._closing(placed)
-        steps = []
+        carried: dict[int, list[int]] = {}
+        for at, pivot in self.pivot.items():
+            carried.setdefault(pivot, []).append(at)
+        waiting = [(self._rank(at, count[at], placed), at) for at in range(len(self.bars)) if at not in placed]
+        heapify(waiting)
+        found = []
         while waiting:
-            at = min(waiting, key=lambda one: self._rank(one, count[one], placed))
-            waiting.remove(at)
+            rank, at = heappop(waiting)
+            if at in placed or rank != self._rank(at, count[at], placed):
+                continue  # it has been put in, or waits with another rank too
             tied = tuple((other, far, far) for other, far in self.bars[at].items() if other in placed)
             bounds = tuple(self._bounds(at, placed, closing)) if at in closing else ()
-            steps.append(Step(at, np.array(stand, np.intp), tied, bounds))
+            found.append((at, len(order), tied, bounds))
             placed.add(at)
-            stand.append(at)
+            order.append(at)
             for other in self.bars[at]:
                 count[other] += 1
-        return steps
+            for other in {*self.bars[at], *carried.get(at, ())} - placed:
+                heappush(waiting, (self._rank(other, count[other], placed), other))
+        stand = np.array(order, np.intp)
+        return [Step(at, stand[:known], tied, bounds) for at, known, tied, bounds in found]
 
     def _rank(self, at: int, tied: int, placed: set[int]) -> tuple[bool, int, float, int]:
         late = at in self.pivot and self.pivot[at] not in placed
@@ -97,8 +105,15 @@ class Linkage:
     def _closing(self, placed: set[int]) -> set[int]:
         """Axes on closed chains: what is left when loose ends are taken off, all that stands counting as one."""
         left = set(range(len(self.bars)))
-        while ends := [at for at in left if at not in placed and len([o for o in self.bars[at] if o in left]) < 2]:
-            left.difference_update(ends)
+        count = [len(bars) for bars in self.bars]
+        ends = [at for at in left if at not in placed and count[at] < 2]
+        while ends:
+            at = ends.pop()
+            left.discard(at)
+            for other in self.bars[at]:
+                count[other] -= 1
+                if count[other] == 1 and other in left and other not in placed:
+                    ends.append(other)
         return left if len(left) <= _NEAR else set()
 
     def _bounds(self, at: int, placed: set[int], closing: set[int]) -> list[Bound]:

@@ -59,6 +59,20 @@ class _Plan:
     cost: float
 
 
+@dataclass(frozen=True)
+class _Option:
+    """A plan and a place for the next axis; made only if it is among the best."""
+
+    plan: _Plan
+    place: Floats
+    cost: float
+
+    def made(self, at: int) -> _Plan:
+        points = self.plan.points.copy()
+        points[at] = self.place
+        return _Plan(points, self.cost)
+
+
 def plan(task: Task) -> dict[str, Point]:
     """Points of all axes: distances kept where they can be, in least squares where not; the same for the same task.
 
@@ -73,8 +87,8 @@ def plan(task: Task) -> dict[str, Point]:
     width = next((wide for most, wide in _BEAM if len(task.labels) <= most), 1)
     plans = [_Plan(points, 0.0)]
     for step in linkage.steps:
-        found = [option for one in plans for option in _options(task, linkage, room, step, one)]
-        plans = sorted(found, key=lambda option: option.cost)[:width]
+        found = [option for one in plans for option in _options(task, linkage, room, step, one, width)]
+        plans = [option.made(step.at) for option in sorted(found, key=lambda option: option.cost)[:width]]
     best = fit(plans[0].points, linkage.edges, [linkage.index[label] for label in task.fixed])
     return {label: (float(best[at, 0]), float(best[at, 1])) for label, at in linkage.index.items()}
 
@@ -83,7 +97,7 @@ def _radius(task: Task, label: str) -> float:
     return max((disc.outer for disc in task.discs.get(label, ())), default=0.0)
 
 
-def _options(task: Task, linkage: Linkage, room: Room, step: Step, plan: _Plan) -> list[_Plan]:
+def _options(task: Task, linkage: Linkage, room: Room, step: Step, plan: _Plan, most: int) -> list[_Option]:
     label = task.labels[step.at]
     candidates = _candidates(task, linkage, step, plan.points)
     costs = _misses(step, candidates, plan.points) + room.cost(step.at, step.placed, candidates, plan.points)
@@ -91,12 +105,8 @@ def _options(task: Task, linkage: Linkage, room: Room, step: Step, plan: _Plan) 
         apart = candidates - plan.points[step.placed].mean(axis=0)
         costs += _FAR * np.hypot(apart[:, 0], apart[:, 1])
         costs -= _SIDE * apart @ np.array(task.sides.get(label, (0.0, 0.0)))
-    options = []
-    for at in np.argsort(costs.round(9), kind="stable")[:_DIRECTIONS].tolist():
-        points = plan.points.copy()
-        points[step.at] = candidates[at]
-        options.append(_Plan(points, round(plan.cost + float(costs[at]), 9)))
-    return options
+    best = np.argsort(costs.round(9), kind="stable")[:most].tolist()
+    return [_Option(plan, candidates[at], round(plan.cost + float(costs[at]), 9)) for at in best]
 
 
 def _misses(step: Step, candidates: Floats, points: Floats) -> Floats:

@@ -49,6 +49,9 @@ def _fill(near: Floats, far: Floats, members: Sequence[tuple[int, str, float, fl
     low, high = np.array([member[2] for member in members]), np.array([member[3] for member in members])
     apart = np.hypot(*(points[:, None, axis] - points[None, :, axis] for axis in (0, 1)))
     block = np.ix_(index, index)
+    if not high.any():  # none is carried round
+        near[block] = far[block] = apart
+        return
     reach = high[:, None] + high[None, :]
     near[block] = np.maximum.reduce(
         [apart - reach, low[:, None] - high[None, :] - apart, low[None, :] - high[:, None] - apart, 0 * apart]

@@ -50,7 +50,11 @@ class Room:
                 self.still[ends] = self.still[ends[::-1]] = True
         plain = {label: [disc for disc in discs.get(label, ()) if not disc.inner] for label in labels}
         self.radius = np.array([max((disc.outer for disc in plain[label]), default=0.0) for label in labels])
-        self.need = self._need(labels, plain, mates)
+        of: dict[str, list[str]] = {}
+        for pair in mates:
+            for wheel in pair:
+                of.setdefault(wheel, []).extend(pair - {wheel})
+        self.need = self._need(labels, plain, of)
         self.meet = np.zeros((len(labels), len(labels)), bool)
         index = {disc.wheel: at for at, label in enumerate(labels) for disc in discs.get(label, ())}
         for pair in mates:
@@ -59,7 +63,7 @@ class Room:
                 self.meet[both[0], both[1]] = self.meet[both[1], both[0]] = True
 
     def _need(
-        self, labels: Sequence[str], plain: Mapping[str, Sequence[Disc]], mates: frozenset[frozenset[str]]
+        self, labels: Sequence[str], plain: Mapping[str, Sequence[Disc]], mates: Mapping[str, Sequence[str]]
     ) -> Floats:
         """Least distances of axes whose wheels share a level and do not mesh."""
         need = np.zeros((len(labels), len(labels)))
@@ -68,15 +72,21 @@ class Room:
             for disc in plain[label]:
                 clusters.setdefault(disc.cluster, []).append((at, disc))
         for members in clusters.values() if len(labels) <= _MOST else ():
-            for nth, (at, disc) in enumerate(members):
-                for other, mate in members[nth + 1 :]:
-                    if at != other and frozenset((disc.wheel, mate.wheel)) not in mates:
-                        need[at, other] = need[other, at] = max(need[at, other], disc.outer + mate.outer)
+            outer = np.array([disc.outer for _, disc in members])
+            apart = outer[:, None] + outer[None, :]
+            nth = {disc.wheel: number for number, (_, disc) in enumerate(members)}
+            for _, disc in members:
+                for mate in mates.get(disc.wheel, ()):
+                    if mate in nth:
+                        apart[nth[disc.wheel], nth[mate]] = 0.0
+            ends = np.array([at for at, _ in members])
+            np.maximum.at(need, np.ix_(ends, ends), apart)
+        np.fill_diagonal(need, 0.0)
         return need
 
     def cost(self, at: int, placed: Indices, candidates: Floats, points: Floats) -> Floats:
         """Cost of each candidate place of an axis among those that stand."""
-        near = placed[self.still[at, placed]]
+        near = self._within_reach(at, placed[self.still[at, placed]], candidates, points)
         apart = candidates[:, None, :] - points[near][None, :, :]
         far = np.hypot(apart[:, :, 0], apart[:, :, 1])
         own, other = self.radius[at], self.radius[near]
@@ -85,3 +95,11 @@ class Room:
         cost += _OVER * (np.maximum(own + other - far, 0) * free).sum(axis=1)
         cost += _COVER * (np.maximum(np.maximum(own, other) - far, 0) * free).sum(axis=1)
         return np.asarray(cost, float)
+
+    def _within_reach(self, at: int, near: Indices, candidates: Floats, points: Floats) -> Indices:
+        """Those of some axes that a candidate may come too near to."""
+        low, high = candidates.min(axis=0), candidates.max(axis=0)
+        spots = points[near]
+        away = np.maximum(np.maximum(low - spots, spots - high), 0)
+        reach = np.maximum(self.radius[at] + self.radius[near], self.need[at, near])
+        return np.asarray(near[np.hypot(away[:, 0], away[:, 1]) < reach])

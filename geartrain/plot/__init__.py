@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from geartrain.plot.convergence import Settling, convergence_figure
     from geartrain.plot.corner import Likely, corner_figure
+    from geartrain.plot.counts import counts_figure
     from geartrain.plot.jam_map import jam_map_figure
     from geartrain.plot.law import law_figure
     from geartrain.plot.motion import motion_figure
@@ -25,16 +26,19 @@ if TYPE_CHECKING:
     from geartrain.plot.straying import Bands, histogram_figure, straying_figure
     from geartrain.plot.sweep import sweep_figure
     from geartrain.plot.teeth import teeth_figure
-    from geartrain.plot.tornado import Share, tornado_figure
+    from geartrain.plot.tornado import Sway, tornado_figure
+    from geartrain.plot.trials import findings_figure
 
 __all__ = [
     "KINDS",
     "Bands",
     "Likely",
     "Settling",
-    "Share",
+    "Sway",
     "convergence_figure",
     "corner_figure",
+    "counts_figure",
+    "findings_figure",
     "histogram_figure",
     "jam_map_figure",
     "law_figure",
@@ -55,9 +59,11 @@ _PLACES = {
     "Bands": "straying",
     "Likely": "corner",
     "Settling": "convergence",
-    "Share": "tornado",
+    "Sway": "tornado",
     "convergence_figure": "convergence",
     "corner_figure": "corner",
+    "counts_figure": "counts",
+    "findings_figure": "trials",
     "histogram_figure": "straying",
     "jam_map_figure": "jam_map",
     "law_figure": "law",

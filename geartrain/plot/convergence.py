@@ -63,7 +63,10 @@ def convergence_figure(estimates: Mapping[str, Settling], unit: str = "probabili
     _slope(below, list(estimates.values()))
     above.set_ylabel(unit, fontsize=TEXT)
     below.set_ylabel("half width of the\n95 % interval", fontsize=TEXT)
-    below.set_yscale("log")
+    widths = np.concatenate([(each.high - each.low) / 2 for each in estimates.values()])
+    if (widths > 0).any():
+        below.set_ylim(widths[widths > 0].min() / 2, 2 * widths.max())
+        below.set_yscale("log")
     below.set_xlabel("trials", fontsize=TEXT)
     figure.legend(*above.get_legend_handles_labels(), loc="outside upper left", ncols=4, fontsize=SMALL, frameon=False)
     return figure

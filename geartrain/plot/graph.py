@@ -187,7 +187,7 @@ def _draw_labels(
         turning = edge.kind == "revolute"
         color = RED if edge.broken else {"revolute": GREY, "gear": BLUE}.get(edge.kind, PURPLE)
         style = "italic" if turning else "normal"
-        write(axes, best[0], best[1], edge.label, color, fontsize=_FINE, fontstyle=style)
+        write(axes, best[0], best[1], edge.label, color, 6.0, fontsize=_FINE, fontstyle=style)
 
 
 def _width(text: str) -> float:

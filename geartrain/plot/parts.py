@@ -22,7 +22,6 @@ TEXT, SMALL = 11.0, 10.0  # points
 BLACK, GREY, PALE = "#222222", "#6e6e6e", "#bdbdbd"
 BLUE, SKY, GREEN, ORANGE, RED, PURPLE = "#0072b2", "#56b4e9", "#009e73", "#e69f00", "#d55e00", "#cc79a7"
 HALO = (withStroke(linewidth=3.0, foreground="white"),)  # keeps text readable over lines
-HALO_ONLY = (Stroke(linewidth=3.0, foreground="white"),)
 LETTER = 0.62 / 72  # inches of a letter by points of its size, on the average
 PHASES = {APPROACH: BLUE, RECESS: RED, STANDSTILL: BLACK}
 
@@ -56,11 +55,11 @@ def plain(axes: Axes) -> None:
         axes.spines[side].set_visible(False)
 
 
-def write(axes: Axes, x: float, y: float, text: str, color: str = BLACK, **how: Any) -> None:
+def write(axes: Axes, x: float, y: float, text: str, color: str = BLACK, halo: float = 3.0, **how: Any) -> None:
     """Words as they are, and a halo behind them: words with a halo of their own are mere outlines in a vector file."""
     how = {"ha": "center", "va": "center", "fontsize": SMALL, "color": color, "zorder": 8, "parse_math": False, **how}
     behind = {key: value for key, value in how.items() if key != "gid"}
-    axes.text(x, y, text, path_effects=HALO_ONLY, **behind)
+    axes.text(x, y, text, path_effects=(Stroke(linewidth=halo, foreground="white"),), **behind)
     axes.text(x, y, text, **how)
 
 

@@ -28,6 +28,7 @@ _RIM, _HEAD, _FOOT = 0.3, 0.75, 0.75
 _FAR, _NEAR = np.array([0.55, 0.68, 0.80]), np.array([0.93, 0.96, 0.98])  # colours of the lowest and highest layer
 _SIDE = 1.1  # inches: least width of the side view
 _FINE = 7.5  # points
+_CHORD, _COARSE = 0.002, 0.02  # inches and modules that an outline may leave its teeth by
 
 
 def plan_figure(scene: Scene, turns: Fraction = Fraction(0), labels: bool = True) -> Figure:
@@ -120,7 +121,8 @@ def _draw_flat(page: Page, standing: Stand, labels: bool) -> None:
 
 
 def _draw_wheel(page: Page, standing: Stand, wheel: Wheel, level: float, order: float, red: bool) -> None:
-    outline = page.at(standing.seen(standing.outline(wheel)))
+    chord = min(_CHORD / page.scale, _COARSE * wheel.module)
+    outline = page.at(standing.seen(standing.outline(wheel, chord=chord)))
     face = (*(_FAR + (_NEAR - _FAR) * level), 0.78)
     style: dict[str, Any] = {"edgecolor": RED if red else BLACK, "linewidth": 1.2 if red else 0.6, "zorder": order}
     if wheel.kind == "ring":

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from io import BytesIO
 from threading import Lock
 
@@ -15,6 +16,8 @@ _METADATA: dict[str, dict[str, str | None]] = {
     ".png": {"Software": None},
     ".pdf": {"CreationDate": None},
 }
+_PATH = re.compile(rb'\bd="[^"]*"')
+_LONG = re.compile(rb"(\.\d{3})\d+")  # a thousandth of a point is finer than any screen
 _ONE_AT_A_TIME = Lock()  # the salt of SVG names can only be given for all figures at once
 
 
@@ -31,4 +34,5 @@ def render(figure: Figure, suffix: str, dots: float = 100.0) -> bytes:
     buffer = BytesIO()
     with _ONE_AT_A_TIME, rc_context({"svg.hashsalt": "geartrain"}):
         figure.savefig(buffer, format=kind[1:], dpi=dots, metadata=_METADATA[kind])
-    return buffer.getvalue()
+    data = buffer.getvalue()
+    return _PATH.sub(lambda path: _LONG.sub(rb"\1", path[0]), data) if kind == ".svg" else data

@@ -4,15 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from itertools import pairwise
 
 from geartrain.analysis import GearTrain
 from geartrain.circuits import Circuit
-from geartrain.plot.arranging import arrange, neighbours
+from geartrain.plot.arranging import arrange
+from geartrain.plot.columns import Crank, axis_in, find_columns, find_planes, ring_of
 from geartrain.plot.levels import Shaft, find_levels
 
-_COLUMN, _PLANE = 0.3, 0.34  # inches from mesh to mesh within a plane, and between planes
-_CRANK = 0.3  # inches that a carrier's crank takes before a plane
 LANE, GAP = 0.15, 1.1  # inches from shaft to shaft of one axis, and between the shafts of neighbouring axes
 _TRIES = 6  # arrangements of columns and levels
 REACH = 0.34  # inches of a planet beyond its axis, where its ring meets it
@@ -37,15 +35,6 @@ class Mesh:
     low: float
     high: float
     meet: float
-
-
-@dataclass(frozen=True, slots=True)
-class Crank:
-    """A carrier's arm at `x`, from its own shaft to the axis it bears."""
-
-    carrier: str
-    axis: str
-    x: float
 
 
 _Try = tuple[
@@ -73,12 +62,12 @@ class Skeleton:
 def find_skeleton(train: GearTrain) -> Skeleton:
     """Places for axes, shafts, meshes and cranks; what belongs together stands together."""
     axis_of = _axes(train)
-    order, planes = _row_order(train, axis_of), _planes(train)
+    order, planes = _row_order(train, axis_of), find_planes(train)
     row = {axis: at for at, axis in enumerate(order)}
     tries: list[tuple[int, int, _Try]] = []
     for at in range(_TRIES):  # columns follow from levels, and levels from columns
         shafts = {link: Shaft(link, axis_of[link]) for link in axis_of if link != train.declaration.frame}
-        columns, cranks, lone, width = _columns(train, planes, row, axis_of, shafts)
+        columns, cranks, lone, width = find_columns(train, planes, row, axis_of, shafts)
         _reach_cranks(shafts, cranks)
         spans = [
             *(
@@ -124,11 +113,6 @@ def _axes(train: GearTrain) -> dict[str, str]:
     return {link: tree.axis(link) or "" for link in train.declaration.links}
 
 
-def axis_in(train: GearTrain, axis_of: dict[str, str], link: str, carrier: str) -> str:
-    """The axis on which a link stands in a mesh; the frame, on that of the mesh's carrier."""
-    return axis_of[link] or axis_of[carrier]
-
-
 def _row_order(train: GearTrain, axis_of: dict[str, str]) -> list[str]:
     labels = list(dict.fromkeys(label for label in axis_of.values() if label))
     pairs = [(axis_in(train, axis_of, c.i, c.carrier), axis_in(train, axis_of, c.j, c.carrier)) for c in train.circuits]
@@ -138,120 +122,6 @@ def _row_order(train: GearTrain, axis_of: dict[str, str]) -> list[str]:
     if inputs and order.index(inputs[0]) > len(order) / 2:
         order.reverse()
     return order
-
-
-def _planes(train: GearTrain) -> list[list[Circuit]]:
-    """Meshes that share a wheel, together; planes in an order in which each link's stand close."""
-    circuits = {circuit.id: circuit for circuit in train.circuits}
-    by_wheel: dict[str, list[str]] = {}
-    for circuit in train.circuits:
-        for wheel in circuit.wheels if circuit.kind == "gear" else ():
-            by_wheel.setdefault(wheel, []).append(circuit.id)
-    mates = neighbours(list(circuits), [pair for names in by_wheel.values() for pair in pairwise(names)])
-    planes: dict[str, list[str]] = {}
-    seen: set[str] = set()
-    for name in circuits:
-        found, queue = [], [name]
-        while queue:
-            here = queue.pop(0)
-            if here not in seen:
-                seen.add(here)
-                found.append(here)
-                queue.extend(mates[here])
-        if found:
-            planes[name] = found
-    home = {name: plane for plane, names in planes.items() for name in names}
-    by_link: dict[str, list[str]] = {}
-    for circuit in train.circuits:
-        for link in (circuit.i, circuit.j):
-            if link != train.declaration.frame:
-                by_link.setdefault(link, []).append(home[circuit.id])
-    order = arrange(list(planes), [pair for names in by_link.values() for pair in pairwise(names)])
-    return [[circuits[name] for name in planes[plane]] for plane in order]
-
-
-def _columns(
-    train: GearTrain,
-    planes: Sequence[Sequence[Circuit]],
-    row: dict[str, int],
-    axis_of: dict[str, str],
-    shafts: dict[str, Shaft],
-) -> tuple[list[tuple[Circuit, float]], list[Crank], list[tuple[str, float]], float]:
-    """A column for every mesh; a crank before the first plane in which a borne axis meshes."""
-    columns: list[tuple[Circuit, float]] = []
-    cranks: list[Crank] = []
-    borne: set[str] = set()
-    x = 0.0
-    for plane in planes:
-        taken: list[list[tuple[float, float]]] = []
-        for circuit in plane:
-            for axis in (axis_of[circuit.i], axis_of[circuit.j]):
-                bearer = _bearer(train, axis, axis_of)
-                if axis and axis not in borne and bearer is not None:
-                    borne.add(axis)
-                    x += _CRANK
-                    cranks.append(Crank(bearer, axis, x))
-        x += _PLANE
-        for circuit in plane:
-            column = _free(taken, circuit, train, axis_of, row)
-            here = x + column * _COLUMN
-            columns.append((circuit, here))
-            for link in (circuit.i, circuit.j):
-                if link in shafts:
-                    ring = _ring(train, circuit)
-                    own = ring and train.declaration.wheels[ring][0] == link
-                    shafts[link].xs.append(here + (_COLUMN if own else 0.0))
-        x += len(taken) * _COLUMN
-    meshing = {wheel for circuit in train.circuits for wheel in circuit.wheels if circuit.kind == "gear"}
-    lone = []
-    for name, (link, _) in train.declaration.wheels.items():
-        if name not in meshing and link in shafts:
-            x += _PLANE + _COLUMN
-            lone.append((name, x))
-            shafts[link].xs.append(x)
-    return columns, cranks, lone, x + _PLANE
-
-
-def _bearer(train: GearTrain, axis: str, axis_of: dict[str, str]) -> str | None:
-    """The moving link that bears an axis."""
-    tops = (train.tree.top[link] for link, own in axis_of.items() if own == axis and link in train.tree.top)
-    return next((top for top in tops if top != train.declaration.frame), None)
-
-
-def _ring(train: GearTrain, circuit: Circuit) -> str:
-    if circuit.kind != "gear":
-        return ""
-    return next((wheel for wheel in circuit.wheels if train.declaration.wheels[wheel][1].internal), "")
-
-
-def _free(
-    taken: list[list[tuple[float, float]]],
-    circuit: Circuit,
-    train: GearTrain,
-    axis_of: dict[str, str],
-    row: dict[str, int],
-) -> int:
-    """The first column of a plane in which a mesh hides no other; a ring takes the next one for its upright too."""
-    one, other = (row[axis_in(train, axis_of, link, circuit.carrier)] for link in (circuit.i, circuit.j))
-    low, high = float(min(one, other)), float(max(one, other))
-    ring = _ring(train, circuit)
-    spans = [(low, high)]
-    if ring:
-        planet = other if train.declaration.wheels[ring][0] == circuit.i else one
-        beyond = (planet, planet + 0.4) if planet == high else (planet - 0.4, planet)
-        spans = [beyond, (min(low, beyond[0]), max(high, beyond[1]))]
-    at = 0
-    while not all(_clear(taken, at + step, span) for step, span in enumerate(spans)):
-        at += 1
-    for step, span in enumerate(spans):
-        while len(taken) <= at + step:
-            taken.append([])
-        taken[at + step].append(span)
-    return at
-
-
-def _clear(taken: list[list[tuple[float, float]]], column: int, span: tuple[float, float]) -> bool:
-    return column >= len(taken) or all(span[1] <= low or high <= span[0] for low, high in taken[column])
 
 
 def _lanes(levels: Sequence[Sequence[str]], shafts: dict[str, Shaft]) -> tuple[dict[str, tuple[float, float]], float]:
@@ -291,7 +161,7 @@ def _mesh(
     (low, low_axis), (high, high_axis) = parts[0][0], parts[1][0]
     wheels = (parts[0][1], parts[1][1])
     bottom, top = rows[low_axis][1], rows[high_axis][0]
-    ring = _ring(train, circuit)
+    ring = ring_of(train, circuit)
     if ring:
         meet = rows[high_axis][1] + REACH if ring == wheels[0] else rows[low_axis][0] - REACH
         return Mesh(circuit.id, "ring", (low, high), wheels, ring, x, bottom, top, meet)

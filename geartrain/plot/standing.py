@@ -53,10 +53,13 @@ class Stand:
         """Middle of the pitch circle of a wheel."""
         return self.pose.point(wheel.body, wheel.centre)
 
-    def outline(self, wheel: Wheel, scale: float = 1.0, height: float = 0.0) -> Floats:
-        """Teeth of a wheel (points, 3) times `scale`, moved along its axis by `height` (mm)."""
+    def outline(self, wheel: Wheel, scale: float = 1.0, height: float = 0.0, chord: float = 0.0) -> Floats:
+        """Teeth of a wheel (points, 3) times `scale`, moved along its axis by `height` (mm).
+
+        chord   how far (mm) points that are left out may lie beside the line
+        """
         profile = self.scene.profiles[wheel.profile]
-        tooth = np.array(profile.points)
+        tooth = thinned(np.array(profile.points), chord / (wheel.radius * scale))
         if profile.hole:
             return self.circle(wheel, wheel.tip * scale, height)
         radius = wheel.radius * scale * np.tile(tooth[:-1, 0], wheel.teeth)
@@ -90,6 +93,22 @@ class Stand:
             return (half, 1.0), (-half, 1.0)
         apex = -wheel.facing * wheel.radius / np.tan(wheel.cone)
         return (0.0, 1.0), ((1 - _NARROW) * float(apex), _NARROW)
+
+
+def thinned(tooth: Floats, chord: float) -> Floats:
+    """The fewest of a line's points (radius, angle) that keep it within `chord` of itself (Douglas and Peucker)."""
+    x, y = tooth[:, 0] * np.cos(tooth[:, 1]), tooth[:, 0] * np.sin(tooth[:, 1])
+    kept, waiting = {0, len(tooth) - 1}, [(0, len(tooth) - 1)]
+    while waiting:
+        low, high = waiting.pop()
+        u, v = x[high] - x[low], y[high] - y[low]
+        between = slice(low + 1, high)
+        off = abs((x[between] - x[low]) * v - (y[between] - y[low]) * u) / (np.hypot(u, v) or 1.0)
+        if high - low > 1 and off.max() > chord:
+            middle = low + 1 + int(off.argmax())
+            kept.add(middle)
+            waiting += [(low, middle), (middle, high)]
+    return tooth[sorted(kept)]
 
 
 def stand(scene: Scene, turns: Fraction) -> Stand:

@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from geartrain.analysis import GearTrain
+from geartrain.plot.columns import Crank
 from geartrain.plot.levels import Shaft
 from geartrain.plot.library import Axes, Figure, Line2D, Patch, Rectangle
 from geartrain.plot.parts import (
@@ -24,11 +25,11 @@ from geartrain.plot.parts import (
     too_many,
     write,
 )
-from geartrain.plot.skeleton import Crank, Mesh, Skeleton, find_skeleton
+from geartrain.plot.skeleton import Mesh, Skeleton, find_skeleton
 
 _MOST = 160  # gear pairs
 _TICK, _COLUMN = 0.085, 0.3  # inches: half a tooth mark, a column
-_FINE = 6.8  # points
+_FINE, _NAME = 6.8, 8.0  # points
 _HEAD, _FOOT = 0.7, 0.5
 
 
@@ -67,6 +68,13 @@ class _Drawing:
     def __init__(self, axes: Axes, train: GearTrain, skeleton: Skeleton, labels: bool) -> None:
         self.axes, self.train, self.skeleton, self.labels = axes, train, skeleton, labels
         self.feet: dict[str, tuple[float, float]] = {}
+        self.names: list[tuple[float, float, float, float]] = []
+        self.uprights = [(mesh.x, mesh.low, mesh.high) for mesh in skeleton.meshes]
+        self.uprights += [
+            (mesh.x + _COLUMN, min(mesh.low, mesh.meet), max(mesh.high, mesh.meet))
+            for mesh in skeleton.meshes
+            if mesh.ring
+        ]
 
     def draw_axes(self) -> None:
         """Centre lines."""
@@ -85,7 +93,25 @@ class _Drawing:
         if self.train.tree.top[shaft.link] == self.train.declaration.frame:
             self._ground(left + 0.04, shaft.y - 0.075)
         if self.labels:
-            write(self.axes, left - 0.04, shaft.y, shaft.link, ha="right", fontsize=8.0, fontweight="bold")
+            x, y, ha = self._name_spot(shaft.link, left, right, shaft.y)
+            write(self.axes, x, y, shaft.link, ha=ha, fontsize=_NAME, fontweight="bold", zorder=10)
+
+    def _name_spot(self, link: str, left: float, right: float, y: float) -> tuple[float, float, str]:
+        """Where a name stands, and to which end: before its shaft, or over it where something stands there."""
+        wide = len(link) * _NAME * LETTER
+        spots = [(left - 0.04 - wide, y), (left + 0.02, y + 0.1), (right - wide, y + 0.1), (right + 0.04, y + 0.1)]
+
+        def taken(spot: tuple[float, float]) -> int:
+            start, end, low, high = spot[0] - 0.03, spot[0] + wide + 0.03, spot[1] - 0.07, spot[1] + 0.07
+            # words stand on the right of each upright
+            uprights = sum(x - 0.02 < end and start < x + 0.14 and low < top and bottom < high
+                           for x, bottom, top in self.uprights)  # fmt: skip
+            return uprights + sum(a < end and start < b and low < top and bottom < high
+                                  for a, b, bottom, top in self.names)  # fmt: skip
+
+        x, middle = min(spots, key=taken)
+        self.names.append((x, x + wide, middle - 0.07, middle + 0.07))
+        return (left - 0.04, middle, "right") if middle == y else (x, middle, "left")
 
     def draw_mesh(self, mesh: Mesh) -> None:
         """Two wheels up to where they touch, or a pin in its slot."""

@@ -15,7 +15,7 @@ Interval = tuple[float, float]
 
 
 @dataclass(frozen=True, slots=True)
-class Share:
+class Sway:
     """A part of the variance of a result that one cause brings.
 
     own        by itself, with its `own_within` interval or None
@@ -33,7 +33,7 @@ class Share:
         return self.own if self.whole is None else self.whole
 
 
-def tornado_figure(shares: Mapping[str, Share], title: str = "", most: int = MOST) -> Figure:
+def tornado_figure(shares: Mapping[str, Sway], title: str = "", most: int = MOST) -> Figure:
     """A bar for each cause, sorted: what it brings alone, and with others; whiskers are intervals.
 
     Beyond `most` causes the least are not drawn, and a line says how many. Raises `QuestionError` where there is none.
@@ -69,7 +69,7 @@ def _bar(axes: Axes, at: int, value: float, within: Interval | None, look: dict[
         axes.plot([low, high], [at + beside] * 2, color=BLACK, linewidth=1.2, marker="|", markersize=6, gid="within")
 
 
-def _left_out(rest: list[tuple[str, Share]]) -> str:
+def _left_out(rest: list[tuple[str, Sway]]) -> str:
     if not rest:
         return ""
     each = "one" if len(rest) == 1 else "each"

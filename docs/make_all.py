@@ -19,6 +19,7 @@ import make_outputs
 import make_shapes_accuracy
 import make_sphere_accuracy
 import make_teeth_accuracy
+import make_uncertainty_accuracy
 
 DOCS = Path(__file__).resolve().parent
 
@@ -34,6 +35,7 @@ def main() -> None:
         make_sphere_accuracy,
         make_teeth_accuracy,
         make_shapes_accuracy,
+        make_uncertainty_accuracy,
     )
     facts = (make_commands, make_errata, make_extremes, make_gallery, make_images, make_missing, make_outputs)
     for maker in (*accuracy, *facts):

@@ -36,6 +36,8 @@ NAMES = (
     "tooth-numbers",
     "shapes",
     "drawing",
+    "cut-by-hand",
+    "counts-in-doubt",
 )
 PAGES = (ROOT / "README.md", *(ROOT / "docs" / f"{name}.md" for name in NAMES))
 COLUMNS = "100"

@@ -15,10 +15,13 @@ from geartrain.bench.sphere import count_sphere_steps, sphere
 from geartrain.bench.sphere_records import ClosureRecord, FitRecord, PackRecord, SphereRecords, growth
 from geartrain.bench.teeth import count_teeth_steps, teeth
 from geartrain.bench.teeth_records import TeethGrowth, TeethRecord, TeethRecords
+from geartrain.bench.uncertainty import count_uncertainty_steps, uncertainty
+from geartrain.bench.uncertainty_records import ErrorRecord, RateRecord, UncertaintyRecords, WorkerRecord
 
 __all__ = [
     "FAMILIES",
     "ClosureRecord",
+    "ErrorRecord",
     "ExtremeRecord",
     "FitRecord",
     "GrowthRecord",
@@ -28,6 +31,7 @@ __all__ = [
     "MotionRecord",
     "MotionRecords",
     "PackRecord",
+    "RateRecord",
     "Record",
     "Records",
     "ShapeRecords",
@@ -36,13 +40,16 @@ __all__ = [
     "TeethRecord",
     "TeethRecords",
     "TrainRecord",
+    "UncertaintyRecords",
     "WorkRecord",
+    "WorkerRecord",
     "count_mesh_steps",
     "count_motion_steps",
     "count_shape_steps",
     "count_sphere_steps",
     "count_steps",
     "count_teeth_steps",
+    "count_uncertainty_steps",
     "growth",
     "kinematics",
     "mesh",
@@ -51,4 +58,5 @@ __all__ = [
     "shapes",
     "sphere",
     "teeth",
+    "uncertainty",
 ]

@@ -14,6 +14,7 @@ from geartrain.cli import (
     compare,
     draw,
     equations,
+    errors,
     export,
     graph,
     listing,
@@ -23,6 +24,7 @@ from geartrain.cli import (
     schema,
     solve,
     sphere,
+    sweep,
     teeth,
     torques,
     view,
@@ -49,9 +51,11 @@ app.command("equations")(equations.run)
 app.command("graph")(graph.run)
 app.command("torques")(torques.run)
 app.command("motion")(motion.run)
+app.command("errors")(errors.run)
 app.command("sphere")(sphere.run)
 # a negative ratio is no option
 app.command("teeth", context_settings={"ignore_unknown_options": True})(teeth.run)
+app.command("sweep")(sweep.run)
 app.command("schema")(schema.run)
 app.command("list")(listing.trains)
 app.command("periods")(listing.periods)

@@ -115,6 +115,19 @@ def teeth(
     _measure("teeth", bench.count_teeth_steps(quick), lambda tell: bench.teeth(quick, tell), json, out)
 
 
+@app.command()
+def uncertainty(
+    quick: Annotated[bool, typer.Option("--quick", help="Few trials, and one round.")] = False,
+    json: Json = False,
+    out: Out = None,
+) -> None:
+    """Trials a second and errors of estimates: counts in doubt, wheels cut by hand, against plain loops and truths."""
+    from geartrain import bench
+
+    steps = bench.count_uncertainty_steps(quick)
+    _measure("uncertainty", steps, lambda tell: bench.uncertainty(quick, tell), json, out)
+
+
 def _measure(
     name: str, steps: int, run: Callable[[Callable[[str], None]], Records], json: bool, out: Path | None
 ) -> None:

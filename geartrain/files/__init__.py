@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from geartrain.files.columns import ColumnTable
 from geartrain.files.declaring import as_yaml
 from geartrain.files.folder import check_folder, write_folder
 from geartrain.files.loading import load, read_declaration, shipped
@@ -10,6 +11,7 @@ from geartrain.files.tables import read_edges, read_points
 from geartrain.files.writing import write_bytes, write_text
 
 __all__ = [
+    "ColumnTable",
     "LongTable",
     "as_yaml",
     "check_folder",

@@ -21,6 +21,7 @@ if TYPE_CHECKING:
 
     Floats = NDArray[np.float64]
     Flags = NDArray[np.bool_]
+    Ints = NDArray[np.int64]
 
 _MOST_STEPS = 120
 _SETTLED = 2e-15  # rad, over the scale of the angles added
@@ -39,11 +40,11 @@ class Coupled:
     senses: Floats
     gain: Floats
 
-    def laws_at(self, S: Floats) -> tuple[Floats, Floats]:
-        """Driven errors and their slopes over the drivers' angles, both signed, (pairs, n)."""
+    def laws_at(self, S: Floats, columns: Ints) -> tuple[Floats, Floats]:
+        """Driven errors and their slopes over the drivers' angles, both signed, (pairs, n), at some positions."""
         error, slope = np.empty_like(S), np.empty_like(S)
         for at, law in enumerate(self.laws):
-            error[at], tau = law.error_and_speed(S[at])
+            error[at], tau = law.picked(columns).error_and_speed(S[at])
             slope[at] = tau - float(law.ratio)
         error *= self.senses[:, None]
         slope *= self.senses[:, None]
@@ -74,13 +75,13 @@ def settle(
 def _newton(pairs: Coupled, base: Floats) -> tuple[Floats, Floats]:
     """Errors, and the slopes of the laws there."""
     tolerance = _SETTLED * (1 + np.max(np.abs(base), initial=0.0) + np.abs(pairs.gain).sum(axis=1).max())
-    delta, slopes = pairs.laws_at(base)
     active = np.arange(base.shape[1])
+    delta, slopes = pairs.laws_at(base, active)
     now = delta.copy()
     length, size, step = np.ones(len(active)), np.full(len(active), np.inf), np.zeros_like(now)
     for _ in range(_MOST_STEPS):
         trial = now - length * step
-        error, slope = pairs.laws_at(base[:, active] + pairs.gain @ trial)
+        error, slope = pairs.laws_at(base[:, active] + pairs.gain @ trial, active)
         residual = trial - error
         found = np.max(np.abs(residual), axis=0)
         better = found < size

@@ -23,6 +23,7 @@ from geartrain.report.sphere import (
     suggestions_document,
     survey_document,
 )
+from geartrain.report.sweep import sweep_data, sweep_document, sweep_rows
 from geartrain.report.synthesis import (
     approximants_document,
     assignment_rows,
@@ -37,6 +38,7 @@ from geartrain.report.synthesis import (
     stages_row,
 )
 from geartrain.report.teeth import mesh_data
+from geartrain.report.trials import trials_data, trials_document
 
 __all__ = [
     "Aside",
@@ -78,6 +80,9 @@ __all__ = [
     "suggestions_data",
     "suggestions_document",
     "survey_document",
+    "sweep_data",
+    "sweep_document",
+    "sweep_rows",
     "there_and_back",
     "to_html",
     "to_markdown",
@@ -85,4 +90,6 @@ __all__ = [
     "torques_data",
     "torques_document",
     "train_data",
+    "trials_data",
+    "trials_document",
 ]

@@ -70,6 +70,11 @@ class Law(ABC):
         """The law while the driver's angle decreases: the same, but for teeth with play."""
         return self
 
+    def picked(self, columns: NDArray[np.int64]) -> Law:
+        """The law for some of the angles it was asked at, by number: the same, but where each angle has its own."""
+        del columns
+        return self
+
     def angle(self, S: ArrayLike) -> Floats:
         """Driven angle q (rad) at driver angles S (rad)."""
         import numpy as np

@@ -1,0 +1,138 @@
+"""Combinations of tooth counts for the benchmark, worked out in batches and one by one."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cached_property
+from itertools import islice
+
+import numpy as np
+from numpy.typing import NDArray
+
+from geartrain.analysis import GearTrain
+from geartrain.files import load
+from geartrain.synthesis.formulas import with_counts
+from geartrain.uncertainty.counts.batch import BLOCK, Batch, Grid
+from geartrain.uncertainty.counts.columns import Columns
+from geartrain.uncertainty.counts.doubts import find_doubts
+from geartrain.uncertainty.counts.question import Question, ask
+
+Bools = NDArray[np.bool_]
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
+Singles = list[tuple[dict[str, Fraction], bool]]
+"""Of each combination the exact speeds of all outputs, and whether they are all as asked."""
+
+
+@dataclass(frozen=True)
+class Counted:
+    """A shipped train of which every wheel is in doubt, and random combinations of counts.
+
+    width       counts below and above the declared one
+    tolerance   of every target, relative
+    """
+
+    train: str
+    combinations: int
+    width: int = 2
+    tolerance: Fraction = Fraction(1, 200)
+    seed: int = 1
+
+    @cached_property
+    def given(self) -> GearTrain:
+        """The train as it is shipped."""
+        return load(self.train)
+
+    @cached_property
+    def question(self) -> Question:
+        """Which combinations meet the targets?"""
+        train = self.given.declaration
+        free = {
+            name: range(wheel.count - self.width, wheel.count + self.width + 1)
+            for name, (_, wheel) in train.wheels.items()
+            if wheel.count is not None
+        }
+        return ask(train, find_doubts(train, free), tolerance=self.tolerance, against="targets")
+
+    @cached_property
+    def judge(self) -> Batch:
+        """Tells of many combinations whether they fit."""
+        return Batch(self.question)
+
+    @cached_property
+    def teller(self) -> Batch:
+        """Tells the speeds of all outputs too."""
+        return Batch(self.question, every=True)
+
+    @cached_property
+    def counts(self) -> dict[str, Ints]:
+        """Wheel -> its counts in every combination; one in two is as declared but for one wheel."""
+        rng, found = np.random.default_rng(self.seed), {}
+        near = rng.random(self.combinations) < 0.5
+        odd = rng.integers(0, len(self.question.doubts), self.combinations)
+        for at, (wheel, doubt) in enumerate(self.question.doubts.items()):
+            drawn = rng.choice(np.array(doubt.counts), self.combinations)
+            found[wheel] = np.where(near & (odd != at), doubt.declared or drawn, drawn)
+        return found
+
+    def _blocks(self) -> Iterator[dict[str, Ints]]:
+        for start in range(0, self.combinations, BLOCK):
+            yield {wheel: column[start : start + BLOCK] for wheel, column in self.counts.items()}
+
+    # ------------------------------------------------------------------------------------------------------------ ways
+
+    def decided(self) -> Bools:
+        """Whether each combination fits, decided exactly, (combinations,)."""
+        return np.concatenate([self.judge.judged(self.judge.columns(block))[0] for block in self._blocks()])
+
+    def neighbours(self) -> int:
+        """How many fit of as many combinations, or a few more, that follow each other in a complete enumeration."""
+        grid = Grid(self.judge)
+        middle = grid.runs // 2
+        runs = grid.runs_from(middle, grid.runs)
+        rows: Iterator[tuple[dict[str, int], Columns]] = islice(runs, -(-self.combinations // grid.block))
+        return sum(int(self.judge.judged(each)[0].sum()) for _, each in rows)
+
+    @property
+    def followed(self) -> int:
+        """How many combinations `neighbours` looks at."""
+        block = Grid(self.judge).block
+        return -(-self.combinations // block) * block
+
+    def told(self) -> dict[str, tuple[Floats, Floats]]:
+        """Output -> its speed in every combination, and a bound on its error."""
+        parts = [self.teller.speeds(self.teller.columns(block)) for block in self._blocks()]
+        return {name: (_joined(parts, name, 0), _joined(parts, name, 1)) for name in parts[0]}
+
+    def singly(self, combinations: int) -> Singles:
+        """The first combinations by a plain loop over whole solutions."""
+        return [self._single(at) for at in range(combinations)]
+
+    def _single(self, at: int) -> tuple[dict[str, Fraction], bool]:
+        counts = {wheel: int(column[at]) for wheel, column in self.counts.items()}
+        solved = GearTrain(with_counts(self.given.declaration, counts)).solve()
+        speeds = {name: Fraction(solved[name]) for name in self.question.outputs}
+        return speeds, all(witness.fits(speeds[witness.name]) for witness in self.question.witnesses)
+
+    # -------------------------------------------------------------------------------------------------------- accuracy
+
+    def off(self, singles: Singles) -> tuple[float, float]:
+        """Greatest relative error of the speeds told, and the greatest share of its own bound that an error has."""
+        worst = share = 0.0
+        for name, (values, bounds) in self.told().items():
+            for at, (speeds, _) in enumerate(singles):
+                error = abs(Fraction(float(values[at])) - speeds[name])
+                worst = max(worst, float(error / abs(speeds[name])))
+                share = max(share, float(error / Fraction(float(bounds[at]))))
+        return worst, share
+
+    def differing(self, singles: Singles) -> int:
+        """Combinations on which the loop decides otherwise."""
+        return int((self.decided()[: len(singles)] != np.array([fits for _, fits in singles])).sum())
+
+
+def _joined(parts: list[dict[str, tuple[Floats, Floats]]], name: str, which: int) -> Floats:
+    """Speeds or bounds of one output over all blocks; an output of few wheels may come as one number a block."""
+    return np.concatenate([np.broadcast_to(part[name][which], part[name][0].shape) for part in parts])

@@ -1,0 +1,281 @@
+"""`geartrain errors`: a train cut by hand, many times over: how often it jams, how far its pointers stray."""
+
+from __future__ import annotations
+
+import hashlib
+import json as plain
+import os
+import sys
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import ExitStack, contextmanager, suppress
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from geartrain.cli.common import INTERRUPTED, File, Json, Out, StateName, as_json, emit, show, suffix_of
+from geartrain.cli.pictures import Picture, Plot, check_plot, draw_findings, mapped
+
+if TYPE_CHECKING:
+    from concurrent.futures import Executor
+
+    from geartrain.parallel import Journal
+    from geartrain.uncertainty.trials import Findings, Means, Plan, Rows, Trials
+
+Names = list[str] | None
+TABLES = (".parquet", ".csv")
+_FEW = 4  # outputs whose course and indices are worked out at a time
+_COURSE = (120, 128)  # positions along a turn, and trials that take them
+
+
+def run(
+    file: File,
+    trials: Annotated[int, typer.Option("--trials", help="How many times the train is cut.")] = 1000,
+    seed: Annotated[int, typer.Option("--seed", min=0, help="Seed of all that is drawn.")] = 1,
+    set_: Annotated[
+        Names, typer.Option("--set", help="KIND=SIZE or NAME.KIND=SIZE in place of what is declared: 'tip=3 %'.")
+    ] = None,
+    output: Annotated[Names, typer.Option("--output", help="Output or link; may be repeated.")] = None,
+    state: StateName = None,
+    without: Annotated[Names, typer.Option("--without", help="Leave out a pair, to open a loop of real teeth.")] = None,
+    clearance: Annotated[
+        str | None, typer.Option("--clearance", help="Sweep: factors 1.005:1.04:8, or shares of windows 0.1:0.9:9.")
+    ] = None,
+    sobol: Annotated[bool, typer.Option("--sobol", help="Sobol indices by wheel and by kind of error.")] = False,
+    tolerance: Annotated[
+        str | None, typer.Option("--tolerance", help="Greatest error for --jam: a kind of error, or 'all'.")
+    ] = None,
+    jam: Annotated[str, typer.Option("--jam", help="The chance of a jam that --tolerance allows.")] = "1%",
+    workers: Annotated[int | None, typer.Option("--workers", help="Processes; default 1.")] = None,
+    scheduler: Annotated[str | None, typer.Option("--scheduler", help="Address of a dask scheduler.")] = None,
+    resume: Annotated[bool, typer.Option("--resume", help="Go on with an interrupted run.")] = False,
+    plot: Plot = None,
+    picture: Picture = "errors",
+    json: Json = False,
+    out: Out = None,
+) -> None:
+    """How often a train cut by hand jams, and how far its pointers stray; to a .parquet or .csv, every trial."""
+    from geartrain.files import load
+    from geartrain.uncertainty.trials import check_trials, find_plan, question, read_clearances, read_settings
+
+    suffix = suffix_of(out, (".md", ".html", ".json", *TABLES))
+    check_trials(trials)
+    check_plot(plot, picture)
+    sweep = read_clearances(clearance) if clearance else []
+    chance = _chance(jam)
+    plan = find_plan(load(file), read_settings(set_ or ()), output or (), state, without or ())
+    _check_extras(sobol)
+    with _work(question(plan, seed, trials), _Asked(workers, scheduler, resume, out)) as work:
+        found = _trials(plan, trials, seed, work, out if suffix in TABLES else None)
+        if not found.complete:
+            work.stopped(found.done, trials)
+        asked = _Studies(plan, trials, seed, work.later())
+        findings = asked.findings(found, bool(output), sweep, sobol, tolerance, chance) if found.complete else None
+        drawn = mapped(findings, picture, sweep, work.later()) if findings is not None and plot is not None else None
+        if findings is not None:
+            work.finish()
+    _answer(findings or _partial(found), json or suffix == ".json", None if suffix in TABLES else out, suffix)
+    if suffix in TABLES and out is not None and found.complete:
+        typer.echo(f"wrote {out}", err=True)
+    if drawn is not None and plot is not None:
+        draw_findings(drawn, picture, plot)
+    if findings is None:
+        raise typer.Exit(INTERRUPTED)
+
+
+def _chance(text: str) -> float:
+    from pydantic_core import PydanticCustomError
+
+    from geartrain.quantity import Quantity
+
+    try:
+        return float(Quantity.parse(text, "fraction", plain=True).base or 0)
+    except PydanticCustomError as error:
+        raise typer.BadParameter(error.message(), param_hint="--jam") from None
+
+
+def _check_extras(sobol: bool) -> None:
+    """Say that an extra is missing before the work, not after."""
+    from importlib.util import find_spec
+
+    from geartrain.errors import MissingExtraError
+
+    if sobol and find_spec("SALib") is None:
+        raise MissingExtraError("SALib", "errors", "Sobol indices")
+
+
+def _answer(findings: Findings, json: bool, out: Path | None, suffix: str) -> None:
+    from geartrain import report
+
+    if json:
+        emit(as_json(report.trials_data(findings)), out)
+    else:
+        show([report.trials_document(findings)], out, suffix if suffix in (".md", ".html") else "")
+
+
+def _partial(found: Trials) -> Findings:
+    from geartrain.uncertainty.trials import Findings
+
+    return Findings(found)
+
+
+class _StoppedError(Exception):
+    """The user interrupts."""
+
+
+def _trials(plan: Plan, trials: int, seed: int, work: _Work, table: Path | None) -> Trials:
+    from geartrain.uncertainty.trials import run_trials
+
+    with suppress(_StoppedError), _table(plan, table) as take:
+        found = run_trials(plan, trials, seed, work.means(take))
+        if not found.complete:
+            raise _StoppedError  # so that the table stays partial
+    return found
+
+
+class _Studies:
+    """What is asked beside the trials themselves."""
+
+    def __init__(self, plan: Plan, trials: int, seed: int, means: Means) -> None:
+        self.plan, self.count, self.seed, self.means = plan, trials, seed, means
+
+    def findings(
+        self, trials: Trials, named: bool, sweep: list[float], sobol: bool, tolerance: str | None, chance: float
+    ) -> Findings:
+        """All of them; the courses only of outputs that were named."""
+        from geartrain.uncertainty.trials import (
+            Findings,
+            find_indices,
+            find_tolerance,
+            run_clearances,
+            run_course,
+        )
+
+        plan, seed, means = self.plan, self.seed, self.means
+        few = range(min(_FEW, len(plan.outputs)))
+        kind = "" if tolerance == "all" else tolerance
+        return Findings(
+            trials,
+            run_clearances(plan, sweep, self.count, seed, means) if sweep else (),
+            [run_course(plan, at, _COURSE[0], seed, _COURSE[1]) for at in few] if named else (),
+            [find_indices(plan, at, by, self.count, seed, means) for at in few for by in ("wheel", "kind")]
+            if sobol
+            else (),
+            find_tolerance(plan, kind, chance, self.count, seed, means=means) if kind is not None else None,
+        )
+
+
+class _Asked:
+    """Who does the work, and where what is done is kept."""
+
+    def __init__(self, workers: int | None, scheduler: str | None, resume: bool, out: Path | None) -> None:
+        self.workers = 1 if workers is None and scheduler is None else workers
+        self.scheduler, self.resume, self.out = scheduler, resume, out
+
+
+class _Work:
+    """An executor, a journal and a progress bar."""
+
+    def __init__(self, executor: Executor | None, journal: Journal | None, tell: Callable[[int, int], None]) -> None:
+        self.executor, self.journal, self.tell = executor, journal, tell
+
+    def means(self, take: Callable[[Rows], None] | None) -> Means:
+        """For the trials: kept in the journal, and handed on block by block."""
+        from geartrain.uncertainty.trials import Means
+
+        return Means(self.executor, self.journal, self.tell, take)
+
+    def later(self) -> Means:
+        """For what is asked after the trials."""
+        from geartrain.uncertainty.trials import Means
+
+        return Means(self.executor, None, self.tell)
+
+    def stopped(self, done: int, wanted: int) -> None:
+        """Say where an interrupted run can be taken up."""
+        typer.echo(f"stopped after {done} of {wanted} trials; the figures are of those", err=True)
+        if self.journal is not None:
+            typer.echo(f"what is done is in {self.journal.path}: give the same command with --resume", err=True)
+
+    def finish(self) -> None:
+        """The journal is not needed any more."""
+        if self.journal is not None:
+            self.journal.finish()
+
+
+@contextmanager
+def _work(question: Mapping[str, Any], asked: _Asked) -> Iterator[_Work]:
+    from rich.console import Console
+    from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
+
+    from geartrain.parallel import Journal, open_executor
+
+    mark = hashlib.sha256(plain.dumps(question, sort_keys=True).encode()).hexdigest()[:8]
+    path = (asked.out.parent if asked.out else Path()) / f"errors-{mark}.partial.jsonl"
+    columns = (TextColumn("trials"), BarColumn(), TextColumn("{task.percentage:>3.0f} %"), TimeElapsedColumn())
+    bar = Progress(
+        *columns,
+        TimeRemainingColumn(),
+        console=Console(stderr=True),
+        transient=True,
+        disable=not sys.stderr.isatty(),
+    )
+    with ExitStack() as stack:
+        executor = stack.enter_context(open_executor(asked.workers, asked.scheduler))
+        journal: Journal | None = None
+        if asked.resume or os.access(path.parent, os.W_OK):
+            journal = stack.enter_context(Journal(path, question, resume=asked.resume))
+        progress = stack.enter_context(bar)
+        task = progress.add_task("trials", total=None, visible=False)
+        work = _Work(
+            executor,
+            journal,
+            lambda done, total: progress.update(task, completed=done, total=total or None, visible=total > 1),
+        )
+        try:
+            yield work
+        finally:
+            if journal is not None and not journal.closed and not len(journal):  # nothing worth keeping
+                journal.finish()
+
+
+@contextmanager
+def _table(plan: Plan, out: Path | None) -> Iterator[Callable[[Rows], None] | None]:
+    """What takes every block to a table of trials."""
+    from geartrain.files import ColumnTable, LongTable
+
+    if out is None:
+        yield None
+    elif out.suffix.lower() == ".parquet":
+        with ColumnTable(out, _about(plan)) as columns:
+            yield lambda rows: columns.write(_columns(plan, rows))
+    else:
+        with LongTable(out, ",".join(_names(plan))) as table:
+            yield lambda rows: table.write(_lines(plan, rows))
+
+
+def _about(plan: Plan) -> dict[str, str]:
+    return {"train": plan.name, "events": "sum of 1 jam, 2 clash, 4 standstill, 8 disengaged, 16 wheels cannot be cut"}
+
+
+def _names(plan: Plan) -> list[str]:
+    return [
+        "trial",
+        "turns",
+        *(f"{name} error (deg)" for name in plan.outputs),
+        *(f"{pair.name} {what}" for pair in plan.pairs for what in ("play (pitches)", "events")),
+    ]
+
+
+def _columns(plan: Plan, rows: Rows) -> dict[str, Any]:
+    import numpy as np
+
+    values = [rows.first + np.arange(len(rows.turns)), rows.turns, *np.degrees(rows.errors.T)]
+    for at in range(len(plan.pairs)):
+        values += [rows.play[:, at], rows.marks[:, at]]
+    return dict(zip(_names(plan), values, strict=True))
+
+
+def _lines(plan: Plan, rows: Rows) -> list[str]:
+    columns = _columns(plan, rows).values()
+    return [",".join(map(repr, row)) for row in zip(*(column.tolist() for column in columns), strict=True)]

@@ -1,0 +1,222 @@
+"""`geartrain sweep`: which tooth counts fit what the outputs show, where evidence leaves counts open."""
+
+from __future__ import annotations
+
+import hashlib
+import json as plain_json
+import os
+import sys
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from fractions import Fraction
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from geartrain.cli.common import GOOD, INTERRUPTED, VERDICT, File, Json, Out, StateName, as_json, emit, show, suffix_of
+from geartrain.cli.pictures import Plot, check_plot, draw_counts
+
+if TYPE_CHECKING:
+    from concurrent.futures import Executor
+
+    from geartrain.parallel import Journal
+    from geartrain.uncertainty.counts import CountSweep
+
+Names = list[str] | None
+FORMS = (".md", ".html", ".json", ".csv", ".parquet")
+
+
+def run(
+    file: File,
+    free: Annotated[
+        Names, typer.Option("--free", help="WHEEL=60:64, =60,62 or =60: counts it may have; may be repeated.")
+    ] = None,
+    output: Annotated[Names, typer.Option("--output", help="Only this output is evidence; may be repeated.")] = None,
+    state: StateName = None,
+    tolerance: Annotated[
+        str | None, typer.Option("--tolerance", help="Relative, for targets without one, such as 0.5 % or 1/446.")
+    ] = None,
+    against: Annotated[str, typer.Option("--against", help="What counts: all, targets, or figures (expect).")] = "all",
+    scale: Annotated[str, typer.Option("--scale", help="Multiply every tolerance, such as 1/4.")] = "1",
+    soft: Annotated[
+        bool, typer.Option("--soft", help="Agreement by degree, tolerances as standard deviations.")
+    ] = False,
+    method: Annotated[
+        str | None, typer.Option("--method", help="enumerate, decompose or sample; default the first that fits.")
+    ] = None,
+    most: Annotated[int, typer.Option("--most", help="Combinations to list.")] = 20,
+    limit: Annotated[int, typer.Option("--limit", help="Combinations or steps before a sample is drawn.")] = 2_000_000,
+    samples: Annotated[int, typer.Option("--samples", help="Combinations drawn in a sample.")] = 1_000_000,
+    seed: Annotated[int, typer.Option("--seed", help="Seed of the sample.")] = 1,
+    workers: Annotated[int | None, typer.Option("--workers", help="Processes; default this one alone.")] = None,
+    scheduler: Annotated[str | None, typer.Option("--scheduler", help="Address of a dask scheduler.")] = None,
+    resume: Annotated[bool, typer.Option("--resume", help="Go on with an interrupted run.")] = False,
+    plot: Plot = None,
+    json: Json = False,
+    out: Out = None,
+) -> None:
+    """Which tooth counts fit what the outputs show; exit 0 if any does, 1 if none."""
+    from geartrain.files import ColumnTable, read_declaration
+    from geartrain.uncertainty.counts import sweep
+
+    suffix = suffix_of(out, FORMS)
+    check_plot(plot)
+    if suffix == ".parquet" and out is not None:
+        ColumnTable(out, {})  # a missing library is said before the work, not after it
+    train = read_declaration(file)
+    asked: dict[str, Any] = {
+        "state": state,
+        "free": _read_free(free or ()),
+        "outputs": tuple(output or ()),
+        "tolerance": None if tolerance is None else _share(tolerance, "--tolerance"),
+        "against": against,
+        "scale": _share(scale, "--scale"),
+        "soft": soft,
+        "method": method,
+        "most": most,
+        "limit": limit,
+        "samples": samples,
+        "seed": seed,
+    }
+    question = {"train": train.model_dump(mode="json"), **asked}
+    with _means(question, 1 if workers is None and scheduler is None else workers, scheduler, resume, out) as means:
+        executor, journal, tell = means
+        found = sweep(train, **asked, executor=executor, journal=journal, tell=tell)
+        _end(journal, found.cut)
+    if plot is not None and found.best and not found.cut:
+        held = {**asked, "most": 1}
+        draw_counts(found, lambda one: sweep(train, **{**held, "free": {**asked["free"], **one}}), plot)
+    _answer(found, json, out, suffix)
+
+
+def _answer(found: CountSweep, json: bool, out: Path | None, suffix: str) -> None:
+    from geartrain import report
+
+    if suffix == ".csv":
+        emit(_csv(report.sweep_rows(found)), out)
+    elif suffix == ".parquet" and out is not None:
+        _write_parquet(report.sweep_rows(found), out, {"train": found.name, "method": found.method})
+    elif suffix == ".json":
+        emit(as_json(report.sweep_data(found)), out)
+    elif not json or out is not None:
+        show([report.sweep_document(found)], out, suffix)
+    if json and suffix != ".json":
+        emit(as_json(report.sweep_data(found)))
+    if found.cut:
+        raise typer.Exit(INTERRUPTED)
+    raise typer.Exit(GOOD if found.best else VERDICT)
+
+
+def _read_free(texts: Sequence[str]) -> dict[str, tuple[int, ...]]:
+    """`m3=15:80`, `a1=45,48`, `b1=223`."""
+    found: dict[str, tuple[int, ...]] = {}
+    for text in texts:
+        wheel, equals, counts = text.partition("=")
+        try:
+            listed = tuple(count for part in counts.split(",") for count in _run(part))
+        except ValueError:
+            equals, listed = "", ()
+        if not equals or not wheel.strip():
+            raise typer.BadParameter(f"'{text}' is not of the form WHEEL=60:64 or WHEEL=60,62", param_hint="--free")
+        found[wheel.strip()] = found.get(wheel.strip(), ()) + listed
+    return found
+
+
+def _run(text: str) -> Sequence[int]:
+    first, colon, last = text.partition(":")
+    ends = int(first), int(last) if colon else int(first)
+    if ends[1] < ends[0]:
+        raise typer.BadParameter(f"the range {text} is empty; write the least count first", param_hint="--free")
+    if ends[1] - ends[0] > 10**6:
+        raise typer.BadParameter(f"the range {text} is too wide", param_hint="--free")
+    return range(ends[0], ends[1] + 1)
+
+
+def _share(text: str, option: str) -> Fraction:
+    """A relative error, or a factor."""
+    from pydantic_core import PydanticCustomError
+
+    from geartrain.quantity import Quantity
+
+    try:
+        found = Quantity.parse(text, "fraction", plain=True)
+    except PydanticCustomError as error:
+        raise typer.BadParameter(error.message(), param_hint=option) from None
+    return found.base if found.base is not None else found.value
+
+
+@contextmanager
+def _means(
+    question: Mapping[str, Any], workers: int | None, scheduler: str | None, resume: bool, out: Path | None
+) -> Iterator[tuple[Executor | None, Journal | None, Callable[[int, int], None]]]:
+    """An executor, a journal and a progress bar. Where no file can be made, there is no journal."""
+    from rich.console import Console
+    from rich.progress import Progress
+
+    from geartrain.parallel import open_executor
+
+    plain = plain_json.loads(plain_json.dumps(question, default=str))
+    mark = hashlib.sha256(plain_json.dumps(plain["train"], sort_keys=True).encode()).hexdigest()[:8]
+    path = (out.parent if out else Path()) / f"sweep-{plain['train']['name']}-{mark}.partial.jsonl"
+    with (
+        open_executor(workers, scheduler) as executor,
+        _journal(path, plain, resume) as journal,
+        Progress(console=Console(stderr=True), transient=True, disable=not sys.stderr.isatty()) as progress,
+    ):
+        task = progress.add_task("sweep", total=None, visible=False)
+        yield (
+            executor,
+            journal,
+            lambda done, total: progress.update(task, completed=done, total=total or None, visible=total > 1),
+        )
+
+
+@contextmanager
+def _journal(path: Path, question: Mapping[str, Any], resume: bool) -> Iterator[Journal | None]:
+    from geartrain.parallel import Journal
+
+    if not resume and not os.access(path.parent, os.W_OK):
+        yield None
+        return
+    with Journal(path, question, resume=resume) as journal:
+        try:
+            yield journal
+        finally:
+            if not len(journal):  # nothing worth keeping
+                journal.finish()
+
+
+def _end(journal: Journal | None, cut: bool) -> None:
+    """A run that is whole needs no journal; for one that was cut, say where it can be taken up."""
+    if not cut:
+        if journal is not None:
+            journal.finish()
+    elif journal is not None and len(journal):
+        typer.echo(f"stopped; what is done is in {journal.path}: give the same command with --resume", err=True)
+    else:
+        typer.echo("stopped before anything was done that could be kept", err=True)
+
+
+def _csv(rows: Sequence[Mapping[str, Any]]) -> str:
+    import csv
+    import io
+
+    text = io.StringIO()
+    if rows:
+        writer = csv.DictWriter(text, list(rows[0]), lineterminator="\n")
+        writer.writeheader()
+        writer.writerows(rows)
+    return text.getvalue().rstrip("\n")
+
+
+def _write_parquet(rows: Sequence[Mapping[str, Any]], out: Path, about: Mapping[str, str]) -> None:
+    """One row group; nothing where nothing was found."""
+    from geartrain.files import ColumnTable
+
+    with ColumnTable(out, about) as table:
+        if rows:
+            table.write({name: [row[name] for row in rows] for name in rows[0]})
+            typer.echo(f"wrote {out}", err=True)
+        else:
+            typer.echo(f"nothing fits, so {out} is not written", err=True)

@@ -1,0 +1,3 @@
+"""Trains in doubt: tooth counts that evidence leaves open, wheels cut by hand."""
+
+from __future__ import annotations

@@ -1,0 +1,186 @@
+"""The law of two cut wheels over the full cycle of their teeth."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from functools import cached_property
+from math import inf, sqrt
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from geartrain.errors import Problem, RangeError
+from geartrain.teeth.base import Law, behind
+from geartrain.uncertainty.cutting.envelope import APPROACHES, LEFT, Envelope
+from geartrain.uncertainty.cutting.events import Events, find_events
+from geartrain.uncertainty.cutting.pair import CutPair, sizes_of
+from geartrain.uncertainty.cutting.stretches import Stretches, find_stretches
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
+
+    from geartrain.meshes import Mesh
+    from geartrain.teeth.base import Floats
+    from geartrain.teeth.triangular.law import TriangularLaw
+    from geartrain.teeth.triangular.sizes import Sizes
+    from geartrain.uncertainty.cutting.envelope import First, Ints
+    from geartrain.uncertainty.cutting.wheel import CutWheel
+
+_BLOCK = 8192  # samples worked on at once: their intermediate arrays stay in a cache
+
+
+def cut_law(
+    pair: Sizes | TriangularLaw | Mesh,
+    first: CutWheel,
+    second: CutWheel,
+    shift: float = 0.0,
+    friction: float = 0.0,
+    direction: int = 1,
+) -> CutLaw:
+    """The law of two wheels cut by hand.
+
+    pair            what they were meant to be: sizes, a law, or a mesh of a train
+    first, second   the driver and the driven wheel as they are
+    shift           by how much their axles stand farther apart than meant, as the radii: error of the centre distance
+                    and play of the bearings
+    Raises `RangeError` for teeth of another form, wheels of other tooth numbers, and teeth that lean.
+    """
+    sizes = sizes_of(pair)
+    if (first.z, second.z) != (sizes.z1, sizes.z2):
+        raise RangeError(
+            Problem(
+                f"wheels of {first.z} and {second.z} teeth stand for a pair of {sizes.z1} and {sizes.z2}",
+                "the driver comes first",
+                "give one wheel for each of the pair, in this order",
+            )
+        )
+    return CutLaw(CutPair(sizes, first, second, shift).checked(), friction, direction)
+
+
+class CutLaw(Law):
+    """Driven angle, speed and events of two cut wheels; the law repeats after lcm(z1, z2) pitches.
+
+    The transmission error is that against uniform motion of the ratio of tooth numbers: positive where the driven
+    wheel is ahead. `direction` -1 turns backwards, pushed by the other flanks. What jams or clashes has the law its
+    pushing flanks alone would give.
+    """
+
+    def __init__(self, pair: CutPair, friction: float = 0.0, direction: int = 1) -> None:
+        self.pair, self.friction, self.direction = pair, friction, direction
+        sizes = pair.sizes
+        self.ratio = Fraction(sizes.z1, sizes.z2)
+        self.pitch, self.period = sizes.p1, sizes.p1 * pair.count
+        self._envelope = Envelope(pair if direction > 0 else pair.mirrored)
+
+    # ---------------------------------------------------------------------------------------------------- over samples
+
+    def error(self, S: ArrayLike) -> Floats:
+        """Transmission error (rad of the driven wheel) at driver angles S (rad)."""
+        return self.error_and_speed(S)[0]
+
+    def speed(self, S: ArrayLike) -> Floats:
+        """dq/dS at driver angles S (rad); 0 where the driven wheel stands still."""
+        return self.error_and_speed(S)[1]
+
+    def efficiency(self, S: ArrayLike) -> Floats:
+        """Sliding efficiency at driver angles S (rad); NaN where nothing pushes."""
+        return self._map(S, self._efficiency)
+
+    def error_and_speed(self, S: ArrayLike) -> tuple[Floats, Floats]:
+        """Both at driver angles S (rad): who pushes is found once."""
+        both = self._map(S, lambda found: np.stack((found.lag, self._envelope.speed(found))))
+        return self._signed(both[0]), both[1]
+
+    def turned_back(self) -> CutLaw:
+        """The law of the other flanks; angles keep their sense and decrease."""
+        return CutLaw(self.pair, self.friction, -self.direction)
+
+    def play(self, S: ArrayLike) -> Floats:
+        """How far the driven wheel could be turned on at driver angles S (rad of it); below 0 it jams there.
+
+        Infinite where nothing would stop it.
+        """
+        ahead = self._map(S, lambda found: found.lag)
+        back = Envelope(self._envelope.pair.mirrored, dragged=False)
+        behind = self._map(S, lambda found: found.lag, back, -1)
+        play: Floats = ahead + behind + self.pair.sizes.p2
+        return play
+
+    def driving(self, S: ArrayLike) -> tuple[Ints, Ints]:
+        """Driver's tooth and driven tooth that touch, or touched last, at driver angles S (rad)."""
+        couple = self._map(S, lambda found: found.couple).astype(np.int64)
+        k, back = (couple, 0) if self.direction > 0 else (-couple, 1)
+        return k % self.pair.sizes.z1, (k + back) % self.pair.sizes.z2
+
+    def _map(self, S: ArrayLike, what: Any, envelope: Envelope | None = None, sense: int = 1) -> Floats:
+        S = np.asarray(S, dtype=float)
+        flat = S.ravel() * (self.direction * sense)
+        parts = []
+        for start in range(0, max(len(flat), 1), _BLOCK):
+            part = flat[start : start + _BLOCK]
+            u = np.empty_like(part)
+            behind(part, self.pitch, u, np.empty_like(part))
+            n = np.rint((part - u) / self.pitch).astype(np.int64)
+            parts.append(what((envelope or self._envelope).first(n, u)))
+        found: Floats = np.concatenate(parts, axis=-1)
+        return found.reshape(*found.shape[:-1], *S.shape)
+
+    def _signed(self, lag: Floats) -> Floats:
+        return -lag if self.direction > 0 else self.pair.sizes.p2 + lag
+
+    def _efficiency(self, found: First) -> Floats:
+        couples = self._envelope.pair.couples(found.couple)
+        x = self._envelope.inside(found)
+        eta = np.where(
+            found.state == APPROACHES,
+            couples.efficiency("approach", x, self.friction, np),
+            couples.efficiency("recess", x, self.friction, np),
+        )
+        return np.where((found.state == LEFT) | ~np.isfinite(found.lag), np.nan, eta)
+
+    # -------------------------------------------------------------------------------------------------- over the cycle
+
+    @cached_property
+    def stretches(self) -> Stretches:
+        """The cycle cut into stretches in each of which one couple pushes in one phase, or none does."""
+        return find_stretches(self._envelope)
+
+    @cached_property
+    def events(self) -> Events:
+        """Jams, clashes, standstills and gaps of the cycle, with the teeth concerned."""
+        return find_events(self._envelope)
+
+    def corners(self) -> list[float]:
+        """Driver angles (rad) where the law or a slope of it is not smooth."""
+        angles = self.direction * (self.stretches.n * self.pitch + self.stretches.start)
+        return sorted(float(angle) for angle in angles)
+
+    def error_range(self) -> tuple[float, float]:
+        """Least and greatest transmission error of the cycle (rad of the driven wheel)."""
+        lags = self.stretches.turning_lags()
+        low, high = (-float(lags.max()), -float(lags.min())) if self.direction > 0 else (lags.min(), lags.max())
+        return (
+            (low, high) if self.direction > 0 else (self.pair.sizes.p2 + float(low), self.pair.sizes.p2 + float(high))
+        )
+
+    def error_moments(self) -> tuple[float, float]:
+        """Mean of the transmission error of the cycle, and its rms about that mean (rad of the driven wheel)."""
+        lag, weights = self.stretches.lags()
+        mean = float(weights @ lag)
+        return float(self._signed(np.array(mean))), sqrt(float(weights @ np.square(lag - mean)))
+
+    def speed_range(self) -> tuple[float, float]:
+        """Least and greatest speed ratio of the cycle; it is monotone on each stretch of ordinary teeth."""
+        speeds = self.stretches.end_speeds()
+        return float(speeds.min()), float(speeds.max())
+
+    def efficiency_mean(self) -> float:
+        """Mean efficiency over the driver's angle in contact, at constant driver torque."""
+        eta, weights = self.stretches.over(self._efficiency)
+        held = np.isfinite(eta)
+        return float(weights[held] @ eta[held] / weights[held].sum())
+
+    @property
+    def runs(self) -> bool:
+        """True if the pair turns without jam, clash, standstill or gap."""
+        return not self.events and self.pair.widest > -inf

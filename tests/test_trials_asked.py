@@ -1,0 +1,247 @@
+"""`geartrain errors`: what is written and read back, what is refused, and what an interrupted run leaves."""
+
+from __future__ import annotations
+
+import csv
+import json
+import os
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pyarrow.parquet
+import pytest
+from typer.testing import CliRunner
+
+from geartrain import GearTrainError, load
+from geartrain.cli import app
+from geartrain.errors import MissingExtraError, QuestionError, RangeError
+from geartrain.files import ColumnTable
+from geartrain.uncertainty.trials import find_plan, find_tolerance, read_clearances, read_settings, run_trials
+
+PAIR = """
+    name: pair
+    links: {frame: {}, a: {wheels: {p: 20}}, b: {wheels: {w: 15}}}
+    revolutes: [{pair: [frame, a], axis: A}, {pair: [frame, b], axis: B}]
+    gears: [{pair: [p, w]}]
+    inputs: {a: 1}
+    outputs: {b: {}}
+    tooth_form: {form: triangular, half_angle: 30 deg, clearance: 1.02}
+    cutting: {placement: {normal: 2 %}}
+"""
+Write = Callable[..., Path]
+
+
+def ask(*words: object) -> Any:
+    return CliRunner().invoke(app, ["errors", *map(str, words)])
+
+
+@pytest.fixture
+def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+# -------------------------------------------------------------------------------------------------------------- answers
+
+
+def test_parquet_csv_and_json_tell_the_same_trials(train_file: Write, here: Path) -> None:
+    train = train_file(PAIR)
+    for name in ("t.parquet", "t.csv", "t.json", "t.md", "t.html"):
+        found = ask(train, "--trials", 300, "-o", here / name)
+        assert found.exit_code == 0, found.output
+    columns = pyarrow.parquet.read_table(here / "t.parquet").to_pydict()
+    with (here / "t.csv").open() as file:
+        rows = list(csv.DictReader(file))
+    assert columns["trial"] == list(range(300))
+    assert pyarrow.parquet.ParquetFile(here / "t.parquet").metadata.num_row_groups == 2
+    for name, column in columns.items():
+        assert [float(row[name]) for row in rows] == column
+    told = json.loads((here / "t.json").read_text())
+    jams = sum(play < 0 for play in columns["p~w play (pitches)"])
+    assert told["pairs"][0]["jam"]["count"] == jams == sum(mark % 2 for mark in columns["p~w events"])
+    free = [error for error, mark in zip(columns["b error (deg)"], columns["p~w events"], strict=True) if not mark & 25]
+    mean = sum(free) / len(free)
+    assert told["outputs"][0]["mean_deg"][0] == pytest.approx(mean)
+    assert told["outputs"][0]["stopped"] == 300 - len(free)
+    assert "| p~w " in (here / "t.md").read_text()
+    assert not list(here.glob("*partial*")), "whole runs leave nothing behind"
+
+
+def test_everything_that_can_be_asked_stands_in_one_document(train_file: Write, here: Path) -> None:
+    found = ask(
+        train_file(PAIR),
+        *("--trials", 128, "--output", "b", "--clearance", "1.01:1.03:2", "--sobol"),
+        *("--tolerance", "placement", "--jam", "10 %", "--json"),
+    )
+    assert found.exit_code == 0, found.output
+    told = json.loads(found.stdout)
+    assert [each["clearance"] for each in told["clearances"]] == [1.01, 1.03]
+    assert {each["by"] for each in told["indices"]} == {"wheel", "kind"}
+    assert len(told["courses"][0]["bands_deg"]) == 7
+    assert told["tolerance"]["chance"] == 0.1
+    assert set(told["tolerance"]["sizes"]) == {"p.placement", "w.placement"}
+    assert "NaN" not in found.stdout
+
+
+def test_an_interrupted_run_says_so_and_is_taken_up(
+    train_file: Write, here: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    from geartrain.uncertainty.trials import running
+
+    train, work = train_file(PAIR), running.work_block
+    words = (train, "--trials", 700, "--seed", 3, "-o", here / "t.parquet")
+
+    def interrupted(plan: Any, seed: int, task: list[int]) -> dict[str, Any]:
+        if task[0] == 2:
+            raise KeyboardInterrupt
+        return work(plan, seed, task)
+
+    monkeypatch.setattr(running, "work_block", interrupted)
+    cut = ask(*words)
+    assert cut.exit_code == 130
+    assert "stopped after 512 of 700" in cut.output
+    assert "--resume" in cut.output
+    assert not (here / "t.parquet").exists()
+    counted: list[int] = []
+    monkeypatch.setattr(
+        running, "work_block", lambda plan, seed, task: counted.append(task[0]) or work(plan, seed, task)
+    )
+    assert ask(*words, "--resume").exit_code == 0
+    assert counted == [2], "what was done is not done again"
+    monkeypatch.undo()
+    whole = here / "whole.parquet"
+    assert ask(train, "--trials", 700, "--seed", 3, "-o", whole).exit_code == 0
+    assert pyarrow.parquet.read_table(whole).equals(pyarrow.parquet.read_table(here / "t.parquet"))
+
+
+def test_a_journal_of_another_question_is_refused(train_file: Write, here: Path) -> None:
+    from geartrain.parallel import Journal
+    from geartrain.uncertainty.trials import question
+
+    plan = find_plan(load(train_file(PAIR)))
+    asked = question(plan, 1, 300)
+    Journal(here / "j", asked).close()
+    others = [
+        question(plan, 2, 300),
+        question(plan, 1, 301),
+        question(plan.scaled(1.01), 1, 300),
+        question(plan.cleared(1.03), 1, 300),
+        asked | {"geartrain": "0.0.0"},
+    ]
+    for other in others:
+        with pytest.raises(QuestionError, match="another question"):
+            Journal(here / "j", other)
+    Journal(here / "j", asked).close()
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="needs a full device")
+def test_a_full_disk_is_said_and_the_name_asked_for_is_not_taken(here: Path) -> None:
+    path = here / "t.parquet"
+    os.symlink("/dev/full", here / "t.partial.parquet")
+
+    def fill() -> None:
+        with ColumnTable(path, {}) as table:
+            for _ in range(300):
+                table.write({"a": list(range(20_000))})
+
+    with pytest.raises(GearTrainError) as caught:
+        fill()
+    problem = caught.value.problems[0]
+    assert problem.what
+    assert problem.why
+    assert problem.fix
+    assert not path.exists()
+
+
+# ------------------------------------------------------------------------------------------------------------- refusals
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (("--trials", "0"), "0 trials"),
+        (("--trials", "-5"), "-5 trials"),
+        (("--set", "placement=120 %"), "greater than the tooth"),
+        (("--set", "placement=45 %"), "cannot be cut"),
+        (("--set", "placement=20 deg"), "greater than the tooth"),
+        (("--set", "tip=0.1 mm"), "no module"),
+        (("--set", "colour=3 %"), "sets no error"),
+        (("--set", "placement=3 apples"), "sets no error"),
+        (("--set", "placement=-3 %"), "no width"),
+        (("--set", "x9.placement=3 %"), "no wheel 'x9'"),
+        (("--set", "p.centre=3 %"), "no pair 'p'"),
+        (("--set", "placement=0"), "declares no errors"),
+        (("--output", "nothing"), "no output or link"),
+        (("--state", "fast"), "no state"),
+        (("--clearance", "1.03:1.01:3"), "no sweep"),
+        (("--clearance", "0.5:1.5:3"), "no sweep"),
+        (("--clearance", "a:b"), "no sweep"),
+        (("--tolerance", "tip"), "nothing to scale"),
+        (("--tolerance", "colour"), "no kind of error"),
+        (("--tolerance", "all", "--jam", "200 %"), "between 0 and 1"),
+        (("--tolerance", "all", "--jam", "0.01 %"), "cannot show a chance"),
+    ],
+)
+def test_what_cannot_be_asked_is_refused_with_what_why_and_what_to_do(
+    train_file: Write, here: Path, words: tuple[str, ...], said: str
+) -> None:
+    found = ask(train_file(PAIR), "--trials", 64, *words)
+    assert isinstance(found.exception, GearTrainError), found.output
+    assert said in str(found.exception)
+    for problem in found.exception.problems:
+        assert problem.what
+        assert problem.fix
+
+
+def test_trains_that_cannot_be_cut_are_refused(train_file: Write) -> None:
+    bare = train_file(PAIR.replace("tooth_form", "note: ideal teeth #"), "bare.yaml")
+    with pytest.raises(QuestionError, match="no triangular teeth"):
+        find_plan(load(bare), read_settings(["placement=2 %"]))
+    loop = """
+        links: {frame: {}, a: {wheels: {p: 20, q: 20}}, b: {wheels: {w: 15, v: 15}}}
+        revolutes: [{pair: [frame, a], axis: A}, {pair: [frame, b], axis: B}]
+        gears: [{id: one, pair: [p, w]}, {id: two, pair: [q, v]}]
+        inputs: {a: 1}
+        tooth_form: {form: triangular, half_angle: 30 deg, clearance: 1.02}
+        cutting: {placement: {normal: 2 %}}
+    """
+    closed = load(train_file(loop, "loop.yaml"))
+    with pytest.raises(GearTrainError, match="close a loop"):
+        find_plan(closed)
+    assert find_plan(closed, without=("two",)).pairs[0].name == "one"
+
+
+def test_without_its_extra_it_says_which_one(train_file: Write, here: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    import sys
+
+    monkeypatch.setitem(sys.modules, "pyarrow", None)
+    with pytest.raises(MissingExtraError, match=r"geartrain\[errors\]"):
+        ColumnTable(here / "t.parquet", {})
+    plan = find_plan(load(train_file(PAIR)))
+    monkeypatch.setitem(sys.modules, "SALib.analyze.sobol", None)
+    from geartrain.uncertainty.trials import find_indices
+
+    with pytest.raises(MissingExtraError, match=r"geartrain\[errors\]"):
+        find_indices(plan, 0, trials=8)
+
+
+def test_a_tolerance_that_nothing_can_meet_is_refused(train_file: Write) -> None:
+    """Tips far too high jam, however well the teeth are placed."""
+    plan = find_plan(load(train_file(PAIR)), read_settings(["tip=value 60 %", "placement=1 %"]))
+    with pytest.raises(RangeError, match="taken away"):
+        find_tolerance(plan, "placement", 0.05, 64)
+
+
+def test_sweeps_read_as_they_are_written() -> None:
+    assert read_clearances("1.01:1.03:3") == pytest.approx([1.01, 1.02, 1.03])
+    assert read_clearances("0.5") == [0.5]
+    assert len(read_clearances("0.1:0.9")) == 9
+
+
+def test_a_few_wheels_that_cannot_be_cut_are_left_out_and_said(train_file: Write) -> None:
+    plan = find_plan(load(train_file(PAIR)), read_settings(["placement=22 %"]))
+    found = run_trials(plan, 256)
+    uncut = found.train.uncut
+    assert 0 < uncut < 128
+    assert found.train.events["jam"].of == 256 - uncut

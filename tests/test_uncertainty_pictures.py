@@ -1,0 +1,426 @@
+"""Pictures of uncertainty: what is drawn is what was given, and what cannot be drawn is refused."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Callable
+from fractions import Fraction
+from itertools import product
+from pathlib import Path
+from statistics import median
+
+import numpy as np
+import pytest
+from commands import call
+
+pytest.importorskip("matplotlib")
+
+from matplotlib.collections import QuadMesh
+from matplotlib.figure import Figure
+from matplotlib.text import Text
+
+from geartrain import load
+from geartrain.errors import QuestionError
+from geartrain.plot import (
+    Bands,
+    Likely,
+    Settling,
+    Sway,
+    convergence_figure,
+    corner_figure,
+    counts_figure,
+    findings_figure,
+    histogram_figure,
+    jam_map_figure,
+    render,
+    straying_figure,
+    tornado_figure,
+)
+from geartrain.plot.trials import indices_figure
+from geartrain.uncertainty.counts import sweep
+from geartrain.uncertainty.counts.jointly import joint, telling
+from geartrain.uncertainty.trials import Figure as Figure_
+from geartrain.uncertainty.trials import (
+    Findings,
+    Index,
+    Indices,
+    find_plan,
+    jam_map,
+    read_settings,
+    run_course,
+    run_trials,
+)
+
+RNG = np.random.default_rng(1)
+TURNS = np.linspace(0, 2, 50)
+ERRORS = RNG.normal(size=(41, 1)) * np.sin(np.pi * TURNS) + 0.1
+COUNTS = {"b1": [223, 223, 224, 224], "e3": [217, 235, 217, 223], "m3": [27, 27, 27, 28]}
+WEIGHTS = [1.0, 2.0, 3.0, 4.0]
+MAP_X, MAP_Y = np.linspace(1.0, 1.03, 5), np.linspace(1, 8, 6)
+
+
+def line(figure: Figure, gid: str, panel: int = 0) -> np.ndarray:
+    """The points of the line of that name."""
+    (found,) = [each for each in figure.axes[panel].lines if each.get_gid() == gid]
+    return np.array(found.get_xydata())
+
+
+def outline(figure: Figure, gid: str) -> tuple[float, float]:
+    """Least and greatest ordinate of a filled band."""
+    (found,) = [each for each in figure.axes[0].collections if each.get_gid() == gid]
+    y = found.get_paths()[0].vertices[:, 1]
+    return float(np.min(y)), float(np.max(y))
+
+
+# ------------------------------------------------------------------------------------------------------------ straying
+
+
+def test_bands_hold_their_share_of_the_trials_at_every_position() -> None:
+    bands = Bands.of(TURNS, ERRORS)
+    low, lower, middle, upper, high = bands.percentiles
+    for at in range(len(TURNS)):
+        column = sorted(ERRORS[:, at])
+        assert middle[at] == pytest.approx(median(column))
+        assert sum(lower[at] - 1e-12 <= each <= upper[at] + 1e-12 for each in column) in (21, 22, 23, 41)
+        assert sum(low[at] - 1e-12 <= each <= high[at] + 1e-12 for each in column) >= 39
+    assert bands.trials == 41
+
+
+def test_the_bands_that_are_drawn_are_those_of_the_trials() -> None:
+    figure = straying_figure({"moon": Bands.of(TURNS, ERRORS), "sun": Bands.of(TURNS, 2 * ERRORS)}, "b")
+    assert line(figure, "median") == pytest.approx(np.stack((TURNS, np.median(ERRORS, axis=0)), axis=1))
+    assert line(figure, "one") == pytest.approx(np.stack((TURNS, ERRORS[0]), axis=1))
+    assert outline(figure, "every trial") == pytest.approx((ERRORS.min(), ERRORS.max()))
+    assert outline(figure, "50 %") == pytest.approx(
+        (np.quantile(ERRORS, 0.25, axis=0).min(), np.quantile(ERRORS, 0.75, axis=0).max())
+    )
+    assert [axes.get_ylabel().split("\n")[0] for axes in figure.axes] == ["moon", "sun"]
+    assert figure.axes[1].get_xlabel() == "turns of b"
+
+
+def test_trials_that_jam_are_left_out() -> None:
+    broken = np.vstack((ERRORS, np.full((3, 50), np.nan)))
+    one, other = Bands.of(TURNS, broken), Bands.of(TURNS, ERRORS)
+    assert one.trials == other.trials
+    assert (one.percentiles == other.percentiles).all()
+    figure = histogram_figure({"moon": broken[:, 7]})
+    assert sum(bar.get_height() for bar in figure.axes[0].patches) == 41
+
+
+def test_a_histogram_counts_every_trial_and_marks_its_percentiles() -> None:
+    values = RNG.normal(3.0, 0.5, 5000)
+    figure = histogram_figure({"moon": values})
+    bars = figure.axes[0].patches
+    assert sum(bar.get_height() for bar in bars) == 5000
+    for bar in bars[5:10]:
+        low, high = bar.get_x(), bar.get_x() + bar.get_width()
+        assert bar.get_height() == ((values >= low) & (values < high)).sum()
+    assert line(figure, "median")[0, 0] == pytest.approx(median(values))
+    ends = sorted(each.get_xdata()[0] for each in figure.axes[0].lines if each.get_gid() == "95 %")
+    assert ends == pytest.approx(np.quantile(values, (0.025, 0.975)))
+
+
+@pytest.mark.parametrize("values", [[2.0], [0.0, 0.0, 0.0], [1.0, 1.0 + 1e-15], np.repeat([1.0, 2.0], [100, 1])])
+def test_errors_that_hardly_differ_are_drawn_too(values: list[float]) -> None:
+    figure = histogram_figure({"moon": values})
+    assert sum(bar.get_height() for bar in figure.axes[0].patches) == len(values)
+    figure.draw_without_rendering()
+
+
+# ------------------------------------------------------------------------------------------------------------ jam maps
+
+
+def crossing(figure: Figure, gid: str) -> np.ndarray:
+    """Points of a contour of that name."""
+    (found,) = [each for each in figure.axes[0].collections if each.get_gid() == gid]
+    return np.concatenate([path.vertices for path in found.get_paths()])
+
+
+def test_contours_run_where_the_chance_is_theirs() -> None:
+    """Chances that are a straight ramp in the arc of their root, whose contours are known lines."""
+    x, y = np.linspace(0, 1, 40), np.linspace(0, 1, 41)
+    ramp = np.sin((0.1 + x[:, None] + y[None, :]) / 2.2) ** 2
+    figure = jam_map_figure(x, y, ramp)
+    for level in (0.01, 0.1, 0.5):
+        points = crossing(figure, f"{level:.0%}")
+        if level == 0.01:
+            assert np.abs(0.1 + points.sum(axis=1) - 2.2 * np.arcsin(0.1)).max() < 1e-9
+        assert np.sin((0.1 + points.sum(axis=1)) / 2.2) ** 2 == pytest.approx(level)
+    (mesh,) = [each for each in figure.axes[0].collections if each.get_gid() == "map"]
+    assert np.array(mesh.get_array()).reshape(41, 40) == pytest.approx(ramp.T)
+
+
+def test_the_bound_is_drawn_where_it_is_one_in_a_hundred() -> None:
+    x, y = np.linspace(0, 1, 30), np.linspace(0, 1, 30)
+    bound = np.minimum(1.0, 10 ** (-4 + 4 * (y[None, :] + 0 * x[:, None])))
+    points = crossing(jam_map_figure(x, y, np.full((30, 30), 0.3), bound), "bound")
+    assert points[:, 1] == pytest.approx(0.5)
+
+
+@pytest.mark.filterwarnings("error")
+def test_a_map_without_a_contour_or_with_holes_is_drawn() -> None:
+    nothing = np.zeros((5, 6))
+    nothing[2, 3] = np.nan
+    jam_map_figure(MAP_X, MAP_Y, nothing).draw_without_rendering()
+
+
+# ------------------------------------------------------------------------------------------- tornado, corner, settling
+
+
+def test_bars_are_sorted_and_carry_their_intervals() -> None:
+    shares = {
+        "a": Sway(0.1, (0.05, 0.15), 0.2, (0.1, 0.3)),
+        "b": Sway(0.3, None, 0.5),
+        "c": Sway(0.2, (0.1, 0.4), 0.1),
+    }
+    figure = tornado_figure(shares)
+    (axes,) = figure.axes
+    assert [text.get_text() for text in axes.get_yticklabels()] == ["b", "a", "c"]
+    own = [bar.get_width() for bar in axes.patches if bar.get_gid() == "own"]
+    assert own == [0.3, 0.1, 0.2]
+    assert [bar.get_width() for bar in axes.patches if bar.get_gid() == "whole"] == [0.5, 0.2, 0.1]
+    ends = [tuple(each.get_xdata()) for each in axes.lines if each.get_gid() == "within"]
+    assert ends == [(0.1, 0.3), (0.05, 0.15), (0.1, 0.4)]
+    assert axes.get_ylim()[0] > axes.get_ylim()[1], "the longest bar is on top"
+
+
+def test_what_does_not_fit_is_counted() -> None:
+    shares = {str(at): Sway(1 / (at + 1)) for at in range(30)}
+    (axes,) = tornado_figure(shares, most=5).axes
+    assert len(axes.get_yticklabels()) == 5
+    assert "25 more, each 0.17 or less" in axes.get_xlabel()
+
+
+def test_likelihoods_are_the_sums_of_weights() -> None:
+    likely = Likely.of(COUNTS, WEIGHTS)
+    assert likely.single["b1"] == pytest.approx({223: 0.3, 224: 0.7})
+    assert likely.single["e3"] == pytest.approx({217: 0.4, 223: 0.4, 235: 0.2})
+    assert likely.pairs["b1", "e3"] == pytest.approx(
+        {(223, 217): 0.1, (223, 235): 0.2, (224, 217): 0.3, (224, 223): 0.4}
+    )
+    assert set(likely.pairs) == {("b1", "e3"), ("b1", "m3"), ("e3", "m3")}
+
+
+def test_a_corner_shows_every_chance_at_its_counts() -> None:
+    likely = Likely.of(COUNTS, WEIGHTS, {"b1": 223})
+    figure = corner_figure(likely)
+    panels = np.array(figure.axes).reshape(3, 3)
+    bars = {round(bar.get_x() + bar.get_width() / 2): bar.get_height() for bar in panels[0, 0].patches}
+    assert bars == pytest.approx({223: 0.3, 224: 0.7})
+    (mesh,) = [each for each in panels[1, 0].collections if isinstance(each, QuadMesh)]
+    cells = np.array(mesh.get_array())
+    edges = mesh.get_coordinates()
+    seen = {
+        (round(float(edges[i, j, 0] + 0.5)), round(float(edges[i, j, 1] + 0.5))): float(cells[i, j])
+        for i, j in np.ndindex(cells.shape)
+        if cells[i, j]
+    }
+    assert seen == pytest.approx(dict(likely.pairs["b1", "e3"]))
+    assert not panels[0, 2].axison
+
+
+def test_settling_shows_estimates_their_widths_and_the_truth() -> None:
+    n = np.array([10.0, 100.0, 1000.0])
+    value = np.array([0.3, 0.2, 0.21])
+    figure = convergence_figure({"jam": Settling(n, value, value - 1 / n, value + 1 / n, 0.2)})
+    assert line(figure, "jam") == pytest.approx(np.stack((n, value), axis=1))
+    assert line(figure, "truth of jam")[:, 1] == pytest.approx([0.2, 0.2])
+    assert line(figure, "width of jam", 1) == pytest.approx(np.stack((n, 1 / n), axis=1))
+    ends = line(figure, "slope", 1)
+    assert np.diff(np.log(ends[:, 1])) / np.diff(np.log(ends[:, 0])) == pytest.approx(-0.5)
+
+
+# ----------------------------------------------------------------------------------------------- sweeps, and two wheels
+
+DOUBTFUL = """
+name: doubtful
+frame: frame
+links:
+  frame: {}
+  a: {wheels: {p: {teeth: {value: 20, range: [18, 22]}}}}
+  b: {wheels: {q: {teeth: {value: 40, choices: [38, 40, 43]}}, r: {teeth: {value: 12, range: [11, 14]}}}}
+  c: {wheels: {s: {teeth: {value: 36, range: [34, 37]}}}}
+revolutes:
+  - {pair: [frame, a], axis: A}
+  - {pair: [frame, b], axis: B}
+  - {pair: [frame, c], axis: C}
+gears:
+  - {pair: [p, q]}
+  - {pair: [r, s]}
+inputs: {a: 1}
+outputs: {c: {expect: {value: 0.167, tolerance: 0.006}}}
+"""
+RANGES = {"p": range(18, 23), "q": (38, 40, 43), "r": range(11, 15), "s": range(34, 38)}
+
+
+def test_pairs_of_counts_are_those_of_all_combinations_that_fit() -> None:
+    fitting = [
+        teeth
+        for teeth in product(*RANGES.values())
+        if abs(Fraction(teeth[0] * teeth[2], teeth[1] * teeth[3]) - Fraction("0.167")) <= Fraction("0.006")
+    ]
+    train = load(DOUBTFUL).declaration
+    found = sweep(train)
+    wheels = telling(found)
+    assert wheels == list(RANGES)
+    pairs = joint(found, wheels, lambda held: sweep(train, free=held))
+    assert len(pairs) == 6
+    for (a, b), chances in pairs.items():
+        places = wheels.index(a), wheels.index(b)
+        seen = Counter((teeth[places[0]], teeth[places[1]]) for teeth in fitting)
+        assert chances == pytest.approx({both: count / len(fitting) for both, count in seen.items()})
+    assert len(telling(found, 2)) == 2
+    figure = counts_figure(found, pairs)
+    bars = figure.axes[0].patches
+    alone = Counter(teeth[0] for teeth in fitting)
+    for bar in bars[: len(alone)]:
+        count = round(bar.get_x() + bar.get_width() / 2)
+        assert bar.get_height() == pytest.approx(alone[count] / len(fitting))
+
+
+def test_where_nothing_fits_nothing_is_drawn() -> None:
+    train = load(DOUBTFUL.replace("0.167, tolerance: 0.006", "5, tolerance: 0.001")).declaration
+    found = sweep(train)
+    with pytest.raises(QuestionError, match="nothing to draw"):
+        counts_figure(found, joint(found, ["p", "q"], lambda held: sweep(train, free=held)))
+
+
+# --------------------------------------------------------------------------------------------------- trials of a train
+
+
+@pytest.fixture(scope="module")
+def findings() -> Findings:
+    plan = find_plan(load("moon-triangular"), read_settings(["placement=1 %"]), ("moon",))
+    trials = run_trials(plan, 300)
+    cleared = jam_map(plan, [0.3, 0.6], [0.5, 4.0], 20)
+    return Findings(trials, cleared, [run_course(plan, 0, 12, 1, 20)])
+
+
+def test_pictures_of_trials_show_their_trials(findings: Findings) -> None:
+    trials = findings.trials
+    errors = findings_figure(findings)
+    assert sum(bar.get_height() for bar in errors.axes[0].patches) == len(trials.pointers[0].kept)
+    middle = line(errors, "median")[0, 0]
+    assert middle == pytest.approx(np.degrees(np.median(trials.errors[np.isfinite(trials.errors)])), rel=0.1)
+    course = findings_figure(findings, "course")
+    assert line(course, "median")[:, 1] == pytest.approx(np.degrees(np.median(findings.courses[0].errors, axis=0)))
+    (axes,) = findings_figure(findings, "pairs").axes
+    assert sum(bar.get_width() for bar in axes.patches) == pytest.approx(1)
+    settled = line(findings_figure(findings, "convergence"), "any pair")
+    assert settled[-1, 0] == 300
+    assert settled[-1, 1] == pytest.approx((trials.marks & 1).any(axis=1).mean())
+    figure = findings_figure(findings, "map")
+    (mesh,) = [each for each in figure.axes[0].collections if each.get_gid() == "map"]
+    seen = np.array(mesh.get_array()).reshape(2, 2)
+    for each in findings.cleared:
+        at = [0.5, 4.0].index(each.scale), [0.3, 0.6].index(each.clearance or 0)
+        assert seen[at] == each.events["jam"].value
+
+
+def test_pictures_of_what_was_not_asked_are_refused(findings: Findings) -> None:
+    bare = Findings(findings.trials)
+    for picture in ("course", "sobol", "map", "colour"):
+        with pytest.raises(QuestionError) as caught:
+            findings_figure(bare, picture)
+        assert all(problem.fix for problem in caught.value.problems)
+
+
+def test_indices_are_drawn_with_their_intervals() -> None:
+    first, total = Figure_(0.3, 0.2, 0.4), Figure_(0.5, 0.4, 0.6)
+    (axes,) = indices_figure(Indices("moon", "wheel", 64, (Index("e3", first, total),))).axes
+    assert [bar.get_width() for bar in axes.patches] == [0.5, 0.3]
+
+
+def test_the_command_draws_what_it_is_asked_for(tmp_path: Path) -> None:
+    train = tmp_path / "pair.yaml"
+    train.write_text(PAIR, encoding="utf-8")
+    plot = tmp_path / "map.svg"
+    asked = ("errors", train, "--trials", 20, "--clearance", "0.2:0.8:2", "--picture", "map", "--plot", plot)
+    done = call(*asked)
+    assert done.exit_code == 0, done.output
+    assert "probability of a jam" in plot.read_text(encoding="utf-8")
+    assert call(*asked[:-3], "colour", "--plot", plot).exit_code == 2
+    assert call(*asked[:-1], tmp_path / "map.gif").exit_code == 2
+
+
+def test_the_command_draws_counts_in_doubt(tmp_path: Path) -> None:
+    train, plot = tmp_path / "doubtful.yaml", tmp_path / "corner.svg"
+    train.write_text(DOUBTFUL, encoding="utf-8")
+    done = call("sweep", train, "--free", "r=12", "--plot", plot, "--json")
+    assert done.exit_code == 0, done.output
+    drawn = plot.read_text(encoding="utf-8")
+    assert all(f'id="{wheel}"' in drawn for wheel in "pqs")
+    assert 'id="r"' not in drawn, "a wheel held to one count is in no doubt"
+
+
+PAIR = """
+name: pair
+frame: frame
+links: {frame: {}, a: {wheels: {p: 12}}, b: {wheels: {q: 18}}}
+revolutes: [{pair: [frame, a], axis: A}, {pair: [frame, b], axis: B}]
+gears: [{pair: [p, q]}]
+inputs: {a: 1}
+outputs: {b: {}}
+tooth_form: {form: triangular, half_angle: 30 deg, window: 0.5}
+cutting: {placement: {normal: 2 %}}
+"""
+
+# ---------------------------------------------------------------------------------------------------------- all of them
+
+ALL: dict[str, Callable[[], Figure]] = {
+    "straying": lambda: straying_figure({"moon": Bands.of(TURNS, ERRORS)}),
+    "histogram": lambda: histogram_figure({"a pointer with a long name": ERRORS[:, 3]}, "at the start"),
+    "map": lambda: jam_map_figure(
+        MAP_X, MAP_Y, np.linspace(0, 1, 30).reshape(5, 6), np.full((5, 6), 0.5), title="64/38"
+    ),
+    "tornado": lambda: tornado_figure({f"wheel {at}": Sway(0.9**at, (0.1, 0.2), 1.0) for at in range(25)}, "moon"),
+    "corner": lambda: corner_figure(Likely.of(COUNTS, WEIGHTS, {"b1": 223}), "what fits"),
+    "settling": lambda: convergence_figure(
+        {"a": Settling(np.ones(1), *(np.full(1, each) for each in (0.5, 0.4, 0.6)))}
+    ),
+}
+
+
+@pytest.mark.parametrize("name", list(ALL))
+def test_the_same_numbers_are_the_same_file(name: str) -> None:
+    assert render(ALL[name](), ".svg") == render(ALL[name](), ".svg")
+
+
+@pytest.mark.parametrize("name", list(ALL))
+def test_everything_is_inside_and_the_words_are_large_enough(name: str) -> None:
+    figure = ALL[name]()
+    figure.draw_without_rendering()
+    inside = figure.get_tightbbox()
+    assert min(inside.x0, inside.y0) > -0.02
+    assert inside.x1 < figure.get_figwidth() + 0.02
+    assert inside.y1 < figure.get_figheight() + 0.02
+    words = figure.findobj(lambda each: isinstance(each, Text) and each.get_text() and each.get_visible())
+    assert all(word.get_fontsize() >= 7 for word in words if isinstance(word, Text))
+
+
+@pytest.mark.parametrize(
+    "draw",
+    [
+        lambda: straying_figure({}),
+        lambda: Bands.of(TURNS, np.full((3, 50), np.nan)),
+        lambda: Bands.of(TURNS, ERRORS[:, 1:]),
+        lambda: histogram_figure({}),
+        lambda: histogram_figure({"moon": [np.nan]}),
+        lambda: jam_map_figure(MAP_X, MAP_Y, np.zeros((6, 5))),
+        lambda: jam_map_figure(MAP_X[::-1], MAP_Y, np.zeros((5, 6))),
+        lambda: jam_map_figure(MAP_X, MAP_Y, np.full((5, 6), 1.5)),
+        lambda: jam_map_figure(MAP_X, MAP_Y, np.zeros((5, 6)), np.zeros((6, 5))),
+        lambda: tornado_figure({}),
+        lambda: corner_figure(Likely.of({str(at): [1, 2] for at in range(10)}, [1, 1])),
+        lambda: corner_figure(Likely({}, {})),
+        lambda: Likely.of({"a": [1, 2]}, [0.0, 0.0]),
+        lambda: Likely.of({"a": [1, 2]}, [1.0, -1.0]),
+        lambda: Likely.of({"a": [1, 2, 3]}, [1.0, 1.0]),
+        lambda: convergence_figure({}),
+        lambda: convergence_figure({"a": Settling(*(np.zeros(1) for _ in range(4)))}),
+    ],
+)
+def test_what_cannot_be_drawn_is_refused_with_what_to_do(draw: Callable[[], object]) -> None:
+    with pytest.raises(QuestionError) as caught:
+        draw()
+    assert all(problem.what and problem.fix for problem in caught.value.problems)

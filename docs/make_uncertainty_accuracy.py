@@ -93,7 +93,7 @@ def which(records: UncertaintyRecords) -> str:
         every=span([row.rate for row in every]),
         every_ratio=span([row.ratio for row in every]),
         percent=f"{100 * error / 1e4**0.5:.2g}",
-        slopes=" and ".join(f"{power:.3f}" for power in records.slopes.values()),
+        slopes=" and ".join(f"{power:.3f}" for power, _ in records.slopes.values()),
     )
 
 
@@ -130,7 +130,7 @@ def estimates(records: UncertaintyRecords) -> str:
         ESTIMATES,
         exact=f"{first.truth:.10f}",
         other=f"{other.truth:.4f} +- {other.truth_error:.4f}",
-        slopes="; ".join(f"{case}: {power:.3f}" for case, power in records.slopes.items()),
+        slopes="; ".join(f"{case}: {power:.3f} +- {off:.3f}" for case, (power, off) in records.slopes.items()),
         least=f"{min(row.rms / row.expected for row in records.errors):.2f}",
         most=f"{max(row.rms / row.expected for row in records.errors):.2f}",
         covered=f"{100 * min(covered):.1f} to {100 * max(covered):.1f}",
@@ -168,7 +168,7 @@ def draw(records: UncertaintyRecords) -> None:
 
     style = {"font.size": 11, "svg.hashsalt": "uncertainty", "svg.fonttype": "none", "font.family": "sans-serif"}
     with plt.rc_context(style):
-        figure, axes = plt.subplots(1, 2, figsize=(13.6, 5.6), layout="constrained", width_ratios=(3, 2))
+        figure, axes = plt.subplots(1, 2, figsize=(14.4, 7.0), layout="constrained", width_ratios=(3, 2))
         bars(axes[0], records)
         falling(axes[1], records)
         for ax in axes:
@@ -193,7 +193,7 @@ def bars(ax: Axes, records: UncertaintyRecords) -> None:
     names = [f"{row.family}: {row.method}\n{row.case}" for row in rows]
     ax.set_yticks(range(len(rows)), names, fontsize=8.5)
     ax.set(
-        xscale="log", ylim=(len(rows) - 0.4, -0.6), xlim=(20, 3e9), xlabel="combinations, or tooth pitches, a second"
+        xscale="log", ylim=(len(rows) - 0.4, -0.6), xlim=(20, 2e10), xlabel="combinations, or tooth pitches, a second"
     )
     ax.set_title("Rates; a stroke is what was asked for", fontsize=11)
 
@@ -203,7 +203,7 @@ def falling(ax: Axes, records: UncertaintyRecords) -> None:
     for case, colour, marker in zip(records.slopes, COLOURS, MARKERS, strict=False):
         rows = [row for row in records.errors if row.case == case]
         trials = [row.trials for row in rows]
-        label = f"{case}: slope {records.slopes[case]:.3f}"
+        label = "{}: slope {:.3f} +- {:.3f}".format(case, *records.slopes[case])
         ax.plot(trials, [row.rms for row in rows], color=colour, marker=marker, ms=6, lw=0, label=label)
         ax.plot(trials, [row.expected for row in rows], color=colour, lw=1, ls="--")
     ax.set(xscale="log", yscale="log", xlabel="trials", ylabel="rms error of the probability of a jam")
@@ -238,8 +238,8 @@ WHICH = """
 - A pair whose teeth are only out of place is judged at {places} tooth pitches a second ({places_ratio} times the loop),
 with heights, flanks and eccentricity off too at {every} ({every_ratio} times).
 
-- 10,000 trials give a probability near 1/5 to {percent} percentage points. For a digit more take a hundred times as
-many: errors fall with trials to the power {slopes}.
+- 10,000 trials give a probability near 1/5 with an error of {percent} percentage points. For a digit more take a
+hundred times as many: errors fall with trials to the power {slopes}.
 """
 
 PLOT = """![Rates of batches and loops; error of estimates over trials](images/uncertainty-accuracy.svg)
@@ -247,12 +247,12 @@ PLOT = """![Rates of batches and loops; error of estimates over trials](images/u
 
 RATES = """
 **Counts.** One by one {counted} combinations a second; in a batch {counts}. Speeds are off by {told} of their value at
-most, {share}. Of the combinations that both ways decide, {fitting}.
+most, {share}. Both ways decide alike: {fitting}.
 
 **Teeth.** One by one {looped} tooth pitches a second. Places: {places}; the least play of a cycle differs from that of
 the single law by {places_off} of a pitch at most, because it is read from a table of the even couple wherever it is not
 near 0, where it is worked out. Every error: {every}; there the difference is {every_off} of a pitch. Where teeth are
-only out of place, a cycle costs z1 + z2 steps and not lcm(z1, z2), so pairs without common divisor gain most.
+only out of place, a cycle costs z1 + z2 steps and not lcm(z1, z2), so long cycles come quickest by the pitch.
 
 Of {checked} trials and combinations done both ways {wrong} were decided otherwise. The single law has been held against
 polygons and against equations in 40 digits elsewhere: see the tests of the package.
@@ -263,9 +263,11 @@ Two pairs of 64 and 38 teeth. In the first the driver is even and the driven tee
 little that only two neighbours can jam, where one is late against the other by more than the play. No two such steps
 can follow each other, so the chance that there is none is a finite sum over matchings of a circle; a jam has the
 probability {exact}. In the second all teeth are normally out of place; it is held against the mean of all trials of the
-run, {other}.
+run, {other}, of which the estimates are part.
 
-Every estimate is made of trials of its own. The measured power of the number of trials: {slopes}. The errors are
+Every estimate is made of trials of its own among those of its number; other numbers share out the same trials again, so
+that their errors hang together and slopes are less sure than their standard errors say. The measured power of the
+number of trials: {slopes}. The errors are
 {least} to {most} times those of independent trials. Of the 95 percent intervals {covered} percent hold the truth, where
 20 estimates or more were made.
 """

@@ -143,16 +143,32 @@ def test_errors_of_estimates_are_those_of_a_coin() -> None:
         assert row.rms == pytest.approx(float(np.sqrt(((blocks - truth) ** 2).mean())))
         assert row.rms == pytest.approx(row.expected, rel=0.35)
         assert row.covered > 0.85
-    assert slope(rows) == pytest.approx(-0.5, abs=0.08)
+    power, off = slope(rows)
+    assert 0 < off < 0.02
+    assert abs(power + 0.5) < 4 * off
     # a biased estimate is told
     biased = errors_of(EXACT, rng.random(200_000) < truth + 0.05, (1000, 10_000))
     assert biased[1].rms > 5 * biased[1].expected
     assert biased[1].covered < 0.1
 
 
+def test_the_error_of_a_slope_is_how_much_slopes_scatter() -> None:
+    """Estimates of a normal variable, their slopes found many times."""
+    rng, found = np.random.default_rng(6), []
+    for _ in range(300):
+        rows = []
+        for n, estimates in ((10, 320), (40, 80), (160, 20)):
+            rms = float(np.sqrt(np.mean(np.square(rng.standard_normal(estimates) / np.sqrt(n)))))
+            rows.append(ErrorRecord("", 0, 0, n, estimates, rms, 1, 1))
+        found.append(slope(rows))
+    powers, off = np.array(found).T
+    assert off[0] == pytest.approx(powers.std(), rel=0.2)
+    assert powers.mean() == pytest.approx(-0.5, abs=0.01)
+
+
 def test_a_slope_is_that_of_its_power() -> None:
     rows = [ErrorRecord("", 0.5, 0, n, 1, exp(-0.7 * log(n)), 1, 1) for n in (10, 100, 1000)]
-    assert slope(rows) == pytest.approx(-0.7)
+    assert slope(rows)[0] == pytest.approx(-0.7)
 
 
 def test_estimates_near_the_exact_chance(records: UncertaintyRecords) -> None:

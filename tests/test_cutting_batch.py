@@ -42,7 +42,7 @@ EVERY = Cutting(Spread(0.02), Spread(0.04), Spread(0.03), Spread(0.07))
 PLACES = Cutting(Spread(0.04))
 
 
-@pytest.mark.parametrize("number", [pytest.param(6), pytest.param(100, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("number", [pytest.param(5), pytest.param(60, marks=pytest.mark.slow)])
 @pytest.mark.parametrize("cutting", [EVERY, PLACES], ids=["every error", "places"])
 def test_a_batch_says_of_each_what_its_own_law_says(cutting: Cutting, number: int) -> None:
     """Play, clash, standstill and gap of random pairs, on both sides of their windows."""

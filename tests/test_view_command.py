@@ -14,7 +14,7 @@ from html.parser import HTMLParser
 from pathlib import Path
 
 import pytest
-from commands import LOCKED, RIGHT, call
+from commands import LOCKED, RIGHT, WRONG, call
 
 import geartrain.viewer
 from geartrain import GearTrainError, load
@@ -136,6 +136,32 @@ def test_a_train_that_cannot_turn_is_shown_and_the_exit_code_tells(train_file: W
     assert any(pair["broken"] for pair in scenes[0]["pairs"])  # type: ignore[attr-defined]
 
 
+JAMMED = """
+links: {frame: {}, a: {wheels: {p: 27}}, b: {wheels: {q: 45}}}
+revolutes: [{pair: [frame, a], axis: A}, {pair: [frame, b], axis: B}]
+gears: [{pair: [p, q], tooth_form: {form: triangular, half_angle: 30 deg, clearance: 1.001}}]
+inputs: {a: 1}
+"""
+
+
+@pytest.mark.parametrize("text", [WRONG, JAMMED])
+def test_the_exit_code_is_that_of_a_report(train_file: Written, here: Path, text: str) -> None:
+    train = train_file(text)
+    told, shown = call("report", train), call("view", train, "-o", "shown.html")
+    assert "Verdict" in told.output
+    assert (here / "shown.html").is_file()
+    assert told.exit_code == shown.exit_code == 1
+
+
+def test_teeth_that_jam_are_named_at_the_head_of_the_page(train_file: Written, here: Path) -> None:
+    call("view", train_file(JAMMED), "-o", "jammed.html")
+    scene = scenes_of(here / "jammed.html")[0][0]
+    (named,) = scene["verdict"]["loops"]  # type: ignore[index]
+    assert (named["pairs"], named["links"]) == (["p~q"], ["a", "b"])
+    for part in ("jam", "clearance factor 1.001 is below the window", "window: 0.5"):  # what, why, what to do
+        assert part in named["text"]
+
+
 def refusal(*arguments: object) -> str:
     done = call("view", *arguments)
     assert done.exit_code != 0
@@ -160,10 +186,10 @@ def test_a_file_that_is_there_stays_unless_force_is_used(here: Path) -> None:
     ("name", "said"),
     [
         (".", "folder"),
-        ("missing/train.html", "folder is not there"),
+        ("missing/train.html", "no such folder"),
         ("train.txt", "no suffix of a page"),
         ("train", "no suffix"),
-        ("x" * 300 + ".html", "cannot be written"),
+        ("x" * 300 + ".html", "no name for a file"),
     ],
 )
 def test_output_that_is_no_page_is_refused(here: Path, name: str, said: str) -> None:

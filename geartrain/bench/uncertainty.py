@@ -138,7 +138,8 @@ def _measured(
     each = [seconds / ways[0][1] for seconds in taken[0]]
     for (name, trials, task), own in zip(ways, taken, strict=True):
         ratio = median(one * trials / seconds for one, seconds in zip(each, own, strict=True))
-        memory = measure("", 0, "", task, lambda _: None).megabytes
+        # a loop takes what one solution takes
+        memory = None if name == SINGLY else measure("", 0, "", task, lambda _: None).megabytes
         rows.append(RateRecord(family, case, name, trials, work, median(own), ratio, memory))
     return rows, loop
 

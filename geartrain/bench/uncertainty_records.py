@@ -95,8 +95,8 @@ class UncertaintyRecords:
     workers: Sequence[WorkerRecord]
 
     @property
-    def slopes(self) -> dict[str, float]:
-        """Of each case, the power of the number of trials with which the error changes: least squares of logarithms."""
+    def slopes(self) -> dict[str, tuple[float, float]]:
+        """Of each case, the power of the number of trials with which the error changes, and its standard error."""
         return {case: slope([row for row in self.errors if row.case == case]) for case in _cases(self.errors)}
 
     def to_dict(self) -> dict[str, Any]:
@@ -123,15 +123,21 @@ class UncertaintyRecords:
                 *_rate_table([r for r in self.rates if r.family == family]),
             ]
         lines += ["## Error against trials", "", *_error_table(self.errors)]
-        lines += [f"{case}: error as trials to the power {power:.3f}." for case, power in self.slopes.items()]
+        lines += [f"{case}: error as trials to the power {a:.3f} +- {b:.3f}." for case, (a, b) in self.slopes.items()]
         return "\n".join([*lines, "", "## Workers", "", *_worker_table(self.workers)])
 
 
-def slope(rows: Sequence[ErrorRecord]) -> float:
-    """The power of the number of trials with which the error of estimates changes."""
-    x, y = [log(row.trials) for row in rows], [log(row.rms) for row in rows]
-    middle = sum(x) / len(x)
-    return sum((a - middle) * b for a, b in zip(x, y, strict=True)) / sum((a - middle) ** 2 for a in x)
+def slope(rows: Sequence[ErrorRecord]) -> tuple[float, float]:
+    """The power of the number of trials with which the error of estimates changes, and its standard error.
+
+    A straight line through the logarithms. The error of R normal estimates has a logarithm of variance 1 / (2 R), so
+    they weigh as R.
+    """
+    x, y, weights = [log(row.trials) for row in rows], [log(row.rms) for row in rows], [row.estimates for row in rows]
+    middle = sum(w * a for w, a in zip(weights, x, strict=True)) / sum(weights)
+    square = sum(w * (a - middle) ** 2 for w, a in zip(weights, x, strict=True))
+    power = sum(w * (a - middle) * b for w, a, b in zip(weights, x, y, strict=True)) / square
+    return power, (2 * square) ** -0.5
 
 
 def at_one(rows: Sequence[ErrorRecord]) -> float:

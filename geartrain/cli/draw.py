@@ -8,7 +8,7 @@ from typing import Annotated, Literal
 
 import typer
 
-from geartrain.cli.common import PICTURES, VERDICT, File, file_name, may_write, suffix_of
+from geartrain.cli.common import GOOD, PICTURES, VERDICT, File, file_name, may_write, sound, suffix_of
 from geartrain.cli.common import draw as write_figure
 
 
@@ -44,7 +44,7 @@ def run(
     verdict = train.solve(state if state is not None or not train.states else train.states[0]).verdict
     if not verdict:
         typer.echo(f"the train is {verdict}", err=True)
-        raise typer.Exit(VERDICT)
+    raise typer.Exit(GOOD if sound(train, state) else VERDICT)
 
 
 def _number(text: str) -> Fraction:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from geartrain.cli.common import GOOD, INTERRUPTED, VERDICT, File, StateName, may_write, plural
+from geartrain.cli.common import GOOD, INTERRUPTED, VERDICT, File, StateName, may_write, plural, sound
 from geartrain.cli.mesh.options import quantity
 from geartrain.errors import GearTrainError, Problem
 
@@ -60,8 +60,7 @@ def run(
     else:
         assert to is not None
         _all(work, to, kinds, wheel, shown, force)
-    verdict = train.solve(state, method="exact").verdict
-    raise typer.Exit(GOOD if verdict else VERDICT)
+    raise typer.Exit(GOOD if sound(train, state) else VERDICT)
 
 
 def _making(module: Size, thickness: Size, bore: Size, backlash: Size) -> Making:

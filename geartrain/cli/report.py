@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
 
-from geartrain.cli.common import GOOD, VERDICT, Files, Json, Out, as_json, emit, load_all, show, suffix_of
+from geartrain.cli.common import GOOD, VERDICT, Files, Json, Out, as_json, emit, load_all, may_write, show, suffix_of
 from geartrain.errors import GearTrainError, MissingExtraError
 
 if TYPE_CHECKING:
@@ -19,6 +19,7 @@ def run(
     out: Out = None,
     json: Json = False,
     view: Annotated[bool, typer.Option("--view", help="Put the train itself into a page, to be turned there.")] = False,
+    force: Annotated[bool, typer.Option("--force", help="Write over a page that is there.")] = False,
 ) -> None:
     """Report on trains: Markdown to the terminal, or by the suffix of -o as .md, .html or .json.
 
@@ -30,6 +31,8 @@ def run(
     if view and suffix != ".html":
         raise typer.BadParameter("a train turns in a page only: give -o x.html too", param_hint="--view")
     trains = load_all(files)
+    if out is not None and suffix == ".html" and not json:
+        may_write(out, force)
     sound = all(answer for train in trains for answer in train.answers())
     sound = sound and not any(mesh.fault for train in trains for mesh in train.meshes)
     if json or suffix == ".json":

@@ -2,19 +2,18 @@
 
 from __future__ import annotations
 
-import os
-import re
-import sys
 import webbrowser
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from geartrain.cli.common import GOOD, VERDICT, File, StateName, load_all, plural
+from geartrain.cli.common import GOOD, VERDICT, File, StateName, file_name, load_all, may_write, plural
 from geartrain.errors import Problem, QuestionError
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from geartrain.analysis import GearTrain
     from geartrain.scene import Scene
 
@@ -33,63 +32,42 @@ def run(
 ) -> None:
     """A page in which the train turns: one file, no server, no network; two trains stand side by side."""
     from geartrain.files import write_text
+    from geartrain.scene import make_scene
     from geartrain.viewer import page
 
     trains = load_all([file] if other is None else [file, other])
-    path = out or Path(f"{'-'.join(_file_name(train.declaration.name) for train in trains)}.html")
-    _check_path(path)
-    _ask(path, force)
-    scenes = [scene for train in trains for scene in _scenes(train, state, first=other is not None)]
+    path = out or file_name("-".join(train.name for train in trains), ".html")
+    _check_suffix(path)
+    may_write(path, force)
+    shown = [
+        (train, make_scene(train, each)) for train in trains for each in _states(train, state, first=other is not None)
+    ]
+    scenes = [scene for _, scene in shown]
     text = page(scenes, compare=other is not None, teeth=teeth)
     write_text(path, text)
     size = len(text.encode("utf-8"))
     typer.echo(f"wrote {path}: {plural(len(scenes), 'scene')}, {size / 1000:,.0f} kB", err=True)
     if open_it and not webbrowser.open(path.resolve().as_uri()):
         typer.echo("no browser could be started here; open the file by hand", err=True)
-    raise typer.Exit(GOOD if all(scene.verdict.get("kind") == "determined" for scene in scenes) else VERDICT)
+    raise typer.Exit(GOOD if all(_sound(train, scene) for train, scene in shown) else VERDICT)
 
 
-def _scenes(train: GearTrain, state: str | None, first: bool) -> list[Scene]:
-    """One scene a state; for a comparison that of the first only, if none is named."""
-    from geartrain.scene import make_scene
-
-    names: list[str | None] = list(train.declaration.states) or [None]
-    if state is not None or first:
-        names = [state if state is not None else names[0]]
-    return [make_scene(train, name) for name in names]
+def _states(train: GearTrain, state: str | None, first: bool) -> Sequence[str | None]:
+    """The states that are shown: the one that is named, else all; for a comparison the first only."""
+    if state is not None:
+        return (state,)
+    names = train.states or (None,)
+    return names[:1] if first else names
 
 
-def _file_name(name: str) -> str:
-    """A train's name as that of a file: whatever a folder could trip over becomes a dash."""
-    return re.sub(r"[^\w.+-]+", "-", name).strip("-.")[:100] or "train"
+def _sound(train: GearTrain, scene: Scene) -> bool:
+    """As in a report: all is determined and as expected, and the teeth can turn."""
+    return bool(train.solve(scene.state)) and not any(pair.broken for pair in scene.pairs)
 
 
-def _check_path(path: Path) -> None:
-    wrong = _wrong(path)
-    if wrong is not None:
-        raise QuestionError(wrong)
-
-
-def _wrong(path: Path) -> Problem | None:
-    place = str(path)
-    if os.path.isdir(path):  # Path's own would stumble over names that are too long
-        return Problem("the page cannot be written", "there is a folder of that name", "name a file in it", place)
-    if path.suffix.lower() not in (".html", ".htm"):
-        why = f"'{path.suffix}' is no suffix of a page" if path.suffix else "its name has no suffix"
-        return Problem("the page cannot be written", why, "let it end in .html", place)
-    if not os.path.isdir(path.parent):
-        return Problem("the page cannot be written", "its folder is not there", "make the folder first", place)
-    return None
-
-
-def _ask(path: Path, force: bool) -> None:
-    """Nothing is written over unasked."""
-    if force or not os.path.lexists(path):
+def _check_suffix(path: Path) -> None:
+    """Raises `QuestionError` where a browser would not know the file for a page."""
+    if path.suffix.lower() in (".html", ".htm") or path.is_dir():
         return
-    asked = sys.stdin.isatty() and sys.stderr.isatty()
-    if asked and typer.confirm(f"{path} is there already. Write over it?", err=True):
-        return
-    why = "and it shall stay" if asked else "and nobody is there to be asked"
-    raise QuestionError(
-        Problem("the page is not written", f"the file is there already, {why}", "use --force", str(path))
-    )
+    why = f"'{path.suffix}' is no suffix of a page" if path.suffix else "its name has no suffix"
+    raise QuestionError(Problem("the page cannot be written", why, "let it end in .html", str(path)))

@@ -115,7 +115,7 @@ def _draw_flat(page: Page, standing: Stand, labels: bool) -> None:
     for coupling in scene.couplings:
         _draw_coupling(page, standing, coupling)
     for spot in {tuple(np.round(page.at(standing.seen(standing.centre(wheel))), 4)) for wheel in wheels}:
-        page.axes.add_patch(Circle(spot, 0.035, facecolor=BLACK, edgecolor="white", linewidth=0.5, zorder=6))
+        page.axes.add_artist(Circle(spot, 0.035, facecolor=BLACK, edgecolor="white", linewidth=0.5, zorder=6))
     if labels:
         _name_wheels(page, standing, wheels[::-1])
 
@@ -127,13 +127,13 @@ def _draw_wheel(page: Page, standing: Stand, wheel: Wheel, level: float, order: 
     style: dict[str, Any] = {"edgecolor": RED if red else BLACK, "linewidth": 1.2 if red else 0.6, "zorder": order}
     if wheel.kind == "ring":
         rim = page.at(standing.seen(standing.circle(wheel, wheel.root * 1.1)))
-        page.axes.add_patch(PathPatch(_hollow(rim, outline), facecolor=face, gid=f"wheel {wheel.id}", **style))
+        page.axes.add_artist(PathPatch(_hollow(rim, outline), facecolor=face, gid=f"wheel {wheel.id}", **style))
     else:
-        page.axes.add_patch(Polygon(outline, facecolor=face, gid=f"wheel {wheel.id}", **style))
+        page.axes.add_artist(Polygon(outline, facecolor=face, gid=f"wheel {wheel.id}", **style))
     for pin in standing.pins(wheel):
-        page.axes.add_patch(Polygon(page.at(standing.seen(pin)), facecolor="white", **style))
+        page.axes.add_artist(Polygon(page.at(standing.seen(pin)), facecolor="white", **style))
     centre = page.at(standing.seen(standing.centre(wheel)))
-    page.axes.add_patch(
+    page.axes.add_artist(
         Circle(
             (float(centre[0]), float(centre[1])),
             wheel.radius * page.scale,
@@ -218,7 +218,7 @@ def _draw_coupling(page: Page, standing: Stand, coupling: Coupling) -> None:
     page.axes.plot(*ends.T, color=PURPLE, linewidth=5.5, solid_capstyle="round", zorder=5, gid=f"slot {coupling.id}")
     page.axes.plot(*ends.T, color="white", linewidth=3.0, solid_capstyle="round", zorder=5)
     spot = (float(pin[0]), float(pin[1]))
-    page.axes.add_patch(Circle(spot, 0.045, facecolor=PURPLE, edgecolor=BLACK, zorder=6, gid=f"pin {coupling.id}"))
+    page.axes.add_artist(Circle(spot, 0.045, facecolor=PURPLE, edgecolor=BLACK, zorder=6, gid=f"pin {coupling.id}"))
 
 
 def _remark(page: Page, scene: Scene, width: float) -> None:

@@ -38,7 +38,7 @@ def draw_side(page: Page, standing: Stand, depth: Depth) -> None:
         style: dict[str, Any] = {"edgecolor": RED if wheel.id in red else BLACK, "linewidth": 0.6, "zorder": 3}
         face = (*_FACE, 0.7)
         box = Rectangle((left, middle - half), right - left, 2 * half, facecolor=face, gid=f"side {wheel.id}", **style)
-        page.axes.add_patch(box)
+        page.axes.add_artist(box)
         stacks.setdefault((round(x, 4), round(middle, 4)), []).extend((left, right))
     for (_, middle), ends in stacks.items():
         page.axes.plot([min(ends) - 0.06, max(ends) + 0.06], [middle, middle], color=BLACK, linewidth=1.4, zorder=4)

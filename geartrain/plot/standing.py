@@ -22,6 +22,7 @@ _OBLIQUE = (0.52, -0.62, 0.59)  # towards the reader, of trains that do not lie 
 _MOST = 0.7  # of the wheels that must face the reader in a plan; the others are then seen from the side
 _NARROW = 0.72  # of the pitch radius of a bevel wheel at its wide end, at its narrow end
 _ROUND = 73  # points of a circle
+_FINE = 5000  # teeth beyond which nobody sees them on paper: such a wheel is drawn as a circle
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,7 +61,7 @@ class Stand:
         """
         profile = self.scene.profiles[wheel.profile]
         tooth = thinned(np.array(profile.points), chord / (wheel.radius * scale))
-        if profile.hole:
+        if profile.hole or wheel.teeth > _FINE:
             return self.circle(wheel, wheel.tip * scale, height)
         radius = wheel.radius * scale * np.tile(tooth[:-1, 0], wheel.teeth)
         steps = 2 * np.pi / wheel.teeth * np.arange(wheel.teeth)
@@ -74,7 +75,7 @@ class Stand:
     def pins(self, wheel: Wheel) -> Iterator[Floats]:
         """The pins of a lantern, (points, 3) each; of other wheels none."""
         profile = self.scene.profiles[wheel.profile]
-        if profile.hole:
+        if profile.hole and wheel.teeth <= _FINE:
             tooth = np.array(profile.points)
             for at in range(wheel.teeth):
                 angle = wheel.turn + 2 * np.pi * at / wheel.teeth + tooth[:, 1]

@@ -154,7 +154,7 @@ class _Drawing:
             else:
                 box = Rectangle((mesh.x - 0.05, mesh.meet - 0.1), 0.1, 0.2, zorder=4)
                 box.set(facecolor="white", edgecolor=PURPLE, linewidth=1.4)
-                self.axes.add_patch(box)
+                self.axes.add_artist(box)
         if self.labels:
             self._write_beside(mesh.x, mesh.meet, mesh.name, PURPLE)
 
@@ -198,7 +198,7 @@ class _Drawing:
     def _ground(self, x: float, y: float) -> None:
         box = Rectangle((x - 0.09, y - 0.045), 0.18, 0.09, hatch="//////", zorder=4)
         box.set(facecolor="white", edgecolor=GREY, linewidth=0.7)
-        self.axes.add_patch(box)
+        self.axes.add_artist(box)
 
     def _write_beside(self, x: float, y: float, text: str, color: str) -> None:
         write(self.axes, x + 0.08, y, text, color, fontsize=_FINE, rotation=90, zorder=9)

@@ -47,7 +47,7 @@ def sweep_document(found: CountSweep) -> Document:
 def _lead(found: CountSweep) -> Iterator[str]:
     how = {
         "enumerate": f"every one was looked at ({_many(found.looked)} of the wheels that matter)",
-        "decompose": f"all were taken together, in {_many(found.looked)} steps; no figure is estimated",
+        "decompose": f"all were taken together, in {_many(found.looked)} steps; only what has an interval is estimated",
         "sample": f"{_many(found.looked)} were drawn, seed {found.seed}; intervals are of 95 %",
     }[found.method]
     yield f"{_many(found.combinations)} combinations of {len(found.posteriors)} wheels; {how}."

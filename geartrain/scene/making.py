@@ -14,7 +14,7 @@ from geartrain.scene.pairs import find_pairs, find_verdict
 from geartrain.scene.pointers import find_pointers
 from geartrain.scene.profiles import find_profiles
 from geartrain.scene.result import Scene
-from geartrain.scene.stage import Stage
+from geartrain.scene.stage import Stage, exact
 from geartrain.scene.wheels import find_wheels
 
 
@@ -56,6 +56,8 @@ def make_scene(train: GearTrain, state: str | None = None) -> Scene:
         movement=moved.movement,
         sources=_sources(train),
         notices=tuple(_plain(notice) for notice in notices),
+        back=moved.back,
+        unit_days=exact(declared.unit_days),
     )
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
 from geartrain.scene.result import Pair
@@ -57,11 +57,10 @@ def find_verdict(stage: Stage) -> tuple[dict[str, Any], dict[str, str]]:
     if verdict.kind != "determined" or stage.train.mobility.locked:
         for jam in stage.train.gridlock.jams:
             loops.setdefault(jam.loop.pairs, {**_said(jam.loop), "text": str(jam)})
-    for loop in loops.values():
+    for loop in (*loops.values(), *_unfit(stage)):
+        loops.setdefault(tuple(loop["pairs"]), loop)
         for pair in loop["pairs"]:
             faults.setdefault(pair, loop["text"])
-    for mesh in _unfit(stage):
-        faults.setdefault(*mesh)
     fixes = [] if stage.train.gridlock.moves else list(stage.train.gridlock.lines())
     return {
         "kind": verdict.kind,
@@ -76,6 +75,10 @@ def _said(loop: Loop) -> dict[str, Any]:
     return {"pairs": list(loop.pairs), "links": list(loop.links), "text": f"{loop} does not close"}
 
 
-def _unfit(stage: Stage) -> list[tuple[str, str]]:
-    """Pairs whose real teeth cannot run."""
-    return [(mesh.name, mesh.fault.what) for mesh in stage.meshes if mesh.fault is not None]
+def _unfit(stage: Stage) -> Iterator[dict[str, Any]]:
+    """Pairs whose real teeth cannot run, each named like a loop, with why and what would mend it."""
+    for mesh in stage.meshes:
+        if (fault := mesh.fault) is not None:
+            links = [stage.train.declaration.wheels[wheel][0] for wheel in mesh.gear.pair]
+            said = "; ".join(filter(None, (fault.what, fault.why, fault.fix)))
+            yield {"pairs": [mesh.name], "links": links, "text": said}

@@ -13,10 +13,13 @@ import numpy as np
 from geartrain.uncertainty.counts.doubts import Doubt
 from geartrain.uncertainty.counts.question import Question
 from geartrain.uncertainty.counts.result import Chance, Posterior
-from geartrain.uncertainty.counts.summing import Candidate, Sums
+from geartrain.uncertainty.counts.summing import Candidate, Sums, plain
 from geartrain.uncertainty.counts.tallying import Tally, origin_of
 
 _Z = 1.959963984540054  # of 95 %
+_CERTAIN = 1e-4
+"""Spread over range below which a count has no correlation to tell: other counts have a chance under 10^-8, and
+covariances in float64 would be rounding."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -153,19 +156,16 @@ def of_sums(question: Question, sums: Sequence[Sums]) -> dict[tuple[str, str], f
 def _moments(
     question: Question, by: Mapping[str, Sequence[Any]], total: Any
 ) -> tuple[dict[str, float], dict[str, float]]:
-    """Posterior mean and standard deviation of every wheel's count."""
+    """Posterior mean and standard deviation of every wheel's count; 0 for one that is as good as certain."""
     means, spreads = {}, {}
     for wheel, weights in by.items():
-        counts, whole = question.doubts[wheel].counts, Fraction(_number(total))
-        pairs = [(count, Fraction(_number(weight)) / whole) for count, weight in zip(counts, weights, strict=True)]
+        counts, whole = question.doubts[wheel].counts, Fraction(plain(total))
+        pairs = [(count, Fraction(plain(weight)) / whole) for count, weight in zip(counts, weights, strict=True)]
         mean = sum((chance * count for count, chance in pairs), Fraction(0))
         means[wheel] = float(mean)
-        spreads[wheel] = sqrt(sum((chance * (count - mean) ** 2 for count, chance in pairs), Fraction(0)))
+        spread = sqrt(sum((chance * (count - mean) ** 2 for count, chance in pairs), Fraction(0)))
+        spreads[wheel] = spread if spread > _CERTAIN * (counts[-1] - counts[0]) else 0.0
     return means, spreads
-
-
-def _number(value: Any) -> int | float:
-    return float(value) if isinstance(value, float | np.floating) else int(value)
 
 
 def _correlated(

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from geartrain.synthesis.trains.items import Floats, Ints
-from geartrain.uncertainty.counts.decomposing import Part, Step
+from geartrain.uncertainty.counts.decomposing import Part
 from geartrain.uncertainty.counts.doubts import Doubt
 
 Weights = NDArray[Any]
@@ -41,7 +41,7 @@ class Sums:
     def evidence(self) -> Any:
         """The weight of all that fits, of `total`; a share of 1 where agreement is a matter of degree."""
         ends = self._forward[-1]
-        return ends.sum() if len(ends) else 0
+        return plain(ends.sum()) if len(ends) else 0
 
     @cached_property
     def posteriors(self) -> dict[str, list[Any]]:
@@ -49,7 +49,7 @@ class Sums:
         found = {}
         for at, (step, doubt) in enumerate(zip(self.part.steps, self.doubts, strict=True)):
             flow = self._flow(at)
-            found[doubt.wheel] = [flow[step.choices == choice].sum() for choice in range(len(doubt.counts))]
+            found[doubt.wheel] = [plain(flow[step.choices == choice].sum()) for choice in range(len(doubt.counts))]
         return found
 
     @cached_property
@@ -142,6 +142,11 @@ class Sums:
         return _counted(step.children, values, step.size)
 
 
+def plain(value: Any) -> int | float:
+    """A sum as Python's own number, which does not overflow."""
+    return float(value) if isinstance(value, float | np.floating) else int(value)
+
+
 def _counted(owners: Ints, values: Floats, size: int) -> Floats:
     """Floats added up by owner."""
     return np.asarray(np.bincount(owners, values, minlength=size), dtype=np.float64)
@@ -209,6 +214,3 @@ class Best:
             np.minimum.at(found, step.parents, own)
             rows.append(found)
         return rows[::-1]
-
-
-__all__ = ["Best", "Candidate", "Step", "Sums", "Weights"]

@@ -13,6 +13,7 @@ from geartrain.synthesis.trains.items import Floats, Ints
 from geartrain.uncertainty.counts.batch import BLOCK, Batch, Grid
 from geartrain.uncertainty.counts.doubts import Doubt
 from geartrain.uncertainty.counts.question import Question
+from geartrain.uncertainty.counts.summing import plain
 
 KEPT = 2000
 """Combinations that a task brings out to find the best; equals beyond are left out."""
@@ -59,11 +60,11 @@ class Tally:
             return
         at = [np.broadcast_to(places[wheel], (size,)) for wheel in self.batch.wheels]
         self.fits += size
-        self.weight += weights.sum()
+        self.weight += plain(weights.sum())
         self.square += float((weights.astype(np.float64) ** 2).sum())
         for sums, index in zip(self.by, at, strict=True):
             for choice in np.unique(index):
-                sums[choice] += weights[index == choice].sum()
+                sums[choice] += plain(weights[index == choice].sum())
         steps = np.array([own[index] for own, index in zip(self._steps, at, strict=True)])
         self.sizes += (steps * weights.astype(np.float64)) @ steps.T
         self._keep(misfit, at)
@@ -103,10 +104,10 @@ class Tally:
         return {
             "looked": self.looked,
             "fits": self.fits,
-            "turning": _plain(self.turning),
-            "weight": _plain(self.weight),
+            "turning": plain(self.turning),
+            "weight": plain(self.weight),
             "square": self.square,
-            "by": [[_plain(value) for value in sums] for sums in self.by],
+            "by": [[plain(value) for value in sums] for sums in self.by],
             "sizes": self.sizes.tolist(),
             "best": [[misfit, list(at)] for misfit, at in self.best],
             "ranked": self.ranked,
@@ -116,10 +117,6 @@ class Tally:
 def origin_of(doubt: Doubt) -> int:
     """The count from which the others are reckoned, so that sums of products keep their digits: the likeliest."""
     return doubt.counts[doubt.weights.index(max(doubt.weights))]
-
-
-def _plain(value: Any) -> int | float:
-    return float(value) if isinstance(value, float | np.floating) else int(value)
 
 
 def packed(question: Question, most: int) -> bytes:
@@ -156,7 +153,7 @@ def enumerate_task(shared: bytes, task: Sequence[int]) -> dict[str, Any]:
         met, misfit = batch.judged(rows)
         tally.looked += rows.size
         turning = batch.turns(rows) if batch.question.conditions else slice(None)
-        tally.turning += inner[turning].sum() * outer
+        tally.turning += plain(inner[turning].sum()) * outer
         fit = np.flatnonzero(met)
         weights = inner[fit] * outer
         if batch.question.soft:

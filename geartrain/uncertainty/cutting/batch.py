@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from geartrain.errors import Problem, RangeError
-from geartrain.uncertainty.cutting.closing import Pinch, common, farthest, least_sum, pinches
+from geartrain.uncertainty.cutting.closing import Pinch, common, even_couple, farthest, least_sum, pinches, steepest
 from geartrain.uncertainty.cutting.couples import Couples
 from geartrain.uncertainty.cutting.pair import ROUNDING, CutPair, sizes_of
 
@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     Bools = NDArray[np.bool_]
 
 CHUNK = 1 << 15  # couples worked on at once: their arrays stay in a cache, and memory is bounded
-_SLACK = 0.04  # of a driven pitch: about what a rough play is above the exact one, or more
+_SLACK = 0.05  # of a driven pitch: about what a rough play is above the exact one, or more
 
 
 @dataclass(frozen=True, slots=True)
@@ -113,8 +113,9 @@ def chunks(pair: CutPair, trials: int) -> Iterator[CutPair]:
 
 def _general(pair: CutPair) -> Verdicts:
     cycle = Cycle(pair)
-    play = cycle.play()
-    clash, standstill = cycle.passing()
+    play, standstill, clash = cycle.play(), cycle.left_standing(), cycle.clashes()
+    if standstill.any():
+        play = np.minimum(play, np.where(standstill, cycle.play_at_entries(), inf))
     return Verdicts(play, clash, standstill, cycle.disengaged(), pair.leans)
 
 
@@ -160,14 +161,16 @@ class Cycle:
     def _refine(self, play: Floats, n: int, rough: Floats) -> None:
         """The exact play of every couple that may have the least: those seen tell how far rough ones are above it."""
         slack, open_ = _SLACK * self.sizes.p2, np.isfinite(rough)
+        chosen = np.zeros_like(open_)
+        chosen[np.arange(self.trials), rough.argmin(axis=1)] = True
         while True:
-            rows, columns = np.nonzero(open_ & (rough <= play[:, None] + slack))
+            rows, columns = np.nonzero(open_ & (chosen | (rough <= play[:, None] + slack)))
             if not len(rows):
                 return
             exact = self._exactly(rows, columns, n)
             np.minimum.at(play, rows, exact)
             open_[rows, columns] = False
-            slack = max(slack, 1.5 * float(np.max(rough[rows, columns] - exact)))
+            slack = max(slack, 2 * float(np.max(rough[rows, columns] - exact)))
 
     def _candidates(self) -> list[tuple[float, Pinch]]:
         """The ways of jamming, each after what errors as great as these leave it at least; the least first."""
@@ -182,7 +185,7 @@ class Cycle:
         """More than the places of teeth can take from the play of a couple and the one n before it (rad)."""
         driver = float(np.abs(self.ahead(n) - n * self.sizes.p1).max())
         driven = float(np.abs(self._stop(n) - (1 - n) * self.sizes.p2).max())
-        return 1.5 * self.sizes.ratio * driver + driven
+        return 1.2 * max(steepest(even_couple(self.sizes)), self.sizes.ratio) * driver + driven
 
     def _radial(self) -> float:
         """More than heights, half angles and distance can change any play (rad)."""
@@ -226,46 +229,47 @@ class Cycle:
             return self.pair.count - 2  # a tooth may be missing: who pushes next may be far behind
         return max(1, int(np.ceil((2 * self.pair.widest + float(place.max() - place.min())) / self.sizes.p1)))
 
-    def passing(self) -> tuple[Bools, Bools]:
-        """Whether a tooth comes in against a tip, and whether the driven wheel is left standing (trials,)."""
-        stands: Bools = np.asarray(self._left_standing().any(axis=1))
-        return self._comes_in(stands), stands
-
-    def _left_standing(self) -> Bools:
-        """Whether, where a couple leaves, every one behind it is still clear of its driven tooth."""
-        front, touches = self.front, self._all(self.front.reach > -inf)
+    def left_standing(self) -> Bools:
+        """Whether, where a couple leaves, every one behind it is still clear of its driven tooth (trials,)."""
+        front = self.front
+        stands: Any = np.array(self._all(self.front.reach > -inf))
         limit = self._all(front.exit_angle) + ROUNDING * self.sizes.p2
-        stands = np.array(touches)
         for n in (*range(1, self._most() + 1), -1):
             # seen from the couple that catches: the one n before it leaves
             x = self.ahead(n) - np.roll(self._all(front.reach), n, -1)
             y = np.where(x <= front.reach, self._held(front, x) - self.apart(n), inf)
-            caught = np.roll(self._all(y), -n, -1) <= limit
-            stands &= ~caught
+            stands &= np.roll(self._all(y), -n, -1) > limit
             if not stands.any():
                 break
-        return stands
-
-    def _comes_in(self, stood: Bools) -> Bools:
-        """Whether, where a couple comes in, its driven tooth is behind the tip, or the next one before it."""
-        front, touches = self.front, self._all(self.front.reach > -inf)
-        y = np.full(touches.shape, inf)
-        tip = self._all(-front.exit_angle)
-        for n in range(1, self._most() + 2):
-            late = (y > tip) if not stood.any() else np.ones(1, bool)
-            if not (late & touches).any():
-                break
-            before = front.rolled(n)
-            x = self._all(front.reach) - self.ahead(n)
-            here = np.where((x <= before.reach) & (before.reach > -inf), self._held(before, x) + self.apart(n), inf)
-            y = np.minimum(y, here)
-        small = ROUNDING * self.sizes.p2
-        with np.errstate(invalid="ignore"):
-            clash = (y > tip + small) & touches & np.isfinite(y)
-            # a tooth that would come in behind the next driven tooth: only where the driven wheel had stood
-            behind = (y + np.roll(self._all(self.apart(1)), -1, -1) < tip - small) & touches & stood[:, None]
-        found: Bools = clash.any(axis=1) | behind.any(axis=1)
+        found: Bools = stands.any(axis=1)
         return found
+
+    def clashes(self) -> Bools:
+        """Whether, where a couple comes in, the driven wheel holds its driven tooth behind the tip (trials,)."""
+        tip = self._all(-self.front.exit_angle) + ROUNDING * self.sizes.p2
+        y = np.where(self._all(self.front.reach > -inf), inf, -inf)
+        for n in range(1, self._most() + 2):
+            y = np.minimum(y, self._before(n, self.front.reach))
+            if not (y > tip).any():
+                break
+        found: Bools = ((y > tip) & np.isfinite(y)).any(axis=1)
+        return found
+
+    def play_at_entries(self) -> Floats:
+        """Least play where a couple comes in that stops the driven wheel, which may stand there (trials,)."""
+        y = np.full((self.trials, self.pair.count), inf)
+        for n in range(self._most() + 2):
+            y = np.minimum(y, self._before(n, self.back.reach))
+        play = y + np.roll(self._all(self.apart(1)), -1, -1) + self.back.exit_angle
+        found: Floats = np.where(self._all(self.back.reach > -inf), play, inf).min(axis=1)
+        return found
+
+    def _before(self, n: int, reach: Any) -> Any:
+        """alpha_2 of each driven tooth, its driver's tooth at `reach`, as the couple n before has it; inf if none."""
+        before = self.front.rolled(n)
+        x = self._all(reach) - self.ahead(n)
+        touches = (x <= before.reach) & (before.reach > -inf) & (x > -inf)
+        return np.where(touches, self._held(before, np.where(touches, x, 0.0)) + self.apart(n), inf)
 
     @staticmethod
     def _held(couples: Couples, x: Any) -> Any:

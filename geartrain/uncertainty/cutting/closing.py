@@ -118,3 +118,12 @@ def farthest(pair: CutPair) -> int:
     if pair.widest <= 0:
         return -1
     return floor((2 * pair.widest + 2 * float(np.abs(pair.first.place).max())) / pair.sizes.p1)
+
+
+def steepest(couple: Couples) -> float:
+    """The greatest speed ratio of a couple, where its tips meet as it comes in; 0 where it never does."""
+    if not couple.reach > 0:
+        return 0.0
+    with np.errstate(all="ignore"):
+        tau = float(couple.approach_speed(couple.reach, np))
+    return tau if 0 < tau < inf else inf

@@ -123,7 +123,7 @@ class CutLaw(Law):
             n = np.rint((part - u) / self.pitch).astype(np.int64)
             parts.append(what((envelope or self._envelope).first(n, u)))
         found: Floats = np.concatenate(parts, axis=-1)
-        return found.reshape(*found.shape[:-1], *S.shape)
+        return found.reshape((*found.shape[:-1], *S.shape))
 
     def _signed(self, lag: Floats) -> Floats:
         return -lag if self.direction > 0 else self.pair.sizes.p2 + lag

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from geartrain.uncertainty.cutting.closing import even_couple, farthest, least_sum, pinches
+from geartrain.uncertainty.cutting.closing import even_couple, farthest, least_sum, pinches, steepest
 from geartrain.uncertainty.cutting.pair import ROUNDING, CutPair
 
 if TYPE_CHECKING:
@@ -47,7 +47,9 @@ def _verdicts(pair: CutPair, chunk: int) -> Verdicts:
         play[rows] = Cycle(_some(pair, rows)).play()
     clash, stands = np.zeros(len(play), bool), np.zeros(len(play), bool)
     for rows in _parts(teeth.doubtful, chunk // pair.count):
-        clash[rows], stands[rows] = _Passing(_some(pair, rows)).passing()
+        some = _Passing(_some(pair, rows))
+        clash[rows], stands[rows], entering = some.passing()
+        play[rows] = np.minimum(play[rows], entering)
     return Verdicts(play, clash, stands, teeth.disengaged, np.full(len(play), teeth.couple.leaning.item()))
 
 
@@ -68,10 +70,11 @@ def placed_play(pair: CutPair) -> Floats:
     driver, driven = pair.first.place, pair.second.place
     spread = 2 * float(np.abs(driver).max())
     near = {each.n: each.play for each in reversed(pinches(sizes, farthest(pair)))}
-    play, both = np.full(pair.trials, inf), 2 * float(even_couple(sizes).reach)
+    couple, play = even_couple(sizes), np.full(pair.trials, inf)
+    both, steep = 2 * float(couple.reach), steepest(couple)
     for n in sorted(near, key=lambda n: near[n]):
         apart, stop = driver - np.roll(driver, n, -1), np.roll(driven, n - 1, -1) - driven
-        if near[n] - 2 * sizes.ratio * float(np.abs(apart).max()) - float(np.abs(stop).max()) > play.max():
+        if near[n] - steep * float(np.abs(apart).max()) - float(np.abs(stop).max()) > play.max():
             continue  # errors of place do not bring these below what others have
         own = _read(_table(sizes, n, _rounded(spread)), _rounded(spread), apart)
         own = np.where(np.abs(n * sizes.p1 + apart) < both, own, inf)
@@ -162,16 +165,16 @@ class _Passing:
         found: Bools = np.broadcast_to(clash | stands, self.pair.trials).copy()
         return found
 
-    def passing(self) -> tuple[Bools, Bools]:
-        """Whether a tooth comes in against a tip, and whether the driven wheel is left standing (trials,)."""
+    def passing(self) -> tuple[Bools, Bools, Floats]:
+        """Whether a tooth comes in against a tip, whether the driven wheel is left standing, and its play then.
+
+        That where a tooth comes in that stops it, of trials in which it stands; else inf. All (trials,).
+        """
         stands = (self._least(self._leaving) > -self.tip + self.small).any(axis=1)
         y = self._least(self._coming)
         clash = (y > self.tip + self.small).any(axis=1)
-        if stands.any():
-            # a tooth that would come in behind the next driven tooth
-            next_on = self._between(1)[1][:, np.arange(self.pair.count) % self.sizes.z2]
-            clash |= stands & (y + next_on < self.tip - self.small).any(axis=1)
-        return clash, stands
+        next_on = self._between(1)[1][:, np.arange(self.pair.count) % self.sizes.z2]
+        return clash, stands, np.where(stands, (y + next_on - self.tip).min(axis=1), inf)
 
     def _least(self, terms: Callable[[int], tuple[Any, Any]]) -> Any:
         """The least over all couples near, for every couple of the cycle (trials, couples)."""

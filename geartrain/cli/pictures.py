@@ -1,0 +1,62 @@
+"""What `geartrain errors --plot` and `geartrain sweep --plot` draw."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from geartrain.cli.common import PICTURES, draw, suffix_of
+
+if TYPE_CHECKING:
+    from geartrain.uncertainty.counts import CountSweep
+    from geartrain.uncertainty.trials import Findings, Means
+
+Plot = Annotated[Path | None, typer.Option("--plot", help="Draw to this file (.svg, .png or .pdf).")]
+Picture = Annotated[
+    str, typer.Option("--picture", help="What --plot draws: errors, course, convergence, sobol, pairs or map.")
+]
+_SHARES = (0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9)  # of windows, where no sweep of clearance is asked
+_SCALES = (0.25, 0.5, 0.75, 1.0, 1.25, 1.5, 1.75, 2.0)  # of the errors declared
+
+
+def check_plot(plot: Path | None, picture: str = "errors") -> None:
+    """Refuse a picture that there is not, or another form of file, before the work."""
+    suffix_of(plot, PICTURES)
+    if plot is not None:
+        from geartrain.plot.trials import PICTURES as ALL
+
+        if picture not in ALL:
+            raise typer.BadParameter(f"'{picture}' is no picture; use {', '.join(ALL)}", param_hint="--picture")
+
+
+def mapped(findings: Findings, picture: str, clearances: Sequence[float], means: Means) -> Findings:
+    """The findings with what a map needs, where one is to be drawn: other clearances, and errors of other sizes."""
+    if picture != "map":
+        return findings
+    from geartrain.uncertainty.trials import jam_map
+
+    of = findings.trials
+    return replace(findings, cleared=jam_map(of.plan, clearances or _SHARES, _SCALES, of.wanted, of.seed, means))
+
+
+def draw_findings(findings: Findings, picture: str, plot: Path) -> None:
+    """One picture of trials to a file."""
+    from geartrain.plot import findings_figure
+
+    draw(findings_figure(findings, picture), plot, plot.suffix.lower() or ".svg")
+
+
+def draw_counts(found: CountSweep, again: Callable[[Mapping[str, Sequence[int]]], CountSweep], plot: Path) -> None:
+    """Counts of the wheels of which the outputs tell most, each and two by two, to a file.
+
+    again   sweeps the same train for the same evidence, with some wheels held to the counts given
+    """
+    from geartrain.plot import counts_figure
+    from geartrain.uncertainty.counts.jointly import joint, telling
+
+    wheels = telling(found)
+    draw(counts_figure(found, joint(found, wheels, again)), plot, plot.suffix.lower() or ".svg")

@@ -9,17 +9,14 @@ from math import gcd, lcm
 from typing import TYPE_CHECKING
 
 from geartrain.errors import GearTrainError, Problem
-from geartrain.scene.result import Law, Movement, Source, Step
+from geartrain.scene.result import Movement, plain
 from geartrain.scene.stage import Stage
+from geartrain.scene.tables import laws_and_sources, step_of
 
 if TYPE_CHECKING:
     from geartrain.motion import Composition, Motion
-    from geartrain.motion.composition import Step as Composed
     from geartrain.teeth.base import Floats
-    from geartrain.teeth.base import Law as ToothLaw
 
-TOLERANCE = 1e-11  # of a driven pitch
-_DEGREES = (7, 9, 11, 14)  # tried in turn: the smallest table wins
 _TRIED = 257  # positions at which pairs that hang on each other are tried
 
 
@@ -41,6 +38,7 @@ class Setting:
 class Moved:
     """The movement, and the pose at its beginning.
 
+    back     the movement for negative turns, on the other flanks; None where it is the same
     rest     angle A of each link about its body's direction after no turn (rad)
     driving  by pair or coupling that ripples
     """
@@ -50,6 +48,7 @@ class Moved:
     driving: Mapping[str, Setting] = field(default_factory=dict)
     motion: Motion | None = None
     notices: tuple[Problem, ...] = ()
+    back: Movement | None = None
 
 
 def find_movement(stage: Stage) -> Moved:
@@ -59,7 +58,7 @@ def find_movement(stage: Stage) -> Moved:
         return Moved(Movement("still", why, period=None), _started(stage))
     if stage.unbuilt:
         return _in_the_mean(stage, stage.unbuilt)
-    if all(mesh.rigid for mesh in stage.meshes) and not stage.train.pins:
+    if not stage.meshes and not stage.train.pins:
         return Moved(Movement("exact", period=_text(_period(stage, ()))), _started(stage))
     try:
         motion = stage.train.motion(stage.answer.state, tuple(stage.train.declaration.links))
@@ -82,28 +81,51 @@ def _followed(stage: Stage, motion: Motion) -> Moved:
     import numpy as np
 
     composition = motion.ahead
-    if not composition.sources:
-        return Moved(Movement("exact", period=_text(_period(stage, ()))), _started(stage), motion=motion)
-    if any(step.coupled for step in composition.steps):
-        motion.at(np.linspace(0, float(motion.period or 1), _TRIED))  # past a dead centre this raises
-    error = motion.at(np.zeros(1)).error[:, 0]
+    _try(composition, float(motion.period or 1))
+    error = composition.at(np.zeros(1)).error[:, 0]
     links = tuple(stage.train.declaration.links)
     rest = {
         link: stage.sense(link) * (stage.start(link) + float(each)) for link, each in zip(links, error, strict=True)
     }
     own = error - np.array(composition.offsets) if composition.offsets else error
     driving = dict(_settings(composition, own))
-    cycles = [source.cycles for source in composition.sources]
-    laws, sources = _laws_and_sources(composition)
-    movement = Movement(
-        "real",
-        period=_text(_period(stage, cycles)),
+    movement = _written(stage, composition)
+    back, notices = _backward(stage, motion, movement)
+    return Moved(movement, rest, driving, motion, notices, back)
+
+
+def _try(composition: Composition, turns: float) -> None:
+    """Raises `GearTrainError` where pairs that hang on each other have no common position."""
+    import numpy as np
+
+    if any(step.coupled for step in composition.steps):
+        composition.at(np.linspace(0, turns, _TRIED))  # past a dead centre this raises
+
+
+def _backward(stage: Stage, motion: Motion, ahead: Movement) -> tuple[Movement | None, tuple[Problem, ...]]:
+    """How errors follow from negative turns, if otherwise than from positive ones; and why they cannot be followed."""
+    try:
+        composition = motion.back
+        _try(composition, -float(motion.period or 1))
+        back = _written(stage, composition)
+    except GearTrainError as error:
+        mean = _in_the_mean(stage, error.problems)
+        return mean.movement, mean.notices
+    return (None if plain(back) == plain(ahead) else back), ()
+
+
+def _written(stage: Stage, composition: Composition) -> Movement:
+    """Exact where nothing ripples: teeth that keep their ratio may still have play, and then their offsets stand."""
+    laws, sources = laws_and_sources(composition)
+    links = tuple(stage.train.declaration.links)
+    return Movement(
+        "real" if sources else "exact",
+        period=_text(_period(stage, [source.cycles for source in composition.sources])),
         laws=laws,
         sources=sources,
-        steps=tuple(_step(step) for step in composition.steps),
+        steps=tuple(step_of(step) for step in composition.steps),
         offsets={link: each for link, each in zip(links, composition.offsets, strict=False) if each},
     )
-    return Moved(movement, rest, driving, motion)
 
 
 def _settings(composition: Composition, error: Floats) -> Iterator[tuple[str, Setting]]:
@@ -111,66 +133,6 @@ def _settings(composition: Composition, error: Floats) -> Iterator[tuple[str, Se
         S = source.start + composition.driver_shift(source, error)
         driver = composition.spread.links[composition.spread.joints[source.pair].driver]
         yield source.id, Setting(driver, source.forward, S, float(source.law.error(S)))
-
-
-def _step(step: Composed) -> Step:
-    return Step(
-        bodies=step.links,
-        known=step.known,
-        from_known=step.from_known.tolist(),
-        sources=step.sources,
-        from_sources=step.from_sources.tolist(),
-        coupled=step.coupled,
-    )
-
-
-def _laws_and_sources(composition: Composition) -> tuple[tuple[Law, ...], tuple[Source, ...]]:
-    """Every source with its law; pairs alike share one."""
-    laws: dict[tuple[float, bytes, bytes], Law] = {}
-    numbers: dict[tuple[float, bytes, bytes], int] = {}
-    sources = []
-    for source in composition.sources:
-        law = tabulated(source.id, source.law)
-        key = law.period, law.breaks.tobytes(), law.coefficients.tobytes()
-        laws.setdefault(key, law)
-        joint = composition.spread.joints[source.pair]
-        sources.append(
-            Source(
-                pair=source.id,
-                law=numbers.setdefault(key, len(numbers)),
-                driver=joint.driver,
-                carrier=joint.carrier,
-                driver_sense=source.driver_sense,
-                carrier_sense=source.carrier_sense,
-                cycles=str(source.cycles),
-                start=source.start,
-                forward=source.forward,
-                sense=source.sense,
-            )
-        )
-    return tuple(laws.values()), tuple(sources)
-
-
-def tabulated(pair: str, law: ToothLaw) -> Law:
-    """The error of a law as polynomials within `TOLERANCE` of a driven pitch, in the fewest numbers."""
-    import numpy as np
-
-    from geartrain.teeth.table import Tabulated
-
-    tables = (Tabulated(law, TOLERANCE, degree).error_table for degree in _DEGREES)
-    pitch = (float(law.ratio) or 1.0) * law.period
-    # where rounding keeps all tables from the tolerance, the nearest one
-    table = min(tables, key=lambda each: (max(each.uncertainty / pitch, TOLERANCE), each.coefficients.size))
-    breaks = np.sort(np.concatenate((np.arange(table.cells + 1) * (law.period / table.cells), table.corners)))
-    breaks[-1] = law.period
-    wide = np.diff(breaks) > 0
-    return Law(
-        pair,
-        law.period,
-        np.append(breaks[:-1][wide], law.period),
-        np.ascontiguousarray(table.coefficients.T[wide]),
-        table.uncertainty,
-    )
 
 
 def _period(stage: Stage, cycles: Iterable[Fraction]) -> Fraction | None:

@@ -275,6 +275,8 @@ class Scene:
               sentences that say what would free it
     sources   citations by key
     notices   what could not be placed or followed, and why: {"what", "why", "fix", "place"}
+    back      the movement for negative turns, when the other flanks drive; None where it is the same
+    unit_days   length of the unit in days, exact, where it is a time; None elsewhere
     """
 
     name: str
@@ -298,19 +300,22 @@ class Scene:
     movement: Movement
     sources: Mapping[str, Mapping[str, str]]
     notices: Sequence[Mapping[str, str]]
+    back: Movement | None = None
+    unit_days: str | None = None
 
     def to_dict(self) -> dict[str, Any]:
         """Plain data for JSON; float arrays as base64 of little-endian float64, row by row."""
-        return {"format": FORMAT, **_plain(self)}
+        return {"format": FORMAT, **plain(self)}
 
 
-def _plain(value: Any) -> Any:
+def plain(value: Any) -> Any:
+    """What JSON can say; two values that are written alike are alike."""
     if is_dataclass(value):
-        return {each.name: _plain(getattr(value, each.name)) for each in fields(value)}
+        return {each.name: plain(getattr(value, each.name)) for each in fields(value)}
     if isinstance(value, Mapping):
-        return {key: _plain(each) for key, each in value.items()}
+        return {key: plain(each) for key, each in value.items()}
     if hasattr(value, "dtype"):
         return b64encode(value.astype("<f8").tobytes()).decode("ascii")
     if isinstance(value, list | tuple):
-        return [_plain(each) for each in value]
+        return [plain(each) for each in value]
     return value

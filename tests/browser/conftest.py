@@ -14,6 +14,7 @@ import pytest
 pytest.importorskip("playwright", reason="playwright is not installed: no page is tested in a browser")
 
 from playwright.sync_api import Browser, ConsoleMessage, Error, Page, Request, sync_playwright
+from viewing import DESK, Opening, html_of, wait
 
 NAMES = ("chromium", "chromium-browser", "google-chrome")
 SWITCHES = (
@@ -90,12 +91,26 @@ def open_page(browser: Browser) -> Iterator[OpenPage]:
         _listen(shown, address)
         shown.page.set_default_timeout(PATIENCE)
         shown.page.goto(address)
-        shown.page.wait_for_function("globalThis.geartrain?.ready")
+        wait(shown, "Boolean(globalThis.geartrain?.ready)")
         return shown
 
     yield show
     for context in contexts:
         context.close()
+
+
+@pytest.fixture
+def show(open_page: OpenPage, tmp_path: Path) -> Opening:
+    """Opens the page of shipped trains, or of a declaration, in all their states."""
+
+    def opened(
+        *names: str, text: str | None = None, compare: bool = False, teeth: bool = False, **window: Any
+    ) -> Shown:
+        path = tmp_path / "page.html"
+        path.write_text(html_of(names or (str(text),), compare, teeth), encoding="utf-8")
+        return open_page(path, **(DESK | window))
+
+    return opened
 
 
 def _listen(shown: Shown, address: str) -> None:

@@ -1,40 +1,27 @@
 // Arbors, and the arms of carriers: what holds the wheels.
 
-import { BoxGeometry, CylinderGeometry } from "three";
-
 import { PARTS } from "./colours.js";
-import { solid } from "./solids.js";
-import { along, foot, frameAt, isParallel, offAxis, onAxis, sharesAxis, vector } from "./space.js";
+import { bar, plate, roundEnded, Shape, swept, band } from "./shape.js";
+import { across, along, foot, frameAt, isParallel, offAxis, onAxis, sharesAxis } from "./space.js";
 
-/** A straight round bar between two points, whose ends may be stretched apart. */
-export class Bar {
-  constructor(from, to, radius, colour) {
-    this.from = from;
-    this.to = to;
-    this.mesh = solid(new CylinderGeometry(radius, radius, 1, 20).rotateX(Math.PI / 2), colour);
-    this.mesh.matrixAutoUpdate = false;
-    this.stretch((point) => point);
-  }
-
-  /** where   moves a point to where the exploded picture has it */
-  stretch(where) {
-    const [from, to] = [where(this.from.clone()), where(this.to.clone())];
-    const direction = to.clone().sub(from);
-    const length = direction.length() || 1e-6;
-    const side = Math.abs(direction.z) > 0.9 * length ? [1, 0, 0] : [0, 0, 1];
-    this.mesh.matrix.copy(frameAt(from.clone().add(to).multiplyScalar(0.5), direction.divideScalar(length).toArray(), side));
-    this.mesh.matrix.scale({ x: 1, y: 1, z: length });
-    this.mesh.matrixWorldNeedsUpdate = true;
-  }
+/** A straight round bar between two points: {shape, matrix}. */
+export function barBetween(from, to, radius) {
+  const direction = to.clone().sub(from);
+  const length = direction.length();
+  if (length < 1e-9) return { shape: new Shape(), matrix: frameAt(from.toArray(), [0, 0, 1], [1, 0, 0]) };
+  const way = direction.divideScalar(length).toArray();
+  return { shape: bar(radius, 0, length), matrix: frameAt(from.toArray(), way, across(way).toArray()) };
 }
 
-/** A flat arm between two points, across a direction. */
-export function arm(from, to, direction, width, thickness, colour) {
+/** A flat arm with round ends between two points, across a direction; radii of its ends: {shape, matrix}. */
+export function armBetween(from, to, direction, ends, thickness) {
   const between = to.clone().sub(from);
   const length = between.length();
-  const mesh = solid(new BoxGeometry(length + width, width, thickness), colour);
-  mesh.applyMatrix4(frameAt(from.clone().add(to).multiplyScalar(0.5), direction, between.toArray()));
-  return mesh;
+  const half = thickness / 2;
+  const shape = plate(new Shape(), roundEnded(length, ...ends, 0.62 * Math.min(...ends)), -half, half);
+  const bosses = new Shape();
+  swept(bosses, band(0, 0.72 * ends[1], -0.9 * thickness, 0.9 * thickness), 16);
+  return { shape, matrix: frameAt(from.toArray(), direction, between.toArray()), boss: { shape: bosses, matrix: frameAt(to.toArray(), direction, between.toArray()) } };
 }
 
 /** Spans of bodies along their axes (mm), over all that they bear. */
@@ -74,38 +61,42 @@ export function hubs(scene, reach, size) {
   return radii;
 }
 
-/** What holds the wheels: bars and arms by body. */
+/** What holds the wheels: {body, colour, shape, matrix, at}, `at` being null for bars, which stretch; arms are plates. */
 export function supports(scene, reach, radii, size) {
   const parts = [];
+  const thick = typical(scene.wheels.map(({ thickness }) => thickness)) || 0.01 * size;
   scene.bodies.forEach((body, index) => {
     if (body.parent === null || !reach[index]) return;
     const [low, high] = reach[index];
     const parent = scene.bodies[body.parent];
     const carried = parent.parent !== null;
+    const parallel = isParallel(parent.direction, body.direction);
     let [from, to] = [low, high];
-    if (carried && isParallel(parent.direction, body.direction) && offAxis(parent, body.point) > 1e-6 * size) {
-      const at = heightOf(scene, body.parent, body, reach[index]);
+    if (carried && parallel && offAxis(parent, body.point) > 1e-6 * size) {
+      const at = heightOf(scene, body.parent, body, reach[index], thick);
       [from, to] = [Math.min(low, at), Math.max(high, at)];
       const own = onAxis(body, at);
       const hub = onAxis(parent, along(parent, own));
-      const width = 3 * radii[index];
-      parts.push({ body: body.parent, mesh: arm(hub, own, body.direction, width, 0.006 * size, PARTS.arm), at: own });
+      const arm = armBetween(hub, own, body.direction, [2.6 * radii[body.parent], 2.1 * radii[index]], 0.6 * thick);
+      parts.push({ body: body.parent, colour: PARTS.arm, ...arm, at: own, plate: true }, { body: body.parent, colour: PARTS.arm, ...arm.boss, at: own, plate: true });
       reach[body.parent] ??= [along(parent, own), along(parent, own)];
-    } else if (carried && !isParallel(parent.direction, body.direction)) {
+    } else if (carried && !parallel) {
       const at = along(body, foot(body.point, body.direction, parent.point, parent.direction));
-      const bar = new Bar(onAxis(body, at), onAxis(body, (low + high) / 2), 0.8 * radii[index], PARTS.arm);
-      parts.push({ body: body.parent, bar });
+      const bar = barBetween(onAxis(body, at), onAxis(body, (low + high) / 2), 0.8 * radii[index]);
+      parts.push({ body: body.parent, colour: PARTS.arm, ...bar, at: null, plate: true });
     }
-    parts.push({ body: index, bar: new Bar(onAxis(body, from), onAxis(body, to), radii[index], PARTS.arbor) });
+    parts.push({ body: index, colour: PARTS.arbor, ...barBetween(onAxis(body, from), onAxis(body, to), radii[index]), at: null });
   });
   return parts;
 }
 
+const typical = (values) => [...values].sort((one, other) => one - other)[values.length >> 1];
+
 /** Where along its child's axis a carrier's arm stands: at the carrier's own wheel, else below the child's wheels. */
-function heightOf(scene, carrier, child, [low, high]) {
+function heightOf(scene, carrier, child, [low, high], thick) {
   const wheels = scene.wheels.filter((wheel) => wheel.body === carrier && wheel.kind !== "ring");
   const places = wheels.map((wheel) => along(child, wheel.centre));
   const middle = (low + high) / 2;
   const near = places.sort((one, other) => Math.abs(one - middle) - Math.abs(other - middle))[0];
-  return near ?? low - 0.1 * (high - low);
+  return near ?? low - 0.4 * thick;
 }

@@ -1,88 +1,86 @@
-// Wheels without their teeth: plain and spoked discs, rings, cones, crowns, lanterns and worms.
+// Wheels without their teeth: plain discs and wheels with arms, rings, cones, crowns, lanterns and worms.
 
-import { Curve, CylinderGeometry, TubeGeometry, Vector3 } from "three";
-
-import { flat, quad, swept } from "./solids.js";
+import { band, plate, Shape, swept } from "./shape.js";
 
 /** Corners that a circle is drawn with: enough for its part of the picture. */
-const rounds = (radius, size) => Math.round(Math.min(144, Math.max(28, 220 * Math.sqrt(radius / size))));
+const rounds = (radius, size) => Math.round(Math.min(84, Math.max(18, 125 * Math.sqrt(radius / size))));
 
-const band = (inner, outer, thickness) => {
-  const half = thickness / 2;
-  return [[inner, -half], [outer, -half], [outer, half], [inner, half]];
-};
-
-/** A disc with a hub; with spokes if it is large beside its hub. */
-export function discGeometry(radius, thickness, hub, size) {
-  const count = rounds(radius, size);
-  if (radius < 5.5 * hub) return flat(swept([], band(0, radius, thickness), count));
-  const rim = 0.85 * radius;
-  const triangles = swept([], band(rim, radius, thickness), count);
-  swept(triangles, band(0, 2 * hub, thickness), 28);
-  const spokes = radius > 14 * hub ? 6 : 4;
-  const width = Math.max(0.8 * hub, 0.035 * radius);
-  for (let n = 0; n < spokes; n += 1) spoke(triangles, (2 * Math.PI * n) / spokes, hub, rim * 1.01, width, 0.8 * thickness);
-  return flat(triangles);
+/** A disc with a hub; with arms where there is room between hub and rim. `depth`, of its teeth (mm) */
+export function discShape(radius, thickness, hub, depth, size) {
+  const [shape, half] = [new Shape(), thickness / 2];
+  const rim = radius - Math.max(1.3 * depth, 0.09 * radius);
+  const boss = Math.max(1.9 * hub, 0.09 * radius);
+  if (rim < 2.1 * boss) return swept(shape, band(0, radius, -half, half), rounds(radius, size));
+  swept(shape, band(rim, radius, -half, half), rounds(radius, size));
+  swept(shape, band(0, boss, -1.15 * half, 1.15 * half), 18);
+  const arms = rim < 5 * boss ? 4 : rim < 9 * boss ? 5 : 6;
+  const width = Math.max(0.42 * boss, 0.03 * radius);
+  for (let n = 0; n < arms; n += 1) arm(shape, (2 * Math.PI * n) / arms, 0.9 * boss, 1.005 * rim, width, 0.78 * half);
+  return shape;
 }
 
-/** A bar from the hub to the rim, tapered outwards. */
-function spoke(triangles, angle, from, to, width, thickness) {
+/** An arm of a wheel, from its boss to its rim: slimmer outwards, wider where it springs from them. */
+function arm(shape, angle, from, to, width, half) {
   const [cosine, sine] = [Math.cos(angle), Math.sin(angle)];
-  const at = (x, y, z) => [x * cosine - y * sine, x * sine + y * cosine, z];
-  const ring = (z) => [at(from, -width, z), at(to, -0.7 * width, z), at(to, 0.7 * width, z), at(from, width, z)];
-  const [below, above] = [ring(-thickness / 2), ring(thickness / 2)];
-  quad(triangles, ...below);
-  quad(triangles, ...above);
-  quad(triangles, below[0], below[1], above[1], above[0]);
-  quad(triangles, below[3], below[2], above[2], above[3]);
+  const flare = [[0, 1.75], [0.07, 1.25], [0.18, 1], [0.8, 0.72], [0.93, 0.95], [1, 1.5]];
+  const stations = flare.map(([share, wide]) => [from + share * (to - from), wide * width]);
+  plate(shape, stations, -half, half, ([x, y, z]) => [x * cosine - y * sine, x * sine + y * cosine, z]);
 }
 
-/** The body of a ring wheel, outside its teeth. */
-export function ringGeometry(inner, outer, thickness, size) {
-  return flat(swept([], band(inner, outer, thickness), rounds(outer, size)));
+/** A plain rim between two radii. */
+export function rimShape(inner, outer, thickness, size) {
+  return swept(new Shape(), band(inner, outer, -thickness / 2, thickness / 2), rounds(outer, size));
+}
+
+/** The same with sharp edges, in place of teeth. */
+export function plainRimShape(inner, outer, thickness, size) {
+  const half = thickness / 2;
+  return swept(new Shape(), [[inner, -half], [outer, -half], [outer, half], [inner, half]], rounds(outer, size));
 }
 
 /** The body of a bevel or crown wheel: under its teeth, from the wide end to the narrow one, with a back. */
-export function coneGeometry(at, base, apex, thickness, hub) {
+export function coneShape(at, base, apex, thickness, hub) {
   const [wide, narrow] = [0, 1].map((end) => at(base, 0, end));
   const behind = Math.min(wide[2] * apex, narrow[2] * apex) - 0.35 * thickness;
   const bore = 0.5 * hub;
-  const outline = [[bore, apex * behind], [wide[0], apex * behind], [wide[0], wide[2]], [narrow[0], narrow[2]], [bore, narrow[2]]];
-  return flat(swept([], outline, 64));
+  return swept(new Shape(), [[bore, apex * behind], [wide[0], apex * behind], [wide[0], wide[2]], [narrow[0], narrow[2]], [bore, narrow[2]]], 72);
 }
 
-/** Two discs that hold the pins of a lantern. */
-export function lanternGeometry(radius, thickness, hub) {
-  const cheek = 0.16 * thickness;
-  const triangles = [];
-  for (const side of [-1, 1]) {
-    const z = (side * (thickness - cheek)) / 2;
-    swept(triangles, band(0, radius, cheek).map(([r, height]) => [r, height + z]), 48);
-  }
-  return flat(swept(triangles, band(0, hub, thickness), 24));
-}
-
-class Helix extends Curve {
-  constructor(radius, lead, length, turn) {
-    super();
-    Object.assign(this, { radius, lead, length, turn });
-  }
-
-  getPoint(share, target = new Vector3()) {
-    const z = (share - 0.5) * this.length;
-    const angle = this.turn + (2 * Math.PI * z) / this.lead;
-    return target.set(this.radius * Math.cos(angle), this.radius * Math.sin(angle), z);
-  }
+/** Two discs that hold the pins of a lantern, and the drum between them. */
+export function lanternShape(radius, thickness, hub) {
+  const [shape, cheek, half] = [new Shape(), 0.16 * thickness, thickness / 2];
+  swept(shape, band(0, radius, -half, cheek - half), 48);
+  swept(shape, band(0, radius, half - cheek, half), 48);
+  return swept(shape, band(0, hub, -half, half), 24);
 }
 
 /** A worm: a cylinder and its threads; `lead` (mm a turn) is negative for a left hand. */
-export function wormGeometries(wheel, lead, length) {
-  const pitch = Math.abs(lead) / wheel.teeth;
-  const core = new CylinderGeometry(wheel.radius - 0.35 * pitch, wheel.radius - 0.35 * pitch, length, 32);
-  const count = Math.ceil((length / Math.abs(lead)) * 28) + 8;
-  const threads = Array.from({ length: wheel.teeth }, (_, n) => {
-    const helix = new Helix(wheel.radius - 0.1 * pitch, lead, length, (2 * Math.PI * n) / wheel.teeth);
-    return new TubeGeometry(helix, count, 0.27 * pitch, 6);
+export function wormShape(wheel, lead, length) {
+  const pitch = Math.abs(lead) / Math.max(1, wheel.teeth);
+  const core = wheel.radius - 0.5 * pitch;
+  const shape = swept(new Shape(), band(0, Math.max(core, 0.3 * wheel.radius), -length / 2, length / 2), 32);
+  for (let n = 0; n < wheel.teeth; n += 1) thread(shape, wheel.radius, pitch, lead, length, (2 * Math.PI * n) / wheel.teeth);
+  return shape;
+}
+
+/** One thread: a trapezium of a third of the pitch, wound along the worm. */
+function thread(shape, radius, pitch, lead, length, turn) {
+  const profile = [[-0.55, -0.36], [0.32, -0.13], [0.32, 0.13], [-0.55, 0.36]]; // out and along, over the pitch
+  const steps = Math.ceil((length / Math.abs(lead)) * 32) + 4;
+  const across = Math.sqrt(0.87 ** 2 + 0.23 ** 2);
+  const facing = [[0.23 / across, -0.87 / across], [1, 0], [0.23 / across, 0.87 / across]];
+  facing.forEach(([outward, upward], k) => {
+    const first = shape.corners;
+    for (let n = 0; n <= steps; n += 1) {
+      const z = length * (n / steps - 0.5);
+      const angle = turn + (2 * Math.PI * z) / lead;
+      const [c, s] = [Math.cos(angle), Math.sin(angle)];
+      const run = Math.min(1, (length / 2 - Math.abs(z)) / (0.7 * pitch)); // it runs out at both ends
+      for (const [out, on] of [profile[k], profile[k + 1]]) {
+        const r = radius + (run * (out + 0.55) - 0.55) * pitch;
+        shape.corner([r * c, r * s, Math.max(-length / 2, Math.min(length / 2, z + on * pitch))], [outward * c, outward * s, upward], [-s, c, 0]);
+      }
+    }
+    for (let n = 0; n < steps; n += 1) shape.indices.push(...[0, 1, 2, 1, 3, 2].map((at) => first + 2 * n + at));
   });
-  return [core.rotateX(Math.PI / 2), ...threads];
 }

@@ -2,10 +2,10 @@
 
 export const BROKEN = "#c2281d";
 export const CHOSEN = "#1f6feb";
-export const FADED = "#8a8d91";
-export const BRASS = ["#b8924a", "#c8a564", "#a98144", "#bd9b5e", "#b08a3e", "#cdb074"];
-export const PARTS = { arbor: "#8a8f98", arm: "#7d6b4a", pin: "#444b57", slot: "#6d7480", face: "#e9e2d0", mark: "#3a352b" };
-export const NEEDLES = ["#1f2933", "#9b2915", "#1d4e89", "#3b7a57", "#6f4e7c", "#8a6d1b", "#2f6f73", "#a0522d"];
+export const BRASS = ["#cfa652", "#d9b56b", "#c49848", "#d2ac62", "#c9a047", "#dcbb78"];
+export const PARTS = { arbor: "#9aa1ab", arm: "#b07f52", pin: "#5b636f", slot: "#828a96", face: "#ece5d3", bezel: "#b08d4c", mark: "#2b261d" };
+// the hands of one dial in order, as in page.css
+export const NEEDLES = ["#1b1813", "#9a5b00", "#0d568a", "#a3271c", "#3d6b2c", "#6a4fa3", "#11706f", "#97306f"];
 export const STATUS = { surviving: "#4f8a6d", reconstructed: "#c9973f", hypothetical: "#8f7fb8", "": "#9aa3ad" };
 
 const mix = (one, other, share) =>

@@ -1,44 +1,84 @@
 // Dials: their scales, spirals included, and the needles that move over them.
 
-import { BoxGeometry, BufferGeometry, Float32BufferAttribute, Group, LineBasicMaterial, LineSegments, RingGeometry } from "three";
-
 import { NEEDLES, PARTS } from "./colours.js";
-import { solid } from "./solids.js";
-import { frameAt, placed, vector } from "./space.js";
+import { figure } from "./figures.js";
+import { band, plate, Shape, swept } from "./shape.js";
+import { frameAt, vector } from "./space.js";
 
 const MOST_MARKS = 1200;
+const UP = [0, 0, 1];
+const ALONG = [0, 0, 0]; // ink is not brushed
 
-/** A dial's scale: {body, mesh, at, front}. */
-export function dialPart(scene, index) {
+/** A dial's plate and what is engraved on it: [{body, colour, shape, matrix, at, dial}]. */
+export function dialParts(scene, index) {
   const dial = scene.dials[index];
-  const inner = dial.turns > 1 ? dial.inner : Math.max(dial.inner, 0.8 * dial.radius);
-  const pitch = dial.turns > 1 ? (dial.radius - inner) / dial.turns : 0.14 * dial.radius;
-  const face = solid(new RingGeometry(Math.max(0.05 * dial.radius, inner - pitch), dial.radius * 1.03, 72), PARTS.face);
-  const scale = new LineSegments(marks(scene, index, inner, pitch), new LineBasicMaterial({ color: PARTS.mark }));
-  scale.position.z = 0.004 * dial.radius;
-  const mesh = placed(frameAt(dial.centre, dial.normal, dial.zero), new Group().add(face, scale));
-  return { body: dial.body, mesh, at: vector(dial.centre), dial: index };
+  const { inner, pitch } = scaleOf(dial);
+  const matrix = frameAt(dial.centre, dial.normal, dial.zero);
+  const hole = Math.max(0.05 * dial.radius, inner - pitch - 0.02 * dial.radius);
+  const thick = 0.02 * dial.radius;
+  const face = swept(new Shape(), band(hole, dial.radius * 1.03, -thick, 0), 72);
+  const bezel = swept(new Shape(), band(dial.radius * 1.03, dial.radius * 1.075, -thick, 0.6 * thick), 72);
+  const common = { body: dial.body, matrix, at: vector(dial.centre), dial: index, plate: true };
+  return [
+    { ...common, colour: PARTS.face, gloss: 0.05, shape: face },
+    { ...common, colour: PARTS.bezel, gloss: 0.8, shape: bezel },
+    { ...common, colour: PARTS.mark, gloss: 0, shape: marks(scene, index) },
+  ];
 }
 
-/** Marks between cells and the rims, as segments in the dial's frame. */
-function marks(scene, index, inner, pitch) {
+const scaleOf = (dial) => {
+  const inner = dial.turns > 1 ? dial.inner : Math.max(dial.inner, 0.8 * dial.radius);
+  return { inner, pitch: dial.turns > 1 ? (dial.radius - inner) / dial.turns : 0.14 * dial.radius };
+};
+
+/** Marks between cells, the rims and the numbers, as thin strips just over the plate. */
+function marks(scene, index) {
   const dial = scene.dials[index];
-  const points = [];
+  const { inner, pitch } = scaleOf(dial);
+  const shape = new Shape();
   const sense = turningSense(scene, index);
-  const at = (turn, radius) => [radius * Math.cos(2 * Math.PI * turn), sense * radius * Math.sin(2 * Math.PI * turn), 0];
+  const height = 0.004 * dial.radius;
+  const at = (turn, radius) => [radius * Math.cos(2 * Math.PI * turn), sense * radius * Math.sin(2 * Math.PI * turn)];
+  const line = (from, to, width) => stroke(shape, from, to, width * dial.radius, height);
   const out = (turn) => (dial.turns > 1 ? inner + pitch * turn : dial.radius);
-  const cells = Math.min(dial.divisions || 12, MOST_MARKS);
-  for (let cell = 0; cell <= cells; cell += 1) {
+  const cells = Math.min(dial.divisions > 1 ? dial.divisions : 12, MOST_MARKS);
+  const bold = boldOf(cells);
+  const { elements } = frameAt(dial.centre, dial.normal, dial.zero);
+  const upright = [elements[1], elements[5]]; // as the dial's own axes have it
+  for (let cell = 0; cell < cells + (dial.turns > 1 ? 1 : 0); cell += 1) {
     const turn = (cell * dial.turns) / cells;
-    const depth = cell === 0 ? 1 : cell % 5 === 0 ? 0.75 : 0.5;
-    points.push(...at(turn, out(turn)), ...at(turn, out(turn) - depth * pitch));
+    const main = cell % bold === 0;
+    const depth = dial.turns > 1 ? 1 : main ? 0.62 : cell % 5 === 0 && bold % 5 === 0 ? 0.45 : 0.3;
+    line(at(turn, out(turn)), at(turn, out(turn) - depth * pitch), main ? 0.009 : 0.0035);
+    if (main && dial.turns === 1 && dial.divisions > 1) number(shape, cell, at(turn, out(turn) - 1.02 * pitch), 0.3 * pitch, height, upright);
   }
-  const steps = 96 * dial.turns;
+  const steps = 72 * dial.turns;
   for (let step = 0; step < steps; step += 1) {
-    const [from, to] = [(step * dial.turns) / steps, ((step + 1) * dial.turns) / steps];
-    for (const off of dial.turns > 1 ? [0] : [0, pitch]) points.push(...at(from, out(from) - off), ...at(to, out(to) - off));
+    const [from, to] = [step / 72, (step + 1) / 72];
+    line(at(from, out(from)), at(to, out(to)), 0.005);
+    if (dial.turns === 1) line(at(from, out(from) - 0.3 * pitch), at(to, out(to) - 0.3 * pitch), 0.003);
+    else if (step < 72) line(at(from, inner - pitch + pitch * from), at(to, inner - pitch + pitch * to), 0.005);
   }
-  return new BufferGeometry().setAttribute("position", new Float32BufferAttribute(points, 3));
+  return shape;
+}
+
+const boldOf = (cells) => (cells === 360 ? 30 : cells > 60 ? 10 : cells > 12 ? 5 : 1);
+
+/** A thin flat strip. */
+function stroke(shape, [x0, y0], [x1, y1], width, z) {
+  const length = Math.hypot(x1 - x0, y1 - y0) || 1;
+  const [a, b] = [((y0 - y1) * width) / 2 / length, ((x1 - x0) * width) / 2 / length];
+  shape.face([[x0 - a, y0 - b, z], [x1 - a, y1 - b, z], [x1 + a, y1 + b, z], [x0 + a, y0 + b, z]], UP, ALONG);
+}
+
+/** A number along the radius, its head up, for one who faces the plate. */
+function number(shape, value, [x, y], size, z, upright) {
+  const length = (x * upright[0] + y * upright[1] < -1e-6 ? -1 : 1) * Math.hypot(x, y);
+  const [up, right] = [[x / length, y / length], [y / length, -x / length]];
+  for (const [from, to] of figure(String(value))) {
+    const place = ([u, v]) => [x + size * (u * right[0] + v * up[0]), y + size * (u * right[1] + v * up[1])];
+    stroke(shape, place(from), place(to), 0.16 * size, z);
+  }
 }
 
 /** 1 where the dial's pointer moves counter-clockwise about the dial's normal while its output grows. */
@@ -47,15 +87,17 @@ function turningSense(scene, index) {
   return pointer ? -pointer.sense : -1;
 }
 
-/** A needle from the middle of its dial to the rim: {body, mesh, at, dial}. */
-export function needlePart(scene, index, order, size) {
+/** A needle from the middle of its dial to the rim: {body, colour, shape, matrix, at, dial}. */
+export function needlePart(scene, index, order) {
   const pointer = scene.pointers[index];
   const dial = scene.dials[pointer.dial];
-  const length = dial.radius * (0.97 - 0.05 * (order % 4));
-  const width = 0.022 * dial.radius;
-  const height = 0.004 * size;
-  const needle = solid(new BoxGeometry(length * 1.12, width, height), NEEDLES[index % NEEDLES.length]);
-  needle.position.set(length * 0.44, 0, height * (1.6 + 1.4 * order));
+  const length = dial.radius * (0.97 - 0.07 * (order % 4));
+  const width = 0.016 * dial.radius;
+  const low = 0.012 * dial.radius * (1 + 1.5 * order);
+  const high = low + 0.012 * dial.radius;
+  const blade = [[-0.16, 1.5], [-0.12, 1.7], [0, 1.1], [0.86, 0.75], [0.88, 1.5], [1, 0.06]].map(([x, w]) => [x * length, w * width]);
+  const shape = plate(new Shape(), blade, low, high);
+  swept(shape, band(0, 0.05 * dial.radius, low, high + 0.004 * dial.radius), 14);
   const at = vector(dial.centre);
-  return { body: pointer.body, mesh: placed(frameAt(at, dial.normal, dial.zero), needle), at, dial: pointer.dial };
+  return { body: pointer.body, colour: NEEDLES[order % NEEDLES.length], gloss: 0.35, shape, matrix: frameAt(at.toArray(), dial.normal, dial.zero), at, dial: pointer.dial };
 }

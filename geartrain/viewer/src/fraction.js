@@ -18,6 +18,20 @@ export class Fraction {
     return typeof value === "number" ? fromFloat(value) : fromText(String(value));
   }
 
+  /** The same; null where the text is no number, or there is none. */
+  static parse(text) {
+    try {
+      return text === null || text === undefined ? null : Fraction.of(text);
+    } catch {
+      return null;
+    }
+  }
+
+  /** The float rounded to a billionth: a hand can tell no less, and short fractions stay short. */
+  static near(value) {
+    return new Fraction(BigInt(Math.round(value * 1e9)), 10n ** 9n);
+  }
+
   plus(other) {
     const { numerator, denominator } = Fraction.of(other);
     return new Fraction(
@@ -26,9 +40,24 @@ export class Fraction {
     );
   }
 
+  minus(other) {
+    const { numerator, denominator } = Fraction.of(other);
+    return this.plus(new Fraction(-numerator, denominator));
+  }
+
   times(other) {
     const { numerator, denominator } = Fraction.of(other);
     return new Fraction(this.numerator * numerator, this.denominator * denominator);
+  }
+
+  over(other) {
+    const { numerator, denominator } = Fraction.of(other);
+    return new Fraction(this.numerator * denominator, this.denominator * numerator);
+  }
+
+  equals(other) {
+    const { numerator, denominator } = Fraction.of(other);
+    return this.numerator === numerator && this.denominator === denominator;
   }
 
   /** The whole number below. */

@@ -1,4 +1,4 @@
-// The page comes alive: scenes from its JSON, a machine and a stage for each, the interface round them.
+// The page comes alive: scenes from its JSON, a machine for each, the interface round them, and then the pictures.
 
 import { Fraction } from "./fraction.js";
 import { Machine } from "./motion.js";
@@ -7,40 +7,41 @@ import { Stage } from "./view.js";
 
 const { scenes, options } = JSON.parse(document.getElementById("scenes").textContent);
 const machines = scenes.map((scene) => new Machine(scene));
-const stages = machines.map((machine) => stageOf(machine));
-
-/** A stage, or null where the browser has no WebGL. */
-function stageOf(machine) {
-  const canvas = document.createElement("canvas");
-  try {
-    return new Stage(canvas, machine, options);
-  } catch (error) {
-    console.warn(`no picture in three dimensions: ${error.message}`);
-    return null;
-  }
-}
 
 const app = {
   scenes,
   machines,
-  stages,
   options,
-  /** Turns of the lead, as last given. */
+  /** The stages of the scenes shown; null for the others, and where the browser has no WebGL. */
+  stages: scenes.map(() => null),
+  /** Turns of each scene's lead for one turn of the crank's. */
+  gears: scenes.map(() => Fraction.of(1)),
+  /** Turns of the crank's lead, as last given. */
   turns: 0,
   /** Told after every change. */
   onTurns: null,
   setTurns(turns) {
     const exact = Fraction.of(turns);
     app.turns = turns;
-    for (const machine of machines) machine.turns = exact;
-    for (const stage of stages) stage?.setTurns(exact);
+    machines.forEach((machine, index) => (machine.turns = exact.times(app.gears[index])));
+    app.stages.forEach((stage, index) => stage?.setTurns(machines[index].turns));
     app.onTurns?.(turns);
   },
+  /** A stage for a scene on a canvas of its own; null where the browser has no WebGL. */
+  open(index) {
+    try {
+      app.stages[index] = new Stage(document.createElement("canvas"), machines[index], options);
+    } catch (error) {
+      console.warn(`no picture in three dimensions: ${error.message}`);
+    }
+    return app.stages[index];
+  },
+  /** Browsers keep only so many drawing contexts: what is not shown has none. */
+  close(index) {
+    app.stages[index]?.dispose();
+    app.stages[index] = null;
+  },
 };
-
-// a hand cannot tell a billionth of a turn, and short fractions stay short
-const nudge = (delta) => app.setTurns(Fraction.of(app.turns).plus(new Fraction(BigInt(Math.round(delta * 1e9)), 10n ** 9n)).toString());
-for (const stage of stages) if (stage) stage.onCrank = nudge;
 
 function named(list, key, name) {
   const index = list.findIndex((each) => each[key] === name);
@@ -51,7 +52,7 @@ function named(list, key, name) {
 globalThis.geartrain = {
   scenes,
   machines,
-  stages,
+  stages: app.stages,
   setTurns: app.setTurns,
   get turns() {
     return app.turns;
@@ -63,7 +64,25 @@ globalThis.geartrain = {
   ready: false,
 };
 
-buildInterface(app);
-for (const stage of stages) stage?.resize();
-globalThis.geartrain.ready = true;
-globalThis.geartrain.firstPicture = performance.now();
+/** After the browser has put on the screen what is there now; in a hidden tab, soon. */
+const painted = () =>
+  new Promise((done) => {
+    requestAnimationFrame(() => setTimeout(done));
+    setTimeout(done, 400);
+  });
+
+/** Words and dials first, then the wheels as discs, then their teeth. */
+async function begin() {
+  buildInterface(app);
+  await painted();
+  app.interface.openStages();
+  await painted();
+  performance.mark("first picture");
+  for (const stage of app.stages) stage?.cut();
+  globalThis.geartrain.firstPicture = performance.getEntriesByName("first picture")[0].startTime;
+  globalThis.geartrain.ready = true;
+  await painted();
+  performance.mark("teeth");
+}
+
+begin();

@@ -15,7 +15,9 @@ export class Machine {
     this.step = Fraction.of(scene.step || "1");
     this.period = scene.movement.period === null ? null : Fraction.of(scene.movement.period);
     this.speeds = scene.bodies.map((body) => (body.speed === null ? null : Fraction.of(body.speed)));
-    this.composition = new Composition(scene.movement, scene.bodies.map(({ id }) => id));
+    const names = scene.bodies.map(({ id }) => id);
+    this.ahead = new Composition(scene.movement, names);
+    this.back = scene.back ? new Composition(scene.back, names) : this.ahead; // the other flanks drive
     this.turns = Fraction.of(0);
   }
 
@@ -40,8 +42,8 @@ export class Machine {
   /** Errors of all bodies (rad) over their mean angles. */
   errors(turns = this.turns) {
     const exact = Fraction.of(turns);
-    if (!this.latest || this.latestTurns.numerator !== exact.numerator || this.latestTurns.denominator !== exact.denominator) {
-      this.latest = this.composition.at(exact);
+    if (!this.latest || !this.latestTurns.equals(exact)) {
+      this.latest = (exact.numerator < 0n ? this.back : this.ahead).at(exact);
       this.latestTurns = exact;
     }
     return this.latest;

@@ -31,8 +31,7 @@ export class Hands {
   down(event) {
     this.aim(event);
     this.from = [event.clientX, event.clientY];
-    const { crank } = this.stage.world;
-    if (!crank || !this.stage.machine.moves || !this.ray.intersectObject(crank.mesh, true).length) return;
+    if (!this.stage.machine.moves || !this.onKnob()) return;
     this.dragged = this.crankAngle();
     this.stage.controls.enabled = false;
     this.stage.canvas.setPointerCapture(event.pointerId);
@@ -63,8 +62,14 @@ export class Hands {
 
   pick(event) {
     this.aim(event);
-    const hit = this.ray.intersectObject(this.stage.world.root, true).find(({ object }) => shown(object));
-    this.stage.onPick(hit?.object.userData.wheel ?? null);
+    this.stage.onPick(this.stage.world.pick(this.ray.ray));
+  }
+
+  /** True where the ray passes near the crank's knob. */
+  onKnob() {
+    const { world } = this.stage;
+    const { crank } = world;
+    return crank !== null && this.ray.ray.distanceToPoint(world.ofCrank(crank.knob)) < crank.touch;
   }
 
   /** The angle (rad) at which the ray meets the plane of the crank, about its axis as its bearer has it. */
@@ -72,7 +77,7 @@ export class Hands {
     const { world, machine } = this.stage;
     const body = machine.scene.bodies[machine.scene.crank];
     const bearer = world.nodes[body.parent].matrixWorld;
-    const middle = vector(world.crank.at).applyMatrix4(world.crank.holder.matrix).applyMatrix4(bearer);
+    const middle = world.ofCrank(world.crank.at);
     const normal = vector(body.direction).transformDirection(bearer);
     this.plane.setFromNormalAndCoplanarPoint(normal, middle);
     const met = this.ray.ray.intersectPlane(this.plane, vector([0, 0, 0]));
@@ -87,9 +92,4 @@ export class Hands {
   dispose() {
     for (const [name, listener] of Object.entries(this.listeners)) this.stage.canvas.removeEventListener(name, listener, true);
   }
-}
-
-function shown(object) {
-  for (let at = object; at; at = at.parent) if (!at.visible) return false;
-  return true;
 }

@@ -1,6 +1,6 @@
 // Lines, frames and stretched heights: the geometry that all parts share.
 
-import { Group, Matrix4, Vector3 } from "three";
+import { Matrix4, Vector3 } from "three";
 
 export const vector = (values) => new Vector3(...values);
 
@@ -18,15 +18,6 @@ export function across(direction) {
   const z = vector(direction);
   const helper = Math.abs(z.x) < 0.9 ? new Vector3(1, 0, 0) : new Vector3(0, 1, 0);
   return helper.addScaledVector(z, -z.dot(helper)).normalize();
-}
-
-/** A group that stands as a matrix says, once and for all. */
-export function placed(matrix, ...children) {
-  const group = new Group();
-  group.matrixAutoUpdate = false;
-  group.matrix.copy(matrix);
-  if (children.length) group.add(...children);
-  return group;
 }
 
 /** The point of a line (through `point` along `direction`) that is nearest to another line. */

@@ -1,8 +1,8 @@
 // One tooth as a solid: its profile between two faces, cylindrical, tapered to an apex, or standing on a crown wheel.
 
-import { flat, quad } from "./solids.js";
+import { Shape } from "./shape.js";
 
-const FINE = 0.012; // of a tooth's depth: bends of the outline that are too slight to be drawn
+const FINE = 0.02; // of a tooth's depth: bends of the outline that are too slight to be drawn
 
 /**
  * The surface a wheel's teeth are cut on: `at(rho, angle, end)`, in the wheel's frame (x, y across, z along its axis).
@@ -28,30 +28,54 @@ export function blankOf(wheel, apex) {
 }
 
 /** The tooth between its profile and `base` (over the pitch radius), on a blank. */
-export function toothGeometry(points, base, at) {
-  const edge = simplify(points);
-  const triangles = [];
-  for (let n = 1; n < edge.length; n += 1) {
-    const [[r0, t0], [r1, t1]] = [edge[n - 1], edge[n]];
-    quad(triangles, at(r0, t0, 0), at(r1, t1, 0), at(r1, t1, 1), at(r0, t0, 1));
-    for (const end of [0, 1]) quad(triangles, at(base, t0, end), at(base, t1, end), at(r1, t1, end), at(r0, t0, end));
+export function toothShape(points, base, at, fine = FINE) {
+  const edge = simplify(points, fine);
+  const shape = flanks(new Shape(), edge, at);
+  for (const end of [0, 1]) {
+    for (let n = 1; n < edge.length; n += 1) {
+      const [[r0, t0], [r1, t1]] = [edge[n - 1], edge[n]];
+      const corners = [at(base, t0, end), at(base, t1, end), at(r1, t1, end), at(r0, t0, end)];
+      shape.face(corners, facing(corners), [t0, t1, t1, t0].map((t) => [-Math.sin(t), Math.cos(t), 0]));
+    }
   }
-  return flat(triangles);
+  return shape;
 }
 
 /** A pin, or another closed curve, between two faces. */
-export function pinGeometry(points, at) {
-  const edge = simplify([...points, points[0]]);
-  const triangles = [];
-  for (let n = 1; n < edge.length; n += 1) {
-    const [[r0, t0], [r1, t1]] = [edge[n - 1], edge[n]];
-    quad(triangles, at(r0, t0, 0), at(r1, t1, 0), at(r1, t1, 1), at(r0, t0, 1));
-  }
-  return flat(triangles);
+export const pinShape = (points, at) => flanks(new Shape(), simplify([...points, points[0]]), at);
+
+/** What lies between the two faces; edges slighter than a third of a right angle are rounded. */
+function flanks(shape, edge, at) {
+  const sides = edge.slice(1).map(([r1, t1], n) => {
+    const [r0, t0] = edge[n];
+    const corners = [at(r0, t0, 0), at(r1, t1, 0), at(r1, t1, 1), at(r0, t0, 1)];
+    return { corners, normal: facing(corners) };
+  });
+  const joined = (a, b) => (b && dot(a, b) > 0.87 ? unit([0, 1, 2].map((k) => a[k] + b[k])) : a);
+  sides.forEach(({ corners, normal }, n) => {
+    const [before, after] = [joined(normal, sides[n - 1]?.normal), joined(normal, sides[n + 1]?.normal)];
+    const first = shape.corners;
+    const grain = unit([0, 1, 2].map((k) => corners[3][k] - corners[0][k]));
+    corners.forEach((corner, k) => shape.corner(corner, k === 0 || k === 3 ? before : after, grain));
+    shape.indices.push(first, first + 1, first + 2, first, first + 2, first + 3);
+  });
+  return shape;
+}
+
+const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+const unit = (a) => {
+  const size = Math.hypot(...a) || 1;
+  return a.map((value) => value / size);
+};
+
+/** The way four corners face. */
+function facing([a, b, c, d]) {
+  const [p, q] = [[0, 1, 2].map((k) => c[k] - a[k]), [0, 1, 2].map((k) => d[k] - b[k])];
+  return unit([p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]]);
 }
 
 /** Points kept so that no dropped one lies further off than a small part of the tooth's depth. */
-export function simplify(points) {
+export function simplify(points, fine = FINE) {
   const radii = points.map(([radius]) => radius);
   const depth = Math.max(...radii) - Math.min(...radii);
   const plane = points.map(([radius, angle]) => [radius * Math.cos(angle), radius * Math.sin(angle)]);
@@ -59,7 +83,7 @@ export function simplify(points) {
   const work = [[0, points.length - 1]];
   while (work.length) {
     const [first, last] = work.pop();
-    let worst = FINE * depth;
+    let worst = fine * depth;
     let at = -1;
     for (let n = first + 1; n < last; n += 1) {
       const off = offLine(plane[n], plane[first], plane[last]);

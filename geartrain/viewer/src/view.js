@@ -1,15 +1,17 @@
 // A stage: a train in space on a canvas, with a camera. It draws only when something has changed.
 
-import { AmbientLight, Color, DirectionalLight, HemisphereLight, PerspectiveCamera, Scene, WebGLRenderer } from "three";
+import { Color, PerspectiveCamera, Scene, WebGLRenderer } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 
 import { Fraction } from "./fraction.js";
+import { frame } from "./framing.js";
 import { Hands } from "./picking.js";
 import { vector } from "./space.js";
 import { World } from "./world.js";
 
-const FIELD = 30; // degrees
-const LOOKS = { front: [0, 0, 1], back: [0, 0, -1], side: [1, 0, 0], free: [0.42, 0.36, 0.83] };
+const FIELD = 26; // degrees
+const LOOKS = { front: [0, 0, 1], back: [0, 0, -1], side: [1, 0, 0], free: [0.36, 0.3, 0.88] };
+const MARGIN = 1.05;
 
 export class Stage {
   /** Throws where there is no WebGL. options: {background, teeth} */
@@ -18,31 +20,29 @@ export class Stage {
     this.machine = machine;
     this.onPick = () => {};
     this.onCrank = () => {};
+    this.onOrbit = () => {};
     this.frameMilliseconds = 0;
-    this.renderer = new WebGLRenderer({ canvas, antialias: true, alpha: false });
+    this.renderer = new WebGLRenderer({ canvas, antialias: true, alpha: false, stencil: false });
     this.renderer.debug.checkShaderErrors = false; // asking would wait for the GPU
     this.world = new World(machine);
+    this.toothed = options.teeth !== false;
     this.setting = new Scene();
     this.setting.matrixAutoUpdate = false;
     this.setting.add(this.world.root);
-    this.light();
-    this.camera = new PerspectiveCamera(FIELD, 1, 0.01 * this.world.size, 40 * this.world.size);
+    this.camera = new PerspectiveCamera(FIELD, 1, 0.02 * this.world.size, 60 * this.world.size);
     this.controls = new OrbitControls(this.camera, canvas);
+    this.controls.minDistance = 0.1 * this.world.size;
+    this.controls.maxDistance = 30 * this.world.size;
     this.controls.addEventListener("change", () => this.request());
+    this.controls.addEventListener("start", () => (this.orbiting = true));
+    this.controls.addEventListener("change", () => this.orbited());
+    this.controls.addEventListener("end", () => (this.orbiting = false));
     this.hands = new Hands(this);
     this.theme({ background: options.background ?? "#f4f1ea" });
-    if (options.teeth === false) this.showTeeth(false);
     this.observer = new ResizeObserver(() => this.resize());
     this.observer.observe(canvas);
     this.look("free");
     this.resize();
-  }
-
-  light() {
-    const lamp = new DirectionalLight(0xfff6e8, 1.9);
-    lamp.position.set(0.5, 1, 0.7);
-    this.headlamp = new DirectionalLight(0xffffff, 1.5);
-    this.setting.add(new AmbientLight(0xffffff, 0.7), new HemisphereLight(0xffffff, 0x8d8578, 0.9), lamp, this.headlamp);
   }
 
   /** turns   of the lead: a number, or exact text such as `235/19` */
@@ -53,15 +53,15 @@ export class Stage {
   }
 
   paint(mode, data) {
-    this.change(() => this.world.paint(mode, data));
+    this.change(() => this.world.looks.paint(mode, data));
   }
 
   highlight(chosen, colour) {
-    this.change(() => this.world.highlight(chosen, colour));
+    this.change(() => this.world.looks.highlight(chosen, colour));
   }
 
   select(wheel) {
-    this.change(() => this.world.select(wheel));
+    this.change(() => this.world.looks.select(wheel));
   }
 
   explode(share) {
@@ -69,11 +69,23 @@ export class Stage {
   }
 
   hideFront(hidden) {
-    this.change(() => this.world.hideFront(hidden));
+    const { main } = this.world;
+    const front = main.clone().multiplyScalar(this.machine.scene.front * Math.sign(main.z || 1));
+    this.change(() => this.world.looks.hideBefore(hidden ? front : null));
   }
 
+  /** Teeth or plain discs; plain until `cut` has been called. */
   showTeeth(shown) {
-    this.change(() => this.world.showTeeth(shown));
+    this.toothed = shown;
+    if (shown && this.whole && !this.world.cut) this.world.castTeeth();
+    this.change(() => this.world.looks.showTeeth(shown && Boolean(this.world.cut)));
+  }
+
+  /** From now on with teeth, if they are wanted: the most of the work, left until the rest is seen. */
+  cut() {
+    if (this.disposed) return;
+    this.whole = true;
+    this.showTeeth(this.toothed);
   }
 
   theme({ background }) {
@@ -87,51 +99,40 @@ export class Stage {
 
   /** The camera to the front, the back, a side, or slantwise; the whole train in the picture. */
   look(from) {
-    const { ball } = this.world;
     const [x, y, z] = LOOKS[from] ?? LOOKS.free;
     const front = this.machine.scene.front || 1;
     this.from = from;
-    const towards = vector([x * front, y, z * front]).normalize();
-    this.controls.target.copy(ball.center);
-    this.camera.position.copy(towards).add(ball.center); // `distance` looks along it
-    const away = this.distance();
-    this.camera.position.copy(towards).multiplyScalar(away).add(ball.center);
+    this.fit(vector([x * front, y, z * front]).normalize());
+  }
+
+  /** The camera to a side, as near as the whole allows. */
+  fit(towards) {
+    const high = Math.tan((FIELD * Math.PI) / 360) / MARGIN;
+    const { target, distance } = frame(this.world.outline(), towards, high * this.camera.aspect, high);
+    this.controls.target.copy(target);
+    this.camera.position.copy(target).addScaledVector(towards, distance);
     this.controls.update();
     this.request();
   }
 
-  /** How far the camera stands off, in its present direction, for the whole train to be in the picture. */
-  distance() {
-    const { box, ball } = this.world;
-    const high = Math.tan((FIELD * Math.PI) / 360);
-    const towards = this.camera.position.clone().sub(this.controls.target).normalize();
-    const right = vector([0, 1, 0]).cross(towards).normalize();
-    const up = towards.clone().cross(right);
-    const corners = [0, 1, 2, 3, 4, 5, 6, 7].map((n) => vector([n & 1, n & 2, n & 4].map((bit, at) => (bit ? box.max : box.min).getComponent(at))));
-    const needed = corners.map((corner) => {
-      const off = corner.sub(ball.center);
-      const across = Math.abs(off.dot(right)) / (high * this.camera.aspect);
-      return off.dot(towards) + Math.max(across, Math.abs(off.dot(up)) / high);
-    });
-    return 1.1 * Math.max(...needed);
+  orbited() {
+    if (!this.orbiting || this.from === null) return;
+    this.from = null;
+    this.onOrbit();
   }
 
   /** To the size the page gives the canvas; nothing happens while it is hidden. */
   resize() {
     const { clientWidth: width, clientHeight: height } = this.canvas;
-    if (!width || !height) return;
+    if (!width || !height || this.disposed) return;
     const density = Math.min(globalThis.devicePixelRatio || 1, 2);
     if (this.width === width && this.height === height && this.density === density) return;
-    const first = this.width === undefined;
-    const before = this.camera.position.distanceTo(this.controls.target) / this.distance();
     Object.assign(this, { width, height, density });
     this.renderer.setPixelRatio(density);
     this.renderer.setSize(width, height, false);
     this.camera.aspect = width / height;
     this.camera.updateProjectionMatrix();
-    const off = this.camera.position.clone().sub(this.controls.target);
-    this.camera.position.copy(off.setLength(this.distance() * (first ? 1 : before)).add(this.controls.target));
-    this.controls.update();
+    if (this.from !== null) this.look(this.from);
     this.render(); // at once: a resized canvas is blank
   }
 
@@ -147,7 +148,7 @@ export class Stage {
     const began = performance.now();
     if (this.turned) this.world.turn();
     this.turned = false;
-    this.headlamp.position.copy(this.camera.position).sub(this.controls.target);
+    this.world.refresh();
     this.renderer.render(this.setting, this.camera);
     const took = performance.now() - began;
     this.frameMilliseconds = this.drawn ? 0.9 * this.frameMilliseconds + 0.1 * took : took;
@@ -164,6 +165,7 @@ export class Stage {
     return speed ? swept / (2 * Math.PI * speed) : 0;
   }
 
+  /** Gives all back, the browser's few drawing contexts first. */
   dispose() {
     this.disposed = true;
     cancelAnimationFrame(this.waiting);
@@ -172,5 +174,6 @@ export class Stage {
     this.controls.dispose();
     this.world.dispose();
     this.renderer.dispose();
+    this.renderer.forceContextLoss();
   }
 }

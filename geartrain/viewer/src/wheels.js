@@ -1,91 +1,82 @@
-// A wheel as drawn: its body, its teeth as instances of one tooth, and a plain disc for when teeth are not wanted.
+// A wheel as drawn: its body, its teeth as copies of one tooth, and a plain rim for when teeth are not wanted.
 
-import { Group } from "three";
+import { coneShape, discShape, lanternShape, plainRimShape, rimShape, wormShape } from "./blanks.js";
+import { frameAt, isParallel, vector } from "./space.js";
+import { blankOf, pinShape, toothShape } from "./tooth.js";
 
-import { coneGeometry, discGeometry, lanternGeometry, ringGeometry, wormGeometries } from "./blanks.js";
-import { paint, solid } from "./solids.js";
-import { frameAt, isParallel, placed, vector } from "./space.js";
-import { blankOf, pinGeometry, toothGeometry } from "./tooth.js";
-
-const MOST_TEETH = 2000; // more cannot be told apart
+const MOST_TEETH = 2000; // of a wheel: more cannot be told apart
+const MANY_TEETH = 12000; // of a train: beyond, all are drawn more simply
+const SEEN = 0.0005; // of a train's size: bends of a tooth that are slighter are not drawn
+const GLOSS = 0.75;
 
 /** Outer radius of a ring wheel (mm), which nothing declares. */
 export const ringRim = ({ root, radius, module }) => Math.max(root, radius) + 2 * Math.max(module, 0.02 * radius);
 
 export class WheelPart {
   /** index   of the wheel in the scene; `hub`, radius of its arbor (mm); `size`, of the train (mm) */
-  constructor(scene, index, hub, size, teeth) {
+  constructor(scene, index, hub, size, palette) {
     const wheel = scene.wheels[index];
-    this.index = index;
-    this.wheel = wheel;
-    this.meshes = [];
-    this.toothed = new Group();
-    this.smooth = new Group();
-    this.node = placed(frameAt(wheel.centre, wheel.direction, wheel.reference, wheel.turn), this.toothed, this.smooth);
-    if (wheel.kind === "worm") this.worm(scene);
-    else this.cut(scene, hub, size, teeth);
-    this.showTeeth(true);
-  }
-
-  cut(scene, hub, size, teeth) {
-    const { wheel } = this;
-    const profile = scene.profiles[wheel.profile];
-    const apex = apexSide(scene, this.index);
-    const at = blankOf(wheel, apex);
-    const radii = profile.points.map(([radius]) => radius);
+    Object.assign(this, { scene, index, wheel, size, palette });
+    this.at = vector(wheel.centre);
+    this.matrix = frameAt(wheel.centre, wheel.direction, wheel.reference, wheel.turn);
+    [this.own, this.toothed, this.smooth] = [0, 1, 2].map(() => palette.slot("#ffffff", GLOSS));
+    this.profile = scene.profiles[wheel.profile];
+    this.apex = apexSide(scene, index);
+    this.surface = blankOf(wheel, this.apex);
+    const radii = this.profile.points.map(([radius]) => radius);
     const ring = wheel.kind === "ring";
-    const root = ring ? Math.max(...radii) : Math.min(...radii);
-    const base = ring ? root + 0.02 : root - Math.min(0.03, 0.1 * root);
-    const own = Math.min(hub, 0.4 * root * wheel.radius);
-    const body = (to) => this.body(to * wheel.radius, to, at, apex, own, size, profile.hole);
-    this.add(this.toothed, body(profile.hole ? Math.max(...radii) * 1.08 : root));
-    const geometry = teeth.of(wheel, apex, profile, () =>
-      profile.hole ? pinGeometry(profile.points, at) : toothGeometry(profile.points, base, at));
-    this.add(this.toothed, geometry, wheel.teeth);
-    this.add(this.smooth, body(1));
+    this.root = ring ? Math.max(...radii) : Math.min(...radii);
+    this.crest = Math.max(...radii);
+    this.depth = (Math.max(...radii) - Math.min(...radii)) * wheel.radius;
+    this.hub = Math.min(hub, 0.4 * Math.abs(this.root) * wheel.radius);
   }
 
-  body(radius, share, at, apex, hub, size, lantern) {
-    const { kind, thickness, cone } = this.wheel;
-    if (lantern) return lanternGeometry(radius, thickness, hub);
-    if (kind === "ring") return ringGeometry(radius, ringRim(this.wheel), thickness, size);
-    if (cone) return coneGeometry(at, share - 0.01, apex, thickness, hub);
-    return discGeometry(radius, thickness, hub, size);
+  get slots() {
+    return [this.own, this.toothed, this.smooth];
   }
 
-  add(group, geometry, count = 1) {
-    const mesh = solid(geometry, "#ffffff", Math.min(count, MOST_TEETH));
-    mesh.userData.wheel = this.index;
-    this.meshes.push(mesh);
-    group.add(mesh);
+  /** Body and plain rim. */
+  castBody(add) {
+    const { wheel, root, hub, size } = this;
+    const { kind, radius, thickness, cone } = wheel;
+    if (kind === "worm") add(this.worm(), this.matrix, this.own);
+    else if (this.profile.hole) add(lanternShape(this.crest * 1.08 * radius, thickness, hub), this.matrix, this.own);
+    else if (kind === "ring") {
+      add(rimShape(root * radius, ringRim(wheel), thickness, size), this.matrix, this.own);
+      add(plainRimShape(radius, root * radius, 0.96 * thickness, size), this.matrix, this.smooth);
+    } else if (cone) {
+      add(coneShape(this.surface, root - 0.01, this.apex, thickness, hub), this.matrix, this.toothed);
+      add(coneShape(this.surface, 1, this.apex, thickness, hub), this.matrix, this.smooth);
+    } else {
+      add(discShape(root * radius, thickness, hub, this.depth, size), this.matrix, this.own);
+      add(plainRimShape(0.98 * root * radius, radius, 0.96 * thickness, size), this.matrix, this.smooth);
+    }
   }
 
-  paint(colour) {
-    for (const mesh of this.meshes) paint(mesh, colour);
+  /** Teeth; `many`, of the whole train. */
+  castTeeth(add, many) {
+    const { wheel, profile, surface, root } = this;
+    if (wheel.kind === "worm") return;
+    const base = wheel.kind === "ring" ? root + 0.02 : root - Math.min(0.03, 0.1 * root);
+    const fine = many > MANY_TEETH ? 0.3 : Math.min(0.3, Math.max(0.02, (SEEN * this.size) / this.depth));
+    const shape = profile.hole ? pinShape(profile.points, surface) : toothShape(profile.points, base, surface, fine);
+    add(shape, this.matrix, profile.hole ? this.own : this.toothed, Math.min(wheel.teeth, MOST_TEETH));
   }
 
-  worm(scene) {
-    const { lead, length } = threadOf(scene, this.index);
-    for (const geometry of wormGeometries(this.wheel, lead, length)) this.add(this.toothed, geometry);
-    this.add(this.smooth, wormGeometries({ ...this.wheel, teeth: 0 }, lead, length)[0]);
+  worm() {
+    const { lead, length } = threadOf(this.scene, this.index);
+    return wormShape(this.wheel, lead, length);
   }
 
-  showTeeth(shown) {
-    this.toothed.visible = shown;
-    this.smooth.visible = !shown;
-  }
-}
-
-/** Teeth that are alike are one geometry. */
-export class Teeth {
-  constructor() {
-    this.known = new Map();
+  paint(look) {
+    for (const slot of this.slots) this.palette.paint(slot, look);
   }
 
-  of(wheel, apex, profile, make) {
-    const key = [wheel.profile, wheel.radius, wheel.thickness, wheel.cone, apex].join(" ");
-    if (!this.known.has(key)) this.known.set(key, make());
-    return this.known.get(key);
+  /** shown   at all; `toothed`, with its teeth */
+  show(shown, toothed) {
+    this.palette.paint(this.own, { shown });
+    this.palette.paint(this.toothed, { shown: shown && toothed });
+    this.palette.paint(this.smooth, { shown: shown && !toothed });
   }
 }
 

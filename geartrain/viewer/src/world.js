@@ -1,219 +1,147 @@
-// A train in space. Every body is a node under the body that bears its axis; a node holds its parts where they stand
-// in the zero pose, and is turned about its axis by the angle its parent sees.
-
-import { Box3, Color, Group, Sphere, Vector3 } from "three";
+// A train in space: its parts, cast into one geometry, each of which finds its body's pose when it is drawn.
 
 import { hubs, spans, supports } from "./arbors.js";
-import { BROKEN, CHOSEN, FADED, colours } from "./colours.js";
-import { dialPart, needlePart } from "./faces.js";
-import { couplingParts, crankPart } from "./joints.js";
+import { Casting } from "./casting.js";
+import { ballOf, circlesOf, mainDirection, pointsOf } from "./extent.js";
+import { dialParts, needlePart } from "./faces.js";
+import { couplingParts, crankOf } from "./joints.js";
+import { Looks } from "./looks.js";
+import { metals } from "./metal.js";
+import { Palette } from "./palette.js";
+import { Poses } from "./poses.js";
 import { along, isParallel, onAxis, sharesAxis, vector } from "./space.js";
-import { ringRim, Teeth, WheelPart } from "./wheels.js";
-
-const APART = 3; // how far layers move apart when exploded, over their distance
+import { WheelPart } from "./wheels.js";
 
 export class World {
   constructor(machine) {
-    this.machine = machine;
     this.scene = machine.scene;
-    this.root = new Group();
-    this.box = extent(this.scene);
-    this.ball = this.box.getBoundingSphere(new Sphere());
+    this.circles = circlesOf(this.scene);
+    this.ball = ballOf(this.scene, this.circles);
     this.size = 2 * this.ball.radius;
     this.main = mainDirection(this.scene);
+    this.poses = new Poses(machine, this.main, this.ball.center);
+    this.root = this.poses.root;
+    this.nodes = this.poses.nodes;
+    this.palette = new Palette();
+    this.materials = metals(this.nodes.length, this.main, this.ball.center, this.size);
+    this.uniforms = this.materials[0].uniforms;
+    this.castings = [new Casting(), new Casting()]; // teeth come later, when the rest is seen
     this.parts = [];
-    this.nodes = this.scene.bodies.map(() => new Group());
-    this.nodes.forEach((node) => (node.matrixAutoUpdate = false));
-    this.scene.bodies.forEach(({ parent }, index) => (parent === null ? this.root : this.nodes[parent]).add(this.nodes[index]));
     this.build();
-    this.shifts = this.scene.bodies.map(() => new Vector3());
+    this.looks = new Looks(this.scene, this.palette, this.wheels, this.parts);
+    this.looks.showTeeth(false);
+    this.looks.paint("plain");
+    this.root.add(...this.castings[0].cast(this.materials));
     this.explode(0);
-    this.paint("plain");
   }
 
   build() {
-    const { scene, size } = this;
+    const { scene, size, palette } = this;
     const reach = spans(scene);
     const radii = hubs(scene, reach, size);
-    const teeth = new Teeth();
-    this.wheels = scene.wheels.map((wheel, index) => {
-      const part = new WheelPart(scene, index, radii[wheel.body], size, teeth);
-      this.put({ body: wheel.body, mesh: part.node, at: vector(wheel.centre), wheel: index });
-      return part;
-    });
+    this.wheels = scene.wheels.map((wheel, index) => new WheelPart(scene, index, radii[wheel.body], size, palette));
+    for (const part of this.wheels) part.castBody(this.adder(this.castings[0], part));
     for (const part of supports(scene, reach, radii, size)) this.put(part);
     for (const coupling of scene.couplings) couplingParts(scene, coupling, size).forEach((part) => this.put(part));
-    scene.dials.forEach((_, index) => this.put(dialPart(scene, index)));
-    const orders = scene.dials.map(() => 0);
+    scene.dials.forEach((_, index) => dialParts(scene, index).forEach((part) => this.put(part)));
+    const orders = new Map();
     scene.pointers.forEach(({ dial }, index) => {
-      if (dial !== null) this.put(needlePart(scene, index, orders[dial]++, size));
+      if (dial === null) return;
+      const { id } = scene.dials[dial];
+      const order = orders.get(id) ?? 0;
+      orders.set(id, order + 1);
+      this.put(needlePart(scene, index, order));
     });
-    this.buildCrank(reach);
+    this.crank = this.buildCrank(reach);
+    this.crank?.parts.forEach((part) => this.put(part));
   }
 
   buildCrank(reach) {
     const { scene, size } = this;
-    if (scene.crank === null || scene.bodies[scene.crank].parent === null) return;
+    if (scene.crank === null || scene.bodies[scene.crank].parent === null) return null;
     const body = scene.bodies[scene.crank];
     const coaxial = scene.bodies.map((_, at) => at).filter((at) => reach[at] && sharesAxis(scene, scene.crank, at, size));
     const ends = coaxial.flatMap((at) => reach[at].map((end) => along(body, onAxis(scene.bodies[at], end))));
     const [low, high] = [Math.min(...ends, 0), Math.max(...ends, 0)];
     const off = (end) => onAxis(body, end).distanceTo(this.ball.center);
     const outward = isParallel(body.direction, this.main.toArray())
-      ? vector(body.direction).dot(this.main) * this.scene.front
+      ? vector(body.direction).dot(this.main) * scene.front
       : off(high) - off(low);
     const side = outward < 0 ? -1 : 1;
-    const end = (side > 0 ? high : low) + side * 0.03 * size;
-    this.crank = crankPart(scene, scene.crank, end, side, size, CHOSEN);
-    this.put(this.crank);
+    const end = (side > 0 ? high : low) + side * 0.025 * size;
+    return crankOf(scene, scene.crank, end, side, 0.12 * size, size);
   }
 
-  put(part) {
-    const mesh = part.mesh ?? part.bar.mesh;
-    const holder = new Group();
-    holder.matrixAutoUpdate = false;
-    holder.add(mesh);
-    part.holder = holder;
-    this.nodes[part.body].add(holder);
-    this.parts.push(part);
+  put({ colour, gloss = 0.85, shape, matrix, body, at, dial, plate }) {
+    const slot = this.palette.slot(colour, gloss);
+    this.castings[0].add(shape, matrix, { body, slot, lift: this.poses.lift(body, at) });
+    this.parts.push({ slot, body, at, dial, plate });
   }
 
-  /** Every node where its body stands now. */
+  adder(casting, { wheel: { body }, at }) {
+    return (shape, matrix, slot, count) => casting.add(shape, matrix, { body, slot, count, lift: this.poses.lift(body, at) });
+  }
+
+  /** The teeth, cast when the rest can be seen already. */
+  castTeeth() {
+    const many = this.scene.wheels.reduce((sum, { teeth }) => sum + teeth, 0);
+    for (const part of this.wheels) part.castTeeth(this.adder(this.castings[1], part), many);
+    this.root.add(...this.castings[1].cast(this.materials));
+    this.cut = true;
+  }
+
+  /** Every body where it stands now. */
   turn() {
-    this.scene.bodies.forEach((body, index) => {
-      if (body.parent === null) return;
-      const joint = this.machine.moves ? this.machine.joint(index) : 0;
-      const { matrix } = this.nodes[index];
-      const point = vector(body.point);
-      matrix.makeRotationAxis(vector(body.direction), joint);
-      matrix.setPosition(point.clone().applyMatrix4(matrix).negate().add(point).add(this.shifts[index]));
-      this.nodes[index].matrixWorldNeedsUpdate = true;
-    });
+    const { value } = this.uniforms.poses;
+    this.poses.turn(value.image.data);
+    value.needsUpdate = true;
   }
 
   /** Layers apart: 0 as they stand, 1 fully. */
   explode(share) {
-    const { main, ball } = this;
-    this.share = share;
-    const lift = (point) => main.clone().multiplyScalar(APART * share * point.clone().sub(ball.center).dot(main));
-    this.scene.bodies.forEach((body, index) => this.shifts[index].copy(this.skew(index) ? lift(this.anchor(index)) : new Vector3()));
-    for (const part of this.parts) {
-      const skew = this.isSkew(part.body);
-      if (part.bar) part.bar.stretch((point) => (skew ? point : point.add(lift(point))));
-      else part.holder.matrix.setPosition(skew ? new Vector3() : lift(part.at));
-    }
+    this.uniforms.share.value = share;
+    this.poses.explode(share);
     this.turn();
   }
 
-  isSkew(index) {
-    const { parent, direction } = this.scene.bodies[index];
-    return parent !== null && (!isParallel(direction, this.main.toArray()) || this.isSkew(parent));
+  /** Points that a picture of the whole must hold, taken apart as it is. */
+  outline() {
+    const { crank, poses } = this;
+    const swing = crank ? [{ at: crank.end, direction: this.scene.bodies[crank.body].direction, radius: 1.17 * crank.reach }] : [];
+    return [...this.circles, ...swing].flatMap(pointsOf).map((point) => poses.apart(point, poses.height(point)));
   }
 
-  /** True where a body's axis leaves the main direction, and its parent's does not. */
-  skew(index) {
-    const { parent } = this.scene.bodies[index];
-    return this.isSkew(index) && !(parent !== null && this.isSkew(parent));
+  /** Where a point of the crank (its foot or its knob) is now. */
+  ofCrank(point) {
+    const { body, at } = this.crank;
+    return this.poses.apart(point, this.poses.lift(body, at)).applyMatrix4(this.nodes[body].matrixWorld);
   }
 
-  anchor(index) {
-    const own = this.scene.wheels.filter(({ body }) => body === index).map(({ centre }) => vector(centre));
-    const sum = own.reduce((total, centre) => total.add(centre), new Vector3());
-    return own.length ? sum.divideScalar(own.length) : vector(this.scene.bodies[index].point);
-  }
-
-  /** data.wheels   a colour by wheel; else those of the mode */
-  paint(mode, data) {
-    this.base = data?.wheels ?? colours(this.scene, mode);
-    this.recolour();
-  }
-
-  highlight(chosen, colour) {
-    this.chosen = chosen && { wheels: this.wheelsOf(chosen), colour: colour ?? CHOSEN };
-    this.recolour();
-  }
-
-  select(wheel) {
-    this.selected = wheel;
-    this.recolour();
-  }
-
-  wheelsOf({ wheels = [], bodies = [], pairs = [] }) {
-    const named = (each) => (typeof each === "number" ? this.scene.pairs[each] : this.scene.pairs.find(({ id }) => id === each));
-    const found = new Set([...wheels, ...pairs.flatMap((pair) => named(pair)?.wheels ?? [])]);
-    this.scene.wheels.forEach(({ body }, index) => bodies.includes(body) && found.add(index));
-    return found;
-  }
-
-  recolour() {
-    const broken = this.wheelsOf({ pairs: this.scene.pairs.map((_, at) => at).filter((at) => this.scene.pairs[at].broken) });
-    const colour = new Color();
-    this.wheels.forEach((part, index) => {
-      colour.set(broken.has(index) ? BROKEN : this.base[index]);
-      if (this.chosen?.wheels.has(index)) colour.lerp(new Color(this.chosen.colour), 0.65);
-      else if (this.chosen && !broken.has(index)) colour.lerp(new Color(FADED), 0.75);
-      if (index === this.selected) colour.set(CHOSEN);
-      part.paint(colour);
-    });
-  }
-
-  /** What stands before the middle, as seen from the front, out of the way: dials first, then wheels. */
-  hideFront(hidden) {
-    const front = this.main.clone().multiplyScalar(this.scene.front * Math.sign(this.main.z || 1));
-    const heights = this.scene.wheels.map(({ centre }) => vector(centre).dot(front));
-    const middle = heights.length ? (Math.min(...heights) + Math.max(...heights)) / 2 : 0;
-    const flat = heights.length && Math.max(...heights) - Math.min(...heights) < 1e-6;
-    for (const part of this.parts) {
-      const height = part.at ? part.at.dot(front) : -Infinity;
-      const before = part.dial !== undefined || part.wheel !== undefined ? height > middle + 1e-9 && !(flat && part.wheel !== undefined) : false;
-      part.holder.visible = !(hidden && before);
+  /** The wheel that a ray meets first, or null. */
+  pick(ray) {
+    const rays = this.nodes.map(() => null);
+    const seenBy = (body) => (rays[body] ??= ray.clone().applyMatrix4(this.nodes[body].matrixWorld.clone().invert()));
+    const shift = (lift) => this.main.clone().multiplyScalar(this.poses.share * lift);
+    let [nearest, slot] = [Infinity, null];
+    for (const casting of this.castings) {
+      for (const [distance, part] of casting.met(seenBy, shift)) {
+        if (distance < nearest && this.palette.looks[part.slot].shown) [nearest, slot] = [distance, part.slot];
+      }
     }
+    const wheel = this.wheels.findIndex((part) => part.slots.includes(slot));
+    return wheel < 0 ? null : wheel;
   }
 
-  showTeeth(shown) {
-    for (const wheel of this.wheels) wheel.showTeeth(shown);
+  /** What the materials read, up to date. */
+  refresh() {
+    this.uniforms.palette.value = this.palette.refresh();
+    for (const { meshes } of this.castings) if (meshes) meshes[1].visible = this.palette.ghosts;
   }
 
   dispose() {
-    this.root.traverse((mesh) => {
-      mesh.geometry?.dispose();
-    });
+    for (const casting of this.castings) casting.dispose();
+    this.palette.dispose();
+    this.uniforms.poses.value.dispose();
+    for (const material of this.materials) material.dispose();
   }
-}
-
-/** The box that holds all wheels and dials. */
-function extent(scene) {
-  const box = new Box3();
-  const add = (centre, radius) => {
-    box.expandByPoint(vector(centre).addScalar(radius));
-    box.expandByPoint(vector(centre).subScalar(radius));
-  };
-  const flat = (centre, radius, direction) => {
-    const reach = [0, 1, 2].map((at) => radius * Math.sqrt(Math.max(0, 1 - direction[at] ** 2)));
-    box.expandByPoint(vector(centre).add(vector(reach)));
-    box.expandByPoint(vector(centre).sub(vector(reach)));
-  };
-  for (const wheel of scene.wheels) {
-    const radius = wheel.kind === "ring" ? ringRim(wheel) : Math.max(wheel.tip, wheel.radius);
-    flat(wheel.centre, radius, wheel.direction);
-    const bearer = scene.bodies[scene.bodies[wheel.body].parent ?? 0];
-    if (bearer.parent === null) continue;
-    const middle = onAxis(bearer, along(bearer, wheel.centre)); // it is carried round
-    flat(middle.toArray(), middle.distanceTo(vector(wheel.centre)) + radius, bearer.direction);
-  }
-  for (const dial of scene.dials) flat(dial.centre, dial.radius, dial.normal);
-  if (box.isEmpty()) for (const body of scene.bodies) add(body.point, 10);
-  return box;
-}
-
-/** The direction of most wheels. */
-function mainDirection(scene) {
-  const counts = new Map();
-  for (const { direction } of scene.wheels) {
-    const key = direction.map((value) => Math.abs(value).toFixed(4)).join(" ");
-    counts.set(key, { direction, count: (counts.get(key)?.count ?? 0) + 1 });
-  }
-  const most = [...counts.values()].sort((one, other) => other.count - one.count)[0];
-  const main = most ? vector(most.direction) : new Vector3(0, 0, 1);
-  return main.dot(new Vector3(0, 0, 1)) < 0 ? main.negate() : main;
 }

@@ -1,19 +1,21 @@
 // The crank: a wheel to drag, and the buttons, speed and place beside it.
+import { Fraction } from "../fraction.js";
 import { el, field, icon, svg } from "./element.js";
-import { parse, turns, typed } from "./number.js";
+import { turns, typed } from "./number.js";
 
 const PLAY = "M7 4.5v15l12.5-7.5z";
 const PAUSE = "M7 5h3.6v14H7zM13.4 5H17v14h-3.6z";
 
 /** Turns of the hand for one turn of the lead: what the declared crank does, where that is a hand's work. */
 export function gearing(scene) {
-  const speed = scene.crank === null ? null : parse(scene.bodies[scene.crank].speed);
+  const speed = scene.crank === null ? null : Fraction.parse(scene.bodies[scene.crank].speed);
   const size = speed ? Math.abs(Number(speed)) : 1;
   return size >= 0.05 && size <= 20 ? size : 1;
 }
 
 export class Crank {
-  constructor(scene, drive) {
+  /** `beside`: what is said of a second train that turns with it */
+  constructor(scene, drive, beside = "") {
     this.scene = scene;
     this.drive = drive;
     this.gearing = gearing(scene);
@@ -26,7 +28,7 @@ export class Crank {
       "section",
       { class: "crank", "aria-label": "crank" },
       this.wheel,
-      el("div", { class: "where" }, this.turns, el("span", { class: "quiet" }, `turns of ${this.lead}`)),
+      el("div", { class: "where" }, this.turns, el("span", { class: "quiet" }, `turns of ${this.lead}`), beside && el("span", { class: "quiet beside-it" }, beside)),
       el(
         "div",
         { class: "buttons" },
@@ -139,6 +141,12 @@ export class Crank {
     this.place.setAttribute("aria-invalid", String(!wanted));
     this.fault.textContent = wanted ? "" : "That is no number of turns: write 12, 2.5, 235/19 or 1e6.";
     if (wanted) this.drive.goTo(wanted);
+  }
+
+  /** Puts the reader's hands on the number of turns. */
+  find() {
+    this.place.focus();
+    this.place.select();
   }
 
   set(drive, settled) {

@@ -104,10 +104,10 @@ export class Dial {
     if (this.turns > 1) group.append(svg("circle", { class: "follower", r: 3.4 }));
   }
 
-  /** Stands every hand where it is after `t` turns of the lead (a Fraction). */
-  set(t) {
+  /** Stands every hand where it is now. */
+  set() {
     for (const { reading, node } of this.hands) {
-      const value = reading.at(t);
+      const value = reading.now;
       node.classList.toggle("unknown", !value);
       if (!value) continue;
       const turn = (value.degrees + (this.zero * 180) / Math.PI) % 360;

@@ -57,14 +57,14 @@ class Card {
     );
   }
 
-  set(t, words) {
-    this.dial.set(t);
-    if (words) this.hands.forEach((hand, order) => (this.values[order].textContent = told(hand.at(t))));
+  set(words) {
+    this.dial.set();
+    if (words) this.hands.forEach((hand, order) => (this.values[order].textContent = told(hand.now)));
   }
 }
 
 export class Dials {
-  /** `sides` as in `interface.js`; `onChoose(output)`. */
+  /** `sides` as in `side.js`; `onChoose(output)`. */
   constructor(sides, onChoose) {
     this.cards = [];
     this.node = el("div", { class: "dials" });
@@ -84,7 +84,7 @@ export class Dials {
     }
   }
 
-  set(t, words) {
-    if (this.node.isConnected && this.node.offsetParent) for (const card of this.cards) card.set(t, words);
+  set(words) {
+    if (this.node.isConnected && this.node.offsetParent) for (const card of this.cards) card.set(words);
   }
 }

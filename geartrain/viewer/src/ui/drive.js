@@ -1,5 +1,5 @@
 // Where the crank stands: exact turns of the lead, and the play of time.
-import { Fraction, near, parse, whole } from "./number.js";
+import { Fraction } from "../fraction.js";
 
 const NUDGE = new Fraction(1n, 72n); // an arrow key: five degrees of the lead
 
@@ -7,7 +7,7 @@ export class Drive {
   constructor(app, step) {
     this.app = app;
     this.step = step;
-    this.at = parse(app.turns ?? 0) ?? whole(0);
+    this.at = Fraction.parse(app.turns) ?? Fraction.of(0);
     this.rate = 0.1;
     this.playing = false;
     this.movable = true;
@@ -32,16 +32,16 @@ export class Drive {
 
   /** By a number of turns of the lead, as a hand or the clock gives them. */
   advance(turns, settled = false) {
-    this.goTo(this.at.plus(near(turns)), settled);
+    this.goTo(this.at.plus(Fraction.near(turns)), settled);
   }
 
   /** By so many units of the input. */
   unit(times) {
-    this.goTo(this.at.plus(this.step.times(whole(times))));
+    this.goTo(this.at.plus(this.step.times(times)));
   }
 
   nudge(times) {
-    this.goTo(this.at.plus(NUDGE.times(whole(times))));
+    this.goTo(this.at.plus(NUDGE.times(times)));
   }
 
   play(on = !this.playing) {
@@ -66,7 +66,7 @@ export class Drive {
 
   #heard(turns) {
     if (this.setting) return;
-    this.at = parse(turns) ?? this.at;
+    this.at = Fraction.parse(turns) ?? this.at;
     this.#tell(true);
   }
 }

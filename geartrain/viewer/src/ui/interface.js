@@ -1,65 +1,44 @@
 // The interface around the stages: panels, crank, dials, keys.
 //
-// It builds its own page inside <body> and moves the canvases there. What it asks of `app`, beside scenes, machines
-// and stages (one of each per scene, `null` for a stage where there is no WebGL):
+// It builds its own page inside <body>. What it asks of `app`, beside scenes and machines (one of each per scene):
 //
 //   app.options       {compare: bool, teeth: bool}; with `compare` two scenes stand side by side, else one is shown
-//   stage.canvas      the canvas given to the constructor; hidden ones have no size, `resize()` is called when shown
+//   app.open(index)   a stage for a scene, with its canvas, or null where there is no WebGL; app.close(index) ends it
+//   app.gears         turns of each scene's lead for one turn of the crank's
 //   app.setTurns(t)   t a number, or exact text such as '235/19'; sets every machine and stage, then calls
 //                     app.onTurns(t) if it is there, so that scripts and dials stay together
 //   app.turns         what was last given
-//   machine.pointer(index, t), machine.angle(body, t)   t likewise a number or exact text
-//
-// A side is {scene, machine, stage, label, figure, legend}: a train, or a state of it, that can be shown.
+import { Fraction } from "../fraction.js";
+import { Crank } from "./crank.js";
 import { Drive } from "./drive.js";
 import { el } from "./element.js";
-import { parse, whole } from "./number.js";
 import { Head } from "./head.js";
 import { Keys } from "./keys.js";
 import { Live } from "./live.js";
 import { Panel } from "./panel.js";
+import { Side } from "./side.js";
 import { Theme } from "./theme.js";
 import { Tools } from "./tools.js";
-import { Crank } from "./crank.js";
 
 const WORDS = 100; // ms between two texts of a moving number
 
-function sideOf(app, scene, index) {
-  const stage = app.stages[index];
-  const legend = el("div", {});
-  const label = app.options?.compare ? scene.name : (scene.state ?? scene.name);
-  const figure = el(
-    "figure",
-    { class: "view", hidden: true },
-    stage
-      ? stage.canvas
-      : el("p", { class: "nothing" }, "This browser shows no 3D picture (WebGL). All else on this page holds."),
-    el("figcaption", {}, el("span", { class: "caption" }, label), legend),
-  );
-  if (stage) {
-    stage.canvas.tabIndex = 0;
-    stage.canvas.setAttribute("role", "img");
-    stage.canvas.setAttribute("aria-label", `${label}, a picture that turns; the wheels are listed under Wheels`);
-  }
-  return { scene, machine: app.machines[index] ?? null, stage, label, figure, legend };
-}
-
 class Interface {
   constructor(app) {
-    this.all = app.scenes.map((scene, index) => sideOf(app, scene, index));
+    this.app = app;
+    this.all = app.scenes.map((_, index) => new Side(app, index));
     const first = this.all[0].scene;
-    this.drive = new Drive(app, parse(first.step) ?? whole(1));
+    this.drive = new Drive(app, Fraction.of(first.step));
     this.drive.rate = pace(first);
     this.live = new Live();
     this.tools = new Tools(app.options);
-    this.theme = new Theme(app.stages);
+    this.theme = new Theme((background) => this.all.forEach(({ stage }) => stage?.theme({ background })));
     this.theme.apply(); // before anything is laid out, so that nothing flashes
     this.crank = new Crank(first, this.drive);
     this.keys = new Keys({
       drive: this.drive,
       tools: this.tools,
-      goTo: () => this.#goTo(),
-      find: () => this.#find(),
+      goTo: () => this.crank.find(),
+      find: () => this.panel.find(),
       escape: () => this.letGo(),
     });
     this.head = new Head(this.all, {
@@ -71,7 +50,7 @@ class Interface {
     });
     this.panel = new Panel(this);
     this.#lay();
-    this.#connect();
+    this.drive.listen((drive, settled) => this.#moved(drive, settled));
     this.show(this.head.sides);
   }
 
@@ -95,47 +74,56 @@ class Interface {
     );
   }
 
-  #connect() {
-    this.drive.listen((drive, settled) => this.#moved(drive, settled));
-    for (const side of this.all) {
-      if (!side.stage) continue;
-      side.stage.onPick = (wheel) => this.select(side, wheel);
-      side.stage.onCrank = (turns) => this.drive.advance(turns, true);
-    }
-  }
-
   #moved(drive, settled) {
     const now = performance.now();
     const words = settled || now - (this.worded ?? 0) > WORDS;
     if (words) this.worded = now;
     this.crank.set(drive, settled);
-    this.panel.set(drive.at, words);
+    this.panel.set(words);
     if (settled) this.live.rest(drive);
   }
 
-  /** Shows one side, or two beside each other. */
+  /** Shows one side, or two beside each other; their pictures come with `openStages` the first time. */
   show(sides) {
     this.sides = sides;
-    for (const side of this.all) side.figure.hidden = !sides.includes(side);
+    for (const side of this.all) {
+      side.figure.hidden = !sides.includes(side);
+      if (side.figure.hidden) side.close();
+    }
     document.body.classList.toggle("beside", sides.length > 1);
     this.panel.use(sides);
     this.live.use(sides);
     this.#gear(sides);
-    for (const side of sides) side.stage?.resize();
-    this.tools.use(sides);
+    if (this.lit) this.openStages();
     this.letGo();
     this.drive.goTo(this.drive.at);
     this.crank.set(this.drive, true);
-    this.panel.set(this.drive.at, true);
+    this.panel.set(true);
+  }
+
+  /** Pictures for all that is shown; `cut` has those that come later drawn with their teeth at once. */
+  openStages() {
+    for (const side of this.sides) {
+      if (!side.open()) continue;
+      const { stage } = side;
+      stage.theme({ background: this.theme.background });
+      stage.onPick = (wheel) => this.select(side, wheel);
+      stage.onCrank = (turns) => this.drive.advance(turns / Number(this.app.gears[side.index]), true);
+      if (this.lit) stage.cut();
+    }
+    this.tools.use(this.sides);
+    for (const { stage } of this.sides) stage?.resize();
+    this.lit = true;
   }
 
   /** A crank for what is shown: states may have different inputs. */
   #gear(sides) {
-    const { scene } = sides[0];
+    const [first, second] = sides;
     this.drive.play(false);
-    this.drive.step = parse(scene.step) ?? whole(1);
-    this.drive.movable = sides.some(({ scene: { movement, lead } }) => movement.kind !== "still" && lead !== null);
-    const crank = new Crank(scene, this.drive);
+    this.drive.step = Fraction.of(first.scene.step);
+    this.drive.movable = sides.some(({ movable }) => movable);
+    this.app.gears = this.all.map((side) => (side === second ? side.gearing(first) : Fraction.of(1)));
+    const crank = new Crank(first.scene, this.drive, second?.beside(first));
     this.crank.node.replaceWith(crank.node);
     this.crank = crank;
   }
@@ -153,14 +141,14 @@ class Interface {
       .map((side) => ({ side, pointer: side.scene.pointers.find((each) => each.output === output) }))
       .filter(({ pointer }) => pointer);
     const parts = new Map(found.map(({ side, pointer }) => [side, { wheels: pointer.wheels }]));
-    this.#highlight(parts, "accent");
+    this.#highlight(parts, "way");
     this.panel.path(output, found);
     this.live.say(`path to ${output}: ${found.map(({ pointer }) => `${pointer.pairs.length} pairs`).join(", ")}`);
   }
 
   /** Highlights a loop that holds the train. */
   loop(side, parts) {
-    this.#highlight(new Map([[side, parts]]), "bad");
+    this.#highlight(new Map([[side, parts]]), "loop");
     this.live.say(`the loop ${parts.pairs.join(", ")} is shown in red`);
   }
 
@@ -171,24 +159,15 @@ class Interface {
   }
 
   letGo() {
-    this.#highlight(new Map(), "accent");
+    this.#highlight(new Map(), "way");
     this.select(this.sides[0], null);
     this.panel.letGo();
-  }
-
-  #goTo() {
-    this.crank.place.focus();
-    this.crank.place.select();
-  }
-
-  #find() {
-    this.panel.find();
   }
 }
 
 /** Turns of the lead a second at which the fastest pointer still can be followed by eye. */
 function pace(scene) {
-  const speeds = scene.pointers.map((pointer) => Math.abs(Number(parse(pointer.speed) ?? 0)));
+  const speeds = scene.pointers.map((pointer) => Math.abs(Number(Fraction.parse(pointer.speed) ?? 0)));
   return Math.min(0.25, Math.max(0.001, 0.5 / Math.max(1, ...speeds)));
 }
 

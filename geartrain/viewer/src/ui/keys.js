@@ -1,6 +1,6 @@
 // Keys, and the page that tells them.
 import { el } from "./element.js";
-import { whole } from "./number.js";
+import { Fraction } from "../fraction.js";
 
 const ROWS = [
   ["Left, Right", "turn back or on by five degrees; with Shift by one unit of the input"],
@@ -74,7 +74,7 @@ export class Keys {
     if (sign && !(vertical && !at.closest(".handle, canvas")))
       return (shiftKey ? drive.unit(sign) : drive.nudge(sign), true);
     if (key === "PageUp" || key === "PageDown") return (drive.unit(key === "PageUp" ? 1 : -1), true);
-    if (key === "Home") return (drive.goTo(whole(0)), true);
+    if (key === "Home") return (drive.goTo(Fraction.of(0)), true);
     return false;
   }
 

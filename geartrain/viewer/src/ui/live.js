@@ -32,7 +32,7 @@ export class Live {
     this.waiting = setTimeout(() => {
       if (drive.playing) return;
       const pointers = this.readings.map(
-        ({ reading, label }) => `${label}${reading.pointer.output} ${told(reading.at(drive.at))}`,
+        ({ reading, label }) => `${label}${reading.pointer.output} ${told(reading.now)}`,
       );
       this.node.textContent = [`${turns(drive.at)} turns`, ...pointers].join("; ");
     }, 500);

@@ -1,29 +1,12 @@
-// Exact numbers as they are typed, rounded and shown.
+// Exact numbers as they are typed and shown.
 import { Fraction } from "../fraction.js";
 
-export { Fraction };
 const LONGEST = 60; // characters of a number that is typed
-
-/** From `235/19`, `1e6`, `-2.5`; null where the text is no number. */
-export function parse(text) {
-  try {
-    return text === null || text === undefined ? null : Fraction.of(text);
-  } catch {
-    return null;
-  }
-}
 
 /** What a reader typed, short enough and not too large to be worked with; else null. */
 export function typed(text) {
-  const number = text.trim().length > LONGEST || /e[+-]?\d{3,}/i.test(text) ? null : parse(text);
-  return number;
+  return text.trim().length > LONGEST || /e[+-]?\d{3,}/i.test(text) ? null : Fraction.parse(text);
 }
-
-/** The float rounded to a billionth: fine enough for a hand at a crank, and its digits stay few. */
-export const near = (number) => new Fraction(BigInt(Math.round(number * 1e9)), 1000000000n);
-export const whole = (number) => new Fraction(BigInt(number));
-export const minus = (a, b) => a.plus(b.times(whole(-1)));
-export const over = (a, b) => new Fraction(a.numerator * b.denominator, a.denominator * b.numerator);
 
 /** Exact text with a proper minus sign, as it is shown; what is copied keeps the plain one. */
 export const shown = (text) => String(text).replace(/^-/, "\u2212");

@@ -1,15 +1,16 @@
 // The table of outputs: speeds exact and decimal, angles now, differences between two trains; a click shows the path.
+import { Fraction } from "../fraction.js";
 import { copyable } from "./copying.js";
 import { el } from "./element.js";
-import { minus, over, parse, shown } from "./number.js";
+import { shown } from "./number.js";
 import { Reading, degrees } from "./reading.js";
 
 /** B - A and what that is of A, where both are exact and in one unit. */
 export function difference(a, b) {
-  const [from, to] = [parse(a), parse(b)];
+  const [from, to] = [Fraction.parse(a), Fraction.parse(b)];
   if (!from || !to) return null;
-  const gap = minus(to, from);
-  return { gap: gap.toString(), part: from.numerator === 0n ? null : Number(over(gap, from)) };
+  const gap = to.minus(from);
+  return { gap: gap.toString(), part: from.numerator === 0n ? null : Number(gap.over(from)) };
 }
 
 function relative(part) {
@@ -130,10 +131,10 @@ export class Outputs {
     return before;
   }
 
-  set(t, words) {
+  set(words) {
     if (!words || !this.node.offsetParent) return;
     for (const { reading, angle } of this.angles) {
-      const value = reading.at(t);
+      const value = reading.now;
       angle.textContent = value ? degrees(value.degrees) : "\u2013";
     }
   }

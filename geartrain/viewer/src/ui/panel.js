@@ -42,7 +42,7 @@ export class Panel {
     this.node.classList.toggle("open", on);
     this.grip.setAttribute("aria-expanded", String(on));
     this.grip.textContent = on ? "Close panels" : "Open panels";
-    if (on && this.outputs) this.set(this.owner.drive.at, true);
+    if (on && this.outputs) this.set(true);
   }
 
   use(sides) {
@@ -57,9 +57,9 @@ export class Panel {
     this.places.About.replaceChildren(...sides.map((side) => about(side, sides.length > 1)));
   }
 
-  set(t, words) {
-    this.dials.set(t, words);
-    this.outputs.set(t, words);
+  set(words) {
+    this.dials.set(words);
+    this.outputs.set(words);
   }
 
   wheel(side, index) {

@@ -12,10 +12,10 @@ export class Reading {
     this.known = this.pointer.speed !== null && Boolean(machine);
   }
 
-  /** {turns, degrees, cell, divisions}: turns from the start of the scale (0 to its number of turns); null where nothing turns. */
-  at(t) {
+  /** Where it stands now, {turns, degrees, cell, divisions}: turns from the start of the scale (0 to its number of turns); null where nothing turns. */
+  get now() {
     if (!this.known) return null;
-    const turns = within(this.pointer.sense * this.machine.pointer(this.index, t).along, this.turns);
+    const turns = within(this.pointer.sense * this.machine.pointer(this.index).along, this.turns);
     const divisions = this.dial?.divisions ?? 0;
     return {
       turns,

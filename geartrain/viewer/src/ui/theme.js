@@ -4,8 +4,9 @@ import { el } from "./element.js";
 const NAMES = { system: "As the system", light: "Light", dark: "Dark" };
 
 export class Theme {
-  constructor(stages) {
-    this.stages = stages.filter(Boolean);
+  /** `onChange(background)`: the colour behind the pictures */
+  constructor(onChange) {
+    this.onChange = onChange;
     this.system = matchMedia("(prefers-color-scheme: dark)");
     this.system.addEventListener("change", () => this.apply());
     this.select = el(
@@ -19,7 +20,10 @@ export class Theme {
     const chosen = this.select.value;
     const dark = chosen === "dark" || (chosen === "system" && this.system.matches);
     document.documentElement.dataset.theme = dark ? "dark" : "light";
-    const background = getComputedStyle(document.documentElement).getPropertyValue("--stage").trim();
-    for (const stage of this.stages) stage.theme({ background });
+    this.onChange(this.background);
+  }
+
+  get background() {
+    return getComputedStyle(document.documentElement).getPropertyValue("--stage").trim();
   }
 }

@@ -9,7 +9,7 @@ export class Tools {
   constructor(options) {
     this.sides = [];
     this.mode = "plain";
-    this.looking = "front";
+    this.looking = "free";
     this.looks = Object.entries(LOOKS).map(([look, name]) =>
       el(
         "button",
@@ -52,12 +52,18 @@ export class Tools {
   use(sides) {
     this.sides = sides;
     this.#each((stage) => {
+      stage.onOrbit = () => this.#press(null);
       stage.hideFront(this.front.checked);
       stage.showTeeth(this.teeth.checked);
     });
     this.#explode();
     this.look(this.looking);
     this.paint(this.mode);
+  }
+
+  /** Shows which button says from where one looks; none does once a hand has turned the picture. */
+  #press(look) {
+    for (const each of this.looks) each.setAttribute("aria-pressed", String(each.dataset.look === look));
   }
 
   #each(act) {
@@ -73,7 +79,7 @@ export class Tools {
 
   look(look) {
     this.looking = look;
-    for (const each of this.looks) each.setAttribute("aria-pressed", String(each.dataset.look === look));
+    this.#press(look);
     this.#each((stage) => stage.look(look));
   }
 

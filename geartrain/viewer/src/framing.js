@@ -1,0 +1,26 @@
+// Where a camera stands so that what is to be seen fills its picture.
+
+import { vector } from "./space.js";
+
+/**
+ * The point looked at, and how far off the camera stands.
+ *
+ * points    that must be seen
+ * towards   unit vector from what is seen to the camera
+ * wide, high   tangents of half the field, across and upwards
+ */
+export function frame(points, towards, wide, high) {
+  const right = vector([0, 1, 0]).cross(towards).normalize();
+  const up = towards.clone().cross(right);
+  // a point at (x, z) is in the field of a camera over x = c at distance d where |x - c| <= (d - z) wide
+  const fit = (axis, slope) => {
+    const most = (sign) => Math.max(...points.map((point) => sign * point.dot(axis) + slope * point.dot(towards)));
+    const [over, under] = [most(1), most(-1)];
+    return { middle: (over - under) / 2, away: (over + under) / (2 * slope) };
+  };
+  const [across, upwards] = [fit(right, wide), fit(up, high)];
+  const target = right.multiplyScalar(across.middle).addScaledVector(up, upwards.middle);
+  const depth = points.map((point) => point.dot(towards));
+  const middle = (Math.min(...depth) + Math.max(...depth)) / 2;
+  return { target: target.addScaledVector(towards, middle), distance: Math.max(across.away, upwards.away) - middle };
+}

@@ -1,0 +1,76 @@
+// How the parts of a train look now: their colours, what is highlighted, what is out of the way.
+
+import { Color } from "three";
+
+import { BROKEN, CHOSEN, colours } from "./colours.js";
+import { vector } from "./space.js";
+
+const GHOST = 0.14; // opacity of what is not highlighted
+const GLOSS = 0.75;
+
+export class Looks {
+  /** wheels   `WheelPart`s; `parts`, all else: {slot, body, at, dial, plate} */
+  constructor(scene, palette, wheels, parts) {
+    Object.assign(this, { scene, palette, wheels, parts });
+    this.chosen = null;
+    this.selected = null;
+    this.toothed = false;
+    this.front = null;
+    this.broken = this.wheelsOf({ pairs: scene.pairs.flatMap(({ broken }, at) => (broken ? [at] : [])) });
+  }
+
+  /** data.wheels   a colour by wheel; else those of the mode */
+  paint(mode, data) {
+    this.mode = mode;
+    this.base = data?.wheels ?? colours(this.scene, mode);
+    this.recolour();
+  }
+
+  highlight(chosen, colour) {
+    this.chosen = chosen && { wheels: this.wheelsOf(chosen), colour: colour ?? CHOSEN };
+    this.recolour();
+  }
+
+  select(wheel) {
+    this.selected = wheel;
+    this.recolour();
+  }
+
+  wheelsOf({ wheels = [], bodies = [], pairs = [] }) {
+    const named = (each) => (typeof each === "number" ? this.scene.pairs[each] : this.scene.pairs.find(({ id }) => id === each));
+    const found = new Set([...wheels, ...pairs.flatMap((pair) => named(pair)?.wheels ?? [])]);
+    this.scene.wheels.forEach(({ body }, index) => bodies.includes(body) && found.add(index));
+    return found;
+  }
+
+  recolour() {
+    const { chosen } = this;
+    this.wheels.forEach((part, index) => {
+      const [lit, broken, selected] = [chosen?.wheels.has(index), this.broken.has(index), index === this.selected];
+      const colour = new Color(broken ? BROKEN : this.base[index]);
+      if (lit) colour.lerp(new Color(chosen.colour), 0.8);
+      if (selected) colour.set(CHOSEN);
+      const plain = this.mode !== "plain" || broken || lit || selected; // what a colour says is not lost in a glint
+      part.paint({ colour, gloss: plain ? 0.35 : GLOSS, opacity: chosen && !lit && !selected ? GHOST : 1 });
+    });
+    const bodies = new Set([...(chosen?.wheels ?? [])].map((index) => this.scene.wheels[index].body));
+    const kept = ({ body, plate }) => !chosen || (bodies.has(body) && !plate);
+    for (const part of this.parts) this.palette.paint(part.slot, { opacity: kept(part) ? 1 : GHOST });
+  }
+
+  /** What stands before the middle, as seen along `front`, is out of the way: dials, then wheels; null: nothing is. */
+  hideBefore(front) {
+    this.front = front;
+    const heights = this.scene.wheels.map(({ centre }) => (front ? vector(centre).dot(front) : 0));
+    const [low, high] = [Math.min(...heights), Math.max(...heights)];
+    const before = ({ at }) => front !== null && at !== null && at.dot(front) > (low + high) / 2 + 1e-9;
+    const level = high - low < 1e-6; // all in one layer: only dials go
+    this.wheels.forEach((part) => part.show(level || !before(part), this.toothed));
+    for (const part of this.parts) if (part.dial !== undefined) this.palette.paint(part.slot, { shown: !before(part) });
+  }
+
+  showTeeth(toothed) {
+    this.toothed = toothed;
+    this.hideBefore(this.front);
+  }
+}

@@ -1,0 +1,52 @@
+// What everything is painted with: one slot for each thing that can change its look by itself.
+
+import { Color, DataTexture, NearestFilter, RGBAFormat, UnsignedByteType } from "three";
+
+const WIDTH = 256; // texels, two for each slot
+
+export class Palette {
+  constructor() {
+    this.looks = [];
+  }
+
+  /** A slot for something new. colour as text; gloss from 0, matt, to 1, polished */
+  slot(colour, gloss) {
+    this.looks.push({ colour: new Color(colour), gloss, opacity: 1, shown: true });
+    this.dispose();
+    return this.looks.length - 1;
+  }
+
+  /** look   any of colour (a Color), gloss, opacity, shown */
+  paint(slot, look) {
+    Object.assign(this.looks[slot], look);
+    this.stale = true;
+  }
+
+  /** True where something is half seen. */
+  get ghosts() {
+    return this.looks.some(({ opacity, shown }) => shown && opacity < 1);
+  }
+
+  /** Two texels a slot: colour and opacity (0 where it is hidden), then gloss. */
+  refresh() {
+    const height = Math.max(1, Math.ceil((2 * this.looks.length) / WIDTH));
+    if (!this.texture) {
+      this.texture = new DataTexture(new Uint8Array(4 * WIDTH * height), WIDTH, height, RGBAFormat, UnsignedByteType);
+      this.texture.minFilter = this.texture.magFilter = NearestFilter;
+    } else if (!this.stale) return this.texture;
+    const { data } = this.texture.image;
+    this.looks.forEach(({ colour, gloss, opacity, shown }, slot) => {
+      // roots of linear light, which keep the dark colours apart in eight bits
+      const [r, g, b] = [colour.r, colour.g, colour.b].map((part) => 255 * Math.sqrt(part));
+      data.set([r, g, b, shown ? 255 * opacity : 0, 255 * gloss], 8 * slot);
+    });
+    this.texture.needsUpdate = true;
+    this.stale = false;
+    return this.texture;
+  }
+
+  dispose() {
+    this.texture?.dispose();
+    this.texture = undefined;
+  }
+}

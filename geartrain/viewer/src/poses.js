@@ -1,0 +1,73 @@
+// Where the bodies of a train stand. Each is a node under the body that bears its axis, and is turned about its axis
+// by the angle its parent sees; taken apart, layers move along the direction of most wheels.
+
+import { Group, Vector3 } from "three";
+
+import { isParallel, vector } from "./space.js";
+
+const APART = 3; // how far layers move when taken apart, over their distance
+
+export class Poses {
+  /** main   the direction along which layers move; `middle`, what stays */
+  constructor(machine, main, middle) {
+    Object.assign(this, { machine, main, middle, share: 0 });
+    this.bodies = machine.scene.bodies;
+    this.root = new Group();
+    this.nodes = this.bodies.map(() => new Group());
+    this.nodes.forEach((node) => (node.matrixAutoUpdate = false));
+    this.bodies.forEach(({ parent }, index) => (parent === null ? this.root : this.nodes[parent]).add(this.nodes[index]));
+    this.shifts = this.bodies.map(() => new Vector3());
+    this.skewed = this.bodies.map((_, index) => this.isSkew(index));
+  }
+
+  /** True where a body's axis, or that of one that bears it, leaves the main direction: it moves as a whole. */
+  isSkew(index) {
+    const { parent, direction } = this.bodies[index];
+    return parent !== null && (!isParallel(direction, this.main.toArray()) || this.isSkew(parent));
+  }
+
+  /** Every node where its body stands now, and its matrix into `array`. */
+  turn(array) {
+    this.bodies.forEach((body, index) => {
+      if (body.parent === null) return;
+      const joint = this.machine.moves ? this.machine.joint(index) : 0;
+      const { matrix } = this.nodes[index];
+      const point = vector(body.point);
+      matrix.makeRotationAxis(vector(body.direction), joint);
+      matrix.setPosition(point.clone().applyMatrix4(matrix).negate().add(point).add(this.shifts[index]));
+    });
+    this.root.updateMatrixWorld(true);
+    this.nodes.forEach((node, index) => array.set(node.matrixWorld.elements, 16 * index));
+  }
+
+  /** Layers apart: 0 as they stand, 1 fully. */
+  explode(share) {
+    this.share = share;
+    this.bodies.forEach(({ parent }, index) => {
+      const own = this.skewed[index] && !this.skewed[parent] ? this.height(this.anchor(index)) : 0;
+      this.shifts[index].copy(this.main).multiplyScalar(share * own);
+    });
+  }
+
+  anchor(index) {
+    const own = this.machine.scene.wheels.filter(({ body }) => body === index).map(({ centre }) => vector(centre));
+    const sum = own.reduce((total, centre) => total.add(centre), new Vector3());
+    return own.length ? sum.divideScalar(own.length) : vector(this.bodies[index].point);
+  }
+
+  /** How far a point goes when all is fully apart. */
+  height(point) {
+    return APART * (point.dot(this.main) - this.middle.dot(this.main));
+  }
+
+  /** The same of a part of a body, within its body's frame; a bar, whose `at` is null, is stretched. */
+  lift(body, at) {
+    if (this.skewed[body]) return 0;
+    return at ? this.height(at) : (point) => this.height(point);
+  }
+
+  /** A point moved by a lift, as the picture is. */
+  apart(point, lift) {
+    return point.clone().addScaledVector(this.main, this.share * lift);
+  }
+}

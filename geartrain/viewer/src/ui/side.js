@@ -1,0 +1,73 @@
+// A side: a train, or a state of it, that can be shown, and its picture while it is.
+import { Fraction } from "../fraction.js";
+import { el } from "./element.js";
+import { decimal } from "./number.js";
+
+const NO_PICTURE = "This browser shows no 3D picture (WebGL). All else on this page holds.";
+
+export class Side {
+  constructor(app, index) {
+    this.app = app;
+    this.index = index;
+    this.scene = app.scenes[index];
+    this.machine = app.machines[index];
+    this.stage = null;
+    this.label = app.options?.compare ? this.scene.name : (this.scene.state ?? this.scene.name);
+    this.legend = el("div", {});
+    this.place = el("div", {});
+    const caption = el("figcaption", {}, el("span", { class: "caption" }, this.label), this.legend);
+    this.figure = el("figure", { class: "view", hidden: true }, this.place, caption);
+  }
+
+  /** Makes its picture; true where there was none. */
+  open() {
+    if (this.stage || this.blind) return false;
+    this.stage = this.app.open(this.index);
+    this.blind = !this.stage;
+    this.place.replaceChildren(this.stage?.canvas ?? el("p", { class: "nothing" }, NO_PICTURE));
+    if (this.stage) this.#name(this.stage.canvas);
+    return Boolean(this.stage);
+  }
+
+  #name(canvas) {
+    canvas.tabIndex = 0;
+    canvas.setAttribute("role", "img");
+    canvas.setAttribute("aria-label", `${this.label}, a picture that turns; the wheels are listed under Wheels`);
+  }
+
+  close() {
+    if (!this.stage) return;
+    this.app.close(this.index);
+    this.stage = null;
+    this.place.replaceChildren();
+  }
+
+  get movable() {
+    return this.scene.movement.kind !== "still" && this.scene.lead !== null;
+  }
+
+  /** Units of time of the input in one turn of its lead, and what they are: days, or a unit by name; null: no time. */
+  get #unit() {
+    const { step, unit, unit_days: days } = this.scene;
+    const turns = Fraction.parse(step);
+    if (!turns || turns.numerator === 0n || !unit) return null;
+    return days ? { name: "days", size: Fraction.of(days).over(turns) } : { name: unit, size: Fraction.of(1).over(turns) };
+  }
+
+  /** Turns of its lead for one turn of another's: in equal times where both have a unit, else as many. */
+  gearing(other) {
+    const [own, its] = [this.#unit, other.#unit];
+    return own && its && own.name === its.name ? its.size.over(own.size) : Fraction.of(1);
+  }
+
+  get lead() {
+    return this.scene.lead === null ? "the input" : this.scene.bodies[this.scene.lead].id;
+  }
+
+  /** What one turn of another side's lead is here, in words; nothing where that goes without saying. */
+  beside(other) {
+    const turns = this.gearing(other);
+    if (turns.equals(1) && this.lead === other.lead) return "";
+    return `${decimal(turns)} of ${this.lead} beside for each`;
+  }
+}

@@ -1,0 +1,82 @@
+"""The crank of the viewer in a browser: typed, stepped, dragged, played."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+import pytest
+from viewing import ANTIKYTHERA, SIMPLE, Opening, turns, wait
+
+from geartrain import load
+from geartrain.scene import make_scene
+
+
+def test_a_number_of_turns_is_typed_exactly_and_nonsense_is_refused(show: Opening) -> None:
+    shown = show(SIMPLE)
+    place = shown.page.get_by_label("Go to turn")
+    for text, value in (("235/19", Fraction(235, 19)), ("1e6", Fraction(10**6)), ("-2.5", Fraction(-5, 2))):
+        place.fill(text)
+        place.press("Enter")
+        assert turns(shown) == value
+        assert shown.page.get_by_role("alert").is_hidden()
+    for text in ("twelve", "1/0", "", "1e999999999", "<b>1</b>"):
+        place.fill(text)
+        place.press("Enter")
+        assert turns(shown) == Fraction(-5, 2), text
+        assert "no number of turns" in shown.page.get_by_role("alert").inner_text()
+        assert place.get_attribute("aria-invalid") == "true"
+    assert shown.errors == []
+
+
+def test_a_step_is_one_unit_of_the_input(show: Opening) -> None:
+    shown = show("clock-10000-years")
+    step = Fraction(make_scene(load("clock-10000-years")).step)
+    shown.page.get_by_label("one unit of the input forward").click(click_count=3)
+    assert turns(shown) == 3 * step
+    shown.page.get_by_label("one unit of the input back").click()
+    assert turns(shown) == 2 * step
+
+
+def test_dragging_the_wheel_turns_the_crank_as_far_as_the_hand_went(show: Opening) -> None:
+    shown = show(ANTIKYTHERA)
+    box = shown.page.get_by_role("slider", name="crank").bounding_box()
+    assert box is not None
+    x, y, reach = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2, 0.36 * box["width"]
+    shown.page.mouse.move(x, y - reach)
+    shown.page.mouse.down()
+    for dx, dy in ((0.7071, -0.7071), (1, 0), (0.7071, 0.7071), (0, 1)):
+        shown.page.mouse.move(x + dx * reach, y + dy * reach)
+    shown.page.mouse.up()
+    made = turns(shown)
+    shown.page.mouse.move(x - reach, y)
+    assert turns(shown) == made, "the hand has let go"
+    assert float(made) == pytest.approx(0.5 * 48 / 223, abs=2e-4)  # half a turn of a, clockwise
+
+
+def test_play_turns_and_pause_holds_and_tells_the_pointers(show: Opening) -> None:
+    shown = show(ANTIKYTHERA)
+    shown.page.get_by_role("button", name="play", exact=True).click()
+    wait(shown, "!String(geartrain.turns).startsWith('0')")
+    shown.page.get_by_role("button", name="pause", exact=True).click()
+    held = turns(shown)
+    wait(shown, "/turns; sun .*°, cell .*moon/.test(document.querySelector('[role=status]').textContent)")
+    assert turns(shown) == held > 0
+
+
+def test_reduced_motion_moves_by_jumps_of_a_second(show: Opening) -> None:
+    shown = show(SIMPLE, reduced_motion="reduce")
+    moves = shown.run(
+        """async () => {
+          const at = []; const began = performance.now(); let before = String(geartrain.turns);
+          document.querySelector('.round').click();
+          while (performance.now() - began < 2600) {
+            await new Promise(requestAnimationFrame);
+            const now = String(geartrain.turns);
+            if (now !== before) at.push(performance.now() - began);
+            before = now;
+          }
+          document.querySelector('.round').click();
+          return at; }"""
+    )
+    assert 1 <= len(moves) <= 2
+    assert moves[0] >= 950

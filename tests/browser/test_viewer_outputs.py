@@ -1,0 +1,91 @@
+"""Outputs of the viewer in a browser: their paths, their dials, their exact values."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from pathlib import Path
+
+import pytest
+from viewing import ANTIKYTHERA, Opening, tab, wait
+
+from geartrain import load
+
+# wheels by name, how much of them is seen and in which colour
+DRAWN = """geartrain.scenes[0].wheels.map(({ id }, k) => {
+  const { palette, wheels } = geartrain.stages[0].world;
+  const { opacity, colour } = palette.looks[wheels[k].own];
+  return [id, opacity, colour.getHexString()];
+})"""
+
+
+def needed(name: str, output: str, folder: Path) -> set[str]:
+    """Gears and couplings without which an output is not determined: each left out in turn, and all solved anew."""
+    declared = load(name).declaration
+    found = set()
+    for kind, ids in (
+        ("gears", [gear.id or "~".join(gear.pair) for gear in declared.gears]),
+        ("couplings", [c.id for c in declared.couplings]),
+    ):
+        for each in ids:
+            path = folder / "without.yaml"
+            path.write_text(f"name: without\nextends: {name}\nremove: {{{kind}: ['{each}']}}\n", encoding="utf-8")
+            if load(str(path)).solve().outputs[output].speed is None:
+                found.add(str(each))
+    return found
+
+
+@pytest.mark.parametrize("output", ["moon", "exeligmos"])
+def test_the_path_is_exactly_what_the_output_cannot_do_without(show: Opening, tmp_path: Path, output: str) -> None:
+    shown = show(ANTIKYTHERA)
+    tab(shown, "Outputs")
+    plain = {colour for _, _, colour in shown.run(DRAWN)}
+    shown.page.locator(f"tr[data-output='{output}'] th button").click()
+    listed = shown.run("[...document.querySelectorAll('.path [data-pair]')].map((each) => each.dataset.pair)")
+    expected = needed(ANTIKYTHERA, output, tmp_path)
+    assert len(listed) == len(set(listed))
+    assert set(listed) == expected
+    wheels = {
+        str(wheel)
+        for gear in load(ANTIKYTHERA).declaration.gears
+        if (gear.id or "~".join(gear.pair)) in expected
+        for wheel in gear.pair
+    }
+    lit = shown.run("[...geartrain.stages[0].world.looks.chosen.wheels].map((k) => geartrain.scenes[0].wheels[k].id)")
+    assert set(lit) == wheels
+    drawn = shown.run(DRAWN)
+    assert {wheel for wheel, opacity, _ in drawn if opacity == 1} == wheels, "all else is half seen"
+    assert {colour for wheel, _, colour in drawn if wheel in wheels}.isdisjoint(plain)
+    shown.page.keyboard.press("Escape")
+    assert shown.run("geartrain.stages[0].world.looks.chosen") is None
+    assert {opacity for _, opacity, _ in shown.run(DRAWN)} == {1}
+    assert shown.page.locator(".path").is_hidden()
+
+
+def test_dials_read_clockwise_what_fractions_say(show: Opening) -> None:
+    shown = show(ANTIKYTHERA)
+    train = load(ANTIKYTHERA)
+    solved = train.solve()
+    at = Fraction(100_003, 7)
+    shown.page.get_by_label("Go to turn").fill(str(at))
+    shown.page.keyboard.press("Enter")
+    hands = shown.run(
+        "Object.fromEntries([...document.querySelectorAll('.dial .hand')].map((h) => [h.dataset.output, "
+        "[Number(h.dataset.turns), Number(/rotate\\(([^)]+)/.exec(h.getAttribute('transform'))[1])]]))"
+    )
+    positive = 1 if train.declaration.view.positive == "clockwise" else -1
+    # the frame's front is seen as the view says; on the back all turns the other way about
+    for output in ("sun", "metonic", "games", "callippic", "saros", "exeligmos"):
+        dial = train.declaration.dials[str(train.declaration.outputs[output].dial)]
+        sense = positive if dial.face == "front" else -positive
+        read = sense * Fraction(solved[output]) * at % dial.turns
+        made, rotated = hands[output]
+        assert made == pytest.approx(float(read), abs=1e-9), output
+        assert rotated == pytest.approx(float(read % 1) * 360, abs=1e-5), output
+
+
+def test_an_exact_value_is_copied_by_a_click(show: Opening) -> None:
+    shown = show(ANTIKYTHERA, permissions=["clipboard-read", "clipboard-write"])
+    tab(shown, "Outputs")
+    shown.page.locator("tr[data-output='apsides'] button.copy").click()
+    wait(shown, "document.querySelector('[role=status]').textContent === '-477/4237 copied'")
+    assert shown.run("navigator.clipboard.readText()") == "-477/4237"

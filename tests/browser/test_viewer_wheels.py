@@ -1,0 +1,62 @@
+"""Wheels of the viewer in a browser: what is told of them, and what their colours mean."""
+
+from __future__ import annotations
+
+from viewing import ANTIKYTHERA, SIMPLE, Opening, tab
+
+from geartrain import load
+from geartrain.scene import make_scene
+
+# what each wheel is drawn with: what its body's slot of the palette holds
+PAINTED = """geartrain.scenes[0].wheels.map(({ status }, k) => {
+  const { palette, wheels } = geartrain.stages[0].world;
+  const { r, g, b } = palette.looks[wheels[k].own].colour.clone().convertLinearToSRGB();
+  return [status, `rgb(${[r, g, b].map((part) => Math.round(255 * part)).join(', ')})`];
+})"""
+
+
+def test_the_wheel_panel_tells_all_that_is_declared(show: Opening) -> None:
+    shown = show(ANTIKYTHERA)
+    tab(shown, "Wheels")
+    shown.page.get_by_label("find a wheel").fill("e5")
+    assert shown.page.locator(".wheels li:visible").count() == 1
+    shown.page.locator("[data-wheel='e5']").click()
+    text = shown.page.locator(".detail").inner_text()
+    for part in ("Wheel e5", "50", "surviving", "e5~k1", "e_table", "Nature 444", "\u2212254/19", "\u221213.368421"):
+        assert part in text, part
+    assert shown.run("geartrain.scenes[0].wheels[geartrain.stages[0].world.looks.selected].id") == "e5"
+
+
+def test_a_wheel_picked_in_the_picture_is_shown_in_the_panel(show: Opening) -> None:
+    shown = show(SIMPLE)
+    shown.run("geartrain.stages[0].onPick(1)")
+    wheel = make_scene(load(SIMPLE)).wheels[1]
+    assert f"Wheel {wheel.id}" in shown.page.locator(".detail").inner_text()
+
+
+def test_the_legend_of_the_status_counts_every_wheel_and_shows_its_colour(show: Opening) -> None:
+    shown = show(ANTIKYTHERA)
+    shown.page.get_by_label("Colours").select_option("status")
+    declared = [wheel.status for link in load(ANTIKYTHERA).declaration.links.values() for wheel in link.wheels.values()]
+    rows = shown.page.locator(".legend li")
+    told = {
+        row.inner_text(): row.locator(".swatch").evaluate("(s) => getComputedStyle(s).backgroundColor")
+        for row in rows.all()
+    }
+    painted = shown.run(PAINTED)
+    for status in ("surviving", "reconstructed"):
+        words = f"{status} ({declared.count(status)})"
+        assert {colour for each, colour in painted if each == status} == {told[words]}
+
+
+def test_losses_are_told_where_they_are_known(show: Opening) -> None:
+    shown = show("norton-compound")
+    shown.page.get_by_label("Colours").select_option("loss")
+    assert "of the power put in" in shown.page.locator(".legend").inner_text()
+    tab(shown, "Wheels")
+    wheel = next(wheel for wheel in make_scene(load("norton-compound")).wheels if wheel.loss)
+    shown.page.locator(f"[data-wheel='{wheel.id}']").click()
+    assert f"{100 * float(wheel.loss or 0):.3g} % of the power put in" in shown.page.locator(".detail").inner_text()
+    shown = show(SIMPLE)
+    shown.page.get_by_label("Colours").select_option("loss")
+    assert "declares no loads" in shown.page.locator(".legend").inner_text()

@@ -118,8 +118,16 @@ def test_an_output_hangs_on_the_pairs_whose_error_moves_it(data: dict[str, Any])
     moved = {name: _speeds(data, rows, at) for at, name in enumerate(names)}
     if not all(moved.values()):
         return  # an error in a pair that is redundant has no answer
+    swings = {
+        each.id: {name for name in names if moved[name][pin] - moved[name][carrier] != base[pin] - base[carrier]}
+        for each in scene.couplings
+        if each.kind == "pin_follower"
+        for pin, carrier in [(scene.bodies[each.pin].id, scene.bodies[each.carrier].id)]
+    }
     for pointer in scene.pointers:
         wanted = {name for name in names if moved[name][pointer.output] != base[pointer.output]}
+        for _ in swings:
+            wanted |= {name for follower in wanted & set(swings) for name in swings[follower]}
         assert set(pointer.pairs) == wanted
         assert len(pointer.pairs) == len(wanted)
 
@@ -260,3 +268,10 @@ def test_what_is_lost_at_wheels_sums_to_what_is_lost_between_teeth() -> None:
     lost = sum(float(each.loss) for each in torques.pairs.values()) / float(torques.power_in)
     assert lost > 0.01
     assert isclose(sum(wheel.loss or 0.0 for wheel in scene.wheels), lost, rel_tol=1e-12)
+
+
+def test_a_follower_hangs_on_what_turns_its_pin() -> None:
+    scene = make_scene(load("freeth-2021"))
+    paths = {pointer.output: set(pointer.pairs) for pointer in scene.pointers}
+    assert paths["venus"] == {"x51~spC44", "spC34~ve26", "ve26~r1", "venus"}
+    assert paths["mercury"] == {"x51~spA72", "spA89~me40", "me40~me20", "mercury"}

@@ -2,6 +2,7 @@
 
 An error in one pair is a right-hand side in its row. What it does to an output is the weight of that row in the one
 combination of rows that gives the output, so that one elimination of the transposed system answers for all outputs.
+A follower stands still in the mean whatever its pin does, and swings with it: what turns the pin counts too.
 """
 
 from __future__ import annotations
@@ -29,19 +30,38 @@ def find_paths(stage: Stage) -> Mapping[str, tuple[str, ...]]:
     if not stage.answer.verdict:
         return {}
     system = stage.train.equations(stage.answer.state)
-    ends = {name: _ends(stage, name) for name in stage.case.outputs}
+    circuits = {circuit.id: circuit for circuit in stage.train.circuits}
+    followers = [circuit for circuit in circuits.values() if circuit.kind == "pin_follower"]
+    ends = [_ends(stage, name) for name in stage.case.outputs]
+    ends += [_seen(stage, circuit.j, circuit.carrier) for circuit in followers]
     try:
-        weights = _weights(system, list(ends.values()))
+        weights = _weights(system, ends)
     except TooDenseError:
         return {}
-    circuits = {circuit.id: circuit for circuit in stage.train.circuits}
-    return {name: _ordered(stage, circuits, used) for name, used in zip(ends, weights, strict=True)}
+    swings = dict(zip((circuit.id for circuit in followers), weights[len(stage.case.outputs) :], strict=True))
+    return {
+        name: _ordered(stage, circuits, _with_swings(used, swings))
+        for name, used in zip(stage.case.outputs, weights, strict=False)
+    }
+
+
+def _with_swings(used: set[str], swings: Mapping[str, set[str]]) -> set[str]:
+    """Also what turns the pins of the followers that are used."""
+    found, left = set(used), set(swings)
+    while met := found & left:
+        left -= met
+        found.update(*(swings[name] for name in met))
+    return found
 
 
 def _ends(stage: Stage, name: str) -> dict[str, int]:
     """An output as a sum of declared speeds."""
     output = stage.case.outputs[name]
-    of, base = output.of or name, output.relative_to or stage.train.declaration.frame
+    return _seen(stage, output.of or name, output.relative_to or stage.train.declaration.frame)
+
+
+def _seen(stage: Stage, of: str, base: str) -> dict[str, int]:
+    """A link seen from another, as a sum of declared speeds."""
     found = {of: 1}
     found[base] = found.get(base, 0) - stage.sense(of) * stage.sense(base)
     return found

@@ -12,7 +12,7 @@ from typing import Any
 import mpmath as mp
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from smith import (
     Seen,
@@ -262,6 +262,7 @@ def test_63_is_what_the_sum_in_45_makes_with_its_sign_turned_and_the_difference_
         steps = [corrected_63(R1, wide, at[0], at[1], at[2] + k, mp.sqrt) for k in range(4)]
         assert abs(steps[0] - 2 * steps[1] + steps[2]) < 1e-30 * abs(steps[1]) + 1e-35
         bent = [printed_63(R1, wide, at[0], at[1], at[2] + k, mp.sqrt) for k in range(4)]
+        assume(bent[1])  # where nothing is lost there is nothing to bend
         assert abs(bent[0] - 2 * bent[1] + bent[2]) > 1e-12 * abs(bent[1])
 
 

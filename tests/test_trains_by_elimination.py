@@ -30,7 +30,9 @@ BEHIND_A_CORNER = {
     "freeth-2006": {"a"},
     "freeth-2008": {"a"},
     "freeth-2008-b224": {"a"},
+    "freeth-2008-doubt": {"a"},
     "freeth-2021": {"a", "ph1"},
+    "freeth-2021-cut": {"a", "ph1"},
     "freeth-2021-teeth": {"a", "ph1"},
     "freeth-jones-2012": {"a"},
     "freeth-jones-2012-shambaugh": {"a"},
@@ -145,7 +147,7 @@ def test_every_output_that_is_printed_in_the_file_is_expected_there(name: str) -
             result = train.solve(state).outputs[output]
             assert result.expect_holds is True or any(target.met for target in result.targets)
             written = body.get("expect") if isinstance(body, dict) else None
-            if isinstance(written, str) and "." not in written and not train.bookkeeping:
+            if isinstance(written, str) and written != "null" and "." not in written and not train.bookkeeping:
                 assert result.speed == Fraction(written.replace(":", "/"))
 
 

@@ -4,10 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import json as plain_json
-import os
-import sys
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -15,12 +12,10 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from geartrain.cli.common import GOOD, INTERRUPTED, VERDICT, File, Json, Out, StateName, as_json, emit, show, suffix_of
+from geartrain.cli.long_runs import csv_text, end, means
 from geartrain.cli.pictures import Plot, check_plot, draw_counts
 
 if TYPE_CHECKING:
-    from concurrent.futures import Executor
-
-    from geartrain.parallel import Journal
     from geartrain.uncertainty.counts import CountSweep
 
 Names = list[str] | None
@@ -80,10 +75,10 @@ def run(
         "seed": seed,
     }
     question = {"train": train.model_dump(mode="json"), **asked}
-    with _means(question, 1 if workers is None and scheduler is None else workers, scheduler, resume, out) as means:
-        executor, journal, tell = means
+    count = 1 if workers is None and scheduler is None else workers
+    with means("sweep", _kept(question, out), question, count, scheduler, resume) as (executor, journal, tell):
         found = sweep(train, **asked, executor=executor, journal=journal, tell=tell)
-        _end(journal, found.cut)
+        end(journal, found.cut)
     if plot is not None and found.best and not found.cut:
         held = {**asked, "most": 1}
         draw_counts(found, lambda one: sweep(train, **{**held, "free": {**asked["free"], **one}}), plot)
@@ -94,7 +89,7 @@ def _answer(found: CountSweep, json: bool, out: Path | None, suffix: str) -> Non
     from geartrain import report
 
     if suffix == ".csv":
-        emit(_csv(report.sweep_rows(found)), out)
+        emit(csv_text(report.sweep_rows(found)), out)
     elif suffix == ".parquet" and out is not None:
         _write_parquet(report.sweep_rows(found), out, {"train": found.name, "method": found.method})
     elif suffix == ".json":
@@ -146,68 +141,11 @@ def _share(text: str, option: str) -> Fraction:
     return found.base if found.base is not None else found.value
 
 
-@contextmanager
-def _means(
-    question: Mapping[str, Any], workers: int | None, scheduler: str | None, resume: bool, out: Path | None
-) -> Iterator[tuple[Executor | None, Journal | None, Callable[[int, int], None]]]:
-    """An executor, a journal and a progress bar. Where no file can be made, there is no journal."""
-    from rich.console import Console
-    from rich.progress import Progress
-
-    from geartrain.parallel import open_executor
-
-    plain = plain_json.loads(plain_json.dumps(question, default=str))
-    mark = hashlib.sha256(plain_json.dumps(plain["train"], sort_keys=True).encode()).hexdigest()[:8]
-    path = (out.parent if out else Path()) / f"sweep-{plain['train']['name']}-{mark}.partial.jsonl"
-    with (
-        open_executor(workers, scheduler) as executor,
-        _journal(path, plain, resume) as journal,
-        Progress(console=Console(stderr=True), transient=True, disable=not sys.stderr.isatty()) as progress,
-    ):
-        task = progress.add_task("sweep", total=None, visible=False)
-        yield (
-            executor,
-            journal,
-            lambda done, total: progress.update(task, completed=done, total=total or None, visible=total > 1),
-        )
-
-
-@contextmanager
-def _journal(path: Path, question: Mapping[str, Any], resume: bool) -> Iterator[Journal | None]:
-    from geartrain.parallel import Journal
-
-    if not resume and not os.access(path.parent, os.W_OK):
-        yield None
-        return
-    with Journal(path, question, resume=resume) as journal:
-        try:
-            yield journal
-        finally:
-            if not len(journal):  # nothing worth keeping
-                journal.finish()
-
-
-def _end(journal: Journal | None, cut: bool) -> None:
-    """A run that is whole needs no journal; for one that was cut, say where it can be taken up."""
-    if not cut:
-        if journal is not None:
-            journal.finish()
-    elif journal is not None and len(journal):
-        typer.echo(f"stopped; what is done is in {journal.path}: give the same command with --resume", err=True)
-    else:
-        typer.echo("stopped before anything was done that could be kept", err=True)
-
-
-def _csv(rows: Sequence[Mapping[str, Any]]) -> str:
-    import csv
-    import io
-
-    text = io.StringIO()
-    if rows:
-        writer = csv.DictWriter(text, list(rows[0]), lineterminator="\n")
-        writer.writeheader()
-        writer.writerows(rows)
-    return text.getvalue().rstrip("\n")
+def _kept(question: Mapping[str, Any], out: Path | None) -> Path:
+    """Where the journal of this sweep is."""
+    train = plain_json.loads(plain_json.dumps(question["train"], default=str))
+    mark = hashlib.sha256(plain_json.dumps(train, sort_keys=True).encode()).hexdigest()[:8]
+    return (out.parent if out else Path()) / f"sweep-{train['name']}-{mark}.partial.jsonl"
 
 
 def _write_parquet(rows: Sequence[Mapping[str, Any]], out: Path, about: Mapping[str, str]) -> None:

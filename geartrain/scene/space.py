@@ -2,19 +2,12 @@
 
 from __future__ import annotations
 
-from math import atan2, sqrt
+from math import atan2
 
-Vector = tuple[float, float, float]
+from geartrain.layout.result import Vector
+from geartrain.layout.vectors import across, cross, dot, minus, size
 
-
-def dot(u: Vector, v: Vector) -> float:
-    """Scalar product."""
-    return u[0] * v[0] + u[1] * v[1] + u[2] * v[2]
-
-
-def cross(u: Vector, v: Vector) -> Vector:
-    """Vector product."""
-    return u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]
+__all__ = ["Vector", "across", "azimuth", "beside", "cross", "dot", "minus", "plus", "scaled", "size", "unit"]
 
 
 def scaled(u: Vector, factor: float) -> Vector:
@@ -27,25 +20,10 @@ def plus(u: Vector, v: Vector, factor: float = 1.0) -> Vector:
     return u[0] + factor * v[0], u[1] + factor * v[1], u[2] + factor * v[2]
 
 
-def minus(u: Vector, v: Vector) -> Vector:
-    """From v to u."""
-    return u[0] - v[0], u[1] - v[1], u[2] - v[2]
-
-
-def size(u: Vector) -> float:
-    """Length."""
-    return sqrt(dot(u, u))
-
-
 def unit(u: Vector) -> Vector:
     """The same direction, of length 1; z where there is none."""
     length = size(u)
     return scaled(u, 1 / length) if length > 1e-12 else (0.0, 0.0, 1.0)
-
-
-def across(u: Vector, axis: Vector) -> Vector:
-    """The part of u at right angles to a unit vector."""
-    return plus(u, axis, -dot(u, axis))
 
 
 def beside(axis: Vector) -> Vector:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import hashlib
 import json
-import sys
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -15,11 +14,10 @@ from typing import TYPE_CHECKING, Any
 import typer
 
 from geartrain.cli.common import GOOD, INTERRUPTED, VERDICT, as_json, emit, show, suffix_of
+from geartrain.cli.long_runs import csv_text, means
 
 if TYPE_CHECKING:
-    from concurrent.futures import Executor
-
-    from geartrain.parallel import Journal
+    from geartrain.cli.long_runs import Means as Work
     from geartrain.report import Document
     from geartrain.synthesis.counts import Runs
 
@@ -109,7 +107,7 @@ class Asked:
             if each == ".json":
                 emit(as_json(data), out)
             elif each == ".csv":
-                emit(_csv(rows), out)
+                emit(csv_text(rows), out)
             else:
                 show([document()], out, each)
         if "interrupted" in str(data.get("ended", "")):
@@ -137,56 +135,13 @@ class Means:
     out: Path | None
 
     @contextmanager
-    def work(
-        self, question: Mapping[str, Any]
-    ) -> Iterator[tuple[Executor | None, Journal | None, Callable[[int, int], None]]]:
+    def work(self, question: Mapping[str, Any]) -> Iterator[Work]:
         """An executor, a journal and a progress bar for one search. Where no file can be made, there is no journal."""
-        from rich.console import Console
-        from rich.progress import Progress
-
-        from geartrain.parallel import open_executor
-
         plain = json.loads(json.dumps(question, default=str))
         mark = hashlib.sha256(json.dumps(plain, sort_keys=True).encode()).hexdigest()[:8]
         path = (self.out.parent if self.out else Path()) / f"teeth-{mark}.partial.jsonl"
-        with (
-            open_executor(self.workers, self.scheduler) as executor,
-            self._journal(path, plain) as journal,
-            Progress(console=Console(stderr=True), transient=True, disable=not sys.stderr.isatty()) as progress,
-        ):
-            task = progress.add_task("teeth", total=None, visible=False)
-            yield (
-                executor,
-                journal,
-                lambda done, total: progress.update(task, completed=done, total=total or None, visible=total > 1),
-            )
-
-    @contextmanager
-    def _journal(self, path: Path, question: Mapping[str, Any]) -> Iterator[Journal | None]:
-        import os
-
-        from geartrain.parallel import Journal
-
-        if not self.resume and not os.access(path.parent, os.W_OK):
-            yield None
-            return
-        with Journal(path, question, resume=self.resume) as journal:
-            try:
-                yield journal
-            finally:
-                if not len(journal):  # nothing worth keeping
-                    journal.finish()
-
-
-def end(journal: Journal | None, cut: bool) -> None:
-    """A search that is whole needs no journal; for one that was cut, say where it can be taken up."""
-    if not cut:
-        if journal is not None:
-            journal.finish()
-    elif journal is not None and len(journal):
-        typer.echo(f"stopped; what is done is in {journal.path}: give the same command with --resume", err=True)
-    else:
-        typer.echo("stopped before anything was done that could be kept", err=True)
+        with means("teeth", path, plain, self.workers, self.scheduler, self.resume) as found:
+            yield found
 
 
 def is_train(text: str) -> bool:
@@ -194,15 +149,3 @@ def is_train(text: str) -> bool:
     from geartrain.files import shipped
 
     return text.endswith(YAML) or text in shipped()
-
-
-def _csv(rows: Sequence[Mapping[str, Any]]) -> str:
-    import csv
-    import io
-
-    text = io.StringIO()
-    if rows:
-        writer = csv.DictWriter(text, list(rows[0]), lineterminator="\n")
-        writer.writeheader()
-        writer.writerows(rows)
-    return text.getvalue().rstrip("\n")

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from geartrain.cli.teeth.asking import Asked, Means, end
+from geartrain.cli.long_runs import end
+from geartrain.cli.teeth.asking import Asked, Means
 
 if TYPE_CHECKING:
     from geartrain.synthesis.stages.finding import StageFindings

@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 import typer
 
-from geartrain.cli.teeth.asking import Asked, Means, end
+from geartrain.cli.long_runs import end
+from geartrain.cli.teeth.asking import Asked, Means
 
 if TYPE_CHECKING:
     from geartrain.synthesis.trains.findings import Standing, TrainFindings

@@ -1,0 +1,83 @@
+"""What commands that may run for long share: an executor, a journal of what is done, a progress bar, how they end."""
+
+from __future__ import annotations
+
+import json
+import sys
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import typer
+
+if TYPE_CHECKING:
+    from concurrent.futures import Executor
+
+    from geartrain.parallel import Journal
+
+    Means = tuple[Executor | None, Journal | None, Callable[[int, int], None]]
+
+
+@contextmanager
+def means(
+    what: str, path: Path, question: Mapping[str, Any], workers: int | None, scheduler: str | None, resume: bool
+) -> Iterator[Means]:
+    """An executor, a journal at `path` and a progress bar; where no file can be made, there is no journal."""
+    from rich.console import Console
+    from rich.progress import Progress
+
+    from geartrain.parallel import open_executor
+
+    with (
+        open_executor(workers, scheduler) as executor,
+        _journal(path, json.loads(json.dumps(question, default=str)), resume) as journal,
+        Progress(console=Console(stderr=True), transient=True, disable=not sys.stderr.isatty()) as progress,
+    ):
+        task = progress.add_task(what, total=None, visible=False)
+        yield (
+            executor,
+            journal,
+            lambda done, total: progress.update(task, completed=done, total=total or None, visible=total > 1),
+        )
+
+
+@contextmanager
+def _journal(path: Path, question: Mapping[str, Any], resume: bool) -> Iterator[Journal | None]:
+    import os
+
+    from geartrain.parallel import Journal
+
+    if not resume and not os.access(path.parent, os.W_OK):
+        yield None
+        return
+    with Journal(path, question, resume=resume) as journal:
+        try:
+            yield journal
+        finally:
+            if not len(journal):  # nothing worth keeping
+                journal.finish()
+
+
+def end(journal: Journal | None, cut: bool) -> None:
+    """A run that is whole needs no journal; for one that was cut, say where it can be taken up."""
+    if not cut:
+        if journal is not None:
+            journal.finish()
+    elif journal is not None and len(journal):
+        typer.echo(f"stopped; what is done is in {journal.path}: give the same command with --resume", err=True)
+    else:
+        typer.echo("stopped before anything was done that could be kept", err=True)
+
+
+def csv_text(rows: Sequence[Mapping[str, Any]]) -> str:
+    """Rows as CSV with a header; empty without rows."""
+    import csv
+    import io
+
+    text = io.StringIO()
+    if rows:
+        writer = csv.DictWriter(text, list(rows[0]), lineterminator="\n")
+        writer.writeheader()
+        writer.writerows(rows)
+    return text.getvalue().rstrip("\n")

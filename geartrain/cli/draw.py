@@ -8,7 +8,7 @@ from typing import Annotated, Literal
 
 import typer
 
-from geartrain.cli.common import GOOD, PICTURES, VERDICT, File, file_name, may_write, sound, suffix_of
+from geartrain.cli.common import PICTURES, VERDICT, File, file_name, may_write, sound, suffix_of
 from geartrain.cli.common import draw as write_figure
 
 
@@ -41,10 +41,12 @@ def run(
 
     figure = picture(train, kind, state, turned, labels, tuple(output or ()))
     write_figure(figure, out, suffix or ".svg")
+    if sound(train, state):
+        return
     verdict = train.solve(state if state is not None or not train.states else train.states[0]).verdict
     if not verdict:
         typer.echo(f"the train is {verdict}", err=True)
-    raise typer.Exit(GOOD if sound(train, state) else VERDICT)
+    raise typer.Exit(VERDICT)
 
 
 def _number(text: str) -> Fraction:

@@ -6,7 +6,20 @@ from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
 
-from geartrain.cli.common import GOOD, VERDICT, Files, Json, Out, as_json, emit, load_all, may_write, show, suffix_of
+from geartrain.cli.common import (
+    GOOD,
+    VERDICT,
+    Files,
+    Json,
+    Out,
+    as_json,
+    emit,
+    load_all,
+    may_write,
+    show,
+    sound,
+    suffix_of,
+)
 from geartrain.errors import GearTrainError, MissingExtraError
 
 if TYPE_CHECKING:
@@ -33,8 +46,7 @@ def run(
     trains = load_all(files)
     if out is not None and suffix == ".html" and not json:
         may_write(out, force)
-    sound = all(answer for train in trains for answer in train.answers())
-    sound = sound and not any(mesh.fault for train in trains for mesh in train.meshes)
+    good = all(sound(train, state) for train in trains for state in train.states or (None,))
     if json or suffix == ".json":
         data = [report.train_data(train) for train in trains]
         emit(as_json(data[0] if len(data) == 1 else data), out)
@@ -42,7 +54,7 @@ def run(
         emit(report.to_html([_shared(train, view) for train in trains]), out)
     else:
         show([report.report_train(train) for train in trains], out, suffix)
-    raise typer.Exit(GOOD if sound else VERDICT)
+    raise typer.Exit(GOOD if good else VERDICT)
 
 
 def _shared(train: GearTrain, view: bool) -> Document:

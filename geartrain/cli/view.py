@@ -8,14 +8,13 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from geartrain.cli.common import GOOD, VERDICT, File, StateName, file_name, load_all, may_write, plural
+from geartrain.cli.common import GOOD, VERDICT, File, StateName, file_name, load_all, may_write, plural, sound
 from geartrain.errors import Problem, QuestionError
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from geartrain.analysis import GearTrain
-    from geartrain.scene import Scene
 
 Other = Annotated[str | None, typer.Argument(help="Another train, to stand beside the first.", metavar="[FILE2]")]
 Page = Annotated[Path | None, typer.Option("--output-file", "-o", help="The page; default NAME.html in this folder.")]
@@ -39,17 +38,15 @@ def run(
     path = out or file_name("-".join(train.name for train in trains), ".html")
     _check_suffix(path)
     may_write(path, force)
-    shown = [
-        (train, make_scene(train, each)) for train in trains for each in _states(train, state, first=other is not None)
-    ]
-    scenes = [scene for _, scene in shown]
+    shown = [(train, each) for train in trains for each in _states(train, state, first=other is not None)]
+    scenes = [make_scene(train, each) for train, each in shown]
     text = page(scenes, compare=other is not None, teeth=teeth)
     write_text(path, text)
     size = len(text.encode("utf-8"))
     typer.echo(f"wrote {path}: {plural(len(scenes), 'scene')}, {size / 1000:,.0f} kB", err=True)
     if open_it and not webbrowser.open(path.resolve().as_uri()):
         typer.echo("no browser could be started here; open the file by hand", err=True)
-    raise typer.Exit(GOOD if all(_sound(train, scene) for train, scene in shown) else VERDICT)
+    raise typer.Exit(GOOD if all(sound(train, each) for train, each in shown) else VERDICT)
 
 
 def _states(train: GearTrain, state: str | None, first: bool) -> Sequence[str | None]:
@@ -58,11 +55,6 @@ def _states(train: GearTrain, state: str | None, first: bool) -> Sequence[str | 
         return (state,)
     names = train.states or (None,)
     return names[:1] if first else names
-
-
-def _sound(train: GearTrain, scene: Scene) -> bool:
-    """As in a report: all is determined and as expected, and the teeth can turn."""
-    return bool(train.solve(scene.state)) and not any(pair.broken for pair in scene.pairs)
 
 
 def _check_suffix(path: Path) -> None:

@@ -4,16 +4,15 @@ from __future__ import annotations
 
 import hashlib
 import json as plain
-import os
-import sys
 from collections.abc import Callable, Iterator, Mapping
-from contextlib import ExitStack, contextmanager, suppress
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from geartrain.cli.common import INTERRUPTED, File, Json, Out, StateName, as_json, emit, show, suffix_of
+from geartrain.cli.long_runs import means
 from geartrain.cli.pictures import Picture, Plot, check_plot, draw_findings, mapped
 
 if TYPE_CHECKING:
@@ -65,7 +64,10 @@ def run(
     chance = _chance(jam)
     plan = find_plan(load(file), read_settings(set_ or ()), output or (), state, without or ())
     _check_extras(sobol)
-    with _work(question(plan, seed, trials), _Asked(workers, scheduler, resume, out)) as work:
+    asked_of = question(plan, seed, trials)
+    count = 1 if workers is None and scheduler is None else workers
+    with means("trials", _kept(asked_of, out), asked_of, count, scheduler, resume) as given:
+        work = _Work(*given)
         found = _trials(plan, trials, seed, work, out if suffix in TABLES else None)
         if not found.complete:
             work.stopped(found.done, trials)
@@ -165,16 +167,8 @@ class _Studies:
         )
 
 
-class _Asked:
-    """Who does the work, and where what is done is kept."""
-
-    def __init__(self, workers: int | None, scheduler: str | None, resume: bool, out: Path | None) -> None:
-        self.workers = 1 if workers is None and scheduler is None else workers
-        self.scheduler, self.resume, self.out = scheduler, resume, out
-
-
 class _Work:
-    """An executor, a journal and a progress bar."""
+    """An executor, a journal and what is told of progress."""
 
     def __init__(self, executor: Executor | None, journal: Journal | None, tell: Callable[[int, int], None]) -> None:
         self.executor, self.journal, self.tell = executor, journal, tell
@@ -203,40 +197,10 @@ class _Work:
             self.journal.finish()
 
 
-@contextmanager
-def _work(question: Mapping[str, Any], asked: _Asked) -> Iterator[_Work]:
-    from rich.console import Console
-    from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
-
-    from geartrain.parallel import Journal, open_executor
-
+def _kept(question: Mapping[str, Any], out: Path | None) -> Path:
+    """Where the journal of these trials is."""
     mark = hashlib.sha256(plain.dumps(question, sort_keys=True).encode()).hexdigest()[:8]
-    path = (asked.out.parent if asked.out else Path()) / f"errors-{mark}.partial.jsonl"
-    columns = (TextColumn("trials"), BarColumn(), TextColumn("{task.percentage:>3.0f} %"), TimeElapsedColumn())
-    bar = Progress(
-        *columns,
-        TimeRemainingColumn(),
-        console=Console(stderr=True),
-        transient=True,
-        disable=not sys.stderr.isatty(),
-    )
-    with ExitStack() as stack:
-        executor = stack.enter_context(open_executor(asked.workers, asked.scheduler))
-        journal: Journal | None = None
-        if asked.resume or os.access(path.parent, os.W_OK):
-            journal = stack.enter_context(Journal(path, question, resume=asked.resume))
-        progress = stack.enter_context(bar)
-        task = progress.add_task("trials", total=None, visible=False)
-        work = _Work(
-            executor,
-            journal,
-            lambda done, total: progress.update(task, completed=done, total=total or None, visible=total > 1),
-        )
-        try:
-            yield work
-        finally:
-            if journal is not None and not journal.closed and not len(journal):  # nothing worth keeping
-                journal.finish()
+    return (out.parent if out else Path()) / f"errors-{mark}.partial.jsonl"
 
 
 @contextmanager

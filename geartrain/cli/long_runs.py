@@ -25,14 +25,15 @@ def means(
 ) -> Iterator[Means]:
     """An executor, a journal at `path` and a progress bar; where no file can be made, there is no journal."""
     from rich.console import Console
-    from rich.progress import Progress
+    from rich.progress import Progress, TimeElapsedColumn
 
     from geartrain.parallel import open_executor
 
+    columns = (*Progress.get_default_columns(), TimeElapsedColumn())
     with (
         open_executor(workers, scheduler) as executor,
         _journal(path, json.loads(json.dumps(question, default=str)), resume) as journal,
-        Progress(console=Console(stderr=True), transient=True, disable=not sys.stderr.isatty()) as progress,
+        Progress(*columns, console=Console(stderr=True), transient=True, disable=not sys.stderr.isatty()) as progress,
     ):
         task = progress.add_task(what, total=None, visible=False)
         yield (
@@ -55,7 +56,7 @@ def _journal(path: Path, question: Mapping[str, Any], resume: bool) -> Iterator[
         try:
             yield journal
         finally:
-            if not len(journal):  # nothing worth keeping
+            if not journal.closed and not len(journal):  # nothing worth keeping
                 journal.finish()
 
 

@@ -7,6 +7,7 @@ import os
 import re
 import sys
 from collections.abc import Iterable, Sequence
+from fractions import Fraction
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -146,6 +147,19 @@ def _trouble(path: Path) -> Problem | None:
 
 def _unnamed(path: Path, why: str) -> Problem:
     return Problem("this is no name for a file", why, "choose a shorter or plainer name", repr(str(path)))
+
+
+def share(text: str, option: str) -> Fraction:
+    """A plain number, a percentage or ppm, as an option gives it; exact."""
+    from pydantic_core import PydanticCustomError
+
+    from geartrain.quantity import Quantity
+
+    try:
+        found = Quantity.parse(text, "fraction", plain=True)
+    except PydanticCustomError as error:
+        raise typer.BadParameter(error.message(), param_hint=option) from None
+    return found.base if found.base is not None else found.value
 
 
 def plural(count: int, noun: str) -> str:

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from geartrain.cli.common import INTERRUPTED, File, Json, Out, StateName, as_json, emit, show, suffix_of
+from geartrain.cli.common import INTERRUPTED, File, Json, Out, StateName, as_json, emit, share, show, suffix_of
 from geartrain.cli.long_runs import means
 from geartrain.cli.pictures import Picture, Plot, check_plot, draw_findings, mapped
 
@@ -61,7 +61,7 @@ def run(
     check_trials(trials)
     check_plot(plot, picture)
     sweep = read_clearances(clearance) if clearance else []
-    chance = _chance(jam)
+    chance = float(share(jam, "--jam"))
     plan = find_plan(load(file), read_settings(set_ or ()), output or (), state, without or ())
     _check_extras(sobol)
     asked_of = question(plan, seed, trials)
@@ -83,17 +83,6 @@ def run(
         draw_findings(drawn, picture, plot)
     if findings is None:
         raise typer.Exit(INTERRUPTED)
-
-
-def _chance(text: str) -> float:
-    from pydantic_core import PydanticCustomError
-
-    from geartrain.quantity import Quantity
-
-    try:
-        return float(Quantity.parse(text, "fraction", plain=True).base or 0)
-    except PydanticCustomError as error:
-        raise typer.BadParameter(error.message(), param_hint="--jam") from None
 
 
 def _check_extras(sobol: bool) -> None:

@@ -5,13 +5,25 @@ from __future__ import annotations
 import hashlib
 import json as plain_json
 from collections.abc import Mapping, Sequence
-from fractions import Fraction
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from geartrain.cli.common import GOOD, INTERRUPTED, VERDICT, File, Json, Out, StateName, as_json, emit, show, suffix_of
+from geartrain.cli.common import (
+    GOOD,
+    INTERRUPTED,
+    VERDICT,
+    File,
+    Json,
+    Out,
+    StateName,
+    as_json,
+    emit,
+    share,
+    show,
+    suffix_of,
+)
 from geartrain.cli.long_runs import csv_text, end, means
 from geartrain.cli.pictures import Plot, check_plot, draw_counts
 
@@ -64,9 +76,9 @@ def run(
         "state": state,
         "free": _read_free(free or ()),
         "outputs": tuple(output or ()),
-        "tolerance": None if tolerance is None else _share(tolerance, "--tolerance"),
+        "tolerance": None if tolerance is None else share(tolerance, "--tolerance"),
         "against": against,
-        "scale": _share(scale, "--scale"),
+        "scale": share(scale, "--scale"),
         "soft": soft,
         "method": method,
         "most": most,
@@ -126,19 +138,6 @@ def _run(text: str) -> Sequence[int]:
     if ends[1] - ends[0] > 10**6:
         raise typer.BadParameter(f"the range {text} is too wide", param_hint="--free")
     return range(ends[0], ends[1] + 1)
-
-
-def _share(text: str, option: str) -> Fraction:
-    """A relative error, or a factor."""
-    from pydantic_core import PydanticCustomError
-
-    from geartrain.quantity import Quantity
-
-    try:
-        found = Quantity.parse(text, "fraction", plain=True)
-    except PydanticCustomError as error:
-        raise typer.BadParameter(error.message(), param_hint=option) from None
-    return found.base if found.base is not None else found.value
 
 
 def _kept(question: Mapping[str, Any], out: Path | None) -> Path:

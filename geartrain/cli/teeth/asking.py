@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 import typer
 
-from geartrain.cli.common import GOOD, INTERRUPTED, VERDICT, as_json, emit, show, suffix_of
+from geartrain.cli.common import GOOD, INTERRUPTED, VERDICT, as_json, emit, share, show, suffix_of
 from geartrain.cli.long_runs import csv_text, means
 
 if TYPE_CHECKING:
@@ -49,20 +49,12 @@ class Asked:
     @property
     def tolerance(self) -> Fraction | None:
         """The greatest relative error."""
-        from pydantic_core import PydanticCustomError
-
-        from geartrain.quantity import Quantity
-
         if self.tolerance_text is None:
             return None
-        try:
-            found = Quantity.parse(self.tolerance_text, "fraction", plain=True)
-        except PydanticCustomError as error:
-            raise typer.BadParameter(error.message(), param_hint="--tolerance") from None
-        share = found.base if found.base is not None else found.value
-        if not 0 <= share <= _WIDEST:
+        found = share(self.tolerance_text, "--tolerance")
+        if not 0 <= found <= _WIDEST:
             raise typer.BadParameter(f"a relative error is from 0 to {_WIDEST:.0e}", param_hint="--tolerance")
-        return share
+        return found
 
     @property
     def counts(self) -> Runs:

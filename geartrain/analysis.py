@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, Literal
 from geartrain.answer import Accuracy, Answer
 from geartrain.circuits import Circuit, Tree, bookkeeping_links, find_circuits, find_tree, link_signs
 from geartrain.components import Part, Reduced, prune
-from geartrain.errors import Problem, QuestionError, Verdict
+from geartrain.errors import DeclarationError, Problem, QuestionError, Verdict
 from geartrain.exact import TooDenseError
 from geartrain.outputs import Number, Sensitivity, judge_outputs, sensitivity
 from geartrain.speeds import EXACT_BUDGET, Mobility, exact_verdict, find_mobility, solve
@@ -47,7 +47,14 @@ class GearTrain:
 
     @classmethod
     def declare(cls, data: Mapping[str, Any]) -> GearTrain:
-        """A train from plain data, with the keys of the YAML declaration. Raises `DeclarationError`."""
+        """A train from plain data, with the keys of the YAML declaration. Raises `DeclarationError`.
+
+        Data that say `extends` are for `geartrain.load`, which knows where the parents are.
+        """
+        for key in ("extends", "remove"):
+            if key in data:
+                why = "the train it changes is looked up where files are"
+                raise DeclarationError(Problem(f"`{key}` is not read here", why, "use `geartrain.load(data)`", key))
         return cls(declare(data))
 
     @property

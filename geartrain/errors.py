@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from fractions import Fraction
+from itertools import islice
 from typing import Any, Literal
 
 Loc = tuple[str | int, ...]
@@ -41,11 +42,30 @@ class Problem:
         return "\n".join(lines)
 
 
+MOST_TOLD = 20
+"""Problems told at once: who has mended these sees the rest."""
+
+
+def first_problems(problems: Iterable[Problem], count: int | None = None) -> tuple[Problem, ...]:
+    """The first `MOST_TOLD` of some problems, and one that says how many more there are (of `count` in all, if known).
+
+    An iterator is not asked for more than it takes to know that there are more.
+    """
+    if count is None and isinstance(problems, list | tuple):
+        count = len(problems)
+    told = tuple(islice(problems, MOST_TOLD + 2))
+    if len(told) <= MOST_TOLD + 1:  # one more is told sooner than said
+        return told
+    more = "more problems were found" if count is None else f"{count - MOST_TOLD} more problems were found"
+    rest = Problem(f"and {more}", f"only the first {MOST_TOLD} are told", "mend these, and ask again")
+    return (*told[:MOST_TOLD], rest)
+
+
 class GearTrainError(Exception):
-    """Input that cannot be read or used; carries every problem that could be collected."""
+    """Input that cannot be read or used; carries the first `MOST_TOLD` of the problems that could be collected."""
 
     def __init__(self, problems: Problem | Iterable[Problem]) -> None:
-        self.problems = (problems,) if isinstance(problems, Problem) else tuple(problems)
+        self.problems = (problems,) if isinstance(problems, Problem) else first_problems(problems)
         super().__init__("\n".join(str(p) for p in self.problems))
 
 

@@ -11,7 +11,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from geartrain import GearTrainError, load
+from geartrain import GearTrainError, errors, load
+from geartrain.files import nodes
+from geartrain.train import explain, references
 
 Refuse = Callable[..., GearTrainError]
 
@@ -216,6 +218,60 @@ def test_an_alias_bomb_is_refused_before_it_goes_off(refused: Refuse) -> None:
     lines = ["a0: &a0 [lol, lol, lol, lol, lol, lol, lol, lol, lol, lol]"]
     lines += [f"a{at}: &a{at} [{', '.join([f'*a{at - 1}'] * 10)}]" for at in range(1, 12)]
     refused("\n".join(lines) + "\n", "aliases expand without bound")
+
+
+MANY = 30_000
+WRONG = {
+    "entries that are no mappings": "links: {frame: {}}\ngears: [" + "1," * MANY + "]",
+    "no tooth counts": "links: {frame: {wheels: {" + "".join(f"w{at}: x," for at in range(MANY)) + "}}}",
+    "unknown keys": "links: {frame: {}}\n" + "".join(f"k{at}: 1\n" for at in range(MANY)),
+    "keys twice": "links: {frame: {}}\nsources: {" + "a: b," * MANY + "}",
+    "dangling names": "links: {frame: {}}\nfixed: [" + ",".join(f"x{at}" for at in range(MANY)) + "]",
+    "weights": "links: {frame: {wheels: {a: {teeth: {value: 5, choices: [5, 6], weights: [" + "x," * MANY + "]}}}}}",
+    "wrong at the end": "links: {frame: {}}\ngears: [" + "{pair: [a, b]}," * 500 + "1," * MANY + "]",
+    "wrong pairs": "links: {frame: {}}\nrevolutes: [" + "{pair: [a]}," * MANY + "]",
+}
+
+
+@pytest.mark.parametrize("kind", WRONG)
+def test_a_file_that_is_wrong_many_times_is_told_at_most_twenty_and_that_there_is_more(
+    kind: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    made = []
+
+    class Counted(errors.Problem):
+        def __init__(self, *args: str) -> None:
+            super().__init__(*args)
+            made.append(self)
+
+    for module in (explain, nodes, references):
+        monkeypatch.setattr(module, "Problem", Counted)
+    with pytest.raises(GearTrainError) as caught:
+        load(WRONG[kind] + "\n")
+    problems = caught.value.problems
+    assert 1 <= len(problems) <= 21
+    assert len(problems) == 1 or "more problems were found" in str(problems[-1])
+    assert len(made) < 60  # and no more were put into words
+
+
+def test_how_many_more_problems_there_are_is_said_where_they_are_counted() -> None:
+    text = "links: {frame: {}}\ngears: [" + "1," * 1000 + "]\n"
+    with pytest.raises(GearTrainError, match="and 980 more problems were found"):
+        load(text)
+
+
+def test_a_file_of_more_values_than_a_train_has_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(nodes, "MOST_VALUES", 1000)
+    with pytest.raises(GearTrainError, match="the file is too large"):
+        load("links: {frame: {}}\nfixed: [" + "a," * 1000 + "]\n")
+
+
+def test_only_regular_files_are_read(tmp_path: Path) -> None:
+    pipe = tmp_path / "pipe.yaml"
+    os.mkfifo(pipe)
+    for path in (pipe, Path("/dev/zero"), Path("/dev/null")):
+        with pytest.raises(GearTrainError, match="this is no regular file"):
+            load(path)
 
 
 def test_aliases_in_reason_are_welcome() -> None:

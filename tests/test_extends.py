@@ -7,8 +7,10 @@ from fractions import Fraction
 from pathlib import Path
 
 import pytest
+import yaml
 
 from geartrain import GearTrain, GearTrainError, load
+from geartrain.files import shipped
 
 PARENT = """\
 name: parent
@@ -288,3 +290,53 @@ def test_a_parent_of_the_wrong_shape_is_refused_and_never_crashes(tmp_path: Path
     path.write_text(f"extends: odd.yaml\n{text}\n", encoding="utf-8")
     with pytest.raises(GearTrainError):
         load(path)
+
+
+def test_plain_data_extend_a_train_as_a_file_does(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (tmp_path / "parent.yaml").write_text(PARENT, encoding="utf-8")
+    monkeypatch.chdir(tmp_path)
+    text = "extends: parent.yaml\nremove: {outputs: [b]}\nlinks: {b: {wheels: {x: 20}}}\noutputs: {last: {expect: 2}}\n"
+    data = yaml.safe_load(text)
+    from_text, from_data = load(text), load(data)
+    assert from_data.declaration.model_dump() == from_text.declaration.model_dump()
+    assert from_data.solve()["last"] == from_text.solve()["last"] == 2
+    assert load({"extends": "planetary-24-18-60", "inputs": {"sun": 7}}).solve()["carrier"] == 2
+
+
+def test_a_mistake_in_plain_data_that_extend_a_file_has_its_path(tmp_path: Path) -> None:
+    (tmp_path / "parent.yaml").write_text(PARENT, encoding="utf-8")
+    with pytest.raises(GearTrainError, match=r"links\.b\.wheels\.w.*is not a tooth count"):
+        load({"extends": str(tmp_path / "parent.yaml"), "links": {"b": {"wheels": {"w": 0}}}})
+
+
+def test_data_that_extend_a_train_are_refused_where_no_files_are_known() -> None:
+    with pytest.raises(GearTrainError, match=r"use `geartrain\.load\(data\)`"):
+        GearTrain.declare({"extends": "planetary-24-18-60"})
+
+
+def test_a_removal_from_nothing_is_refused() -> None:
+    with pytest.raises(GearTrainError, match="`remove` without `extends`"):
+        load(PARENT + "remove: {outputs: [b]}\n")
+
+
+def test_a_chain_of_fifteen_hundred_parents_is_read(tmp_path: Path) -> None:
+    (tmp_path / "t0.yaml").write_text(PARENT, encoding="utf-8")
+    for at in range(1, 1501):
+        (tmp_path / f"t{at}.yaml").write_text(f"extends: t{at - 1}.yaml\ninputs: {{a: {at}}}\n", encoding="utf-8")
+    assert load(tmp_path / "t1500.yaml").solve()["a"] == 1500
+
+
+def test_a_chain_of_parents_without_end_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("geartrain.files.loading._MOST_PARENTS", 3)
+    (tmp_path / "t0.yaml").write_text(PARENT, encoding="utf-8")
+    for at in range(1, 6):
+        (tmp_path / f"t{at}.yaml").write_text(f"extends: t{at - 1}.yaml\n", encoding="utf-8")
+    assert load(tmp_path / "t3.yaml").solve()
+    with pytest.raises(GearTrainError, match="the chain of `extends` is too long"):
+        load(tmp_path / "t5.yaml")
+
+
+def test_the_catalogue_of_shipped_trains_cannot_be_emptied() -> None:
+    with pytest.raises(AttributeError):
+        shipped().clear()  # type: ignore[attr-defined]
+    assert "planetary" in shipped()

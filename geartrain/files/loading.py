@@ -6,15 +6,18 @@ from collections.abc import Mapping
 from difflib import get_close_matches
 from functools import cache
 from pathlib import Path
+from stat import S_ISDIR, S_ISREG
+from types import MappingProxyType
 from typing import Any
 
 from geartrain.analysis import GearTrain
 from geartrain.errors import DeclarationError, Problem
 from geartrain.files.merging import merged
-from geartrain.files.nodes import Node, parse
+from geartrain.files.nodes import Node, from_plain, parse
 from geartrain.train import Train, declare
 
 _MOST_BYTES = 64 * 2**20
+_MOST_PARENTS = 2000
 
 
 @cache
@@ -22,7 +25,7 @@ def shipped() -> Mapping[str, Path]:
     """The trains that come with geartrain, by name."""
     package = Path(__file__).resolve().parent.parent
     home = next((folder for folder in (package / "trains", package.parent / "trains") if folder.is_dir()), None)
-    return {path.stem: path for path in sorted(home.rglob("*.yaml"))} if home else {}
+    return MappingProxyType({path.stem: path for path in sorted(home.rglob("*.yaml"))} if home else {})
 
 
 def load(source: str | Path | Mapping[str, Any]) -> GearTrain:
@@ -42,7 +45,9 @@ def read_declaration(source: str | Path | Mapping[str, Any]) -> Train:
     Raises `DeclarationError`.
     """
     if isinstance(source, Mapping):
-        return declare(source)
+        if "extends" not in source and "remove" not in source:
+            return declare(source)
+        return _build(from_plain(source), Path.cwd(), (), "train")
     if isinstance(source, str) and "\n" in source:
         return _build(parse(source, "text"), Path.cwd(), (), "train")
     path = _find(source)
@@ -57,17 +62,26 @@ def _build(root: Node, folder: Path, chain: tuple[Path, ...], stem: str) -> Trai
 
 
 def _with_parents(child: Node, folder: Path, chain: tuple[Path, ...]) -> Node:
-    """The child laid over its parent, over its parent's parent, and so on."""
-    if "extends" not in child.mapping:
-        return child
-    place = child.place_of(("extends",))
-    name = child.mapping["extends"].text
-    path = _parent(name, folder, place)
-    if path.resolve() in chain:
-        loop = " -> ".join(step.name for step in (*chain, path))
-        raise DeclarationError(Problem("`extends` goes round in a circle", loop, "let one of them stand alone", place))
-    parent = parse(_read(path), str(path))
-    return merged(_with_parents(parent, path.parent, (*chain, path.resolve())), child)
+    """The child laid over its parent, which is laid over its own before."""
+    line, met = [child], dict.fromkeys(chain)
+    while "extends" in line[-1].mapping:
+        place = line[-1].place_of(("extends",))
+        path = _parent(line[-1].mapping["extends"].text, folder, place)
+        if path.resolve() in met:
+            loop = " -> ".join(step.name for step in (*met, path))
+            raise DeclarationError(
+                Problem("`extends` goes round in a circle", loop, "let one of them stand alone", place)
+            )
+        met[path.resolve()] = None
+        folder = path.parent
+        line.append(parse(_read(path), str(path)))
+        if len(line) > _MOST_PARENTS + 1:
+            why = f"a train may change another one that changes another one, {_MOST_PARENTS} at most"
+            raise DeclarationError(Problem("the chain of `extends` is too long", why, "write one of them out", place))
+    result = line.pop()
+    while line:
+        result = merged(result, line.pop())
+    return result
 
 
 def _parent(name: str, folder: Path, place: str) -> Path:
@@ -117,7 +131,11 @@ def _near(name: str, known: Any) -> str:
 def _read(path: Path) -> str:
     place = str(path)
     try:
-        if path.stat().st_size > _MOST_BYTES:
+        status = path.stat()
+        if not S_ISREG(status.st_mode) and not S_ISDIR(status.st_mode):
+            why = "a device or a pipe may have no end, and is read once"
+            raise DeclarationError(Problem("this is no regular file", why, "save the declaration as a file", place))
+        if status.st_size > _MOST_BYTES:
             raise DeclarationError(
                 Problem(
                     "the file is too large",

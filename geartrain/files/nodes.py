@@ -1,20 +1,22 @@
 """YAML by the 1.2 core rules, as nodes that know where they were written.
 
 Every scalar stays the text it was: `1:30`, `010`, `no` and `1.0000` reach the models unharmed. Only a plain
-null is nothing. Nesting and the expansion of aliases are bounded, keys are unique, tags are refused.
+null is nothing. Nesting, values and the expansion of aliases are bounded, keys are unique, tags are refused. Plain
+data of Python become nodes too, so that what is done with a file can be done with them.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
 import yaml
 
-from geartrain.errors import DeclarationError, Loc, Problem
+from geartrain.errors import MOST_TOLD, DeclarationError, Loc, Problem, dotted
 
 MOST_DEPTH = 32
+MOST_VALUES = 3_000_000  # some 200,000 links; the parser needs a quarter of a kilobyte for each
 MOST_EXPANDED = 1_000_000
 _NULLS = {"", "~", "null", "Null", "NULL"}
 _TAGS = {f"tag:yaml.org,2002:{kind}" for kind in ("str", "int", "float", "bool", "null", "seq", "map")}
@@ -24,13 +26,14 @@ _Loader: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 
 @dataclass(slots=True)
 class Node:
-    """A mapping, a list, a text or nothing, with the place it was written at.
+    """A mapping, a list, a scalar or nothing, with the place it was written at.
 
+    value  of a file, every scalar is the text it was; of plain data, it is the object given
     keys   for a mapping, the place of each key
     size   number of nodes when all aliases are written out
     """
 
-    value: dict[str, Node] | list[Node] | str | None
+    value: Any
     place: str
     keys: dict[str, str] = field(default_factory=dict)
     size: int = 1
@@ -47,8 +50,8 @@ class Node:
 
     @property
     def text(self) -> str:
-        """The text, or "" if this is no text."""
-        return self.value if isinstance(self.value, str) else ""
+        """The scalar as text, or "" if this is none."""
+        return "" if self.value is None or isinstance(self.value, dict | list) else str(self.value)
 
     def plain(self) -> Any:
         """The data without its places."""
@@ -111,10 +114,16 @@ class _Builder:
         self.anchors: dict[str, Node] = {}
         self.unfinished: set[int] = set()
         self.problems: list[Problem] = []
-        self.expanded = 0
+        self.values = self.expanded = 0
 
     def take(self, event: yaml.Event) -> None:
         """One event of the parser."""
+        self.values += 1
+        if self.values > MOST_VALUES:
+            why = f"a file has at most {MOST_VALUES} values"
+            raise DeclarationError(Problem("the file is too large", why, "build the train in Python", self.name))
+        if len(self.problems) > MOST_TOLD + 1:
+            raise DeclarationError(self.problems)
         place = f"{self.name}:{event.start_mark.line + 1}" if event.start_mark else self.name
         match event:
             case yaml.ScalarEvent():
@@ -230,6 +239,20 @@ class _Builder:
                 )
             )
         return self.root
+
+
+def from_plain(data: Any, loc: Loc = ()) -> Node:
+    """Plain data as nodes, whose places are their paths. Raises `DeclarationError` for data nested too deeply."""
+    place = dotted(loc)
+    if len(loc) > MOST_DEPTH:
+        why = f"a declaration needs fewer than {MOST_DEPTH} levels"
+        raise DeclarationError(Problem("nested too deeply", why, "check the brackets", place))
+    if isinstance(data, Mapping):
+        entries = {str(key): from_plain(value, (*loc, str(key))) for key, value in data.items()}
+        return Node(entries, place, {key: node.place for key, node in entries.items()})
+    if isinstance(data, list | tuple):
+        return Node([from_plain(value, (*loc, at)) for at, value in enumerate(data)], place)
+    return Node(data, place)
 
 
 def texts(node: Node | None) -> Iterator[str]:

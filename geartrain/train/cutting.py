@@ -64,9 +64,15 @@ class LengthError(_Off):
 class Measured(Declared):
     """Errors measured on a real wheel, one for each tooth in the order of its turning."""
 
-    placement: tuple[AngleOff, ...] | None = Field(None, description="How far each tooth is ahead of its place")
-    tip: tuple[LengthOff, ...] | None = Field(None, description="How far each tip stands out beyond its radius")
-    aperture: tuple[AngleOff, ...] | None = Field(None, description="How much wider each tooth's aperture is")
+    placement: tuple[AngleOff, ...] | None = Field(
+        None, fail_fast=True, description="How far each tooth is ahead of its place"
+    )
+    tip: tuple[LengthOff, ...] | None = Field(
+        None, fail_fast=True, description="How far each tip stands out beyond its radius"
+    )
+    aperture: tuple[AngleOff, ...] | None = Field(
+        None, fail_fast=True, description="How much wider each tooth's aperture is"
+    )
 
     @property
     def columns(self) -> dict[str, tuple[Quantity, ...]]:

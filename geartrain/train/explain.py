@@ -5,12 +5,13 @@ from __future__ import annotations
 import types
 from collections.abc import Iterable, Iterator, Mapping
 from difflib import get_close_matches
+from itertools import islice
 from typing import Annotated, Any, Union, get_args, get_origin
 
 from pydantic import BaseModel, ValidationError
 
 from geartrain.bulk import collector_paused
-from geartrain.errors import DeclarationError, Loc, Marks, Problem, dotted
+from geartrain.errors import MOST_TOLD, DeclarationError, Loc, Marks, Problem, dotted, first_problems
 from geartrain.teeth import ToothForm
 from geartrain.train.declaration import Train
 from geartrain.train.references import find_problems
@@ -20,28 +21,76 @@ from geartrain.train.references import find_problems
 def declare(data: Mapping[str, Any], marks: Marks | None = None) -> Train:
     """A checked `Train` from plain data, the same keys as in YAML.
 
-    `marks` turns the path of a value into the place it was written at. Raises `DeclarationError` with every
-    problem that could be collected.
+    `marks` turns the path of a value into the place it was written at. Raises `DeclarationError` with the first
+    problems that could be collected.
     """
+    place = marks or dotted
+    head = _head(data)
+    if head is not None:  # a large file may be wrong a million times: its beginning tells
+        _refuse_many(head, place)
     try:
         train = Train.model_validate(data)
     except ValidationError as error:
-        raise DeclarationError(_explain_all(error, marks or dotted)) from None
+        raise DeclarationError(first_problems(_explained(error, place), error.error_count())) from None
     train._marks = marks
-    problems = tuple(find_problems(train))
+    problems = first_problems(find_problems(train))
     if problems:
         raise DeclarationError(problems)
     return train
 
 
-def _explain_all(error: ValidationError, place: Marks) -> Iterator[Problem]:
+_HEAD = 200
+"""Entries of each collection that are looked at first in a large declaration."""
+_LARGE = 20_000
+
+
+def _head(data: Mapping[str, Any]) -> dict[str, Any] | None:
+    """The first entries of each collection of a large declaration and of the collections in them; None of a small one.
+
+    What belongs to a tooth count is kept whole: its lists are held against each other.
+    """
+    if sum(_size(part) for part in data.values()) < _LARGE:
+        return None
+    known = {key: data[key] for key in Train.model_fields if key in data}
+    return {key: _first(part) for key, part in (known | dict(islice(data.items(), _HEAD))).items()}
+
+
+def _size(part: Any) -> int:
+    """About how many values a part holds, its longest lists counted to the second level."""
+    if not isinstance(part, Mapping | list | tuple):
+        return 1
+    inner = part.values() if isinstance(part, Mapping) else part
+    return len(part) + sum(len(value) for value in inner if isinstance(value, Mapping | list | tuple))
+
+
+def _first(part: Any, key: str = "") -> Any:
+    if key in ("teeth", "cutting"):
+        return part
+    if isinstance(part, Mapping):
+        return {name: _first(value, name) for name, value in islice(part.items(), _HEAD)}
+    if isinstance(part, list | tuple):
+        return [_first(value) for value in islice(part, _HEAD)]
+    return part
+
+
+def _refuse_many(head: Mapping[str, Any], place: Marks) -> None:
+    """Raise `DeclarationError` where the head of a declaration alone has more problems than are told."""
+    try:
+        Train.model_validate(head)
+    except ValidationError as error:
+        if error.error_count() > MOST_TOLD:
+            raise DeclarationError(_explained(error, place)) from None
+
+
+def _explained(error: ValidationError, place: Marks) -> Iterator[Problem]:
     """Every error in words; a misspelt key is one slip, though the key it should be is missing too."""
     errors = error.errors(include_url=False)
+    incomplete = {item["loc"][:-1] for item in errors if item["type"] == "missing"}
+    unknown = (item["loc"] for item in errors if item["type"] == "extra_forbidden" and item["loc"][:-1] in incomplete)
     misspelt = {
-        (*item["loc"][:-1], close[0])
-        for item in errors
-        if item["type"] == "extra_forbidden"
-        and (close := get_close_matches(str(item["loc"][-1]), list(_keys_at(item["loc"][:-1])), n=1))
+        (*loc[:-1], close[0])
+        for loc in islice(unknown, _HEAD)
+        if (close := get_close_matches(str(loc[-1]), list(_keys_at(loc[:-1])), n=1))
     }
     return (_explain(item, place) for item in errors if item["type"] != "missing" or item["loc"] not in misspelt)
 

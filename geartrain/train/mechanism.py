@@ -4,7 +4,15 @@ from __future__ import annotations
 
 from typing import Annotated, Any, Literal
 
-from pydantic import AfterValidator, BeforeValidator, Discriminator, Field, GetJsonSchemaHandler, Tag, model_validator
+from pydantic import (
+    AfterValidator,
+    BeforeValidator,
+    Discriminator,
+    Field,
+    GetJsonSchemaHandler,
+    Tag,
+    model_validator,
+)
 from pydantic_core import PydanticCustomError
 
 from geartrain.quantity import Angle, Figure, Friction, Inertia, Length, Quantity, Torque
@@ -32,8 +40,10 @@ class Teeth(Declared):
     range: tuple[Count, Count] | None = Field(
         None, description="Least and greatest count the evidence allows, inclusive"
     )
-    choices: tuple[Count, ...] | None = Field(None, description="The counts the evidence allows")
-    weights: tuple[Figure, ...] | None = Field(None, description="Relative weight of each count in range or choices")
+    choices: tuple[Count, ...] | None = Field(None, fail_fast=True, description="The counts the evidence allows")
+    weights: tuple[Figure, ...] | None = Field(
+        None, fail_fast=True, description="Relative weight of each count in range or choices"
+    )
     source: str | None = Field(None, description="Key of the source")
     search: tuple[Count, Count] | None = Field(None, description="The count is to be found within these bounds")
     note: str | None = Field(None, description="A remark for the reader")

@@ -14,6 +14,9 @@ from geartrain.train.questions import Output, Target
 
 def find_problems(train: Train) -> Iterator[Problem]:
     """Every reference that dangles and every mixture that has no meaning."""
+    if train.remove is not None and train.extends is None:
+        why = "it takes away what a parent declares, and there is no parent"
+        yield Problem("`remove` without `extends`", why, "say what the train extends", train.place("remove"))
     yield from _links(train)
     yield from _wheels(train)
     yield from _couplings(train)

@@ -20,6 +20,8 @@ settings.load_profile("laws")
 
 def pytest_addoption(parser: pytest.Parser) -> None:
     parser.addoption("--slow", action="store_true", help="also run the tests marked slow")
+    parser.addoption("--trains", type=int, default=1000, help="how many random trains each law is held on (1000)")
+    parser.addoption("--first-train", type=int, default=0, help="the seed of the first random train (0)")
 
 
 def pytest_configure(config: pytest.Config) -> None:
@@ -35,6 +37,13 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
     for item in items:
         if "slow" in item.keywords:
             item.add_marker(skip)
+
+
+@pytest.fixture
+def seeds(request: pytest.FixtureRequest) -> range:
+    """The seeds of the random trains: a thousand, or as many as `--trains` says, from `--first-train` on."""
+    first = request.config.getoption("--first-train")
+    return range(first, first + request.config.getoption("--trains"))
 
 
 @pytest.fixture

@@ -7,7 +7,8 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from fractions import Fraction
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, Literal
+from math import isfinite
+from typing import TYPE_CHECKING, Any, Literal, get_args
 
 from geartrain.answer import Accuracy, Answer
 from geartrain.circuits import Circuit, Tree, bookkeeping_links, find_circuits, find_tree, link_signs
@@ -167,6 +168,8 @@ class GearTrain:
         """Torques while a unit of power leaves at `load`, driven from `source`: efficiency, or self-locking."""
         from geartrain.torques import Torques, TorqueVerdict, drive
 
+        for link in (load, source):
+            _check_choice("link", link, tuple(self.declaration.links))
         setting = self._setting(state)
         if setting is None:
             return Torques(state, TorqueVerdict("still", "the speeds of this state are not determined"))
@@ -186,6 +189,9 @@ class GearTrain:
         """
         from geartrain.motion import Motion
 
+        if tolerance is not None and not 0 < tolerance < 1:
+            fix = "give a part of a pitch such as 1e-9, or none"
+            raise QuestionError(Problem(f"the tolerance is {tolerance!r}", "it lies between 0 and 1 pitch", fix))
         case = self._case(state)
         names = outputs or tuple(case.outputs) or tuple(self.declaration.links)
         wanted = {}
@@ -255,6 +261,7 @@ class GearTrain:
         if output is not None:
             case, wanted = self._only(case, output)
             part = self._pruned(case, wanted)
+        _check_choice("method", method, get_args(Method))
         if method == "floats":
             return self._answer_in_floats(part, case, wanted)
         try:
@@ -292,7 +299,12 @@ class GearTrain:
         """
         from geartrain.speeds import solve_floats
 
-        return solve_floats(self.equations(state), self._redundant(self._whole.reduced), inputs, condition_of)
+        system = self.equations(state)
+        if inputs is not None:
+            _check_cases(inputs, tuple(self._case(state).inputs))
+        for link in condition_of:
+            _check_choice("link", link, system.links)
+        return solve_floats(system, self._redundant(self._whole.reduced), inputs, condition_of)
 
     @cached_property
     def _whole(self) -> Part:
@@ -412,3 +424,25 @@ class GearTrain:
         declared = self.declaration
         title = f"<p><b>{html.escape(declared.name)}</b> {html.escape(declared.title)}</p>"
         return title + "".join(answer._repr_html_() for answer in self.answers())
+
+
+def _check_choice(kind: str, name: str, known: Sequence[str]) -> None:
+    """Raise `QuestionError` for a name that is none of those known."""
+    if name not in known:
+        raise QuestionError(Problem(f"there is no {kind} '{name}'", "it is not known here", suggest(name, known)))
+
+
+def _check_cases(inputs: Mapping[str, Sequence[float]], declared: Sequence[str]) -> None:
+    """Raise `QuestionError` unless each input, and no other link, has one finite speed a case."""
+    for link in inputs:
+        _check_choice("input", link, declared)
+    for link in declared:
+        if link not in inputs:
+            why = "every input of the state needs its speeds"
+            raise QuestionError(Problem(f"input '{link}' is missing", why, f"give speeds of '{link}' too"))
+    if len({len(speeds) for speeds in inputs.values()}) > 1:
+        why = "there is one speed a case for each input"
+        raise QuestionError(Problem("the inputs have unequal numbers of cases", why, "give each as many"))
+    for link, speeds in inputs.items():
+        if not all(map(isfinite, speeds)):
+            raise QuestionError(Problem(f"a speed of '{link}' is not finite", "nothing follows from it", "mend it"))

@@ -10,6 +10,7 @@ from typing import Any
 
 from geartrain.errors import Verdict
 from geartrain.exact import decimal
+from geartrain.frozen import FrozenFields
 from geartrain.outputs import Number, OutputResult, number
 
 
@@ -26,7 +27,7 @@ class Accuracy:
 
 
 @dataclass(frozen=True, slots=True)
-class Answer:
+class Answer(FrozenFields):
     """What a train does in one state.
 
     place     where the state's inputs were declared

@@ -8,11 +8,12 @@ from dataclasses import dataclass
 
 from geartrain.bulk import collector_paused
 from geartrain.errors import DeclarationError, Problem
+from geartrain.frozen import FrozenFields
 from geartrain.train import Train
 
 
 @dataclass(frozen=True, slots=True)
-class Tree:
+class Tree(FrozenFields):
     """The turning pairs as a tree rooted at the frame.
 
     parent  link -> (link nearer the frame, axis label), as declared

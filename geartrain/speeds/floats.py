@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from geartrain.errors import Problem, RangeError
 from geartrain.exact import PRIME, eliminate, residues
+from geartrain.frozen import FrozenFields
 from geartrain.labelled import Labelled, labelled
 from geartrain.system import Equation, System
 
@@ -25,7 +26,7 @@ _GIVEN = -1  # the column of what is prescribed
 
 
 @dataclass(frozen=True, slots=True)
-class FloatSpeeds:
+class FloatSpeeds(FrozenFields):
     """Float64 speeds with an estimate of their error.
 
     speeds     (link, case) in the train's unit

@@ -8,6 +8,8 @@ from fractions import Fraction
 from functools import cached_property
 from typing import Any, Literal
 
+from geartrain.frozen import FrozenFields
+
 Kind = Literal[
     "determined",
     "self-locking",
@@ -90,7 +92,7 @@ class PairTorque:
 
 
 @dataclass(frozen=True)
-class Torques:
+class Torques(FrozenFields):
     """External torques by link, torques and powers by pair, and the balance of power, all exact.
 
     external    on every link that has one: loads, bearings, what was asked for, brakes

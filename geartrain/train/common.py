@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, Literal, TypeVar
 
-from pydantic import BaseModel, BeforeValidator, ConfigDict, WithJsonSchema
+from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, WithJsonSchema
 from pydantic_core import PydanticCustomError
+
+from geartrain.frozen import FrozenDict
 
 MOST_TEETH = 10**12
 
@@ -74,6 +76,9 @@ def also(kind: Any, schema: dict[str, Any]) -> dict[str, Any]:
 
 Id = Annotated[str, WithJsonSchema({"type": ["string", "number"]})]
 """A name, as written: numbers are names too."""
+Part = TypeVar("Part")
+ByName = Annotated[dict[Id, Part], AfterValidator(FrozenDict)]
+"""Parts by name, frozen."""
 Count = Annotated[int, BeforeValidator(_count)]
 Boolean = Annotated[bool, BeforeValidator(_boolean)]
 Nothing = BeforeValidator(_empty_for_nothing)

@@ -15,7 +15,7 @@ from geartrain.periods import table
 from geartrain.pins import Coupling
 from geartrain.quantity import Friction, Quantity, Speed, Torque
 from geartrain.teeth import ToothForm
-from geartrain.train.common import Declared, Id, Nothing
+from geartrain.train.common import ByName, Declared, Id, Nothing
 from geartrain.train.cutting import Cutting, Fitting
 from geartrain.train.mechanism import Axis, GearPair, Link, Revolute, Source, Wheel
 from geartrain.train.questions import Dial, Output, Unit, View
@@ -63,13 +63,17 @@ class Train(Declared):
         None, description="The train this one changes: a file beside it, or a shipped train by name"
     )
     remove: Remove | None = Field(None, description="What is taken away from the parent, before anything is added")
-    sources: dict[Id, Annotated[Source, BeforeValidator(_cited)]] = Field({}, description="Citations by key")
+    sources: ByName[Annotated[Source, BeforeValidator(_cited)]] = Field(
+        {}, validate_default=True, description="Citations by key"
+    )
     errata: tuple[Erratum, ...] = Field((), description="What the sources print that is not so")
     frame: Id = Field("frame", description="The link whose speed is 0")
     unit: Unit | None = Field(None, description="What a speed of 1 means; absent: plain numbers")
     view: View = Field(View(), description="From where the train is seen, and which sense is positive")
-    links: dict[Id, Annotated[Link, Nothing]] = Field(description="Every link, with its wheels")
-    axes: dict[Id, Axis] = Field({}, description="Directions and positions of axes; without them all axes are parallel")
+    links: ByName[Annotated[Link, Nothing]] = Field(description="Every link, with its wheels")
+    axes: ByName[Axis] = Field(
+        {}, validate_default=True, description="Directions and positions of axes; without them all axes are parallel"
+    )
     revolutes: tuple[Revolute, ...] = Field((), description="Turning pairs; together they form a tree")
     gears: tuple[GearPair, ...] = Field((), description="Gear pairs")
     couplings: tuple[Coupling, ...] = Field((), description="Pins in slots")
@@ -81,17 +85,25 @@ class Train(Declared):
     fitting: Fitting | None = Field(
         None, description="How far the axes of every pair are off that says nothing of its own"
     )
-    inputs: dict[Id, Speed] = Field({}, description="Prescribed speeds by link")
+    inputs: ByName[Speed] = Field({}, validate_default=True, description="Prescribed speeds by link")
     crank: Id | None = Field(None, description="The link where power enters; default the inputs")
     rate: Speed | None = Field(None, description="Speed of the input in real time, where watts or impacts are asked")
     fixed: tuple[Id, ...] = Field((), description="Links held to the frame")
     locks: tuple[tuple[Id, Id], ...] = Field((), description="Pairs of links that turn together")
-    clutches: dict[Id, Clutch] = Field({}, description="Brakes and clutches by name, engaged by states")
-    loads: dict[Id, Torque] = Field({}, description="Torques on links; power into the train is positive")
+    clutches: ByName[Clutch] = Field(
+        {}, validate_default=True, description="Brakes and clutches by name, engaged by states"
+    )
+    loads: ByName[Torque] = Field(
+        {}, validate_default=True, description="Torques on links; power into the train is positive"
+    )
     solve_for: Id | None = Field(None, description="The link whose torque is unknown")
-    states: dict[Id, Annotated[State, Nothing]] = Field({}, description="Ways the train is run, each solved on its own")
-    dials: dict[Id, Annotated[Dial, Nothing]] = Field({}, description="Dials by name")
-    outputs: dict[Id, Annotated[Output, Nothing]] = Field({}, description="What the train is asked for, by name")
+    states: ByName[Annotated[State, Nothing]] = Field(
+        {}, validate_default=True, description="Ways the train is run, each solved on its own"
+    )
+    dials: ByName[Annotated[Dial, Nothing]] = Field({}, validate_default=True, description="Dials by name")
+    outputs: ByName[Annotated[Output, Nothing]] = Field(
+        {}, validate_default=True, description="What the train is asked for, by name"
+    )
 
     _marks: Marks | None = PrivateAttr(None)
 

@@ -17,7 +17,7 @@ from pydantic_core import PydanticCustomError
 
 from geartrain.quantity import Angle, Figure, Friction, Inertia, Length, Quantity, Torque
 from geartrain.teeth import ToothForm
-from geartrain.train.common import Boolean, Count, Declared, Id, Status, also, short_for, side
+from geartrain.train.common import Boolean, ByName, Count, Declared, Id, Status, also, short_for, side
 from geartrain.train.cutting import Cutting, Fitting
 
 
@@ -134,8 +134,8 @@ def _not_negative(torque: Quantity) -> Quantity:
 class Link(Declared):
     """A rigid body: an arbor with its wheels, a carrier, the frame."""
 
-    wheels: dict[Id, Annotated[Wheel, short_for("teeth")]] = Field(
-        {}, description="The wheels fixed on this link, by id"
+    wheels: ByName[Annotated[Wheel, short_for("teeth")]] = Field(
+        {}, validate_default=True, description="The wheels fixed on this link, by id"
     )
     inertia: Inertia | None = Field(None, description="Moment of inertia about its axis")
     bearing: Annotated[Torque, AfterValidator(_not_negative)] | None = Field(

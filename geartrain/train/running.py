@@ -8,7 +8,7 @@ from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 
 from geartrain.quantity import Speed, Torque
-from geartrain.train.common import Declared, Id, Nothing
+from geartrain.train.common import ByName, Declared, Id, Nothing
 from geartrain.train.questions import Output
 
 
@@ -33,11 +33,11 @@ class State(Declared):
     engaged: tuple[Id, ...] = Field((), description="Clutches and brakes that are closed")
     fixed: tuple[Id, ...] | None = Field(None, description="Links held to the frame")
     locks: tuple[tuple[Id, Id], ...] | None = Field(None, description="Pairs of links that turn together")
-    inputs: dict[Id, Speed] | None = Field(None, description="Prescribed speeds by link")
-    loads: dict[Id, Torque] | None = Field(None, description="Torques on links; power into the train is positive")
+    inputs: ByName[Speed] | None = Field(None, description="Prescribed speeds by link")
+    loads: ByName[Torque] | None = Field(None, description="Torques on links; power into the train is positive")
     solve_for: Id | None = Field(None, description="The link whose torque is unknown")
-    outputs: dict[Id, Annotated[Output, Nothing]] = Field(
-        {}, description="Outputs of this state, merged with the train's by name"
+    outputs: ByName[Annotated[Output, Nothing]] = Field(
+        {}, validate_default=True, description="Outputs of this state, merged with the train's by name"
     )
     note: str | None = Field(None, description="A remark for the reader")
 

@@ -1,0 +1,116 @@
+"""Declarations and answers cannot be changed behind the back of who holds them."""
+
+from __future__ import annotations
+
+import copy
+import pickle
+from collections.abc import Iterator
+from dataclasses import fields, is_dataclass
+from fractions import Fraction
+from typing import Any
+
+import numpy as np
+import pytest
+from pydantic import BaseModel
+
+from geartrain import GearTrainError, load
+from geartrain.files import shipped
+from geartrain.frozen import FrozenDict
+
+
+def mutable(value: Any, path: str, met: set[int]) -> Iterator[str]:
+    """Paths to everything below a value that could be changed."""
+    if id(value) in met:
+        return
+    met.add(id(value))
+    if isinstance(value, BaseModel):
+        for name in type(value).model_fields:
+            yield from mutable(getattr(value, name), f"{path}.{name}", met)
+    elif is_dataclass(value) and not isinstance(value, type):
+        for each in fields(value):
+            yield from mutable(getattr(value, each.name), f"{path}.{each.name}", met)
+    elif isinstance(value, dict):
+        if not isinstance(value, FrozenDict):
+            yield path
+        for key, part in value.items():
+            yield from mutable(part, f"{path}[{key}]", met)
+    elif isinstance(value, tuple):
+        for at, part in enumerate(value):
+            yield from mutable(part, f"{path}[{at}]", met)
+    elif isinstance(value, np.ndarray):
+        if value.flags.writeable:
+            yield path
+    elif isinstance(value, list | set | bytearray):
+        yield path
+
+
+@pytest.mark.parametrize("name", shipped())
+def test_nothing_in_a_declaration_or_an_answer_can_be_changed(name: str) -> None:
+    train = load(name)
+    state = train.states[0] if train.states else None
+    held = {"declaration": train.declaration, "tree": train.tree, "circuits": train.circuits}
+    held |= {"answer": train.solve(state), "torques": train.torques(state), "mobility": train.mobility}
+    if train.solve(state).verdict:
+        held["floats"] = train.floats(state)
+    found = [path for key, value in held.items() for path in mutable(value, key, set())]
+    assert not found
+
+
+def test_the_law_finds_what_can_be_changed() -> None:
+    assert list(mutable(FrozenDict(a=[1], b={"c": 1}), "x", set())) == ["x[a]", "x[b]"]
+
+
+def test_a_frozen_dictionary_refuses_every_change_and_is_a_dictionary_otherwise() -> None:
+    frozen = FrozenDict(a=1, b=2)
+    changes = [
+        lambda: frozen.__setitem__("a", 2),
+        lambda: frozen.__delitem__("a"),
+        lambda: frozen.update(c=3),
+        lambda: frozen.setdefault("c", 3),
+        lambda: frozen.pop("a"),
+        frozen.popitem,
+        frozen.clear,
+        lambda: frozen.__ior__({"c": 3}),
+    ]
+    for change in changes:
+        with pytest.raises(TypeError, match="frozen"):
+            change()
+    assert frozen == {"a": 1, "b": 2} == dict(frozen)
+    for again in (copy.copy(frozen), copy.deepcopy(frozen), pickle.loads(pickle.dumps(frozen))):
+        assert again == frozen
+        assert type(again) is FrozenDict
+
+
+def test_what_a_train_does_not_have_is_refused_with_what_it_has() -> None:
+    train = load("norton-compound")
+    one, other = next(iter(train.declaration.inputs)), list(train.declaration.links)[-1]
+    questions = {
+        "there is no method 'quick'": lambda: train.solve(method="quick"),  # type: ignore[arg-type]
+        "there is no link 'nowhere'": lambda: train.driven("nowhere", one),
+        "there is no link 'noone'": lambda: train.driven(other, "noone"),
+        "there is no link 'here'": lambda: train.floats(condition_of=["here"]),
+        "there is no input 'nothing'": lambda: train.floats(inputs={one: [1.0], "nothing": [1.0]}),
+        "is not finite": lambda: train.floats(inputs={link: [float("nan")] for link in train.declaration.inputs}),
+        "the tolerance is nan": lambda: train.motion(tolerance=float("nan")),
+        "the tolerance is -1": lambda: train.motion(tolerance=-1),
+        "has no state": lambda: train.solve("first"),
+        "has no output or link": lambda: train.motion(outputs=["nothing"]),
+        "has no pair": lambda: train.motion(without=["nothing"]),
+    }
+    for said, question in questions.items():
+        with pytest.raises(GearTrainError, match=said) as caught:
+            question()
+        assert all(problem.fix for problem in caught.value.problems)
+
+
+def test_every_input_needs_as_many_speeds_as_the_others() -> None:
+    train = load({"extends": "bevel-differential", "states": None, "inputs": {"left": 1, "right": 2}})
+    names = list(train.declaration.inputs)
+    with pytest.raises(GearTrainError, match=f"input '{names[1]}' is missing"):
+        train.floats(inputs={names[0]: [1.0]})
+    with pytest.raises(GearTrainError, match="unequal numbers of cases"):
+        train.floats(inputs={names[0]: [1.0], names[1]: [1.0, 2.0]})
+    right = train.floats(inputs={names[0]: [1.0, 3.0], names[1]: [2.0, 1.0]})
+    exact = train.solve()
+    for link, speed in exact.speeds.items():
+        assert right.speeds[link][0] == pytest.approx(float(Fraction(speed)))

@@ -30,6 +30,7 @@ if TYPE_CHECKING:
     from geartrain.torques import Setting, Torques
 
 Method = Literal["auto", "exact", "floats"]
+_UNIT_ROUNDOFF = 2.0**-53
 
 
 class GearTrain:
@@ -214,10 +215,10 @@ class GearTrain:
     def _moving(self, case: Case, without: Sequence[str]) -> Moving:
         from geartrain.motion import find_moving
 
-        declared, answer = self.declaration, self.solve(case.state, method="exact")
-        if not answer.verdict or not any(case.inputs.values()):
-            raise QuestionError(Problem(f"'{self.name}' does not move", answer.verdict.text, "drive it from an input"))
-        speeds = {link: Fraction(speed) for link, speed in answer.speeds.items()}
+        declared, solution = self.declaration, solve(self._whole, case, self.signs, None)
+        verdict, speeds = solution.verdict, solution.speeds
+        if not verdict or not any(case.inputs.values()):
+            raise QuestionError(Problem(f"'{self.name}' does not move", verdict.text, "drive it from an input"))
         loaded = self.torques(case.state) if declared.is_loaded(case.state) else None
         circuits = self._circuits_without(without)
         return find_moving(declared, case, circuits, self.signs, speeds, self.meshes, self.pins, loaded)
@@ -239,11 +240,10 @@ class GearTrain:
     def _make_setting(self, case: Case) -> Setting | None:
         from geartrain.torques import Setting
 
-        answer = self.solve(case.state, method="exact")
-        if not answer.verdict:
+        solution = solve(self._whole, case, self.signs, None)
+        if not solution.verdict:
             return None
-        speeds = {link: Fraction(speed) for link, speed in answer.speeds.items()}
-        return Setting(self.declaration, self.tree, self.circuits, self.signs, case, speeds, self.meshes)
+        return Setting(self.declaration, self.tree, self.circuits, self.signs, case, solution.speeds, self.meshes)
 
     def equations(self, state: str | None = None) -> System:
         """The labelled Willis system of one state."""
@@ -254,7 +254,8 @@ class GearTrain:
         """Speeds and judged outputs in one state.
 
         output   an output or a link: only the circuits that drive it are solved
-        method   "exact", "floats", or "auto": exact unless the coupled system is too dense for it
+        method   "exact", "floats", or "auto": exact unless the coupled system is too dense for it; speeds in
+                 radians beside others in turns are rounded to floats in any case
         """
         case, wanted = self._case(state), None
         part = self._whole
@@ -271,6 +272,10 @@ class GearTrain:
         verdict, speeds = solution.verdict, solution.speeds
         if wanted is not None:
             verdict, speeds = self._narrowed(case, verdict, speeds, wanted)
+        if not case.exact:  # radians beside turns are no fractions, and none are shown
+            floats = {link: float(speed) for link, speed in speeds.items()}
+            accuracy = {link: Accuracy(abs(speed) * _UNIT_ROUNDOFF, None) for link, speed in floats.items()}
+            return self._judged(case, verdict, floats, wanted, len(part.circuits), None, accuracy)
         return self._judged(case, verdict, speeds, wanted, len(part.circuits), solution.ratios)
 
     def answers(self) -> Iterator[Answer]:
@@ -404,7 +409,7 @@ class GearTrain:
         declared = self.declaration
         if wanted is not None:
             speeds = {link: speeds[link] for link in wanted if link in speeds}
-            accuracy = {link: accuracy[link] for link in wanted} if accuracy else None
+            accuracy = {link: accuracy[link] for link in wanted if link in accuracy} if accuracy else None
         results = judge_outputs(declared, self.tree, case, speeds.get, self.bookkeeping, self.signs)
         return Answer(
             self.name,

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass
+from difflib import get_close_matches
 from fractions import Fraction
 from typing import Annotated, Any
 
@@ -48,10 +49,11 @@ UNITS: dict[str, tuple[str, Fraction]] = {
     "%": ("fraction", Fraction(1, 100)),
     "ppm": ("fraction", Fraction(1, 10**6)),
 }
-# a radian is no rational part of a turn: these two scales are floats, and say so by being apart
-IRRATIONAL: dict[str, tuple[str, float]] = {
-    "rad": ("angle", 1 / RADIANS_PER_TURN),
-    "rad/s": ("speed", 1 / RADIANS_PER_TURN),
+# a radian is no rational part of a turn: these two scales hold to 50 digits, and say so by being apart
+_TURNS_PER_RADIAN = 1 / (2 * Fraction("3.14159265358979323846264338327950288419716939937511"))
+IRRATIONAL: dict[str, tuple[str, Fraction]] = {
+    "rad": ("angle", _TURNS_PER_RADIAN),
+    "rad/s": ("speed", _TURNS_PER_RADIAN),
 }
 _SPELT = {
     "Nm": "N m",
@@ -181,8 +183,9 @@ Friction = Annotated[Figure, AfterValidator(_not_negative)]
 class Quantity:
     """A number with its unit as written; `unit` is None for a plain number.
 
-    `value` is exact in the unit written. `base` is exact in m, turn, s, turn/s, N m or kg m2, and None where
-    the unit is a radian, whose scale is irrational; `si` is a float in m, rad, s, rad/s, N m or kg m2.
+    `value` is exact in the unit written. `base` is in m, turn, s, turn/s, N m or kg m2: what is compared or computed
+    with is always that, never `value`, so that two units of one dimension mean the same. It is exact, but for
+    radians, whose scale is irrational: to 50 digits there. `si` is a float in m, rad, s, rad/s, N m or kg m2.
     """
 
     value: Fraction
@@ -195,16 +198,12 @@ class Quantity:
     @property
     def dimension(self) -> str | None:
         """length, angle, time, speed, torque, inertia, fraction, or None for a plain number."""
-        if self.unit is None:
-            return None
-        return (UNITS.get(self.unit) or IRRATIONAL[self.unit])[0]
+        return None if self.unit is None else _scale(self.unit)[0]
 
     @property
-    def base(self) -> Fraction | None:
-        """Exact value in base units (angles in turns), or None for radians."""
-        if self.unit is None:
-            return self.value
-        return self.value * UNITS[self.unit][1] if self.unit in UNITS else None
+    def base(self) -> Fraction:
+        """Value in base units (angles in turns); a plain number as it is."""
+        return self.value if self.unit is None else self.value * _scale(self.unit)[1]
 
     @property
     def si(self) -> float:
@@ -212,7 +211,7 @@ class Quantity:
         if self.unit in IRRATIONAL:
             return float(self.value)
         scale = RADIANS_PER_TURN if self.dimension in ("angle", "speed") else 1.0
-        return float(self.base or 0) * scale
+        return float(self.base) * scale
 
     @classmethod
     def parse(cls, raw: object, dimension: str, plain: bool) -> Quantity:
@@ -223,7 +222,7 @@ class Quantity:
         match = _QUANTITY.match(text) if isinstance(raw, str) and len(text) <= _MOST_DIGITS else None
         if match is None or match[2] is None:
             figure = Figure.parse(raw)
-            if not plain:
+            if not plain and figure.value:
                 raise _no_unit(text, dimension)
             return cls(figure.value, None, text)
         unit = " ".join(match[2].split())
@@ -234,7 +233,7 @@ class Quantity:
             raise PydanticCustomError(
                 "unit",
                 "'{text}' has an unknown unit",
-                {"text": text, "fix": f"use one of: {_units_of(dimension)}"},
+                {"text": text, "fix": _nearest(unit, dimension)},
             )
         quantity = cls(Figure.parse(match[1]).value, unit, text)
         if quantity.dimension not in dimension.split(" or "):
@@ -249,6 +248,36 @@ class Quantity:
                 },
             )
         return quantity
+
+
+def _scale(unit: str) -> tuple[str, Fraction]:
+    """The dimension of a unit, and how many base units one of it is."""
+    return UNITS.get(unit) or IRRATIONAL[unit]
+
+
+def in_unit(speed: Quantity, unit: str) -> Fraction:
+    """A quantity counted in a unit of its dimension; in its own unit as written, so that radians stay exact there."""
+    return speed.value if speed.unit == unit else speed.base / _scale(unit)[1]
+
+
+def turns_in(unit: str) -> Fraction:
+    """Turns in one unit of time at a speed of 1: 1/360 for deg/s, 1 for rpm and for plain numbers."""
+    angle = unit.partition("/")[0] if "/" in unit else TURN
+    return _scale(angle)[1]
+
+
+def same_kind(first: str | None, second: str | None) -> bool:
+    """True if one unit is a rational multiple of the other: a radian of no unit but a radian."""
+    return (first in IRRATIONAL) == (second in IRRATIONAL)
+
+
+def _nearest(unit: str, dimension: str) -> str:
+    """What may be meant by an unknown unit: `rpm` for RPM."""
+    known = _units_of(dimension)
+    spelt = {name.casefold(): name for name, meant in _SPELT.items() if meant in known.split(", ")}
+    names = spelt | {name.casefold(): name for name in known.split(", ")}
+    close = get_close_matches(unit.casefold(), names, n=1, cutoff=0.6)
+    return f"did you mean '{names[close[0]]}'? Known here: {known}" if close else f"use one of: {known}"
 
 
 def _no_unit(text: str, dimension: str) -> PydanticCustomError:

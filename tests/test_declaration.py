@@ -288,7 +288,7 @@ def test_a_unit_names_what_one_turn_takes() -> None:
     ("rest", "said"),
     [
         ("inputs: {a: 1, b: 2 rpm}", "inputs mix units"),
-        ("inputs: {a: 2 rpm}\nunit: {per: 7 d}", "inputs mix units"),
+        ("inputs: {a: 2 rpm}\nunit: {per: 7 ft}", "inputs mix units"),
         ("inputs: {a: 2 mm}", "a length, and a speed belongs here"),
         ("inputs: {a: 2 furlongs}", "unknown unit"),
         ("inputs: {a: 1}\nunit: {per: 7 furlongs}", "is no unit"),

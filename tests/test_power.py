@@ -302,7 +302,6 @@ def test_what_is_shared_in_no_certain_way_has_no_flow() -> None:
         ("rate: 10\n", None),
         ("inputs: {sun: 600 rpm}\n", pi / 30),
         ("inputs: {sun: 4}\nrate: 10 turn/s\n", 5 * pi),
-        ("rate: 10 turn/s\nlinks: {sun: {bearing: 1}}\n", None),
     ],
 )
 def test_powers_are_watts_where_torques_and_speeds_are_real(more: str, watts: float | None) -> None:

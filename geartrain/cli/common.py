@@ -159,7 +159,7 @@ def share(text: str, option: str) -> Fraction:
         found = Quantity.parse(text, "fraction", plain=True)
     except PydanticCustomError as error:
         raise typer.BadParameter(error.message(), param_hint=option) from None
-    return found.base if found.base is not None else found.value
+    return found.base
 
 
 def plural(count: int, noun: str) -> str:

@@ -97,11 +97,7 @@ def _label(tree: Tree, link: str, carrier: str) -> str:
 
 def _axes(train: Train) -> dict[str, _Axis]:
     """Declared axes in whole numbers; a point of an axis in parts of one length for the whole train."""
-    points = {
-        label: [part.base or Fraction(0) for part in axis.position]
-        for label, axis in train.axes.items()
-        if axis.position
-    }
+    points = {label: [part.base for part in axis.position] for label, axis in train.axes.items() if axis.position}
     unit = math.lcm(*{part.denominator for point in points.values() for part in point})
     senses: list[Whole] = [_Z]
     known: dict[tuple[str, ...], tuple[Whole, float, Whole]] = {}

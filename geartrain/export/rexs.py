@@ -13,7 +13,6 @@ from math import degrees
 from typing import TYPE_CHECKING, Any
 
 from geartrain.export.plates import basis
-from geartrain.quantity import Quantity
 from geartrain.teeth.involute import Involute
 
 if TYPE_CHECKING:
@@ -141,12 +140,7 @@ def _per_minute(work: Workpiece) -> Mapping[str, Fraction]:
     """Speeds in turns a minute; plain numbers, and turns in a length, are taken for these."""
     answer = work.train.solve(work.scene.state, method="exact")
     declared = work.train.declaration
-    if declared.unit is None and answer.unit:
-        factor = 60 * (Quantity.parse(f"1 {answer.unit}", "speed", plain=False).base or Fraction(1))
-    elif declared.unit_days is not None:
-        factor = 1 / (declared.unit_days * 1440)
-    else:
-        factor = Fraction(1)
+    factor = Fraction(1) if declared.unit_speed is None else 60 * declared.unit_speed
     return {link: Fraction(speed) * factor for link, speed in answer.speeds.items()} if answer.verdict else {}
 
 

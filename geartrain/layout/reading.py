@@ -118,7 +118,7 @@ def label(tree: Tree, link: str, carrier: str) -> str:
 
 def millimetres(length: Quantity) -> Fraction:
     """A length in mm, exact; a plain number counts as mm."""
-    return length.value if length.unit is None else (length.base or Fraction(0)) * 1000
+    return length.value if length.unit is None else length.base * 1000
 
 
 def _lines(declared: Train, tree: Tree) -> dict[str, Line]:

@@ -95,13 +95,13 @@ def _refuse_unless_winding(coupling: PinAndSlot | PinFollower, winding: int) -> 
                 "fix": "give a pin_radius above 0 and an offset of 0 or more",
             },
         )
-    if (radius.unit is None) != (offset.unit is None):
+    if offset.value and (radius.unit is None) != (offset.unit is None):
         raise PydanticCustomError(
             "pin",
             "pin_radius {radius} and offset {offset} mix a plain number and a length with a unit",
             {"radius": radius.text, "offset": offset.text, "fix": "give both with a unit, or both without"},
         )
-    r, e = radius.base or 0, offset.base or 0
+    r, e = radius.base, offset.base
     if r == e:
         raise PydanticCustomError(
             "pin",

@@ -42,11 +42,12 @@ def answer_sections(train: GearTrain, answer: Answer) -> Iterator[Section]:
     """Speeds, outputs and targets of one state."""
     head = f"State {answer.state}: " if answer.state is not None else ""
     case = train.declaration.case(answer.state)
-    given = [f"{link} = {speed}" for link, speed in case.inputs.items()]
+    given = [*map(case.given, case.inputs)]
     given += [f"{link} fixed" for link in case.fixed] + [f"{a} and {b} locked together" for a, b in case.locks]
     lines = [f"Prescribed: {', '.join(given) or 'nothing'}.", f"Verdict: {answer.verdict}."]
     if answer.method == "floats":
-        lines.append("Solved in floats: the coupled system is too dense for exact elimination.")
+        why = "the coupled system is too dense for exact elimination" if case.exact else "radians stand beside turns"
+        lines.append(f"Solved in floats: {why}.")
     yield Section(_title(head, "speeds"), lines, tuple(_speeds(train, answer)))
     if answer.outputs:
         yield _outputs(train, answer, head)

@@ -26,7 +26,7 @@ def _body(stage: Stage, link: str) -> Body:
         direction=stage.reference(label),
         sense=stage.sense(link),
         speed=exact(stage.ratio(link)),
-        shown=exact(speed),
+        shown=stage.shown(speed),
         decimal=rounded(speed),
         start=stage.start(link),
         role=_role(stage, link),

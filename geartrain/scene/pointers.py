@@ -38,7 +38,7 @@ def _pointer(stage: Stage, name: str, dials: Sequence[Key], pairs: Sequence[str]
         base=stage.body[base],
         dial=dials.index(key) if key in dials else None,
         speed=exact(ratio),
-        shown=exact(speed),
+        shown=stage.shown(speed),
         decimal=rounded(speed),
         sense=sense,
         text=_as_read(sense, speed),

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 from geartrain.errors import GearTrainError, Problem
 from geartrain.exact import decimal
+from geartrain.quantity import turns_in
 from geartrain.scene.space import Vector, dot, unit
 
 if TYPE_CHECKING:
@@ -67,6 +68,10 @@ class Stage:
             return None
         return found / self.case.inputs[self.lead]
 
+    def shown(self, speed: Fraction | None) -> str | None:
+        """A speed as text: exact where the case is."""
+        return None if speed is None else self.case.shown(speed)
+
     def sense(self, link: str) -> int:
         """-1 where a link's axis points against the reference direction of its parallels."""
         return self.train.signs.get(link, 1)
@@ -99,7 +104,8 @@ class Stage:
         """Turns of the lead in one unit of time of the input: of `100 rpm`, in a minute. 1 where nothing is driven."""
         if self.lead is None:
             return Fraction(1)
-        turns = Fraction(1, 360) if self.train.declaration.unit_name == "deg/s" else Fraction(1)
+        declared = self.train.declaration
+        turns = Fraction(1) if declared.unit is not None else turns_in(declared.input_unit)
         return self.case.inputs[self.lead] * turns
 
     @cached_property

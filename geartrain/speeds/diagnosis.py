@@ -34,7 +34,7 @@ def diagnose(reduced: Reduced, case: Case, signs: Mapping[str, int], budget: int
         for row, (_, _, speed) in zip(rows[held:], statements[held - structural :], strict=True):
             resolved = resolve(row, forms)
             if speed and not any(column >= 0 for column in resolved):
-                return _name(reduced, _uses(resolved), statements, structural)
+                return _name(reduced, case, _uses(resolved), statements)
         echelon = eliminate(rows, budget)
     except TooDenseError:
         return without_witness(case)
@@ -44,7 +44,7 @@ def diagnose(reduced: Reduced, case: Case, signs: Mapping[str, int], budget: int
             (value * statements[tag - structural][2] for tag, value in given.items() if tag >= structural), _ZERO
         )
         if total:
-            return _name(reduced, given, statements, structural)
+            return _name(reduced, case, given, statements)
     moving = any(value for _, _, value in statements)
     return _standing(reduced, case) if reduced.unknowns == echelon.rank and not moving else None
 
@@ -75,7 +75,7 @@ def held_rows(reduced: Reduced, case: Case) -> Iterator[Row]:
 
 def without_witness(case: Case) -> Verdict:
     """What is certain without a certificate: one moving input is locked, several contradict each other."""
-    given = tuple(f"{link} = {speed}" for link, speed in case.inputs.items())
+    given = tuple(map(case.given, case.inputs))
     moving = [link for link, speed in case.inputs.items() if speed]
     if len(moving) == 1:
         return Verdict("locked", f"input '{moving[0]}' is locked to the frame by the circuits", prescriptions=given)
@@ -90,15 +90,15 @@ def _tagged(reduced: Reduced, case: Case, signs: Mapping[str, int]) -> tuple[lis
     statements += [("lock", case.says(a, b), _ZERO) for a, b in case.locks]
     for link, speed in case.inputs.items():
         rows.append(dict(reduced.form(index[link])))
-        statements.append(("input", f"{link} = {speed}", speed * signs.get(link, 1)))
+        statements.append(("input", case.given(link), speed * signs.get(link, 1)))
     for tag, row in enumerate(rows):
         row[-1 - tag] = Fraction(-1)
     return rows, statements
 
 
-def _name(reduced: Reduced, given: Mapping[int, Fraction], statements: Sequence[Statement], structural: int) -> Verdict:
+def _name(reduced: Reduced, case: Case, given: Mapping[int, Fraction], statements: Sequence[Statement]) -> Verdict:
     """One contradiction in words. `given` says how much of each equation goes into it."""
-    parts = reduced.components
+    parts, structural = reduced.components, len(reduced.equations)
     used = [(statements[tag - structural], value) for tag, value in sorted(given.items()) if tag >= structural]
     inputs = [(text, value, speed) for (kind, text, speed), value in used if kind == "input"]
     moving = [text for text, _, speed in inputs if speed]
@@ -123,7 +123,8 @@ def _name(reduced: Reduced, given: Mapping[int, Fraction], statements: Sequence[
         for n, (text, _, _) in zip([n // common for n in numbers], inputs, strict=True)
     )
     residue = sum((value * speed for _, value, speed in inputs), Fraction(0)) * scale / common
-    text = f"{', '.join(prescriptions)} contradict each other: {terms.removeprefix('+ ')} must be 0 and is {residue}"
+    terms = f"{terms.removeprefix('+ ')} must be 0 and is {case.shown(residue)}"
+    text = f"{', '.join(prescriptions)} contradict each other: {terms}"
     if loops:
         text += f", for {shut}"
     return Verdict("contradictory", text, prescriptions=prescriptions, loops=loops)

@@ -158,7 +158,7 @@ def _with_word(number: str, word: str) -> _Term:
     except PydanticCustomError:
         return _Term("things", _figure(number), word, shown)
     if quantity.dimension == "time":
-        return _Term("time", (quantity.base or Fraction(0)) / 86400, word, shown)
+        return _Term("time", quantity.base / 86400, word, shown)
     if word in _TURNS:
         return _Term("things", quantity.value, word, shown)
     raise _problem(

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from fractions import Fraction
 
+from geartrain.quantity import RADIANS_PER_TURN
 from geartrain.train import Case, Train
 
 _PREFIXES = ((1e6, "M"), (1e3, "k"), (1.0, ""), (1e-3, "m"), (1e-6, "µ"))
@@ -28,9 +29,9 @@ def watts_per_unit(train: Train, case: Case) -> float | None:
     lead = next((speed for speed in case.inputs.values() if speed), None)
     if train.rate is not None and train.rate.unit is not None and lead is not None:
         return abs(train.rate.si / float(lead))
-    own = train.states[case.state].inputs if case.state is not None else None
-    named = next((speed for speed in (train.inputs if own is None else own).values() if speed.unit), None)
-    return named.si / float(named.value) if named is not None and named.value else None
+    if not train.input_unit or train.unit_speed is None:
+        return None
+    return float(train.unit_speed * RADIANS_PER_TURN)
 
 
 def in_watts(power: float) -> str:

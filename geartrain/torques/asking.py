@@ -50,7 +50,7 @@ def declared_loads(train: Train, case: Case) -> tuple[dict[str, Fraction], str |
     state = train.states[case.state] if case.state is not None else None
     loads = train.loads if state is None or state.loads is None else state.loads
     solve_for = train.solve_for if state is None or state.solve_for is None else state.solve_for
-    return {link: torque.base or torque.value for link, torque in loads.items()}, solve_for
+    return {link: torque.base for link, torque in loads.items()}, solve_for
 
 
 def find_torques(setting: Setting) -> Torques:
@@ -195,7 +195,7 @@ def _bearings(setting: Setting) -> dict[str, Fraction]:
         carrier = setting.tree.parent[link][0]
         own, other = setting.sense(link), setting.sense(carrier)
         relative = own * setting.speeds[link] - other * setting.speeds.get(carrier, Fraction(0))
-        torque = (part.bearing.base or part.bearing.value) * ((relative > 0) - (relative < 0))
+        torque = part.bearing.base * ((relative > 0) - (relative < 0))
         found[link] = found.get(link, Fraction(0)) - own * torque
         if carrier != setting.train.frame:
             found[carrier] = found.get(carrier, Fraction(0)) + other * torque

@@ -160,7 +160,7 @@ def _takers(
             continue
         carrier = tree.parent[link][0]
         own, other = signs.get(link, 1) * speed[link], signs.get(carrier, 1) * speed.get(carrier, Fraction(0))
-        torque = (part.bearing.base or part.bearing.value) * ((own > other) - (own < other))
+        torque = part.bearing.base * ((own > other) - (own < other))
         yield Node("bearing", link), [(link, torque * own), (carrier, -torque * other)]
 
 

@@ -11,9 +11,10 @@ from typing import Annotated
 from pydantic import BeforeValidator, Field, PrivateAttr
 
 from geartrain.errors import Loc, Marks, dotted
+from geartrain.exact import decimal
 from geartrain.periods import table
 from geartrain.pins import Coupling
-from geartrain.quantity import Friction, Quantity, Speed, Torque
+from geartrain.quantity import Friction, Quantity, Speed, Torque, in_unit, same_kind
 from geartrain.teeth import ToothForm
 from geartrain.train.common import ByName, Declared, Id, Nothing
 from geartrain.train.cutting import Cutting, Fitting
@@ -30,9 +31,10 @@ def _cited(raw: object) -> object:
 class Case:
     """What is prescribed when the train is run in one state; `state` is None for a train without states.
 
-    inputs    in the train's unit
+    inputs    in the train's unit, `Train.unit_name`
     loc       where the inputs were declared
     clutches  the clutch or brake behind a fixed link or a lock
+    exact     False where radians had to be counted in turns, or turns in radians: to 50 digits then
     """
 
     state: str | None
@@ -42,6 +44,15 @@ class Case:
     outputs: Mapping[str, Output]
     loc: Loc
     clutches: Mapping[tuple[str, ...], str]
+    exact: bool = True
+
+    def given(self, link: str) -> str:
+        """A prescribed speed in words: `sun = 1400`."""
+        return f"{link} = {self.shown(self.inputs[link])}"
+
+    def shown(self, speed: Fraction) -> str:
+        """A speed for a reader: as a fraction, or in decimal where it is not exact."""
+        return str(speed) if self.exact else decimal(speed)
 
     def says(self, *links: str) -> str:
         """A brake on one link or a lock of two, in words, with the clutch that does it."""
@@ -85,7 +96,11 @@ class Train(Declared):
     fitting: Fitting | None = Field(
         None, description="How far the axes of every pair are off that says nothing of its own"
     )
-    inputs: ByName[Speed] = Field({}, validate_default=True, description="Prescribed speeds by link")
+    inputs: ByName[Speed] = Field(
+        {},
+        validate_default=True,
+        description="Prescribed speeds by link, shown in `unit`, else in the unit of the first that turns",
+    )
     crank: Id | None = Field(None, description="The link where power enters; default the inputs")
     rate: Speed | None = Field(None, description="Speed of the input in real time, where watts or impacts are asked")
     fixed: tuple[Id, ...] = Field((), description="Links held to the frame")
@@ -142,26 +157,51 @@ class Train(Declared):
             update = {key: getattr(output, key) for key in output.model_fields_set}
             outputs[name] = inherited.model_copy(update=update) if inherited else output
         loc: Loc = ("states", state, "inputs") if state is not None and own.inputs is not None else ("inputs",)
-        return Case(state, self._speeds(inputs), tuple(dict.fromkeys(fixed)), tuple(locks), outputs, loc, clutches)
+        return Case(
+            state,
+            {link: self._speed(speed) for link, speed in inputs.items()},
+            tuple(dict.fromkeys(fixed)),
+            tuple(locks),
+            outputs,
+            loc,
+            clutches,
+            all(self._is_exact(speed) for speed in inputs.values()),
+        )
 
     def is_loaded(self, state: str | None) -> bool:
         """True if torques follow from something declared: loads, or friction of bearings."""
         own = self.states[state].loads if state is not None else None
         return bool(self.loads if own is None else own) or any(link.bearing for link in self.links.values())
 
-    def _speeds(self, inputs: Mapping[str, Quantity]) -> dict[str, Fraction]:
-        """Input speeds in the train's unit; named units are counted in the first one's."""
-        scale = self._input_scale(inputs)
-        return {
-            link: (speed.base or speed.value) / scale if speed.unit else speed.value for link, speed in inputs.items()
-        }
+    def _speed(self, speed: Quantity) -> Fraction:
+        """A prescribed speed in the train's unit."""
+        if speed.unit is None:
+            return speed.value
+        if self.unit is not None:
+            return speed.base * (self.unit_base or 1)
+        return in_unit(speed, self.input_unit)
 
-    @staticmethod
-    def _input_scale(inputs: Mapping[str, Quantity]) -> Fraction:
-        first = next((speed for speed in inputs.values() if speed.unit), None)
-        if first is None or first.base is None:
-            return Fraction(1)
-        return first.base / first.value if first.value else Fraction(1)
+    def _is_exact(self, speed: Quantity) -> bool:
+        """False where a speed is an irrational number of the train's units."""
+        return not speed.value or same_kind(speed.unit, None if self.unit is not None else self.input_unit or None)
+
+    @cached_property
+    def input_unit(self) -> str:
+        """The unit in which named inputs are shown: that of the first one that turns, else of the first; or nothing."""
+        groups = [own.inputs for own in self.states.values() if own.inputs is not None]
+        if len(groups) == len(self.states) and groups:
+            speeds = [speed for group in groups for speed in group.values()]
+        else:
+            speeds = [speed for group in (self.inputs, *groups) for speed in group.values()]
+        named = [speed for speed in speeds if speed.unit]
+        return next((speed.unit or "" for speed in named if speed.value), (named[0].unit or "") if named else "")
+
+    @property
+    def unit_speed(self) -> Fraction | None:
+        """A speed of 1 in turns per second; None for plain numbers, and where the unit is a length."""
+        if self.unit is not None:
+            return None if self.unit_days is None else 1 / (self.unit_days * 86400)
+        return Quantity(Fraction(1), self.input_unit, "1").base if self.input_unit else None
 
     @cached_property
     def unit_days(self) -> Fraction | None:
@@ -172,9 +212,7 @@ class Train(Declared):
         if row is not None:
             return row.value if row.kind == "period" else None
         quantity = self.unit_quantity
-        return (
-            quantity.base / 86400 if quantity and quantity.dimension == "time" and quantity.base is not None else None
-        )
+        return quantity.base / 86400 if quantity and quantity.dimension == "time" else None
 
     @property
     def unit_base(self) -> Fraction | None:
@@ -199,8 +237,7 @@ class Train(Declared):
         """The unit of speeds, for a reader: `turns per year_tropical_J2000`, `rpm`, or nothing for plain numbers."""
         if self.unit is not None:
             return f"turns per {self.unit.per}"
-        groups = [self.inputs, *(state.inputs or {} for state in self.states.values())]
-        return next((speed.unit for group in groups for speed in group.values() if speed.unit), "")
+        return self.input_unit
 
     def uncertain_wheels(self) -> Iterator[tuple[str, Wheel]]:
         """Wheels whose tooth count is declared with a range or choices."""

@@ -164,6 +164,8 @@ def _couplings(train: Train) -> Iterator[Problem]:
 
 def _prescriptions(train: Train) -> Iterator[Problem]:
     yield from _scope(train, train.inputs, train.fixed, train.locks, ())
+    yield from _mixture(train)
+    yield from _torques(train)
     yield from _named_links(train, train.loads, "loads")
     for key in ("crank", "solve_for"):
         if (link := getattr(train, key)) is not None and link not in train.links:
@@ -201,21 +203,44 @@ def _scope(
             "prescribe the speed of another link",
             train.place(*loc, "inputs"),
         )
-    yield from _mixture(train, inputs, loc)
 
 
-def _mixture(train: Train, inputs: Mapping[str, Quantity], loc: Loc) -> Iterator[Problem]:
-    units = {speed.unit for speed in inputs.values()}
-    named = units - {None}
-    if None in units and named:
-        why = "some inputs are plain numbers and some have a unit"
-    elif named and train.unit is not None:
-        why = f"the train's unit is one turn per {train.unit.per}, and an input has a unit of its own"
-    elif "rad/s" in named and len(named) > 1:
-        why = "a radian is no rational part of a turn, so rad/s and other units do not mix exactly"
-    else:
+def _mixture(train: Train) -> Iterator[Problem]:
+    """Plain and named inputs side by side, in one state or in several; zeros go with either."""
+    named: tuple[Loc, Quantity] | None = None
+    plain: tuple[Loc, Quantity] | None = None
+    groups: list[tuple[Loc, Mapping[str, Quantity]]] = [((), train.inputs)]
+    groups += [(("states", name), state.inputs or {}) for name, state in train.states.items()]
+    for loc, inputs in groups:
+        for link, speed in inputs.items():
+            if speed.unit is not None:
+                named = named or ((*loc, "inputs", link), speed)
+            elif speed.value:
+                plain = plain or ((*loc, "inputs", link), speed)
+    if named is None:
         return
-    yield Problem("inputs mix units", why, "write all inputs in one way", train.place(*loc, "inputs"))
+    if plain is not None:
+        why = f"'{plain[1]}' is a plain number and '{named[1]}' has a unit"
+        yield Problem("inputs mix units", why, "write all inputs in one way", train.place(*plain[0]))
+    if train.unit is not None and train.unit_days is None:
+        why = f"the train's unit is one turn per {train.unit.per}, which is no time, and '{named[1]}' is"
+        fix = "write all inputs as plain numbers, or declare `unit: {per: ...}` as a time"
+        yield Problem("inputs mix units", f"{why} a speed in time", fix, train.place(*named[0]))
+
+
+def _torques(train: Train) -> Iterator[Problem]:
+    """Plain and named torques side by side; zeros go with either."""
+    groups: list[tuple[Loc, Mapping[str, Quantity]]] = [(("loads",), train.loads)]
+    groups += [(("states", name, "loads"), state.loads or {}) for name, state in train.states.items()]
+    found = [((*loc, link), torque) for loc, loads in groups for link, torque in loads.items()]
+    found += [(("links", name, "bearing"), link.bearing) for name, link in train.links.items() if link.bearing]
+    named = next((torque for _, torque in found if torque.unit is not None), None)
+    for loc, torque in found:
+        if named is not None and torque.unit is None and torque.value:
+            why = f"'{named}' has a unit, this has none"
+            fix = "write all loads and bearings in one way"
+            yield Problem(f"torques mix units: '{torque}'", why, fix, train.place(*loc))
+            return
 
 
 def _named_links(train: Train, names: Iterable[str], *loc: str | int) -> Iterator[Problem]:

@@ -10,7 +10,7 @@ from typing import Any, TypeVar
 from pydantic_core import PydanticCustomError
 
 from geartrain.errors import Problem, QuestionError
-from geartrain.quantity import RADIANS_PER_TURN, Figure, Quantity
+from geartrain.quantity import Figure, Quantity
 
 Read = TypeVar("Read")
 
@@ -139,8 +139,8 @@ def _planets(text: str) -> int | dict[str, int]:
 
 
 def turns(angle: Quantity) -> Fraction:
-    """A pressure angle in turns, above 0 and below a quarter; radians to the digits of a float."""
-    found = angle.base if angle.base is not None else Fraction(angle.si / (RADIANS_PER_TURN))
+    """A pressure angle in turns, above 0 and below a quarter; radians to 50 digits."""
+    found = angle.base
     if angle.dimension != "angle" or not 0 < found < Fraction(1, 4):
         raise QuestionError(
             Problem(f"{angle} is no pressure angle", "it is above 0 and below 90 deg", "write for example 20 deg")

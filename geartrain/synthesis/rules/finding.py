@@ -87,7 +87,7 @@ class _Asking:
     def _most(self, wheel: str, radius: Quantity) -> int:
         """The largest count whose pitch radius, m z/2, is within bounds."""
         measure, module = self.fitting.module(wheel)
-        if (measure == "m") != (radius.unit is not None) or module is None or radius.base is None:
+        if (measure == "m") != (radius.unit is not None) or module is None:
             declared = "a length" if measure == "m" else "a plain number" if measure else "not declared"
             raise QuestionError(
                 Problem(

@@ -141,7 +141,7 @@ class Places:
         if len(ends) < 2 or ends[0] is None or ends[1] is None:
             return 0.0
         way = [float(figure.value) for figure in axes[mesh.axes[0]].direction]
-        arm = [float((q.base or 0) - (p.base or 0)) for p, q in zip(ends[0], ends[1], strict=True)]
+        arm = [float(q.base - p.base) for p, q in zip(ends[0], ends[1], strict=True)]
         along = sum(x * y for x, y in zip(way, arm, strict=True)) ** 2 / sum(x * x for x in way)
         return sqrt(max(sum(x * x for x in arm) - along, 0.0))
 

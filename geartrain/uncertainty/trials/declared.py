@@ -169,7 +169,7 @@ class _Reader:
 
     def fraction(self, kind: str, amount: Quantity) -> float:
         if amount.dimension in (None, "fraction"):
-            return float(amount.base or 0)
+            return float(amount.base)
         scale = self.scales[kind]
         if scale is None:
             why = "a length says something of a tooth whose size is known, and no module is declared with a unit"

@@ -267,7 +267,7 @@ def test_no_shipped_train_hangs_on_the_units_or_the_order_of_its_inputs(name: st
         units = [*SCALES][: len(case.inputs)] + ["rpm"] * len(case.inputs)
         named = {
             link: f"{speed * SCALES['rpm'] / SCALES[unit]} {unit}" if speed else "0"
-            for (link, speed), unit in zip(reversed(case.inputs.items()), units, strict=False)
+            for (link, speed), unit in zip(reversed(list(case.inputs.items())), units, strict=False)
         }
         data: dict[str, Any] = {"extends": name, "inputs": named, "loads": None, "links": {}}
         data["links"] = {link: {"bearing": None} for link, part in declared.links.items() if part.bearing}

@@ -172,7 +172,7 @@ def _efficiencies(setting: Setting, circuit: Circuit) -> tuple[Fraction, Fractio
         return Fraction(1), Fraction(1)
     gear = setting.gears[circuit.id]
     if gear.efficiency is not None:
-        return gear.efficiency.forward.value, gear.efficiency.backward.value
+        return gear.efficiency.forward.base, gear.efficiency.backward.base
     tooth = setting.meshes.get(circuit.id)
     if tooth is None or not tooth.rubs:
         return Fraction(1), Fraction(1)

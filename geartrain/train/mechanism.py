@@ -15,7 +15,7 @@ from pydantic import (
 )
 from pydantic_core import PydanticCustomError
 
-from geartrain.quantity import Angle, Figure, Friction, Inertia, Length, Quantity, Torque
+from geartrain.quantity import Angle, Figure, Friction, Inertia, Length, Quantity, Share, Torque
 from geartrain.teeth import ToothForm
 from geartrain.train.common import Boolean, ByName, Count, Declared, Id, Status, also, short_for, side
 from geartrain.train.cutting import Cutting, Fitting
@@ -176,11 +176,38 @@ class Revolute(Declared):
     note: str | None = Field(None, description="A remark for the reader")
 
 
-class Efficiencies(Declared):
-    """Basic efficiency of a pair, carrier held, by the wheel that drives."""
+def _no_more_than_all(efficiency: Quantity) -> Quantity:
+    if efficiency.base > 1:
+        meant = f"{efficiency.text} %" if efficiency.unit is None and efficiency.base <= 100 else "0.98"
+        raise PydanticCustomError(
+            "efficiency",
+            "an efficiency of {text} makes power out of nothing",
+            {"text": efficiency.text, "fix": f"an efficiency is at most 1: write for example 0.98 or {meant}"},
+        )
+    return efficiency
 
-    forward: Figure = Field(description="With the first wheel driving")
-    backward: Figure = Field(description="With the second wheel driving; 0 or less locks")
+
+Efficiency = Annotated[Share, AfterValidator(_no_more_than_all)]
+
+
+class Efficiencies(Declared):
+    """Basic efficiency of a pair, carrier held, by the wheel that drives: above 0 and at most 1, or a percentage.
+
+    A pair may lock in one direction, which 0 or less says, but not in both.
+    """
+
+    forward: Efficiency = Field(description="With the first wheel driving, at most 1; 0 or less locks")
+    backward: Efficiency = Field(description="With the second wheel driving, at most 1; 0 or less locks")
+
+    @model_validator(mode="after")
+    def _passes_power_one_way(self) -> Efficiencies:
+        if self.forward.base <= 0 and self.backward.base <= 0:
+            raise PydanticCustomError(
+                "efficiency",
+                "an efficiency of {text} lets no power through in either direction",
+                {"text": self.forward.text, "fix": "an efficiency is above 0 and at most 1, such as 0.98 or 98 %"},
+            )
+        return self
 
     @classmethod
     def __get_pydantic_json_schema__(cls, schema: Any, handler: GetJsonSchemaHandler) -> dict[str, Any]:
@@ -209,7 +236,8 @@ class GearPair(Declared):
     tooth_form: ToothForm | None = Field(None, description="Form of the teeth; default the train's")
     friction: Friction | None = Field(None, description="Coefficient of friction between teeth")
     efficiency: Annotated[Efficiencies, BeforeValidator(_efficiency)] | None = Field(
-        None, description="Basic efficiency with the carrier held: a number, or {forward, backward}"
+        None,
+        description="Basic efficiency with the carrier held, at most 1: a number, a percentage, or {forward, backward}",
     )
     share: Annotated[Figure, AfterValidator(_positive)] | None = Field(
         None, description="Part of a torque it carries, among the pairs that have a wheel in common and a share"

@@ -9,7 +9,7 @@ from fractions import Fraction
 from typing import Any
 
 from geartrain.errors import Verdict
-from geartrain.exact import decimal
+from geartrain.exact import abridged, decimal
 from geartrain.frozen import FrozenFields
 from geartrain.outputs import Number, OutputResult, number
 
@@ -84,7 +84,7 @@ class Answer(FrozenFields):
     def _repr_html_(self) -> str:
         shown = {name: result.speed for name, result in self.outputs.items()} or dict(self.speeds)
         rows = "".join(
-            f"<tr><td>{html.escape(name)}</td><td>{speed}</td><td>{_decimal(speed)}</td></tr>"
+            f"<tr><td>{html.escape(name)}</td><td>{_exact(speed)}</td><td>{_decimal(speed)}</td></tr>"
             for name, speed in shown.items()
         )
         head = f"<tr><th>output</th><th>exact</th><th>{html.escape(self.unit) or 'speed'}</th></tr>"
@@ -93,3 +93,7 @@ class Answer(FrozenFields):
 
 def _decimal(speed: Number | None) -> str:
     return "" if speed is None else decimal(speed) if isinstance(speed, Fraction) else f"{speed:.10g}"
+
+
+def _exact(speed: Number | None) -> str:
+    return abridged(speed) if isinstance(speed, Fraction) else str(speed)

@@ -8,6 +8,8 @@ from fractions import Fraction
 from itertools import islice
 from typing import Any, Literal
 
+from geartrain.exact import abridged, written
+
 Loc = tuple[str | int, ...]
 """Where in a declaration: the keys and list positions that lead to a value."""
 
@@ -113,7 +115,7 @@ class Loop:
         return self.product == 1
 
     def __str__(self) -> str:
-        return f"loop {' - '.join(self.links)} (pairs {', '.join(self.pairs)}; ratio product {self.product})"
+        return f"loop {' - '.join(self.links)} (pairs {', '.join(self.pairs)}; ratio product {abridged(self.product)})"
 
     def to_dict(self) -> dict[str, Any]:
         """Plain data for JSON."""
@@ -121,7 +123,7 @@ class Loop:
             "carrier": self.carrier,
             "links": list(self.links),
             "pairs": list(self.pairs),
-            "product": str(self.product),
+            "product": written(self.product),
         }
 
 

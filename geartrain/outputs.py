@@ -8,7 +8,7 @@ from fractions import Fraction
 from typing import Any
 
 from geartrain.circuits import Circuit, Tree
-from geartrain.exact import as_float, decimal
+from geartrain.exact import as_float, decimal, written
 from geartrain.periods import table
 from geartrain.train import Case, Output, Target, Train
 
@@ -25,6 +25,7 @@ class TargetResult:
     error               |output| / speed - 1
     days_per_century    what the pointer gains in time, where the unit is a time
     degrees_per_unit    what the pointer gains in angle while the unit passes once
+                        (both None beyond the range of float64)
     met                 within the declared tolerance; None without one
     """
 
@@ -32,13 +33,13 @@ class TargetResult:
     speed: Fraction
     error: Number
     days_per_century: float | None
-    degrees_per_unit: float
+    degrees_per_unit: float | None
     met: bool | None
 
     @property
-    def ppm(self) -> float:
-        """The error in parts per million."""
-        return float(self.error) * 1e6
+    def ppm(self) -> float | None:
+        """The error in parts per million; None beyond the range of float64."""
+        return near(self.error, 10**6)
 
     def to_dict(self) -> dict[str, Any]:
         """Plain data for JSON."""
@@ -86,7 +87,7 @@ class OutputResult:
             **number(self.speed),
             "of": self.of,
             "relative_to": self.relative_to,
-            "output/input": str(self.ratio) if isinstance(self.ratio, Fraction) else self.ratio,
+            "output/input": written(self.ratio) if isinstance(self.ratio, Fraction) else self.ratio,
             "expect": None if expect is None else {"value": str(expect.value), "holds": self.expect_holds},
             "published": None
             if published is None
@@ -100,6 +101,12 @@ class OutputResult:
         }
 
 
+def near(value: Number, times: int) -> float | None:
+    """A product as a float, or None where float64 has none."""
+    size = as_float(value) if isinstance(value, Fraction) else value
+    return None if size is None else size * times
+
+
 def magnitude(value: Number) -> Number:
     """|value|, of the same kind."""
     return value if value >= 0 else -value
@@ -110,7 +117,7 @@ def number(speed: Number | None) -> dict[str, Any]:
     if not isinstance(speed, Fraction):
         return {"exact": None, "value": speed}
     value = as_float(speed)
-    plain: dict[str, Any] = {"exact": str(speed), "value": value}
+    plain: dict[str, Any] = {"exact": written(speed), "value": value}
     if value is None:
         plain["decimal"] = decimal(speed)
     return plain
@@ -208,8 +215,8 @@ def _against(train: Train, target: Target, speed: Number) -> TargetResult:
         label,
         wanted,
         error,
-        float(error) * DAYS_PER_CENTURY if train.unit_days is not None else None,
-        float(size - wanted) * 360,
+        near(error, DAYS_PER_CENTURY) if train.unit_days is not None else None,
+        near(size - wanted, 360),
         None if tolerance is None else magnitude(error) <= tolerance,
     )
 
@@ -258,7 +265,7 @@ def _shift(result: OutputResult, speed_of: SpeedOf, signs: Mapping[str, int]) ->
         return None
     if speed == result.speed:
         return 0.0
-    return float(speed / result.speed - 1) * 1e6 if result.speed else None
+    return near(speed / result.speed - 1, 10**6) if result.speed else None
 
 
 def _recut(circuits: Iterable[Circuit], wheel: str, teeth: int) -> Iterator[Circuit]:

@@ -8,6 +8,7 @@ from fractions import Fraction
 from typing import Literal, NamedTuple
 
 from geartrain.circuits import Circuit
+from geartrain.exact import written
 from geartrain.train import Case
 
 RowKind = Literal["frame", "gear", "pin_and_slot", "pin_follower", "input", "fixed", "lock"]
@@ -97,6 +98,6 @@ def _escape(text: str) -> str:
 
 def _fraction(value: Fraction) -> str:
     if value.denominator == 1:
-        return str(value)
+        return written(value)
     sign = "-" if value < 0 else ""
-    return rf"{sign}\frac{{{abs(value.numerator)}}}{{{value.denominator}}}"
+    return rf"{sign}\frac{{{written(abs(value.numerator))}}}{{{written(value.denominator)}}}"

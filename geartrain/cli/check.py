@@ -23,6 +23,7 @@ def run(
 
 def _check(file: str, quiet: bool) -> int:
     from geartrain.files import load
+    from geartrain.report.document import exact
 
     try:
         train = load(file)
@@ -40,7 +41,7 @@ def _check(file: str, quiet: bool) -> int:
             continue
         for result in answer.failures:
             place = train.declaration.place(*_place(answer.state, result.name, train.declaration.states))
-            speed = "undetermined" if result.speed is None else result.speed
+            speed = exact(result.speed)
             head, tail = (place, "") if place.startswith(file) else (file, f" (declared at {place})")
             typer.echo(f"FAIL {head}:{state} output '{result.name}' is {speed}{_wanted(result)}{tail}")
             good = VERDICT

@@ -8,6 +8,7 @@ from fractions import Fraction
 from typing import Any
 
 from geartrain.closure.problem import Condition, How, Kind, Problem, judge
+from geartrain.exact import written
 
 
 @dataclass(frozen=True)
@@ -141,8 +142,8 @@ def _inside(problem: Problem, condition: Condition) -> dict[str, Fraction | floa
 
 def plain(value: Fraction | float) -> str | float:
     """An exact number as text, a float as it is."""
-    return str(value) if isinstance(value, Fraction) else value
+    return written(value) if isinstance(value, Fraction) else value
 
 
 def _shown(value: Fraction | float) -> str:
-    return str(abs(value)) if isinstance(value, Fraction) else f"{abs(value):.6g}"
+    return written(abs(value)) if isinstance(value, Fraction) else f"{abs(value):.6g}"

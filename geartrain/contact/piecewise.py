@@ -10,6 +10,7 @@ import numpy as np
 
 from geartrain.contact.polynomials import value
 from geartrain.contact.solving import KINDS
+from geartrain.exact import written
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -88,7 +89,7 @@ class Piecewise:
         """Plain data for JSON."""
         low, high = self.extremes()
         return {
-            "ratio": str(self.ratio),
+            "ratio": written(self.ratio),
             "period": self.period,
             "breaks": self.breaks.tolist(),
             "pair": self.pair.tolist(),

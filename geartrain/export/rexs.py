@@ -12,6 +12,7 @@ from fractions import Fraction
 from math import degrees
 from typing import TYPE_CHECKING, Any
 
+from geartrain.exact import as_float
 from geartrain.export.plates import basis
 from geartrain.teeth.involute import Involute
 
@@ -130,8 +131,9 @@ class _Unit:
         """Speeds of shafts, where they are so many in a minute."""
         found = []
         for (kind, link), number in self.numbers.items():
-            if kind == "link" and link in self.speeds:
-                value = {"id": "rotational_speed", "unit": "1 / min", "floating_point": float(self.speeds[link])}
+            speed = as_float(self.speeds[link]) if kind == "link" and link in self.speeds else None
+            if speed is not None:
+                value = {"id": "rotational_speed", "unit": "1 / min", "floating_point": speed}
                 found.append({"id": number, "type": "shaft", "name": link, "attributes": [value]})
         return found
 

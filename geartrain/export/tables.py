@@ -8,7 +8,7 @@ from fractions import Fraction
 from io import StringIO
 from typing import TYPE_CHECKING
 
-from geartrain.exact import decimal
+from geartrain.exact import decimal, written
 
 if TYPE_CHECKING:
     from geartrain.export.assembly import Workpiece
@@ -42,7 +42,7 @@ def _csv(head: str, rows: Iterable[Sequence[object]]) -> str:
 
 def _both(value: Fraction | None) -> tuple[str, str]:
     """The exact text and the decimal."""
-    return ("", "") if value is None else (str(value), decimal(value, _DIGITS))
+    return ("", "") if value is None else (written(value), decimal(value, _DIGITS))
 
 
 def _wheels(work: Workpiece) -> tuple[str, Rows]:

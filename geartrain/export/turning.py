@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from geartrain.errors import Problem, QuestionError
+from geartrain.exact import read
 
 if TYPE_CHECKING:
     from geartrain.export.assembly import Workpiece
@@ -52,7 +53,7 @@ class Turning:
         ripples = scene.movement.kind == "real"
         dense = _RIPPLING if ripples else _A_TURN
         if turns is None:
-            period = Fraction(scene.movement.period) if scene.movement.period else None
+            period = read(scene.movement.period) if scene.movement.period else None
             turns = period if period and period * fastest * dense <= _MOST else Fraction(_USUAL)
             turns = min(turns, Fraction(_MOST) / (fastest * dense))
         elif turns <= 0 or turns * fastest * dense > _MOST:
@@ -78,7 +79,7 @@ class Turning:
         for at, sign in ((body, 1), (bodies[body].parent, -1)):
             if at is not None and bodies[at].parent is not None:
                 own = bodies[at]
-                whole = Fraction(own.speed or 0) * self.turns
+                whole = read(own.speed or "0") * self.turns
                 # turns exactly, so that a body that comes home is there
                 parts = [
                     float((whole * k / count) % 1) if whole.denominator < 10**9 else float(whole) * k / count % 1
@@ -108,6 +109,6 @@ def _relative(work: Workpiece) -> tuple[Fraction | None, ...]:
         if parent is None or body.speed is None:
             found.append(None)
             continue
-        carried = Fraction(parent.speed or 0) * parent.sense if parent.parent is not None else Fraction(0)
-        found.append(Fraction(body.speed) * body.sense - carried)
+        carried = read(parent.speed or "0") * parent.sense if parent.parent is not None else Fraction(0)
+        found.append(read(body.speed) * body.sense - carried)
     return tuple(found)

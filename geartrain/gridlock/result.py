@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Any, Literal
 
 from geartrain.errors import Loop
+from geartrain.exact import abridged
 
 Method = Literal["one", "loops", "matching", "search", "greedy"]
 _WEAKER: tuple[Method, ...] = ("one", "loops", "matching", "search", "greedy")
@@ -116,9 +117,9 @@ class Jam:
         elif loop.product < 0:
             why = "each wheel would turn against itself, and at another speed"
         else:
-            why = f"each wheel would turn at two speeds, {loop.product} of each other"
+            why = f"each wheel would turn at two speeds, {abridged(loop.product)} of each other"
         return (
-            f"loop {_some(loop.links, ' - ')} (pairs {_some(loop.pairs)}; ratio product {loop.product}) "
+            f"loop {_some(loop.links, ' - ')} (pairs {_some(loop.pairs)}; ratio product {abridged(loop.product)}) "
             f"does not close: {why}"
         )
 

@@ -17,7 +17,7 @@ from geartrain.exact import log10
 from geartrain.motion.composition import Composition, Passage, Source
 from geartrain.motion.moving import Moving
 from geartrain.motion.spreading import Joint, find_spread
-from geartrain.motion.tally import Tally
+from geartrain.motion.tally import Tally, mean_speed
 
 if TYPE_CHECKING:
     from numpy.random import Generator
@@ -48,7 +48,7 @@ class Ripple:
     @property
     def mean(self) -> float:
         """Mean speed over the input's."""
-        return float(self.ratio)
+        return mean_speed(self.name, self.ratio)
 
     @cached_property
     def tally(self) -> Tally:

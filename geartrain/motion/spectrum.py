@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from geartrain.exact import written
 from geartrain.motion.composition import Angle
 from geartrain.motion.estimates import Superposition
 
@@ -48,7 +49,7 @@ class Line:
         pairs = [{"pair": pair, "harmonic": harmonic, "amplitude": share} for pair, harmonic, share in self.shares]
         return {
             "order": float(self.order),
-            "exact": str(self.order),
+            "exact": written(self.order),
             "expected": self.expected,
             "measured": self.measured,
             "pairs": pairs,

@@ -7,11 +7,24 @@ from fractions import Fraction
 from math import inf, sqrt
 from typing import TYPE_CHECKING, Any
 
+from geartrain.errors import Problem, RangeError
+from geartrain.exact import as_float, log10, written
+
 if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
     Floats = NDArray[np.float64]
+
+
+def mean_speed(name: str, ratio: Fraction) -> float:
+    """An exact mean speed as a float, or a `RangeError` where there is none."""
+    found = as_float(ratio)
+    if found is None:
+        what = f"the mean speed of '{name}' is 10^{log10(ratio):.0f} times the input's"
+        why = "motion is followed in float64, which holds 1e-308 to 1e308"
+        raise RangeError(Problem(what, why, "drive the train nearer to this output, or ask `solve`"))
+    return found
 
 
 @dataclass
@@ -52,7 +65,7 @@ class Tally:
     @property
     def mean(self) -> float:
         """Mean speed over the input's."""
-        return float(self.ratio)
+        return mean_speed(self.name, self.ratio)
 
     @property
     def peak_to_peak(self) -> float:
@@ -77,5 +90,5 @@ class Tally:
         return {
             "transmission_error": {"peak_to_peak": self.peak_to_peak, "rms": self.rms},
             "speed": {"min": low, "max": high, "mean": self.mean},
-            "ratio": str(self.ratio),
+            "ratio": written(self.ratio),
         }

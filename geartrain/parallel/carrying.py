@@ -16,6 +16,7 @@ from typing import Any
 from zlib import crc32
 
 from geartrain.errors import GearTrainError, Problem
+from geartrain.exact import written
 
 
 @dataclass(frozen=True, slots=True)
@@ -92,5 +93,5 @@ def mark_of(task: Any) -> str:
 
 def _fraction(value: Any) -> str:
     if isinstance(value, Fraction):
-        return str(value)
+        return written(value)
     raise TypeError

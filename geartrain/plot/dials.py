@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from geartrain.errors import Problem, QuestionError
-from geartrain.exact import decimal
+from geartrain.exact import decimal, is_short
 from geartrain.plot.library import Axes, Circle, Figure
 from geartrain.plot.parts import BLACK, BLUE, GREEN, GREY, ORANGE, PURPLE, RED, SMALL, sheet, title_of, write
 from geartrain.scene import Pointer, Scene
@@ -223,7 +223,7 @@ def _words(pointer: Pointer, reading: Reading, face: Face) -> str:
     if reading.turned is None:
         return f"{pointer.output}: undetermined"
     where = reading.turned % face.turns
-    text = f"at {where if len(str(where)) <= 12 else decimal(where, 6)} turn"
+    text = f"at {where if is_short(where, 12) else decimal(where, 6)} turn"
     if abs(reading.error) > 5e-7:
         text += f" {'+' if reading.error > 0 else '-'} {abs(reading.error) * 360:.3g}°"
     way = pointer.text.removesuffix(" as read")

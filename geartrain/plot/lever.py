@@ -17,7 +17,7 @@ from geartrain.analysis import GearTrain
 from geartrain.answer import Answer
 from geartrain.components import find_components
 from geartrain.errors import Problem, QuestionError
-from geartrain.exact import decimal
+from geartrain.exact import decimal, is_short, written
 from geartrain.plot.arranging import spread
 from geartrain.plot.library import Axes, Figure
 from geartrain.plot.parts import BLACK, BLUE, GREY, LETTER, PALE, RED, SMALL, sheet, title_of, too_many
@@ -216,5 +216,4 @@ def _said(value: Fraction | None) -> str:
     """A short fraction as it is, a long one in decimals, nothing known as a question mark."""
     if value is None:
         return "?"
-    text = str(value)
-    return text if len(text) <= _LONG else f"≈ {decimal(value, 6)}"
+    return written(value) if is_short(value, _LONG) else f"≈ {decimal(value, 6)}"

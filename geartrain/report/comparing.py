@@ -64,7 +64,7 @@ def _speed(answer: Answer, name: str) -> str:
         return "" if answer.verdict else answer.verdict.kind
     decimal = figure(speed, 7)
     shown = exact(speed) if exact(speed) == decimal else f"{exact(speed)} = {decimal}"
-    return Exact(shown + (" FAILS" if result is not None and not result.holds else ""), str(speed))
+    return Exact(shown + (" FAILS" if result is not None and not result.holds else ""), speed)
 
 
 def _targets(columns: Sequence[tuple[str, GearTrain, Answer]]) -> list[tuple[str, ...]]:

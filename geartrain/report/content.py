@@ -8,6 +8,7 @@ from geartrain.analysis import GearTrain
 from geartrain.answer import Answer
 from geartrain.circuits import Circuit
 from geartrain.errors import Loop
+from geartrain.exact import abridged
 from geartrain.report.assembling import closure_sections
 from geartrain.report.document import MOST_ROWS, Document, Exact, Section, Table, cut
 from geartrain.report.moving import moving_sections
@@ -177,4 +178,4 @@ def _mobility(train: GearTrain) -> Section:
 
 
 def _loop(loop: Loop) -> str:
-    return f"loop {' - '.join(loop.links)} by {', '.join(loop.pairs)}, ratio product {loop.product}"
+    return f"loop {' - '.join(loop.links)} by {', '.join(loop.pairs)}, ratio product {abridged(loop.product)}"

@@ -6,21 +6,26 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 
-from geartrain.exact import decimal
+from geartrain.exact import abridged, decimal, written
 
 
 class Exact(str):
     """A cell that holds an exact value; `full` is all of it where the text is shortened, and what a page copies."""
 
-    __slots__ = ("full",)
+    __slots__ = ("_value",)
 
-    full: str
+    _value: Fraction | float | str
 
-    def __new__(cls, text: str, full: str | None = None) -> Exact:
-        """`text` as shown; `full` the same unless given."""
+    def __new__(cls, text: str, value: Fraction | float | None = None) -> Exact:
+        """`text` as shown, of `value`; the text itself is all there is to say where none is given."""
         made = super().__new__(cls, text)
-        made.full = full or text
+        made._value = text if value is None else value
         return made
+
+    @property
+    def full(self) -> str:
+        """The whole value; the digits of a very long one are written when they are asked for."""
+        return written(self._value) if isinstance(self._value, Fraction) else str(self._value)
 
 
 class Cited(str):
@@ -107,10 +112,7 @@ def exact(value: Fraction | float | None) -> str:
         return "undetermined"
     if not isinstance(value, Fraction):
         return f"~{value:.12g}"
-    text = str(value)
-    if len(text) <= 40:
-        return Exact(text)
-    return Exact(f"({len(str(abs(value.numerator)))} digits)/({len(str(value.denominator))} digits)", text)
+    return Exact(abridged(value), value)
 
 
 def one_to(ratio: Fraction | float | None) -> str:

@@ -7,6 +7,7 @@ from math import degrees
 from typing import TYPE_CHECKING, Any
 
 from geartrain.errors import GearTrainError
+from geartrain.exact import abridged, written
 from geartrain.report.document import Document, Section, Table, figure
 
 if TYPE_CHECKING:
@@ -29,7 +30,7 @@ def motion_document(run: Run) -> Document:
     if run.done < run.samples:
         lead.append(f"PARTIAL: stopped after {run.done} of {run.samples} positions.")
     if period is not None:
-        lead.append(f"Everything repeats after {period} turns of '{train.lead}'.")
+        lead.append(f"Everything repeats after {abridged(period)} turns of '{train.lead}'.")
     return Document("Motion with real teeth and pins", lead, list(motion_sections(run)))
 
 
@@ -228,7 +229,7 @@ def motion_data(run: Run) -> dict[str, Any]:
         "input": motion.train.lead,
         "turns": run.turns,
         "positions": run.done,
-        "period": None if period is None else str(period),
+        "period": None if period is None else written(period),
         "drivers": drivers,
         "turned_back": sorted(composition.turned_back),
         "rigid": [mesh.name for mesh in motion.train.rigid],

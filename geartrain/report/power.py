@@ -8,6 +8,7 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 from geartrain.analysis import GearTrain
+from geartrain.exact import as_float, written
 from geartrain.report.document import Document, Section, Table, cut, figure
 
 if TYPE_CHECKING:
@@ -202,9 +203,9 @@ def losses_data(flow: PowerFlow, blows: Mapping[str, float]) -> list[dict[str, A
         item: dict[str, Any] = {
             "kind": node.kind,
             "name": node.name,
-            "power": float(lost),
-            "of_power_in": float(lost / flow.power_in) if flow.power_in else None,
-            "of_loss": float(lost / flow.loss),
+            "power": as_float(lost),
+            "of_power_in": as_float(lost / flow.power_in) if flow.power_in else None,
+            "of_loss": as_float(lost / flow.loss),
         }
         if node.kind == "pair" and node.name in blows:
             item["impact"] = blows[node.name]
@@ -266,6 +267,6 @@ def _drive_data(found: Torques) -> dict[str, Any]:
     efficiency: Fraction | None = found.efficiency if found.verdict else None
     return {
         "verdict": found.verdict.to_dict(),
-        "efficiency": None if efficiency is None else float(efficiency),
-        "exact": None if efficiency is None else str(efficiency),
+        "efficiency": None if efficiency is None else as_float(efficiency),
+        "exact": None if efficiency is None else written(efficiency),
     }

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from geartrain.analysis import GearTrain
 from geartrain.errors import Problem
+from geartrain.exact import written
 from geartrain.layout import lay_out
 from geartrain.scene.bodies import find_bodies
 from geartrain.scene.couplings import find_couplings
@@ -44,7 +45,7 @@ def make_scene(train: GearTrain, state: str | None = None) -> Scene:
         front=stage.layout.front,
         lead=None if stage.lead is None else stage.body[stage.lead],
         crank=None if stage.crank is None else stage.body[stage.crank],
-        step=str(stage.step),
+        step=written(stage.step),
         verdict=verdict,
         bodies=find_bodies(stage),
         wheels=wheels,

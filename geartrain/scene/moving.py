@@ -9,6 +9,7 @@ from math import gcd, lcm
 from typing import TYPE_CHECKING
 
 from geartrain.errors import GearTrainError, Problem
+from geartrain.exact import written
 from geartrain.scene.result import Movement, plain
 from geartrain.scene.stage import Stage
 from geartrain.scene.tables import laws_and_sources, step_of
@@ -145,4 +146,4 @@ def _period(stage: Stage, cycles: Iterable[Fraction]) -> Fraction | None:
 
 
 def _text(value: Fraction | None) -> str | None:
-    return None if value is None else str(value)
+    return None if value is None else written(value)

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from geartrain.errors import Problem, RangeError
+from geartrain.exact import read
 from geartrain.scene.result import Law, Scene, Source, Step
 
 if TYPE_CHECKING:
@@ -42,7 +43,7 @@ class Pose:
 
 def turns_of(speed: str | None, turns: Fraction) -> Fraction:
     """What a speed over the lead's makes of `turns` of the lead, exact; 0 where it is not determined."""
-    return Fraction(speed) * turns if speed is not None else Fraction(0)
+    return read(speed) * turns if speed is not None else Fraction(0)
 
 
 def pose(scene: Scene, turns: Fraction = Fraction(0)) -> Pose:
@@ -133,7 +134,7 @@ def _delta(scene: Scene, source: Source, turns: Fraction, error: Floats) -> floa
     """What a pair that ripples adds to the body it drives."""
     law = scene.movement.laws[source.law]
     swing = source.driver_sense * error[source.driver] - source.carrier_sense * error[source.carrier]
-    mean = law.period * float(Fraction(source.cycles) * turns % 1)
+    mean = law.period * float(read(source.cycles) * turns % 1)
     return source.sense * _value(law, source.start + mean + source.forward * float(swing))
 
 

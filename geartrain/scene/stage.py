@@ -9,7 +9,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 from geartrain.errors import GearTrainError, Problem
-from geartrain.exact import decimal
+from geartrain.exact import decimal, written
 from geartrain.quantity import turns_in
 from geartrain.scene.space import Vector, dot, unit
 
@@ -133,7 +133,7 @@ class Stage:
 
 def exact(value: Fraction | None) -> str | None:
     """A ratio as text."""
-    return None if value is None else str(value)
+    return None if value is None else written(value)
 
 
 def rounded(value: Fraction | None) -> str:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from geartrain.exact import written
 from geartrain.scene.result import Law, Source, Step
 
 if TYPE_CHECKING:
@@ -45,7 +46,7 @@ def laws_and_sources(composition: Composition) -> tuple[tuple[Law, ...], tuple[S
                 carrier=joint.carrier,
                 driver_sense=source.driver_sense,
                 carrier_sense=source.carrier_sense,
-                cycles=str(source.cycles),
+                cycles=written(source.cycles),
                 start=source.start,
                 forward=source.forward,
                 sense=source.sense,

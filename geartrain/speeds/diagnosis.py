@@ -11,7 +11,7 @@ from math import gcd, lcm
 
 from geartrain.components import Reduced
 from geartrain.errors import Loop, Verdict
-from geartrain.exact import Row, TooDenseError, add_into, eliminate
+from geartrain.exact import Row, TooDenseError, abridged, add_into, eliminate
 from geartrain.train import Case
 
 _ZERO = Fraction(0)
@@ -119,7 +119,7 @@ def _name(reduced: Reduced, case: Case, given: Mapping[int, Fraction], statement
     numbers = [int(value * scale) for _, value, _ in inputs]
     common = gcd(*numbers) * (1 if numbers[0] > 0 else -1)
     terms = " ".join(
-        f"{'-' if n < 0 else '+'} {abs(n)} {text.split(' = ')[0]}"
+        f"{'-' if n < 0 else '+'} {abridged(abs(n))} {text.split(' = ')[0]}"
         for n, (text, _, _) in zip([n // common for n in numbers], inputs, strict=True)
     )
     residue = sum((value * speed for _, value, speed in inputs), Fraction(0)) * scale / common

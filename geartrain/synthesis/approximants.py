@@ -15,7 +15,7 @@ from heapq import merge
 from typing import Any, Literal
 
 from geartrain.errors import Problem, QuestionError, RangeError
-from geartrain.exact import coprime
+from geartrain.exact import coprime, written
 
 Kind = Literal["convergent", "best", "intermediate"]
 Pair = tuple[int, int]
@@ -41,10 +41,10 @@ class Approximant:
     def to_dict(self) -> dict[str, Any]:
         """Plain data for JSON."""
         return {
-            "value": str(self.value),
+            "value": written(self.value),
             "kind": self.kind,
             "error": float(self.error),
-            "exact_error": str(self.error),
+            "exact_error": written(self.error),
         }
 
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
-from geartrain.exact import as_float
+from geartrain.exact import as_float, written
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,10 +60,10 @@ class Stages:
         """Plain data for JSON."""
         return {
             "teeth": [list(self.top), list(self.beneath)],
-            "ratio": str(self.ratio),
+            "ratio": written(self.ratio),
             "value": as_float(self.ratio),
             "error": float(self.error),
-            "exact_error": str(self.error),
+            "exact_error": written(self.error),
             "stages": [list(pair) for pair in self.pairs],
             "total": sum(self.teeth),
             "largest": max(self.teeth),

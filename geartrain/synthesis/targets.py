@@ -10,7 +10,7 @@ from typing import Any, Literal
 from pydantic_core import PydanticCustomError
 
 from geartrain.errors import Problem, QuestionError
-from geartrain.exact import as_float, decimal
+from geartrain.exact import as_float, decimal, written
 from geartrain.periods import suggestion, table
 from geartrain.quantity import UNITS, Figure, Quantity
 
@@ -51,7 +51,7 @@ class Wanted:
     def __post_init__(self) -> None:
         if self.value <= 0:
             raise _problem(
-                f"a ratio of {_short(str(self.value))} is wanted",
+                f"a ratio of {_short(written(self.value))} is wanted",
                 "tooth counts make the magnitude, which is above 0; the sense is told apart",
                 "give a number above 0",
             )
@@ -60,7 +60,7 @@ class Wanted:
         """Plain data for JSON."""
         return {
             "label": self.label,
-            "ratio": str(self.value),
+            "ratio": written(self.value),
             "value": as_float(self.value),
             "sense": self.sense,
             "note": self.note,

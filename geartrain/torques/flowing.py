@@ -13,6 +13,7 @@ from fractions import Fraction
 from typing import Any, Literal, NamedTuple
 
 from geartrain.circuits import Tree
+from geartrain.exact import as_float
 from geartrain.torques.result import Torques
 from geartrain.train import Train
 
@@ -40,8 +41,8 @@ class Stream:
         return {
             "from": self.source._asdict(),
             "to": self.target._asdict(),
-            "power": float(self.power),
-            "circling": float(self.circling),
+            "power": as_float(self.power),
+            "circling": as_float(self.circling),
         }
 
 
@@ -100,8 +101,8 @@ class PowerFlow:
                 {
                     "pairs": list(loop.pairs),
                     "shafts": list(loop.shafts),
-                    "power": float(loop.power),
-                    "of_power_in": float(loop.power / self.power_in) if self.power_in else None,
+                    "power": as_float(loop.power),
+                    "of_power_in": as_float(loop.power / self.power_in) if self.power_in else None,
                 }
                 for loop in self.loops
             ],

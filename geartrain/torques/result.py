@@ -8,6 +8,7 @@ from fractions import Fraction
 from functools import cached_property
 from typing import Any, Literal
 
+from geartrain.exact import as_float
 from geartrain.frozen import FrozenFields
 
 Kind = Literal[
@@ -84,9 +85,9 @@ class PairTorque:
         """Plain data for JSON."""
         return {
             "driver": self.driver,
-            "torques": dict(zip(("first", "second", "carrier"), map(float, self.torques), strict=True)),
-            "power": float(self.power),
-            "loss": float(self.loss),
+            "torques": dict(zip(("first", "second", "carrier"), map(as_float, self.torques), strict=True)),
+            "power": as_float(self.power),
+            "loss": as_float(self.loss),
             "shared": self.loose,
         }
 
@@ -148,13 +149,13 @@ class Torques(FrozenFields):
         return {
             "state": self.state,
             "verdict": self.verdict.to_dict(),
-            "efficiency": None if efficiency is None else float(efficiency),
-            "circulating": None if circulating is None else float(circulating),
+            "efficiency": None if efficiency is None else as_float(efficiency),
+            "circulating": None if circulating is None else as_float(circulating),
             "links": {
-                link: {"torque": float(torque), "power": float(self.powers[link]), "asked": link in self.asked}
+                link: {"torque": as_float(torque), "power": as_float(self.powers[link]), "asked": link in self.asked}
                 for link, torque in self.external.items()
             },
             "pairs": {name: pair.to_dict() for name, pair in self.pairs.items()},
-            "power_in": float(self.power_in),
-            "loss": float(self.loss),
+            "power_in": as_float(self.power_in),
+            "loss": as_float(self.loss),
         }

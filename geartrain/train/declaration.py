@@ -11,7 +11,7 @@ from typing import Annotated
 from pydantic import BeforeValidator, Field, PrivateAttr
 
 from geartrain.errors import Loc, Marks, dotted
-from geartrain.exact import decimal
+from geartrain.exact import abridged, decimal
 from geartrain.periods import table
 from geartrain.pins import Coupling
 from geartrain.quantity import Friction, Quantity, Speed, Torque, in_unit, same_kind
@@ -52,7 +52,7 @@ class Case:
 
     def shown(self, speed: Fraction) -> str:
         """A speed for a reader: as a fraction, or in decimal where it is not exact."""
-        return str(speed) if self.exact else decimal(speed)
+        return abridged(speed) if self.exact else decimal(speed)
 
     def says(self, *links: str) -> str:
         """A brake on one link or a lock of two, in words, with the clutch that does it."""

@@ -7,6 +7,7 @@ from fractions import Fraction
 from typing import Any
 
 from geartrain.errors import Problem, QuestionError
+from geartrain.exact import written
 from geartrain.synthesis.epicyclic.found import EpicyclicSet, RatioIs
 from geartrain.synthesis.epicyclic.kinds import CARRIER, Kind, Mode, kind_named
 
@@ -34,7 +35,7 @@ def declare(
     output: dict[str, Any] = {}
     if wanted is not None:
         speed = Fraction(wanted) if ratio_is == "output/input" else 1 / Fraction(wanted)
-        target = {"speed": str(speed)}
+        target = {"speed": written(speed)}
         if tolerance is not None:
             target["tolerance"] = str(float(tolerance))
         output = {"targets": [target]}

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any, Literal
 
-from geartrain.exact import as_float, decimal
+from geartrain.exact import abridged, as_float, decimal, written
 from geartrain.synthesis.epicyclic.kinds import Mode
 from geartrain.synthesis.result import Shortfall
 
@@ -53,7 +53,7 @@ class EpicyclicSet:
 
     def __str__(self) -> str:
         teeth = ", ".join(f"{wheel} = {count}" for wheel, count in self.teeth.items())
-        return f"{teeth}: {self.ratio} = {decimal(self.ratio, 7)} ({self.mode})"
+        return f"{teeth}: {abridged(self.ratio)} = {decimal(self.ratio, 7)} ({self.mode})"
 
     def to_dict(self) -> dict[str, Any]:
         """Plain data for JSON."""
@@ -61,11 +61,11 @@ class EpicyclicSet:
             "kind": self.kind,
             "mode": {"input": self.mode.input, "output": self.mode.output, "held": self.mode.held},
             "teeth": dict(self.teeth),
-            "input/output": str(self.ratio),
-            "output/input": str(self.inverse),
+            "input/output": written(self.ratio),
+            "output/input": written(self.inverse),
             "value": as_float(self.ratio),
             "error": float(self.error),
-            "exact_error": str(self.error),
+            "exact_error": written(self.error),
             "planets": self.planets,
             "places": self.places,
             "equally_spaced": self.equally_spaced,

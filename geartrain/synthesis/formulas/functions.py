@@ -9,6 +9,7 @@ from itertools import product
 from typing import TYPE_CHECKING, Any
 
 from geartrain.errors import Problem, QuestionError
+from geartrain.exact import is_short, written
 from geartrain.synthesis.formulas.divisors import common_divisor, divide
 from geartrain.synthesis.formulas.groups import Group, Grouping, find_grouping
 from geartrain.synthesis.formulas.laurent import Laurent, Term
@@ -156,8 +157,8 @@ class Formula:
             "label": self.label,
             "text": str(self),
             "wheels": list(self.wheels),
-            "numerator": [[term.coefficient, list(term.exponents)] for term in self.numerator],
-            "denominator": [[term.coefficient, list(term.exponents)] for term in self.denominator],
+            "numerator": _listed(self.numerator),
+            "denominator": _listed(self.denominator),
             "groups": [group.to_dict() for group in self.groups],
         }
 
@@ -206,6 +207,11 @@ def make_formula(
         grouping = find_grouping(quotients)  # what is left may fall into fewer classes
         top, bottom = grouping.rewritten
     return _formula(label, wheels, grouping, top, bottom), cancelled
+
+
+def _listed(terms: Sequence[Term]) -> list[list[Any]]:
+    """Terms for JSON; a coefficient too long for Python to write is text."""
+    return [[c if is_short(c, 600) else written(c), list(exponents)] for c, exponents in terms]
 
 
 def _formula(label: str, wheels: Sequence[str], grouping: Grouping, top: Laurent, bottom: Laurent) -> Formula:

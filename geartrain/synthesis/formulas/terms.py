@@ -6,6 +6,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from fractions import Fraction
 from typing import Any
 
+from geartrain.exact import written
 from geartrain.synthesis.formulas.laurent import Laurent, Term, power_product
 
 
@@ -68,7 +69,7 @@ def in_words(terms: Sequence[Term], wheels: Sequence[str]) -> str:
     words: list[str] = []
     for coefficient, exponents in terms:
         powers = [f"{w}^{e}" if e > 1 else w for w, e in zip(wheels, exponents, strict=True) if e]
-        size = [] if abs(coefficient) == 1 and powers else [str(abs(coefficient))]
+        size = [] if abs(coefficient) == 1 and powers else [written(abs(coefficient))]
         sign = "-" if coefficient < 0 else "+" if words else ""
         words += [
             *([sign] if sign and words else []),

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
-from geartrain.exact import as_float
+from geartrain.exact import as_float, written
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,7 +31,7 @@ class OrreryArbor:
         """Plain data for JSON."""
         return {
             "name": self.name,
-            "period": str(self.period),
+            "period": written(self.period),
             "value": as_float(self.period),
             "sense": self.sense,
             "wheels": list(self.wheels),
@@ -155,4 +155,4 @@ def _plain(value: Fraction) -> str:
         if scaled.denominator == 1:
             whole = str(scaled.numerator).rjust(digits + 1, "0")
             return f"{whole[:-digits]}.{whole[-digits:]}" if digits else whole
-    return str(value)
+    return written(value)

@@ -8,6 +8,7 @@ from fractions import Fraction
 from functools import cached_property
 from typing import Any
 
+from geartrain.exact import written
 from geartrain.synthesis.stages.fit import Fit
 from geartrain.synthesis.stages.products import PLAIN, Products, multisets, products_of
 
@@ -102,7 +103,7 @@ class Question:
     def plain(self) -> dict[str, Any]:
         """Plain data for JSON."""
         return {
-            "value": str(self.value),
+            "value": written(self.value),
             "stages": self.stages,
             "top": list(self.top),
             "beneath": list(self.beneath),

@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from geartrain.exact import count_digits
+
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
@@ -117,6 +119,6 @@ def rounded_up(bound: float | Fraction) -> Fraction:
     exact = Fraction(bound)
     if exact <= 0:
         return Fraction(0)
-    power = len(str(exact.numerator)) - len(str(exact.denominator)) - 3
+    power = count_digits(exact.numerator) - count_digits(exact.denominator) - 3
     unit = Fraction(10) ** power
     return -(-exact // unit) * unit

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any, Literal
 
-from geartrain.exact import as_float
+from geartrain.exact import as_float, written
 
 By = Literal["error", "total", "largest", "distinct", "change"]
 ORDERS: tuple[By, ...] = ("error", "total", "largest", "distinct", "change")
@@ -32,11 +32,11 @@ class Reached:
     def to_dict(self) -> dict[str, Any]:
         """Plain data for JSON."""
         return {
-            "speed": str(self.speed),
+            "speed": written(self.speed),
             "value": as_float(self.speed),
             "target": self.label,
             "error": float(self.error),
-            "exact_error": str(self.error),
+            "exact_error": written(self.error),
             "met": self.met,
         }
 

@@ -8,7 +8,7 @@ from fractions import Fraction
 from math import log2
 from typing import Any, Literal
 
-from geartrain.exact import as_float, decimal
+from geartrain.exact import as_float, decimal, written
 from geartrain.uncertainty.counts.doubts import Doubt
 from geartrain.uncertainty.counts.evidence import Witness
 
@@ -43,7 +43,7 @@ class Chance:
         """Plain data for JSON."""
         plain: dict[str, Any] = {"value": float(self.value)}
         if isinstance(self.value, Fraction):
-            plain["exact"] = str(self.value)
+            plain["exact"] = written(self.value)
         return plain if self.low is None else plain | {"low": self.low, "high": self.high}
 
 
@@ -115,7 +115,7 @@ class Combination:
         return {
             "teeth": dict(self.teeth),
             "outputs": {
-                name: {"exact": str(speed), "value": as_float(speed), "error": float(self.errors[name])}
+                name: {"exact": written(speed), "value": as_float(speed), "error": float(self.errors[name])}
                 for name, speed in self.speeds.items()
             },
             "misfit": float(self.misfit),

@@ -9,6 +9,7 @@ from math import gcd, lcm
 from typing import TYPE_CHECKING, Any
 
 from geartrain.errors import Problem, QuestionError, RangeError
+from geartrain.exact import written
 from geartrain.motion import Composition
 from geartrain.teeth.triangular.sizes import Sizes
 from geartrain.uncertainty.trials.declared import (
@@ -101,7 +102,7 @@ class Plan:
             "pairs": [
                 [each.name, each.first, each.second, *_sizes(each.sizes), _plain(each.fitting)] for each in self.pairs
             ],
-            "outputs": [[name, str(speed)] for name, speed in zip(self.outputs, self.speeds, strict=True)],
+            "outputs": [[name, written(speed)] for name, speed in zip(self.outputs, self.speeds, strict=True)],
             "span": self.span,
         }
 

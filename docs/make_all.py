@@ -27,7 +27,9 @@ DOCS = Path(__file__).resolve().parent
 def main() -> None:
     """Run all makers, the command that writes the reference, and mkdocs."""
     reference = DOCS / "reference.md"
-    subprocess.run([sys.executable, "-m", "geartrain", "schema", "--as", "markdown", "-o", str(reference)], check=True)
+    subprocess.run(
+        [sys.executable, "-m", "geartrain", "schema", "--as", "markdown", "-o", str(reference), "--force"], check=True
+    )
     accuracy = (
         make_accuracy,
         make_mesh_accuracy,

@@ -21,7 +21,19 @@ Where a command takes FILE, give a YAML declaration or the name of a shipped tra
 |---|---|
 | 0 | determined, and every expectation holds |
 | 1 | a verdict (free, locked, contradictory) or an expectation that fails, reported as a result |
-| 2 | input that cannot be read or used |
+| 2 | input that cannot be read or used; nothing is printed or written |
+| 3 | a fault of geartrain itself: one line on standard error names a file with the traceback, which is to be reported |
+| 130 | interrupted (Ctrl-C) |
+| 141 | nobody reads standard output any more (`geartrain ... \\| head`) |
+
+With the environment variable `GEARTRAIN_TRACEBACK` set, the traceback of a fault is printed too.
+
+Whatever a command writes (`-o`, `--to`, `--plot`, `--profile`) follows one rule. A file that is there is
+kept, and the command refuses before it works, unless `--force` is given. Symbolic links are followed: the file behind
+one is replaced, the link stays. Only regular files are written over: a folder, FIFO, device or socket is refused by
+name, and so is a file whose permissions say read-only, even to root and with `--force`. A file is written whole or not
+at all, and keeps the permissions it had. `-o -` is standard output: what would go into a file goes there. The partial
+files of an interrupted run are gone on with by `--resume`, or written over by `--force`.
 """
 
 

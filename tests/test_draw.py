@@ -447,18 +447,18 @@ def test_an_existing_file_is_kept_unless_forced(here: Path) -> None:
         ("nowhere/x.svg", "no such folder"),
         ("x\x07.svg", "no name for a file"),
         ("y" * 300 + ".svg", "no name for a file"),
-        ("/dev/null", "no ordinary file"),
+        ("/dev/null", "this is a device"),
     ],
 )
 @pytest.mark.parametrize("force", [False, True])
 def test_what_cannot_be_a_file_is_refused_with_a_reason_and_a_way_out(
     here: Path, path: str, said: str, force: bool
 ) -> None:
-    from geartrain.cli.common import may_write
+    from geartrain.files import destination
 
     (here / "folder").mkdir()
     with pytest.raises(GearTrainError, match=said) as caught:
-        may_write(Path(path), force)
+        destination(Path(path), force)
     (problem,) = caught.value.problems
     assert problem.why
     assert problem.fix

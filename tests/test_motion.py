@@ -385,7 +385,7 @@ def test_an_interrupted_table_is_partial_and_is_taken_up(tmp_path: Path, monkeyp
     assert call(*arguments, "--resume").exit_code == 0
     assert not partial.exists()
     resumed = out.read_text(encoding="utf-8")
-    assert call(*arguments).exit_code == 0
+    assert call(*arguments, "--force").exit_code == 0
     assert resumed == out.read_text(encoding="utf-8")
 
 

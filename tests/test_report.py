@@ -300,19 +300,26 @@ def test_a_disk_that_fills_up_leaves_the_old_file_and_no_scraps(
         raise OSError(28, "No space left on device")
 
     monkeypatch.setattr(os, "replace", full)
-    result = call("report", "worm", "-o", old)
+    result = call("report", "worm", "-o", old, "--force")
     assert "No space left on device" in str(result.exception)
     assert old.read_text(encoding="utf-8") == "before"
     assert list(tmp_path.iterdir()) == [old]
 
 
-@pytest.mark.parametrize("where", ["no/such/folder/r.md", "file/r.md", "folder"])
-def test_a_place_that_cannot_be_written_is_named(where: str, tmp_path: Path) -> None:
+@pytest.mark.parametrize(
+    ("where", "said"),
+    [
+        ("no/such/folder/r.md", "there is no such folder"),
+        ("file/r.md", "there is no such folder"),
+        ("folder", "this is a folder"),
+    ],
+)
+def test_a_place_that_cannot_be_written_is_named(where: str, said: str, tmp_path: Path) -> None:
     (tmp_path / "file").write_text("before", encoding="utf-8")
     (tmp_path / "folder").mkdir()
     result = call("report", "worm", "-o", tmp_path / where)
     assert result.exit_code != 0
-    assert f"{tmp_path / where}: the file cannot be written" in str(result.exception)
+    assert f"{tmp_path / where}: {said}" in str(result.exception)
     assert (tmp_path / "file").read_text(encoding="utf-8") == "before"
     assert sorted(path.name for path in tmp_path.rglob("*")) == ["file", "folder"]
 
@@ -332,7 +339,7 @@ def test_a_written_file_has_the_rights_of_any_other_new_file_and_keeps_those_of_
     usual.touch()
     old.write_text("before", encoding="utf-8")
     old.chmod(0o640)
-    assert call("report", "worm", "-o", new).exit_code == call("report", "worm", "-o", old).exit_code == 0
+    assert call("report", "worm", "-o", new).exit_code == call("report", "worm", "-o", old, "--force").exit_code == 0
     assert stat.S_IMODE(new.stat().st_mode) == stat.S_IMODE(usual.stat().st_mode)
     assert stat.S_IMODE(old.stat().st_mode) == 0o640
     assert new.read_text(encoding="utf-8") == old.read_text(encoding="utf-8") != "before"

@@ -240,7 +240,7 @@ def test_a_search_that_was_cut_is_taken_up_and_ends_the_same(cut: signal.Signals
     ("asked", "said"),
     [
         (("hands.yaml", "--range", "12:20"), "--range"),
-        (("hands.yaml", "-o", "hands.yaml"), "train itself"),
+        (("hands.yaml", "-o", "hands.yaml", "--force"), "train itself"),
         (("hands.yaml", "--tolerance", "-1"), "--tolerance"),
         (("235/19", "--least", "20"), "--least"),
         (("235/19", "--planets", "3"), "--planets"),

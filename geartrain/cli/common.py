@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import json
-import os
 import re
 import sys
 from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
 from fractions import Fraction
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -24,7 +24,11 @@ PICTURES = (".svg", ".png", ".pdf")
 
 File = Annotated[str, typer.Argument(help="A YAML declaration, or the name of a shipped train.", metavar="FILE")]
 Files = Annotated[list[str], typer.Argument(help="YAML declarations, or names of shipped trains.", metavar="FILE")]
-Out = Annotated[Path | None, typer.Option("--output-file", "-o", help="Write to this file instead of the terminal.")]
+Out = Annotated[
+    Path | None,
+    typer.Option("--output-file", "-o", help="Write to this file instead of the terminal; - is standard output."),
+]
+Force = Annotated[bool, typer.Option("--force", help="Write over files that are there.")]
 Json = Annotated[bool, typer.Option("--json", help="Print plain data as JSON.")]
 StateName = Annotated[str | None, typer.Option("--state", help="The state to solve; default all.")]
 
@@ -51,30 +55,97 @@ def sound(train: GearTrain, state: str | None) -> bool:
     return bool(train.solve(first)) and not any(mesh.fault for mesh in train.meshes)
 
 
+def printable(text: str) -> str:
+    """Text of a user as it may stand on a terminal: control characters, which could steer it, are written out."""
+    return "".join(c if c.isprintable() or c in "\n\t" else repr(c)[1:-1] for c in text)
+
+
 def complain(error: GearTrainError) -> None:
     """Every problem on standard error."""
     for problem in error.problems:
         typer.echo(f"error: {problem}", err=True)
 
 
-def emit(text: str, out: Path | None = None) -> None:
+@dataclass(frozen=True)
+class Sink:
+    """Where a result goes: into a file that may be written, or to standard output.
+
+    path    None: standard output
+    force   an existing file is written over
+    plain   standard output was asked for by name, `-`: what goes there is what would go into a file
+    """
+
+    path: Path | None = None
+    force: bool = False
+    plain: bool = False
+
+    @property
+    def suffix(self) -> str:
+        """Of the file, "" without one."""
+        return self.path.suffix.lower() if self.path is not None else ""
+
+    def write(self, data: bytes, said: str = "") -> None:
+        """A finished result, whole or not at all; `said` follows its name on standard error."""
+        if self.path is None:
+            sys.stdout.flush()
+            sys.stdout.buffer.write(data)
+            sys.stdout.buffer.flush()
+            return
+        from geartrain.files import write_bytes
+
+        write_bytes(self.path, data, self.force)
+        typer.echo(f"wrote {self.path}{said}", err=True)
+
+
+STANDARD, STANDARD_NAME = Sink(), Path("-")
+
+
+def sink(out: Path | None, force: bool, allowed: Iterable[str] = (), option: str = "-o") -> Sink:
+    """Where the result of an option goes, made sure of before it is worked out.
+
+    allowed   suffixes; empty for all
+    Raises `GearTrainError` for what may not be written.
+    """
+    if out is None or out == STANDARD_NAME:
+        if out is not None and option != "-o":
+            why = "standard output is for the answer"
+            raise GearTrainError(Problem(f"{option} - is not written", why, "name a file", option))
+        return Sink(plain=out is not None)
+    from geartrain.files import destination
+
+    suffix_of(out, allowed, option)
+    destination(out, force)
+    return Sink(out, force)
+
+
+def apart(*sinks: Sink) -> None:
+    """Make sure that no two results of one command go into one file. Raises `GearTrainError`."""
+    from geartrain.files import destination
+
+    taken: set[Path] = set()
+    for each in sinks:
+        real = None if each.path is None else destination(each.path, each.force)
+        if real is not None and real in taken:
+            why = "the second would take the place of the first"
+            raise GearTrainError(Problem("two results go into one file", why, "name two files", str(each.path)))
+        taken |= {real} if real is not None else set()
+
+
+def emit(text: str, out: Sink = STANDARD) -> None:
     """Text to a file, whole or not at all, or to standard output."""
-    if out is None:
+    if out.path is None:
         typer.echo(text)
-        return
-    from geartrain.files import write_text
-
-    write_text(out, text if text.endswith("\n") else text + "\n")
-    typer.echo(f"wrote {out}", err=True)
+    else:
+        out.write((text if text.endswith("\n") else text + "\n").encode("utf-8"))
 
 
-def show(documents: Sequence[Document], out: Path | None, suffix: str) -> None:
+def show(documents: Sequence[Document], out: Sink, suffix: str | None = None) -> None:
     """Documents as HTML or Markdown to a file, or on the terminal: through rich if somebody looks, else as Markdown."""
     from geartrain import report
 
-    if suffix == ".html":
+    if (out.suffix if suffix is None else suffix) == ".html":
         emit(report.to_html(documents), out)
-    elif out is None and sys.stdout.isatty():
+    elif out == STANDARD and sys.stdout.isatty():
         from rich.console import Console
 
         report.to_terminal(documents, Console(highlight=False))
@@ -82,20 +153,18 @@ def show(documents: Sequence[Document], out: Path | None, suffix: str) -> None:
         emit(report.to_markdown(documents), out)
 
 
-def draw(figure: Any, path: Path, suffix: str) -> None:
-    """A figure to a file, whole or not at all."""
-    from geartrain.files import write_bytes
+def draw(figure: Any, out: Sink) -> None:
+    """A figure to a file, whole or not at all; as .svg where nothing says otherwise."""
     from geartrain.plot import render
 
-    write_bytes(path, render(figure, suffix))
-    typer.echo(f"wrote {path}", err=True)
+    out.write(render(figure, out.suffix or ".svg"))
 
 
-def suffix_of(out: Path | None, allowed: Iterable[str]) -> str:
+def suffix_of(out: Path | None, allowed: Iterable[str], option: str = "-o") -> str:
     """The suffix of an output file, "" without one; others than the allowed ones are refused."""
     suffix = out.suffix.lower() if out else ""
-    if suffix and suffix not in allowed:
-        raise typer.BadParameter(f"'{suffix}' is no form of output here; use {', '.join(allowed)}", param_hint="-o")
+    if suffix and allowed and suffix not in allowed:
+        raise typer.BadParameter(f"'{suffix}' is no form of output here; use {', '.join(allowed)}", param_hint=option)
     return suffix
 
 
@@ -103,50 +172,6 @@ def file_name(text: str, ending: str) -> Path:
     """A file in the current folder called after `text`, with whatever no file name should hold made a hyphen."""
     stem = re.sub(r"[^\w.+-]+", "-", text).strip("-.")[:120]
     return Path(f"{stem or 'train'}{ending}")
-
-
-def may_write(path: Path, force: bool = False) -> None:
-    """Make sure that a result may be written to `path`, before it is worked out.
-
-    An existing file is asked about on a terminal, and refused elsewhere, unless `force`. Raises `GearTrainError` for
-    what is no file name, for folders, and for folders that are missing or cannot be written to.
-    """
-    try:
-        trouble = _trouble(path)
-        exists = path.exists()
-    except (OSError, ValueError) as error:
-        why = getattr(error, "strerror", None) or str(error)
-        trouble, exists = _unnamed(path, why), False
-    if trouble is not None:
-        raise GearTrainError(trouble)
-    if not exists or force:
-        return
-    if sys.stdin.isatty() and sys.stderr.isatty():
-        typer.confirm(f"{path} exists; write over it?", abort=True, err=True)
-        return
-    raise GearTrainError(
-        Problem("the file exists", "nothing is written over unasked", "give --force, or another name", str(path))
-    )
-
-
-def _trouble(path: Path) -> Problem | None:
-    """What keeps a file from being written at `path`, its being there already aside."""
-    folder, place = path.parent, str(path)
-    if path.is_dir():
-        return Problem("this is a folder", "a result is one file", f"name a file in it: {path / 'NAME'}", place)
-    if path.name in ("", "..") or not path.name.isprintable():
-        return _unnamed(path, "a file has a name of printable letters")
-    if path.exists() and not path.is_file():
-        return Problem("this is no ordinary file", "a result takes a file's place", "name a file", place)
-    if not folder.is_dir():
-        return Problem("there is no such folder", f"the file would stand in {folder}", "make the folder first", place)
-    if not os.access(folder, os.W_OK | os.X_OK):
-        return Problem("the folder cannot be written to", "its permissions forbid it", "name another", str(folder))
-    return None
-
-
-def _unnamed(path: Path, why: str) -> Problem:
-    return Problem("this is no name for a file", why, "choose a shorter or plainer name", repr(str(path)))
 
 
 def share(text: str, option: str) -> Fraction:

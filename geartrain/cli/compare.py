@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from geartrain.cli.common import GOOD, VERDICT, Files, Json, Out, as_json, emit, load_all, show, suffix_of
+from geartrain.cli.common import GOOD, VERDICT, Files, Force, Json, Out, as_json, emit, load_all, show, sink
 
 
 def run(
@@ -16,15 +16,16 @@ def run(
     everything: Annotated[
         bool, typer.Option("--all", help="All outputs, not only those with a dial or target.")
     ] = False,
+    force: Force = False,
 ) -> None:
     """Put the outputs of several trains side by side, with their errors against the targets."""
     from geartrain import report
 
-    suffix = suffix_of(out, (".md", ".html", ".json"))
+    to = sink(out, force, (".md", ".html", ".json"))
     trains = load_all(files)
     sound = all(answer for train in trains for answer in train.answers())
-    if json or suffix == ".json":
-        emit(as_json([report.train_data(train) for train in trains]), out)
+    if json or to.suffix == ".json":
+        emit(as_json([report.train_data(train) for train in trains]), to)
     else:
-        show([report.compare_trains(trains, everything)], out, suffix)
+        show([report.compare_trains(trains, everything)], to)
     raise typer.Exit(GOOD if sound else VERDICT)

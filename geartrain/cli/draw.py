@@ -8,7 +8,7 @@ from typing import Annotated, Literal
 
 import typer
 
-from geartrain.cli.common import PICTURES, VERDICT, File, file_name, may_write, sound, suffix_of
+from geartrain.cli.common import PICTURES, STANDARD_NAME, VERDICT, File, Force, file_name, sink, sound, suffix_of
 from geartrain.cli.common import draw as write_figure
 
 
@@ -18,29 +18,30 @@ def run(
         Literal["plan", "stick", "graph", "lever", "dials"], typer.Option("--kind", "-k", help="What is drawn.")
     ] = "plan",
     out: Annotated[
-        Path | None, typer.Option("--output-file", "-o", help="An .svg, .png or .pdf; default NAME-KIND.svg.")
+        Path | None,
+        typer.Option("--output-file", "-o", help="An .svg, .png or .pdf; default NAME-KIND.svg; - is standard output."),
     ] = None,
     state: Annotated[str | None, typer.Option("--state", help="The state; default the first, of lever all.")] = None,
     turns: Annotated[str, typer.Option("--turns", help="Turns of the input, such as 3, -1/4, 2.5.")] = "0",
-    force: Annotated[bool, typer.Option("--force", help="Write over an existing file.")] = False,
+    force: Force = False,
     labels: Annotated[bool, typer.Option("--labels/--no-labels", help="Names and numbers.")] = True,
     output: Annotated[list[str] | None, typer.Option("--output", help="Of dials: only this; may be repeated.")] = None,
 ) -> None:
     """Draw a train: plan to scale, stick diagram, graph, speed diagram (lever), dials."""
     from geartrain.files import load
 
-    suffix = suffix_of(out, PICTURES)
+    suffix_of(out, PICTURES)
     turned = _number(turns)
     train = load(file)
     if out is None:
         out = file_name(f"{train.name}-{kind}", ".svg")
-    elif not suffix:
+    elif not out.suffix and out != STANDARD_NAME:
         out = out.with_name(f"{out.name}.svg")
-    may_write(out, force)
+    to = sink(out, force, PICTURES)
     from geartrain.plot import picture
 
     figure = picture(train, kind, state, turned, labels, tuple(output or ()))
-    write_figure(figure, out, suffix or ".svg")
+    write_figure(figure, to)
     if sound(train, state):
         return
     verdict = train.solve(state if state is not None or not train.states else train.states[0]).verdict

@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from geartrain.cli.common import File, Out, StateName, emit
+from geartrain.cli.common import File, Force, Out, StateName, emit, sink
 
 
 def run(
@@ -14,10 +14,12 @@ def run(
     state: StateName = None,
     latex: Annotated[bool, typer.Option("--latex", help="As a LaTeX align environment.")] = False,
     out: Out = None,
+    force: Force = False,
 ) -> None:
     """Print the Willis system of a train, one labelled equation a line, as text or LaTeX."""
     from geartrain.files import load
 
+    to = sink(out, force)
     train = load(file)
     names = [state] if state is not None or not train.states else list(train.states)
     blocks = []
@@ -25,4 +27,4 @@ def run(
         system = train.equations(name)
         head = [] if name is None else [f"{'%' if latex else '#'} state {name}"]
         blocks.append("\n".join([*head, system.latex() if latex else system.text()]))
-    emit("\n\n".join(blocks), out)
+    emit("\n\n".join(blocks), to)

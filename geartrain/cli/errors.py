@@ -5,13 +5,29 @@ from __future__ import annotations
 import hashlib
 import json as plain
 from collections.abc import Callable, Iterator, Mapping
-from contextlib import contextmanager, suppress
+from contextlib import contextmanager, nullcontext, suppress
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from geartrain.cli.common import INTERRUPTED, File, Json, Out, StateName, as_json, emit, share, show, suffix_of
+from geartrain.cli.common import (
+    INTERRUPTED,
+    STANDARD,
+    File,
+    Force,
+    Json,
+    Out,
+    Sink,
+    StateName,
+    apart,
+    as_json,
+    emit,
+    share,
+    show,
+    sink,
+)
 from geartrain.cli.long_runs import means
 from geartrain.cli.pictures import Picture, Plot, check_plot, draw_findings, mapped
 
@@ -52,14 +68,16 @@ def run(
     picture: Picture = "errors",
     json: Json = False,
     out: Out = None,
+    force: Force = False,
 ) -> None:
     """How often a train cut by hand jams, and how far its pointers stray; to a .parquet or .csv, every trial."""
     from geartrain.files import load
     from geartrain.uncertainty.trials import check_trials, find_plan, question, read_clearances, read_settings
 
-    suffix = suffix_of(out, (".md", ".html", ".json", *TABLES))
+    to = sink(out, force, (".md", ".html", ".json", *TABLES))
     check_trials(trials)
-    check_plot(plot, picture)
+    drawing = check_plot(plot, force, picture)
+    apart(to, drawing)
     sweep = read_clearances(clearance) if clearance else []
     chance = float(share(jam, "--jam"))
     plan = find_plan(load(file), read_settings(set_ or ()), output or (), state, without or ())
@@ -68,7 +86,7 @@ def run(
     count = 1 if workers is None and scheduler is None else workers
     with means("trials", _kept(asked_of, out), asked_of, count, scheduler, resume) as given:
         work = _Work(*given)
-        found = _trials(plan, trials, seed, work, out if suffix in TABLES else None)
+        found = _trials(plan, trials, seed, work, _Table(plan, to, resume) if to.suffix in TABLES else None)
         if not found.complete:
             work.stopped(found.done, trials)
         asked = _Studies(plan, trials, seed, work.later())
@@ -76,11 +94,11 @@ def run(
         drawn = mapped(findings, picture, sweep, work.later()) if findings is not None and plot is not None else None
         if findings is not None:
             work.finish()
-    _answer(findings or _partial(found), json or suffix == ".json", None if suffix in TABLES else out, suffix)
-    if suffix in TABLES and out is not None and found.complete:
+    _answer(findings or _partial(found), json or to.suffix == ".json", STANDARD if to.suffix in TABLES else to)
+    if to.suffix in TABLES and found.complete:
         typer.echo(f"wrote {out}", err=True)
     if drawn is not None and plot is not None:
-        draw_findings(drawn, picture, plot)
+        draw_findings(drawn, picture, drawing)
     if findings is None:
         raise typer.Exit(INTERRUPTED)
 
@@ -95,13 +113,13 @@ def _check_extras(sobol: bool) -> None:
         raise MissingExtraError("SALib", "errors", "Sobol indices")
 
 
-def _answer(findings: Findings, json: bool, out: Path | None, suffix: str) -> None:
+def _answer(findings: Findings, json: bool, to: Sink) -> None:
     from geartrain import report
 
     if json:
-        emit(as_json(report.trials_data(findings)), out)
+        emit(as_json(report.trials_data(findings)), to)
     else:
-        show([report.trials_document(findings)], out, suffix if suffix in (".md", ".html") else "")
+        show([report.trials_document(findings)], to)
 
 
 def _partial(found: Trials) -> Findings:
@@ -114,10 +132,10 @@ class _StoppedError(Exception):
     """The user interrupts."""
 
 
-def _trials(plan: Plan, trials: int, seed: int, work: _Work, table: Path | None) -> Trials:
+def _trials(plan: Plan, trials: int, seed: int, work: _Work, table: _Table | None) -> Trials:
     from geartrain.uncertainty.trials import run_trials
 
-    with suppress(_StoppedError), _table(plan, table) as take:
+    with suppress(_StoppedError), nullcontext() if table is None else table.open() as take:
         found = run_trials(plan, trials, seed, work.means(take))
         if not found.complete:
             raise _StoppedError  # so that the table stays partial
@@ -192,19 +210,28 @@ def _kept(question: Mapping[str, Any], out: Path | None) -> Path:
     return (out.parent if out else Path()) / f"errors-{mark}.partial.jsonl"
 
 
-@contextmanager
-def _table(plan: Plan, out: Path | None) -> Iterator[Callable[[Rows], None] | None]:
-    """What takes every block to a table of trials."""
-    from geartrain.files import ColumnTable, LongTable
+@dataclass(frozen=True)
+class _Table:
+    """Every trial, block by block, into a file; an interrupted one is written anew from the journal."""
 
-    if out is None:
-        yield None
-    elif out.suffix.lower() == ".parquet":
-        with ColumnTable(out, _about(plan)) as columns:
-            yield lambda rows: columns.write(_columns(plan, rows))
-    else:
-        with LongTable(out, ",".join(_names(plan))) as table:
-            yield lambda rows: table.write(_lines(plan, rows))
+    plan: Plan
+    to: Sink
+    resume: bool
+
+    @contextmanager
+    def open(self) -> Iterator[Callable[[Rows], None]]:
+        """What takes every block."""
+        from geartrain.files import ColumnTable, LongTable
+
+        plan, path = self.plan, self.to.path
+        assert path is not None
+        if self.to.suffix == ".parquet":
+            with ColumnTable(path, _about(plan), self.to.force, replay=self.resume) as columns:
+                yield lambda rows: columns.write(_columns(plan, rows))
+        else:
+            names = ",".join(_names(plan))
+            with LongTable(path, names, force=self.to.force, replay=self.resume) as table:
+                yield lambda rows: table.write(_lines(plan, rows))
 
 
 def _about(plan: Plan) -> dict[str, str]:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from geartrain.cli.common import GOOD, INTERRUPTED, VERDICT, File, StateName, may_write, plural, sound
+from geartrain.cli.common import GOOD, INTERRUPTED, VERDICT, File, Force, StateName, plural, sink, sound
 from geartrain.cli.mesh.options import quantity
 from geartrain.errors import GearTrainError, Problem
 
@@ -41,7 +41,7 @@ def run(
         Size, typer.Option("--backlash", help="Play of teeth without a declared form, such as 0.05mm.")
     ] = None,
     turns: Annotated[str | None, typer.Option("--turns", help="Turns of the lead that the GLB shows.")] = None,
-    force: Annotated[bool, typer.Option("--force", help="Write over existing files.")] = False,
+    force: Force = False,
 ) -> None:
     """Write wheels and plates to cut, the assembly as a solid, the graph, REXS and tables of a train."""
     from geartrain.export import Workpiece
@@ -87,16 +87,14 @@ def _turns(text: str | None) -> Fraction | None:
 
 def _one(work: Workpiece, out: Path, wheel: str | None, turns: Fraction | None, force: bool) -> None:
     from geartrain.export import WHEEL_SUFFIXES, kind_of, one_wheel, whole
-    from geartrain.files import write_bytes
 
     suffix = out.suffix.lower()
     if wheel is not None and suffix not in WHEEL_SUFFIXES:
         fix = f"use {', '.join(WHEEL_SUFFIXES)}"
         raise GearTrainError(Problem(f"no wheel is written as '{suffix or out.name}'", "", fix, "-o"))
     kind = "" if wheel is not None else kind_of(out.name)
-    may_write(out, force)
-    write_bytes(out, one_wheel(work, wheel, suffix) if wheel is not None else whole(work, kind, turns))
-    typer.echo(f"wrote {out}", err=True)
+    to = sink(out, force)
+    to.write(one_wheel(work, wheel, suffix) if wheel is not None else whole(work, kind, turns))
 
 
 def _all(work: Workpiece, to: Path, kinds: str | None, wheel: str | None, turns: Fraction | None, force: bool) -> None:
@@ -112,7 +110,7 @@ def _all(work: Workpiece, to: Path, kinds: str | None, wheel: str | None, turns:
     files = parcel(work, wanted, turns)
     check_folder(to, [each.path for each in files], force)
     try:
-        count = write_folder(to, _shown(((each.path, each.make()) for each in files), len(files)))
+        count = write_folder(to, _shown(((each.path, each.make()) for each in files), len(files)), force)
     except KeyboardInterrupt:
         typer.echo(f"stopped; nothing is written to {to}", err=True)
         raise typer.Exit(INTERRUPTED) from None

@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from geartrain.cli.common import File, Out, as_json, emit, suffix_of
+from geartrain.cli.common import File, Force, Out, as_json, emit, sink
 
 _SUFFIXES = {".md": "labels", ".dot": "dot", ".gv": "dot", ".graphml": "graphml", ".json": "json"}
 _FORMS = ("labels", "matrix", "dot", "graphml", "json")
@@ -18,14 +18,15 @@ def run(
         str | None, typer.Option("--as", help=f"One of {', '.join(_FORMS)}; default by the suffix of -o, else labels.")
     ] = None,
     out: Out = None,
+    force: Force = False,
 ) -> None:
     """Print the graph: adjacency in letters (R(axis), G#) or numbers, Graphviz, GraphML, or JSON."""
     from geartrain import graph
     from geartrain.files import load
     from geartrain.report import Document, Section, Table, to_markdown
 
-    suffix = suffix_of(out, _SUFFIXES)
-    form = form or _SUFFIXES.get(suffix, "labels")
+    to = sink(out, force, _SUFFIXES)
+    form = form or _SUFFIXES.get(to.suffix, "labels")
     if form not in _FORMS:
         raise typer.BadParameter(f"'{form}' is not a form of graph; use {', '.join(_FORMS)}", param_hint="--as")
     train = load(file)
@@ -38,4 +39,4 @@ def run(
         text = to_markdown([Document(f"Adjacency of {train.name}", (), (Section("Matrix", (), (table,)),))])
     else:
         text = {"dot": graph.to_dot, "graphml": graph.to_graphml, "json": graph.to_json}[form](train.graph)
-    emit(text, out)
+    emit(text, to)

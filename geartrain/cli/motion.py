@@ -9,7 +9,23 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from geartrain.cli.common import INTERRUPTED, PICTURES, File, Json, Out, StateName, as_json, draw, emit, show, suffix_of
+from geartrain.cli.common import (
+    INTERRUPTED,
+    PICTURES,
+    STANDARD,
+    File,
+    Force,
+    Json,
+    Out,
+    Sink,
+    StateName,
+    apart,
+    as_json,
+    draw,
+    emit,
+    show,
+    sink,
+)
 
 if TYPE_CHECKING:
     from geartrain.motion import Motion, Passage, Run
@@ -37,29 +53,36 @@ def run(
     plot: Annotated[Path | None, typer.Option("--plot", help="Draw errors and speeds to this file.")] = None,
     resume: Annotated[bool, typer.Option("--resume", help="Go on with an interrupted -o x.csv.")] = False,
     out: Out = None,
+    force: Force = False,
 ) -> None:
     """Transmission error and speed of outputs with real teeth and pins; to a .csv, every position."""
     from geartrain.files import load
     from geartrain.motion import Run
 
-    suffix = suffix_of(out, (".md", ".html", ".json", ".csv"))
-    picture = suffix_of(plot, PICTURES) or ".svg"
+    to = sink(out, force, (".md", ".html", ".json", ".csv"))
+    picture = sink(plot, force, PICTURES, "--plot")
+    cut = _partial(to)
+    apart(to, cut, picture)
+    if csv and to.path is not None:
+        raise typer.BadParameter("positions are printed, or written: give --csv, or -o x.csv", param_hint="--csv")
+    if resume and to.suffix != ".csv":
+        raise typer.BadParameter("a table is what can be gone on with: give -o x.csv too", param_hint="--resume")
     train = load(file)
     outputs = (*(output or ()), *(train.declaration.links if links else ()))
     motion = train.motion(state, tuple(dict.fromkeys(outputs)), tuple(without or ()), tolerance)
     asked = Run(motion, _turns(turns, motion), samples)
-    if suffix == ".csv" and out is not None:
-        _write_table(asked, out, resume)
+    if to.suffix == ".csv" and to.path is not None:
+        _write_table(asked, to.path, resume, force)
     elif csv:
         for rows in _rows(asked, 0):
             typer.echo("\n".join(rows))
     else:
-        _report(asked, json or suffix == ".json", out, suffix, phases, seed, estimates, spectrum)
+        _report(asked, json or to.suffix == ".json", (to, cut), phases, seed, estimates, spectrum)
     if plot is not None:
         from geartrain.plot import motion_figure
 
         with _progress("drawing", samples) as on_done:
-            draw(motion_figure(asked, on_done), plot, picture)
+            draw(motion_figure(asked, on_done), picture)
 
 
 def _turns(text: str, motion: Motion) -> float:
@@ -73,9 +96,19 @@ def _turns(text: str, motion: Motion) -> float:
     return float(motion.period)
 
 
+def _partial(to: Sink) -> Sink:
+    """Where the figures of an interrupted run go. A table has a partial file of its own, which can be taken up."""
+    from geartrain.files import partial_name
+
+    if to.path is None or to.suffix == ".csv":
+        return STANDARD
+    return sink(partial_name(to.path), to.force)
+
+
 def _report(
-    asked: Run, json: bool, out: Path | None, suffix: str, phases: int, seed: int, estimates: bool, spectrum: bool
+    asked: Run, json: bool, into: tuple[Sink, Sink], phases: int, seed: int, estimates: bool, spectrum: bool
 ) -> None:
+    """The figures, into the second place where they are cut short."""
     from geartrain import report
 
     work = asked.samples * (1 + phases + estimates + spectrum)
@@ -92,24 +125,23 @@ def _report(
             if not asked.done:
                 raise
             stopped = True
-    if stopped and out is not None:
-        from geartrain.files import partial_name
-
-        out = partial_name(out)
+    to = into[stopped]
     if json:
-        emit(as_json(report.motion_data(asked)), out)
+        emit(as_json(report.motion_data(asked)), to)
     else:
-        show([report.motion_document(asked)], out, suffix)
+        show([report.motion_document(asked)], to)
     if stopped:
         typer.echo(f"stopped after {asked.done} of {asked.samples} positions; the figures are of those", err=True)
         raise typer.Exit(INTERRUPTED)
 
 
-def _write_table(asked: Run, out: Path, resume: bool) -> None:
+def _write_table(asked: Run, out: Path, resume: bool, force: bool) -> None:
     from geartrain.files import LongTable
 
     try:
-        with LongTable(out, ",".join(asked.columns), resume) as table:
+        with LongTable(out, ",".join(asked.columns), resume, force) as table:
+            if resume and not table.rows:
+                typer.echo(f"nothing to resume: there is no {table.partial}; the run begins anew", err=True)
             if table.rows:
                 asked.check_resumed(table.last(), table.rows)
             first = table.rows

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from geartrain.cli.common import PICTURES, draw, suffix_of
+from geartrain.cli.common import PICTURES, Sink, draw, sink
 
 if TYPE_CHECKING:
     from geartrain.uncertainty.counts import CountSweep
@@ -23,14 +23,14 @@ _SHARES = (0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9)  # of windows, where no 
 _SCALES = (0.25, 0.5, 0.75, 1.0, 1.25, 1.5, 1.75, 2.0)  # of the errors declared
 
 
-def check_plot(plot: Path | None, picture: str = "errors") -> None:
-    """Refuse a picture that there is not, or another form of file, before the work."""
-    suffix_of(plot, PICTURES)
+def check_plot(plot: Path | None, force: bool, picture: str = "errors") -> Sink:
+    """Where a picture goes; one that there is not, or that may not be written, is refused before the work."""
     if plot is not None:
         from geartrain.plot.trials import PICTURES as ALL
 
         if picture not in ALL:
             raise typer.BadParameter(f"'{picture}' is no picture; use {', '.join(ALL)}", param_hint="--picture")
+    return sink(plot, force, PICTURES, "--plot")
 
 
 def mapped(findings: Findings, picture: str, clearances: Sequence[float], means: Means) -> Findings:
@@ -43,14 +43,14 @@ def mapped(findings: Findings, picture: str, clearances: Sequence[float], means:
     return replace(findings, cleared=jam_map(of.plan, clearances or _SHARES, _SCALES, of.wanted, of.seed, means))
 
 
-def draw_findings(findings: Findings, picture: str, plot: Path) -> None:
+def draw_findings(findings: Findings, picture: str, to: Sink) -> None:
     """One picture of trials to a file."""
     from geartrain.plot import findings_figure
 
-    draw(findings_figure(findings, picture), plot, plot.suffix.lower() or ".svg")
+    draw(findings_figure(findings, picture), to)
 
 
-def draw_counts(found: CountSweep, again: Callable[[Mapping[str, Sequence[int]]], CountSweep], plot: Path) -> None:
+def draw_counts(found: CountSweep, again: Callable[[Mapping[str, Sequence[int]]], CountSweep], to: Sink) -> None:
     """Counts of the wheels of which the outputs tell most, each and two by two, to a file.
 
     again   sweeps the same train for the same evidence, with some wheels held to the counts given
@@ -59,4 +59,4 @@ def draw_counts(found: CountSweep, again: Callable[[Mapping[str, Sequence[int]]]
     from geartrain.uncertainty.counts.jointly import joint, telling
 
     wheels = telling(found)
-    draw(counts_figure(found, joint(found, wheels, again)), plot, plot.suffix.lower() or ".svg")
+    draw(counts_figure(found, joint(found, wheels, again)), to)

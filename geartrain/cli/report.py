@@ -10,15 +10,15 @@ from geartrain.cli.common import (
     GOOD,
     VERDICT,
     Files,
+    Force,
     Json,
     Out,
     as_json,
     emit,
     load_all,
-    may_write,
     show,
+    sink,
     sound,
-    suffix_of,
 )
 from geartrain.errors import GearTrainError, MissingExtraError
 
@@ -32,7 +32,7 @@ def run(
     out: Out = None,
     json: Json = False,
     view: Annotated[bool, typer.Option("--view", help="Put the train itself into a page, to be turned there.")] = False,
-    force: Annotated[bool, typer.Option("--force", help="Write over a page that is there.")] = False,
+    force: Force = False,
 ) -> None:
     """Report on trains: Markdown to the terminal, or by the suffix of -o as .md, .html or .json.
 
@@ -40,20 +40,18 @@ def run(
     """
     from geartrain import report
 
-    suffix = suffix_of(out, (".md", ".html", ".json"))
-    if view and suffix != ".html":
+    to = sink(out, force, (".md", ".html", ".json"))
+    if view and to.suffix != ".html":
         raise typer.BadParameter("a train turns in a page only: give -o x.html too", param_hint="--view")
     trains = load_all(files)
-    if out is not None and suffix == ".html" and not json:
-        may_write(out, force)
     good = all(sound(train, state) for train in trains for state in train.states or (None,))
-    if json or suffix == ".json":
+    if json or to.suffix == ".json":
         data = [report.train_data(train) for train in trains]
-        emit(as_json(data[0] if len(data) == 1 else data), out)
-    elif suffix == ".html":
-        emit(report.to_html([_shared(train, view) for train in trains]), out)
+        emit(as_json(data[0] if len(data) == 1 else data), to)
+    elif to.suffix == ".html":
+        emit(report.to_html([_shared(train, view) for train in trains]), to)
     else:
-        show([report.report_train(train) for train in trains], out, suffix)
+        show([report.report_train(train) for train in trains], to)
     raise typer.Exit(GOOD if good else VERDICT)
 
 

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from geartrain.cli.common import GOOD, VERDICT, File, Json, Out, StateName, as_json, emit
+from geartrain.cli.common import GOOD, VERDICT, File, Force, Json, Out, StateName, as_json, emit, sink
 
 if TYPE_CHECKING:
     from geartrain.analysis import GearTrain
@@ -22,19 +22,21 @@ def run(
     json: Json = False,
     out: Out = None,
     method: Annotated[str, typer.Option("--method", help="auto, exact or floats.")] = "auto",
+    force: Force = False,
 ) -> None:
     """Solve a train and print its speeds as fractions and decimals."""
     from geartrain.files import load
 
     if method not in ("auto", "exact", "floats"):
         raise typer.BadParameter(f"'{method}' is not a method; use auto, exact or floats", param_hint="--method")
+    to = sink(out, force)
     train = load(file)
     states = [state] if state is not None or not train.states else list(train.states)
     answers = [train.solve(name, output, method) for name in states]  # type: ignore[arg-type]
     if json:
-        emit(as_json(_data(train, answers, output)), out)
+        emit(as_json(_data(train, answers, output)), to)
     else:
-        emit("\n".join(_text(answer, output, train.bookkeeping) for answer in answers), out)
+        emit("\n".join(_text(answer, output, train.bookkeeping) for answer in answers), to)
     raise typer.Exit(GOOD if all(answers) else VERDICT)
 
 

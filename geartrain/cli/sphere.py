@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from geartrain.cli.common import GOOD, PICTURES, VERDICT, Json, Out, as_json, draw, emit, show, suffix_of
+from geartrain.cli.common import GOOD, PICTURES, VERDICT, Force, Json, Out, Sink, apart, as_json, draw, emit, show, sink
 
 if TYPE_CHECKING:
     from geartrain.report.sphere import SphereAnswers
@@ -37,37 +37,50 @@ def run(
     json: Json = False,
     plot: Annotated[Path | None, typer.Option("--plot", help="Draw the sphere and its gears to this file.")] = None,
     out: Out = None,
+    force: Force = False,
 ) -> None:
     """Gears on a sphere: mobility, gridlock, closure of the teeth, sizes; with -o x.yaml as a train."""
     from geartrain import report
 
-    suffix = suffix_of(out, (".md", ".html", ".json", *_YAML))
+    to = sink(out, force, (".md", ".html", ".json", *_YAML))
+    picture = sink(plot, force, PICTURES, "--plot")
+    apart(to, picture)
+    if survey or suggest:
+        _check_listed(to, picture)
     if survey:
-        _survey(json or suffix == ".json", out, suffix)
+        _survey(json or to.suffix == ".json", to)
         return
     if (solid is None) == (graph is None):
         raise typer.BadParameter("name a solid or a graph, or ask for --survey", param_hint="SOLID")
     made = _graph(graph, aim, least) if graph else None
     configuration = made.configuration if made else _solid(solid or "", gears, teeth, drop or [], exact)
     if suggest:
-        _suggest(configuration, suggest, best, json or suffix == ".json", out, suffix)
+        _suggest(configuration, suggest, best, json or to.suffix == ".json", to)
         return
     found = report.SphereAnswers(configuration, _sphere_radius(configuration, radius), made)
-    if suffix in _YAML:
+    if to.suffix in _YAML:
         from geartrain.files import as_yaml
         from geartrain.spherical import to_train
 
-        emit(as_yaml(to_train(configuration)), out)
-    elif json or suffix == ".json":
-        emit(as_json(report.sphere_data(found)), out)
+        emit(as_yaml(to_train(configuration)), to)
+    elif json or to.suffix == ".json":
+        emit(as_json(report.sphere_data(found)), to)
     else:
-        show([report.sphere_document(found)], out, suffix)
+        show([report.sphere_document(found)], to)
     if plot is not None:
-        _draw(found, plot)
+        _draw(found, picture)
     raise typer.Exit(GOOD if found.moves and (found.closure is None or found.closure) else VERDICT)
 
 
-def _survey(json: bool, out: Path | None, suffix: str) -> None:
+def _check_listed(to: Sink, picture: Sink) -> None:
+    """A list is neither a train nor one sphere that could be drawn."""
+    if to.suffix in _YAML:
+        raise typer.BadParameter("a list of sets is no train to be written", param_hint="-o")
+    if picture.path is not None:
+        raise typer.BadParameter("one sphere is drawn, and a list has many", param_hint="--plot")
+
+
+def _survey(json: bool, to: Sink) -> None:
     from rich.console import Console
     from rich.progress import track
 
@@ -78,20 +91,20 @@ def _survey(json: bool, out: Path | None, suffix: str) -> None:
     names = track(SURVEYED, "survey", console=Console(stderr=True), transient=True)
     rows = [row for name in names for row in survey_solids((name,))]
     if json:
-        emit(as_json([row.to_dict() for row in rows]), out)
+        emit(as_json([row.to_dict() for row in rows]), to)
     else:
-        show([report.survey_document(rows)], out, suffix)
+        show([report.survey_document(rows)], to)
 
 
-def _suggest(configuration: Configuration, most: int, best: int, json: bool, out: Path | None, suffix: str) -> None:
+def _suggest(configuration: Configuration, most: int, best: int, json: bool, to: Sink) -> None:
     from geartrain import report
     from geartrain.spherical.compromise import suggest
 
     found = suggest(configuration, most, best)
     if json:
-        emit(as_json(report.suggestions_data(found)), out)
+        emit(as_json(report.suggestions_data(found)), to)
     else:
-        show([report.suggestions_document(found)], out, suffix)
+        show([report.suggestions_document(found)], to)
     raise typer.Exit(GOOD if len(found) else VERDICT)
 
 
@@ -144,7 +157,7 @@ def _sphere_radius(configuration: Configuration, text: str) -> float:
     return sphere_radius(value, float(cones[configuration.kinds.index(kind)]))
 
 
-def _draw(found: SphereAnswers, plot: Path) -> None:
+def _draw(found: SphereAnswers, picture: Sink) -> None:
     from geartrain.plot import sphere_figure
 
-    draw(sphere_figure(*found.pose()), plot, suffix_of(plot, PICTURES) or ".svg")
+    draw(sphere_figure(*found.pose()), picture)

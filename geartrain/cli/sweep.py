@@ -15,14 +15,17 @@ from geartrain.cli.common import (
     INTERRUPTED,
     VERDICT,
     File,
+    Force,
     Json,
     Out,
+    Sink,
     StateName,
+    apart,
     as_json,
     emit,
     share,
     show,
-    suffix_of,
+    sink,
 )
 from geartrain.cli.long_runs import csv_text, end, means
 from geartrain.cli.pictures import Plot, check_plot, draw_counts
@@ -62,15 +65,16 @@ def run(
     plot: Plot = None,
     json: Json = False,
     out: Out = None,
+    force: Force = False,
 ) -> None:
     """Which tooth counts fit what the outputs show; exit 0 if any does, 1 if none."""
     from geartrain.files import ColumnTable, read_declaration
     from geartrain.uncertainty.counts import sweep
 
-    suffix = suffix_of(out, FORMS)
-    check_plot(plot)
-    if suffix == ".parquet" and out is not None:
-        ColumnTable(out, {})  # a missing library is said before the work, not after it
+    to, drawing = sink(out, force, FORMS), check_plot(plot, force)
+    apart(to, drawing)
+    if to.suffix == ".parquet" and to.path is not None:
+        ColumnTable(to.path, {}, force)  # a missing library is said before the work, not after it
     train = read_declaration(file)
     asked: dict[str, Any] = {
         "state": state,
@@ -93,22 +97,22 @@ def run(
         end(journal, found.cut)
     if plot is not None and found.best and not found.cut:
         held = {**asked, "most": 1}
-        draw_counts(found, lambda one: sweep(train, **{**held, "free": {**asked["free"], **one}}), plot)
-    _answer(found, json, out, suffix)
+        draw_counts(found, lambda one: sweep(train, **{**held, "free": {**asked["free"], **one}}), drawing)
+    _answer(found, json, to)
 
 
-def _answer(found: CountSweep, json: bool, out: Path | None, suffix: str) -> None:
+def _answer(found: CountSweep, json: bool, to: Sink) -> None:
     from geartrain import report
 
-    if suffix == ".csv":
-        emit(csv_text(report.sweep_rows(found)), out)
-    elif suffix == ".parquet" and out is not None:
-        _write_parquet(report.sweep_rows(found), out, {"train": found.name, "method": found.method})
-    elif suffix == ".json":
-        emit(as_json(report.sweep_data(found)), out)
-    elif not json or out is not None:
-        show([report.sweep_document(found)], out, suffix)
-    if json and suffix != ".json":
+    if to.suffix == ".csv":
+        emit(csv_text(report.sweep_rows(found)), to)
+    elif to.suffix == ".parquet":
+        _write_parquet(report.sweep_rows(found), to, {"train": found.name, "method": found.method})
+    elif to.suffix == ".json":
+        emit(as_json(report.sweep_data(found)), to)
+    elif not json or to.path is not None:
+        show([report.sweep_document(found)], to)
+    if json and to.suffix != ".json":
         emit(as_json(report.sweep_data(found)))
     if found.cut:
         raise typer.Exit(INTERRUPTED)
@@ -147,13 +151,14 @@ def _kept(question: Mapping[str, Any], out: Path | None) -> Path:
     return (out.parent if out else Path()) / f"sweep-{train['name']}-{mark}.partial.jsonl"
 
 
-def _write_parquet(rows: Sequence[Mapping[str, Any]], out: Path, about: Mapping[str, str]) -> None:
+def _write_parquet(rows: Sequence[Mapping[str, Any]], to: Sink, about: Mapping[str, str]) -> None:
     """One row group; nothing where nothing was found."""
     from geartrain.files import ColumnTable
 
-    with ColumnTable(out, about) as table:
+    assert to.path is not None
+    with ColumnTable(to.path, about, to.force) as table:
         if rows:
             table.write({name: [row[name] for row in rows] for name in rows[0]})
-            typer.echo(f"wrote {out}", err=True)
+            typer.echo(f"wrote {to.path}", err=True)
         else:
-            typer.echo(f"nothing fits, so {out} is not written", err=True)
+            typer.echo(f"nothing fits, so {to.path} is not written", err=True)

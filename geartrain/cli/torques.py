@@ -13,14 +13,17 @@ from geartrain.cli.common import (
     PICTURES,
     VERDICT,
     File,
+    Force,
     Json,
     Out,
+    Sink,
     StateName,
+    apart,
     as_json,
     draw,
     emit,
     show,
-    suffix_of,
+    sink,
 )
 
 if TYPE_CHECKING:
@@ -36,28 +39,30 @@ def run(
         Path | None, typer.Option("--plot", help="Draw the flow of power of one state to this file.")
     ] = None,
     out: Out = None,
+    force: Force = False,
 ) -> None:
     """Torques on links and pairs under the declared loads, flow of power and losses, efficiency there and back."""
     from geartrain import report
     from geartrain.files import load
 
-    suffix = suffix_of(out, (".md", ".html", ".json"))
-    picture = suffix_of(plot, PICTURES) or ".svg"
+    to = sink(out, force, (".md", ".html", ".json"))
+    picture = sink(plot, force, PICTURES, "--plot")
+    apart(to, picture)
     train = load(file)
     states = (state,) if state is not None else train.states or (None,)
     found = {name: train.torques(name) for name in states}
     sound = all(each.verdict or each.verdict.kind == "unloaded" for each in found.values())
     if plot is not None:
-        _draw(train, list(found.values()), plot, picture)
-    if json or suffix == ".json":
+        _draw(train, list(found.values()), picture)
+    if json or to.suffix == ".json":
         data = [report.torques_data(train, each) for each in found.values()]
-        emit(as_json(data[0] if len(data) == 1 else {"states": {str(each["state"]): each for each in data}}), out)
+        emit(as_json(data[0] if len(data) == 1 else {"states": {str(each["state"]): each for each in data}}), to)
     else:
-        show([report.torques_document(train, list(found.values()))], out, suffix)
+        show([report.torques_document(train, list(found.values()))], to)
     raise typer.Exit(GOOD if sound else VERDICT)
 
 
-def _draw(train: GearTrain, found: Sequence[Torques], path: Path, suffix: str) -> None:
+def _draw(train: GearTrain, found: Sequence[Torques], picture: Sink) -> None:
     """The flow under the declared loads; without any, that of a unit of power from the input to the output."""
     from geartrain import report
     from geartrain.plot import power_figure
@@ -73,7 +78,7 @@ def _draw(train: GearTrain, found: Sequence[Torques], path: Path, suffix: str) -
     if torques.verdict.kind == "unloaded" and (ways := report.there_and_back(train, torques.state)):
         torques, source, load = ways[0]
         name, watts = f"{name}, while a unit of power leaves at '{load}', driven from '{source}'", None
-    draw(power_figure(report.flow_of(train, torques), f"{name}: {_summary(torques)}", watts), path, suffix)
+    draw(power_figure(report.flow_of(train, torques), f"{name}: {_summary(torques)}", watts), picture)
 
 
 def _summary(torques: Torques) -> str:

@@ -15,7 +15,7 @@ from __future__ import annotations
 
 from geartrain.export.assembly import Workpiece
 from geartrain.export.making import Making
-from geartrain.export.outline import OUTLINES, outline_text, write_outline
+from geartrain.export.outline import OUTLINES, outline_text
 from geartrain.export.parcel import (
     KINDS,
     SUFFIXES,
@@ -42,5 +42,4 @@ __all__ = [
     "outline_text",
     "parcel",
     "whole",
-    "write_outline",
 ]

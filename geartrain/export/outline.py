@@ -2,25 +2,20 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 from geartrain.errors import GearTrainError, Problem
 from geartrain.export.drawing import wheel_drawing
 from geartrain.export.dxf import to_dxf
 from geartrain.export.svg import to_svg
-from geartrain.files import write_text
 from geartrain.outlines import Wheel
 
 OUTLINES = (".svg", ".dxf", ".csv")
 
 
-def write_outline(path: Path, wheel: Wheel) -> None:
-    """Write a wheel's outline in the format of the suffix. Raises `GearTrainError`, for one without its library too."""
-    write_text(path, outline_text(wheel, path.suffix.lower()))
-
-
 def outline_text(wheel: Wheel, suffix: str) -> str:
-    """A wheel's outline as the text of a file: `.svg`, `.dxf` (millimetres, closed polylines with arcs), or `.csv`."""
+    """A wheel's outline as the text of a file: `.svg`, `.dxf` (millimetres, closed polylines with arcs), or `.csv`.
+
+    Raises `GearTrainError`, for a format without its library too.
+    """
     if suffix == ".svg":
         return to_svg(wheel_drawing(wheel))
     if suffix == ".dxf":

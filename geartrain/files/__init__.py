@@ -8,13 +8,14 @@ from geartrain.files.folder import check_folder, write_folder
 from geartrain.files.loading import load, read_declaration, shipped
 from geartrain.files.long import LongTable, partial_name
 from geartrain.files.tables import read_edges, read_points
-from geartrain.files.writing import write_bytes, write_text
+from geartrain.files.writing import destination, write_bytes, write_text
 
 __all__ = [
     "ColumnTable",
     "LongTable",
     "as_yaml",
     "check_folder",
+    "destination",
     "load",
     "partial_name",
     "read_declaration",

@@ -9,6 +9,7 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 
 from geartrain.errors import GearTrainError, Problem
+from geartrain.files.writing import destination, umask, write_bytes
 
 
 def check_folder(folder: Path, names: Sequence[str], force: bool = False) -> None:
@@ -24,9 +25,9 @@ def check_folder(folder: Path, names: Sequence[str], force: bool = False) -> Non
         raise GearTrainError(
             Problem("the folder cannot be written to", "its permissions forbid it", "name another", place)
         )
-    there = [name for name in names if (folder / name).exists()]
-    if any((folder / name).is_dir() for name in there):
-        raise GearTrainError(Problem("a folder stands where a file is to be", "", "name an empty folder", place))
+    there = [name for name in names if os.path.lexists(folder / name)]
+    for name in there:
+        destination(folder / name, force=True)  # what is no regular file, or read-only, is said to be that
     if there and not force:
         more = f", and {len(there) - 1} more" if len(there) > 1 else ""
         what = f"'{there[0]}'{more} exists there already"
@@ -35,10 +36,11 @@ def check_folder(folder: Path, names: Sequence[str], force: bool = False) -> Non
         )
 
 
-def write_folder(folder: Path, files: Iterable[tuple[str, bytes]]) -> int:
+def write_folder(folder: Path, files: Iterable[tuple[str, bytes]], force: bool = False) -> int:
     """Write files by name into a folder, and say how many: they are made beside it, and put there once all are.
 
-    Whatever stops it before leaves nothing behind. Raises `GearTrainError`.
+    Whatever stops it before leaves nothing behind; what is there already is written over only with `force`. Raises
+    `GearTrainError`.
     """
     made: list[str] = []
     try:
@@ -50,7 +52,7 @@ def write_folder(folder: Path, files: Iterable[tuple[str, bytes]]) -> int:
                 path.parent.mkdir(parents=True, exist_ok=True)
                 path.write_bytes(data)
                 made.append(name)
-            _put(beside, folder, made)
+            _put(beside, folder, made, force)
         finally:
             shutil.rmtree(beside, ignore_errors=True)
     except OSError as error:
@@ -61,17 +63,14 @@ def write_folder(folder: Path, files: Iterable[tuple[str, bytes]]) -> int:
     return len(made)
 
 
-def _put(beside: Path, folder: Path, names: Iterable[str]) -> None:
-    if not folder.exists():
-        beside.chmod(0o777 & ~_umask())
+def _put(beside: Path, folder: Path, names: Iterable[str], force: bool) -> None:
+    if not os.path.lexists(folder):
+        beside.chmod(0o777 & ~umask())
         beside.replace(folder)
         return
+    names = list(names)
+    check_folder(folder, names, force)
     for name in names:
         (folder / name).parent.mkdir(parents=True, exist_ok=True)
-        (beside / name).replace(folder / name)
-
-
-def _umask() -> int:
-    mask = os.umask(0)
-    os.umask(mask)
-    return mask
+    for name in names:
+        write_bytes(folder / name, (beside / name).read_bytes(), force)

@@ -7,6 +7,7 @@ from pathlib import Path
 from types import TracebackType
 
 from geartrain.errors import GearTrainError, Problem
+from geartrain.files.writing import destination, place, unwritten
 
 MARK = "# partial: "
 
@@ -16,14 +17,37 @@ def partial_name(path: Path) -> Path:
     return path.with_name(f"{path.stem}.partial{path.suffix}")
 
 
+def partial_file(path: Path, force: bool = False, resume: bool = False) -> Path:
+    """The partial file of a table for `path`, beside the file that its symbolic links lead to.
+
+    One that is there belongs to an interrupted run: `resume` goes on with it, `force` writes over it. Raises
+    `GearTrainError` where it, or the table, cannot be written.
+    """
+    found = partial_name(destination(path, force))
+    if found.is_symlink():
+        fix = "remove it, or give another name"
+        raise GearTrainError(Problem("this is a symbolic link", "a partial file is none", fix, str(found)))
+    if found.exists() and not (force or resume):
+        destination(found, force=True)  # what is no regular file is said to be that
+        why, fix = "an interrupted run left it", "give --resume to go on with it, or --force to begin again"
+        raise GearTrainError(Problem("the partial file exists", why, fix, str(found)))
+    return destination(found, force=True)
+
+
 class LongTable:
     """A CSV that grows row by row as `name.partial.csv`, and becomes `name.csv` when it is whole.
 
     rows     rows there already, where an interrupted run is resumed
+    resume   go on with the partial file
+    force    write over a table that is there
+    replay   begin the partial file of an interrupted run again: its rows come from elsewhere
     """
 
-    def __init__(self, path: Path, header: str, resume: bool = False) -> None:
-        self.path, self.partial, self.header = path, partial_name(path), header
+    def __init__(
+        self, path: Path, header: str, resume: bool = False, force: bool = False, replay: bool = False
+    ) -> None:
+        self.path, self.force, self.header = path, force, header
+        self.partial = partial_file(path, force, resume or replay)
         self.rows = 0
         try:
             if resume and self.partial.exists():
@@ -34,7 +58,7 @@ class LongTable:
                 self.write([header])
                 self.rows = 0
         except OSError as error:
-            raise _trouble(self.partial, error) from None
+            raise unwritten(self.partial, error) from None
 
     def _take_up(self) -> int:
         """Cut off the mark and a torn last row; count the rows that are whole."""
@@ -67,7 +91,7 @@ class LongTable:
         try:
             self._file.write(("\n".join(rows) + "\n").encode("utf-8"))
         except OSError as error:
-            raise _trouble(self.partial, error) from None
+            raise unwritten(self.partial, error) from None
         self.rows += len(rows)
 
     def __enter__(self) -> LongTable:
@@ -80,17 +104,6 @@ class LongTable:
                 self._file.write(f"{MARK}stopped after {self.rows} rows\n".encode())
             self._file.close()
             if kind is None:
-                os.replace(self.partial, self.path)
+                place(self.partial, self.path, self.force)
         except OSError as trouble:
-            raise _trouble(self.partial, trouble) from None
-
-
-def _trouble(path: Path, error: OSError) -> GearTrainError:
-    return GearTrainError(
-        Problem(
-            "the file cannot be written",
-            error.strerror or str(error),
-            "check the folder and its permissions",
-            str(path),
-        )
-    )
+            raise unwritten(self.partial, trouble) from None

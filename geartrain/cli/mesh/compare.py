@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from geartrain.cli.common import GOOD, PICTURES, VERDICT, Json, Out, as_json, draw, emit, show, suffix_of
+from geartrain.cli.common import GOOD, PICTURES, VERDICT, Force, Json, Out, apart, as_json, draw, emit, show, sink
 from geartrain.cli.mesh.options import quantity
 from geartrain.cli.mesh.shaping import FORMS, NAMES, Question, pair, question, shape, unknown
 from geartrain.errors import GearTrainError, Problem
@@ -36,21 +36,23 @@ def run(
     ] = None,
     json: Json = False,
     out: Out = None,
+    force: Force = False,
 ) -> None:
     """Loss, stress, heat, flash, depth of tooth forms as ratios to the 20 degree involute of the same pair and arcs."""
     from geartrain import report
 
-    suffix, picture = suffix_of(out, (".md", ".html", ".json")), suffix_of(plot, PICTURES) or ".svg"
+    to, picture = sink(out, force, (".md", ".html", ".json")), sink(plot, force, PICTURES, "--plot")
+    apart(to, picture)
     asked = question(teeth, internal, bevel)
     found = _compared(asked, _names(forms), _arcs(arcs), _angle(pressure_angle), pressure_angle)
-    if json or suffix == ".json":
-        emit(as_json(report.compared_data(found)), out)
+    if json or to.suffix == ".json":
+        emit(as_json(report.compared_data(found)), to)
     else:
-        show([report.compared_document(found)], out, suffix)
+        show([report.compared_document(found)], to)
     if plot is not None:
         from geartrain.plot import shapes_figure
 
-        draw(shapes_figure({form.name: form.path for form in found.forms if form.path and form.runs}), plot, picture)
+        draw(shapes_figure({form.name: form.path for form in found.forms if form.path and form.runs}), picture)
     raise typer.Exit(GOOD if all(form.runs for form in found.forms) else VERDICT)
 
 

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from geartrain.cli.common import Json, Out, as_json, emit, show, suffix_of
+from geartrain.cli.common import Force, Json, Out, as_json, emit, show, sink
 from geartrain.cli.mesh.options import friction as _friction
 from geartrain.cli.mesh.options import quantity as _quantity
 from geartrain.errors import GearTrainError, Problem
@@ -22,16 +22,17 @@ def run(
     driver: Annotated[str, typer.Option("--driver", help="Which drives: pin or slot.")] = "pin",
     json: Json = False,
     out: Out = None,
+    force: Force = False,
 ) -> None:
     """Law of a pin in a slot or in a follower: mean ratio, amplitude, extreme speeds."""
     from geartrain import report
 
+    to = sink(out, force, (".md", ".html", ".json"))
     law = _pin_law(pin_radius, offset, _friction(friction), driver)
-    suffix = suffix_of(out, (".md", ".html", ".json"))
-    if json or suffix == ".json":
-        emit(as_json(report.pin_data(law)), out)
+    if json or to.suffix == ".json":
+        emit(as_json(report.pin_data(law)), to)
     else:
-        show([report.pin_document(law, driver)], out, suffix)
+        show([report.pin_document(law, driver)], to)
 
 
 def _pin_law(pin_radius: str, offset: str, friction: float, driver: str) -> PinLaw:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from geartrain.cli.common import GOOD, PICTURES, VERDICT, Json, Out, as_json, draw, emit, show, suffix_of
+from geartrain.cli.common import GOOD, PICTURES, VERDICT, Force, Json, Out, Sink, apart, as_json, draw, emit, show, sink
 from geartrain.cli.mesh.options import friction as _friction
 from geartrain.cli.mesh.options import quantity
 from geartrain.cli.mesh.shaping import FORMS, Question, pair, question, shape
@@ -55,6 +55,7 @@ def _common(
     ] = None,
     json: Json = False,
     out: Out = None,
+    force: Force = False,
 ) -> None:
     """Only its parameters count: those that all forms have."""
 
@@ -92,28 +93,42 @@ def _run(
     plot: Path | None,
     json: bool,
     out: Out,
+    force: bool,
     **given: Any,
 ) -> None:
     from geartrain import report
     from geartrain.teeth.conjugate import ConjugateLaw
 
-    suffix, picture = suffix_of(out, (".md", ".html", ".json")), suffix_of(plot, PICTURES) or ".svg"
+    to, picture = sink(out, force, (".md", ".html", ".json")), sink(plot, force, PICTURES, "--plot")
+    outlined = _outlined(profile, force)
+    apart(to, outlined, picture)
     asked = question(given["teeth"], given["internal"], given["bevel"], given["module"], given["backlash"])
     found = pair(shape(form, own, asked.backlash), asked)
     law = ConjugateLaw(found, _friction(friction), driver)
-    wheels = [] if profile is None else [_cut(form, own, found, asked, wheel, profile, given)]
-    if json or suffix == ".json":
-        emit(as_json(report.shape_data(form, law, wheels)), out)
+    wheels = [] if profile is None else [_cut(form, own, found, asked, wheel, outlined, given)]
+    if json or to.suffix == ".json":
+        emit(as_json(report.shape_data(form, law, wheels)), to)
     else:
-        show([report.shape_document(form, law, wheels)], out, suffix)
+        show([report.shape_document(form, law, wheels)], to)
     if plot is not None:
         from geartrain.plot import shapes_figure
 
-        draw(shapes_figure({form: found.path}), plot, picture)
+        draw(shapes_figure({form: found.path}), picture)
     raise typer.Exit(GOOD if law.verdict and law.friction < law.locking_friction else VERDICT)
 
 
 # ------------------------------------------------------------------------------------------------------------ outlines
+
+
+def _outlined(profile: Path | None, force: bool) -> Sink:
+    """Where an outline goes; a form that there is not is refused before the work."""
+    from geartrain.export import OUTLINES
+
+    to = sink(profile, force, option="--profile")
+    if to.path is not None and to.suffix not in OUTLINES:
+        what = f"'{to.suffix}' is no form of outline"
+        raise GearTrainError(Problem(what, "", f"use {', '.join(OUTLINES)}", "--profile"))
+    return to
 
 
 def _cut(
@@ -122,16 +137,13 @@ def _cut(
     found: Pair,
     asked: Question,
     wheel: int,
-    profile: Path,
+    to: Sink,
     given: dict[str, Any],
 ) -> Wheel:
     """The outline of a wheel, written."""
-    from geartrain.export import OUTLINES, write_outline
+    from geartrain.export import outline_text
     from geartrain.outlines import outline
 
-    if profile.suffix.lower() not in OUTLINES:
-        what = f"'{profile.suffix}' is no form of outline"
-        raise GearTrainError(Problem(what, "", f"use {', '.join(OUTLINES)}", "--profile"))
     if given["module"] is None:
         why = "an outline is to scale, and nothing gives these wheels a size"
         raise GearTrainError(Problem("there is no module", why, "give for example --module 2mm", "--module"))
@@ -139,8 +151,7 @@ def _cut(
     if form == "involute" and sizes.clearance is None:
         sizes = replace(sizes, clearance=_rack_clearance(own, asked, wheel) * sizes.module)
     made = outline(found, wheel, sizes, _pins(form, own, asked))
-    write_outline(profile, made)
-    typer.echo(f"wrote {profile}", err=True)
+    emit(outline_text(made, to.suffix), to)
     return made
 
 

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import typer
 
-from geartrain.cli.common import as_json, draw, emit, suffix_of
+from geartrain.cli.common import Sink, as_json, draw, emit
 from geartrain.cli.mesh.pair import VARIED, Pair
 
 if TYPE_CHECKING:
@@ -15,7 +14,7 @@ if TYPE_CHECKING:
     from geartrain.teeth.triangular.sweep import Sweep
 
 
-def sweep(pair: Pair, vary: list[str], plot: Path | None, picture: str, json: bool, out: Path | None) -> None:
+def sweep(pair: Pair, vary: list[str], picture: Sink, json: bool, to: Sink) -> None:
     """The table of a sweep, as text and as a picture."""
     from rich.console import Console
     from rich.progress import Progress
@@ -34,17 +33,16 @@ def sweep(pair: Pair, vary: list[str], plot: Path | None, picture: str, json: bo
     with Progress(console=Console(stderr=True), transient=True) as progress:
         task = progress.add_task("sweep", total=count)
         found = run_sweep(make, ranges, lambda: progress.update(task, advance=1))
-    suffix = suffix_of(out, (".csv", ".json"))
-    if json or suffix == ".json":
-        emit(as_json([dict(zip(found.header, _plain(row), strict=True)) for row in found.rows()]), out)
+    if json or to.suffix == ".json":
+        emit(as_json([dict(zip(found.header, _plain(row), strict=True)) for row in found.rows()]), to)
     else:
-        emit(_csv(found), out)
+        emit(_csv(found), to)
     if len(ranges) == 1:
         _tell_changes(make, next(iter(ranges)), found, units)
-    if plot is not None:
+    if picture.path is not None:
         from geartrain.plot import sweep_figure
 
-        draw(sweep_figure(found.parameters, found.columns, found.labels), plot, picture)
+        draw(sweep_figure(found.parameters, found.columns, found.labels), picture)
 
 
 def _ranges(vary: list[str]) -> tuple[dict[str, list[float]], dict[str, str]]:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from geartrain.cli.common import GOOD, PICTURES, VERDICT, Json, Out, as_json, draw, emit, show, suffix_of
+from geartrain.cli.common import GOOD, PICTURES, VERDICT, Force, Json, Out, Sink, apart, as_json, draw, emit, show, sink
 from geartrain.cli.mesh.options import quantity as _quantity
 from geartrain.cli.mesh.pair import VARIED, Pair
 from geartrain.cli.mesh.sweeping import sweep
@@ -51,6 +51,7 @@ def run(
     at: Annotated[str | None, typer.Option("--at", help="alpha_1 at which the wheels are drawn.")] = None,
     json: Json = False,
     out: Out = None,
+    force: Force = False,
 ) -> None:
     """Contact, law, collisions and losses of a pair with triangular teeth, or a sweep over its parameters as CSV."""
     given = {
@@ -60,30 +61,33 @@ def run(
         "backlash": backlash,
         "centre_distance": centre_distance,
     }
-    picture, drawing = suffix_of(plot, PICTURES) or ".svg", suffix_of(teeth_plot, PICTURES) or ".svg"
+    to = sink(out, force, (".csv", ".json") if vary else (".md", ".html", ".json"))
+    picture = sink(plot, force, PICTURES, "--plot")
+    drawing = sink(teeth_plot, force, PICTURES, "--teeth-plot")
+    apart(to, picture, drawing)
     pair = Pair(teeth, half_angle, given, radii, module, friction, driver, -1 if backwards else 1)
     if vary:
         if teeth_plot is not None:
             raise typer.BadParameter(
                 "one pair is drawn, and a sweep has many: leave --vary out", param_hint="--teeth-plot"
             )
-        sweep(pair, vary, plot, picture, json, out)
+        sweep(pair, vary, picture, json, to)
         return
     law = pair.law()
-    _page(pair, law, (inertia, rate, load), json, out)
+    _page(pair, law, (inertia, rate, load), json, to)
     if plot is not None:
         from geartrain.plot import law_figure
 
-        draw(law_figure(law), plot, picture)
+        draw(law_figure(law), picture)
     if teeth_plot is not None:
         from geartrain.plot import teeth_figure
 
         angle = None if at is None else _quantity("--at", at, "angle")
-        draw(teeth_figure(law, angle), teeth_plot, drawing)
+        draw(teeth_figure(law, angle), drawing)
     raise typer.Exit(GOOD if law.verdict and law.friction < law.locking_friction else VERDICT)
 
 
-def _page(pair: Pair, law: TriangularLaw, run: tuple[str | None, str | None, str | None], json: bool, out: Out) -> None:
+def _page(pair: Pair, law: TriangularLaw, run: tuple[str | None, str | None, str | None], json: bool, to: Sink) -> None:
     from geartrain import report
     from geartrain.quantity import RADIANS_PER_TURN
     from geartrain.teeth.triangular.meshing import find_window
@@ -95,8 +99,7 @@ def _page(pair: Pair, law: TriangularLaw, run: tuple[str | None, str | None, str
         None if load is None else _quantity("--load", load, "torque"),
     )
     found = find_window(law.sizes) if law.sizes.has_valleys else None
-    suffix = suffix_of(out, (".md", ".html", ".json"))
-    if json or suffix == ".json":
-        emit(as_json(report.mesh_data(law, found, running)), out)
+    if json or to.suffix == ".json":
+        emit(as_json(report.mesh_data(law, found, running)), to)
     else:
-        show([report.mesh_document(law, found, running)], out, suffix)
+        show([report.mesh_document(law, found, running)], to)

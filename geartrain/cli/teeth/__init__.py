@@ -6,9 +6,9 @@ from typing import Annotated
 
 import typer
 
-from geartrain.cli.common import Json, Out, StateName
+from geartrain.cli.common import Force, Json, Out, StateName, sink
 from geartrain.cli.teeth import belonging, epicyclic, orrery, ratio, train
-from geartrain.cli.teeth.asking import Asked, Means, is_train
+from geartrain.cli.teeth.asking import FORMS, Asked, Means, is_train
 
 Names = list[str] | None
 Flag = bool
@@ -89,9 +89,10 @@ def run(
     csv: Annotated[Flag, typer.Option("--csv", help="Print the solutions as CSV.")] = False,
     json: Json = False,
     out: Out = None,
+    force: Force = False,
 ) -> None:
     """Tooth numbers for a wanted motion: complete, exact, and with a reason where there are none."""
-    asked = Asked(tolerance, best, by, counts, wheels, pinions, csv, json, out, pick)
+    asked = Asked(tolerance, best, by, counts, wheels, pinions, csv, json, sink(out, force, FORMS), pick)
     means = Means(workers, scheduler, resume, out)
     belonging.check_texts(context, wanted)
     if kind is not None:

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 import typer
 
-from geartrain.cli.common import GOOD, INTERRUPTED, VERDICT, as_json, emit, share, show, suffix_of
+from geartrain.cli.common import GOOD, INTERRUPTED, STANDARD, VERDICT, Sink, as_json, emit, share, show
 from geartrain.cli.long_runs import csv_text, means
 
 if TYPE_CHECKING:
@@ -38,13 +38,8 @@ class Asked:
     pinions_text: str | None
     csv: bool
     json: bool
-    out: Path | None
+    out: Sink
     pick: int
-
-    @property
-    def suffix(self) -> str:
-        """Of the output file."""
-        return suffix_of(self.out, FORMS)
 
     @property
     def tolerance(self) -> Fraction | None:
@@ -89,13 +84,14 @@ class Asked:
         rows       the solutions as a flat table
         declared   number of a solution, from 0 -> its declaration
         """
-        if self.suffix in YAML:
+        suffix = self.out.suffix
+        if suffix in YAML:
             self._declare(declared, len(rows))
-        form = self.suffix or (".json" if self.json else ".csv" if self.csv else ".md")
-        asked = {form} if self.out and form not in YAML else set[str]()
+        form = suffix or (".json" if self.json else ".csv" if self.csv else ".md")
+        asked = {form} if self.out != STANDARD and form not in YAML else set[str]()
         asked |= {".json"} if self.json else {".csv"} if self.csv else set()
         for each in sorted(asked or {""}):
-            out = self.out if each == form else None
+            out = self.out if each == form else STANDARD
             if each == ".json":
                 emit(as_json(data), out)
             elif each == ".csv":

@@ -8,7 +8,7 @@ import typer
 
 Subject = Literal["a ratio", "the fractions on the way", "a train", "an epicyclic set", "an orrery"]
 
-_FORM = {"wanted", "kind", "csv", "json", "out", "workers"}
+_FORM = {"wanted", "kind", "csv", "json", "out", "force", "workers"}
 _LIST = {"tolerance", "best", "by", "pick"}
 _RULES = {
     *("planets", "clearance", "undercut", "interference", "largest_radius", "addendum", "ring_addendum", "least"),

@@ -6,7 +6,7 @@ from typing import Any
 
 import typer
 
-from geartrain.cli.common import as_json, emit, show
+from geartrain.cli.common import STANDARD, Sink, as_json, emit, show
 from geartrain.cli.teeth.asking import Asked
 
 
@@ -25,7 +25,7 @@ def run(
     from geartrain import report
 
     if kind == "list":
-        listing(asked.json)
+        listing(asked.json, asked.out)
         return
     from geartrain.synthesis.epicyclic.declaring import declaration_of
     from geartrain.synthesis.epicyclic.finding import find_sets
@@ -59,15 +59,15 @@ def run(
     )
 
 
-def listing(json: bool) -> None:
+def listing(json: bool, to: Sink = STANDARD) -> None:
     """The kinds there are."""
     from geartrain import report
     from geartrain.synthesis.epicyclic.kinds import kinds
 
     if json:
-        emit(as_json({name: kind.to_dict() for name, kind in kinds().items()}))
+        emit(as_json({name: kind.to_dict() for name, kind in kinds().items()}), to)
     else:
-        show([report.kinds_document(kinds())], None, "")
+        show([report.kinds_document(kinds())], to)
 
 
 def _number(text: str | None, default: str, option: str) -> int:

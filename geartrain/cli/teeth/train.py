@@ -24,7 +24,7 @@ def run(
     from geartrain.synthesis.rules.asked import read_rules
 
     train = read_declaration(file)
-    _check_kept(file, asked.out)
+    _check_kept(file, asked.out.path)
     options = {name: value for name, value in rules.items() if value is not None}
     chosen = free if free in ("search", "uncertain") else tuple(name.strip() for name in free.split(","))
     stands = [_assignment(text) for text in where]
@@ -39,7 +39,7 @@ def run(
         data,
         report.assignment_rows(found),
         lambda: report.assignments_document(found, standings),
-        lambda at: found.declaration(solutions[at], _parent(file, asked.out)),
+        lambda at: found.declaration(solutions[at], _parent(file, asked.out.path)),
     )
 
 

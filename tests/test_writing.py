@@ -1,0 +1,316 @@
+"""What every option that writes does with what stands in its way: one rule, for every command that there is."""
+
+from __future__ import annotations
+
+import os
+import socket
+import stat
+import sys
+from collections.abc import Iterator
+from contextlib import suppress
+from pathlib import Path
+from typing import Annotated, Any, get_args, get_origin, get_type_hints
+
+import pytest
+import typer
+from commands import RIGHT, UNUSABLE, call
+
+from geartrain.cli import app
+from geartrain.errors import GearTrainError
+from geartrain.files import LongTable, destination, write_bytes, write_folder
+
+pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="no FIFO, no socket in a folder")
+
+PAIR = ("--teeth", "20", "30")
+SIZED = (*PAIR, "--module", "1mm")
+FORMS = ("involute", "cycloidal", "lantern", "uniform-stress", "uniform-temperature", "least-friction")
+MOTION = ("motion", "moon-triangular", "--turns", "1", "--samples", "64", "--output", "moon")
+DOUBT = ("sweep", "{doubt}", "--free", "x=18:22", "--free", "z=38:42")
+ERRORS = ("errors", "moon-triangular", "--trials", "2", "--output", "moon", "--set", "placement=2 %")
+
+# command and writing option -> the rest of a question, and the suffixes it may be written with
+ASKED: dict[tuple[str, str], tuple[tuple[str, ...], tuple[str, ...]]] = {
+    ("report", "-o"): (("report", "worm"), (".md", ".html", ".json")),
+    ("view", "-o"): (("view", "worm"), (".html",)),
+    ("draw", "-o"): (("draw", "worm", "--kind", "graph"), (".svg",)),
+    ("export", "-o"): (("export", "planetary-24-18-60"), (".dot",)),
+    ("compare", "-o"): (("compare", "worm"), (".md", ".html", ".json")),
+    ("solve", "-o"): (("solve", "worm"), (".txt", "")),
+    ("equations", "-o"): (("equations", "worm"), (".txt",)),
+    ("graph", "-o"): (("graph", "worm"), (".md", ".dot", ".graphml", ".json")),
+    ("torques", "-o"): (("torques", "worm"), (".md", ".json")),
+    ("torques", "--plot"): (("torques", "{loaded}"), (".svg",)),
+    ("motion", "-o"): (MOTION, (".md", ".json", ".csv")),
+    ("motion", "--plot"): (MOTION, (".svg",)),
+    ("errors", "-o"): (ERRORS, (".md", ".json", ".csv", ".parquet")),
+    ("errors", "--plot"): (ERRORS, (".svg",)),
+    ("sphere", "-o"): (("sphere", "cube"), (".md", ".json")),
+    ("sphere", "--plot"): (("sphere", "cube", "--teeth", "4=12"), (".svg",)),
+    ("teeth", "-o"): (("teeth", "7/3", "--stages", "1", "--best", "1"), (".md", ".json", ".csv")),
+    ("sweep", "-o"): (DOUBT, (".md", ".json", ".csv", ".parquet")),
+    ("sweep", "--plot"): (DOUBT, (".svg",)),
+    ("schema", "-o"): (("schema",), (".json",)),
+    ("mesh triangular", "-o"): (("mesh", "triangular", *PAIR, "--window", "0.5"), (".md", ".json")),
+    ("mesh triangular", "--plot"): (("mesh", "triangular", *PAIR, "--window", "0.5"), (".svg",)),
+    ("mesh triangular", "--teeth-plot"): (("mesh", "triangular", *PAIR, "--window", "0.5"), (".svg",)),
+    ("mesh pin", "-o"): (("mesh", "pin", "--pin-radius", "10", "--offset", "5"), (".md", ".json")),
+    ("mesh compare", "-o"): (("mesh", "compare", *PAIR, "--forms", "cycloidal"), (".md", ".json")),
+    ("mesh compare", "--plot"): (("mesh", "compare", *PAIR, "--forms", "cycloidal"), (".svg",)),
+}
+for _form in FORMS:
+    ASKED[f"mesh {_form.replace('-', '_')}", "-o"] = (("mesh", _form.replace("-", "_"), *PAIR), (".md",))
+    ASKED[f"mesh {_form.replace('-', '_')}", "--plot"] = (("mesh", _form.replace("-", "_"), *PAIR), (".svg",))
+    ASKED[f"mesh {_form.replace('-', '_')}", "--profile"] = (("mesh", _form.replace("-", "_"), *SIZED), (".svg",))
+MEASURED = ("kinematics", "mesh", "motion", "sphere", "shapes", "teeth", "uncertainty")
+"""Benchmarks, which take long: only what is refused before they begin is tried."""
+for _bench in MEASURED:
+    ASKED[f"bench {_bench}", "-o"] = (("bench", _bench), (".md",))
+FOLDER = ("export", "--to")
+TRAINS: dict[str, Path] = {}
+
+CASES = [(command, option, suffix) for (command, option), (_, suffixes) in ASKED.items() for suffix in suffixes]
+FIRST = [(command, option, suffixes[0]) for (command, option), (_, suffixes) in ASKED.items()]
+
+
+def writing() -> Iterator[tuple[str, str]]:
+    """Every option of every command that names a file, from the annotations of the commands themselves."""
+
+    def walk(name: str, group: typer.Typer) -> Iterator[tuple[str, str]]:
+        for each in group.registered_commands:
+            verb = f"{name} {each.name or each.callback.__name__}".strip()
+            for hint in get_type_hints(each.callback, include_extras=True).values():
+                if get_origin(hint) is Annotated and Path in (get_args(get_args(hint)[0]) or get_args(hint)[:1]):
+                    option = get_args(hint)[1]
+                    yield verb, (option.default, *option.param_decls)[-1]
+        for each in group.registered_groups:
+            yield from walk(f"{name} {each.name}".strip(), each.typer_instance)
+
+    return walk("", app)
+
+
+@pytest.fixture(scope="module", autouse=True)
+def _trains(tmp_path_factory: pytest.TempPathFactory) -> None:
+    """Trains that no shipped one stands for."""
+    folder = tmp_path_factory.mktemp("trains")
+    doubt = RIGHT.replace("expect: 1/2", "targets: [{speed: 1/2, tolerance: 10 %}]")
+    for name, text in {"doubt": doubt, "loaded": RIGHT + "loads: {c: -1 N m}\n"}.items():
+        TRAINS[f"{{{name}}}"] = folder / f"{name}.yaml"
+        TRAINS[f"{{{name}}}"].write_text(text, encoding="utf-8")
+
+
+def ask(command: str, option: str, path: object, *more: object) -> Any:
+    return call(*(TRAINS.get(word, word) for word in ASKED[command, option][0]), option, path, *more)
+
+
+def test_every_option_that_names_a_file_is_tried_here() -> None:
+    reads = {("sphere", "--graph")}
+    assert set(writing()) - reads == {*ASKED, FOLDER}
+
+
+@pytest.fixture
+def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+def refused(done: Any) -> str:
+    assert done.exit_code != 0
+    assert isinstance(done.exception, GearTrainError), done.output
+    assert done.stdout == ""
+    for problem in done.exception.problems:
+        assert problem.what
+        assert problem.fix
+    return str(done.exception)
+
+
+@pytest.mark.parametrize(("command", "option", "suffix"), CASES)
+def test_an_existing_file_is_kept_unless_forced(here: Path, command: str, option: str, suffix: str) -> None:
+    (here / f"x{suffix}").write_text("mine", encoding="utf-8")
+    said = refused(ask(command, option, f"x{suffix}"))
+    assert "the file exists" in said
+    assert "--force" in said
+    assert (here / f"x{suffix}").read_text(encoding="utf-8") == "mine"
+    assert [path.name for path in here.iterdir()] == [f"x{suffix}"]
+
+
+@pytest.mark.parametrize("force", [(), ("--force",)])
+@pytest.mark.parametrize(("command", "option", "suffix"), FIRST)
+def test_what_is_no_regular_file_is_refused_by_name_and_stays_what_it_is(
+    here: Path, command: str, option: str, suffix: str, force: tuple[str, ...]
+) -> None:
+    fifo, link, folder, plug = (here / f"{name}{suffix}" for name in ("fifo", "link", "folder", "plug"))
+    os.mkfifo(fifo)
+    link.symlink_to("/dev/null")
+    folder.mkdir()
+    server = socket.socket(socket.AF_UNIX)
+    server.bind(plug.name)
+    before = {path.name: (path.lstat().st_ino, path.lstat().st_mode) for path in here.iterdir()}
+    device = os.stat("/dev/null")
+    with server:
+        assert "a FIFO" in refused(ask(command, option, fifo.name, *force))
+        assert "a folder" in refused(ask(command, option, folder.name, *force))
+        assert "a socket" in refused(ask(command, option, plug.name, *force))
+        said = refused(ask(command, option, link.name, *force))
+        assert "a device" in said
+        assert "- is standard output" in said
+    assert {path.name: (path.lstat().st_ino, path.lstat().st_mode) for path in here.iterdir()} == before
+    assert (os.stat("/dev/null").st_mode, os.stat("/dev/null").st_ino) == (device.st_mode, device.st_ino)
+
+
+@pytest.mark.parametrize(("command", "option", "suffix"), FIRST)
+def test_a_read_only_file_is_refused_even_to_root_and_by_force(
+    here: Path, command: str, option: str, suffix: str
+) -> None:
+    out = here / f"x{suffix}"
+    out.write_text("mine", encoding="utf-8")
+    out.chmod(0o444)
+    said = refused(ask(command, option, out.name, "--force"))
+    assert "read-only" in said
+    assert "-r--r--r--" in said
+    assert out.read_text(encoding="utf-8") == "mine"
+    assert stat.S_IMODE(out.stat().st_mode) == 0o444
+
+
+@pytest.mark.parametrize(
+    ("command", "option", "suffix"),
+    [case for case in CASES if not case[0].startswith("bench") and case[:2] != ("view", "-o")],
+)
+def test_by_force_the_file_behind_a_link_is_replaced_and_link_and_rights_are_kept(
+    here: Path, command: str, option: str, suffix: str
+) -> None:
+    (here / "away").mkdir()
+    real, link = here / "away" / f"real{suffix}", here / f"link{suffix}"
+    real.write_text("mine", encoding="utf-8")
+    real.chmod(0o640)
+    link.symlink_to(real)
+    assert "the file exists" in refused(ask(command, option, link.name))
+    done = ask(command, option, link.name, "--force")
+    assert done.exception is None or isinstance(done.exception, SystemExit), done.exception
+    assert link.is_symlink()
+    assert link.resolve() == real
+    assert real.stat().st_size > 0
+    assert real.read_bytes() != b"mine"
+    assert stat.S_IMODE(real.stat().st_mode) == 0o640
+    assert sorted(path.name for path in here.rglob("*")) == sorted(["away", link.name, real.name])
+
+
+@pytest.mark.parametrize(("command", "option", "suffix"), [case for case in FIRST if case[1] == "-o"])
+def test_a_dash_is_standard_output_and_no_file(here: Path, command: str, option: str, suffix: str) -> None:
+    if command.startswith("bench"):
+        return
+    done = ask(command, option, "-")
+    if command == "export":
+        assert "no train is written as '-'" in refused(done)
+    else:
+        assert done.exception is None or isinstance(done.exception, SystemExit), done.exception
+        assert done.stdout_bytes
+    assert list(here.iterdir()) == []
+
+
+def test_a_picture_beside_an_answer_needs_a_file(here: Path) -> None:
+    for command, option, _ in FIRST:
+        if option != "-o":
+            assert f"{option}" in refused(ask(command, option, "-"))
+    assert list(here.iterdir()) == []
+
+
+def test_two_results_of_one_command_never_share_a_file(here: Path) -> None:
+    (here / "b.svg").symlink_to("a.svg")
+    asked = ("mesh", "triangular", *PAIR, "--window", "0.5", "--plot", "a.svg", "--teeth-plot")
+    for second in ("a.svg", "b.svg", "./a.svg"):
+        assert "two results go into one file" in refused(call(*asked, second, "--force"))
+    assert [path.name for path in here.iterdir()] == ["b.svg"]
+
+
+# --------------------------------------------------------------------------------------------------------- the writer
+
+
+def test_a_link_to_nothing_leads_to_the_new_file(here: Path) -> None:
+    (here / "link.md").symlink_to("new.md")
+    write_bytes(here / "link.md", b"new")
+    assert (here / "link.md").is_symlink()
+    assert (here / "new.md").read_bytes() == b"new"
+    (here / "round.md").symlink_to("round.md")
+    with pytest.raises(GearTrainError, match="no name for a file"):
+        destination(here / "round.md", force=True)
+
+
+def test_a_file_that_appears_while_a_result_is_worked_out_is_kept(here: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    write = os.fdopen
+
+    def late(*given: Any) -> Any:
+        (here / "x.md").write_text("mine", encoding="utf-8")
+        return write(*given)
+
+    monkeypatch.setattr(os, "fdopen", late)
+    with pytest.raises(GearTrainError, match="the file exists"):
+        write_bytes(here / "x.md", b"ours")
+    assert (here / "x.md").read_text(encoding="utf-8") == "mine"
+    assert [path.name for path in here.iterdir()] == ["x.md"]
+
+
+def test_a_new_file_heeds_the_umask(here: Path) -> None:
+    before = os.umask(0o027)
+    try:
+        write_bytes(here / "x.md", b"new")
+    finally:
+        os.umask(before)
+    assert stat.S_IMODE((here / "x.md").stat().st_mode) == 0o640
+
+
+def test_what_is_written_is_on_the_disk_before_it_takes_its_name(here: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    done: list[str] = []
+    sync, link, replace = os.fsync, os.link, os.replace
+    monkeypatch.setattr(os, "fsync", lambda handle: (done.append("sync"), sync(handle))[1])
+    monkeypatch.setattr(os, "link", lambda *names: (done.append("name"), link(*names))[1])
+    monkeypatch.setattr(os, "replace", lambda *names: (done.append("name"), replace(*names))[1])
+    write_bytes(here / "x.md", b"new")
+    write_bytes(here / "x.md", b"newer", force=True)
+    assert done == ["sync", "name", "sync"] * 2
+
+
+def test_a_folder_of_results_follows_the_same_rule(here: Path) -> None:
+    to = here / "set"
+    (to / "wheels").mkdir(parents=True)
+    (here / "away").write_text("mine", encoding="utf-8")
+    (to / "graph.dot").symlink_to(here / "away")
+    asked = ("export", "planetary-24-18-60", "--to", to, "--as", "dot")
+    assert "exists there already" in refused(call(*asked))
+    assert call(*asked, "--force").exit_code == 0
+    assert (to / "graph.dot").is_symlink()
+    assert "graph" in (here / "away").read_text(encoding="utf-8")
+    (to / "graph.dot").unlink()
+    os.mkfifo(to / "graph.dot")
+    assert "a FIFO" in refused(call(*asked, "--force"))
+    (to / "graph.dot").unlink()
+    (to / "graph.dot").write_text("mine", encoding="utf-8")
+    (to / "graph.dot").chmod(0o444)
+    assert "read-only" in refused(call(*asked, "--force"))
+    with pytest.raises(GearTrainError, match="read-only"):
+        write_folder(to, [("new.txt", b"new"), ("graph.dot", b"ours")], force=True)
+    assert not (to / "new.txt").exists(), "all of them, or none"
+
+
+def test_a_partial_table_is_no_link_and_is_begun_again_only_if_asked(here: Path) -> None:
+    with suppress(KeyboardInterrupt), LongTable(here / "x.csv", "a") as table:
+        table.write(["1"])
+        raise KeyboardInterrupt
+    with pytest.raises(GearTrainError, match="--resume"):
+        LongTable(here / "x.csv", "a")
+    with LongTable(here / "x.csv", "a", resume=True) as table:
+        assert table.rows == 1
+    with pytest.raises(GearTrainError, match="the file exists"):
+        LongTable(here / "x.csv", "a", resume=True)
+    (here / "away").write_text("mine", encoding="utf-8")
+    (here / "y.partial.csv").symlink_to("away")
+    with pytest.raises(GearTrainError, match="symbolic link"):
+        LongTable(here / "y.csv", "a", force=True)
+    assert (here / "away").read_text(encoding="utf-8") == "mine"
+
+
+def test_what_cannot_be_written_is_said_before_anything_is_read(here: Path) -> None:
+    (here / "t.yaml").write_text(UNUSABLE, encoding="utf-8")
+    (here / "x.md").write_text("mine", encoding="utf-8")
+    assert "the file exists" in refused(call("report", "t.yaml", "-o", "x.md"))
+    (here / "t.yaml").write_text(RIGHT, encoding="utf-8")
+    assert call("report", "t.yaml", "-o", "x.md", "--force").exit_code == 0

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import sys
 from typing import Annotated
 
@@ -29,16 +28,17 @@ from geartrain.cli import (
     torques,
     view,
 )
-from geartrain.cli.common import NOT_USABLE, complain
-from geartrain.errors import GearTrainError, Problem
+from geartrain.cli.ending import Verbs, guarded
 
 app = typer.Typer(
     name="geartrain",
+    cls=Verbs,
     help="What does this gear train do? Exact speeds, named diagnoses and sources for any declared train.",
     no_args_is_help=True,
     pretty_exceptions_enable=False,
     context_settings={"help_option_names": ["-h", "--help"]},
-    epilog="Exit codes: 0 determined, every expectation holds; 1 a verdict or a failed expectation; 2 unusable input.",
+    epilog="Exit codes: 0 determined, every expectation holds; 1 a verdict or a failed expectation; 2 unusable input; "
+    "3 a fault of geartrain itself; 130 interrupted; 141 nobody reads the output any more.",
 )
 app.command("report")(report.run)
 app.command("view")(view.run)
@@ -81,18 +81,5 @@ def _root(
 
 
 def main() -> None:
-    """Run the command; whatever is wrong with the input is said on standard error, and the exit code is 2."""
-    try:
-        app()
-    except GearTrainError as error:
-        complain(error)
-        sys.exit(NOT_USABLE)
-    except BrokenPipeError:
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        sys.exit(0)
-    except OSError as error:
-        complain(
-            GearTrainError(Problem("the result cannot be written", str(error), "make room there", "standard output"))
-        )
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        sys.exit(NOT_USABLE)
+    """Run the command. What is wrong with the input is said on standard error, with exit code 2; a fault is code 3."""
+    sys.exit(guarded(app))

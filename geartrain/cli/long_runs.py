@@ -52,12 +52,25 @@ def _journal(path: Path, question: Mapping[str, Any], resume: bool) -> Iterator[
     if not resume and not os.access(path.parent, os.W_OK):
         yield None
         return
+    if resume and not path.exists():
+        _check_others(path, question)
+        typer.echo(f"nothing to resume: there is no {path}; the run begins anew", err=True)
     with Journal(path, question, resume=resume) as journal:
         try:
             yield journal
         finally:
             if not journal.closed and not len(journal):  # nothing worth keeping
                 journal.finish()
+
+
+def _check_others(path: Path, question: Mapping[str, Any]) -> None:
+    """Refuse to resume where the folder holds journals of the same command, all of other questions."""
+    from geartrain.errors import QuestionError
+    from geartrain.parallel import another_question
+
+    others = sorted(path.parent.glob(f"{path.name.partition('-')[0]}-*.partial.jsonl"))
+    if problems := [another_question(other, question) for other in others]:
+        raise QuestionError(problems)
 
 
 def end(journal: Journal | None, cut: bool) -> None:

@@ -6,8 +6,8 @@ up again and ends the same. Journals are the one thing that does not go through 
 result for a reader, and they live and die with the run.
 """
 
-from geartrain.parallel.journal import Journal
+from geartrain.parallel.journal import Journal, another_question
 from geartrain.parallel.opening import cores, open_executor
 from geartrain.parallel.running import run
 
-__all__ = ["Journal", "cores", "open_executor", "run"]
+__all__ = ["Journal", "another_question", "cores", "open_executor", "run"]

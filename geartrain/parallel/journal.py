@@ -54,6 +54,8 @@ class Journal:
             raise _refused("the question is too long for a journal", "10 MB and more", "say it shorter", self.path)
         self._at = array("q")  # where the line of a task begins; -1: not kept
         self._count, self._synced, self._dirty = 0, monotonic(), False
+        if self.path.exists() and not self.path.is_file():
+            raise _refused("the file is no journal", "it is no regular file", "remove it, or name another", self.path)
         try:
             self._file = self.path.open("a+b", buffering=0)  # whatever was read last, what is written goes to the end
             try:
@@ -101,8 +103,7 @@ class Journal:
     def _compare(self, theirs: Any, ours: Any) -> None:
         difference = first_difference(theirs, ours)
         if difference:
-            fix = "ask the same question to resume; remove the file, or name another one, to begin again"
-            raise _refused("the journal is of another question", difference, fix, self.path)
+            raise QuestionError(_another(difference, self.path))
 
     def _enter(self, task: int, at: int) -> None:
         if task >= len(self._at):
@@ -183,6 +184,21 @@ class Journal:
 
     def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, _: TracebackType | None) -> None:
         self.close()
+
+
+def another_question(path: Path, question: Mapping[str, Any]) -> Problem:
+    """What is said of a journal that was found beside where that of this question would be."""
+    try:
+        with path.open("rb") as file:
+            theirs = json.loads(file.readline(_LONGEST))["question"]
+    except (OSError, ValueError, KeyError, TypeError):
+        return _another("its first line, the question, cannot be read", path)
+    return _another(first_difference(theirs, json.loads(json.dumps(question))), path)
+
+
+def _another(difference: str, path: Path) -> Problem:
+    fix = "ask the same question to resume; leave --resume out, or remove the file, to begin again"
+    return Problem("the journal is of another question", difference, fix, str(path))
 
 
 def first_difference(theirs: Any, ours: Any, place: str = "") -> str:

@@ -1,0 +1,107 @@
+"""How the command ends: every end has its exit code, and a fault of geartrain itself is never taken for a verdict."""
+
+from __future__ import annotations
+
+import errno
+import os
+import sys
+import tempfile
+import traceback
+from collections.abc import Callable
+from typing import Any
+
+import typer
+from typer.core import TyperGroup
+
+from geartrain.cli.common import INTERRUPTED, NOT_USABLE, complain
+from geartrain.errors import GearTrainError, Problem
+
+FAULT, READER_GONE = 3, 141
+TRACEBACK = "GEARTRAIN_TRACEBACK"
+"""An environment variable: where it is set, a fault's traceback is printed too."""
+
+_DISK = {errno.ENOSPC, errno.EIO, errno.EFBIG, errno.EBADF, getattr(errno, "EDQUOT", errno.ENOSPC)}
+
+
+class _ReaderGoneError(Exception):
+    """Nobody reads standard output any more."""
+
+
+class Verbs(TyperGroup):
+    """The verbs; a closed pipe and Ctrl-C are not left to typer, which would end with the exit code of a verdict."""
+
+    def invoke(self, ctx: Any) -> Any:
+        """Run the verb that was asked for."""
+        try:
+            return super().invoke(ctx)
+        except BrokenPipeError:
+            raise _ReaderGoneError from None
+        except KeyboardInterrupt:
+            typer.echo("stopped", err=True)
+            raise typer.Exit(INTERRUPTED) from None
+
+
+def guarded(run: Callable[[], Any]) -> int:
+    """Run the command, tell whatever went wrong on standard error, and say with which code to exit."""
+    try:
+        code = _code(run)
+        sys.stdout.flush()
+    except GearTrainError as error:
+        complain(error)
+        return NOT_USABLE
+    except KeyboardInterrupt:
+        return INTERRUPTED
+    except (BrokenPipeError, _ReaderGoneError):
+        _mute()
+        return READER_GONE
+    except Exception as error:
+        if isinstance(error, OSError) and error.filename is None and error.errno in _DISK:
+            what = Problem("the result cannot be written", str(error), "make room there", "standard output")
+            complain(GearTrainError(what))
+            _mute()
+            return NOT_USABLE
+        _tell_fault(error)
+        return FAULT
+    return code
+
+
+def _code(run: Callable[[], Any]) -> int:
+    try:
+        run()
+    except SystemExit as ended:
+        return ended.code if isinstance(ended.code, int) else 0 if ended.code is None else FAULT
+    return 0
+
+
+def _mute() -> None:
+    """What is left in the buffer goes nowhere, lest the interpreter complain of it on its way out."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+
+
+def _tell_fault(error: Exception) -> None:
+    """One line on standard error; the traceback goes into a file that can be sent."""
+    from geartrain.cli.common import printable
+
+    text = "".join(traceback.format_exception(error))
+    said = printable(str(error).partition("\n")[0])
+    kept = _kept(text)
+    how = f"please report it with {kept}" if kept else f"set {TRACEBACK}=1 to see where, and please report that"
+    typer.echo(f"internal error: {type(error).__name__}: {said}; this is a fault of geartrain: {how}", err=True)
+    if os.environ.get(TRACEBACK):
+        typer.echo(text, err=True)
+
+
+def _kept(text: str) -> str:
+    """The name of a new file with a traceback and what was asked, "" where none can be made."""
+    import platform
+    from importlib.metadata import version
+
+    head = f"geartrain {version('geartrain')}, Python {platform.python_version()}, {platform.platform()}\n"
+    asked = f"asked: {sys.argv!r}\n\n"
+    try:
+        handle, name = tempfile.mkstemp(prefix="geartrain-fault-", suffix=".txt", text=True)
+        with os.fdopen(handle, "w", encoding="utf-8", errors="backslashreplace") as file:
+            file.write(head + asked + text)
+    except OSError:
+        return ""
+    return name

@@ -11,7 +11,15 @@ from math import isfinite
 from typing import TYPE_CHECKING, Any, Literal, get_args
 
 from geartrain.answer import Accuracy, Answer
-from geartrain.circuits import Circuit, Tree, bookkeeping_links, find_circuits, find_tree, link_signs
+from geartrain.circuits import (
+    Circuit,
+    Tree,
+    bookkeeping_links,
+    close_joints,
+    find_circuits,
+    find_tree,
+    link_signs,
+)
 from geartrain.components import Part, Reduced, prune
 from geartrain.errors import DeclarationError, Problem, QuestionError, Verdict
 from geartrain.exact import TooDenseError
@@ -87,6 +95,12 @@ class GearTrain:
         return find_circuits(self.declaration, self.tree)
 
     @cached_property
+    def cases(self) -> Mapping[str | None, Case]:
+        """What is prescribed in each state, or once for None, with rigid connections joint by joint."""
+        declared = self.declaration.cases
+        return {case.state: case for case in close_joints(self.declaration, self.tree, declared)}
+
+    @cached_property
     def signs(self) -> Mapping[str, int]:
         """-1 for links whose axis points against the reference direction of its parallels."""
         return link_signs(self.declaration, self.tree)
@@ -128,10 +142,7 @@ class GearTrain:
         """What a fitter would remark on a sound declaration: notes, never errors."""
         from geartrain.assembly import remarks
 
-        cases = self.declaration.cases
-        held = {link: "fixed" for case in cases for link in case.fixed}
-        held |= {link: "locked to another link" for case in cases for lock in case.locks for link in lock}
-        return tuple(remarks(self.declaration, self.tree, self.circuits, self.bookkeeping, held))
+        return tuple(remarks(self.declaration, self.tree, self.circuits, self.bookkeeping))
 
     @cached_property
     def meshes(self) -> tuple[Mesh, ...]:
@@ -360,7 +371,7 @@ class GearTrain:
         if state is not None and state not in known:
             fix = suggest(state, known) if known else "leave the state out"
             raise QuestionError(Problem(f"'{self.name}' has no state '{state}'", "it is not declared", fix))
-        return self.declaration.case(state)
+        return self.cases[state]
 
     def _only(self, case: Case, output: str) -> tuple[Case, tuple[str, ...]]:
         """The case with one output, and the links that output is made of."""

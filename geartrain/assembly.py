@@ -2,31 +2,28 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 
-from geartrain.circuits import Circuit, Tree
+from geartrain.circuits import Circuit, Tree, rigid_remarks
 from geartrain.errors import Problem
 from geartrain.train import Train
 
 
-def remarks(
-    train: Train, tree: Tree, circuits: Sequence[Circuit], oblique: frozenset[str], cases_held: Mapping[str, str]
-) -> Iterator[Problem]:
+def remarks(train: Train, tree: Tree, circuits: Sequence[Circuit], oblique: frozenset[str]) -> Iterator[Problem]:
     """Notes on a sound declaration.
 
-    oblique      links whose speed is a sum over non-parallel joints
-    cases_held   link -> what holds or locks it somewhere
+    oblique   links whose speed is a sum over non-parallel joints
     """
     yield from _conventions(train, circuits)
     yield from _centre_distances(train, tree, circuits)
-    for link, how in cases_held.items():
-        if link in oblique:
-            yield Problem(
-                f"'{link}' is {how}, and its axis moves",
-                "its speed is a sum over non-parallel joints, so holding it at 0 is no brake on a real shaft",
-                "hold a link whose axis stands in the frame",
-                train.place("links", link),
-            )
+    yield from rigid_remarks(train, tree, train.cases)
+    for link in dict.fromkeys(link for case in train.cases for link in case.inputs if link in oblique):
+        yield Problem(
+            f"the input '{link}' has an axis that moves",
+            "its speed is a sum of joint speeds over axes in several directions, and no rotation",
+            "drive a link whose axes up to the frame are parallel",
+            train.place("links", link),
+        )
 
 
 def _conventions(train: Train, circuits: Sequence[Circuit]) -> Iterator[Problem]:

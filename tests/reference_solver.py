@@ -128,6 +128,49 @@ def rank_of(rows: Sequence[Mapping[str, Fraction]], links: Sequence[str]) -> int
     return len(_dense([(row, Fraction(0)) for row in rows], links)[1])
 
 
+def rigid_rows(data: Mapping[str, Any]) -> list[dict[str, Fraction]]:
+    """One row for every turning pair that a fixed link or a lock closes.
+
+    Two links are one body if all links between them are, where two or three axes lie on the way: two different lines
+    have no turning in common, and three make a triangle. Four make a four-bar linkage, which this solver does not know.
+    """
+    graph, frame, rows = turning_graph(data), data.get("frame", "frame"), []
+    bodies = nx.Graph()
+    bodies.add_nodes_from(data["links"])
+    waiting = [(link, frame) for link in data.get("fixed", ())] + [tuple(pair) for pair in data.get("locks", ())]
+    while waiting:
+        for pair in waiting:
+            path = nx.shortest_path(graph, *pair)
+            labels = [graph.edges[step]["axis"] for step in itertools.pairwise(path)]
+            ends = [0, *(at for at in range(1, len(labels)) if labels[at] != labels[at - 1]), len(labels)]
+            steps = [
+                (path[a], path[b]) for a, b in itertools.pairwise(ends) if not nx.has_path(bodies, path[a], path[b])
+            ]
+            if len(steps) <= 3:
+                break
+        else:
+            raise LinkageError
+        waiting.remove(pair)
+        bodies.add_edges_from(steps)
+        rows += [
+            {link: Fraction(sign) for link, sign in zip(step, (1, -1), strict=True) if link != frame} for step in steps
+        ]
+    return rows
+
+
+class LinkageError(Exception):
+    """A rigid connection across four axes or more."""
+
+
+def is_a_linkage(data: Mapping[str, Any]) -> bool:
+    """Whether what is held or locked makes a linkage, which is refused."""
+    try:
+        rigid_rows(data)
+    except LinkageError:
+        return True
+    return False
+
+
 def solve_naively(data: Mapping[str, Any]) -> Reference:
     """The whole answer for plain data: teeth as integers, inputs as Fractions or integers."""
     frame = data.get("frame", "frame")
@@ -136,8 +179,7 @@ def solve_naively(data: Mapping[str, Any]) -> Reference:
     zero = Fraction(0)
     own = [(row, zero) for row in rows]
     bare, bare_pivots, _ = _dense(own, links)
-    held = own + [({link: Fraction(1)}, zero) for link in data.get("fixed", ()) if link != frame]
-    held += [({a: Fraction(1), b: Fraction(-1)}, zero) for a, b in data.get("locks", ()) if a != b]
+    held = own + [(row, zero) for row in rigid_rows(data)]
     quiet, quiet_pivots, _ = _dense(held, links)
     motionless = set(_known(quiet, quiet_pivots, links))
     inputs = {link: Fraction(speed) for link, speed in data.get("inputs", {}).items()}

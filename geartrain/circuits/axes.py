@@ -39,13 +39,40 @@ class Axes:
         own = self.direction(label)
         return 1 if _dot(self._first[_line(own)], own) > 0 else -1
 
+    def are_parallel(self, labels: Iterable[str | None]) -> bool:
+        """True if all these axes have one direction, or the opposite, in the pose where all angles are zero."""
+        directions = [self.direction(label) for label in labels]
+        return self.plain or all(_parallel(directions[0], other) for other in directions[1:])
+
+    def are_one_line(self, one: str, other: str) -> bool:
+        """True if both axes have positions, and lie on one line; two labels are else two lines."""
+        here, there = self.positions.get(one), self.positions.get(other)
+        if here is None or there is None or not self.are_parallel((one, other)):
+            return False
+        return _parallel(self.direction(one), _less(_vector(there), _vector(here)))
+
+    def screw(self, label: str) -> dict[int, Fraction] | None:
+        """A rotation about an axis: its direction, and the velocity of the origin; None without a position."""
+        here = self.positions.get(label)
+        if here is None:
+            return None
+        direction = self.direction(label)
+        parts = (*direction, *_cross(_vector(here), direction))
+        return {at: part for at, part in enumerate(parts) if part}
+
+    def labels_at(self, i: str, j: str, carrier: str) -> tuple[str | None, str | None]:
+        """The axis labels on which i and j turn in the carrier."""
+        _, first = self.tree.path(i, carrier)
+        _, last = self.tree.path(carrier, j)
+        return (first[0] if first else None), (last[-1] if last else None)
+
     def coefficients(self, i: str, j: str, carrier: str, wheel_i: Wheel, wheel_j: Wheel) -> tuple[int, int, str]:
         """a and b of the circuit, and a note where a sign is a convention."""
         z_i, z_j = wheel_i.count or 0, wheel_j.count or 0
         if "worm" in (wheel_i.kind, wheel_j.kind):
             return self._worm(i, j, carrier, wheel_i, wheel_j)
-        labels = self._labels(i, j, carrier)
-        parallel = _parallel(self.direction(labels[0]), self.direction(labels[1]))
+        labels = self.labels_at(i, j, carrier)
+        parallel = self.are_parallel(labels)
         if parallel and not {"bevel", "contrate"} & {wheel_i.kind, wheel_j.kind}:
             return z_i, -z_j if wheel_i.internal or wheel_j.internal else z_j, ""
         if not parallel and (wheel_i.internal or wheel_j.internal):
@@ -56,24 +83,18 @@ class Axes:
             side_j = -side_j
         return z_i, z_j * side_i * side_j, ""
 
-    def _labels(self, i: str, j: str, carrier: str) -> tuple[str | None, str | None]:
-        """The axis labels on which i and j turn in the carrier."""
-        _, first = self.tree.path(i, carrier)
-        _, last = self.tree.path(carrier, j)
-        return (first[0] if first else None), (last[-1] if last else None)
-
     def _worm(self, i: str, j: str, carrier: str, wheel_i: Wheel, wheel_j: Wheel) -> tuple[int, int, str]:
         """Starts of the worm over teeth of the wheel; the sense follows from hand and positions."""
         z_i, z_j = wheel_i.count or 0, wheel_j.count or 0
         worm_first = wheel_i.kind == "worm"
         hand = 1 if (wheel_i if worm_first else wheel_j).hand == "right" else -1
-        label_i, label_j = self._labels(i, j, carrier)
+        label_i, label_j = self.labels_at(i, j, carrier)
         worm, wheel = (label_i, label_j) if worm_first else (label_j, label_i)
         here, there = self.positions.get(worm or ""), self.positions.get(wheel or "")
         turn = Fraction(0)
         if here is not None and there is not None:
             arm, centre = _vector(here), _vector(there)
-            reach: Vector = (arm[0] - centre[0], arm[1] - centre[1], arm[2] - centre[2])
+            reach = _less(arm, centre)
             # the worm's thread drives the wheel's teeth against the direction in which it would screw itself
             turn = -hand * _dot(self.direction(worm), _cross(self.direction(wheel), reach))
         flip = self.sign(worm) * self.sign(wheel)
@@ -97,11 +118,7 @@ def bookkeeping_links(train: Train, tree: Tree) -> frozenset[str]:
     if axes.plain:
         return frozenset()
     return frozenset(
-        link
-        for link in tree.parent
-        if not all(
-            _parallel(axes.direction(tree.axis(link)), axes.direction(tree.axis(up))) for up in tree.chain(link)[1:-1]
-        )
+        link for link in tree.parent if not axes.are_parallel(tree.axis(up) for up in tree.chain(link)[:-1])
     )
 
 
@@ -116,6 +133,10 @@ def _line(direction: Vector) -> Vector:
     scale = next(part for part in direction if part)
     x, y, z = direction
     return x / scale, y / scale, z / scale
+
+
+def _less(u: Vector, v: Vector) -> Vector:
+    return u[0] - v[0], u[1] - v[1], u[2] - v[2]
 
 
 def _dot(u: Vector, v: Vector) -> Fraction:

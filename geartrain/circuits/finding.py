@@ -15,7 +15,7 @@ from geartrain.bulk import collector_paused
 from geartrain.circuits.axes import Axes
 from geartrain.circuits.tree import Tree
 from geartrain.errors import DeclarationError, Problem
-from geartrain.pins import winding_number
+from geartrain.pins import Coupling, winding_number
 from geartrain.train import Train, Wheel
 
 
@@ -80,6 +80,10 @@ def find_circuits(train: Train, tree: Tree) -> tuple[Circuit, ...]:
         if carrier is None:
             problems.append(_no_carrier(train, tree, coupling.name, coupling.slot, coupling.pin, ("couplings", at)))
             continue
+        labels = axes.labels_at(coupling.slot, coupling.pin, carrier)
+        if not axes.are_parallel(labels):
+            problems.append(_oblique_pin(train, coupling, labels, at))
+            continue
         winding = winding_number(coupling.kind)
         circuits.append(
             Circuit(
@@ -132,6 +136,15 @@ def _no_carrier(train: Train, tree: Tree, name: str, i: str, j: str, loc: tuple[
         why = f"on the turning pairs {steps} the axis changes at {where}, so the centre distance is not fixed"
         fix = f"a gear pair needs exactly one carrier: join '{i}' and '{j}' to one of {', '.join(changes)}"
     return Problem(f"'{name}' has no carrier", why, fix, train.place(*loc))
+
+
+def _oblique_pin(train: Train, coupling: Coupling, labels: Sequence[str | None], at: int) -> Problem:
+    return Problem(
+        f"coupling '{coupling.name}': the axes '{labels[1]}' of its pin and '{labels[0]}' of its slot are not parallel",
+        "a pin slides along its slot in one plane, and these turn in two",
+        "declare parallel directions in `axes`, or join the links by bevel wheels",
+        train.place("couplings", at),
+    )
 
 
 def _no_count(train: Train, pair: Sequence[str], wheels: Iterable[Wheel]) -> Problem:

@@ -31,11 +31,12 @@ def shipped() -> Mapping[str, Path]:
 def load(source: str | Path | Mapping[str, Any]) -> GearTrain:
     """A train from a YAML file, the name of a shipped train, YAML text (of several lines), or plain data.
 
-    All circuits are found here, so that whatever is wrong with the declaration is said at once, with its place.
+    All circuits and cases are found here, so that whatever is wrong with the declaration is said at once, with its
+    place.
     Raises `DeclarationError`.
     """
     train = GearTrain(read_declaration(source))
-    _ = train.circuits
+    _ = train.circuits, train.cases
     return train
 
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from fractions import Fraction
 from math import gcd, lcm
+from typing import NamedTuple
 
 from geartrain.components import Reduced
 from geartrain.errors import Loop, Verdict
@@ -16,8 +17,14 @@ from geartrain.train import Case
 
 _ZERO = Fraction(0)
 
-Statement = tuple[str, str, Fraction]
-"""What one prescription says: its kind (input, fixed, lock), a text, and its value."""
+
+class Statement(NamedTuple):
+    """What one prescription says: its kind (input, fixed, lock), in words, as declared, and its value."""
+
+    kind: str
+    text: str
+    declared: str
+    speed: Fraction = _ZERO
 
 
 def diagnose(reduced: Reduced, case: Case, signs: Mapping[str, int], budget: int | None = None) -> Verdict | None:
@@ -31,9 +38,9 @@ def diagnose(reduced: Reduced, case: Case, signs: Mapping[str, int], budget: int
     structural, held = len(reduced.equations), len(rows) - len(case.inputs)
     try:
         forms = eliminate(rows[:held], budget).forms(budget)
-        for row, (_, _, speed) in zip(rows[held:], statements[held - structural :], strict=True):
+        for row, stated in zip(rows[held:], statements[held - structural :], strict=True):
             resolved = resolve(row, forms)
-            if speed and not any(column >= 0 for column in resolved):
+            if stated.speed and not any(column >= 0 for column in resolved):
                 return _name(reduced, case, _uses(resolved), statements)
         echelon = eliminate(rows, budget)
     except TooDenseError:
@@ -41,11 +48,11 @@ def diagnose(reduced: Reduced, case: Case, signs: Mapping[str, int], budget: int
     for condition in echelon.conditions:
         given = _uses(condition)
         total = sum(
-            (value * statements[tag - structural][2] for tag, value in given.items() if tag >= structural), _ZERO
+            (value * statements[tag - structural].speed for tag, value in given.items() if tag >= structural), _ZERO
         )
         if total:
             return _name(reduced, case, given, statements)
-    moving = any(value for _, _, value in statements)
+    moving = any(stated.speed for stated in statements)
     return _standing(reduced, case) if reduced.unknowns == echelon.rank and not moving else None
 
 
@@ -86,11 +93,11 @@ def _tagged(reduced: Reduced, case: Case, signs: Mapping[str, int]) -> tuple[lis
     """All equations, each with a symbol -1-t of its own, t counting structure first, then prescriptions."""
     index = reduced.components.index
     rows: list[Row] = [dict(row) for row in (*reduced.equations, *held_rows(reduced, case))]
-    statements: list[Statement] = [("fixed", case.says(link), _ZERO) for link in case.fixed]
-    statements += [("lock", case.says(a, b), _ZERO) for a, b in case.locks]
+    statements: list[Statement] = [Statement("fixed", case.says(link), case.declares(link)) for link in case.fixed]
+    statements += [Statement("lock", case.says(a, b), case.declares(a, b)) for a, b in case.locks]
     for link, speed in case.inputs.items():
         rows.append(dict(reduced.form(index[link])))
-        statements.append(("input", case.given(link), speed * signs.get(link, 1)))
+        statements.append(Statement("input", case.given(link), case.given(link), speed * signs.get(link, 1)))
     for tag, row in enumerate(rows):
         row[-1 - tag] = Fraction(-1)
     return rows, statements
@@ -100,10 +107,10 @@ def _name(reduced: Reduced, case: Case, given: Mapping[int, Fraction], statement
     """One contradiction in words. `given` says how much of each equation goes into it."""
     parts, structural = reduced.components, len(reduced.equations)
     used = [(statements[tag - structural], value) for tag, value in sorted(given.items()) if tag >= structural]
-    inputs = [(text, value, speed) for (kind, text, speed), value in used if kind == "input"]
+    inputs = [(stated.text, value, stated.speed) for stated, value in used if stated.kind == "input"]
     moving = [text for text, _, speed in inputs if speed]
-    held = [text for (kind, text, _), _ in used if kind != "input"]
-    prescriptions = tuple(text for (_, text, _), _ in used)
+    held = [stated.text for stated, _ in used if stated.kind != "input"]
+    prescriptions = tuple(dict.fromkeys(stated.declared for stated, _ in used))
     chords = [reduced.origin[tag][1] for tag in given if tag < structural and reduced.origin[tag][0] == "loop"]
     loops = tuple(parts.loop(chord) for chord in chords)
     shut = f"{'; '.join(map(str, loops))} {'does' if len(loops) == 1 else 'do'} not close"
@@ -124,7 +131,8 @@ def _name(reduced: Reduced, case: Case, given: Mapping[int, Fraction], statement
     )
     residue = sum((value * speed for _, value, speed in inputs), Fraction(0)) * scale / common
     terms = f"{terms.removeprefix('+ ')} must be 0 and is {case.shown(residue)}"
-    text = f"{', '.join(prescriptions)} contradict each other: {terms}"
+    said = ", ".join(dict.fromkeys(stated.text for stated, _ in used))
+    text = f"{said} contradict each other: {terms}"
     if loops:
         text += f", for {shut}"
     return Verdict("contradictory", text, prescriptions=prescriptions, loops=loops)
@@ -147,7 +155,8 @@ def _standing(reduced: Reduced, case: Case) -> Verdict:
     """Nothing is driven and nothing could be: the train itself, or its brakes, hold every link."""
     parts = reduced.components
     loops: tuple[Loop, ...] = tuple(parts.loop(circuit) for circuit in parts.breaking)
-    held = tuple([case.says(link) for link in case.fixed] + [case.says(a, b) for a, b in case.locks])
+    holding = [case.declares(link) for link in case.fixed] + [case.declares(a, b) for a, b in case.locks]
+    held = tuple(dict.fromkeys(holding))
     if loops:
         text = f"mobility 0: {loops[0]} does not close; every link is locked"
     elif held:

@@ -12,7 +12,7 @@ from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from typing import Any, Literal, NamedTuple
 
-from geartrain.circuits import Tree
+from geartrain.circuits import Tree, close_joints
 from geartrain.exact import as_float
 from geartrain.torques.result import Torques
 from geartrain.train import Train
@@ -116,7 +116,8 @@ def trace_power(train: Train, tree: Tree, signs: Mapping[str, int], found: Torqu
     """
     if not found.verdict or any(pair.loose for pair in found.pairs.values()):
         return PowerFlow()
-    shafts = _shafts(train.case(found.state).locks)
+    (case,) = close_joints(train, tree, [train.case(found.state)])
+    shafts = _shafts(case.locks)
     streams: list[Stream] = []
     losses: dict[Node, Fraction] = {}
     ends = [(shafts.get(link, Node("shaft", link)), link, power) for link, power in found.powers.items()]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property
 from typing import Annotated
@@ -35,6 +35,7 @@ class Case:
     loc       where the inputs were declared
     clutches  the clutch or brake behind a fixed link or a lock
     exact     False where radians had to be counted in turns, or turns in radians: to 50 digits then
+    causes    a link that is fixed, or two that are locked, only because something else is -> the links of that
     """
 
     state: str | None
@@ -45,6 +46,7 @@ class Case:
     loc: Loc
     clutches: Mapping[tuple[str, ...], str]
     exact: bool = True
+    causes: Mapping[tuple[str, ...], tuple[str, ...]] = field(default_factory=dict)
 
     def given(self, link: str) -> str:
         """A prescribed speed in words: `sun = 1400`."""
@@ -55,7 +57,16 @@ class Case:
         return abridged(speed) if self.exact else decimal(speed)
 
     def says(self, *links: str) -> str:
-        """A brake on one link or a lock of two, in words, with the clutch that does it."""
+        """A brake on one link or a lock of two, in words, and what it follows from where it is not declared itself."""
+        declared = self.declares(*links)
+        if self.causes.get(links, links) == links:
+            return declared
+        held = f"'{links[0]}' still" if len(links) == 1 else f"'{links[0]}' and '{links[1]}' together"
+        return f"{declared}, which holds {held}"
+
+    def declares(self, *links: str) -> str:
+        """What is declared behind a brake or a lock, in words, with the clutch that does it."""
+        links = self.causes.get(links, links)
         by = f" by {self.clutches[links]}" if links in self.clutches else ""
         return (
             f"'{links[0]}' is fixed{by}"
@@ -103,8 +114,8 @@ class Train(Declared):
     )
     crank: Id | None = Field(None, description="The link where power enters; default the inputs")
     rate: Speed | None = Field(None, description="Speed of the input in real time, where watts or impacts are asked")
-    fixed: tuple[Id, ...] = Field((), description="Links held to the frame")
-    locks: tuple[tuple[Id, Id], ...] = Field((), description="Pairs of links that turn together")
+    fixed: tuple[Id, ...] = Field((), description="Links held to the frame, one body with it")
+    locks: tuple[tuple[Id, Id], ...] = Field((), description="Pairs of links that are one body")
     clutches: ByName[Clutch] = Field(
         {}, validate_default=True, description="Brakes and clutches by name, engaged by states"
     )

@@ -16,7 +16,7 @@ class Clutch(Declared):
     """A brake or a clutch: one of `fixes` and `locks`."""
 
     fixes: Id | None = Field(None, description="The link it holds to the frame")
-    locks: tuple[Id, Id] | None = Field(None, description="The two links it makes turn together")
+    locks: tuple[Id, Id] | None = Field(None, description="The two links it makes one body")
 
     @model_validator(mode="after")
     def _is_one_thing(self) -> Clutch:
@@ -31,8 +31,8 @@ class State(Declared):
     """One way the train is run. What is given here replaces the train's; outputs merge by name."""
 
     engaged: tuple[Id, ...] = Field((), description="Clutches and brakes that are closed")
-    fixed: tuple[Id, ...] | None = Field(None, description="Links held to the frame")
-    locks: tuple[tuple[Id, Id], ...] | None = Field(None, description="Pairs of links that turn together")
+    fixed: tuple[Id, ...] | None = Field(None, description="Links held to the frame, one body with it")
+    locks: tuple[tuple[Id, Id], ...] | None = Field(None, description="Pairs of links that are one body")
     inputs: ByName[Speed] | None = Field(None, description="Prescribed speeds by link")
     loads: ByName[Torque] | None = Field(None, description="Torques on links; power into the train is positive")
     solve_for: Id | None = Field(None, description="The link whose torque is unknown")

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from geartrain.circuits import Circuit, find_circuits, find_tree, link_signs
+from geartrain.circuits import Circuit, Tree, close_joints, find_circuits, find_tree, link_signs
 from geartrain.components import prune
 from geartrain.errors import Problem, QuestionError
 from geartrain.synthesis.formulas.equations import Equations
@@ -78,9 +78,10 @@ def find_formulas(train: Train, state: str | None, free: Mapping[str, Counts]) -
     large; `DeclarationError` where a wheel that is not free has no count.
     """
     _check(train, state, free)
-    case = train.case(state)
+    tree = find_tree(train)
+    (case,) = close_joints(train, tree, [train.case(state)])
     wheels = tuple(name for name in train.wheels if name in free)
-    equations = _equations(train, case, wheels, free)
+    equations = _equations(train, tree, case, wheels, free)
     try:
         return _read_off(train, case, equations, wheels)
     except TooLongError:
@@ -117,9 +118,8 @@ def _with_value(wheel: Wheel, count: int) -> int | Teeth:
     return teeth.model_copy(update={"value": count}) if likely else count
 
 
-def _equations(train: Train, case: Case, wheels: Sequence[str], free: Mapping[str, Counts]) -> Equations:
+def _equations(train: Train, tree: Tree, case: Case, wheels: Sequence[str], free: Mapping[str, Counts]) -> Equations:
     """The rows of what matters to the outputs. Free wheels stand in with large random counts, so none are alike."""
-    tree = find_tree(train)
     stand_in = with_counts(train, {name: free[name][0] for name in wheels})
     draw = random.Random(0)
     sizes = {name: draw.randrange(10**6, 10**9) for name in wheels}

@@ -99,8 +99,9 @@ def test_the_ends_of_a_path_are_those_of_the_table(row: list[str]) -> None:
 def test_loss_stress_heat_and_flash_are_those_of_the_table(row: list[str]) -> None:
     path = path_of(row[0], row[1])
     found = measure(path)
-    over = found.over(measure(involute(path.pitch)))
-    values = (found.loss, *(over[name] for name in ("loss", "stress", "off_pitch", "heat", "flash")), found.slowest)
+    over = found.one_pair.over(measure(involute(path.pitch)).one_pair)
+    costs = (over[name] for name in ("loss", "stress", "off_pitch", "heat", "flash"))
+    values = (found.one_pair.loss, *costs, found.slowest)
     assert all(close(value, printed, 3) for value, printed in zip(values, row[2:], strict=True)), (values, row)
 
 
@@ -113,7 +114,7 @@ def test_uniform_heat_at_the_depth_of_the_involute_has_the_heat_of_the_table(pai
 
 @pytest.mark.parametrize("row", TABLES["bounds"], ids=lambda row: row[0])
 def test_the_involute_has_the_loss_stress_and_heat_of_the_table(row: list[str]) -> None:
-    found = measure(involute(pitch_of(row[0])))
+    found = measure(involute(pitch_of(row[0]))).one_pair
     for value, printed in zip((found.loss, found.stress**2, found.heat), row[3:], strict=True):
         assert close(value, printed, 1)
 

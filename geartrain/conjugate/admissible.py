@@ -47,10 +47,9 @@ def faults(path: Path, halves: Halves | None = None) -> tuple[Fault, ...]:
 def _undercuts(path: Path) -> Iterator[Fault]:
     """Where the contact would stand still on a profile: U = 0, a cusp, and undercut beyond it."""
     for recess in (False, True):
-        side = path.recess if recess else path.approach
-        if side.end == side.start:
+        if not (span := path.span(recess)):
             continue
-        d = side.start + (side.end - side.start) * np.linspace(0, 1, _SCAN)[1:]
+        d = span[0] + (span[1] - span[0]) * np.linspace(0, 1, _SCAN)[1:]
         contact = path.along(d, recess)
         for gear, U in ((1, contact.U1), (2, contact.U2)):
             if (U <= 0).any():
@@ -88,9 +87,12 @@ def _pointed(path: Path, halves: Halves | None) -> Iterator[Fault]:
     for gear, X in ((1, path.arcs[1]), (2, -path.arcs[0])):
         if X and (room := tip_thickness(path, gear, halves)) < 0:
             z = path.pitch.z1 if gear == 1 else path.pitch.z2
-            name = "recess" if gear == 1 else "approach"
+            name = "recess" if X > 0 else "approach"
             point = _point(path, gear, X, halves)
-            shorter = f"end the {name} before {abs(point) / path.pitch.p:.6g} pitches, or take a smaller pressure angle"
+            end = "end" if (X > 0) == (gear == 1) else "begin"
+            shorter = (
+                f"{end} the {name} before {abs(point) / path.pitch.p:.6g} pitches, or take a smaller pressure angle"
+            )
             yield Fault(
                 "pointed",
                 gear,
@@ -107,8 +109,10 @@ def _point(path: Path, gear: int, X: float, halves: Halves | None) -> float:
     def room(x: float) -> float:
         return _thickness(path, gear, x, halves)
 
-    at_foot, at_tip = room(0.0), room(X)
-    return root(room, 0.0, X, at_foot, at_tip) if at_foot > 0 else 0.0
+    foot = -path.arcs[0] if gear == 1 else path.arcs[1]
+    foot = foot if foot * X > 0 else 0.0  # contact on one side of the pitch point keeps off it
+    at_foot, at_tip = room(foot), room(X)
+    return root(room, foot, X, at_foot, at_tip) if at_foot > 0 else 0.0
 
 
 def tip_thickness(path: Path, gear: int, halves: Halves | None = None) -> float:
@@ -121,15 +125,16 @@ def _thickness(path: Path, gear: int, X: float, halves: Halves | None) -> float:
     reach = path.pitch.reach if gear == 1 else abs(path.pitch.reach2)
     half = (halves[gear - 1] if halves else path.pitch.p / 4) / reach
     points = (path.flank1 if gear == 1 else path.flank2)(np.array([X]))[0]
-    return float(2 * (half - abs(_azimuth(path, gear, points))))
+    return float(2 * (half - _azimuth(path, gear, points)))
 
 
 def _azimuth(path: Path, gear: int, point: Floats) -> float:
-    """Angle (rad) of a body point about its gear's axis, from the direction of the pitch point."""
+    """How far (rad) a body point is from the direction of the pitch point, towards the middle of its flank's tooth."""
     pitch = path.pitch
     R = -pitch.R1 if gear == 1 else pitch.R2
     if not pitch.bevel:
-        return float(np.arctan2(point[0], (point[1] - R) * np.sign(-R)))
+        forwards = float(np.arctan2(point[0], (point[1] - R) * np.sign(-R)))
+        return -forwards if gear == 1 else forwards  # a driver's tooth is behind its flank
     axis = np.array([0.0, sin(R), cos(R)])
     start = np.array([0.0, 0.0, 1.0]) - cos(R) * axis
     across = point - (point @ axis) * axis

@@ -52,5 +52,5 @@ def locking_friction(path: Path, driver: int = 1) -> float:
         found: Floats = -power / contact.cos_psi
         return found
 
-    steepest = max(greatest(path, recess, lean) for recess in (False, True))
+    steepest = greatest(path, lean)
     return 1 / steepest if steepest > 0 else inf

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from math import ceil, degrees, hypot, sin
+from math import ceil, cos, degrees, hypot, sin
 from typing import TYPE_CHECKING
 
 from geartrain.conjugate.admissible import Fault, faults
@@ -71,17 +71,17 @@ def _tangent(pair: Involutes, path: Path, gear: int) -> float:
 
 def _undercut(pair: Involutes, path: Path) -> Iterator[Fault]:
     """Where the rack's corner has cut away what the mate's tip should work on."""
-    for gear, wheel, side in ((1, pair.first, path.approach), (2, pair.second, path.recess)):
+    for gear, wheel, arc in ((1, pair.first, path.arcs[0]), (2, pair.second, path.arcs[1])):
         gone = wheel.undercut()
         R = path.pitch.R1 if gear == 1 else path.pitch.R2
-        lowest = hypot(wheel.base, max(R * sin(pair.psi) - side.end, 0.0))
+        lowest = hypot(wheel.base, max(R * sin(pair.psi) - arc * cos(pair.psi), 0.0))
         if gone > lowest + _ROUNDING:
             least = wheel.cut - wheel.r * sin(wheel.psi) ** 2
             teeth = ceil(2 * (wheel.cut - wheel.shift) / sin(wheel.psi) ** 2 - 1e-9)
             yield Fault(
                 "undercut",
                 gear,
-                (-1 if gear == 1 else 1) * side.arc,
+                (-1 if gear == 1 else 1) * arc,
                 f"gear {gear} is undercut",
                 f"the rack's corner cuts its involute away up to a radius of {gone:.6g} modules, and contact goes down "
                 f"to {lowest:.6g}",

@@ -7,11 +7,13 @@ outwards too, so that it widens the ring's spaces.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import acos, atan, atan2, cos, pi, sin, sqrt, tan
+from math import acos, asin, atan, atan2, cos, pi, sin, sqrt, tan
 
 from geartrain.conjugate.pitch import Pitch
 from geartrain.errors import GearTrainError, Problem, RangeError
 from geartrain.roots import root
+
+_ROUNDING = 1e-12  # modules
 
 
 def inv(angle: float) -> float:
@@ -126,16 +128,17 @@ class Involutes:
     def arcs(self) -> tuple[float, float]:
         """Arcs of approach and recess (X), from the tip circles.
 
-        Raises `RangeError` where a tip does not reach over the operating pitch circle.
+        One is negative where the tips of a wheel keep off the operating pitch circle: contact is on one side of the
+        pitch point only. Raises `RangeError` where the tips do not reach each other at all.
         """
         pitch, psi = self.pitch, self.psi
         found = []
-        for name, wheel, R in (("second", self.second, pitch.R2), ("first", self.first, pitch.R1)):
+        for wheel, R in ((self.second, pitch.R2), (self.first, pitch.R1)):
             sign = -1 if wheel.ring else 1
             over = sign * (sqrt(max(wheel.tip**2 - wheel.base**2, 0.0)) - abs(R) * sin(psi))
-            if over < -1e-12:
-                raise _off_pitch(name, wheel, abs(R))
-            found.append(max(over, 0.0) / cos(psi))
+            found.append(0.0 if -_ROUNDING < over < 0 else over / cos(psi))
+        if sum(found) <= 0:
+            raise _apart(self.first, self.second, self.distance)
         return found[0], found[1]
 
 
@@ -160,23 +163,29 @@ def free_distance(first: Wheel, second: Wheel) -> float:
     return teeth * cos(psi) / (2 * cos(inv_angle(value)))
 
 
-def _off_pitch(name: str, wheel: Wheel, R: float) -> RangeError:
+def _apart(first: Wheel, second: Wheel, distance: float) -> RangeError:
     return RangeError(
         Problem(
-            f"the tips of the {name} wheel, at {wheel.tip:.6g} modules, do not reach its operating pitch circle",
-            f"that has a radius of {R:.6g} modules, and contact would begin beyond the pitch point",
-            "give that wheel a greater addendum or the pair a smaller difference of shifts",
+            "the teeth do not reach each other",
+            f"at a centre distance of {distance:.6g} modules the tips, at {first.tip:.6g} and {second.tip:.6g}, part "
+            "before they meet on the line of action",
+            "give greater addenda, move the axles together, or shift the wheels less far apart",
         )
     )
 
 
+def base_cone(R: float, psi: float) -> float:
+    """Half-angle (rad) of the base cone of a spherical involute of pitch cone R: sin base = sin R cos psi."""
+    return asin(sin(R) * cos(psi))
+
+
 def spherical_arc(R: float, psi: float, tip: float) -> float:
-    """Arc (X) over which a spherical involute of pitch cone R reaches its `tip` cone (rad).
+    """Arc (X) over which a spherical involute of pitch cone R reaches its `tip` cone (rad); negative inside the pitch.
 
     cos tip = cos d cos R - sin d sin psi sin R, with cos(base cone) = sqrt(cos^2 R + sin^2 psi sin^2 R).
     """
     base = sqrt(cos(R) ** 2 + (sin(psi) * sin(R)) ** 2)
-    return (acos(cos(tip) / base) - atan2(sin(psi) * sin(R), cos(R))) / cos(psi)
+    return (acos(min(cos(tip) / base, 1.0)) - atan2(sin(psi) * sin(R), cos(R))) / cos(psi)
 
 
 def cone_height(R: float, z: int, height: float) -> float:

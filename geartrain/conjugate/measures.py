@@ -1,9 +1,16 @@
-"""What a path of contact costs: loss, greatest stress, heat and flash, depth; and how it compares with another."""
+"""What a path of contact costs: loss, greatest stress, heat and flash, depth; and how it compares with another.
+
+A force is known only with an assumption on how pairs of teeth that touch at once share the load. Two are made here:
+one pair bears all of it along its whole path, as if it were alone, and those in contact bear equal parts at every
+instant. They are the same where the contact ratio is 1.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from itertools import pairwise
+from math import floor, inf
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -17,20 +24,22 @@ if TYPE_CHECKING:
 _GAUSS = np.polynomial.legendre.leggauss(48)
 _SCAN = 257  # points of one piece among which an extreme is looked for
 _NARROWED, _ACROSS = 5, 33  # times the bracket around it is scanned again, and by how many points
+_ROUNDING = 1e-12  # of a pitch: a stretch so short is none
+
+ONE_PAIR = "one pair of teeth bears the whole load along its whole path"
+SHARED = "pairs of teeth in contact share the load equally at every instant"
 
 
 @dataclass(frozen=True, slots=True)
-class Measures:
-    """What one path costs, friction and load taken out; lengths in modules or radians.
+class Costs:
+    """What a path costs under one assumption on the load, friction and load taken out; lengths in modules or radians.
 
-    loss            mean loss over friction, first order: (A + B) (J_a + J_r) / (X_a + X_r)
-    stress          greatest Hertz pressure over sqrt(tangential force): sqrt(max H); infinite where psi is 0
-    off_pitch       the same where |X| is more than a tenth of a pitch
-    heat            greatest heat per area of either profile, over friction times tangential force: max Q
-    flash           greatest flash proxy
-    depth           working depth |eta_a| + eta_r
-    slowest         least speed of the contact along a dedendum, over the pitch-line speed
-    contact_ratio   pitches of displacement while one pair touches
+    loss        mean loss over friction, first order. One pair: (A + B) (J_a + J_r) / (X_a + X_r), the mean along its
+                path (Buckingham); shared: the mean over a pitch (Ohlendorf)
+    stress      greatest Hertz pressure over sqrt(tangential force): sqrt(max H); infinite where psi is 0
+    off_pitch   the same where |X| is more than a tenth of a pitch
+    heat        greatest heat per area of either profile, over friction times tangential force: max Q
+    flash       greatest flash proxy
     """
 
     loss: float
@@ -38,82 +47,164 @@ class Measures:
     off_pitch: float
     heat: float
     flash: float
+
+    def over(self, other: Costs) -> dict[str, float]:
+        """Each of the quantities as a ratio to another path's."""
+        return {name: getattr(self, name) / getattr(other, name) for name in self.__slots__}
+
+
+@dataclass(frozen=True, slots=True)
+class Measures:
+    """What one path costs, and its geometry; lengths in modules or radians.
+
+    one_pair, shared   costs where one pair bears the load, and where pairs in contact share it equally
+    depth           working depth |eta_a| + eta_r
+    slowest         least speed of the contact along a dedendum, over the pitch-line speed
+    contact_ratio   pitches of displacement while one pair touches
+    """
+
+    one_pair: Costs
+    shared: Costs
     depth: float
     slowest: float
     contact_ratio: float
 
-    def over(self, other: Measures) -> dict[str, float]:
-        """Each of the quantities as a ratio to another path's."""
-        names = ("loss", "stress", "off_pitch", "heat", "flash", "depth", "slowest", "contact_ratio")
-        return {name: getattr(self, name) / getattr(other, name) for name in names}
+    def over(self, other: Measures) -> dict[str, float | dict[str, float]]:
+        """Each of the quantities as a ratio to another path's; those of the costs by their assumption."""
+        return {
+            "one_pair": self.one_pair.over(other.one_pair),
+            "shared": self.shared.over(other.shared),
+            **{name: getattr(self, name) / getattr(other, name) for name in ("depth", "slowest", "contact_ratio")},
+        }
 
 
 def measure(path: Path) -> Measures:
     """All measures of a path."""
-    pitch = path.pitch
-    sides = (path.approach, path.recess)
-    total = sum(rubbing(pitch, side) for side in sides)
-    bound = 0.1 * pitch.p
-    stress = max(greatest(path, recess, lambda c: c.H) for recess in (False, True))
-    off = max(greatest(path, recess, lambda c: c.H, bound) for recess in (False, True))
-    heat = max(greatest(path, recess, lambda c: np.maximum(c.Q1, c.Q2)) for recess in (False, True))
-    flash = max(greatest(path, recess, lambda c: c.flash) for recess in (False, True))
-    slowest = min(-greatest(path, recess, lambda c: -np.minimum(c.U1, c.U2)) for recess in (False, True))
-    slowest = min(slowest, float(path.at(0.0).sin_psi))
+    alone = [(-path.arcs[0], path.arcs[1], 1)]
+    slowest = -greatest(path, lambda c: -np.minimum(c.U1, c.U2))
+    if min(path.arcs) >= 0:
+        slowest = min(slowest, float(path.at(0.0).sin_psi))
     return Measures(
-        loss=(pitch.A + pitch.B) * total / sum(path.arcs),
-        stress=stress**0.5,
-        off_pitch=off**0.5,
-        heat=heat,
-        flash=flash,
-        depth=sum(height(pitch, side) for side in sides),
+        one_pair=_costs(path, alone),
+        shared=_costs(path, sharing(path)),
+        depth=depth(path),
         slowest=slowest,
         contact_ratio=path.contact_ratio,
     )
 
 
-def rubbing(pitch: Pitch, side: Side) -> float:
-    """J of one side: the integral of S / cos^2 psi over d."""
-    x, weights = _GAUSS
+Stretch = tuple[float, float, int]
+"""From one X to another, and how many pairs of teeth touch there."""
+
+
+def sharing(path: Path) -> list[Stretch]:
+    """The path in stretches of X on which as many pairs of teeth are in contact at once."""
+    p, (approach, recess) = path.pitch.p, path.arcs
+    whole = floor(path.contact_ratio)
+    cuts = sorted(
+        {-approach, recess}
+        | {end for k in range(1, whole + 1) for end in (recess - k * p, -approach + k * p) if -approach < end < recess}
+    )
+    found = []
+    for low, high in pairwise(cuts):
+        if high - low > _ROUNDING * p:
+            middle = (low + high) / 2
+            found.append((low, high, floor((recess - middle) / p) + floor((approach + middle) / p) + 1))
+    return found
+
+
+def _costs(path: Path, stretches: list[Stretch]) -> Costs:
+    """The costs where as many pairs as the stretches say share the load."""
+    pitch = path.pitch
+    bound = 0.1 * pitch.p
+
+    def most(what: Callable[[Contact], Floats], power: float, beyond: float = 0.0) -> float:
+        return max(float(greatest(path, what, beyond, low, high) / count**power) for low, high, count in stretches)
+
+    rubbed = sum(_rubbed(path, low, high) / count for low, high, count in stretches)
+    return Costs(
+        loss=(pitch.A + pitch.B) * rubbed / sum((high - low) / count for low, high, count in stretches),
+        stress=most(lambda c: c.H, 1.0) ** 0.5,
+        off_pitch=_root(most(lambda c: c.H, 1.0, bound)),
+        heat=most(lambda c: np.maximum(c.Q1, c.Q2), 1.0),
+        flash=most(lambda c: c.flash, 0.75),
+    )
+
+
+def _root(value: float) -> float:
+    """Square root; 0 where there is nothing to be the greatest of."""
+    return float(max(value, 0.0) ** 0.5)
+
+
+def _rubbed(path: Path, low: float, high: float) -> float:
+    """J of the contacts between two X, both sides."""
     total = 0.0
-    for piece in side.pieces:
-        start = piece.start
-        d = start + (piece.end - start) * (x + 1) / 2
-        total += float(weights @ (pitch.S(d) / (1 - piece.sin_psi(d) ** 2))) * (piece.end - start) / 2
+    for recess in (False, True):
+        if span := path.span(recess, low, high):
+            total += rubbing(path.pitch, path.recess if recess else path.approach, *span)
     return total
 
 
-def height(pitch: Pitch, side: Side) -> float:
+def rubbing(pitch: Pitch, side: Side, start: float = 0.0, end: float = inf) -> float:
+    """J of one side: the integral of S / cos^2 psi over d, from `start` to `end`."""
+    x, weights = _GAUSS
+    total = 0.0
+    for piece in side.pieces:
+        first, last = max(piece.start, start), min(piece.end, end)
+        if last > first:
+            d = first + (last - first) * (x + 1) / 2
+            total += float(weights @ (pitch.S(d) / (1 - piece.sin_psi(d) ** 2))) * (last - first) / 2
+    return total
+
+
+def depth(path: Path) -> float:
+    """The working depth: height of the last contact over the first, both sides."""
+    spans = ((side, path.span(recess)) for recess, side in ((False, path.approach), (True, path.recess)))
+    return sum(height(path.pitch, side, *span) for side, span in spans if span)
+
+
+def height(pitch: Pitch, side: Side, start: float | None = None, end: float | None = None) -> float:
     """Height of the last contact over the first, |eta|; over the pitch line but for paths that keep off it."""
-    ends = np.array([side.start, side.end])
+    ends = np.array([side.start if start is None else start, side.end if end is None else end])
     low, high = pitch.S(ends) * side.sin_psi(ends)
     return float(high - low)
 
 
-def greatest(path: Path, recess: bool, what: Callable[[Contact], Floats], beyond: float = 0.0) -> float:
-    """The greatest value of a quantity on one side, where |X| >= `beyond`: scanned piece by piece, then narrowed."""
-    side = path.recess if recess else path.approach
-    if beyond >= side.arc:
-        return -np.inf
-    start = float(side.distance(np.array(beyond))) if beyond else side.start
-    best = -np.inf
-    for piece in side.pieces:
-        if piece.end <= start:
-            continue
-        first, last = max(piece.start, start), np.nextafter(piece.end, 0.0)
-        best = max(best, _peak(lambda d: what(path.along(d, recess)), first, float(last), side.end))
+def greatest(
+    path: Path, what: Callable[[Contact], Floats], beyond: float = 0.0, low: float = -inf, high: float = inf
+) -> float:
+    """The greatest value of a quantity where |X| >= `beyond`, X from `low` to `high`; -inf where there is no contact.
+
+    Scanned piece by piece, then narrowed.
+    """
+    best = -inf
+    for recess, side in ((False, path.approach), (True, path.recess)):
+        for first, last in _reaches(path, recess, beyond, low, high):
+            best = max(best, _peak(lambda d, recess=recess: what(path.along(d, recess)), first, last, side.end))  # type: ignore[misc]
     return best
+
+
+def _reaches(path: Path, recess: bool, beyond: float, low: float, high: float) -> Iterator[tuple[float, float]]:
+    """The distances of one side between which a greatest value is looked for, piece by piece."""
+    if beyond:
+        low, high = (max(low, beyond), high) if recess else (low, min(high, -beyond))
+    if not (span := path.span(recess, low, high)):
+        return
+    for piece in (path.recess if recess else path.approach).pieces:
+        first, last = max(piece.start, span[0]), min(float(np.nextafter(piece.end, 0.0)), span[1])
+        if last > first:
+            yield first, last
 
 
 def _peak(f: Callable[[Floats], Floats], first: float, last: float, scale: float) -> float:
     """Greatest value of f on [first, last]; what is 0/0 at the pitch point itself is asked beside it."""
     d = np.linspace(first, last, _SCAN)
     if first == 0.0:
-        d[0] = 1e-7 * scale
+        d[0] = min(1e-7 * scale, float(d[1]))
         at_pitch = f(np.zeros(1))[0]
         if np.isposinf(at_pitch):
-            return float("inf")
-    values = np.where(np.isnan(found := f(d)), -np.inf, found)
+            return inf
+    values = np.where(np.isnan(found := f(d)), -inf, found)
     best = float(values.max())
     for _ in range(_NARROWED):
         at = int(np.argmax(values))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from math import inf
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -60,20 +61,36 @@ class Contact:
 
 @dataclass(frozen=True)
 class Path:
-    """Where contact happens: one side before the pitch point, one after."""
+    """Where contact happens: one side before the pitch point, one after.
+
+    real   arcs of approach and recess (X) that the teeth leave of the sides'; one is negative where contact begins, or
+           ends, so far beyond the pitch point. Default the sides'
+    """
 
     pitch: Pitch
     approach: Side
     recess: Side
+    real: tuple[float, float] | None = None
 
     @cached_property
     def arcs(self) -> tuple[float, float]:
-        """Arcs of approach and of recess (X)."""
-        return self.approach.arc, self.recess.arc
+        """Arcs of approach and of recess (X) in which the teeth really touch; one may be negative."""
+        return (self.approach.arc, self.recess.arc) if self.real is None else self.real
+
+    def span(self, recess: bool, low: float = -inf, high: float = inf) -> tuple[float, float] | None:
+        """Distances d on one side between which the teeth touch, X from `low` to `high`; None where they do not."""
+        first, last = max(-self.arcs[0], low), min(self.arcs[1], high)
+        near, far = (first, last) if recess else (-last, -first)
+        side = self.recess if recess else self.approach
+        if far <= max(near, 0.0) or side.arc == 0:
+            return None
+        start = side.start if near <= 0 else float(side.distance(np.array(near)))
+        end = side.end if far >= side.arc else float(side.distance(np.array(far)))
+        return (start, end) if end > start else None
 
     @property
     def contact_ratio(self) -> float:
-        """Pitches of displacement while one pair touches."""
+        """Pitches of displacement while one pair touches; below 0 where no contact is in reach."""
         return sum(self.arcs) / self.pitch.p
 
     def at(self, X: ArrayLike) -> Contact:

@@ -125,7 +125,8 @@ class _Both:
         self.internal = self.pitch.R2 < 0
         self.distance = abs(self.pitch.R1 + self.pitch.R2)
         # pins are round whatever part of them works
-        ends = [pair.arcs if solid else pair.path.arcs for solid in pair.solid]
+        whole = pair.path.approach.arc, pair.path.recess.arc
+        ends = [pair.arcs if solid else whole for solid in pair.solid]
         self.flanks = [flank(pair.path, which, arcs, self.tolerance) for which, arcs in enumerate(ends, 1)]
 
     def z(self, gear: int) -> int:
@@ -135,10 +136,13 @@ class _Both:
         return self.pair.halves[gear - 1] / self.flanks[gear - 1].R
 
     def root(self, gear: int) -> float:
-        """Radius of the root circle: the mate's tip and the clearance away from the pitch circle."""
+        """Radius of the root circle: as deep under the pitch circle as the mate's tip stands over its own, and more.
+
+        A tip that keeps off its pitch circle stands over it by less than nothing.
+        """
         own, mate = self.flanks[gear - 1], self.flanks[2 - gear]
         tip = float(mate.r[-1]) if self.pins is None else self.pins.circle + self.pins.radius
-        return own.R - own.outward * (abs(tip - mate.R) + self.clearance)
+        return own.R - own.outward * (mate.outward * (tip - mate.R) + self.clearance)
 
     def mate(self, gear: int) -> Mate:
         """The tooth or pin that passes through the spaces of `gear`."""

@@ -87,6 +87,8 @@ def _title(pitch: Pitch) -> str:
 def _places(path: Path) -> Floats:
     """X along the whole path, no sample on the pitch point itself."""
     approach, recess = path.arcs
+    if min(approach, recess) < 0:
+        return np.linspace(-approach, recess, _SAMPLES)
     steps = np.linspace(_BESIDE, 1.0, _SAMPLES)
     sides = [-approach * steps[::-1]] if approach else []
     return np.concatenate([*sides, *([recess * steps] if recess else [])])

@@ -56,7 +56,7 @@ def _efficiency(law: Shaped) -> str:
 
 def driver_arcs(law: Shaped) -> tuple[float, float]:
     """The driver's approach and recess (X)."""
-    approach, recess = (max(arc, 0.0) for arc in law.path.arcs)
+    approach, recess = law.path.arcs
     return (approach, recess) if law.driver == 1 else (recess, approach)
 
 

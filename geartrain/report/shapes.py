@@ -15,8 +15,11 @@ if TYPE_CHECKING:
     from geartrain.outlines import Wheel
     from geartrain.teeth.conjugate import ConjugateLaw
 
-RATIOS = ("loss", "stress", "off_pitch", "heat", "flash", "depth", "contact_ratio", "slowest")
-"""The measures of a path, in the order of tables."""
+LOADED = ("loss", "stress", "off_pitch", "heat", "flash")
+"""Costs that depend on how the load is shared, in the order of tables."""
+
+FREE = ("depth", "contact_ratio", "slowest")
+"""Measures that do not."""
 
 
 def shape_document(name: str, law: ConjugateLaw, wheels: Sequence[Wheel] = ()) -> Document:
@@ -89,41 +92,55 @@ def reaches(path: Path, gear: int, arcs: tuple[float, float]) -> tuple[float, fl
 
 
 def _path(law: ConjugateLaw) -> Section:
-    from geartrain.conjugate.measures import height
+    from geartrain.conjugate.measures import depth
 
     path = law.path
-    depth = sum(height(path.pitch, side) for side in (path.approach, path.recess))
     rows = []
-    for name, arc, side in zip(("approach", "recess"), law.pair.arcs, (path.approach, path.recess), strict=True):
-        X = -max(arc, 0.0) if name == "approach" else max(arc, 0.0)
-        end, start = path.at(X), path.at(0.0)
-        psi = [degrees(float(contact.psi)) for contact in (start, end)]
-        rows.append((name, f"{arc / path.pitch.p:.6g}", figure(side.end), *(f"{value:.6f}" for value in psi)))
-    header = ("side", "pitches", "length of path", "psi at the pitch point (deg)", "psi at the end (deg)")
-    ratio = sum(law.pair.arcs) / path.pitch.p
+    for recess, name, arc in ((False, "approach", path.arcs[0]), (True, "recess", path.arcs[1])):
+        first, last = path.span(recess) or (0.0, 0.0)
+        psi = [degrees(float(path.along(d, recess).psi)) if last else 0.0 for d in (first, last)]
+        ends = (f"{value:.6f}" if last else "-" for value in psi)
+        rows.append((name, f"{arc / path.pitch.p:.6g}", figure(last - first), *ends))
+    header = ("side", "pitches", "length of path", "psi at the near end (deg)", "psi at the far end (deg)")
     text = (
-        f"Contact ratio {ratio:.6g}, working depth {figure(depth)}; psi is the pressure angle. "
+        f"Contact ratio {path.contact_ratio:.6g}, working depth {figure(depth(path))}; psi is the pressure angle, at "
+        "the ends near to the pitch point and far from it. "
         f"Lengths in {'rad on the unit sphere' if path.pitch.bevel else 'modules'}."
     )
     lines = [text]
-    if min(law.pair.arcs) < 0:
-        lines.append("A negative arc: contact begins, or ends, so far beyond the pitch point.")
+    if min(path.arcs) < 0:
+        lines.append(
+            "A negative arc: all contact is on the other side of the pitch point, and begins, or ends, so far from it."
+        )
     return Section("Path of contact", lines, (Table(header, rows),))
 
 
+_LOADED = {
+    "loss": "mean loss over friction",
+    "stress": "greatest Hertz pressure over the root of tangential force",
+    "off_pitch": "the same more than a tenth of a pitch from the pitch point",
+    "heat": "greatest heat per area over friction times tangential force",
+    "flash": "greatest flash proxy",
+}
+
+
 def _costs(law: ConjugateLaw, found: Measures) -> Section:
+    from geartrain.conjugate.measures import ONE_PAIR, SHARED
+
     slide, specific = sliding(law.path)
-    rows = [
-        ("mean loss over friction", cost(found.loss)),
-        ("greatest Hertz pressure over the root of tangential force", cost(found.stress)),
-        ("the same more than a tenth of a pitch from the pitch point", cost(found.off_pitch)),
-        ("greatest heat per area over friction times tangential force", cost(found.heat)),
-        ("greatest flash proxy", cost(found.flash)),
+    loads = found.one_pair, found.shared
+    loaded = [(words, *(cost(getattr(costs, name)) for costs in loads)) for name, words in _LOADED.items()]
+    free = [
         ("greatest sliding over the pitch-line speed", cost(slide)),
         ("greatest sliding over the contact's speed along a flank", cost(specific)),
         ("least speed along a dedendum over the pitch-line speed", cost(found.slowest)),
     ]
-    return Section("Costs", ("To first order in friction.",), (Table(("quantity", "value"), rows),))
+    text = (
+        f"To first order in friction. One pair: {ONE_PAIR}, the loss is the mean along it. Shared: {SHARED}, the "
+        "loss is the mean over a pitch; the efficiency below shares the load so, too."
+    )
+    tables = Table(("quantity", "one pair", "shared"), loaded), Table(("quantity, whatever the load", "value"), free)
+    return Section("Costs", (text,), tables)
 
 
 def sliding(path: Path) -> tuple[float, float]:
@@ -133,10 +150,8 @@ def sliding(path: Path) -> tuple[float, float]:
     from geartrain.conjugate.measures import greatest
 
     pitch = path.pitch
-    sides = [recess for recess, arc in zip((False, True), path.arcs, strict=True) if arc]
-    slide = max(greatest(path, recess, lambda c: (pitch.A + pitch.B) * np.abs(pitch.S(c.d))) for recess in sides)
-    specific = max(greatest(path, recess, lambda c: c.Q1.clip(c.Q2) * c.cos_psi) for recess in sides)
-    return slide, specific
+    slide = greatest(path, lambda c: (pitch.A + pitch.B) * np.abs(pitch.S(c.d)))
+    return slide, greatest(path, lambda c: c.Q1.clip(c.Q2) * c.cos_psi)
 
 
 def _friction(law: ConjugateLaw) -> Section:
@@ -187,15 +202,21 @@ def shape_data(name: str, law: ConjugateLaw, wheels: Sequence[Wheel] = ()) -> di
         "flanks": [list(reaches(path, gear, law.pair.arcs)) for gear in (1, 2)],
         "thickness": [2 * half / pitch.p for half in law.pair.halves],
         "arcs": [arc / pitch.p for arc in law.pair.arcs],
-        "contact_ratio": sum(law.pair.arcs) / pitch.p,
+        "contact_ratio": path.contact_ratio,
         "pressure_angles": [float(path.at(X).psi) for X in (-path.arcs[0], 0.0, path.arcs[1])],
         "costs": _costs_data(law) if law.verdict else None,
-        "efficiency": efficiency_data(law) if law.verdict else None,
+        "efficiency": _efficiency_data(law) if law.verdict else None,
         "outlines": [wheel.to_dict() for wheel in wheels],
     }
 
 
-def _costs_data(law: ConjugateLaw) -> dict[str, float | None]:
+def _efficiency_data(law: ConjugateLaw) -> dict[str, Any]:
+    from geartrain.conjugate.measures import SHARED
+
+    return {"assumption": SHARED} | efficiency_data(law)
+
+
+def _costs_data(law: ConjugateLaw) -> dict[str, Any]:
     from geartrain.conjugate.measures import measure
 
     slide, specific = sliding(law.path)
@@ -217,9 +238,16 @@ def cost(value: float) -> str:
     return f"{value:.9g}" if isfinite(value) else "inf"
 
 
-def measures_data(found: Measures) -> dict[str, float | None]:
-    """Measures as plain data; infinite ones are null."""
-    return {name: finite(getattr(found, name)) for name in RATIOS}
+def measures_data(found: Measures) -> dict[str, Any]:
+    """Measures as plain data, costs under the assumption on the load they have; infinite ones are null."""
+    from geartrain.conjugate.measures import ONE_PAIR, SHARED
+
+    loads = {"one_pair": (ONE_PAIR, found.one_pair), "shared": (SHARED, found.shared)}
+    costs = {
+        key: {"assumption": words} | {name: finite(getattr(each, name)) for name in LOADED}
+        for key, (words, each) in loads.items()
+    }
+    return costs | {name: finite(getattr(found, name)) for name in FREE}
 
 
 def finite(value: float) -> float | None:

@@ -8,7 +8,7 @@ from math import isfinite, pi
 from typing import TYPE_CHECKING, Any
 
 from geartrain.report.document import Document, Section, Table
-from geartrain.report.shapes import RATIOS, cost, finite, measures_data, pair_name
+from geartrain.report.shapes import FREE, LOADED, cost, finite, measures_data, pair_name
 
 if TYPE_CHECKING:
     from geartrain.conjugate.admissible import Fault
@@ -16,7 +16,8 @@ if TYPE_CHECKING:
     from geartrain.conjugate.path import Path
     from geartrain.errors import Problem
 
-_HEADS = ("loss", "stress", "stress off pitch", "heat", "flash", "depth", "contact ratio", "slowest")
+_LOADED = ("loss", "stress", "stress off pitch", "heat", "flash")
+_FREE = ("depth", "contact ratio", "slowest")
 
 
 @dataclass(frozen=True)
@@ -53,31 +54,52 @@ class Compared:
 
 
 def compared_document(found: Compared) -> Document:
-    """A table of ratios, and what keeps the others from running."""
+    """Tables of ratios, and what keeps the others from running."""
+    from geartrain.conjugate.measures import ONE_PAIR, SHARED
+
     base = found.base.measures
     assert base is not None
-    rows = [_ratios(form, base) for form in found.forms]
-    tables = [Table(("form", "arcs", *_HEADS), rows, True)]
     text = (
         "Ratios to the involute of 20 deg. Loss: of the mean power lost; stress: of the greatest Hertz pressure, "
         "infinite where the pressure angle is 0 at the pitch point, and off pitch where contact is more than a tenth "
         "of a pitch away from it; heat: of the greatest heat of friction per area; flash: of the greatest flash "
         "temperature; depth: of the working depth; slowest: of the least speed of the contact along a dedendum. Arcs: "
-        "approach and recess in pitches."
+        f"approach and recess in pitches. Of loss, stress, heat and flash: {ONE_PAIR}."
     )
-    sections = [Section("Ratios", (text,), tables), _base(found)]
+    rows = [_ratios(form, base) for form in found.forms]
+    sections = [Section("Ratios", (text,), [Table(("form", "arcs", *_LOADED, *_FREE), rows, True)])]
+    sections += [_sharing(found, SHARED), _base(found)]
     faulty = [line for form in found.forms for line in _reasons(form)]
     if faulty:
         sections.append(Section("What cannot run", faulty))
     return Document(f"Tooth forms, {pair_name(found.path)}", [found.matched], sections)
 
 
+def _sharing(found: Compared, words: str) -> Section:
+    """The same costs where pairs in contact share the load; a sentence where never two touch at once."""
+    base = found.base.measures
+    assert base is not None
+    runs = [form.measures for form in found.forms if form.runs and form.measures]
+    if all(each.contact_ratio < 1 + 1e-9 for each in (base, *runs)):
+        return Section("Ratios, shared load", ("One pair of teeth touches at a time: sharing changes nothing.",))
+    rows = [_shared(form, base) for form in found.forms]
+    return Section("Ratios, shared load", (f"As above, where {words}.",), [Table(("form", *_LOADED), rows, True)])
+
+
+def _shared(form: Shaped, base: Measures) -> tuple[str, ...]:
+    if not form.runs or form.measures is None:
+        return (form.name, *("-" for _ in LOADED))
+    over = form.measures.shared.over(base.shared)
+    return (form.name, *(_ratio(over[name]) for name in LOADED))
+
+
 def _ratios(form: Shaped, base: Measures) -> tuple[str, ...]:
     if form.path is None or form.measures is None or form.faults:
         words = ", ".join(dict.fromkeys(getattr(fault, "kind", "refused") for fault in form.faults))
-        return (form.name, _arcs(form.path) if form.path else "-", words, *("-" for _ in RATIOS[1:]))
-    over = form.measures.over(base)
-    return (form.name, _arcs(form.path), *(_ratio(over[name]) for name in RATIOS))
+        return (form.name, _arcs(form.path) if form.path else "-", words, *("-" for _ in (*LOADED, *FREE)[1:]))
+    over = form.measures.one_pair.over(base.one_pair)
+    free = (getattr(form.measures, name) / getattr(base, name) for name in FREE)
+    return (form.name, _arcs(form.path), *(_ratio(over[name]) for name in LOADED), *map(_ratio, free))
 
 
 def _ratio(value: float) -> str:
@@ -91,13 +113,15 @@ def _arcs(path: Path) -> str:
 def _base(found: Compared) -> Section:
     base = found.base.measures
     assert base is not None
-    rows = [(name, cost(getattr(base, key))) for name, key in zip(_HEADS, RATIOS, strict=True)]
+    loads = base.one_pair, base.shared
+    rows = [(name, *(cost(getattr(each, key)) for each in loads)) for name, key in zip(_LOADED, LOADED, strict=True)]
+    rows += [(name, *[cost(getattr(base, key))] * 2) for name, key in zip(_FREE, FREE, strict=True)]
     unit = "rad on the unit sphere" if found.path.pitch.bevel else "modules"
     text = (
         f"The involute itself, lengths in {unit}: mean loss over friction; greatest Hertz pressure as the root of "
         "curvature over cos psi; greatest heat over friction times tangential force."
     )
-    return Section("The involute of 20 deg", (text,), (Table(("quantity", "value"), rows),))
+    return Section("The involute of 20 deg", (text,), (Table(("quantity", "one pair", "shared"), rows),))
 
 
 def _reasons(form: Shaped) -> Iterator[str]:
@@ -124,8 +148,13 @@ def _form_data(form: Shaped, base: Measures) -> dict[str, Any]:
     if form.path is not None:
         data["arcs"] = [arc / form.path.pitch.p for arc in form.path.arcs]
     if form.measures is not None and form.runs:
-        data["ratios"] = {name: finite(value) for name, value in form.measures.over(base).items()}
+        data["ratios"] = _finite(form.measures.over(base))
     return data | {"faults": [_fault_data(fault) for fault in form.faults]}
+
+
+def _finite(ratios: dict[str, Any]) -> dict[str, Any]:
+    """Infinite ratios as null, at any depth."""
+    return {name: _finite(value) if isinstance(value, dict) else finite(value) for name, value in ratios.items()}
 
 
 def _fault_data(fault: Fault | Problem) -> dict[str, Any]:

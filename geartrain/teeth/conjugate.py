@@ -62,8 +62,6 @@ class Pair:
     given    faults, where the path and the thickness alone do not tell them
     extra    faults that they do not tell, besides those that they do
     solid    False for a gear whose teeth are round pins
-    real     arcs of approach and recess (X) that the teeth leave of the path's; one is negative where contact begins
-             beyond the pitch point. Default the path's
     """
 
     path: Path
@@ -71,7 +69,6 @@ class Pair:
     given: tuple[Fault, ...] | None = None
     extra: tuple[Fault, ...] = ()
     solid: tuple[bool, bool] = (True, True)
-    real: tuple[float, float] | None = None
 
     @cached_property
     def faults(self) -> tuple[Fault, ...]:
@@ -83,8 +80,8 @@ class Pair:
 
     @property
     def arcs(self) -> tuple[float, float]:
-        """Arcs of approach and recess (X) in which the teeth really touch."""
-        return self.path.arcs if self.real is None else self.real
+        """Arcs of approach and recess (X) in which the teeth really touch; one may be negative."""
+        return self.path.arcs
 
     @property
     def play(self) -> float:

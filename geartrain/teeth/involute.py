@@ -96,15 +96,15 @@ class Involute(Shape):
         from geartrain.teeth.conjugate import Pair
 
         found = self.involutes(wheels)
-        approach, recess = (forms.involute(X, found.psi) for X in found.arcs)
-        path = Path(found.pitch, approach, recess)
+        approach, recess = (forms.involute(max(X, 0.0), found.psi) for X in found.arcs)
+        path = Path(found.pitch, approach, recess, found.arcs)
         return Pair(path, found.halves, involute_faults(found, path))
 
     # ----------------------------------------------------------------------------------------------- axes that meet
 
     def _bevel(self, wheels: Wheels) -> Pair:
         from geartrain.conjugate import forms
-        from geartrain.conjugate.involutes import cone_height, spherical_arc
+        from geartrain.conjugate.involutes import base_cone, cone_height, spherical_arc
         from geartrain.conjugate.path import Path
         from geartrain.teeth.conjugate import Pair
 
@@ -117,15 +117,21 @@ class Involute(Shape):
         for at, R, z in ((1, pitch.R2, wheels.z2), (0, pitch.R1, wheels.z1)):
             height = float(self.addendum[at].value + self.shift[at].value)
             tip = R + cone_height(R, z, height)
-            if height <= 0 or tip >= pi:
+            if not base_cone(R, psi) <= tip < pi:
                 raise refused(
-                    f"the tips of wheel {at + 1} do not lie beyond its pitch cone",
-                    f"they stand {height:g} modules over it",
+                    f"the tips of wheel {at + 1} do not lie beyond its base cone",
+                    f"they stand {height:g} modules over its pitch cone",
                     "give it a greater addendum or a smaller shift inwards",
                 )
             arcs.append(spherical_arc(R, psi, tip))
-        approach, recess = (forms.involute(X, psi) for X in arcs)
-        return Pair(Path(pitch, approach, recess), self._bevel_halves(pitch, wheels))
+        if sum(arcs) <= 0:
+            raise refused(
+                "the teeth do not reach each other",
+                "the tips of one wheel part from the line of action before those of the other meet it",
+                "give greater addenda, or shift the wheels less far apart",
+            )
+        approach, recess = (forms.involute(max(X, 0.0), psi) for X in arcs)
+        return Pair(Path(pitch, approach, recess, (arcs[0], arcs[1])), self._bevel_halves(pitch, wheels))
 
     def _bevel_halves(self, pitch: Pitch, wheels: Wheels) -> tuple[float, float]:
         """Half the thickness of the teeth on the pitch cones, as X; a shift thickens by 2 x tan psi modules."""

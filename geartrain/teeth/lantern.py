@@ -87,8 +87,8 @@ class Lantern(Shape):
         tooth = pitch.p / 2 - pin - self.play(pitch, wheels) / 2
         halves = (pin, tooth) if self.pins == 1 else (tooth, pin)
         (approach, recess), arcs = (sides, real) if self.pins == 1 else (sides[::-1], real[::-1])
-        path, cut = Path(pitch, approach, recess), self._cut(pitch, start, outside, inside)
-        return Pair(path, halves, extra=cut, solid=(self.pins != 1, self.pins != 2), real=arcs)
+        path, cut = Path(pitch, approach, recess, (arcs[0], arcs[1])), self._cut(pitch, start, outside, inside)
+        return Pair(path, halves, extra=cut, solid=(self.pins != 1, self.pins != 2))
 
     def _cut(self, pitch: Pitch, start: float, outside: float, inside: float) -> tuple[Fault, ...]:
         """A fault where the pins on their way in leave less of the mate's flank than the arcs need."""

@@ -111,13 +111,13 @@ def _compared(
     pins = next((form.path for form in found if form.name == "lantern" and form.runs and form.path), None)
     if pins is not None and arcs[0]:
         # the pins work on one side only: the involute with their arcs tells what is due to these
-        beside = (0.0, pins.arcs[1] / pins.pitch.p)
+        beside = (pins.arcs[0] / pins.pitch.p, pins.arcs[1] / pins.pitch.p)
         found.append(_shaped("involute, recess only", _involute(asked, beside, angle or radians(_BASE))))
     matched = (
         f"Matched: arcs, {arcs[0]:g} pitches of approach and {arcs[1]:g} of recess"
         + ("; the pins of a lantern have all of it in recess, beyond what they cut off" if "lantern" in names else "")
         + ("; of uniform temperature also the working depth" if any("temperature" in name for name in names) else "")
-        + ". One pair of teeth bears the load; first order in friction."
+        + ". Two loads: one pair of teeth bears all, or those in contact share it; first order in friction."
     )
     return Compared(base, tuple(found), matched)
 
@@ -133,14 +133,15 @@ def _no_base(base: Shaped) -> GearTrainError:
 
 
 def _involute(asked: Question, arcs: tuple[float, float], psi: float) -> Pair:
-    """An involute pair with given arcs, whatever addenda they take."""
+    """An involute pair with given arcs, one of which may be negative, whatever addenda they take."""
     from geartrain.conjugate.forms import involute
     from geartrain.conjugate.path import Path as Contact
     from geartrain.teeth.conjugate import Pair
 
     pitch = asked.wheels.pitch
-    approach, recess = (involute(arc * pitch.p, psi) for arc in arcs)
-    return Pair(Contact(pitch, approach, recess), (pitch.p / 4, pitch.p / 4))
+    real = (arcs[0] * pitch.p, arcs[1] * pitch.p)
+    approach, recess = (involute(max(arc, 0.0), psi) for arc in real)
+    return Pair(Contact(pitch, approach, recess, real), (pitch.p / 4, pitch.p / 4))
 
 
 def _made(name: str, asked: Question, arcs: tuple[float, float], angle: str | None) -> Shaped:

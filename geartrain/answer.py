@@ -82,7 +82,7 @@ class Answer(FrozenFields):
         }
 
     def _repr_html_(self) -> str:
-        shown = {name: result.speed for name, result in self.outputs.items()} or dict(self.speeds)
+        shown = {name: result.speed for name, result in self.outputs.items()} or self.speeds
         rows = "".join(
             f"<tr><td>{html.escape(name)}</td><td>{_exact(speed)}</td><td>{_decimal(speed)}</td></tr>"
             for name, speed in shown.items()

@@ -16,7 +16,8 @@ from functools import cached_property
 from geartrain.bulk import collector_paused
 from geartrain.circuits import Circuit
 from geartrain.errors import Loop
-from geartrain.exact import Row, add_into, coprime, times
+from geartrain.exact import Row, add_into
+from geartrain.products import Products
 
 
 @dataclass(frozen=True, slots=True)
@@ -25,9 +26,8 @@ class Components:
 
     node_link, node_carrier  link and carrier of each node, as indices into `links`
     node_group               the component each node belongs to
-    numerator, denominator   its speed relative to the carrier, over that of its component's unknown
+    ratios                   its speed relative to the carrier, over that of its component's unknown
     node_circuit             the circuit by which the walk reached it; -1 at the root
-    node_parent              the node it was reached from; -1 at the root
     group_carrier            carrier of each component
     nodes_of                 link -> its nodes
     closing                  circuits that close a loop and agree: each is redundant
@@ -42,19 +42,22 @@ class Components:
     node_link: Sequence[int]
     node_carrier: Sequence[int]
     node_group: Sequence[int]
-    numerator: Sequence[int]
-    denominator: Sequence[int]
+    ratios: Products
     node_circuit: Sequence[int]
-    node_parent: Sequence[int]
     group_carrier: Sequence[int]
     nodes_of: Mapping[int, Sequence[int]]
     closing: Sequence[int]
     breaking: Sequence[int]
     holding: Sequence[int]
 
+    @property
+    def node_parent(self) -> Sequence[int]:
+        """The node that each one was reached from; -1 at a root."""
+        return self.ratios.parent
+
     def relative(self, node: int) -> Fraction:
         """Speed of the node's link relative to its carrier, over the component's unknown."""
-        return coprime(self.numerator[node], self.denominator[node])
+        return self.ratios.value(node)
 
     def node(self, link: int, carrier: int) -> int:
         """The node of a link as seen from a carrier."""
@@ -87,8 +90,8 @@ class Components:
 
     def _ancestors(self, node: int) -> list[int]:
         chain = [node]
-        while self.node_parent[node] >= 0:
-            node = self.node_parent[node]
+        while (above := self.node_parent[node]) >= 0:
+            node = above
             chain.append(node)
         return chain
 
@@ -105,7 +108,7 @@ class Components:
 def find_components(
     links: Sequence[str], frame: str, circuits: Sequence[Circuit], first: Iterable[str] = ()
 ) -> Components:
-    """Walk every carrier's ordinary train once, breadth first, in integers.
+    """Walk every carrier's ordinary train once, breadth first, in short ratios.
 
     first   links to start from where possible (the inputs): their component's unknown is then their own speed,
             and no long number is ever multiplied by another
@@ -119,8 +122,8 @@ def find_components(
         else:
             nodes_of[link] = [at]
     count = len(node_link)
-    group, top, bottom = [-1] * count, [0] * count, [1] * count
-    reached, parent = [-1] * count, [-1] * count
+    ratios = Products(count)
+    group, reached = [-1] * count, [-1] * count
     group_carrier: list[int] = []
     closing: list[int] = []
     breaking: list[int] = []
@@ -129,23 +132,24 @@ def find_components(
             continue
         this = len(group_carrier)
         group_carrier.append(node_carrier[root])
-        group[root], top[root] = this, 1
+        group[root] = this
+        ratios.set_root(root, 1)
         queue = deque([root])
         while queue:
             here = queue.popleft()
-            n, d, entered = top[here], bottom[here], reached[here]
+            entered = reached[here]
             for at, there, a, b in edges[here]:
                 if at == entered:
                     continue
                 if group[there] < 0:
-                    group[there], reached[there], parent[there] = this, at, here
-                    top[there], bottom[there] = times(n, d, a, b)
+                    group[there], reached[there] = this, at
+                    ratios.follow(there, here, a, b)
                     queue.append(there)
                 elif at != reached[there] and here < there:  # each chord is looked at from one side
-                    agrees = (top[there], bottom[there]) == times(n, d, a, b)
+                    agrees = ratios.vanishes(((here, a), (there, -b)))
                     (closing if agrees else breaking).append(at)
     return Components(
-        tuple(links), index, index[frame], circuits, node_link, node_carrier, group, top, bottom, reached, parent,
+        tuple(links), index, index[frame], circuits, node_link, node_carrier, group, ratios, reached,
         group_carrier, nodes_of, closing, breaking, holding,
     )  # fmt: skip
 
@@ -216,6 +220,18 @@ class Reduced:
         if unknown is not None:
             return {unknown: Fraction(1)}
         return self.seen_from(parts.nodes_of[link][0])
+
+    def unknowns_of(self, link: int) -> tuple[int, ...]:
+        """The unknowns in a link's form, without their coefficients, which may be long."""
+        parts = self.components
+        if link == parts.frame:
+            return ()
+        unknown = self.own.get(link)
+        if unknown is not None:
+            return (unknown,)
+        node = parts.nodes_of[link][0]
+        carrier = parts.node_carrier[node]
+        return (parts.node_group[node], *(() if carrier == parts.frame else (self.own[carrier],)))
 
     def seen_from(self, node: int) -> Row:
         """The speed of a node's link: its carrier's plus its own relative to it."""

@@ -7,23 +7,42 @@ says nothing, and the coupled system is reduced and eliminated instead.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from fractions import Fraction
-from math import gcd
 
 from geartrain.bulk import collector_paused
 from geartrain.circuits import Circuit
-from geartrain.exact import coprime, times
+from geartrain.products import Products
 from geartrain.train import Case
 
 Terms = tuple[tuple[int, int], ...]
 """A row: pairs of link index and integer coefficient whose sum of products with the speeds vanishes."""
 
 
+class Speeds(Mapping[str, Fraction]):
+    """Exact speeds by link, each multiplied out when it is read."""
+
+    def __init__(self, index: Mapping[str, int], products: Products, signs: Mapping[str, int]) -> None:
+        self._index, self._products, self._signs = index, products, signs
+
+    def __getitem__(self, link: str) -> Fraction:
+        speed = self._products.value(self._index[link])
+        return -speed if link in self._signs else speed
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._index)
+
+    def __len__(self) -> int:
+        return len(self._index)
+
+    def __contains__(self, link: object) -> bool:
+        return link in self._index
+
+
 @collector_paused()
 def propagate(
     links: Sequence[str], frame: str, circuits: Sequence[Circuit], case: Case, signs: Mapping[str, int]
-) -> dict[str, Fraction] | None:
+) -> Speeds | None:
     """Every link's exact speed, or None where walking does not reach all, or meets a contradiction.
 
     signs   -1 for links whose axis points against the reference direction of its parallels
@@ -35,33 +54,34 @@ def propagate(
         for link, _ in row:
             users[link].append(at)
     waiting = [len(row) for row in rows]
-    top, bottom = [0] * len(links), [0] * len(links)  # bottom 0: not known yet
-    bottom[index[frame]] = 1
+    speeds = Products(len(links))
+    bottom = speeds.bottom  # 0: not known yet
+    speeds.set_root(index[frame], 0)
     known = []
     for name, speed in _prescribed(case, signs):
         at = index[name]
         if bottom[at]:
             return None  # prescribed twice, or the frame: whether that agrees is for the diagnosis
-        top[at], bottom[at] = speed.numerator, speed.denominator
+        speeds.set_root(at, speed.numerator, speed.denominator)
         known.append(at)
     for row in rows:
         if len(row) == 1 and not bottom[row[0][0]]:
-            bottom[row[0][0]] = 1  # alone in its row: it stands still
+            speeds.set_root(row[0][0], 0)  # alone in its row: it stands still
             known.append(row[0][0])
     used = bytearray(len(rows))
     for here in known:
         for at in users[here]:
             waiting[at] -= 1
             if waiting[at] == 1:
-                target = _solve(rows[at], top, bottom)
+                target = _solve(rows[at], speeds)
                 if target >= 0:
                     used[at] = 1
                     known.append(target)
-            elif waiting[at] == 0 and not used[at] and not _holds(rows[at], top, bottom):
+            elif waiting[at] == 0 and not used[at] and not speeds.vanishes(rows[at]):
                 return None
     if not all(bottom):
         return None
-    return {link: coprime(-top[at] if link in signs else top[at], bottom[at]) for at, link in enumerate(links)}
+    return Speeds(index, speeds, signs)
 
 
 def _rows(index: Mapping[str, int], frame: int, circuits: Sequence[Circuit], case: Case) -> list[Terms]:
@@ -81,34 +101,21 @@ def _prescribed(case: Case, signs: Mapping[str, int]) -> list[tuple[str, Fractio
     return given + [(link, speed * signs.get(link, 1)) for link, speed in case.inputs.items()]
 
 
-def _solve(row: Terms, top: list[int], bottom: list[int]) -> int:
+def _solve(row: Terms, speeds: Products) -> int:
     """Give the one unknown link of a row its speed, and say which it was; -1 if it got one in the meantime."""
     target, lead = -1, 0
     moving = []
     for link, coefficient in row:
-        if not bottom[link]:
+        if not speeds.bottom[link]:
             target, lead = link, coefficient
-        elif top[link]:
+        elif speeds.top[link]:
             moving.append((link, coefficient))
     if target < 0:
         return -1
     if len(moving) == 1:
         link, coefficient = moving[0]
-        top[target], bottom[target] = times(top[link], bottom[link], -coefficient, lead)
+        speeds.follow(target, link, -coefficient, lead)
         return target
-    n, d = 0, 1
-    for link, coefficient in moving:
-        n, d = n * bottom[link] + coefficient * top[link] * d, d * bottom[link]
-    d *= -lead
-    common = gcd(n, d) if d > 0 else -gcd(n, d)
-    top[target], bottom[target] = n // common, d // common
+    speed = -sum((speeds.value(link) * coefficient for link, coefficient in moving), Fraction(0)) / lead
+    speeds.set_root(target, speed.numerator, speed.denominator)
     return target
-
-
-def _holds(row: Terms, top: list[int], bottom: list[int]) -> bool:
-    """Whether a row with all speeds known vanishes, in integers."""
-    n, d = 0, 1
-    for link, coefficient in row:
-        n = n * bottom[link] + coefficient * top[link] * d
-        d *= bottom[link]
-    return n == 0

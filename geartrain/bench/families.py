@@ -24,17 +24,31 @@ def _ordinary(teeth: list[int], meshes: list[tuple[int, int]]) -> Data:
 def chain(size: int, seed: int = 1) -> Data:
     """Wheels in a row, two on each arbor, the ratio kept between 1e-6 and 1e6."""
     draw = random.Random(seed)
-    links: Data = {"frame": {}, "g0": {"wheels": {}}}
-    gears, log = [], 0.0
-    for at in range(1, size):
+    pairs, log = [], 0.0
+    for _ in range(1, size):
         driver, driven = draw.randint(12, 119), draw.randint(12, 119)
         if abs(log + math.log10(driver / driven)) > 6:
             driver, driven = driven, driver
         log += math.log10(driver / driven)
+        pairs.append((driver, driven))
+    return _in_a_row(pairs)
+
+
+def drift(size: int, seed: int = 1) -> Data:
+    """Wheels in a row, two on each arbor, 23 to 27 teeth on 20 to 26: the ratio drifts, to 1e36 in a thousand links."""
+    draw = random.Random(seed)
+    return _in_a_row([(draw.randint(23, 27), draw.randint(20, 26)) for _ in range(1, size)])
+
+
+def _in_a_row(pairs: list[tuple[int, int]]) -> Data:
+    """A chain of pairs, driver and driven, each on the arbor of the one before."""
+    links: Data = {"frame": {}, "g0": {"wheels": {}}}
+    gears = []
+    for at, (driver, driven) in enumerate(pairs, 1):
         links[f"g{at - 1}"]["wheels"][f"a{at}"] = driver
         links[f"g{at}"] = {"wheels": {f"b{at}": driven}}
         gears.append({"pair": (f"a{at}", f"b{at}")})
-    joints = [{"pair": ("frame", f"g{at}"), "axis": f"A{at}"} for at in range(size)]
+    joints = [{"pair": ("frame", f"g{at}"), "axis": f"A{at}"} for at in range(len(pairs) + 1)]
     return {"links": links, "revolutes": joints, "gears": gears, "inputs": {"g0": 1}}
 
 
@@ -123,6 +137,7 @@ def grid(size: int, seed: int = 1) -> Data:
 
 FAMILIES: dict[str, Callable[[int], Data]] = {
     "chain": chain,
+    "drift": drift,
     "tree": tree,
     "epicyclic": epicyclic,
     "cascade": cascade,

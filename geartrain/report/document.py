@@ -133,8 +133,9 @@ MOST_ROWS = 120
 """Longer tables are cut, and say so; the JSON has everything."""
 
 
-def cut(rows: Sequence[Sequence[str]]) -> list[Sequence[str]]:
-    """The first rows of a long table, and how many more there are."""
-    if len(rows) <= MOST_ROWS:
+def cut(rows: Sequence[Sequence[str]], of: int | None = None) -> list[Sequence[str]]:
+    """The first rows of a long table (of so many, if not all are given), and how many more there are."""
+    count = len(rows) if of is None else of
+    if count <= MOST_ROWS:
         return list(rows)
-    return [*rows[:MOST_ROWS], (f"... {len(rows) - MOST_ROWS} more", *("" for _ in rows[0][1:]))]
+    return [*rows[:MOST_ROWS], (f"... {count - MOST_ROWS} more", *("" for _ in rows[0][1:]))]

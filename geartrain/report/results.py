@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from itertools import islice
 
 from geartrain.analysis import GearTrain
 from geartrain.answer import Answer
 from geartrain.outputs import OutputResult, Sensitivity, magnitude
-from geartrain.report.document import Section, Table, cut, exact, figure, one_to, ppm
+from geartrain.report.document import MOST_ROWS, Section, Table, cut, exact, figure, one_to, ppm
 from geartrain.train import Train
 
 
@@ -88,11 +89,11 @@ def _speeds(train: GearTrain, answer: Answer) -> Iterator[Table]:
         return
     moving = [speed for speed in train.declaration.case(answer.state).inputs.values() if speed]
     rows = []
-    for link, speed in answer.speeds.items():
+    for link, speed in islice(answer.speeds.items(), MOST_ROWS):  # a long train's speeds are long
         mark = " (sum of joint speeds)" if link in train.bookkeeping else ""
         ratio = speed / moving[0] if len(moving) == 1 else None
         rows.append((link + mark, exact(speed), figure(speed), one_to(ratio)))
-    yield Table(("link", "speed", "decimal", "output : input"), cut(rows))
+    yield Table(("link", "speed", "decimal", "output : input"), cut(rows, len(answer.speeds)))
 
 
 def _outputs(train: GearTrain, answer: Answer, head: str) -> Section:

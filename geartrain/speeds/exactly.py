@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from fractions import Fraction
@@ -177,35 +177,68 @@ def _all_still(reduced: Reduced, case: Case, budget: int | None) -> bool:
     return eliminate([*reduced.equations, *held_rows(reduced, case)], budget).rank == reduced.unknowns
 
 
+class _ReadOff(Mapping[str, Fraction]):
+    """Speeds by link, put together when read: the carrier's plus the ratio times the component's unknown."""
+
+    def __init__(self, reduced: Reduced, known: Sequence[Fraction | None], signs: Mapping[str, int]) -> None:
+        self._reduced, self._known, self._signs = reduced, known, signs
+        self._cancelled: dict[str, Fraction] = {}
+        self._links: dict[str, None] = {}
+
+    def take(self, link: str, speed: Fraction | None = None) -> None:
+        """Count a link among those that are determined; `speed` where its parts are not, but their sum is."""
+        self._links[link] = None
+        if speed is not None:
+            self._cancelled[link] = speed
+
+    def __getitem__(self, link: str) -> Fraction:
+        if link not in self._links:
+            raise KeyError(link)
+        speed = self._cancelled.get(link)
+        if speed is None:
+            speed = self._composed(self._reduced.components.index[link])
+        return -speed if link in self._signs else speed
+
+    def _composed(self, link: int) -> Fraction:
+        parts, zero = self._reduced.components, Fraction(0)
+        if link == parts.frame:
+            return zero
+        if link in self._reduced.own:
+            return self._known[self._reduced.own[link]] or zero
+        node = parts.nodes_of[link][0]
+        carrier = parts.node_carrier[node]
+        unknown = self._known[parts.node_group[node]] or zero
+        speed = parts.relative(node) if unknown == 1 else parts.relative(node) * unknown if unknown else zero
+        carried = zero if carrier == parts.frame else self._known[self._reduced.own[carrier]]
+        return speed + carried if carried else speed
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._links)
+
+    def __len__(self) -> int:
+        return len(self._links)
+
+    def __contains__(self, link: object) -> bool:
+        return link in self._links
+
+
 def _read_off(
     reduced: Reduced, forms: Mapping[int, Row], signs: Mapping[str, int]
-) -> tuple[dict[str, Fraction], list[str]]:
-    """Every link's speed, and the links that have none: carrier's speed plus ratio times its component's unknown."""
+) -> tuple[Mapping[str, Fraction], list[str]]:
+    """The speed of every link that has one, and the links that have none."""
     parts = reduced.components
     known = [_value(forms.get(unknown)) for unknown in range(reduced.unknowns)]
-    speeds: dict[str, Fraction] = {}
+    speeds = _ReadOff(reduced, known, signs)
     undetermined: list[str] = []
-    zero = Fraction(0)
     for at, name in enumerate(parts.links):
-        speed: Fraction | None
-        if at == parts.frame:
-            speed = zero
-        elif at in reduced.own:
-            speed = known[reduced.own[at]]
-        else:
-            node = parts.nodes_of[at][0]
-            carrier = parts.node_carrier[node]
-            unknown = known[parts.node_group[node]]
-            carried = zero if carrier == parts.frame else known[reduced.own[carrier]]
-            if unknown is None or carried is None:  # free parts may still cancel
-                speed = _value(resolve(reduced.form(at), forms))
-            else:
-                speed = parts.relative(node) if unknown == 1 else parts.relative(node) * unknown
-                speed = speed + carried if carried else speed
+        if at == parts.frame or all(known[unknown] is not None for unknown in reduced.unknowns_of(at)):
+            speeds.take(name)
+            continue
+        speed = _value(resolve(reduced.form(at), forms))  # free parts may still cancel
         if speed is None:
             undetermined.append(name)
         else:
-            speeds[name] = -speed if name in signs else speed
+            speeds.take(name, speed)
     return speeds, undetermined
 
 
@@ -233,9 +266,8 @@ def _still(reduced: Reduced, forms: Mapping[int, Row]) -> list[str]:
     null = {column for column, form in forms.items() if not form}
     found = []
     for at, name in enumerate(parts.links):
-        columns = reduced.form(at)
-        moving = [column for column in columns if column not in null]
-        if at != parts.frame and (not moving or (len(moving) > 1 and not resolve(columns, forms))):
+        moving = [column for column in reduced.unknowns_of(at) if column not in null]
+        if at != parts.frame and (not moving or (len(moving) > 1 and not resolve(reduced.form(at), forms))):
             found.append(name)
     return found
 

@@ -6,7 +6,7 @@ The driver's angle S is counted from the direction that points from the pin's ax
 from __future__ import annotations
 
 from fractions import Fraction
-from math import asin, pi, sqrt
+from math import acos, acosh, asin, log, nan, pi, sqrt
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -19,6 +19,26 @@ if TYPE_CHECKING:
     from geartrain.teeth.base import Floats
 
 _SAMPLES = 4096  # of a smooth periodic function: its mean by equal samples is exact to rounding unless r is close to e
+
+
+def log_share(r: float, e: float) -> float:
+    """ln((r + e)/(r - e))/pi, r > e: what a unit of friction adds to 1 in the mean of 1/eta over the *slot's* turn.
+
+    There eta = 1/(1 + f |tan d|), sin d = (e/r) sin psi, d the angle between pin radius and slot.
+    """
+    return log((r + e) / (r - e)) / pi
+
+
+def mean_over_the_pin(r: float, e: float, f: float) -> float:
+    """Mean of 1/(1 + f |tan d|) over the *pin's* turn, r > e; with -f that of 1/(1 - f |tan d|), c > -1.
+
+    With c = f e/sqrt(r^2 - e^2) and tan(S/2) = sqrt((r - e)/(r + e)) tan(u/2) it is the integral over 0 <= u <= pi of
+    sqrt(r^2 - e^2)/(pi (r + e cos u)(1 + c sin u)), which partial fractions turn into logarithm and arc cosine.
+    """
+    width = sqrt((r - e) * (r + e))
+    c = f * e / width
+    inner = 2 * (acos(c) / sqrt(1 - c * c) if c < 1 else 1 if c == 1 else acosh(c) / sqrt(c * c - 1))
+    return (1 - f * log_share(r, e) + f * f * r * inner / (pi * width)) / (1 + f * f)
 
 
 class PinLaw(Law):
@@ -42,10 +62,6 @@ class PinLaw(Law):
         """0, and the rms of the error (rad)."""
         error = self.error(self._turn())
         return 0.0, sqrt(float(np.mean(error**2)))
-
-    def efficiency_mean(self) -> float:
-        """Mean over a turn of the driver."""
-        return float(np.mean(self.efficiency(self._turn())))
 
     def _turn(self) -> Floats:
         return np.arange(_SAMPLES, dtype=np.float64) * (self.period / _SAMPLES)
@@ -96,6 +112,19 @@ class SlotLaw(PinLaw):
         whole = along + across
         return np.asarray(np.divide(along, whole, out=np.ones_like(whole), where=whole > 0))
 
+    def efficiency_mean(self) -> float:
+        """Mean over a turn of the pin, at constant torque on it."""
+        if self.r > self.e:
+            return mean_over_the_pin(self.r, self.e, self.friction)
+        return float(np.mean(self.efficiency(self._turn())))
+
+    def efficiency_at_constant_load(self) -> float:
+        """1/(1 + (f/pi) ln((r + e)/(r - e))) for a constant torque on the slot; NaN for a follower.
+
+        Without friction a constant torque on a follower gives back on one half of its swing what it took on the other.
+        """
+        return 1 / (1 + self.friction * log_share(self.r, self.e)) if self.r > self.e else nan
+
 
 class BackLaw(PinLaw):
     """A slot drives its pin: pin angle = S - asin((e/r) sin S). Only where the pin's circle encloses its axis."""
@@ -119,6 +148,18 @@ class BackLaw(PinLaw):
         """1 - f |tan d|, d the angle between pin radius and slot; 0 where friction locks."""
         d = np.arcsin(self.e / self.r * np.sin(np.asarray(S, dtype=float)))
         return np.asarray(np.maximum(1 - self.friction * np.abs(np.tan(d)), 0.0))
+
+    def efficiency_mean(self) -> float:
+        """1 - (f/pi) ln((r + e)/(r - e)), over a turn of the slot at constant torque on it; NaN where it locks."""
+        return nan if self._locks else 1 - self.friction * log_share(self.r, self.e)
+
+    def efficiency_at_constant_load(self) -> float:
+        """Work done on a constant torque on the pin over the work put in; NaN where friction locks."""
+        return nan if self._locks else 1 / mean_over_the_pin(self.r, self.e, -self.friction)
+
+    @property
+    def _locks(self) -> bool:
+        return self.friction >= self.locking_friction
 
     @property
     def locking_friction(self) -> float:

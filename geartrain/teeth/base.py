@@ -58,6 +58,10 @@ class Law(ABC):
     def efficiency_mean(self) -> float:
         """Mean efficiency over the driver's angle, at constant driver torque."""
 
+    @abstractmethod
+    def efficiency_at_constant_load(self) -> float:
+        """Work done on a constant torque of the driven side over the work put in; NaN where friction locks."""
+
     def corners(self) -> list[float]:
         """Driver angles (rad) where the law or a slope of it is not smooth; none by default."""
         return []
@@ -131,6 +135,10 @@ class Rigid(Law):
         return 0.0, 0.0
 
     def efficiency_mean(self) -> float:
+        """1."""
+        return 1.0
+
+    def efficiency_at_constant_load(self) -> float:
         """1."""
         return 1.0
 

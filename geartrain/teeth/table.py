@@ -160,6 +160,10 @@ class Tabulated(Law):
         """The law's own."""
         return self.law.efficiency_mean()
 
+    def efficiency_at_constant_load(self) -> float:
+        """The law's own."""
+        return self.law.efficiency_at_constant_load()
+
     def corners(self) -> list[float]:
         """The law's own."""
         return self.law.corners()

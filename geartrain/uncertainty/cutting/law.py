@@ -180,6 +180,14 @@ class CutLaw(Law):
         held = np.isfinite(eta)
         return float(weights[held] @ eta[held] / weights[held].sum())
 
+    def efficiency_at_constant_load(self) -> float:
+        """Work done on a constant load torque over the work put in, over the cycle in contact."""
+        eta, weights = self.stretches.over(self._efficiency)
+        tau, _ = self.stretches.over(self._envelope.speed)
+        held = np.isfinite(eta)
+        turned = weights[held] * tau[held]
+        return float(turned.sum() / (turned / eta[held]).sum())
+
     @property
     def runs(self) -> bool:
         """True if the pair turns without jam, clash, standstill or gap."""

@@ -154,6 +154,10 @@ class CutLaws(Law):
         """Not asked of trials."""
         return float("nan")
 
+    def efficiency_at_constant_load(self) -> float:
+        """Not asked of trials."""
+        return float("nan")
+
 
 def _of(each: Floats, rows: Ints, teeth: Ints) -> Any:
     """The value of one tooth of each trial; a plain 0 where all are."""

@@ -249,12 +249,15 @@ class GearTrain:
         return self._settings[state]
 
     def _make_setting(self, case: Case) -> Setting | None:
-        from geartrain.torques import Setting
+        from geartrain.torques import Setting, speed_forms
 
         solution = solve(self._whole, case, self.signs, None)
-        if not solution.verdict:
+        if solution.verdict.kind not in ("determined", "free"):
             return None
-        return Setting(self.declaration, self.tree, self.circuits, self.signs, case, solution.speeds, self.meshes)
+        forms = speed_forms(self.equations(case.state)) if solution.verdict.kind == "free" else {}
+        return Setting(
+            self.declaration, self.tree, self.circuits, self.signs, case, solution.speeds, self.meshes, self.pins, forms
+        )
 
     def equations(self, state: str | None = None) -> System:
         """The labelled Willis system of one state."""

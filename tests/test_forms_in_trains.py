@@ -349,10 +349,17 @@ def test_the_motion_of_a_train_where_nothing_ripples_can_be_asked_for_everything
 
 
 def mean_loss(
-    z1: int, z2: int, mu: float, tips: tuple[float, float] = (1.0, 1.0), back: bool = False, steps: int = 20001
+    z1: int,
+    z2: int,
+    mu: float,
+    tips: tuple[float, float] = (1.0, 1.0),
+    back: bool = False,
+    steps: int = 20001,
+    at_load: bool = False,
 ) -> float:
     """Mean loss of unshifted 20 deg involutes by forces alone, gear 1 driving, or gear 2; a ring has negative teeth.
 
+    At constant torque of the driver, or of the driven gear: then it is the torque put in, 1/eta, that has a mean.
     Every couple in contact takes an equal share. Normal and friction force have the arms of the base circles and of
     the lengths of line of action on either side of the contact; the friction turns round at the pitch point.
     """
@@ -372,7 +379,8 @@ def mean_loss(
     else:
         eta = (1 + np.sign(d) * mu * arms[1]) / (1 + np.sign(d) * mu * arms[0])
     touching = d <= recess
-    return 1 - float(np.mean((eta * touching).sum(axis=1) / touching.sum(axis=1)))
+    mean = (eta * touching).sum(axis=1) / touching.sum(axis=1)
+    return 1 - (float(1 / np.mean(1 / mean)) if at_load else float(np.mean(mean)))
 
 
 def test_the_losses_of_a_planetary_are_those_of_forces_on_its_teeth_and_of_willis() -> None:
@@ -380,10 +388,10 @@ def test_the_losses_of_a_planetary_are_those_of_forces_on_its_teeth_and_of_willi
     # Mueller: i0 = -60/24, power flows from the sun to the ring in the carrier's frame
     i0 = -60 / 24
     ring = 18, -60, 0.06, (1.0, 0.9)
-    eta0 = (1 - mean_loss(24, 18, 0.06)) * (1 - mean_loss(*ring))
+    eta0 = (1 - mean_loss(24, 18, 0.06, at_load=True)) * (1 - mean_loss(*ring, at_load=True))
     there, back = train.driven("carrier", "sun"), train.driven("sun", "carrier")
     assert float(there.efficiency or 0) == pytest.approx((1 - i0 * eta0) / (1 - i0), abs=1e-6)
-    eta_back = (1 - mean_loss(24, 18, 0.06, back=True)) * (1 - mean_loss(*ring, back=True))
+    eta_back = (1 - mean_loss(24, 18, 0.06, back=True, at_load=True)) * (1 - mean_loss(*ring, back=True, at_load=True))
     assert float(back.efficiency or 0) == pytest.approx((1 - i0) / (1 - i0 / eta_back), abs=1e-6)
     loaded = train.torques()
     assert loaded.verdict
@@ -404,8 +412,8 @@ def test_any_simple_planetary_has_the_efficiency_of_willis_for_its_basic_one(
     train = load(text)
     first, second = train.meshes
     i0 = -ring / sun
-    there = first.law.efficiency_mean() * second.law.efficiency_mean()  # type: ignore[attr-defined]
-    back = first.reversed.efficiency_mean() * second.reversed.efficiency_mean()
+    there = first.law.efficiency_at_constant_load() * second.law.efficiency_at_constant_load()  # type: ignore[attr-defined]
+    back = first.reversed.efficiency_at_constant_load() * second.reversed.efficiency_at_constant_load()
     assert float(train.driven("carrier", "sun").efficiency or 0) == pytest.approx(
         (1 - i0 * there) / (1 - i0), rel=1e-12
     )
@@ -447,9 +455,9 @@ def test_the_losses_of_a_bevel_differential_are_those_of_arcs_on_the_sphere_and_
 def test_the_balance_of_a_bevel_differential_with_one_wheel_held_is_exact_in_friction() -> None:
     train = load("bevel-differential-involute")
     laws: dict[str, Mesh] = {mesh.name: mesh for mesh in train.meshes}
-    drive = laws["pinion~c41"].law.efficiency_mean()
+    drive = laws["pinion~c41"].law.efficiency_at_constant_load()
     # in the crown's frame power goes from the held wheel to the loaded one
-    eta0 = laws["l16~p10"].law.efficiency_mean() * laws["r16~p10"].law.efficiency_mean()
+    eta0 = laws["l16~p10"].law.efficiency_at_constant_load() * laws["r16~p10"].law.efficiency_at_constant_load()
     found = train.torques("one wheel held").efficiency
     assert float(found or 0) == pytest.approx(drive * 2 / (1 + 1 / eta0), rel=1e-13)
 
@@ -459,9 +467,10 @@ def test_the_losses_of_a_wolfrom_set_are_those_of_its_torques_by_hand() -> None:
     found = train.torques()
     assert [pair.driver for pair in found.pairs.values()] == ["s12", "p30", "r70"]
     meshes = {mesh.name: mesh for mesh in train.meshes}
-    eta1 = meshes["s12~p30"].law.efficiency_mean()
-    eta2 = meshes["p30~r72"].law.efficiency_mean()
+    eta1 = meshes["s12~p30"].law.efficiency_at_constant_load()
+    eta2 = meshes["p30~r72"].law.efficiency_at_constant_load()
     ring = meshes["p28~r70"]
+    # there it is the driver's torque that is given
     eta3 = (ring.law if ring.driver == "r70" else ring.reversed).efficiency_mean()
     # in the arm's frame sun and loaded ring put power in, and the held ring takes it out
     sun = (1 - eta2 * eta3 * 24 / 25) / (1 + 6 * eta1 * eta2)
@@ -534,7 +543,7 @@ def test_the_page_tells_what_each_form_loses_in_a_planetary(row: list[str]) -> N
     pairs = f"gears: [{{pair: [p, ring], tooth_form: {form}}}]\ntooth_form: {form}"
     train = load(f"extends: planetary-24-18-60\nname: t\nfriction: 0.06\n{pairs}\n")
     assert not any(mesh.faults for mesh in train.meshes)
-    losses = [1 - mesh.law.efficiency_mean() for mesh in train.meshes]
+    losses = [1 - mesh.law.efficiency_at_constant_load() for mesh in train.meshes]
     ways = [1 - float(train.driven(*ends).efficiency or 0) for ends in (("carrier", "sun"), ("sun", "carrier"))]
     assert [f"{100 * loss:.4f} %" for loss in (*losses, *ways)] == figures
 

@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
-from typing import Annotated
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from geartrain.cli.common import GOOD, NOT_USABLE, VERDICT, Files, complain, plural
 from geartrain.errors import GearTrainError
+
+if TYPE_CHECKING:
+    from geartrain.analysis import GearTrain
 
 
 def run(
@@ -59,8 +63,18 @@ def _check(file: str, quiet: bool) -> int:
         kept = f"all {held} expectations hold" if held else "nothing expected"
         for remark in train.remarks:
             typer.echo(f"note {remark.place}: {remark.what}" + (f"; {remark.why}" if remark.why else ""))
+        for line in _left_out(train):
+            typer.echo(f"note {file}: {line}")
         typer.echo(f"ok   {file}: mobility {train.mobility.by_rank}{loops}, {kept}")
     return good
+
+
+def _left_out(train: GearTrain) -> Iterator[str]:
+    """What the torques of loaded states do not count."""
+    for state in train.states or (None,):
+        if train.declaration.is_loaded(state):
+            where = f"state {state}: " if state is not None else ""
+            yield from (f"{where}torques leave out {each}: {each.why}" for each in train.torques(state).left_out)
 
 
 def _place(state: str | None, name: str, states: object) -> tuple[str, ...]:

@@ -91,4 +91,5 @@ def _summary(torques: Torques) -> str:
     lost = {"teeth": teeth, "bearings": torques.bearing_loss}
     named = [f"{share(power / torques.power_in)} is lost in {where}" for where, power in lost.items() if power]
     out = share(1 - torques.loss / torques.power_in)
-    return "; ".join([f"{out} of the power that enters comes out", *named])
+    uncounted = [f"left out: {', '.join(map(str, torques.left_out))}"] if torques.left_out else []
+    return "; ".join([f"{out} of the power that enters comes out", *named, *uncounted])

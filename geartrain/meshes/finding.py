@@ -20,7 +20,7 @@ from geartrain.train import GearPair, Train, Wheel
 
 if TYPE_CHECKING:
     from geartrain.pins import Coupling
-    from geartrain.pins.laws import SlotLaw
+    from geartrain.pins.laws import BackLaw, SlotLaw
 
 ShaftAngle = Callable[[GearPair], float | None]
 """The angle (rad) under which the axes of a pair meet; None where they are parallel."""
@@ -34,6 +34,13 @@ class PinJoint:
 
     coupling: Coupling
     law: SlotLaw
+
+    @property
+    def reversed(self) -> BackLaw:
+        """The law with the slot driving, which no follower can."""
+        from geartrain.pins.laws import BackLaw
+
+        return BackLaw(self.law.r, self.law.e, self.law.friction)
 
 
 @dataclass(frozen=True)

@@ -16,11 +16,11 @@ if TYPE_CHECKING:
 
 _UNITS = (
     "Torques as loads are given; power is torque times speed in the train's unit, positive into the train; in a pair, "
-    "in its carrier's frame."
+    "in its carrier's frame. The torque of a brake or a lock is the one on the link it holds."
 )
 _UNITS_IN_WATTS = (
     "Torques in N m; power is torque times speed in real time, positive into the train; in a pair, in its carrier's "
-    "frame."
+    "frame. The torque of a brake or a lock is the one on the link it holds."
 )
 
 
@@ -57,6 +57,7 @@ def torque_sections(train: GearTrain, found: Torques) -> Iterator[Section]:
     lines = [f"Verdict: {found.verdict.kind}: {found.verdict.text}."]
     if found.verdict.kind == "undecided" and found.verdict.candidates:
         lines.append(f"It can be one of {', '.join(found.verdict.candidates)}.")
+    lines += [f"Left out: {each}: {each.why}." for each in found.left_out]
     lines += _there_and_back(train, state)
     if not found.verdict:
         yield Section(head, lines)
@@ -66,12 +67,14 @@ def torque_sections(train: GearTrain, found: Torques) -> Iterator[Section]:
     if efficiency is not None and circulating is not None:
         lines.append(
             f"Power in {amounts.text(found.power_in, 9)}, lost {amounts.text(found.loss, 9)}, efficiency "
-            f"{figure(efficiency, 10)}; the greatest power through a pair is {figure(circulating, 5)} of it."
+            f"{figure(efficiency, 10)}{without(found)}; the greatest power through a pair is "
+            f"{figure(circulating, 5)} of it."
         )
     if found.bearing_loss:
         needed = ", ".join(f"at '{link}' {amounts.torque(found.external[link])}" for link in found.asked)
         lines.append(f"Torque needed, with the friction of bearings: {needed}.")
-    yield Section(head, lines, (_links(found, amounts), _pairs(found, amounts)))
+    tables = [_links(found, amounts), *_held(found), _pairs(found, amounts)]
+    yield Section(head, lines, tuple(tables))
     flow = flow_of(train, found)
     parts = tuple(_loops(flow, amounts)), tuple(_losses(flow, amounts, _blows(train, found)))
     if any(parts):
@@ -124,22 +127,41 @@ def _links(found: Torques, amounts: _Amounts) -> Table:
         (
             link + (" (asked)" if link in found.asked else ""),
             figure(torque, 9),
-            figure(found.speeds[link], 9),
-            amounts.text(found.powers[link], 9),
+            figure(found.speeds[link], 9) if link in found.speeds else "free",
+            amounts.text(found.powers[link], 9) if link in found.speeds else "open",
         )
         for link, torque in found.external.items()
     ]
     return Table(("link", "torque", "speed", "power"), rows)
 
 
+def _held(found: Torques) -> Iterator[Table]:
+    """Brakes and locks, with what they exert on the links they hold."""
+    rows = []
+    for held in found.held:
+        torques = ["open"] * len(held.links) if held.torques is None else [figure(each, 9) for each in held.torques]
+        kind = "brake" if len(held.links) == 1 else "lock"
+        name = f"{kind} {held.clutch}" if held.clutch else kind
+        name += f" (for {' and '.join(held.cause)})" if held.cause else ""
+        rows.append((name, ", ".join(held.links), torques[0], torques[1] if torques[1:] else ""))
+    if rows:
+        yield Table(("held by", "link", "torque on it", "on the second"), rows)
+
+
+def without(found: Torques) -> str:
+    """What an efficiency does not count, to stand behind it."""
+    uncounted = ", ".join(map(str, found.uncounted))
+    return f" without {uncounted}" if uncounted else ", mean over a turn" if found.left_out else ""
+
+
 def _pairs(found: Torques, amounts: _Amounts) -> Table:
     rows = [
         (
             pair.id + (" (shared)" if pair.loose else ""),
-            pair.driver or "idle",
+            pair.driver or ("open" if pair.power is None else "idle"),
             *(figure(torque, 7) for torque in pair.torques),
-            amounts.text(pair.power),
-            amounts.text(pair.loss),
+            "open" if pair.power is None else amounts.text(pair.power),
+            "open" if pair.power is None else amounts.text(pair.loss),
         )
         for pair in found.pairs.values()
     ]
@@ -247,7 +269,7 @@ def _there_and_back(train: GearTrain, state: str | None) -> Iterator[str]:
             yield f"'{last}' cannot be driven from '{first}': the train locks."
         elif efficiency is not None:
             word = " (ambiguous)" if torques.verdict.kind == "ambiguous" else ""
-            yield f"Efficiency from '{first}' to '{last}': {figure(efficiency, 10)}{word}."
+            yield f"Efficiency from '{first}' to '{last}': {figure(efficiency, 10)}{word}{without(torques)}."
 
 
 def torques_data(train: GearTrain, found: Torques) -> dict[str, Any]:
@@ -269,4 +291,5 @@ def _drive_data(found: Torques) -> dict[str, Any]:
         "verdict": found.verdict.to_dict(),
         "efficiency": None if efficiency is None else as_float(efficiency),
         "exact": None if efficiency is None else written(efficiency),
+        "left_out": [each.to_dict() for each in found.left_out],
     }

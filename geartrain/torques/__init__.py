@@ -1,16 +1,20 @@
 """Torques, power and losses: balances of links, directions of power, verdicts on self-locking."""
 
 from geartrain.torques.amounts import in_newton_metres, in_watts, share, share_of, watts_per_unit
-from geartrain.torques.asking import Setting, declared_loads, drive, find_torques
+from geartrain.torques.asking import drive, find_torques
 from geartrain.torques.balance import Balance, Mesh, Solved
 from geartrain.torques.directions import Flow, find_flows
 from geartrain.torques.flowing import Circulation, Node, PowerFlow, Stream, trace_power
-from geartrain.torques.result import PairTorque, Torques, TorqueVerdict
+from geartrain.torques.result import Held, LeftOut, PairTorque, Torques, TorqueVerdict
+from geartrain.torques.setting import Setting, declared_loads
+from geartrain.torques.statics import speed_forms
 
 __all__ = [
     "Balance",
     "Circulation",
     "Flow",
+    "Held",
+    "LeftOut",
     "Mesh",
     "Node",
     "PairTorque",
@@ -28,6 +32,7 @@ __all__ = [
     "in_watts",
     "share",
     "share_of",
+    "speed_forms",
     "trace_power",
     "watts_per_unit",
 ]

@@ -2,102 +2,85 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import cached_property
-from math import isnan
 
-from geartrain.circuits import Circuit, Tree
-from geartrain.meshes import Mesh as ToothMesh
+from geartrain.circuits import Circuit
 from geartrain.torques.balance import Balance, Mesh
 from geartrain.torques.directions import Flow, find_flows
-from geartrain.torques.judging import Question, judge
-from geartrain.torques.result import PairTorque, Torques, TorqueVerdict
+from geartrain.torques.judging import Question, judge, missing
+from geartrain.torques.losses import Means, find_means, settle_means
+from geartrain.torques.omissions import find_omissions
+from geartrain.torques.result import Held, LeftOut, PairTorque, Torques, TorqueVerdict
+from geartrain.torques.setting import Setting, declared_loads
 from geartrain.torques.sharing import find_shares, find_ties
-from geartrain.train import Case, GearPair, Train
 
 
 @dataclass(frozen=True)
-class Setting:
-    """A train in one case, solved for its speeds: everything torques need to know of it."""
+class Asked:
+    """The links whose torque is unknown.
 
-    train: Train
-    tree: Tree
-    circuits: Sequence[Circuit]
-    signs: Mapping[str, int]
-    case: Case
-    speeds: Mapping[str, Fraction]
-    teeth: Sequence[ToothMesh] = ()
+    enough     as many as the train has freedoms; with fewer the loads have to balance of themselves
+    undecided  why more are needed than it is plain which, where the loads do not
+    """
 
-    @cached_property
-    def gears(self) -> Mapping[str, GearPair]:
-        """Gear pairs by name."""
-        return {gear.name: gear for gear in self.train.gears}
-
-    @cached_property
-    def meshes(self) -> Mapping[str, ToothMesh]:
-        """Pairs with real teeth by name."""
-        return {mesh.name: mesh for mesh in self.teeth}
-
-    def sense(self, link: str) -> int:
-        """1, or -1 where the link's axis points against its parallels."""
-        return self.signs.get(link, 1)
-
-
-def declared_loads(train: Train, case: Case) -> tuple[dict[str, Fraction], str | None]:
-    """The loads of one case, N m or plain, and the link whose torque is named as unknown."""
-    state = train.states[case.state] if case.state is not None else None
-    loads = train.loads if state is None or state.loads is None else state.loads
-    solve_for = train.solve_for if state is None or state.solve_for is None else state.solve_for
-    return {link: torque.base for link, torque in loads.items()}, solve_for
+    links: tuple[str, ...]
+    enough: bool = True
+    undecided: TorqueVerdict | None = None
 
 
 def find_torques(setting: Setting) -> Torques:
     """Torques under the declared loads, or under the friction of bearings alone."""
     loads, solve_for = declared_loads(setting.train, setting.case)
-    if not loads and not any(_bearings(setting).values()):
+    if not loads and not any(map(setting.bearing, setting.train.links)):
         text = "no load is declared: give `loads` on links, negative against their turning, or `bearing` friction"
         return Torques(setting.case.state, TorqueVerdict("unloaded", text))
-    asked, verdict = _asked(setting, loads, solve_for)
+    asked = _asked(setting, loads, solve_for)
+    verdict = _still(setting, asked.links)
     return _balanced(setting, loads, asked) if verdict is None else Torques(setting.case.state, verdict)
 
 
 def drive(setting: Setting, load: str, source: str) -> Torques:
     """Torques while a resisting unit of power leaves at `load` and `source` is to drive it; bearings left out."""
-    speed = setting.speeds.get(load)
-    if not speed or not setting.speeds.get(source):
-        return Torques(setting.case.state, TorqueVerdict("still", f"'{load if not speed else source}' does not turn"))
-    return _balanced(setting, {load: -1 / speed}, (source,), bearings=False)
+    for link in (load, source):
+        if not setting.speeds.get(link):
+            why = "does not turn" if link in setting.speeds else "turns at a speed that is not determined"
+            return Torques(setting.case.state, TorqueVerdict("still", f"'{link}' {why}"))
+    asked = Asked((source,), enough=len(setting.case.inputs) == 1 and not setting.forms)
+    return _balanced(setting, {load: -1 / setting.speeds[load]}, asked, bearings=False)
 
 
-def _asked(
-    setting: Setting, loads: Mapping[str, Fraction], solve_for: str | None
-) -> tuple[tuple[str, ...], TorqueVerdict | None]:
-    """The links whose torque is unknown, as many as there are inputs, or why that is not plain."""
+def _asked(setting: Setting, loads: Mapping[str, Fraction], solve_for: str | None) -> Asked:
+    """The links whose torque is unknown: as many as there are inputs, or fewer where that is all that is plain."""
     inputs, entries = setting.case.inputs, _entries(setting)
     free = tuple(link for link in entries if link not in loads)
     needed = len(inputs)
+    if setting.forms and len(free) <= needed:
+        # what turns freely has no torque but what is declared, unless one is asked for
+        named = (solve_for,) if solve_for is not None and solve_for not in free else ()
+        return Asked((*free, *named), enough=False)
     if needed == 1 and solve_for is not None:
         free = (solve_for,)
     if len(free) == needed:
-        return free, _still(setting, free)
+        return Asked(free)
     if len(free) > needed:  # the crank, and inputs of which one has no torque
         certain, candidates = free[:1], free[1:]
     else:
         links = dict.fromkeys(output.of or name for name, output in setting.case.outputs.items())
         certain, candidates = free, tuple(link for link in links if link not in loads and link not in free)
     candidates = (solve_for,) if solve_for else candidates
-    missing = needed - len(certain)
-    if len(candidates) == missing:
-        return certain + candidates, None
+    lacking = needed - len(certain)
+    if len(candidates) == lacking:
+        return Asked(certain + candidates, enough=not setting.forms)
     loaded = ", ".join(link for link in entries if link in loads)
     why = f"{loaded} carries a load" if loaded else f"power enters at {entries[0]}, which is no input"
     text = (
-        f"{why}, so {missing} other torque{'s' if missing > 1 else ''} must be unknown, and "
+        f"{why}, so {lacking} other torque{'s' if lacking > 1 else ''} must be unknown, and "
         f"{len(candidates)} can be: name one with `solve_for`"
     )
-    return (), TorqueVerdict("undecided", text, candidates)
+    certain += candidates if len(candidates) < lacking else ()
+    return Asked(certain, False, TorqueVerdict("undecided", text, candidates))
 
 
 def _entries(setting: Setting) -> tuple[str, ...]:
@@ -111,33 +94,53 @@ def _entries(setting: Setting) -> tuple[str, ...]:
 def _still(setting: Setting, asked: tuple[str, ...]) -> TorqueVerdict | None:
     """A link at rest moves nothing; a single input at rest is a train at rest, which balances."""
     speeds = setting.speeds
-    if len(asked) == 1 and not speeds[asked[0]] and any(speeds[link] for link in setting.case.inputs):
+    if len(asked) == 1 and speeds.get(asked[0]) == 0 and any(speeds[link] for link in setting.case.inputs):
         return TorqueVerdict("still", f"'{asked[0]}' does not turn, so no torque on it does any work")
     return None
 
 
-def _balanced(
-    setting: Setting, loads: Mapping[str, Fraction], asked: tuple[str, ...], bearings: bool = True
-) -> Torques:
+def _balanced(setting: Setting, loads: Mapping[str, Fraction], asked: Asked, bearings: bool = True) -> Torques:
     rubbing = _bearings(setting) if bearings else {}
     known = dict(loads)
     for link, torque in rubbing.items():
         known[link] = known.get(link, Fraction(0)) + torque
-    balance = _balance(setting, known, asked)
+    state = setting.case.state
+    if not asked.enough and (lacking := missing(setting, known, asked.links)) is not None:
+        return Torques(state, _with_reason(asked, lacking), asked.links)
+    means = {circuit.id: find_means(setting, circuit) for circuit in setting.circuits}
+    driving = sum((torque * setting.speeds.get(link, 0) for link, torque in loads.items()), Fraction(0)) > 0
+    balance, neither = settle_means(_balance(setting, known, asked.links, means), means, driving)
     found, complete = find_flows(balance)
-    question = Question(balance, setting.speeds, loads, rubbing)
+    question = Question(balance, setting.speeds, loads, rubbing, asked.enough, setting.open)
     # all else being known, the power asked for tells the order of losses
     flows = sorted(found, key=lambda flow: (len(flow.solved.open), question.power(flow)))
-    verdict = judge(question, flows, complete)
+    idle = [name for name, x in flows[0].solved.multipliers.items() if not x] if flows else []
+    loose = flows[0].solved.loose if flows else ()
+    left_out = find_omissions(setting, means, neither, [name for name in idle if name not in loose], bearings)
+    verdict = judge(question, flows, complete, left_out)
     if not flows:
-        return Torques(setting.case.state, verdict, asked)
-    return _torques(setting, balance, flows[0], rubbing, verdict)
+        verdict = _with_reason(asked, verdict)
+        return Torques(state, verdict, asked.links, left_out=left_out)
+    return _torques(setting, balance, flows[0], rubbing, verdict, left_out)
 
 
-def _balance(setting: Setting, known: Mapping[str, Fraction], asked: tuple[str, ...]) -> Balance:
+def _with_reason(asked: Asked, lacking: TorqueVerdict) -> TorqueVerdict:
+    """Which torque might be named, before what is lacking without it; the latter alone where naming one is no help."""
+    if asked.undecided is None:
+        return lacking
+    untried = [link for link in asked.undecided.candidates if link not in asked.links]
+    if not untried and not lacking.candidates:
+        return lacking
+    text = f"{asked.undecided.text}; {lacking.text}"
+    return TorqueVerdict("undecided", text, tuple(untried) or lacking.candidates)
+
+
+def _balance(
+    setting: Setting, known: Mapping[str, Fraction], asked: tuple[str, ...], means: Mapping[str, Means]
+) -> Balance:
     case, train = setting.case, setting.train
-    meshes = tuple(_mesh(setting, circuit) for circuit in setting.circuits)
-    locks = tuple((a, b) for a, b in case.locks if a != b)
+    meshes = tuple(_mesh(setting, circuit, means[circuit.id]) for circuit in setting.circuits)
+    locks = _locks(setting)
     held = {*asked, *case.fixed, *(link for lock in locks for link in lock)}
     shares = find_shares(train, setting.circuits, {*held, *known})
     shared = {name for _, parts in shares for name in parts}
@@ -147,55 +150,43 @@ def _balance(setting: Setting, known: Mapping[str, Fraction], asked: tuple[str, 
         meshes,
         known,
         asked,
-        tuple(link for link in case.fixed if link != train.frame),
+        _brakes(setting),
         tuple(((a, setting.sense(a)), (b, setting.sense(b))) for a, b in locks),
         find_ties(setting.circuits, meshes, known, held | planets),
         shares,
     )
 
 
-def _mesh(setting: Setting, circuit: Circuit) -> Mesh:
-    """A circuit as a path of power, with what its teeth lose."""
+def _brakes(setting: Setting) -> tuple[str, ...]:
+    return tuple(link for link in setting.case.fixed if link != setting.train.frame)
+
+
+def _locks(setting: Setting) -> tuple[tuple[str, str], ...]:
+    return tuple((a, b) for a, b in setting.case.locks if a != b)
+
+
+def _mesh(setting: Setting, circuit: Circuit, means: Means) -> Mesh:
+    """A circuit as a path of power, with what its teeth lose; nothing where nobody knows which way it rolls."""
     i, j, k = circuit.i, circuit.j, circuit.carrier
     senses = (setting.sense(i), setting.sense(j), setting.sense(k))
-    relative = senses[0] * setting.speeds[i] - senses[2] * setting.speeds[k]
-    forward, backward = _efficiencies(setting, circuit)
+    relative = setting.relative(i, k) or Fraction(0)
+    forward, backward = means.given(0, driving=False)
     a, b = circuit.a, circuit.b
     if min(a, b, key=abs) < 0:  # the sign of a row is free: one for both orders of a planet and its ring
         a, b = -a, -b
     return Mesh(circuit.id, (i, j, k), senses, a, b, a * relative, forward, backward)
 
 
-def _efficiencies(setting: Setting, circuit: Circuit) -> tuple[Fraction, Fraction]:
-    """With the first wheel driving, and with the second: declared, or the mean of the teeth, or none lost."""
-    if circuit.kind != "gear":
-        return Fraction(1), Fraction(1)
-    gear = setting.gears[circuit.id]
-    if gear.efficiency is not None:
-        return gear.efficiency.forward.base, gear.efficiency.backward.base
-    tooth = setting.meshes.get(circuit.id)
-    if tooth is None or not tooth.rubs:
-        return Fraction(1), Fraction(1)
-    laws = (tooth.law, tooth.reversed)
-    ahead, back = (_mean(law.efficiency_mean()) for law in laws)
-    return (ahead, back) if tooth.driver == gear.pair[0] else (back, ahead)
-
-
-def _mean(efficiency: float) -> Fraction:
-    """A mean over teeth, to 15 digits; 0 where friction locks."""
-    return Fraction(0) if isnan(efficiency) else Fraction(f"{efficiency:.15g}")
-
-
 def _bearings(setting: Setting) -> dict[str, Fraction]:
-    """Friction of bearings against the turning of each link in its joint."""
+    """Friction of bearings against the turning of each link in its joint, where that is determined."""
     found: dict[str, Fraction] = {}
-    for link, part in setting.train.links.items():
-        if part.bearing is None or link == setting.train.frame:
+    for link in setting.train.links:
+        if not (friction := setting.bearing(link)):
             continue
         carrier = setting.tree.parent[link][0]
         own, other = setting.sense(link), setting.sense(carrier)
-        relative = own * setting.speeds[link] - other * setting.speeds.get(carrier, Fraction(0))
-        torque = part.bearing.base * ((relative > 0) - (relative < 0))
+        relative = setting.relative(link, carrier) or Fraction(0)
+        torque = friction * ((relative > 0) - (relative < 0))
         found[link] = found.get(link, Fraction(0)) - own * torque
         if carrier != setting.train.frame:
             found[carrier] = found.get(carrier, Fraction(0)) + other * torque
@@ -203,30 +194,19 @@ def _bearings(setting: Setting) -> dict[str, Fraction]:
 
 
 def _torques(
-    setting: Setting, balance: Balance, flow: Flow, rubbing: Mapping[str, Fraction], verdict: TorqueVerdict
+    setting: Setting,
+    balance: Balance,
+    flow: Flow,
+    rubbing: Mapping[str, Fraction],
+    verdict: TorqueVerdict,
+    left_out: tuple[LeftOut, ...],
 ) -> Torques:
     solved = flow.solved
     external = dict(balance.known)
     for found in (solved.external, solved.brakes):
         for link, torque in found.items():
             external[link] = external.get(link, Fraction(0)) + torque
-    pairs = {}
-    for mesh, circuit in zip(balance.meshes, setting.circuits, strict=True):
-        x = solved.multipliers[mesh.id]
-        torques = tuple(x * each for each in mesh.torques(flow.pattern.get(mesh.id, 0)))
-        ahead = ((x < 0) - (x > 0)) * mesh.turn
-        pairs[mesh.id] = PairTorque(
-            mesh.id,
-            circuit.wheels[0 if ahead > 0 else 1] if ahead else "",
-            mesh.links,
-            (torques[0], torques[1], torques[2]),
-            x,
-            mesh.rolling,
-            mesh.efficiency(ahead),
-            mesh.id in solved.loose,
-        )
-    lost = -sum((torque * setting.speeds[link] for link, torque in rubbing.items()), Fraction(0))
-    # friction of a bearing is no power from outside
+    # friction of a bearing is no power from outside; what it takes hangs on the speeds in the joints alone
     for link, torque in rubbing.items():
         external[link] -= torque
     return Torques(
@@ -235,6 +215,55 @@ def _torques(
         balance.unknown,
         {link: torque for link, torque in external.items() if torque or link in solved.external},
         setting.speeds,
-        pairs,
-        lost,
+        {
+            mesh.id: _pair(setting, mesh, circuit, flow)
+            for mesh, circuit in zip(balance.meshes, setting.circuits, strict=True)
+        },
+        _bearing_loss(setting) if rubbing else Fraction(0),
+        _held(setting, flow),
+        left_out,
     )
+
+
+def _pair(setting: Setting, mesh: Mesh, circuit: Circuit, flow: Flow) -> PairTorque:
+    x = flow.solved.multipliers[mesh.id]
+    first, second, carrier = (x * each for each in mesh.torques(flow.pattern.get(mesh.id, 0)))
+    ahead = ((x < 0) - (x > 0)) * mesh.turn
+    return PairTorque(
+        mesh.id,
+        circuit.wheels[0 if ahead > 0 else 1] if ahead else "",
+        mesh.links,
+        (first, second, carrier),
+        x,
+        mesh.rolling if setting.relative(circuit.i, circuit.carrier) is not None else None,
+        mesh.efficiency(ahead),
+        mesh.id in flow.solved.loose,
+    )
+
+
+def _bearing_loss(setting: Setting) -> Fraction:
+    """What bearings take at the speeds of their joints, where these are determined."""
+    found = Fraction(0)
+    for link in setting.train.links:
+        if friction := setting.bearing(link):
+            found += friction * abs(setting.relative(link, setting.tree.parent[link][0]) or Fraction(0))
+    return found
+
+
+def _held(setting: Setting, flow: Flow) -> tuple[Held, ...]:
+    """Brakes and locks with what they exert: on a link about its own axis, on the second of two the reaction."""
+    solved = flow.solved
+    found = []
+    for link in _brakes(setting):
+        torque = solved.brakes.get(link)
+        found.append(_holding(setting, (link,), None if torque is None else (torque,)))
+    for (a, b), torque in zip(_locks(setting), solved.locks, strict=True):
+        both = None if torque is None else (setting.sense(a) * torque, -setting.sense(b) * torque)
+        found.append(_holding(setting, (a, b), both))
+    return tuple(found)
+
+
+def _holding(setting: Setting, links: tuple[str, ...], torques: tuple[Fraction, ...] | None) -> Held:
+    case = setting.case
+    cause = case.causes.get(links, links)
+    return Held(links, torques, case.clutches.get(cause), cause if cause != links else ())

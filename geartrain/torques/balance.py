@@ -12,7 +12,10 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 
+from geartrain.blocks import Block
+from geartrain.errors import GearTrainError, Problem
 from geartrain.exact import Row
+from geartrain.torques.parting import find_parts
 
 Pattern = Mapping[str, int]
 """Mesh id -> 1 where its first link drives in the carrier's frame, -1 where the second does, 0 without loss."""
@@ -39,6 +42,12 @@ class Mesh:
     rolling: Fraction
     forward: Fraction = Fraction(1)
     backward: Fraction = Fraction(1)
+
+    def __post_init__(self) -> None:
+        """Raises `GearTrainError` for a pair that would give more than it takes."""
+        if max(self.forward, self.backward) > 1:
+            what = f"pair '{self.id}' has an efficiency of {float(max(self.forward, self.backward)):g}"
+            raise GearTrainError(Problem(what, "above 1 it would create power", "give an efficiency of at most 1"))
 
     @property
     def loses(self) -> bool:
@@ -158,6 +167,16 @@ class Balance:
         return {row: known.get(row, Fraction(0)) for row in sorted(kept)}
 
     @cached_property
+    def parts(self) -> Sequence[Block]:
+        """Blocks of rows and columns in the order in which they can be solved, the same for every pattern."""
+        held: dict[int, set[int]] = {row: set() for row in self.rows}
+        for at, column in enumerate(self.columns):
+            for piece in column.pieces.values():
+                for row in held.keys() & piece.keys():
+                    held[row].add(at)
+        return find_parts(held, len(self.columns))
+
+    @cached_property
     def _at(self) -> Mapping[str, int]:
         return {link: at for at, link in enumerate(self.links)}
 
@@ -209,6 +228,7 @@ def _row(entries: Iterable[tuple[int, Fraction]]) -> Row:
 class Solved:
     """Torques under one pattern: multipliers by mesh, external torques asked for, and on brakes and locks.
 
+    locks   by lock, the torque it exerts on its first link about the direction of the parallels; None where it is open
     loose   meshes whose torque is not determined, as between planets; they count 0
     open    links asked for or held whose external torque is not determined for that; left out
     """
@@ -216,6 +236,6 @@ class Solved:
     multipliers: Mapping[str, Fraction]
     external: Mapping[str, Fraction]
     brakes: Mapping[str, Fraction]
-    locks: tuple[Fraction, ...]
+    locks: tuple[Fraction | None, ...]
     loose: tuple[str, ...]
     open: tuple[str, ...]

@@ -17,7 +17,6 @@ from typing import TYPE_CHECKING
 from geartrain.blocks import Block
 from geartrain.exact import Row, eliminate
 from geartrain.torques.balance import Balance, Column, Pattern, Solved
-from geartrain.torques.parting import find_parts
 
 if TYPE_CHECKING:
     import numpy as np
@@ -61,15 +60,9 @@ class _Partial:
 
 def find_flows(balance: Balance) -> tuple[tuple[Flow, ...], bool]:
     """All consistent flows, and whether all patterns were tried."""
-    columns, rows = balance.columns, balance.rows
-    held: dict[int, set[int]] = {row: set() for row in rows}
-    for at, column in enumerate(columns):
-        for piece in column.pieces.values():
-            for row in held.keys() & piece.keys():
-                held[row].add(at)
-    found = _through(balance, find_parts(held, len(columns)))
+    found = _through(balance, balance.parts)
     if found is None:
-        found = _through(balance, [Block(tuple(rows), tuple(range(len(columns))))])
+        found = _through(balance, [Block(tuple(balance.rows), tuple(range(len(balance.columns))))])
     partials, complete = found or ([], True)
     return tuple(_flow(balance, each) for each in partials), complete
 
@@ -129,7 +122,7 @@ def _flow(balance: Balance, partial: _Partial) -> Flow:
             {name: value or Fraction(0) for name, value in multipliers.items()},
             {link: value for link, value in external.items() if value is not None},
             {link: value for link, value in brakes.items() if value is not None},
-            tuple(value or Fraction(0) for value in plain[unknown + held :]),
+            tuple(plain[unknown + held :]),
             tuple(name for name, value in multipliers.items() if value is None),
             tuple(link for links in (external, brakes) for link, value in links.items() if value is None),
         ),

@@ -114,7 +114,7 @@ def trace_power(train: Train, tree: Tree, signs: Mapping[str, int], found: Torqu
 
     signs   -1 for links whose axis points against its parallels
     """
-    if not found.verdict or any(pair.loose for pair in found.pairs.values()):
+    if not found.verdict or found.open_speeds or any(pair.loose or pair.power is None for pair in found.pairs.values()):
         return PowerFlow()
     (case,) = close_joints(train, tree, [train.case(found.state)])
     shafts = _shafts(case.locks)

@@ -9,24 +9,32 @@ from fractions import Fraction
 from geartrain.exact import decimal
 from geartrain.torques.balance import Balance
 from geartrain.torques.directions import Flow, find_flows
-from geartrain.torques.result import TorqueVerdict
+from geartrain.torques.result import LeftOut, TorqueVerdict
+from geartrain.torques.setting import Setting
+from geartrain.torques.statics import motions_at_work, remedy
 
 _GREAT = 10**12  # a load so many times as great makes constant friction as good as nothing
 
 
 @dataclass(frozen=True)
 class Question:
-    """A balance with what stands behind its known torques: loads, and friction of bearings."""
+    """A balance with what stands behind its known torques: loads, and friction of bearings.
+
+    enough   as many torques are unknown as the train has freedoms; else the loads must balance of themselves
+    open     links whose speed is not determined
+    """
 
     balance: Balance
     speeds: Mapping[str, Fraction]
     loads: Mapping[str, Fraction]
     rubbing: Mapping[str, Fraction]
+    enough: bool = True
+    open: tuple[str, ...] = ()
 
     @property
     def names(self) -> str:
         """The links asked for."""
-        return ", ".join(self.balance.unknown)
+        return ", ".join(self.balance.unknown) or "any link"
 
     @property
     def load(self) -> str:
@@ -36,7 +44,7 @@ class Question:
     @property
     def driving(self) -> Fraction:
         """Power that the loads put in, less what they take out."""
-        return sum((torque * self.speeds[link] for link, torque in self.loads.items()), Fraction(0))
+        return self._power(self.loads)
 
     @property
     def rubs(self) -> bool:
@@ -45,7 +53,11 @@ class Question:
 
     def power(self, flow: Flow) -> Fraction:
         """Power that the links asked for put in."""
-        return sum((torque * self.speeds[link] for link, torque in flow.solved.external.items()), Fraction(0))
+        return self._power(flow.solved.external)
+
+    def _power(self, torques: Mapping[str, Fraction]) -> Fraction:
+        """Power at the links whose speed is determined."""
+        return sum((torque * self.speeds.get(link, 0) for link, torque in torques.items()), Fraction(0))
 
     def heavily_loaded(self) -> tuple[Flow, ...]:
         """Flows where the load is so great that constant friction hardly matters."""
@@ -55,22 +67,66 @@ class Question:
         return find_flows(replace(self.balance, known=known))[0]
 
 
-def judge(question: Question, flows: Sequence[Flow], complete: bool) -> TorqueVerdict:
+def missing(setting: Setting, known: Mapping[str, Fraction], asked: Sequence[str]) -> TorqueVerdict | None:
+    """The verdict on loads that the links asked for cannot hold, losses apart; None where they can."""
+    motions = motions_at_work(setting.system, known, asked)
+    if not motions:
+        return None
+    moving = {link for motion in motions if motion.power for link in motion.speeds}
+    outputs = (output.of or name for name, output in setting.case.outputs.items())
+    borne = (link for link in setting.train.links if setting.tree.parent.get(link, ("",))[0] == setting.train.frame)
+    likely = [link for link in dict.fromkeys((*setting.case.inputs, *outputs, *borne)) if link in moving]
+    torques = {link: torque for link in likely if (torque := remedy(motions, link)) is not None}
+    helpful = {link: torque for link, torque in torques.items() if not known.get(link)}
+    amounts = [f"{decimal(torque, 6)} at {link}" for link, torque in helpful.items()] or [
+        f"{decimal(torque, 6)} more at {link}" for link, torque in torques.items()
+    ]
+    fix = f"; it would take {' or '.join(amounts[:3])}" if amounts else ""
+    held = f"with {', '.join(asked)} held still they" if asked else "they"
+    text = f"the loads do not balance: {held} set {_some(likely or sorted(moving))} turning{fix}"
+    return TorqueVerdict("unbalanced", text, tuple(helpful))
+
+
+def _some(links: Sequence[str]) -> str:
+    """Some links by name, and how many more."""
+    more = f" and {len(links) - 3} more" if links[3:] else ""
+    return ", ".join(links[:3]) + more
+
+
+def judge(question: Question, flows: Sequence[Flow], complete: bool, left_out: Sequence[LeftOut] = ()) -> TorqueVerdict:
     """The verdict on flows, the first of which is the one given: with least left open, and least lost."""
     if not flows:
         return _none(question, complete)
-    if any(flow.solved.loose for flow in flows):
-        return _open(flows)
+    but = _but(left_out)
+    if any(flow.solved.loose or flow.solved.open or None in flow.solved.locks for flow in flows):
+        verdict = _open(flows, question)
+        return replace(verdict, text=verdict.text + but)
     if len(flows) > 1:
-        return _several(question, flows)
+        verdict = _several(question, flows)
+        return replace(verdict, text=verdict.text + but)
     sure = "" if complete else "; other patterns of power flow were not tried"
     source = "the loads" if question.loads else question.load
-    return TorqueVerdict("determined", f"every torque follows from {source}{_help(question, flows[0])}{sure}")
+    free = f"; {_some(question.open)} turn freely: torques do not hang on their speeds" if question.open else ""
+    return TorqueVerdict(
+        "incomplete" if left_out else "determined",
+        f"every torque follows from {source}{but}{_help(question, flows[0])}{free}{sure}",
+    )
+
+
+def _but(left_out: Sequence[LeftOut]) -> str:
+    """What is not counted, in a few words."""
+    uncounted = [str(each) for each in left_out if each.counts]
+    if uncounted:
+        return f", but for {', '.join(uncounted)}"
+    return ", as a mean over a turn" if left_out else ""
 
 
 def _none(question: Question, complete: bool) -> TorqueVerdict:
     """Why no torques balance: shares, bearings, or teeth."""
     names = question.names
+    if not question.enough:
+        text = "the loads balance while nothing is lost, and do not with the losses: an unknown torque is lacking"
+        return TorqueVerdict("unbalanced", text)
     if shares := question.balance.shares:
         pairs = dict.fromkeys(name for _, parts in shares for name in parts)
         if find_flows(replace(question.balance, shares=()))[0]:
@@ -100,11 +156,16 @@ def _help(question: Question, flow: Flow) -> str:
     return f"; no load this way round drives the train, for its teeth lose it all: {question.names} must drive as well"
 
 
-def _open(flows: Sequence[Flow]) -> TorqueVerdict:
-    """What redundant pairs leave open."""
+def _open(flows: Sequence[Flow], question: Question) -> TorqueVerdict:
+    """What redundant pairs, brakes and locks leave open."""
     loose = tuple(dict.fromkeys(name for flow in flows for name in flow.solved.loose))
-    links = ", ".join(flows[0].solved.open)
-    also = f", nor is the torque on {links}" if links else ""
+    links = list(flows[0].solved.open)
+    locks = zip(question.balance.locks, flows[0].solved.locks, strict=True)
+    links += [f"the lock of {a} and {b}" for ((a, _), (b, _)), torque in locks if torque is None]
+    if not loose:
+        text = f"the torque on {', '.join(links)} is not determined: brakes and locks share it in no certain way"
+        return TorqueVerdict("indeterminate", text, flows[0].solved.open)
+    also = f", nor is the torque on {', '.join(links)}" if links else ""
     text = f"how {', '.join(loose)} share their load is not determined{also}: redundant pairs; `share` declares it"
     return TorqueVerdict("indeterminate", text, loose)
 

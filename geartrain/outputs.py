@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import Any
+from typing import Any, Literal
 
 from geartrain.circuits import Circuit, Tree
 from geartrain.exact import as_float, decimal, written
@@ -18,34 +18,80 @@ SpeedOf = Callable[[str], Number | None]
 
 
 @dataclass(frozen=True, slots=True)
-class TargetResult:
-    """An output against one target. Compared by magnitude; a positive error is fast.
+class Goal:
+    """What a target asks of a speed.
 
-    speed               the target's speed in the train's unit, positive
-    error               |output| / speed - 1
-    days_per_century    what the pointer gains in time, where the unit is a time
+    label    the target in words, its sense left out
+    speed    in the train's unit; positive where only the magnitude counts
+    signed   False: only the magnitude counts
+    sense    that of a name or period: "direct", "retrograde" or nothing
+    """
+
+    label: str
+    speed: Fraction
+    signed: bool
+    sense: str = ""
+
+    @property
+    def words(self) -> str:
+        """The target in words, with its sense."""
+        return f"{self.label} {self.sense}".rstrip() if self.signed else f"{self.label} in either sense"
+
+    def error(self, speed: Number) -> Number:
+        """Speed / goal - 1, positive is fast; the difference where the goal is 0."""
+        return error_against(speed, self.speed, self.signed)
+
+
+def error_against(speed: Number, wanted: Fraction, signed: bool) -> Number:
+    """Relative error of a speed, or of its magnitude; the speed itself where 0 is wanted."""
+    own = speed if signed else magnitude(speed)
+    return own / wanted - 1 if wanted else own
+
+
+@dataclass(frozen=True, slots=True)
+class TargetResult:
+    """An output against one target. A positive error is fast.
+
+    goal                the target's speed in the train's unit, and whether its sense counts
+    error               output / speed - 1, of magnitudes where the sense does not count; the output where 0 is wanted
+    days_per_century    what the pointer gains in time, where the unit is a time and the target turns
     degrees_per_unit    what the pointer gains in angle while the unit passes once
                         (both None beyond the range of float64)
     met                 within the declared tolerance; None without one
     """
 
-    label: str
-    speed: Fraction
+    goal: Goal
     error: Number
     days_per_century: float | None
     degrees_per_unit: float | None
     met: bool | None
 
     @property
+    def label(self) -> str:
+        """The target in words."""
+        return self.goal.label
+
+    @property
+    def speed(self) -> Fraction:
+        """The target's speed in the train's unit; positive where only the magnitude counts."""
+        return self.goal.speed
+
+    @property
+    def compared(self) -> Literal["speed", "magnitude", "difference"]:
+        """How: with its sense, without, or by difference from 0."""
+        return ("speed" if self.goal.signed else "magnitude") if self.speed else "difference"
+
+    @property
     def ppm(self) -> float | None:
-        """The error in parts per million; None beyond the range of float64."""
-        return near(self.error, 10**6)
+        """The error in parts per million; None where 0 is wanted, and beyond the range of floats."""
+        return near(self.error, 10**6) if self.speed else None
 
     def to_dict(self) -> dict[str, Any]:
         """Plain data for JSON."""
         return {
             "target": self.label,
             "speed": as_float(self.speed),
+            "compared": self.compared,
             "ppm": self.ppm,
             "days_per_century": self.days_per_century,
             "degrees_per_unit": self.degrees_per_unit,
@@ -193,30 +239,32 @@ def _published_holds(output: Output, speed: Number | None, ratio: Number | None)
     return published.value.holds(1 / exact if published.as_ == "input/output" else exact, bound)
 
 
-def target_speed(train: Train, target: Target) -> tuple[str, Fraction]:
-    """A target's label and its speed in the train's unit."""
+def goal_of(train: Train, target: Target) -> Goal:
+    """A target as a speed in the train's unit."""
     turns = target.turns.value
     if target.speed is not None:
-        return f"speed {target.speed}", abs(target.speed.value * turns)
+        return Goal(f"speed {target.speed}", target.speed.value * turns, True)
     if target.period is not None:
-        return f"period {target.period}", turns * (train.unit_base or Fraction(1)) / (target.period.base or Fraction(1))
-    days = train.unit_days or Fraction(1)
-    row = table()[target.name or ""]
-    label = row.name if turns == 1 else f"{turns} turns in {row.name}"
-    return label, abs(turns * (days / row.value if row.kind == "period" else row.value))
+        label, speed = f"period {target.period}", turns * (train.unit_base or Fraction(1)) / target.period.base
+    else:
+        row, days = table()[target.name or ""], train.unit_days or Fraction(1)
+        label = row.name if turns == 1 else f"{turns} turns in {row.name}"
+        speed = turns * (days / row.value if row.kind == "period" else abs(row.value))
+    if target.sense is None:
+        return Goal(label, speed, False)
+    return Goal(label, -speed if target.sense == "retrograde" else speed, True, target.sense)
 
 
 def _against(train: Train, target: Target, speed: Number) -> TargetResult:
-    label, wanted = target_speed(train, target)
-    size = magnitude(speed)
-    error = size / wanted - 1
+    goal = goal_of(train, target)
+    error = goal.error(speed)
     tolerance = target.tolerance.base if target.tolerance else None
+    ahead = (speed if goal.signed else magnitude(speed)) - goal.speed
     return TargetResult(
-        label,
-        wanted,
+        goal,
         error,
-        near(error, DAYS_PER_CENTURY) if train.unit_days is not None else None,
-        near(size - wanted, 360),
+        near(error, DAYS_PER_CENTURY) if train.unit_days is not None and goal.speed else None,
+        near(-ahead if goal.speed < 0 else ahead, 360),
         None if tolerance is None else magnitude(error) <= tolerance,
     )
 

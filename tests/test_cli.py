@@ -202,7 +202,7 @@ ANSWER = {"state", "verdict", "method", "speeds", "outputs"}
 VERDICT = {"kind", "text", "links", "fixes", "prescriptions", "loops"}
 MOBILITY = {"by_count", "by_rank", "rank", "redundant", "redundant_loops", "locked_loops", "still", "never_rolling"}
 OUTPUT = {"exact", "value", "of", "relative_to", "output/input", "expect", "published", "targets"}
-TARGET = {"target", "speed", "ppm", "days_per_century", "degrees_per_unit", "met"}
+TARGET = {"target", "speed", "compared", "ppm", "days_per_century", "degrees_per_unit", "met"}
 REPORT = {
     "closure",
     "gridlock",

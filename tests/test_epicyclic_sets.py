@@ -422,7 +422,7 @@ def test_the_search_in_a_declared_train_finds_the_same_sets(name: str, mode: str
     found = search(GearTrain.declare(data).declaration, best=10**5)
     own = find_sets(
         1 / wanted, name, mode, range(12, most + 1), tolerance=tolerance, best=10**5, spaced=False,
-        ratio_is="output/input",
+        ratio_is="output/input", sense=1,
     )  # fmt: skip
     assert found.complete
     assert found.count == own.count > 0

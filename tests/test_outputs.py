@@ -7,7 +7,7 @@ from fractions import Fraction
 
 import pytest
 
-from geartrain import GearTrain, load
+from geartrain import GearTrain, GearTrainError, load
 from geartrain.outputs import TargetResult
 
 LUNAR = """
@@ -59,10 +59,116 @@ def test_a_pointer_with_too_short_a_period_is_fast() -> None:
     assert against("{period: 27.33 d}").error > 0
 
 
-def test_targets_are_compared_by_magnitude() -> None:
-    forward, backward = against("{speed: 254/19}"), against("{speed: -254/19}")
-    assert forward.error == backward.error == 0
-    assert forward.speed == MONTHS
+def test_a_speed_is_compared_with_its_sign() -> None:
+    forward, backward = against("{speed: 254/19}"), against("{speed: -254/19}")  # the pointer is at -254/19
+    assert (forward.speed, forward.error, forward.compared) == (MONTHS, -2, "speed")
+    assert (backward.speed, backward.error, backward.compared) == (-MONTHS, 0, "speed")
+    assert against("{speed: 254/19, tolerance: 199 %}").met is False
+    assert against("{speed: -254/19, tolerance: 0}").met is True
+
+
+def test_a_period_or_a_name_is_a_magnitude_unless_a_sense_signs_it() -> None:
+    for target in ("period: 27.32 d", "name: month_tropical_J2000"):
+        either, back, ahead = (
+            against(f"{{{target}{more}}}") for more in ("", ", sense: retrograde", ", sense: direct")
+        )
+        assert either.compared == "magnitude"
+        assert back.compared == ahead.compared == "speed"
+        assert either.speed == ahead.speed == -back.speed > 0
+        assert back.error == either.error
+        assert ahead.error == -2 - either.error
+        assert back.degrees_per_unit == either.degrees_per_unit
+        assert either.to_dict()["compared"] == "magnitude"
+
+
+def test_a_retrograde_row_of_the_table_is_a_magnitude_as_all_are() -> None:
+    # the row is -12/223 turns a year
+    plain, back = (
+        against(f"{{name: lunar_nodes_per_year_saros{more}}}", unit="year_julian")
+        for more in ("", ", sense: retrograde")
+    )
+    assert (plain.speed, back.speed) == (Fraction(12, 223), Fraction(-12, 223))
+    assert plain.error == back.error
+
+
+def test_fast_is_positive_in_either_sense() -> None:
+    slow, fast = against("{speed: -14}"), against("{speed: -13}")
+    assert slow.error < 0 < fast.error
+    assert slow.degrees_per_unit == pytest.approx(360 * (254 / 19 - 14))
+    assert fast.degrees_per_unit == pytest.approx(360 * (254 / 19 - 13))
+
+
+@pytest.mark.parametrize(
+    ("tolerance", "met"), [("", None), (", tolerance: 0", False), (", tolerance: 13", False), (", tolerance: 14", True)]
+)
+def test_a_speed_of_zero_is_compared_by_difference(tolerance: str, met: bool | None) -> None:
+    for zero in ("0", "0.0", "0/7", "-0"):
+        result = against(f"{{speed: {zero}{tolerance}}}")
+        assert (result.speed, result.error, result.compared, result.met) == (0, -MONTHS, "difference", met)
+        assert result.ppm is result.days_per_century is None
+        assert result.degrees_per_unit == pytest.approx(-360 * 254 / 19)
+
+
+def test_what_stands_still_meets_a_speed_of_zero_exactly() -> None:
+    train = load(
+        LUNAR.format(target="{speed: 0, tolerance: 0}", unit="365.25 d", teeth="127").replace("ar: 1}", "ar: 0}")
+    )
+    (result,) = train.solve().outputs["moon"].targets
+    assert (result.error, result.met) == (0, True)
+    assert json.loads(json.dumps(result.to_dict(), allow_nan=False))["ppm"] is None
+
+
+@pytest.mark.parametrize(
+    ("target", "said"),
+    [
+        ("{period: 0 d}", "a period of 0 d is none"),
+        ("{period: 0}", "a period of 0 is none"),
+        ("{period: -27 d}", "a period of -27 d is none"),
+        ("{period: 27 d, turns: 0}", "0 turns show no period"),
+        ("{name: month_synodic_J2000, turns: -4}", "-4 turns show no period"),
+        ("{speed: 3, turns: 0}", "0 turns show no period"),
+        ("{speed: 3, sense: direct}", "has a sign, and `sense` gives it another"),
+        ("{period: 27 d, sense: backwards}", "is none of the words known here"),
+        ("{speed: 0, tolerance: 20 ppm}", "20 ppm of a speed of 0 is 0"),
+        ("{speed: 0, tolerance: 1 %}", "1 % of a speed of 0 is 0"),
+        ("{period: 27 d, tolerance: -20 ppm}", "a tolerance of -20 ppm is met by nothing"),
+    ],
+)
+def test_targets_that_no_pointer_could_show_are_refused_in_four_parts(target: str, said: str) -> None:
+    with pytest.raises(GearTrainError) as caught:
+        lunar(target)
+    (problem,) = caught.value.problems
+    assert said in problem.what
+    assert problem.place
+    assert problem.fix
+
+
+@pytest.mark.parametrize(
+    ("output", "said"),
+    [
+        ("published: {value: 0, as: input/output}", "an input over an output of 0 is no motion"),
+        ("published: {value: 0/5, as: input/output, tolerance: 0}", "an input over an output of 0 is no motion"),
+        ("published: {value: 1, tolerance: -1}", "a tolerance of -1 is met by nothing"),
+        ("expect: {value: 1, tolerance: -0.5}", "a tolerance of -0.5 is met by nothing"),
+    ],
+)
+def test_figures_that_nothing_could_meet_are_refused(output: str, said: str) -> None:
+    with pytest.raises(GearTrainError, match=said):
+        load(LUNAR.format(target="", unit="1 d", teeth="127").replace("apart: {}", f"apart: {{{output}}}"))
+
+
+def test_a_pointer_that_stands_still_is_published_as_a_ratio_of_zero() -> None:
+    text = LUNAR.format(target="", unit="1 d", teeth="127").replace("{relative_to: x}", "")
+    text = (
+        text.replace("  apart: {}\n", "") + "  apart: {relative_to: apart, published: {value: 0, as: output/input}}\n"
+    )
+    assert load(text).solve().outputs["apart"].published_holds is True
+
+
+@pytest.mark.parametrize("unit", ["0 d", "0", "-7 d", "0 ft", "-1 h", "0/3 d"])
+def test_a_unit_takes_some_time_or_way(unit: str) -> None:
+    with pytest.raises(GearTrainError, match=f"'{unit}' is no unit"):
+        lunar("{speed: 1}", unit=unit)
 
 
 def test_drift_is_days_in_a_century_and_degrees_in_a_unit() -> None:
@@ -121,7 +227,7 @@ def test_an_undetermined_output_has_no_speed_and_no_error() -> None:
 
 
 def test_a_target_of_no_speed_is_no_crash() -> None:
-    answer = lunar("{speed: 1/1000000}").solve()
+    answer = lunar("{speed: -1/1000000}").solve()
     assert answer.outputs["moon"].targets[0].error > 10**6
 
 

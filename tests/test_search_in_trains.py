@@ -64,11 +64,21 @@ def chain(bounds: Sequence[tuple[int, int]], output: Data) -> Data:
 
 
 def target(speed: object, tolerance: object = None) -> Data:
+    """A speed in either sense, as a period is one; all trains here count in turns a day."""
+    period = {"period": f"{1 / Fraction(str(speed))} d"}
+    return {"targets": [period | ({} if tolerance is None else {"tolerance": str(tolerance)})]}
+
+
+def signed(speed: object, tolerance: object = None) -> Data:
     return {"targets": [{"speed": str(speed)} | ({} if tolerance is None else {"tolerance": str(tolerance)})]}
 
 
+def declare(data: Data) -> GearTrain:
+    return GearTrain.declare({"unit": {"per": "1 d"}} | {key: part for key, part in data.items() if key != "extends"})
+
+
 def find(data: Data, **options: Any) -> TrainFindings:
-    return search(GearTrain.declare(data).declaration, **options)
+    return search(declare(data).declaration, **options)
 
 
 def boxes(data: Data) -> dict[str, range]:
@@ -105,6 +115,8 @@ def errors_by_solving(
             return None
         if not asked and result.targets and (tolerance is not None or not figures):
             asked = [result.targets[0]]
+            if asked[0].compared == "speed" and result.speed * asked[0].speed < 0:
+                return None  # as near as may be is on the side asked for
             if tolerance is not None and abs(Fraction(asked[0].error)) > tolerance:
                 return None
         assert isinstance(result.speed, Fraction)
@@ -116,7 +128,7 @@ def errors_by_solving(
 
 def by_solving(data: Data, tolerance: Fraction | None = None) -> list[tuple[Teeth, Fraction]]:
     """All solutions with their errors, in the order of the box."""
-    declared = GearTrain.declare(data).declaration
+    declared = declare(data).declaration
     judged = ((teeth, errors_by_solving(declared, teeth, tolerance)) for teeth in assignments(data))
     return [(teeth, error) for teeth, error in judged if error is not None]
 
@@ -311,7 +323,7 @@ def test_a_differential_of_two_groups_is_the_mean_of_two_trains(output: Data) ->
     assert found.count == len(truth) > 0
     assert sorted(tuple(one.values()) for one in listed(found)) == sorted(truth)
     assert tallies_add_up(found)
-    assert errors_by_solving(GearTrain.declare(data).declaration, listed(found)[0], None) == found.solutions[0].error
+    assert errors_by_solving(declare(data).declaration, listed(found)[0], None) == found.solutions[0].error
 
 
 def by_solving_arm(data: Data, output: Data) -> list[tuple[int, ...]]:
@@ -437,16 +449,18 @@ def test_a_train_that_no_counts_let_turn_is_refused() -> None:
         {"expect": {"value": "-1/3", "tolerance": "1/50"}},
         {"published": {"value": "-3.0", "as": "input/output"}},
         {"published": {"value": "-0.3", "as": "output/input", "tolerance": "0.01"}},
-        {"targets": [{"speed": "0.33", "tolerance": "1/50"}, {"speed": "0.3", "tolerance": "1/10"}]},
-        {"targets": [{"speed": "0.33"}, {"speed": "0.3"}], "expect": "-0.33"},
+        {"targets": [{"speed": "-0.33", "tolerance": "1/50"}, {"speed": "-0.3", "tolerance": "1/10"}]},
+        {"targets": [{"speed": "0.33", "tolerance": "1/50"}]},
+        {"targets": [{"speed": "-0.33"}, {"speed": "-0.3"}], "expect": "-0.33"},
+        {"targets": [{"speed": "0", "tolerance": "0.4"}]},
         {"targets": [{"period": "3 d", "tolerance": "1 %"}]},
+        {"targets": [{"period": "3 d", "tolerance": "1 %", "sense": "retrograde"}]},
+        {"targets": [{"period": "3 d", "tolerance": "1 %", "sense": "direct"}]},
     ],
 )
 @pytest.mark.parametrize("tolerance", [None, Fraction(1, 100)])
 def test_every_kind_of_demand_means_what_the_solver_means(output: Data, tolerance: Fraction | None) -> None:
     data = train([("A", "a", "B", "b")], {"a": free(8, 18), "b": free(24, 48)}, {"B": output})
-    if "period" in str(output):
-        data["unit"] = {"per": "1 d"}
     truth = by_solving(data, tolerance)
     found = find(data, tolerance=tolerance, best=1000)
     assert found.count == len(truth)
@@ -503,7 +517,7 @@ def test_without_a_tolerance_the_best_are_proved(best: int) -> None:
 
 
 def by_hand(data: Data) -> list[tuple[Teeth, Fraction]]:
-    wanted = Fraction(data["outputs"]["L2"]["targets"][0]["speed"])
+    wanted = 1 / Fraction(data["outputs"]["L2"]["targets"][0]["period"].split()[0])
     return [
         (teeth, abs(Fraction(teeth["a0"] * teeth["a1"], teeth["b0"] * teeth["b1"]) / wanted - 1))
         for teeth in assignments(data)
@@ -558,9 +572,9 @@ def test_an_empty_result_says_where_assignments_went_and_what_comes_nearest() ->
     shortfall = part.shortfall
     assert part.count == 0
     assert part.complete
-    assert shortfall.removed == {"L1: speed 254/19 within 0.0001": 66 * 66}
+    assert shortfall.removed == {"L1: period 19/254 d in either sense within 0.0001": 66 * 66}
     nearest = min(abs(Fraction(19 * a, 254 * b) - 1) for a in range(15, 81) for b in range(15, 81))
-    assert "a0 80, b0 15: L1 misses speed 254/19" in shortfall.nearest
+    assert "a0 80, b0 15: L1 misses period 19/254 d in either sense" in shortfall.nearest
     assert abs(Fraction(19 * 80, 254 * 15) - 1) == nearest
     assert shortfall.advice == "with a relative tolerance of 0.61 this one is in"
     again = find(chain([(15, 80)] * 2, target("254/19", "0.61")))
@@ -630,7 +644,7 @@ def test_each_of_two_outputs_says_how_near_it_comes_alone() -> None:
 
 
 def test_demands_that_contradict_each_other_leave_nothing() -> None:
-    output = {"targets": [{"speed": "1/2", "tolerance": "1/100"}, {"speed": "1/3", "tolerance": "1/100"}]}
+    output = {"targets": [{"period": "2 d", "tolerance": "1/100"}, {"period": "3 d", "tolerance": "1/100"}]}
     found = find(chain([(15, 40)] * 2, output))
     assert found.count == 0
     assert tallies_add_up(found)
@@ -653,7 +667,7 @@ def test_an_assignment_stands_where_brute_force_puts_it() -> None:
     (far,) = found.standing(truth[-1][0])
     assert not far.is_solution
     assert far.rank is None
-    assert "speed 0.3183 within 0.01" in far.refused[0]
+    assert "period 10000/3183 d in either sense within 0.01" in far.refused[0]
     (outside,) = found.standing({"a0": 11, "b0": 23, "a1": 12, "b1": 99})
     assert "'b1' is not to have 99 teeth" in outside.refused
     with pytest.raises(QuestionError, match="no part as a whole"):
@@ -701,7 +715,7 @@ def test_every_wheel_of_a_reconstruction_may_be_free_at_once() -> None:
     assert found.considered > 10**30
     assert all(part.solutions[0].changed == () for part in found.parts)  # the reconstruction itself
     assert tallies_add_up(found)
-    declared = GearTrain.declare(data).declaration
+    declared = declare(data).declaration
     for one in found.solutions:
         assert all(result.holds for result in GearTrain(with_counts(declared, one.teeth)).solve().outputs.values())
 
@@ -733,7 +747,7 @@ def test_the_twelve_wheels_of_an_eight_speed_gearbox_follow_from_its_published_r
             wheel["teeth"] = {"value": count, "search": [count * 9 // 10, count * 11 // 10]}
     for state in data["states"].values():
         state["outputs"]["OUT"].pop("expect", None)
-    declared = GearTrain.declare(data).declaration
+    declared = declare(data).declaration
     found = search(declared, rules=Rules(coaxial=True), best=100, by="change")
     assert found.complete
     assert found.considered > 10**12
@@ -932,7 +946,7 @@ def questions(draw: st.DrawFn) -> tuple[Data, Fraction | None, By, int]:
     assume(named)
     chosen = draw(st.lists(st.sampled_from(sorted(named)), min_size=1, max_size=3, unique=True))
     bounds = {wheel: (max(1, named[wheel] - draw(st.integers(0, 2))), named[wheel] + 2) for wheel in chosen}
-    answer = GearTrain.declare(data).solve()
+    answer = declare(data).solve()
     assume(answer.verdict)
     links = [link for link in data["links"] if link != "frame"]
     asked = draw(st.lists(st.sampled_from(links), min_size=1, max_size=3, unique=True))
@@ -958,6 +972,10 @@ def asked_of(speed: Fraction) -> st.SearchStrategy[Data]:
         share.map(lambda tolerance: target(abs(speed), tolerance)),
         share.map(lambda tolerance: target(abs(speed) * Fraction(103, 100), tolerance)),
         st.just(target(abs(speed) * Fraction(103, 100))),
+        share.map(lambda tolerance: signed(speed * Fraction(103, 100), tolerance)),
+        share.map(lambda tolerance: signed(-speed, tolerance)),
+        st.just(signed(speed * Fraction(103, 100))),
+        st.sampled_from(["0.5", "4"]).map(lambda tolerance: signed(0, tolerance)),
     )
 
 
@@ -965,7 +983,7 @@ def asked_of(speed: Fraction) -> st.SearchStrategy[Data]:
 @given(questions())
 def test_any_search_finds_what_trying_everything_finds(question: tuple[Data, Fraction | None, By, int]) -> None:
     data, tolerance, by, best = question
-    declared = GearTrain.declare(data).declaration
+    declared = declare(data).declaration
     formulas = find_formulas(declared, None, boxes(data))
     assume(any(formula.wheels for formula in formulas.outputs.values()))
     assume(all(condition.wheels for condition in formulas.conditions))

@@ -40,7 +40,7 @@ CHAIN: dict[str, Any] = {
     "gears": [{"pair": ["a1", "b1"]}, {"pair": ["b2", "c1"]}],
     "inputs": {"a": 1},
     "outputs": {
-        "b": {"targets": [{"speed": "1/3", "tolerance": "3 %"}]},
+        "b": {"targets": [{"speed": "-1/3", "tolerance": "3 %"}]},
         "c": {"targets": [{"speed": "1/9", "tolerance": "4 %"}]},
     },
 }
@@ -76,7 +76,7 @@ LOOP: dict[str, Any] = {  # both ways from a to d must have one ratio, or nothin
     "revolutes": [{"pair": ["frame", link], "axis": link.upper()} for link in "abcd"],
     "gears": [{"pair": ["a1", "b1"]}, {"pair": ["b1", "d1"]}, {"pair": ["a2", "c1"]}, {"pair": ["c1", "d2"]}],
     "inputs": {"a": 1},
-    "outputs": {"b": {"targets": [{"speed": "1/2", "tolerance": "6 %"}]}},
+    "outputs": {"b": {"targets": [{"speed": "-1/2", "tolerance": "6 %"}]}},
 }
 TRAINS = {"chain": CHAIN, "planetary": PLANETARY, "loop": LOOP}
 
@@ -128,7 +128,7 @@ def misfit_of(data: Mapping[str, Any], speeds: Mapping[str, Fraction]) -> list[F
             target = output["targets"][0]
             wanted = Fraction(target["speed"])
             share = Fraction(target["tolerance"].split()[0]) / 100
-            found.append((abs(speeds[name]) - wanted) / (share * wanted))
+            found.append((speeds[name] - wanted) / (share * wanted))
         else:
             wanted, half = (Fraction(str(output["expect"][key])) for key in ("value", "tolerance"))
             found.append((speeds[name] - wanted) / half)
@@ -217,7 +217,7 @@ def trains(draw: Callable[..., Any]) -> dict[str, Any]:
     ratio = Fraction(1)
     for at in range(pairs):
         driver, driven = draw(st.integers(10, 60)), draw(st.integers(10, 60))
-        ratio *= Fraction(driver, driven)
+        ratio *= Fraction(-driver, driven)
         links[f"l{at}"]["wheels"][f"t{at}"] = {"teeth": draw(doubt(driver))}
         links[f"l{at + 1}"] = {"wheels": {f"u{at}": {"teeth": draw(doubt(driven))}}}
         if at == pairs - 1 or draw(st.booleans()):
@@ -276,7 +276,7 @@ def test_the_ends_of_a_tolerance_are_within_it_and_nothing_beyond_is() -> None:
     """23/70 against 1/3 is off by 1/70 of it: no float tells that from 1/70 less a 10^-30th."""
     for share, fits in (("1/70", True), (str(Fraction(1, 70) - Fraction(1, 10**30)), False)):
         data = with_teeth(CHAIN, {"b2": 30, "c1": 90})
-        data["outputs"] = {"b": {"targets": [{"speed": "1/3", "tolerance": share}]}}
+        data["outputs"] = {"b": {"targets": [{"speed": "-1/3", "tolerance": share}]}}
         for method in ("enumerate", "decompose"):
             found = run(data, method=method, free={"a1": [23], "b1": [70, 80]})
             assert found.evidence.value == (Fraction(1, 2) if fits else 0)
@@ -364,8 +364,9 @@ def test_an_output_that_is_free_for_some_counts_has_no_shares_and_does_not_fit_t
             {"pair": ["carrier", "planet"], "axis": "planet"},
         ],
         "gears": [{"pair": ["held", "p1"]}, {"pair": ["p2", "s"]}],
+        "unit": {"per": "1 d"},
         "inputs": {"sun": 1},
-        "outputs": {"carrier": {"targets": [{"speed": 20, "tolerance": "60 %"}]}},
+        "outputs": {"carrier": {"targets": [{"period": "1/20 d", "tolerance": "60 %"}]}},
     }
     for method in ("enumerate", "decompose"):
         found = run(data, method=method)

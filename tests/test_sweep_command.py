@@ -21,7 +21,7 @@ revolutes: [{pair: [frame, a], axis: A}, {pair: [frame, b], axis: B}]
 gears: [{pair: [w, v]}]
 inputs: {a: 1}
 outputs:
-  b: {targets: [{speed: 1/3, tolerance: 4 %}]}
+  b: {targets: [{speed: -1/3, tolerance: 4 %}]}
 """
 FITS = {
     (w, v) for w in range(18, 23) for v in (58, 60, 62) if abs(Fraction(w, v) / Fraction(1, 3) - 1) <= Fraction(4, 100)

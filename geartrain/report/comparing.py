@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 from geartrain.analysis import GearTrain
 from geartrain.answer import Answer
+from geartrain.outputs import TargetResult
 from geartrain.report.document import Document, Exact, Section, Table, exact, figure, ppm
 
 
@@ -32,7 +33,7 @@ def compare_trains(trains: Sequence[GearTrain], everything: bool = False) -> Doc
         sections.append(
             Section(
                 "Error against the targets in ppm",
-                ("By magnitude; positive is fast.",),
+                ("Positive is fast. By magnitude, either sense of rotation meets the target.",),
                 (Table(("output and target", *header[1:]), targets),),
             )
         )
@@ -68,21 +69,26 @@ def _speed(answer: Answer, name: str) -> str:
 
 
 def _targets(columns: Sequence[tuple[str, GearTrain, Answer]]) -> list[tuple[str, ...]]:
-    labels = dict.fromkeys(
-        (name, target.label)
-        for _, _, answer in columns
-        for name, result in answer.outputs.items()
-        for target in result.targets
-    )
+    labels: dict[tuple[str, str], str] = {}
+    for _, _, answer in columns:
+        for name, found in answer.outputs.items():
+            for target in found.targets:
+                how = labels.setdefault((name, target.label), "")
+                labels[name, target.label] = how if target.goal.signed else " (magnitude)"
     rows = []
-    for name, label in labels:
+    for (name, label), how in labels.items():
         cells = []
         for _, _, answer in columns:
             result = answer.outputs.get(name)
-            found = [target for target in result.targets if target.label == label] if result else []
-            cells.append(ppm(found[0].ppm) if found else "")
-        rows.append((f"{name}: {label}", *cells))
+            same = [target for target in result.targets if target.label == label] if result else []
+            cells.append(_error(same[0]) if same else "")
+        rows.append((f"{name}: {label}{how}", *cells))
     return rows
+
+
+def _error(target: TargetResult) -> str:
+    """In ppm, or as a difference where 0 is wanted."""
+    return ppm(target.ppm) if target.speed else f"off by {figure(target.error, 7)}"
 
 
 def _teeth(trains: Sequence[GearTrain]) -> list[tuple[str, ...]]:

@@ -57,6 +57,7 @@ def answer_sections(train: GearTrain, answer: Answer) -> Iterator[Section]:
             name,
             target.label,
             figure(target.speed, 10),
+            _COMPARED[target.compared],
             ppm(target.ppm),
             _signed(target.days_per_century),
             _signed(target.degrees_per_unit),
@@ -66,10 +67,16 @@ def answer_sections(train: GearTrain, answer: Answer) -> Iterator[Section]:
         for target in result.targets
     ]
     if targets:
-        header = ("output", "target", "target speed", "error ppm", "days a century", "degrees a unit", "within")
+        header = ("output", "target", "target speed", "by", "error ppm", "days a century", "degrees a unit", "within")
         used = len(header) if any(row[-1] for row in targets) else -1
         table = Table(header[:used], [row[:used] for row in targets])
-        yield Section(_title(head, "against the targets"), ("By magnitude; a positive error is fast.",), (table,))
+        said = ["A positive error is fast."]
+        if any(row[3] == "magnitude" for row in targets):
+            said.append("By magnitude: the target has no `sense`, so that either sense of rotation meets it.")
+        yield Section(_title(head, "against the targets"), tuple(said), (table,))
+
+
+_COMPARED = {"speed": "sense too", "magnitude": "magnitude", "difference": "difference"}
 
 
 def _title(head: str, words: str) -> str:

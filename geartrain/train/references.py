@@ -362,6 +362,13 @@ def _units(train: Train) -> Iterator[Problem]:
             "name a row of kind period",
             train.place("unit"),
         )
+    elif train.unit_quantity is not None and train.unit_quantity.value <= 0:
+        yield Problem(
+            f"'{train.unit_quantity}' is no unit",
+            "a speed of 1 is one turn per that, and it must take something",
+            "give a time or a length above 0",
+            train.place("unit"),
+        )
     plain: list[Loc] = []
     named: list[Loc] = []
     for label, axis in train.axes.items():

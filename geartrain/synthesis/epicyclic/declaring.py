@@ -25,7 +25,8 @@ def declare(
     """A train as plain data, with one planet (or one pair in mesh), driven at 1.
 
     teeth   of every wheel: a count, or the bounds (lowest, highest) within which it is to be found
-    wanted  magnitude of the ratio, which the output gets as its target; `tolerance` relative
+    wanted  the ratio, negative for an output that turns against the input, which the output gets as its target;
+            `tolerance` relative
 
     Raises `QuestionError` for wheels it does not have or lacks.
     """

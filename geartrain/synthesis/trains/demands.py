@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 
 from geartrain.exact import decimal
-from geartrain.outputs import target_speed
+from geartrain.outputs import Goal, error_against, goal_of
 from geartrain.quantity import Figure
 from geartrain.synthesis.trains.assignments import Reached
 from geartrain.synthesis.trains.bundles import Asked, Function, Interval, WheelTerm
@@ -21,8 +21,10 @@ class Demand:
     label      in words, such as "period 583.92 d" or "expect 2/7"
     wanted     the speed asked for, in the train's unit; positive where only the magnitude counts
     signed     False: only the magnitude counts
-    allowed    the speeds that are in order, closed and apart; None: all, the nearer the better
+    allowed    the speeds that are in order, closed and apart; None: all
     graded     True if the output's error is counted from it
+    approached True if no tolerance is stated: the nearer the better
+    target     True for what the sky does, False for what is expected or printed
     """
 
     label: str
@@ -30,12 +32,28 @@ class Demand:
     signed: bool
     allowed: tuple[Interval, ...] | None
     graded: bool
+    approached: bool = False
+    target: bool = False
+
+    @classmethod
+    def of(cls, goal: Goal, share: Fraction | None) -> Demand:
+        """What a target demands, within a share of it or as near as may be."""
+        said = "" if share is None else f" within {decimal(share, 3)}"
+        demand = cls(goal.words + said, goal.speed, goal.signed, None, True, True, True)
+        if share is None:
+            return demand.loosened()
+        return replace(demand, allowed=demand.within(share), approached=False)
+
+    def loosened(self) -> Demand:
+        """The same, to be come near to: with nothing asked of a speed but its sense."""
+        allowed: tuple[Interval, ...] | None = None
+        if self.signed and self.wanted:
+            allowed = ((Fraction(0), None),) if self.wanted > 0 else ((None, Fraction(0)),)
+        return replace(self, allowed=allowed, approached=True)
 
     def error(self, speed: Fraction) -> Fraction:
         """Relative error; the speed itself where 0 is wanted."""
-        if not self.wanted:
-            return speed
-        return (speed if self.signed else abs(speed)) / self.wanted - 1
+        return Fraction(error_against(speed, self.wanted, self.signed))
 
     def within(self, share: Fraction | None) -> tuple[Interval, ...] | None:
         """The allowed speeds, for a graded demand no further off than a share of what is wanted."""
@@ -93,7 +111,7 @@ class Asking:
     @property
     def approached(self) -> bool:
         """True if a target without a tolerance is to be approached."""
-        return any(demand.allowed is None for demand in self.demands)
+        return any(demand.approached for demand in self.demands)
 
     @property
     def exact(self) -> bool:
@@ -148,10 +166,7 @@ def _demands(train: Train, output: Output, drive: Fraction | None, tolerance: Fr
     if output.published is not None:
         yield from _printed(output.published, drive, not asked)
     for target in asked:
-        label, wanted = target_speed(train, target)
-        share = tolerance if target.tolerance is None else target.tolerance.base
-        said = "" if share is None else f" within {decimal(share, 3)}"
-        yield Demand(label + said, wanted, False, None if share is None else _magnitudes(wanted, share), True)
+        yield Demand.of(goal_of(train, target), tolerance if target.tolerance is None else target.tolerance.base)
 
 
 def _half(value: Figure, tolerance: Figure | None) -> Fraction:

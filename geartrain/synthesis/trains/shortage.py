@@ -9,7 +9,7 @@ from math import ceil, floor
 
 from geartrain.exact import decimal, log10
 from geartrain.synthesis.result import Shortfall
-from geartrain.synthesis.trains.bundles import WheelTerm
+from geartrain.synthesis.trains.bundles import Interval, WheelTerm
 from geartrain.synthesis.trains.demands import Asking
 from geartrain.synthesis.trains.findings import Assignment
 from geartrain.synthesis.trains.passes import Passed, Search, size_of
@@ -57,8 +57,14 @@ def _turns_wrong(asking: Asking) -> bool:
     if asked is None or not all(senses):
         return False
     lasting = senses[0] * senses[1]
-    ends = [high if lasting > 0 else low for low, high in asked.intervals]
-    return bool(ends) and all(end is not None and end * lasting < 0 for end in ends)
+    return bool(asked.intervals) and all(_against(interval, lasting) for interval in asked.intervals)
+
+
+def _against(interval: Interval, sense: int) -> bool:
+    """True if an interval has speeds of the other sense, and none of this one."""
+    low, high = interval
+    near, far = (high, low) if sense > 0 else (low, high)
+    return near is not None and near * sense <= 0 and far != 0
 
 
 def _sense(terms: Sequence[WheelTerm]) -> int:

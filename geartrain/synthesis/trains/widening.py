@@ -110,7 +110,7 @@ def _top(search: Search) -> Fraction:
 def softened(search: Search) -> Search:
     """The same search with every graded demand approached: what comes nearest."""
     askings = tuple(
-        replace(asking, demands=tuple(replace(one, allowed=None) if one.graded else one for one in asking.demands))
+        replace(asking, demands=tuple(one.loosened() if one.graded else one for one in asking.demands))
         for asking in search.part.askings
     )
     part = replace(search.part, askings=askings)

@@ -129,8 +129,11 @@ def claims_of(demands: Sequence[Demand], kind: Kind, factor: Fraction = Fraction
 
 def _claims(demands: Sequence[Demand], kind: Kind) -> Iterator[Claim]:
     for demand in demands:
-        wanted_kind: Kind = "figures" if demand.signed else "targets"
-        if demand.allowed is None or kind not in ("all", wanted_kind):
+        if (
+            demand.allowed is None
+            or demand.approached
+            or kind not in ("all", "targets" if demand.target else "figures")
+        ):
             continue
         intervals = demand.allowed
         if not demand.signed:

@@ -41,14 +41,14 @@ class _Axis:
     unsure: float
     sense: Whole
     place: Whole | None
-    error: float
+    error: Fraction
 
 
 @collector_paused()
 def place(train: Train, tree: Tree, circuits: Sequence[Circuit]) -> Contacts:
     """The contacts of all gear pairs, in the pose in which moving axes are declared."""
     axes = _axes(train)
-    plain = _Axis(_Z, 0.0, _Z, None, 0.0)
+    plain = _Axis(_Z, 0.0, _Z, None, Fraction(0))
     placed: list[Circuit] = []
     ways: list[tuple[Whole, Whole]] = []
     senses: list[tuple[Whole, Whole]] = []
@@ -107,10 +107,10 @@ def _axes(train: Train) -> dict[str, _Axis]:
         if key not in known:
             known[key] = _direction(axis.direction, senses)
         way, unsure, sense = known[key]
-        place, error = None, 0.0
+        place, error = None, Fraction(0)
         if axis.position:
             x, y, z = (part.numerator * (unit // part.denominator) for part in points[label])
-            place, error = (x, y, z), unit * math.hypot(*map(_half, axis.position))
+            place, error = (x, y, z), unit * Fraction(math.hypot(*map(_half, axis.position)))
         found[label] = _Axis(way, unsure, sense, place, error)
     return found
 
@@ -169,8 +169,8 @@ def _side_by_side(first: _Axis, second: _Axis, internal: Sequence[bool]) -> _Con
     if not any(way):
         return "its axes are one"
     # _across lengthens by the square of the sense
-    length = math.sqrt(_dot(way, way)) / _dot(first.sense, first.sense)
-    rounded = _turns((first.error + second.error) / length)
+    length = _norm(way) / _dot(first.sense, first.sense)
+    rounded = _turns(float((first.error + second.error) / length))
     back = _minus((0, 0, 0), way)
     return back if internal[1] else way, way if internal[0] else back, rounded, 4 * EPS
 
@@ -179,15 +179,19 @@ def _through_a_point(first: _Axis, second: _Axis, facing: Sequence[int]) -> _Con
     """Axes through one point: towards the side to which the mate's cone opens."""
     if first.place is not None and second.place is not None:
         apart = _dot(_minus(second.place, first.place), _cross(first.way, second.way))
-        reach = math.sqrt(_dot(_minus(second.place, first.place), _minus(second.place, first.place)))
-        if abs(apart) > (first.error + second.error + reach * (first.unsure + second.unsure)) * math.sqrt(
-            _dot(first.way, first.way) * _dot(second.way, second.way)
-        ):
+        reach = _norm(_minus(second.place, first.place))
+        slack = first.error + second.error + reach * Fraction(first.unsure + second.unsure)
+        if abs(apart) > slack * _norm(first.way) * _norm(second.way):
             return "its axes do not meet"
     n, m = ((f * a.way[0], f * a.way[1], f * a.way[2]) for a, f in ((first, facing[0]), (second, facing[1])))
-    cross = math.sqrt(_dot(_cross(n, m), _cross(n, m)) / (_dot(n, n) * _dot(m, m)))
+    cross = float(_norm(_cross(n, m)) / (_norm(n) * _norm(m)))
     rounded = _turns((first.unsure + second.unsure) / cross)
     return _across(m, first.way), _across(n, second.way), rounded, 16 * EPS / cross
+
+
+def _norm(vector: Whole) -> Fraction:
+    """Length of a vector to 64 bits and more; its numbers may have hundreds of digits."""
+    return Fraction(math.isqrt(_dot(vector, vector) << 128), 1 << 64)
 
 
 def _turns(sine: float) -> float:

@@ -90,7 +90,7 @@ def _parent(name: str, folder: Path, place: str) -> Path:
         raise DeclarationError(
             Problem("`extends` names nothing", "it is the file or shipped train to change", "name one", place)
         )
-    if (folder / name).is_file():
+    if _exists(folder / name):
         return folder / name
     if name in shipped():
         return shipped()[name]
@@ -105,9 +105,17 @@ def _parent(name: str, folder: Path, place: str) -> Path:
     )
 
 
+def _exists(path: Path) -> bool:
+    """True if something is there; a name that no file can have is none."""
+    try:
+        return path.exists()
+    except (OSError, ValueError):
+        return False
+
+
 def _find(source: str | Path) -> Path:
     path = Path(source)
-    if path.exists():
+    if _exists(path):
         return path
     if str(source) in shipped():
         return shipped()[str(source)]

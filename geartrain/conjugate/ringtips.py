@@ -16,7 +16,8 @@ def tip_gap(path: Path) -> float:
     """Angle (rad of the ring) between the tip of a pinion's tooth and that of the ring's it has driven.
 
     Taken where the pinion's tip, the faster, leaves the ring's tip circle; negative where it would have run into the
-    ring's tooth. Infinite for any pair but a spur pinion in a ring with parted tip circles that cross.
+    ring's tooth; where it never leaves, on the far side, where the teeth have slipped by half their difference.
+    Infinite for any pair but a spur pinion in a ring with parted tip circles.
     """
     pitch = path.pitch
     if pitch.bevel or pitch.R2 > 0:
@@ -27,9 +28,9 @@ def tip_gap(path: Path) -> float:
         for flank, X, R in ((path.flank1, path.arcs[1], -pitch.R1), (path.flank2, -path.arcs[0], pitch.R2))
     )
     cosine = (r2 * r2 - r1 * r1 - a * a) / (2 * a * r1) if a > 0 else 2.0
-    if abs(cosine) >= 1:
+    if cosine >= 1:
         return inf
-    crossing = acos(cosine)
+    crossing = acos(max(cosine, -1.0))
     X = pitch.R1 * (crossing - start1)
     return start2 - X / pitch.R2 - atan2(r1 * sin(crossing), a + r1 * cos(crossing))
 

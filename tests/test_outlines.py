@@ -42,7 +42,7 @@ OPTIONS: dict[str, tuple[object, ...]] = {
 def written(form: str, wheel: int, to: File, *more: object) -> list[Points]:
     """The contours of the file that the command writes."""
     pair = () if "--teeth" in more else PAIR
-    done = call("mesh", form, *pair, *OPTIONS.get(form, ()), "--profile", to, "--wheel", wheel, *more)
+    done = call("mesh", form, *pair, *OPTIONS.get(form, ()), "--profile", to, "--wheel", wheel, "--force", *more)
     assert done.exit_code == 0, done.output
     return {".svg": from_svg, ".dxf": from_dxf, ".csv": from_csv}[to.suffix](to)
 

@@ -38,7 +38,7 @@ def run(
     thickness: Annotated[Size, typer.Option("--thickness", help="Of wheels and plates, such as 2mm.")] = None,
     bore: Annotated[Size, typer.Option("--bore", help="Diameter of all arbors; 0mm: no holes.")] = None,
     backlash: Annotated[
-        Size, typer.Option("--backlash", help="Play of teeth without a declared form, such as 0.05mm.")
+        Size, typer.Option("--backlash", help="Play of every pair on its pitch circles, such as 0.05mm.")
     ] = None,
     turns: Annotated[str | None, typer.Option("--turns", help="Turns of the lead that the GLB shows.")] = None,
     force: Force = False,

@@ -12,7 +12,7 @@ import numpy as np
 
 from geartrain.export.blanks import Blanks, find_blanks
 from geartrain.export.likeness import likeness_solid
-from geartrain.export.making import Making, bores, scale_of, sized
+from geartrain.export.making import Making, bores, sized, thick
 from geartrain.export.plates import Plate, basis, find_plates, pin_diameter, slotted_bar
 from geartrain.export.solid import Solid, cylinder, plate_solid, wheel_solid
 from geartrain.layout import lay_out
@@ -58,39 +58,36 @@ class Part:
 
 @dataclass(frozen=True)
 class Workpiece:
-    """A train with all that exports ask for, each made once.
-
-    layout and scene are in mm; the scene's are `scale` times smaller.
-    """
+    """A train with all that exports ask for, each made once; the layout and the scene are in mm."""
 
     train: GearTrain
     making: Making
     state: str | None = None
 
     @cached_property
-    def layout(self) -> Layout:
-        """Places of axes and wheels, at the sizes asked for."""
-        return sized(self._laid, self.making)
+    def sized(self) -> GearTrain:
+        """The train with the modules and the play asked for."""
+        return sized(self.train, self._laid, self.making)
 
     @cached_property
-    def scale(self) -> float:
-        """How many times larger this layout is than the scene's."""
-        return scale_of(self._laid, self.making)
+    def layout(self) -> Layout:
+        """Places of axes and wheels, at the sizes asked for."""
+        return thick(self._laid if self.sized is self.train else lay_out(self.sized), self.making)
 
     @cached_property
     def blanks(self) -> Blanks:
         """Flat shapes of the wheels."""
-        return find_blanks(self.train, self.layout, self.making)
+        return find_blanks(self.sized, self.layout, self.making)
 
     @cached_property
     def plates(self) -> tuple[tuple[Plate, ...], tuple[Problem, ...]]:
         """Plates, and what could not be drawn."""
-        return find_plates(self.train, self.layout, self.making)
+        return find_plates(self.sized, self.layout, self.making)
 
     @cached_property
     def scene(self) -> Scene:
         """How it moves."""
-        return make_scene(self.train, self.state)
+        return make_scene(self.sized, self.state, self.layout)
 
     @cached_property
     def parts(self) -> tuple[Part, ...]:
@@ -104,7 +101,7 @@ class Workpiece:
 
 class _Parts:
     def __init__(self, work: Workpiece) -> None:
-        self.work, self.scene, self.scale = work, work.scene, work.scale
+        self.work, self.scene = work, work.scene
         self.bodies = {body.id: at for at, body in enumerate(self.scene.bodies)}
         self.bores = bores(work.layout, work.making)
 
@@ -117,13 +114,12 @@ class _Parts:
 
     def wheel(self, wheel: Wheel) -> Part:
         """By its flat shape where it has one."""
-        turn, place = _frame(wheel, self.scale)
+        turn, place = _frame(wheel)
         blank = self.work.blanks.wheels.get(wheel.id)
         if blank is None:
             declared = self.work.train.declaration.wheels[wheel.id][1]
             drawn = likeness_solid(wheel, self.scene.profiles[wheel.profile], 1 if declared.hand == "right" else -1)
-            solid = Solid(drawn.vertices * self.scale, drawn.faces)
-            return Part(wheel.body, wheel.id, "wheel", solid, turn, place, wheel.status)
+            return Part(wheel.body, wheel.id, "wheel", drawn, turn, place, wheel.status)
         solid = wheel_solid(blank)
         return Part(wheel.body, wheel.id, "wheel", solid, turn, place, wheel.status, blank.contours, blank.thickness)
 
@@ -134,9 +130,9 @@ class _Parts:
             radius = self.bores.get(body.axis, 0.0) / 2
             if body.parent is None or not own or not radius:
                 continue
-            point, along = np.array(body.point) * self.scale, np.array(body.direction)
+            point, along = np.array(body.point), np.array(body.direction)
             ends = [
-                float((np.array(wheel.centre) * self.scale - point) @ along) + side * self._thick(wheel) / 2
+                float((np.array(wheel.centre) - point) @ along) + side * self._thick(wheel) / 2
                 for wheel in own
                 for side in (-1, 1)
             ]
@@ -148,7 +144,7 @@ class _Parts:
 
     def _thick(self, wheel: Wheel) -> float:
         blank = self.work.blanks.wheels.get(wheel.id)
-        return wheel.thickness * self.scale if blank is None else blank.thickness
+        return wheel.thickness if blank is None else blank.thickness
 
     def plates(self) -> Iterator[Part]:
         """Plates of carriers, under all that turns on them, and that of the frame, behind the whole."""
@@ -183,11 +179,11 @@ class _Parts:
         for coupling in self.scene.couplings:
             body = self.scene.bodies[coupling.slot]
             along = np.array(body.direction)
-            pin, hub = (np.array(each) * self.scale for each in (coupling.pin_at, coupling.slot_at))
+            pin, hub = (np.array(each) for each in (coupling.pin_at, coupling.slot_at))
             low, high = sorted(
                 (self._level(coupling.pin, pin @ along, along), self._level(coupling.slot, pin @ along, along))
             )
-            r, e = coupling.pin_radius * self.scale, coupling.offset * self.scale
+            r, e = coupling.pin_radius, coupling.offset
             thick = pin_diameter(r)
             across = np.column_stack([*basis(body.direction), body.direction])
             middle = pin - along * (pin @ along)
@@ -223,7 +219,7 @@ class _Parts:
         """The face, nearest to a height, of the wheels of a body."""
         own = [wheel for wheel in self.scene.wheels if wheel.body == body]
         faces = [
-            float(np.array(wheel.centre) @ along) * self.scale + side * (self._thick(wheel) + _GAP) / 2
+            float(np.array(wheel.centre) @ along) + side * (self._thick(wheel) + _GAP) / 2
             for wheel in own
             for side in (-1, 1)
         ]
@@ -235,12 +231,12 @@ class _Parts:
                 yield float(np.array(place.centre) @ normal) - place.thickness / 2
 
 
-def _frame(wheel: Wheel, scale: float) -> tuple[Floats, Floats]:
+def _frame(wheel: Wheel) -> tuple[Floats, Floats]:
     """Axes of a wheel's own coordinates as columns, x through its first tooth, and its middle (mm)."""
     along, reference = np.array(wheel.direction), np.array(wheel.reference)
     across = np.cross(along, reference)
     x = cos(wheel.turn) * reference + sin(wheel.turn) * across
-    return np.column_stack([x, np.cross(along, x), along]), np.array(wheel.centre) * scale
+    return np.column_stack([x, np.cross(along, x), along]), np.array(wheel.centre)
 
 
 def by_body(parts: Sequence[Part]) -> Mapping[int, list[Part]]:

@@ -65,7 +65,7 @@ def to_glb(work: Workpiece, turns: Fraction | None = None) -> bytes:
         numbers[name] = len(gltf.materials)
         metal = PbrMetallicRoughness(baseColorFactor=[*colour, 1.0], metallicFactor=0.4, roughnessFactor=0.5)
         gltf.materials.append(Material(name=name or "wheel", pbrMetallicRoughness=metal))
-    bodies, points = work.scene.bodies, [np.array(body.point) * work.scale for body in work.scene.bodies]
+    bodies, points = work.scene.bodies, [np.array(body.point) for body in work.scene.bodies]
     for body, point in zip(bodies, points, strict=True):
         origin = np.zeros(3) if body.parent is None else points[body.parent]
         gltf.nodes.append(Node(name=body.id, translation=(point - origin).tolist(), rotation=[0.0, 0.0, 0.0, 1.0]))

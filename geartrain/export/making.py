@@ -1,13 +1,22 @@
-"""What a maker says beside the declaration, and the layout at the size asked for."""
+"""What a maker says beside the declaration, and the train at the sizes asked for."""
 
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, fields, replace
+from fractions import Fraction
 from math import isfinite
 
+from geartrain.analysis import GearTrain
 from geartrain.errors import Problem, QuestionError
-from geartrain.layout import AxisPlace, Layout, WheelPlace
+from geartrain.frozen import FrozenDict
+from geartrain.layout import Layout
+from geartrain.quantity import Quantity
+from geartrain.teeth import Triangular
+from geartrain.teeth.shape import Shape
+from geartrain.teeth.standard import DEDENDUM
+from geartrain.train import GearPair, Train
 
 
 @dataclass(frozen=True, slots=True)
@@ -17,7 +26,7 @@ class Making:
     module      pitch diameter over teeth, where the declaration gives no sizes
     thickness   of wheels and plates
     bore        diameter of the arbors, and so of the holes in wheels and plates; 0: no holes
-    backlash    play on the pitch circle of teeth whose form is not declared
+    backlash    play on the pitch circle of every pair that does not declare its own
     """
 
     module: float | None = None
@@ -38,6 +47,21 @@ class Making:
             raise QuestionError(problems)
 
 
+def sized(train: GearTrain, layout: Layout, making: Making) -> GearTrain:
+    """The train with the modules and the play asked for, as if it declared them; itself where none are.
+
+    layout   of the train as it is declared
+    Raises `QuestionError` where the declaration gives sizes, which always win, and where teeth cannot have the play.
+    """
+    declared, factor = train.declaration, scale_of(layout, making)
+    modules = {name: Fraction(place.module) * Fraction(factor) for name, place in layout.wheels.items()}
+    if making.module is not None:
+        declared = _with_modules(declared, modules)
+    if making.backlash is not None:
+        declared = _with_backlash(declared, modules, Fraction(making.backlash))
+    return train if declared is train.declaration else GearTrain(declared)
+
+
 def scale_of(layout: Layout, making: Making) -> float:
     """How many times larger everything is to be for the module asked for.
 
@@ -56,28 +80,56 @@ def scale_of(layout: Layout, making: Making) -> float:
     return making.module / usual
 
 
-def sized(layout: Layout, making: Making) -> Layout:
-    """The layout at the module and thickness asked for."""
-    factor = scale_of(layout, making)
-    axes = {label: _axis(axis, factor) for label, axis in layout.axes.items()}
-    wheels = {name: _wheel(place, factor, making.thickness) for name, place in layout.wheels.items()}
-    return replace(layout, axes=axes, wheels=wheels)
+def _with_modules(declared: Train, modules: Mapping[str, Fraction]) -> Train:
+    links = {
+        name: link.changed(
+            wheels=FrozenDict(
+                {
+                    id_: wheel.changed(module=Quantity(modules[id_], "mm", f"{float(modules[id_]):.9g} mm"))
+                    for id_, wheel in link.wheels.items()
+                }
+            )
+        )
+        for name, link in declared.links.items()
+    }
+    return declared.changed(links=FrozenDict(links))
 
 
-def _axis(axis: AxisPlace, factor: float) -> AxisPlace:
-    x, y, z = axis.point
-    return replace(axis, point=(x * factor, y * factor, z * factor))
+def _with_backlash(declared: Train, modules: Mapping[str, Fraction], backlash: Fraction) -> Train:
+    if problems := list(_own_play(declared)):
+        raise QuestionError(problems)
+    return declared.changed(gears=tuple(_thinned(declared, gear, modules, backlash) for gear in declared.gears))
 
 
-def _wheel(place: WheelPlace, factor: float, thickness: float | None) -> WheelPlace:
-    x, y, z = place.centre
-    return replace(
-        place,
-        centre=(x * factor, y * factor, z * factor),
-        radius=place.radius * factor,
-        module=place.module * factor,
-        thickness=place.thickness * factor if thickness is None else thickness,
-    )
+def _thinned(declared: Train, gear: GearPair, modules: Mapping[str, Fraction], backlash: Fraction) -> GearPair:
+    form = gear.tooth_form or declared.tooth_form
+    if not isinstance(form, Shape):
+        return gear
+    play = backlash / modules[gear.pair[0]]
+    quantity = Quantity(play, None, f"{float(play):.9g}")
+    return gear.changed(tooth_form=form.model_copy(update={"backlash": quantity}))
+
+
+def _own_play(declared: Train) -> Iterator[Problem]:
+    """Pairs whose play is not for a maker to say."""
+    for at, gear in enumerate(declared.gears):
+        form, place = gear.tooth_form or declared.tooth_form, declared.place("gears", at)
+        if isinstance(form, Triangular):
+            what = f"--backlash cannot thin the triangular teeth of pair '{gear.name}'"
+            why = "their play follows from their clearance, and thinner teeth would have another motion"
+            yield Problem(what, why, "leave --backlash out, or declare more `clearance`", place)
+        elif isinstance(form, Shape) and "backlash" in form.model_fields_set:
+            what = f"pair '{gear.name}' has a backlash of its own"
+            why = f"it declares {form.backlash.text}, and what is declared wins"
+            yield Problem(what, why, "leave --backlash out, or take the `backlash` out of the file", place)
+
+
+def thick(layout: Layout, making: Making) -> Layout:
+    """The layout with wheels of the thickness asked for."""
+    if making.thickness is None:
+        return layout
+    wheels = {name: replace(place, thickness=making.thickness) for name, place in layout.wheels.items()}
+    return replace(layout, wheels=wheels)
 
 
 def bores(layout: Layout, making: Making) -> dict[str, float]:
@@ -86,7 +138,7 @@ def bores(layout: Layout, making: Making) -> dict[str, float]:
         return dict.fromkeys(layout.axes, making.bore)
     found = {}
     for label in layout.axes:
-        radii = [place.radius - 1.25 * place.module for place in layout.wheels.values() if place.axis == label]
+        radii = [place.radius - DEDENDUM * place.module for place in layout.wheels.values() if place.axis == label]
         smallest = min((radius for radius in radii if radius > 0), default=3.0)
         found[label] = round(min(6.0, 2 * smallest / 3), 2)
     return found

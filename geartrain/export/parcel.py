@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from importlib.util import find_spec
+from math import degrees
 from typing import TYPE_CHECKING
 
 from geartrain import graph
@@ -20,6 +21,7 @@ from geartrain.train import suggest
 
 if TYPE_CHECKING:
     from geartrain.export.assembly import Workpiece
+    from geartrain.outlines import Play
 
 KINDS = ("svg", "dxf", "stl", "glb", "step", "graphml", "dot", "rexs", "csv")
 SUFFIXES = {
@@ -190,10 +192,26 @@ def readme(work: Workpiece, files: Sequence[File], kinds: Sequence[str]) -> str:
     lines += ["Lengths are in mm, drawings 1:1. Of their layers CUT is cut, PITCH guides, ENGRAVE is letters.", ""]
     lines += ["| file | what it is |", "| --- | --- |"]
     lines += [f"| {each.path} | {_cell(each.title)} |" for each in files]
+    if {"svg", "dxf", "stl", "glb", "step"} & set(kinds):
+        lines += _plays(work)
     if found := notices(work, kinds):
         lines += ["", "## What could not be made", ""]
         lines += [f"- {_cell(': '.join(part for part in (each.what, each.why) if part))}" for each in found]
     return "\n".join([*lines, ""])
+
+
+def _plays(work: Workpiece) -> list[str]:
+    """The play of every pair whose wheels are cut, as a list."""
+    found = [f"- {_cell(each.pair)}: {each.length:.4g} mm, {_cell(_angles(each))}" for each in work.blanks.plays]
+    return ["", "## Play of the teeth as cut, along the pitch circles", "", *found] if found else []
+
+
+def _angles(play: Play) -> str:
+    """The play as angles of both wheels; or that they jam where they stand."""
+    turned = ", ".join(
+        f"{degrees(angle):.4g}° of {wheel}" for wheel, angle in zip(play.wheels, play.angles, strict=True)
+    )
+    return f"{turned}; the pair jams" if play.length < 0 else turned
 
 
 def _cell(text: str) -> str:

@@ -96,7 +96,7 @@ class Turning:
         cache: dict[int, Floats] = self.__dict__.setdefault("_found", {})
         if count not in cache:
             links = tuple(self.work.train.declaration.links)
-            motion = self.work.train.motion(self.work.scene.state, links)
+            motion = self.work.sized.motion(self.work.scene.state, links)
             cache[count] = motion.at(float(self.turns) * np.arange(count + 1) / count).error
         return cache[count]
 

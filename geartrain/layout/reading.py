@@ -10,12 +10,15 @@ from typing import Literal
 from geartrain.analysis import GearTrain
 from geartrain.circuits import Circuit, Tree
 from geartrain.circuits.axes import Axes
+from geartrain.errors import GearTrainError
 from geartrain.layout.result import Vector
 from geartrain.layout.vectors import unit
+from geartrain.meshes import find_sizes
 from geartrain.quantity import Quantity
 from geartrain.train import Train, Wheel
 
 Kind = Literal["side", "ring", "bevel", "crown", "screw"]
+_TOUCHING = 1e-12  # of a distance: nearer to it, pitch circles touch
 WORM = Fraction(5)  # pitch radius of a worm over its axial module: slender, but not weak
 
 
@@ -43,7 +46,8 @@ class Touch:
     """A gear pair: wheels with their axes, and how they touch.
 
     side and ring are about parallel axes; bevel, crown (its first wheel is the crown) and screw (its first wheel is
-    the worm) about others. `likeness` says why it is drawn so where it cannot be drawn as declared.
+    the worm) about others. `likeness` says why it is drawn so where it cannot be drawn as declared; `stretch`, how much
+    farther apart than touching pitch circles declared teeth want the axes.
     """
 
     name: str
@@ -52,6 +56,7 @@ class Touch:
     kind: Kind
     carrier: str
     likeness: str = ""
+    stretch: Fraction = Fraction(1)
 
 
 @dataclass(frozen=True, slots=True)
@@ -84,7 +89,7 @@ class Reading:
     def reach(self, touch: Touch) -> Fraction:
         """Distance of the axes of a pair over its module, where they are parallel or pass each other."""
         first, second = (self.size(wheel) for wheel in touch.wheels)
-        return abs(first - second) if touch.kind == "ring" else first + second
+        return touch.stretch * (abs(first - second) if touch.kind == "ring" else first + second)
 
 
 def read(train: GearTrain) -> Reading:
@@ -94,6 +99,7 @@ def read(train: GearTrain) -> Reading:
     axis: dict[str, str] = {}
     touches, ties, strays = [], [], []
     couplings = {coupling.name: coupling for coupling in declared.couplings}
+    stretches = _stretches(train)
     for circuit in train.circuits:
         ends = label(tree, circuit.i, circuit.carrier), label(tree, circuit.j, circuit.carrier)
         if circuit.kind != "gear":
@@ -104,7 +110,7 @@ def read(train: GearTrain) -> Reading:
         for wheel, end in zip(circuit.wheels, ends, strict=True):
             if axis.setdefault(wheel, end) != end:
                 strays.append((wheel, circuit.id, end))
-        touches.append(_touch(declared, circuit, ends, lines))
+        touches.append(_touch(declared, circuit, ends, lines, stretches.get(circuit.id, Fraction(1))))
     for wheel, (link, _) in declared.wheels.items():
         axis.setdefault(wheel, tree.axis(link) or next(iter(lines), ""))
     return Reading(lines, axis, tuple(touches), tuple(ties), declared.wheels, tuple(strays))
@@ -144,7 +150,18 @@ def _lines(declared: Train, tree: Tree) -> dict[str, Line]:
     return lines
 
 
-def _touch(declared: Train, circuit: Circuit, ends: tuple[str, str], lines: Mapping[str, Line]) -> Touch:
+def _stretches(train: GearTrain) -> dict[str, Fraction]:
+    """How much farther apart than touching pitch circles real teeth want their axes, by pair; none where none is so."""
+    try:
+        sizes = find_sizes(train.declaration, train.meshes)
+    except GearTrainError:
+        return {}  # why there are no such teeth is told where they are asked for
+    return {name: Fraction(size.stretch) for name, size in sizes.items() if abs(size.stretch - 1) > _TOUCHING}
+
+
+def _touch(
+    declared: Train, circuit: Circuit, ends: tuple[str, str], lines: Mapping[str, Line], stretch: Fraction
+) -> Touch:
     kinds = [declared.wheels[wheel][1].kind for wheel in circuit.wheels]
     parallel = lines[ends[0]].group == lines[ends[1]].group
     ring = any(declared.wheels[wheel][1].internal for wheel in circuit.wheels)
@@ -159,4 +176,4 @@ def _touch(declared: Train, circuit: Circuit, ends: tuple[str, str], lines: Mapp
         kind = "crown"
     if kind in ("screw", "crown") and kinds[0] not in ("worm", "contrate"):
         wheels, ends = wheels[::-1], ends[::-1]
-    return Touch(circuit.id, wheels, ends, kind, circuit.carrier, likeness)  # type: ignore[arg-type]
+    return Touch(circuit.id, wheels, ends, kind, circuit.carrier, likeness, stretch)  # type: ignore[arg-type]

@@ -198,6 +198,6 @@ def _distances(
 
 
 def pitch_distance(reading: Reading, module: Mapping[str, float], touch: Touch) -> float:
-    """How far apart (mm) axes are whose wheels' pitch circles touch."""
+    """How far apart (mm) axes are whose wheels mesh: pitch circles touch, or are as far off as declared teeth want."""
     first, second = (float(reading.size(wheel)) * module[wheel] for wheel in touch.wheels)
-    return abs(first - second) if touch.kind == "ring" else first + second
+    return float(touch.stretch) * (abs(first - second) if touch.kind == "ring" else first + second)

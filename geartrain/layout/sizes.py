@@ -6,8 +6,9 @@ from dataclasses import dataclass, replace
 
 from geartrain.layout.reading import Reading
 from geartrain.layout.scales import Scales
+from geartrain.teeth.standard import DEDENDUM
 
-_TIP = 1.25  # modules beyond the pitch circle that are kept free: a tooth, and clearance
+_TIP = DEDENDUM  # modules beyond the pitch circle that are kept free: a tooth, and clearance
 _RING = 3.5  # modules of a ring's rim
 _WIDE = 2.5  # modules of a wheel's thickness
 _SHELF = 1.4  # thicknesses from shelf to shelf

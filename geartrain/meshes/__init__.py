@@ -4,6 +4,7 @@ from geartrain.meshes.conjugate import ConjugateMesh
 from geartrain.meshes.driving import find_drivers
 from geartrain.meshes.finding import PinJoint, find_meshes, find_pins
 from geartrain.meshes.mesh import Driver, Fit, Mesh
+from geartrain.meshes.sizing import PairSize, find_sizes
 from geartrain.meshes.triangular import TriangularMesh, explain, locked_by_friction
 
 __all__ = [
@@ -11,11 +12,13 @@ __all__ = [
     "Driver",
     "Fit",
     "Mesh",
+    "PairSize",
     "PinJoint",
     "TriangularMesh",
     "explain",
     "find_drivers",
     "find_meshes",
     "find_pins",
+    "find_sizes",
     "locked_by_friction",
 ]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import acos, pi
+from math import acos, inf, pi
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -13,60 +13,76 @@ if TYPE_CHECKING:
     from geartrain.outlines.tooth import Tooth
 
 _STEPS = 120  # positions in a pitch
+_MARGIN = 1e-3  # modules: least room at the round, which is more than a tip moves between two positions
 
 
 @dataclass(frozen=True, slots=True)
 class Mate:
-    """One tooth or pin of the other wheel.
+    """One tooth or pin of another wheel.
 
     span       radius and signed angle of its points (2, n), where one of its flanks touches: half the play turned on
-    z, R       its tooth number and pitch radius
-    internal   one of the two wheels is a ring
+    z          its tooth number
+    distance   of the two axles, negative for a wheel in a ring
+    internal   one of the two wheels is a ring; `ring`: this one
     """
 
     span: Floats
     z: int
-    R: float
+    distance: float
     internal: bool
+    ring: bool
 
 
-def bite(tooth: Tooth, mate: Mate) -> float:
+@dataclass(frozen=True, slots=True)
+class Passage:
+    """Where a mate's tooth comes within the tip circle of a wheel, as that wheel sees it.
+
+    radius     about the wheel's axle; aside, angle (rad) from the axis of its nearest tooth
+    """
+
+    radius: Floats
+    aside: Floats
+
+
+def passage(z: int, tip: float, outward: int, mate: Mate) -> Passage:
+    """The way of a mate's tooth through the spaces of a wheel of z teeth; lengths in modules."""
+    turn = _positions(tip, outward, mate)[:, None]
+    r, angle = mate.span
+    place = mate.distance + r * np.exp(1j * (angle + turn + (0 if mate.internal else pi)))
+    radius = np.abs(place)
+    inside = (radius - tip) * outward <= 0
+    own = turn * mate.z / z * (1 if mate.internal else -1)
+    pitch = 2 * pi / z
+    aside = np.abs((np.angle(place) - own) % pitch - pitch / 2)  # a space of the wheel meets the mate's tooth
+    return Passage(radius[inside], aside[inside])
+
+
+def bite(tooth: Tooth, mate: Passage) -> float:
     """How deep (modules) the mate's tooth cuts into the wheel's while it passes through the space; negative: play.
 
-    Along the circle where it cuts flank or round, along the radius where it cuts the root circle.
+    Along the circle where it cuts flank or round, along the radius where it cuts the root circle. A round has to keep
+    some room more.
     """
-    R, s = tooth.flank.R, tooth.flank.outward
-    distance = R - mate.R if mate.internal else R + mate.R
-    turn = _positions(tooth, mate, distance)[:, None]
-    r, angle = mate.span
-    place = distance + r * np.exp(1j * (angle + turn + (0 if mate.internal else pi)))
-    radius = np.abs(place)
-    own = turn * mate.z / tooth.z * (1 if mate.internal else -1)
-    pitch = 2 * pi / tooth.z
-    from_axis = np.abs((np.angle(place) - own) % pitch - pitch / 2)  # a space of the wheel meets the mate's tooth
-    deep = (_half_at(tooth, radius) - from_axis) * radius
-    deep = np.where((radius - tooth.tip) * s > 0, -np.inf, deep)
-    below = (tooth.root - radius) * s
-    return float(np.where(below > 0, below, deep).max())
+    if not mate.radius.size:
+        return -inf
+    s = tooth.flank.outward
+    deep = (tooth.half_at(mate.radius) - mate.aside) * mate.radius
+    below = (tooth.root - mate.radius) * s
+    on_round = (mate.radius - np.hypot(*tooth.fillet.start)) * s < 0
+    return float(np.where(below > 0, below, deep + np.where(on_round, _MARGIN, 0.0)).max())
 
 
-def _half_at(tooth: Tooth, radius: Floats) -> Floats:
-    r, half = tooth.profile()
-    if r[0] > r[-1]:
-        r, half = r[::-1], half[::-1]
-    return np.asarray(np.interp(radius, r, half))
-
-
-def _positions(tooth: Tooth, mate: Mate, distance: float) -> Floats:
+def _positions(tip: float, outward: int, mate: Mate) -> Floats:
     """Angles of the mate at which its tooth may be within the wheel's tip circle."""
-    far = float(mate.span[0].min() if mate.internal and mate.R > tooth.flank.R else mate.span[0].max())
+    distance = mate.distance
+    far = float(mate.span[0].min() if mate.ring else mate.span[0].max())
     if not distance:
         reach = pi
     else:
-        cosine = (tooth.tip**2 - distance**2 - far**2) / (2 * distance * far)
-        cosine = cosine if tooth.flank.outward < 0 else -cosine
-        if mate.internal and tooth.flank.outward > 0:
-            cosine = (distance**2 + far**2 - tooth.tip**2) / (2 * abs(distance) * far)
+        cosine = (tip**2 - distance**2 - far**2) / (2 * distance * far)
+        cosine = cosine if outward < 0 else -cosine
+        if mate.ring:
+            cosine = (distance**2 + far**2 - tip**2) / (2 * abs(distance) * far)
         reach = acos(min(max(cosine, -1.0), 1.0))
     reach = min(reach + 1.5 * pi / mate.z, pi)
     return np.linspace(-reach, reach, 2 * int(reach * mate.z * _STEPS / (2 * pi)) + 1)

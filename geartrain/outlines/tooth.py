@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import atan2, cos, pi, sin
+from math import cos, pi, sin
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -11,13 +11,16 @@ import numpy as np
 from geartrain.outlines.contour import Contour, bulge_about
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Sequence
 
     from geartrain.outlines.contour import Floats
     from geartrain.outlines.fillet import Fillet
     from geartrain.outlines.flank import Flank
 
-_ROUND = 33  # points of a round where teeth are held against each other
+_MEETING = 1e-9  # rad
+
+Vertex = tuple[float, float, float]
+"""A point, and the bulge of the edge to the next one."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,15 +47,24 @@ class Tooth:
         """Half the angle (rad) of the top land."""
         return self.widening + float(self.flank.angle[-1])
 
-    def profile(self) -> tuple[Floats, Floats]:
-        """Radius and half angle from root to tip, as a polyline."""
-        x, y = np.array([point[:2] for point in self._half()]).T
-        fillet = self.fillet
-        start, end = (atan2(p[1] - fillet.centre[1], p[0] - fillet.centre[0]) for p in (fillet.end, fillet.start))
-        turn = start + np.linspace(0, (end - start + pi) % (2 * pi) - pi, _ROUND)
-        xs = np.concatenate((fillet.centre[0] + fillet.radius * np.cos(turn), x[2:]))
-        ys = np.concatenate((fillet.centre[1] + fillet.radius * np.sin(turn), y[2:]))
-        return np.hypot(xs, ys), np.arctan2(ys, xs)
+    def half_at(self, radius: Floats) -> Floats:
+        """Half angle (rad) of the tooth as it is cut, straight edges and round, at radii from root to tip."""
+        x, y = np.array([point[:2] for point in self._half()[1:]]).T
+        place = x + 1j * y
+        r, s = np.abs(place), self.flank.outward
+        at = np.clip(np.searchsorted(r * s, radius * s, side="right") - 1, 0, len(r) - 2)
+        start, along = place[at], place[at + 1] - place[at]
+        # |start + t along| = radius, on the side where the radius grows towards the tip
+        a, b, c = np.abs(along) ** 2, (np.conj(along) * start).real, r[at] ** 2 - radius**2
+        t = (-b + s * np.sqrt(np.maximum(b * b - a * c, 0.0))) / a
+        edge = np.angle(start + np.clip(t, 0.0, 1.0) * along)
+        if not self.fillet.radius:
+            return np.asarray(edge)
+        centre = complex(*self.fillet.centre)
+        far = abs(centre)
+        cosine = (radius**2 + far**2 - self.fillet.radius**2) / (2 * np.maximum(radius, 1e-300) * far)
+        round_ = np.angle(centre) - np.arccos(np.clip(cosine, -1.0, 1.0))
+        return np.asarray(np.where(radius * s < r[0] * s, round_, edge))
 
     def _half(self) -> list[tuple[float, float, float]]:
         """From root to tip on the far side of the axis of the tooth, with the bulge to the next point."""
@@ -60,40 +72,40 @@ class Tooth:
         half = self.widening + self.flank.angle
         flank = zip((self.flank.r * np.cos(half)).tolist(), (self.flank.r * np.sin(half)).tolist(), strict=True)
         round_ = bulge_about(fillet.end, fillet.start, fillet.centre) if fillet.radius else 0.0
-        return [(*fillet.end, round_), (*fillet.start, 0.0), *((x, y, 0.0) for x, y in flank)]
+        end = fillet.end
+        if pi / self.z - fillet.half < _MEETING:  # two rounds meet in the middle of the space
+            end = self.root * cos(pi / self.z), self.root * sin(pi / self.z)
+        return [(*end, round_), (*fillet.start, 0.0), *((x, y, 0.0) for x, y in flank)]
 
     def whole(self) -> Contour:
         """All teeth round the axle, counter-clockwise, the first of them about the x axis."""
-        return Contour.of(self._round())
+        return Contour.of(repeated(self.vertices(), self.z))
 
-    def _round(self) -> Iterator[tuple[float, float, float]]:
+    def vertices(self) -> list[Vertex]:
+        """One tooth about the x axis, from one root to the other, the last edge along the root circle."""
         half = self._half()
         origin = (0.0, 0.0)
         x, y, _ = half[-1]
         land = bulge_about((x, -y), (x, y), origin)
-        gap = 2 * (pi / self.z - self.fillet.half)
-        ground = np.tan(max(gap, 0.0) / 4)
+        gap = pi / self.z - self.fillet.half
+        ground = np.tan(gap / 2) if gap >= _MEETING else 0.0
         up = [(x, -y, -bulge) for x, y, bulge in half[:-1]] + [(x, -y, float(land))]
         # coming down each edge is met at its other end
         bulges = [bulge for _, _, bulge in half]
         down = [(x, y, -bulge) for (x, y, _), bulge in zip(half[:0:-1], bulges[-2::-1], strict=True)]
-        down.append((*half[0][:2], float(ground)))
-        for k in range(self.z):
-            turn = 2 * pi * k / self.z
-            c, s = cos(turn), sin(turn)
-            for x, y, bulge in (*up, *down):
-                yield c * x - s * y, s * x + c * y, bulge
+        return [*up, *down, (*half[0][:2], float(ground))]
 
-    def span(self) -> Floats:
-        """Radius and signed half angle of flanks and top land, as the mate meets them: shape (2, n)."""
-        half = self.widening + self.flank.angle
-        land = np.linspace(-self.land, self.land, 9)
-        r = np.concatenate((self.flank.r, np.full(9, self.tip), self.flank.r[::-1]))
-        return np.stack([r, np.concatenate((-half, land, half[::-1]))])
+
+def repeated(tooth: Sequence[Vertex], z: int) -> Iterator[Vertex]:
+    """z teeth round the axle from one."""
+    for k in range(z):
+        c, s = cos(2 * pi * k / z), sin(2 * pi * k / z)
+        for x, y, bulge in tooth:
+            yield c * x - s * y, s * x + c * y, bulge
 
 
 def pin_span(R: float, radius: float) -> Floats:
-    """A pin of `radius` on the circle of radius R, as `Tooth.span`."""
+    """A pin of `radius` on the circle of radius R, radius and signed angle (2, n)."""
     turn = np.linspace(0, 2 * pi, 181)
     x, y = R + radius * np.cos(turn), radius * np.sin(turn)
     return np.stack([np.hypot(x, y), np.arctan2(y, x)])

@@ -1,8 +1,8 @@
-"""Teeth for wheels whose form nobody declared: an involute of 20 degrees, as wheels look, not as anyone measured."""
+"""Teeth for wheels that have no flat outline: bevels, crowns, worms, and what nobody could cut, as such wheels look."""
 
 from __future__ import annotations
 
-from math import acos, atan2, cos, pi, sqrt, tan
+from math import acos, cos, pi, sqrt, tan
 
 from geartrain.scene.result import Profile
 
@@ -81,8 +81,3 @@ def _mirrored(flank: list[tuple[float, float]], z: float) -> Points:
     root = flank[0][0]
     before = [(r, -angle) for r, angle in flank]
     return ((root, -pi / z), *before, *reversed(flank), (root, pi / z))
-
-
-def polar(x: float, y: float) -> tuple[float, float]:
-    """Radius and angle of a point."""
-    return sqrt(x * x + y * y), atan2(y, x)

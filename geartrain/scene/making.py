@@ -5,7 +5,7 @@ from __future__ import annotations
 from geartrain.analysis import GearTrain
 from geartrain.errors import Problem
 from geartrain.exact import written
-from geartrain.layout import lay_out
+from geartrain.layout import Layout, lay_out
 from geartrain.scene.bodies import find_bodies
 from geartrain.scene.couplings import find_couplings
 from geartrain.scene.dials import find_dials
@@ -19,15 +19,15 @@ from geartrain.scene.stage import Stage, exact
 from geartrain.scene.wheels import find_wheels
 
 
-def make_scene(train: GearTrain, state: str | None = None) -> Scene:
-    """The scene of a train in one state (by default its first).
+def make_scene(train: GearTrain, state: str | None = None, layout: Layout | None = None) -> Scene:
+    """The scene of a train in one state (by default its first), where a layout (by default its own) has it.
 
     Raises `GearTrainError` for a train that cannot be read; one that cannot turn has a scene, with the verdict.
     """
     declared = train.declaration
     if state is None and train.states:
         state = train.states[0]
-    stage = Stage(train, train.solve(state, method="exact"), lay_out(train))
+    stage = Stage(train, train.solve(state, method="exact"), layout or lay_out(train))
     verdict, faults = find_verdict(stage)
     moved = find_movement(stage)
     drawn = find_profiles(stage)

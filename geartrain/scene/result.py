@@ -60,7 +60,7 @@ class Body:
 class Profile:
     """One tooth of a wheel, from the middle of a space to the middle of the next, the tooth's middle at angle 0.
 
-    form    triangular, involute, cycloidal, ...; `likeness` where no form is declared: an involute of 20 degrees
+    form    triangular, involute, cycloidal, ...; `standard` where none is declared, `likeness` without a flat outline
     points  radius (over the pitch radius) and angle (rad), in order of angle from -pi/z to pi/z, both ends there; of a
             bevel or contrate wheel the radius is 1 and the height over the pitch cone, along the back cone
     hole    True for a lantern's pin or another closed curve, whose points then go round it

@@ -1,0 +1,380 @@
+"""Wheels as they are cut: the same on the screen as in the files, fit for all their mates, with the play asked for."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from functools import cache
+from itertools import pairwise
+from math import cos, degrees, hypot, pi, sin, tau
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import shapely
+import shipped
+import yaml
+from shapely.affinity import rotate, translate
+
+import geartrain
+from geartrain import GearTrain, GearTrainError
+from geartrain.export import Making, Workpiece, notices, one_wheel, parcel
+from geartrain.meshes import TriangularMesh
+from geartrain.scene import make_scene
+from geartrain.teeth.involute import Involute
+from geartrain.teeth.shape import Wheels
+
+TRAINS = sorted(path.stem for path in Path(geartrain.__file__).parent.parent.glob("trains/**/*.yaml"))
+NOTHING = 1e-9  # mm2: an overlap that is none
+FEELER = 1e-12  # mm2: an overlap by which a touch is felt
+CHORDS = 2.5e-3  # modules: what the chords of two flanks add to their play
+
+
+def workpiece(name: str, **making: float) -> Workpiece:
+    train = shipped.train(name)
+    return Workpiece(train, Making(**making), train.states[0] if train.states else None)
+
+
+def unrolled(points: Any, bulges: Any) -> np.ndarray:
+    """A closed line with arcs as 48 chords each: a bulge b is an arc whose height is b times half its chord."""
+    ring, out = points @ np.array([1, 1j]), []
+    for start, end, bulge in zip(ring, np.roll(ring, -1), bulges, strict=True):
+        out.append(start)
+        if bulge:
+            sweep = 4 * np.arctan(bulge)
+            centre = start + (end - start) / 2 * (1 + 1j / np.tan(sweep / 2))
+            out += [centre + (start - centre) * np.exp(1j * sweep * k / 48) for k in range(1, 48)]
+    return np.array([(z.real, z.imag) for z in out])
+
+
+def material(blank: Any) -> Any:
+    """A wheel as a polygon; of a lantern its pins, of a ring what stands round its hole."""
+    outer, *holes = (shapely.Polygon(unrolled(each.points, each.bulges)) for each in blank.contours)
+    if blank.kind == "pins":
+        return shapely.union_all([hole for hole in holes if hole.centroid.distance(shapely.Point(0, 0)) > 1e-6])
+    return outer.difference(shapely.union_all(holes)) if holes else outer
+
+
+class Meshed:
+    """The two wheels of a pair on their axles, the second, or the ring, to the right; turned as the pair's law has it.
+
+    Knows the tooth numbers, where the layout puts the axes, and for triangular teeth their law.
+    """
+
+    def __init__(self, work: Workpiece, gear: Any) -> None:
+        first, second = gear.pair
+        mesh = next((each for each in work.sized.meshes if each.name == gear.name), None)
+        self.law = None
+        if isinstance(mesh, TriangularMesh):
+            first, second, self.law = mesh.driver, mesh.driven, mesh.law
+        if work.blanks.wheels[first].kind == "ring":
+            first, second = second, first
+        one, other = (work.blanks.wheels[each] for each in (first, second))
+        self.z1, self.z2, self.ring = one.teeth, other.teeth, other.kind == "ring"
+        self.R2, self.module = other.pitch_radius, other.module
+        places = work.layout.wheels
+        apart = np.subtract(places[second].centre, places[first].centre)
+        along = np.array(work.layout.axes[places[first].axis].direction)
+        self.distance = float(np.linalg.norm(apart - (apart @ along) * along))
+        self.tip = one.tip_radius
+        self.reach = self.distance - other.tip_radius
+        self.first, self.second = material(one), material(other)
+        self.key = (self.first.wkb, self.second.wkb, round(self.distance, 9))
+
+    def overlap(self, t: float, lag: float = 0.0, back: bool = False) -> float:
+        """Common area when the first wheel is t on, the second `lag` (rad) ahead of the middle of its play."""
+        if self.law is not None:
+            law = self.law.turned_back() if back else self.law
+            turn = pi - float(law.angle(np.array(t))) - lag
+        elif self.ring:
+            turn = pi / self.z2 + t * self.z1 / self.z2 + lag
+        else:
+            turn = pi + pi / self.z2 - t * self.z1 / self.z2 - lag
+        own = rotate(self.first, t, (0, 0), use_radians=True)
+        away = -self.distance if self.ring else self.distance
+        other = translate(rotate(self.second, turn, (0, 0), use_radians=True), away, 0)
+        if not self.ring:  # where the tip circles overlap, for speed
+            high = self.tip * (1 - min(self.reach / self.tip, 1.0) ** 2) ** 0.5 + self.module
+            zone = (self.reach - self.module, -high, self.tip + self.module, high)
+            own, other = (shapely.clip_by_rect(each, *zone) for each in (own, other))
+        return float(own.intersection(other).area)
+
+    def positions(self, count: int) -> Iterator[float]:
+        """Through a pitch of the first wheel, none of them a symmetric one."""
+        return (tau / self.z1 * (k + 0.137) / count for k in range(count))
+
+    def play(self, t: float) -> float:
+        """How far (mm on the pitch circle) the second wheel is free, found by turning it until it bites."""
+        ends = []
+        for way in (1, -1):
+            free, met = 0.0, way * 0.5 * pi / self.z2
+            assert self.overlap(t, met) > NOTHING
+            for _ in range(26):
+                middle = (free + met) / 2
+                free, met = (free, middle) if self.overlap(t, middle) > FEELER else (middle, met)
+            ends.append(free)
+        return abs(ends[0] - ends[1]) * self.R2
+
+
+@cache
+def sizes(name: str, play: float) -> tuple[tuple[str, Meshed, float], ...]:
+    """Every pair of a train whose wheels are cut and stand where they mesh, with the play that the README states."""
+    train = shipped.train(name)
+    thinned = not any(isinstance(mesh, TriangularMesh) for mesh in train.meshes)
+    work = workpiece(name, **({"backlash": play} if thinned else {}))
+    plays = {each.pair: each for each in work.blanks.plays}
+    gears = [gear for gear in train.declaration.gears if gear.name in plays and gear.name not in work.layout.apart]
+    return tuple((gear.name, Meshed(work, gear), plays[gear.name].length) for gear in gears)
+
+
+def overlapping(play: float, count: int) -> tuple[int, list[str]]:
+    """How many different pairs were turned, and those whose wheels overlap."""
+    seen: set[Any] = set()
+    wrong = []
+    for name in TRAINS:
+        for pair, meshed, given in sizes(name, play):
+            if meshed.key in seen:
+                continue
+            seen.add(meshed.key)
+            side = (1 - 1e-7) * given / 2 / meshed.R2 if meshed.law is None else 0.0
+            for t in meshed.positions(count):
+                for lag in {side, -side}:
+                    both = (False, True) if meshed.law is not None else (False,)
+                    worst = max(meshed.overlap(t, lag, back) for back in both)
+                    wrong += [f"{name} {pair} at {degrees(t):.4f} deg: {worst:.3g} mm2"] if worst > NOTHING else []
+    return len(seen), wrong
+
+
+# ------------------------------------------------------------------------------------------------------ one source
+
+
+@pytest.mark.parametrize("name", TRAINS)
+def test_what_turns_on_the_screen_is_what_is_cut(name: str) -> None:
+    """Every vertex of either outline lies on the other, for every wheel that is cut."""
+    train = shipped.train(name)
+    state = train.states[0] if train.states else None
+    thinned = not any(isinstance(mesh, TriangularMesh) for mesh in train.meshes)
+    work = workpiece(name, **({"backlash": 0.0} if thinned else {}))
+    scene = shipped.scene(name, state)
+    for wheel in scene.wheels:
+        blank = work.blanks.wheels.get(wheel.id)
+        if blank is None or (not thinned and blank.form != "triangular"):
+            continue
+        points = scene.profiles[wheel.profile].points
+        if blank.kind == "pins":
+            hole = blank.contours[1].points.mean(axis=0)
+            for r, angle in points:
+                at = np.array([r * wheel.radius * cos(angle), r * wheel.radius * sin(angle)])
+                assert hypot(*(at - hole)) == pytest.approx(hypot(*(blank.contours[1].points[0] - hole)), abs=1e-12)
+            continue
+        teeth = blank.contours[1 if blank.kind == "ring" else 0]
+        count = len(teeth.points) // blank.teeth
+        own = np.array([(r * wheel.radius * cos(a), r * wheel.radius * sin(a)) for r, a in points])
+        cut = [*teeth.points[: count + 1]] if len(teeth.points) > count else [*teeth.points]
+        off = max(beside(point, cut, teeth.bulges) for point in own[1:-1])
+        assert off < 1e-12 * max(wheel.radius, 1), f"{wheel.id}: a point of the screen is off by {off}"
+        apart = max(np.hypot(*(own - vertex).T).min() for vertex in cut[:count])
+        assert apart < 1e-12 * max(wheel.radius, 1), f"{wheel.id}: a vertex that is cut is {apart} off the screen's"
+        assert wheel.tip == pytest.approx(blank.tip_radius, rel=1e-12)
+        assert wheel.root == pytest.approx(blank.root_radius, rel=1e-12)
+
+
+def beside(point: np.ndarray, vertices: list[np.ndarray], bulges: np.ndarray) -> float:
+    """How far a point is from a line of straight edges and arcs."""
+    best = min(hypot(*(point - vertex)) for vertex in vertices)
+    for (start, end), bulge in zip(pairwise(vertices), bulges[: len(vertices) - 1], strict=True):
+        if bulge:
+            a, b = complex(*start), complex(*end)
+            centre = a + (b - a) / 2 * (1 + 1j / np.tan(2 * np.arctan(bulge)))
+            spoke, sweep = complex(*point) - centre, 4 * np.arctan(bulge)
+            along = np.angle(spoke / (a - centre)) / sweep
+            if 0 <= along <= 1:
+                best = min(best, abs(abs(spoke) - abs(a - centre)))
+        else:
+            way, off = end - start, point - start
+            if 0 <= off @ way <= way @ way:
+                best = min(best, abs(way[0] * off[1] - way[1] * off[0]) / hypot(*way))
+    return float(best)
+
+
+def test_the_wheels_of_two_known_trains_have_one_size() -> None:
+    """The planet of 18 teeth is 0.9 modules tall, for so its ring needs it; drawn it used to be 1 module tall."""
+    for name, wheel, R, addendum in (("planetary-24-18-60", "p", 9, 0.9), ("gm-4t60", "p2", 8, 0.8)):
+        work, scene = (
+            workpiece(name),
+            shipped.scene(name, shipped.train(name).states[0] if shipped.train(name).states else None),
+        )
+        drawn = next(each for each in scene.wheels if each.id == wheel)
+        module = work.blanks.wheels[wheel].module
+        assert drawn.radius == pytest.approx(R * module)
+        assert drawn.tip == pytest.approx((R + addendum) * module, rel=1e-12)
+        assert work.blanks.wheels[wheel].tip_radius == pytest.approx((R + addendum) * module, rel=1e-12)
+
+
+# ------------------------------------------------------------------------------------------- parts that turn together
+
+
+@pytest.mark.parametrize("play", [0.0, 0.08])
+def test_no_two_wheels_of_a_shipped_train_overlap_as_they_turn(play: float) -> None:
+    count, wrong = overlapping(play, 3)
+    assert count > 180
+    assert wrong == []
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("play", [0.0, 0.08])
+def test_no_two_wheels_overlap_at_many_positions(play: float) -> None:
+    _, wrong = overlapping(play, 40)
+    assert wrong == []
+
+
+def test_a_planet_is_cut_for_its_ring_too() -> None:
+    """Cut for the sun alone its roots were 1.27e-3 mm2 too full for the tips of the ring."""
+    work = workpiece("planetary-24-18-60", module=2.0, backlash=0.0)
+    gear = next(each for each in work.train.declaration.gears if set(each.pair) == {"p", "ring"})
+    meshed = Meshed(work, gear)
+    assert max(meshed.overlap(t) for t in meshed.positions(60)) <= NOTHING
+
+
+@pytest.mark.parametrize("play", [0.0, 0.02, 0.1])
+@pytest.mark.parametrize(
+    "name", ["planetary-24-18-60", "planetary-24-18-60-involute", "longcase-clock-cycloidal", "longcase-clock"]
+)
+def test_the_play_that_is_measured_is_the_play_that_was_asked_for(name: str, play: float) -> None:
+    found = sizes(name, play)
+    assert found
+    for pair, meshed, stated in found:
+        assert stated == pytest.approx(play, abs=1e-9), pair
+        least = min(meshed.play(t) for t in meshed.positions(3))
+        assert play - 1e-5 <= least <= play + CHORDS * meshed.module, pair
+
+
+@pytest.mark.parametrize("form", ["involute", "cycloidal", "lantern", "uniform_stress"])
+def test_declared_play_is_cut_in_its_own_unit_where_a_module_is_asked_for(form: str) -> None:
+    """`backlash: 0.1 mm` has nothing to be compared with until --module says what a module is."""
+    train = declared(f"{{form: {form}, backlash: 0.1 mm}}")
+    assert Workpiece(train, Making()).blanks.wheels == {}
+    assert any("module" in each.fix for each in Workpiece(train, Making()).blanks.notices)
+    work = Workpiece(train, Making(module=2.0, bore=0.0))
+    (play,) = work.blanks.plays
+    assert play.length == pytest.approx(0.1, abs=1e-9)
+    assert play.angles == pytest.approx((0.1 / 24, 0.1 / 36))
+    meshed = Meshed(work, train.declaration.gears[0])
+    least = min(meshed.play(t) for t in meshed.positions(4))
+    assert 0.1 - 1e-5 <= least <= 0.1 + 2 * CHORDS
+    assert max(meshed.overlap(t, lag) for t in meshed.positions(5) for lag in (0.0499 / 36, -0.0499 / 36)) <= NOTHING
+
+
+def declared(form: str, ids: str = "") -> GearTrain:
+    return GearTrain.declare(
+        yaml.safe_load(f"""
+links: {{frame: {{}}, a: {{wheels: {{p: 24}}}}, b: {{wheels: {{w: 36}}}}{ids}}}
+revolutes: [{{pair: [frame, a], axis: A}}, {{pair: [frame, b], axis: B}}]
+gears: [{{id: G1, pair: [p, w]}}]
+tooth_form: {form}
+inputs: {{a: 1}}
+""")
+    )
+
+
+def test_a_backlash_that_a_pair_cannot_have_is_refused_by_name() -> None:
+    triangular = "{form: triangular, half_angle: 30 deg, clearance: 1.02}"
+    for form, said in ((triangular, "triangular teeth of pair 'G1'"), ("{form: involute, backlash: 0.1}", "pair 'G1'")):
+        with pytest.raises(GearTrainError, match=said) as caught:
+            _ = Workpiece(declared(form), Making(backlash=0.1)).blanks
+        assert caught.value.problems[0].fix.startswith("leave --backlash out, or ")
+
+
+def test_the_readme_states_the_play_of_every_pair() -> None:
+    work = workpiece("planetary-24-18-60-involute", module=2.0, backlash=0.1)
+    text = next(each for each in parcel(work, ["svg"]) if each.path == "README.md").make().decode()
+    rows = re.findall(r"^- (\S+): ([\d.]+) mm, ([\d.]+)° of (\S+), ([\d.]+)° of (\S+)$", text, re.M)
+    assert [(row[0], row[3], row[5]) for row in rows] == [("s~p", "s", "p"), ("p~ring", "p", "ring")]
+    for _, length, first, one, second, other in rows:
+        assert float(length) == pytest.approx(0.1)
+        z = {"s": 24, "p": 18, "ring": 60}
+        for angle, wheel in ((first, one), (second, other)):
+            assert float(angle) == pytest.approx(degrees(0.1 / z[wheel]), rel=1e-3)
+    jammed = workpiece("ferguson-paradox", backlash=0.05)
+    text = next(each for each in parcel(jammed, ["svg"]) if each.path == "README.md").make().decode()
+    assert re.search(r"^- w101~p20: -0\.3\d+ mm, .*; the pair jams$", text, re.M)
+
+
+# ------------------------------------------------------------------------------------------------ several mates
+
+
+IDLER = """
+links: {{frame: {{}}, a: {{wheels: {{p: 20}}}}, b: {{wheels: {{w: 30}}}}, c: {{wheels: {{x: 40}}}}}}
+revolutes: [{{pair: [frame, a], axis: A}}, {{pair: [frame, b], axis: B}}, {{pair: [frame, c], axis: C}}]
+gears: [{{id: one, pair: [p, w], tooth_form: {first}}}, {{id: two, pair: [w, x], tooth_form: {second}}}]
+inputs: {{a: 1}}
+"""
+PLAIN = "{form: involute}"
+
+
+@pytest.mark.parametrize(
+    "second",
+    ["{form: involute, backlash: 0.2}", "{form: cycloidal}", "{form: involute, addendum: [0.8, 1]}",
+     "{form: involute, pressure_angle: 25 deg}", "{form: lantern, pins: 1}",
+     "{form: triangular, half_angle: 30 deg, clearance: 1.02}"],
+)  # fmt: skip
+def test_pairs_that_ask_for_different_teeth_of_one_wheel_are_named(second: str) -> None:
+    work = Workpiece(GearTrain.declare(yaml.safe_load(IDLER.format(first=PLAIN, second=second))), Making())
+    assert set(work.blanks.wheels) == {"p", "x"}
+    assert any("wheel 'w': its pairs 'one' and 'two' ask for different" in each.what for each in notices(work, ["svg"]))
+    with pytest.raises(GearTrainError, match="'one' and 'two'"):
+        one_wheel(work, "w", ".svg")
+    scene = make_scene(work.train)
+    assert any("'w'" in notice["what"] for notice in scene.notices)
+
+
+@pytest.mark.parametrize("second", [PLAIN, "{form: involute, addendum: [1, 0.8]}", "{form: involute, dedendum: 1.4}"])
+def test_pairs_that_can_share_a_wheel_share_it(second: str) -> None:
+    train = GearTrain.declare(yaml.safe_load(IDLER.format(first=PLAIN, second=second)))
+    work = Workpiece(train, Making(bore=0.0))
+    assert set(work.blanks.wheels) == {"p", "w", "x"}
+    for gear in train.declaration.gears:
+        meshed = Meshed(work, gear)
+        assert max(meshed.overlap(t) for t in meshed.positions(6)) <= NOTHING
+
+
+def test_a_wheel_beside_declared_teeth_without_a_form_of_its_own_is_named() -> None:
+    text = IDLER.format(first=PLAIN, second="{form: ideal}")
+    work = Workpiece(GearTrain.declare(yaml.safe_load(text)), Making())
+    assert set(work.blanks.wheels) == {"p", "w"}
+    assert any("nothing says what teeth run with 'w'" in each.what for each in work.blanks.notices)
+
+
+@pytest.mark.parametrize("name", ["freeth-2021-teeth", "pennestri-2002-teeth", "moon-triangular", "sorge-pairs"])
+def test_axes_stand_as_far_apart_as_the_law_of_triangular_teeth_asks(name: str) -> None:
+    """Centre distance over tip radius as in the law, for every mate of every wheel: so each wheel has one size."""
+    work = workpiece(name)
+    places, checked = work.layout.wheels, 0
+    for mesh in work.train.meshes:
+        if not {mesh.driver, mesh.driven} <= set(work.blanks.wheels) or not isinstance(mesh, TriangularMesh):
+            continue
+        one, other = (places[each].centre[:2] for each in (mesh.driver, mesh.driven))
+        distance, law = hypot(one[0] - other[0], one[1] - other[1]), mesh.law.sizes
+        for wheel, R in ((mesh.driver, law.R1), (mesh.driven, law.R2)):
+            assert distance / work.blanks.wheels[wheel].tip_radius == pytest.approx(law.D / R, rel=1e-9)
+            checked += 1
+    assert checked >= 8
+
+
+def test_shifted_involutes_stand_where_they_run_without_play() -> None:
+    """The layout used to leave them at the distance of their reference circles, where such teeth jam."""
+    train = declared("{form: involute, shift: [0.4, 0.3]}")
+    work = Workpiece(train, Making(bore=0.0))
+    meshed = Meshed(work, train.declaration.gears[0])
+    assert meshed.distance > 30.6
+    assert max(meshed.overlap(t) for t in meshed.positions(8)) <= NOTHING
+    assert max(meshed.play(t) for t in meshed.positions(4)) < CHORDS
+
+
+def test_a_pinion_that_never_leaves_the_teeth_of_its_ring_is_refused() -> None:
+    """82 teeth in 84, a module tall: no tip circle is crossed, and the teeth overlap on the far side."""
+    form = Involute.model_validate({"form": "involute"})
+    found = form.pair(Wheels(82, 84, True)).faults
+    assert [fault.kind for fault in found] == ["interference"]
+    assert "tips of the ring" in found[0].what

@@ -14,6 +14,7 @@ from geartrain.answer import Accuracy, Answer
 from geartrain.circuits import (
     Circuit,
     Tree,
+    are_parallel,
     bookkeeping_links,
     close_joints,
     find_circuits,
@@ -21,10 +22,10 @@ from geartrain.circuits import (
     link_signs,
 )
 from geartrain.components import Part, Reduced, prune
-from geartrain.errors import DeclarationError, Problem, QuestionError, Verdict
-from geartrain.exact import TooDenseError
-from geartrain.outputs import Number, Sensitivity, judge_outputs, sensitivity
-from geartrain.speeds import EXACT_BUDGET, Mobility, exact_verdict, find_mobility, solve
+from geartrain.errors import DeclarationError, Problem, QuestionError, RangeError, Verdict
+from geartrain.exact import TooDenseError, as_float
+from geartrain.outputs import Number, Relative, Sensitivity, judge_outputs, relative_speed, sensitivity
+from geartrain.speeds import EXACT_BUDGET, Mobility, Solution, exact_verdict, find_mobility, solve
 from geartrain.system import System, assemble
 from geartrain.train import Case, GearPair, Train, declare, suggest
 
@@ -109,6 +110,12 @@ class GearTrain:
     def bookkeeping(self) -> frozenset[str]:
         """Links whose speed is a sum over non-parallel joints, and no rotation."""
         return bookkeeping_links(self.declaration, self.tree)
+
+    def is_rotation(self, of: str, base: str) -> bool:
+        """True if the axes between two links are parallel: the speed of one seen from the other is then a rotation."""
+        if not self.bookkeeping:
+            return True
+        return are_parallel(self.declaration, self.tree, of, base)
 
     @cached_property
     def mobility(self) -> Mobility:
@@ -283,14 +290,10 @@ class GearTrain:
             solution = solve(part, case, self.signs, None if method == "exact" else EXACT_BUDGET)
         except TooDenseError:
             return self._answer_in_floats(part, case, wanted)
-        verdict, speeds = solution.verdict, solution.speeds
-        if wanted is not None:
-            verdict, speeds = self._narrowed(case, verdict, speeds, wanted)
         if not case.exact:  # radians beside turns are no fractions, and none are shown
-            floats = {link: float(speed) for link, speed in speeds.items()}
-            accuracy = {link: Accuracy(abs(speed) * _UNIT_ROUNDOFF, None) for link, speed in floats.items()}
-            return self._judged(case, verdict, floats, wanted, len(part.circuits), None, accuracy)
-        return self._judged(case, verdict, speeds, wanted, len(part.circuits), solution.ratios)
+            return self._rounded(part, case, wanted, solution)
+        verdict, speeds = solution.verdict, solution.speeds
+        return self._judged(case, verdict, speeds, solution.relative, wanted, len(part.circuits), solution.ratios)
 
     def answers(self) -> Iterator[Answer]:
         """The answer of every state, in the order declared."""
@@ -301,9 +304,9 @@ class GearTrain:
         case = self._case(answer.state)
 
         def solve_with(circuits: Sequence[Circuit]) -> Any:
-            return solve(self._part(circuits, tuple(self.declaration.links)), case, self.signs).speeds.get
+            return solve(self._part(circuits, tuple(self.declaration.links)), case, self.signs).relative
 
-        return sensitivity(self.declaration, list(answer.outputs.values()), solve_with, self.circuits, self.signs)
+        return sensitivity(self.declaration, list(answer.outputs.values()), solve_with, self.circuits)
 
     def floats(
         self,
@@ -334,18 +337,25 @@ class GearTrain:
         first = (*declared.inputs, *(link for state in declared.states.values() for link in state.inputs or ()))
         return Part(links, declared.frame, circuits, first)
 
-    @staticmethod
-    def _narrowed(
-        case: Case, verdict: Verdict, speeds: Mapping[str, Fraction], wanted: Sequence[str]
-    ) -> tuple[Verdict, Mapping[str, Fraction]]:
-        """The verdict on some links only: they may be determined, or held still, in a train that is free."""
-        driven = [link for link, speed in case.inputs.items() if speed]
-        if verdict.kind == "locked" and not verdict.loops and not driven:
-            speeds = dict.fromkeys(wanted, Fraction(0))
-        if all(link in speeds for link in wanted) and (verdict.kind in ("free", "determined") or not driven):
-            follows = f"follows from {', '.join(case.inputs)}" if case.inputs else "is 0, for it is held"
-            return Verdict("determined", f"the speed of {wanted[0]} {follows}", loops=verdict.loops), speeds
-        return verdict, speeds
+    def _narrowed(self, case: Case, verdict: Verdict, known: bool, wanted: Sequence[str]) -> Verdict:
+        """The verdict on one output: it may be determined, or held still, in a train that is free.
+
+        known   whether the output's speed is determined
+        """
+        if not known:
+            return verdict
+        if not any(case.inputs.values()) and (whole := self._verdict(case)).kind == "locked":
+            return whole  # nothing is driven, and nothing could be
+        follows = f"follows from {', '.join(case.inputs)}" if case.inputs else "is 0, for it is held"
+        seen = f"{wanted[0]} seen from {wanted[1]}" if wanted[1] != self.declaration.frame else wanted[0]
+        return Verdict("determined", f"the speed of {seen} {follows}", loops=verdict.loops)
+
+    def _verdict(self, case: Case) -> Verdict:
+        """The verdict on the whole train."""
+        try:
+            return solve(self._whole, case, self.signs).verdict
+        except TooDenseError:
+            return exact_verdict(self._whole.reduced, case, self.signs)
 
     def _pruned(self, case: Case, wanted: Sequence[str]) -> Part:
         """The part of the train that can matter to some links."""
@@ -376,7 +386,7 @@ class GearTrain:
             raise QuestionError(Problem(f"'{self.name}' has no state '{state}'", "it is not declared", fix))
         return self.cases[state]
 
-    def _only(self, case: Case, output: str) -> tuple[Case, tuple[str, ...]]:
+    def _only(self, case: Case, output: str) -> tuple[Case, tuple[str, str]]:
         """The case with one output, and the links that output is made of."""
         declared = case.outputs.get(output)
         if declared is None and output not in self.declaration.links:
@@ -385,36 +395,57 @@ class GearTrain:
                 Problem(f"'{self.name}' has no output or link '{output}'", "it is not declared", suggest(output, known))
             )
         outputs = {output: declared} if declared else {}
-        links = (declared.of or output, declared.relative_to or self.declaration.frame) if declared else (output,)
+        frame = self.declaration.frame
+        links = (declared.of or output, declared.relative_to or frame) if declared else (output, frame)
         return replace(case, outputs=outputs), links
 
-    def _answer_in_floats(self, part: Part, case: Case, wanted: Sequence[str] | None) -> Answer:
+    def _answer_in_floats(self, part: Part, case: Case, wanted: tuple[str, str] | None) -> Answer:
         """Floats with their estimate, and with their true error where the exact answer is cheap."""
         from geartrain.speeds import solve_floats
 
-        verdict = exact_verdict(part.reduced, case, self.signs)
-        if not verdict:
-            return self._judged(case, verdict, {}, wanted, len(part.circuits), None)
+        truth: Mapping[str, Fraction] = {}
+        try:
+            solution = solve(part, case, self.signs)
+        except TooDenseError:
+            verdict = exact_verdict(part.reduced, case, self.signs)
+            still = verdict.kind == "locked" and not any(case.inputs.values())
+            solution = Solution(verdict, dict.fromkeys(part.links, Fraction(0)) if still else {}, {}, self.signs)
+        else:
+            truth = solution.speeds
+        if not solution.verdict:  # no square system to factorise
+            return self._rounded(part, case, wanted, solution)
         system = assemble(part.links, part.frame, part.circuits, case, self.signs)
         found = solve_floats(system, self._redundant(part.reduced))
         speeds = dict(zip(part.links, found.speeds.values[:, 0].tolist(), strict=True))
         estimates = dict(zip(part.links, found.estimate.values[:, 0].tolist(), strict=True))
-        try:
-            truth = solve(part, case, self.signs).speeds
-        except TooDenseError:
-            truth = {}
         accuracy = {
             link: Accuracy(estimates[link], float(abs(Fraction(speed) - truth[link])) if link in truth else None)
             for link, speed in speeds.items()
         }
-        return self._judged(case, verdict, speeds, wanted, len(part.circuits), None, accuracy)
+
+        def relative(of: str, base: str) -> Number | None:
+            return relative_speed(of, base, speeds.get, self.signs)
+
+        return self._judged(case, solution.verdict, speeds, relative, wanted, len(part.circuits), None, accuracy)
+
+    def _rounded(self, part: Part, case: Case, wanted: tuple[str, str] | None, solution: Solution) -> Answer:
+        """Exact speeds as floats."""
+
+        def relative(of: str, base: str) -> float | None:
+            speed = solution.relative(of, base)
+            return None if speed is None else _nearest(speed)
+
+        floats = {link: _nearest(speed) for link, speed in solution.speeds.items()}
+        accuracy = {link: Accuracy(abs(speed) * _UNIT_ROUNDOFF, None) for link, speed in floats.items()}
+        return self._judged(case, solution.verdict, floats, relative, wanted, len(part.circuits), None, accuracy)
 
     def _judged(
         self,
         case: Case,
         verdict: Verdict,
         speeds: Mapping[str, Number],
-        wanted: Sequence[str] | None,
+        relative: Relative,
+        wanted: tuple[str, str] | None,
         work: int,
         ratios: Mapping[str, Mapping[str, Fraction]] | None,
         accuracy: Mapping[str, Accuracy] | None = None,
@@ -422,9 +453,11 @@ class GearTrain:
         """The answer with its outputs judged, cut down to the links in `wanted`; no `ratios` means floats."""
         declared = self.declaration
         if wanted is not None:
-            speeds = {link: speeds[link] for link in wanted if link in speeds}
-            accuracy = {link: accuracy[link] for link in wanted if link in accuracy} if accuracy else None
-        results = judge_outputs(declared, self.tree, case, speeds.get, self.bookkeeping, self.signs)
+            verdict = self._narrowed(case, verdict, relative(*wanted) is not None, wanted)
+            shown = wanted if case.outputs else wanted[:1]
+            speeds = {link: speeds[link] for link in shown if link in speeds}
+            accuracy = {link: accuracy[link] for link in shown if link in accuracy} if accuracy else None
+        results = judge_outputs(declared, case, relative, self.is_rotation)
         return Answer(
             self.name,
             case.state,
@@ -443,6 +476,15 @@ class GearTrain:
         declared = self.declaration
         title = f"<p><b>{html.escape(declared.name)}</b> {html.escape(declared.title)}</p>"
         return title + "".join(answer._repr_html_() for answer in self.answers())
+
+
+def _nearest(speed: Fraction) -> float:
+    """The nearest float; `RangeError` where there is none."""
+    value = as_float(speed)
+    if value is None:
+        why = "its ratio would come out as 0 or infinity"
+        raise RangeError(Problem("a speed leaves the range of float64", why, "use the exact method, and no radians"))
+    return value
 
 
 def _check_choice(kind: str, name: str, known: Sequence[str]) -> None:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any, Literal
 
-from geartrain.circuits import Circuit, Tree
+from geartrain.circuits import Circuit
 from geartrain.exact import as_float, decimal, written
 from geartrain.periods import table
 from geartrain.train import Case, Output, Target, Train
@@ -15,6 +15,8 @@ from geartrain.train import Case, Output, Target, Train
 DAYS_PER_CENTURY = 36525
 Number = Fraction | float
 SpeedOf = Callable[[str], Number | None]
+Relative = Callable[[str, str], Number | None]
+"""Speed of a link seen from another, about the first one's axis; None where it is not determined."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -170,22 +172,17 @@ def number(speed: Number | None) -> dict[str, Any]:
 
 
 def judge_outputs(
-    train: Train,
-    tree: Tree,
-    case: Case,
-    speed_of: SpeedOf,
-    oblique: frozenset[str],
-    signs: Mapping[str, int],
+    train: Train, case: Case, relative: Relative, is_rotation: Callable[[str, str], bool]
 ) -> Iterator[OutputResult]:
     """Evaluate every output of a case.
 
-    speed_of   link -> speed, None where undetermined
-    oblique    links whose speed is a sum over non-parallel joints
+    relative      of two links, the speed of the first seen from the second
+    is_rotation   of two links, whether the axes between them are all parallel
     """
     moving = [speed for speed in case.inputs.values() if speed]
     for name, output in case.outputs.items():
         of, base = output.of or name, output.relative_to or train.frame
-        speed = relative_speed(of, base, speed_of, signs)
+        speed = relative(of, base)
         ratio = speed / moving[0] if speed is not None and len(moving) == 1 else None
         yield OutputResult(
             name,
@@ -197,13 +194,8 @@ def judge_outputs(
             _expect_holds(output, speed),
             _published_holds(output, speed, ratio),
             tuple(_against(train, target, speed) for target in output.targets if speed is not None),
-            of in oblique and not _jointed(tree, of, base),
+            not is_rotation(of, base),
         )
-
-
-def _jointed(tree: Tree, of: str, base: str) -> bool:
-    """True if the two links turn on one axis about each other: their relative speed is a rotation."""
-    return len(set(tree.path(of, base)[1])) <= 1
 
 
 def relative_speed(of: str, base: str, speed_of: SpeedOf, signs: Mapping[str, int]) -> Number | None:
@@ -287,13 +279,12 @@ class Sensitivity:
 def sensitivity(
     train: Train,
     outputs: Sequence[OutputResult],
-    solve_with: Callable[[Sequence[Circuit]], SpeedOf],
+    solve_with: Callable[[Sequence[Circuit]], Relative],
     circuits: Sequence[Circuit],
-    signs: Mapping[str, int],
 ) -> Iterator[Sensitivity]:
     """Solve again, exactly, with each uncertain wheel one tooth off.
 
-    solve_with   circuits -> (link -> speed), for changed circuits
+    solve_with   circuits -> relative speeds, for changed circuits
     """
     for name, wheel in train.uncertain_wheels():
         teeth = wheel.count
@@ -301,14 +292,14 @@ def sensitivity(
             continue
         changed = {step: solve_with(list(_recut(circuits, name, teeth + step))) for step in (-1, 1) if teeth + step > 0}
         for result in outputs:
-            shift = {step: _shift(result, speed_of, signs) for step, speed_of in changed.items()}
+            shift = {step: _shift(result, relative) for step, relative in changed.items()}
             if any(value != 0 for value in shift.values()):
                 allowed = wheel.doubt.allowed if wheel.doubt else ()
                 yield Sensitivity(name, teeth, allowed, result.name, shift.get(-1), shift.get(1))
 
 
-def _shift(result: OutputResult, speed_of: SpeedOf, signs: Mapping[str, int]) -> float | None:
-    speed = relative_speed(result.of, result.relative_to, speed_of, signs)
+def _shift(result: OutputResult, relative: Relative) -> float | None:
+    speed = relative(result.of, result.relative_to)
     if speed is None or result.speed is None:
         return None
     if speed == result.speed:

@@ -190,6 +190,7 @@ def solve_naively(data: Mapping[str, Any]) -> Reference:
         kind = "locked" if stuck else "contradictory"
     elif len(quiet_pivots) == len(links) and not any(inputs.values()):
         kind = "locked"
+        speeds = dict.fromkeys([frame, *links], zero)
     else:
         speeds = {frame: zero, **_known(matrix, pivots, links)}
         kind = "determined" if len(speeds) == len(links) + 1 else "free"

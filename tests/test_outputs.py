@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from fractions import Fraction
+from typing import Any
 
 import pytest
 
@@ -316,3 +317,71 @@ def test_a_wheel_of_one_tooth_can_lose_none() -> None:
     (row,) = train.sensitivity(train.solve())
     assert row.less is None
     assert row.more == pytest.approx(1e6)
+
+
+# two pairs that share a link which nothing drives; the arm's frame is another train's
+LOOSE = """
+links: {frame: {}, a: {wheels: {a20: 20}}, b: {wheels: {b20: {teeth: 20, internal: true}}}, arm: {}, c: {}}
+revolutes:
+  - {pair: [frame, arm], axis: main}
+  - {pair: [arm, a], axis: A}
+  - {pair: [arm, b], axis: B}
+  - {pair: [frame, c], axis: C}
+gears: [{pair: [a20, b20]}]
+inputs: {c: 1}
+outputs:
+  both: {of: a, relative_to: b, expect: 0}
+  one: {of: a}
+"""
+
+
+@pytest.mark.parametrize("method", ["exact", "floats"])
+def test_a_relative_speed_is_known_where_both_links_are_free(method: Any) -> None:
+    train = load(LOOSE)
+    full = train.solve(method=method)
+    assert full.verdict.kind == "free"
+    assert full.outputs["both"].speed == 0
+    assert not full.failures
+    assert full.outputs["one"].speed is None
+    alone = train.solve(output="both", method=method)
+    assert (alone.verdict.kind, alone["both"]) == ("determined", 0)
+    assert alone.verdict.text == "the speed of a seen from b follows from c"
+    assert train.solve(output="one", method=method).verdict.kind == "free"
+
+
+def test_a_train_that_nothing_drives_and_nothing_could_is_locked_and_stands() -> None:
+    train = load({"links": {"frame": {}, "a": {}}, "revolutes": [{"pair": ["frame", "a"], "axis": "A"}],
+                  "fixed": ["a"], "outputs": {"a": {"expect": 0}}})  # fmt: skip
+    for answer in (train.solve(), train.solve(output="a"), train.solve(method="floats")):
+        assert (answer.verdict.kind, answer["a"]) == ("locked", 0)
+        assert not answer.failures
+
+
+OBLIQUE = """
+axes: {across: {direction: [1, 0, 0]}, along: {direction: [1, 0, 0]}}
+links: {frame: {}, crown: {}, spider: {}, pin: {}}
+revolutes:
+  - {pair: [frame, crown], axis: main}
+  - {pair: [crown, spider], axis: across}
+  - {pair: [spider, pin], axis: along}
+inputs: {crown: 1}
+outputs:
+  whole: {of: spider}
+  on its carrier: {of: spider, relative_to: crown}
+  seen: {of: crown, relative_to: spider}
+  from afar: {of: crown, relative_to: pin}
+  past the spider: {of: pin, relative_to: crown}
+  upright: {of: crown}
+"""
+
+
+def test_a_relative_speed_is_a_rotation_where_the_axes_between_are_parallel() -> None:
+    outputs = load(OBLIQUE).solve().outputs
+    sums = {name for name, result in outputs.items() if result.bookkeeping}
+    assert sums == {"whole"}
+    assert (
+        load(OBLIQUE.replace("crown, relative_to: spider", "frame, relative_to: spider"))
+        .solve()
+        .outputs["seen"]
+        .bookkeeping
+    )

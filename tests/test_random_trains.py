@@ -5,6 +5,9 @@ A failure names the seed: `pytest tests/test_random_trains.py --trains 1 --first
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from typing import Any
+
 from joint_rates import TURNS_A_SECOND, Motion, move
 from random_trains import RandomTrain, driven_train, random_train
 
@@ -26,6 +29,27 @@ def told(train: RandomTrain, motion: Motion, answer: Answer) -> str:
     return ""
 
 
+def unlike(train: RandomTrain, motion: Motion, asked: GearTrain, full: Answer) -> Iterator[str]:
+    """Outputs and links that are told one way when all is solved, and another when they alone are asked for."""
+    for name in [*train.data["outputs"], *train.data["links"]]:
+        one = asked.solve(full.state, output=name)
+        speed, alone = (told_speed(answer, name) for answer in (full, one))
+        kind = full.verdict.kind if full.verdict.kind != "free" or speed is None else "determined"
+        if (speed, kind) != (alone, one.verdict.kind):
+            yield f"seed {train.seed} {full.state}: '{name}' is {speed}, {kind}, and alone {alone}, {one.verdict}"
+        output = full.outputs.get(name)
+        if output is None or not motion.is_rotation(output.of, output.relative_to):
+            continue
+        scale = TURNS_A_SECOND[full.unit] if full.unit else 1
+        right = motion.speed(output.of, output.relative_to) if motion.space.consistent else None
+        if (None if speed is None else speed * scale) != right:
+            yield f"seed {train.seed} {full.state}: '{name}' turns {right} and is said to turn {speed} {full.unit}"
+
+
+def told_speed(answer: Answer, name: str) -> Any:
+    return answer.outputs[name].speed if name in answer.outputs else answer.speeds.get(name)
+
+
 def judged(train: RandomTrain) -> list[str]:
     """What is wrong about one train in its states; a linkage in any of them must be refused."""
     motions = {state: move(train, state) for state in train.states}
@@ -41,6 +65,34 @@ def judged(train: RandomTrain) -> list[str]:
 
 def test_random_trains_do_what_their_joints_do(seeds: range) -> None:
     assert not [said for seed in seeds for said in judged(random_train(seed))]
+
+
+def test_an_output_asked_for_alone_is_what_it_is_among_all(seeds: range) -> None:
+    wrong = []
+    for seed in seeds[:: max(1, len(seeds) // 700)]:
+        train = random_train(seed)
+        motions = {state: move(train, state) for state in train.states}
+        if any(motion.kind == "refused" for motion in motions.values()):
+            continue
+        asked = GearTrain.declare(train.data)
+        for full in asked.answers():
+            wrong += unlike(train, motions[full.state], asked, full)
+    assert not wrong
+
+
+def test_floats_know_what_fractions_know() -> None:
+    for seed in range(150):
+        train = random_train(seed)
+        if any(move(train, state).kind == "refused" for state in train.states):
+            continue
+        asked = GearTrain.declare(train.data)
+        for exact in asked.answers():
+            floats = asked.solve(exact.state, method="floats")
+            assert (floats.verdict.kind, set(floats.speeds)) == (exact.verdict.kind, set(exact.speeds)), seed
+            for name, result in exact.outputs.items():
+                near = floats.outputs[name].speed
+                assert (near is None) == (result.speed is None), (seed, name)
+                assert near is None or abs(near - result.speed) <= 1e-9 * max(1, abs(result.speed)), (seed, name)
 
 
 def test_the_random_trains_are_of_every_kind() -> None:

@@ -122,6 +122,11 @@ def bookkeeping_links(train: Train, tree: Tree) -> frozenset[str]:
     )
 
 
+def are_parallel(train: Train, tree: Tree, of: str, base: str) -> bool:
+    """True if the axes of all joints between two links are parallel."""
+    return Axes(train, tree).are_parallel(tree.path(of, base)[1])
+
+
 def _vector(figures: Iterable[Any]) -> Vector:
     """Three figures as numbers, or three lengths in metres."""
     x, y, z = (figure.value if isinstance(figure, Figure) else figure.base for figure in figures)

@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 from geartrain.components import Reduced
 from geartrain.errors import Loop, Verdict
-from geartrain.exact import Row, TooDenseError, abridged, add_into, eliminate
+from geartrain.exact import PRIME, Row, TooDenseError, abridged, add_into, eliminate, rank_modulo, residues
 from geartrain.train import Case
 
 _ZERO = Fraction(0)
@@ -27,8 +27,8 @@ class Statement(NamedTuple):
     speed: Fraction = _ZERO
 
 
-def diagnose(reduced: Reduced, case: Case, signs: Mapping[str, int], budget: int | None = None) -> Verdict | None:
-    """The verdict locked or contradictory with its witnesses, or None if the case holds together and can move.
+def diagnose(reduced: Reduced, case: Case, signs: Mapping[str, int], budget: int | None = None) -> Verdict:
+    """The verdict on a case that does not hold together, locked or contradictory, with its witnesses.
 
     An input is locked if its link stands still whatever the other inputs do; inputs that could move alone but not
     together are contradictory. Witnesses cost memory in a long coupled train: past `budget` operations the verdict
@@ -44,7 +44,7 @@ def diagnose(reduced: Reduced, case: Case, signs: Mapping[str, int], budget: int
                 return _name(reduced, case, _uses(resolved), statements)
         echelon = eliminate(rows, budget)
     except TooDenseError:
-        return without_witness(case)
+        return without_witness(reduced, case)
     for condition in echelon.conditions:
         given = _uses(condition)
         total = sum(
@@ -52,8 +52,7 @@ def diagnose(reduced: Reduced, case: Case, signs: Mapping[str, int], budget: int
         )
         if total:
             return _name(reduced, case, given, statements)
-    moving = any(stated.speed for stated in statements)
-    return _standing(reduced, case) if reduced.unknowns == echelon.rank and not moving else None
+    return without_witness(reduced, case)
 
 
 def _uses(row: Row) -> dict[int, Fraction]:
@@ -80,13 +79,32 @@ def held_rows(reduced: Reduced, case: Case) -> Iterator[Row]:
         yield row
 
 
-def without_witness(case: Case) -> Verdict:
-    """What is certain without a certificate: one moving input is locked, several contradict each other."""
+def without_witness(reduced: Reduced, case: Case) -> Verdict:
+    """What is certain without a certificate: an input that cannot move is locked, else several contradict."""
     given = tuple(map(case.given, case.inputs))
-    moving = [link for link, speed in case.inputs.items() if speed]
-    if len(moving) == 1:
-        return Verdict("locked", f"input '{moving[0]}' is locked to the frame by the circuits", prescriptions=given)
+    stuck = _stuck(reduced, case)
+    if stuck:
+        return Verdict("locked", f"input '{stuck[0]}' is locked to the frame by the circuits", prescriptions=given)
     return Verdict("contradictory", f"{', '.join(given)} cannot hold with the circuits", prescriptions=given)
+
+
+def _stuck(reduced: Reduced, case: Case) -> list[str]:
+    """The inputs that are to move and stand still whatever the others do, modulo a prime.
+
+    With a symbol for each input, elimination leaves what the circuits say of the inputs alone.
+    """
+    rows = [dict(row) for row in (*reduced.equations, *held_rows(reduced, case))]
+    rows += [
+        {**reduced.form(reduced.components.index[link]), -1 - at: Fraction(1)} for at, link in enumerate(case.inputs)
+    ]
+    left = eliminate(map(residues, rows), modulus=PRIME).conditions
+    said = [{-1 - column: value for column, value in row.items()} for row in left]
+    rank = rank_modulo(said)
+    return [
+        link
+        for at, (link, speed) in enumerate(case.inputs.items())
+        if speed and rank_modulo([*said, {at: Fraction(1)}]) == rank
+    ]
 
 
 def _tagged(reduced: Reduced, case: Case, signs: Mapping[str, int]) -> tuple[list[Row], list[Statement]]:
@@ -151,7 +169,7 @@ def _pairs(reduced: Reduced, given: Mapping[int, Fraction], structural: int) -> 
     return [parts.circuits[circuit].id for circuit in found]
 
 
-def _standing(reduced: Reduced, case: Case) -> Verdict:
+def standing(reduced: Reduced, case: Case) -> Verdict:
     """Nothing is driven and nothing could be: the train itself, or its brakes, hold every link."""
     parts = reduced.components
     loops: tuple[Loop, ...] = tuple(parts.loop(circuit) for circuit in parts.breaking)

@@ -11,9 +11,9 @@ from functools import cached_property
 from geartrain.bulk import collector_paused
 from geartrain.components import Part, Reduced
 from geartrain.errors import Loop, Verdict
-from geartrain.exact import PRIME, Row, TooDenseError, eliminate, rank_modulo, residues
+from geartrain.exact import PRIME, Row, TooDenseError, add_into, eliminate, rank_modulo, residues
 from geartrain.propagation import propagate
-from geartrain.speeds.diagnosis import diagnose, free_verdict, held_rows, resolve, without_witness
+from geartrain.speeds.diagnosis import diagnose, free_verdict, held_rows, resolve, standing, without_witness
 from geartrain.train import Case
 
 _GIVEN = -1  # the column in which prescribed numbers stand
@@ -60,16 +60,48 @@ class Mobility:
 
 
 @dataclass(frozen=True, slots=True)
+class Loose:
+    """What is left of a train that is free: forms of its unknowns in those that stayed free."""
+
+    reduced: Reduced
+    forms: Mapping[int, Row]
+
+    def difference(self, of: str, base: str) -> Fraction | None:
+        """The difference of two links' speeds, unsigned; None where free unknowns remain in it."""
+        index = self.reduced.components.index
+        row = dict(self.reduced.form(index[of]))
+        add_into(row, self.reduced.form(index[base]), -1)
+        return _value(resolve(row, self.forms))
+
+
+@dataclass(frozen=True, slots=True)
 class Solution:
     """Exact speeds of a train in one case, and the verdict.
 
     speeds      link -> speed, in the order declared; only links that are determined
     ratios      link -> input -> speed over that input, the others at rest
+    signs       -1 for links whose axis points against its parallels
+    loose       every link as a form of what stayed free; None where all is determined, or nothing is
     """
 
     verdict: Verdict
     speeds: Mapping[str, Fraction]
     ratios: Mapping[str, Mapping[str, Fraction]]
+    signs: Mapping[str, int]
+    loose: Loose | None = None
+
+    def relative(self, of: str, base: str) -> Fraction | None:
+        """Speed of a link seen from another, about the first one's axis; None where it is not determined.
+
+        It may be determined though both links are free: it is wherever the difference lies in the space of the rows.
+        """
+        own, other = self.speeds.get(of), self.speeds.get(base)
+        if own is not None and other is not None:
+            return own - other * self.signs.get(of, 1) * self.signs.get(base, 1)
+        if self.loose is None:
+            return None
+        value = self.loose.difference(of, base)
+        return None if value is None else value * self.signs.get(of, 1)
 
     def __getitem__(self, link: str) -> Fraction:
         return self.speeds[link]
@@ -119,20 +151,21 @@ def solve(part: Part, case: Case, signs: Mapping[str, int], budget: int | None =
     ratios = _Ratios(part, case, signs)
     walked = propagate(part.links, part.frame, part.circuits, case, signs) if any(case.inputs.values()) else None
     if walked is not None:
-        return Solution(determined(case), walked, ratios)
+        return Solution(determined(case), walked, ratios, signs)
     reduced = part.reduced
     budget = allowance(reduced, budget)
     echelon = eliminate([*reduced.equations, *held_rows(reduced, case), *_driven(reduced, case, signs)], budget)
-    if echelon.conditions or (not any(case.inputs.values()) and _all_still(reduced, case, budget)):
-        verdict = diagnose(reduced, case, signs, budget)
-        if verdict is not None:
-            return Solution(verdict, {}, ratios)
+    if echelon.conditions:
+        return Solution(diagnose(reduced, case, signs, budget), {}, ratios, signs)
+    if not any(case.inputs.values()) and _all_still(reduced, case, budget):
+        return Solution(standing(reduced, case), dict.fromkeys(part.links, Fraction(0)), ratios, signs)
     forms = echelon.forms(budget)
     speeds, undetermined = _read_off(reduced, forms, signs)
     if undetermined:
         freedom = reduced.unknowns - echelon.rank
-        return Solution(free_verdict(reduced, case, forms, undetermined, freedom), speeds, ratios)
-    return Solution(determined(case, reduced), speeds, ratios)
+        verdict = free_verdict(reduced, case, forms, undetermined, freedom)
+        return Solution(verdict, speeds, ratios, signs, Loose(reduced, forms))
+    return Solution(determined(case, reduced), speeds, ratios, signs)
 
 
 def allowance(reduced: Reduced, budget: int | None) -> int | None:
@@ -142,10 +175,12 @@ def allowance(reduced: Reduced, budget: int | None) -> int | None:
 
 def exact_verdict(reduced: Reduced, case: Case, signs: Mapping[str, int]) -> Verdict:
     """The verdict alone, modulo a prime: for coupled systems too dense for rational elimination."""
-    rows = [*reduced.equations, *held_rows(reduced, case), *_driven(reduced, case, signs)]
-    echelon = eliminate(map(residues, rows), modulus=PRIME)
+    held = [*reduced.equations, *held_rows(reduced, case)]
+    if not any(case.inputs.values()) and rank_modulo(held) == reduced.unknowns:
+        return standing(reduced, case)
+    echelon = eliminate(map(residues, [*held, *_driven(reduced, case, signs)]), modulus=PRIME)
     if echelon.conditions:
-        return without_witness(case)
+        return without_witness(reduced, case)
     freedom = reduced.unknowns - echelon.rank
     if freedom:
         given_count = len(case.inputs)

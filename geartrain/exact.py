@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from decimal import MAX_EMAX, MAX_PREC, Context, Decimal, Inexact, localcontext
 from fractions import Fraction
@@ -324,3 +324,51 @@ def residues(row: Mapping[int, Fraction], modulus: int = PRIME) -> Row:
 def rank_modulo(rows: Iterable[Mapping[int, Fraction]], modulus: int = PRIME) -> int:
     """Rank of rational rows modulo a prime: never more than the true rank, and equal but for accidents."""
     return eliminate((residues(row, modulus) for row in rows), modulus=modulus).rank
+
+
+def feasible(forms: Sequence[Mapping[int, Fraction]], constant: int = -1) -> bool:
+    """True if some numbers for the unknowns make every linear form 0 or more: the simplex method, its first phase.
+
+    forms      columns >= 0 are unknowns of either sign, `constant` is the column of what is added
+
+    Bland's rule, by which the entering and the leaving variable are those of the least number, cannot cycle.
+    """
+    unknowns = sorted({column for form in forms for column in form if column != constant})
+    # an unknown is the difference of two variables that are not negative
+    place = {column: 2 * at for at, column in enumerate(unknowns)}
+    table: list[list[Fraction]] = []
+    basis: list[int] = []
+    first_slack = 2 * len(unknowns)
+    artificial = first_slack + len(forms)
+    for at, form in enumerate(forms):
+        row = [Fraction(0)] * (artificial + 1)
+        for column, value in form.items():
+            if column != constant:
+                row[place[column]], row[place[column] + 1] = value, -value
+        row[first_slack + at] = Fraction(-1)
+        row[-1] = -form.get(constant, Fraction(0))
+        met = row[-1] <= 0  # where all unknowns are 0
+        table.append([-value for value in row] if met else row)
+        basis.append(first_slack + at if met else artificial + at)
+    return _reaches_zero(table, basis, artificial)
+
+
+def _reaches_zero(table: list[list[Fraction]], basis: list[int], artificial: int) -> bool:
+    """Whether the variables from `artificial` on, in the basis only, can all be made 0."""
+    while True:
+        lacking = [row for row, own in zip(table, basis, strict=True) if own >= artificial]
+        if not any(row[-1] for row in lacking):
+            return True
+        enter = next((at for at in range(artificial) if sum(row[at] for row in lacking) > 0), None)
+        if enter is None:
+            return False
+        ratios = [(row[-1] / row[enter], own, at) for at, (row, own) in enumerate(zip(table, basis, strict=True))
+                  if row[enter] > 0]  # fmt: skip
+        _, _, leave = min(ratios)
+        lead = table[leave][enter]
+        pivot = table[leave] = [value / lead for value in table[leave]]
+        basis[leave] = enter
+        for at, row in enumerate(table):
+            if at != leave and row[enter]:
+                factor = row[enter]
+                table[at] = [value - factor * other for value, other in zip(row, pivot, strict=True)]

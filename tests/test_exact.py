@@ -6,10 +6,12 @@ import math
 from decimal import Context, Decimal
 from fractions import Fraction
 
+import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from reference_solver import echelon
+from scipy.optimize import linprog
 
 from geartrain.exact import (
     PRIME,
@@ -19,6 +21,7 @@ from geartrain.exact import (
     coprime,
     decimal,
     eliminate,
+    feasible,
     log10,
     rank_modulo,
     residues,
@@ -149,3 +152,12 @@ def test_the_nearest_float_is_offered_where_there_is_one(value: Fraction) -> Non
     number = as_float(value)
     assert number is not None
     assert abs(Fraction(number) - value) <= value / 2**53
+
+
+@given(st.lists(st.lists(st.integers(-3, 3), min_size=4, max_size=4), min_size=1, max_size=7))
+def test_forms_can_all_be_kept_above_zero_where_linear_programming_says_so(rows: list[list[int]]) -> None:
+    forms = [{column - 1: Fraction(value) for column, value in enumerate(row) if value} for row in rows]
+    matrix = np.array(rows, dtype=float)
+    # the constant stands in the column -1; in floats: is there an x with matrix x >= -constant
+    truth = linprog(np.zeros(3), A_ub=-matrix[:, 1:], b_ub=matrix[:, 0], bounds=(None, None), method="highs")
+    assert feasible(forms) == (truth.status == 0)

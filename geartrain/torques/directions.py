@@ -15,7 +15,7 @@ from itertools import chain, islice, product
 from typing import TYPE_CHECKING
 
 from geartrain.blocks import Block
-from geartrain.exact import Row, eliminate
+from geartrain.exact import Echelon, Row, eliminate, feasible
 from geartrain.torques.balance import Balance, Column, Pattern, Solved
 
 if TYPE_CHECKING:
@@ -148,14 +148,33 @@ def _solutions(
     rest = _candidates(columns, block, lossy, base, known) if tried else ()
     for sides in chain([first] if first else [], rest):
         values = _solve(columns, block, sides, known)
+        if values is None or not _is_consistent(columns, block, sides, values, known):
+            continue
         # an idle mesh may be taken either way: the torques are the same
-        if values is not None and _is_consistent(columns, sides, values) and all(values != each for _, each in found):
+        if all(values != each for _, each in found):
             found.append((sides, values))
     return found, tried
 
 
-def _is_consistent(columns: Sequence[Column], sides: Sides, values: Values) -> bool:
-    return all(columns[column].admits(sides[column], value or Fraction(0)) for column, value in values.items())
+def _is_consistent(
+    columns: Sequence[Column], block: Block, sides: Sides, values: Values, known: Mapping[int, Fraction]
+) -> bool:
+    """True if power flows as the sides say, or, where torques are open, if there are some with which it does."""
+    if not all(columns[column].admits(sides[column], value or Fraction(0)) for column, value in values.items()):
+        return False
+    bound = [column for column, value in values.items() if value is None and (sides[column] or columns[column].barred)]
+    if not bound:
+        return True
+    echelon = _echelon(columns, block, sides, known)
+    solved = echelon.forms()
+    demands: list[Row] = []
+    for column in bound:
+        form = solved.get(column, {column: Fraction(1)})
+        way = -sides[column] * columns[column].turn
+        demands.append({at: way * value for at, value in form.items()})
+        if columns[column].barred:
+            demands.append({at: -way * value for at, value in form.items()})
+    return feasible(demands, _KNOWN)
 
 
 def _solve(columns: Sequence[Column], block: Block, sides: Sides, known: Mapping[int, Fraction]) -> Values | None:
@@ -164,12 +183,7 @@ def _solve(columns: Sequence[Column], block: Block, sides: Sides, known: Mapping
         (row,), (column,) = block.rows, block.columns
         if coefficient := columns[column].pieces[sides[column]].get(row):
             return {column: -known[row] / coefficient}
-    rows: dict[int, Row] = {row: {_KNOWN: value} if value else {} for row, value in known.items()}
-    for column in block.columns:
-        for row, value in columns[column].pieces[sides[column]].items():
-            if row in rows:
-                rows[row][column] = value
-    echelon = eliminate(rows.values())
+    echelon = _echelon(columns, block, sides, known)
     if echelon.conditions:
         return None
     forms = echelon.forms()
@@ -178,6 +192,16 @@ def _solve(columns: Sequence[Column], block: Block, sides: Sides, known: Mapping
         if all(other < 0 for other in form):
             values[column] = form.get(_KNOWN, Fraction(0))
     return values
+
+
+def _echelon(columns: Sequence[Column], block: Block, sides: Sides, known: Mapping[int, Fraction]) -> Echelon:
+    """The rows of a block, eliminated."""
+    rows: dict[int, Row] = {row: {_KNOWN: value} if value else {} for row, value in known.items()}
+    for column in block.columns:
+        for row, value in columns[column].pieces[sides[column]].items():
+            if row in rows:
+                rows[row][column] = value
+    return eliminate(rows.values())
 
 
 def _candidates(
@@ -204,7 +228,7 @@ def _iterate(
         values = _solve(columns, block, sides, known)
         if values is None:
             return None
-        if seen and _is_consistent(columns, sides, values):
+        if seen and _is_consistent(columns, block, sides, values, known):
             return sides
         wanted = {column: -1 if (values[column] or 0) * columns[column].turn > 0 else 1 for column in lossy}
         sides = {**base, **wanted}

@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from geartrain.teeth.base import Law
 
 _ONE = Fraction(1)
+_ROUNDING = 1e-9
 
 
 @dataclass(frozen=True)
@@ -83,8 +84,10 @@ def _of_laws(first: Law, second: Law) -> Means:
 
 def _mean(efficiency: float) -> Fraction:
     """A mean over teeth, to 15 digits; 0 where friction locks."""
-    # rounding of a quadrature may pass 1
-    return Fraction(0) if isnan(efficiency) else min(Fraction(f"{efficiency:.15g}"), _ONE)
+    if isnan(efficiency):
+        return Fraction(0)
+    # rounding of a quadrature may pass 1 by a little
+    return _ONE if 1 < efficiency < 1 + _ROUNDING else Fraction(f"{efficiency:.15g}")
 
 
 def settle_means(balance: Balance, means: Mapping[str, Means], driving: bool) -> tuple[Balance, tuple[str, ...]]:

@@ -1,0 +1,362 @@
+"""No train creates energy: whatever it loses, by whatever way that is declared, more goes in than comes out.
+
+Powers are taken here from torques and speeds of links alone, and equilibrium link by link; which flows of power there
+are is asked of an enumeration of its own, dense and over the rows of the naive solver.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator, Mapping, Sequence
+from fractions import Fraction
+from itertools import product
+from random import Random
+from typing import Any
+
+import pytest
+import shipped as catalogue
+from random_trains import driven_train
+from reference_solver import echelon, pair_name, rigid_rows, solve_naively, turning_graph, wheel_table
+from reference_solver import find_carrier as carrier_of
+
+from geartrain import GearTrain, GearTrainError, load, shipped
+from geartrain.report import flow_of, there_and_back
+from geartrain.teeth.base import Law
+from geartrain.torques import Balance, Mesh, Torques, find_flows
+from geartrain.train.mechanism import Efficiencies
+
+Data = dict[str, Any]
+
+
+def speeds_along(train: GearTrain, found: Torques) -> dict[str, Fraction]:
+    """Speeds about the direction of the parallels."""
+    return {link: train.signs.get(link, 1) * Fraction(speed) for link, speed in found.speeds.items()}
+
+
+def bearings_of(train: GearTrain, found: Torques) -> dict[str, list[tuple[str, Fraction]]]:
+    """By link that rubs, the torques of its bearing on itself and on its carrier, about the links' own axes."""
+    along, taken = speeds_along(train, found), {}
+    for link, part in train.declaration.links.items():
+        if part.bearing is None or not found.bearing_loss or link == train.declaration.frame:
+            continue
+        carrier = train.tree.parent[link][0]
+        relative = along[link] - along[carrier]
+        torque = -part.bearing.base * ((relative > 0) - (relative < 0))
+        own, other = train.signs.get(link, 1), train.signs.get(carrier, 1)
+        taken[link] = [(link, own * torque), (carrier, -other * torque)]
+    return taken
+
+
+def require_no_energy(train: GearTrain, found: Torques) -> None:
+    """Every link in balance; every pair, bearing and lock passes on no more than it takes; no more out than in."""
+    if not found.verdict or found.open_speeds or any(link not in found.speeds for link in train.declaration.links):
+        return
+    speed = {link: Fraction(value) for link, value in found.speeds.items()}
+    acting: dict[str, Fraction] = dict.fromkeys(train.declaration.links, Fraction(0))
+    lost = Fraction(0)
+    for name, pair in found.pairs.items():
+        taken = -sum(torque * speed[link] for link, torque in zip(pair.links, pair.torques, strict=True))
+        assert taken >= 0, f"{train.name}: pair {name} gives {-taken} more than it takes"
+        assert taken == pair.loss, name
+        lost += taken
+        for link, torque in zip(pair.links, pair.torques, strict=True):
+            acting[link] += torque
+    for link, given in bearings_of(train, found).items():
+        taken = -sum(torque * speed[end] for end, torque in given)
+        assert taken >= 0, f"{train.name}: the bearing of {link} drives"
+        lost += taken
+        for end, torque in given:
+            acting[end] += torque
+    for held in found.held:
+        if held.torques is None or any(pair.loose for pair in found.pairs.values()):
+            continue
+        assert sum(torque * speed[link] for link, torque in zip(held.links, held.torques, strict=True)) == 0
+        if len(held.links) == 2:
+            for link, torque in zip(held.links, held.torques, strict=True):
+                acting[link] += torque
+    loose = any(pair.loose for pair in found.pairs.values()) or any(held.torques is None for held in found.held)
+    if not loose:
+        for link, torque in acting.items():
+            if link != train.declaration.frame:
+                assert torque + found.external.get(link, 0) == 0, f"{train.name}: {link} is not in balance"
+        assert sum(found.powers.values()) == lost
+    if found.efficiency is not None:
+        assert 0 <= found.efficiency <= 1
+    assert all(loss > 0 for loss in flow_of(train, found).losses.values())
+
+
+def states(train: GearTrain) -> tuple[str | None, ...]:
+    return train.states or (None,)
+
+
+def asked(train: GearTrain) -> Iterator[Torques]:
+    """Under the declared loads, and driven from each end to the other."""
+    for state in states(train):
+        yield train.torques(state)
+        yield from (way for way, _, _ in there_and_back(train, state))
+
+
+# ------------------------------------------------------------------------------------------------------- shipped trains
+
+
+def written(random: Random) -> object:
+    """An efficiency in one of the ways to write it, above 0 and at most 1 one way round at least."""
+    percent = random.randint(1, 100)
+    ways: list[object] = [
+        f"{percent} %", percent / 100, f"{percent}/100", 1, "99.99 %", "1e-3",
+        {"forward": f"{percent} %", "backward": random.choice(["-1/2", 0, "0.3", "100 %"])},
+        {"forward": random.choice([0, "-3"]), "backward": percent / 100},
+    ]  # fmt: skip
+    return random.choice(ways)
+
+
+@pytest.mark.parametrize("name", shipped())
+def test_no_shipped_train_creates_energy(name: str) -> None:
+    train = catalogue.train(name)
+    for found in asked(train):
+        require_no_energy(train, found)
+
+
+@pytest.mark.parametrize("name", shipped())
+@pytest.mark.parametrize("seed", range(3))
+def test_no_shipped_train_creates_energy_with_other_losses(name: str, seed: int) -> None:
+    """Efficiencies in every way they are written, bearings, friction on its teeth and pins, and a load or two."""
+    random, plain = Random(f"{name} {seed}"), catalogue.train(name).declaration
+    data: Data = {"extends": name, "name": name}
+    data["gears"] = [
+        {"id": gear.name, "pair": list(gear.pair), "efficiency": written(random)}
+        for gear in plain.gears
+        if random.random() < 0.7
+    ]
+    data["couplings"] = [
+        {
+            "id": pin.name,
+            "kind": pin.kind,
+            "pin": pin.pin,
+            "slot": pin.slot,
+            "friction": random.choice([0.01, 0.1, 0.3]),
+        }
+        for pin in plain.couplings
+    ]
+    moving = [link for link in plain.links if link != plain.frame]
+    data["links"] = {link: {"bearing": "1/50"} for link in moving if random.random() < 0.3}
+    loads = {link: str(random.randint(-9, 9)) for link in random.sample(moving, min(2, len(moving)))}
+    data["loads"] = loads
+    if plain.states:
+        data["states"] = {state: {"loads": loads} for state in plain.states}
+    if plain.tooth_form is not None:
+        data["friction"] = random.choice([0.02, 0.1])
+    train = load(data)
+    for found in asked(train):
+        require_no_energy(train, found)
+
+
+# -------------------------------------------------------------------------------------------------------- random trains
+
+
+def lossy(seed: int, oblique: bool) -> Data:
+    """A driven random train in which pairs, pins and bearings lose, and some link that is not driven is loaded."""
+    random, data = Random(seed), driven_train(seed, oblique=oblique).data
+    data = json.loads(json.dumps(data))
+    for gear in data["gears"]:
+        if random.random() < 0.8:
+            gear["efficiency"] = written(random)
+    for coupling in data["couplings"]:
+        r, e = ("10 mm", "3 mm") if coupling["kind"] == "pin_and_slot" else ("3 mm", "10 mm")
+        coupling |= {"pin_radius": r, "offset": e, "friction": random.choice([0, 0.1, 0.4])}
+    for link, part in data["links"].items():
+        if link != "frame" and random.random() < 0.2:
+            part["bearing"] = "1/7"
+    free = [link for link in data["links"] if link != "frame" and link not in data["inputs"]]
+    if free:
+        data["loads"] = {link: str(random.randint(-9, 9)) for link in random.sample(free, min(2, len(free)))}
+    return data
+
+
+def test_no_random_train_creates_energy(seeds: range) -> None:
+    answered = 0
+    for seed in seeds[:: max(1, len(seeds) // 300)]:
+        train = GearTrain.declare(lossy(seed, oblique=True))
+        for found in asked(train):
+            require_no_energy(train, found)
+            answered += bool(found.verdict)
+    assert answered > 50
+
+
+def test_friction_of_any_teeth_creates_no_energy() -> None:
+    """The laws' own means, with either wheel driving, at constant torque on either side, and in a train."""
+    forms = ["triangular, half_angle: 30 deg, window: 0.5", "involute", "cycloidal", "uniform_stress", "least_friction"]
+    for form, (z1, z2), friction in product(forms, [(24, 36), (41, 20)], [0.01, 0.1, 0.25]):
+        text = f"""
+links: {{frame: {{}}, a: {{wheels: {{p: {z1}}}}}, b: {{bearing: 0.1, wheels: {{w: {z2}}}}}}}
+revolutes: [{{pair: [frame, a], axis: A}}, {{pair: [frame, b], axis: B}}]
+gears: [{{pair: [p, w], tooth_form: {{form: {form}}}, friction: {friction}}}]
+inputs: {{a: 1}}
+loads: {{b: 3}}
+"""
+        train = load(text)
+        (mesh,) = train.meshes
+        for law in (mesh.law, mesh.reversed):
+            require_sound(law)
+        for found in asked(train):
+            require_no_energy(train, found)
+
+
+def require_sound(law: Law) -> None:
+    for mean in (law.efficiency_mean(), law.efficiency_at_constant_load()):
+        assert not mean > 1, law
+
+
+@pytest.mark.parametrize("second", ["[p, w]", "[w, p]"])
+def test_two_pairs_side_by_side_lose_what_one_does(second: str) -> None:
+    """How they share the load is open, but not that power flows from the crank to the load in both."""
+    text = f"""
+links: {{frame: {{}}, a: {{wheels: {{p: 20}}}}, b: {{wheels: {{w: 40}}}}}}
+revolutes: [{{pair: [frame, a], axis: A}}, {{pair: [frame, b], axis: B}}]
+gears: [{{id: G, pair: [p, w], efficiency: 1/1000}}, {{id: H, pair: {second}, efficiency: 1/1000}}]
+inputs: {{a: 1}}
+loads: {{b: 1}}
+"""
+    found = load(text).torques()
+    assert found.external["a"] == 500
+    assert found.efficiency == Fraction(1, 1000)
+
+
+# ----------------------------------------------------------------------------------------- which flows there are at all
+
+
+def flows_by_enumeration(data: Data, asked_for: Sequence[str]) -> set[tuple[Fraction, ...]] | None:
+    """Torques on the links asked for, in every consistent pattern of power flow; None where something stays open."""
+    speeds, graph, wheels = solve_naively(data).speeds, turning_graph(data), wheel_table(data)
+    links = [link for link in data["links"] if link != "frame"]
+    at = {link: number for number, link in enumerate(links)}
+    meshes = []
+    for gear in data["gears"]:
+        (i, z_i, ring_i), (j, z_j, ring_j) = (wheels[name] for name in gear["pair"])
+        k = carrier_of(graph, i, j)
+        b = z_j * (-1 if ring_i or ring_j else 1)
+        ways = efficiencies(gear.get("efficiency", 1))
+        rolling = z_i * (speeds[i] - speeds[k])
+        meshes.append((pair_name(gear), (i, j, k), z_i, b, rolling, ways))
+    for coupling in data["couplings"]:
+        i, j = coupling["slot"], coupling["pin"]
+        m = 1 if coupling["kind"] == "pin_and_slot" else 0
+        meshes.append(("pin", (i, j, carrier_of(graph, i, j)), 1, -m, Fraction(0), (Fraction(1), Fraction(1))))
+    open_ways = [(1, -1) if rolling and ways != (1, 1) else (0,) for *_, rolling, ways in meshes]
+    found: set[tuple[Fraction, ...]] = set()
+    for pattern in product(*open_ways):
+        columns = []
+        for side, (_, (i, j, k), a, b, _, (forward, backward)) in zip(pattern, meshes, strict=True):
+            left, right = a * (backward if side < 0 else 1), b * (forward if side > 0 else 1)
+            columns.append(_column(at, {i: left}, {j: right}, {k: -left - right}))
+        columns += [_column(at, {link: Fraction(1)}) for link in asked_for]
+        columns += [_column(at, row) for row in rigid_rows(data)]
+        matrix = [[column[row] for column in columns] + [-Fraction(data["loads"].get(link, 0))]
+                  for row, link in enumerate(links)]  # fmt: skip
+        pivots = echelon(matrix, len(columns))
+        if any(row[-1] for row in matrix[len(pivots) :]):
+            continue
+        if len(pivots) < len(columns):
+            return None
+        x = [row[-1] for row in matrix[: len(columns)]]
+        powers = [-value * mesh[4] for value, mesh in zip(x, meshes, strict=False)]
+        blocked = any(
+            power and (mesh[5][0] if power > 0 else mesh[5][1]) <= 0
+            for power, mesh, sides in zip(powers, meshes, open_ways, strict=True)
+            if sides != (0,)
+        )
+        if not blocked and all(side * power >= 0 for side, power in zip(pattern, powers, strict=True)):
+            found.add(tuple(x[len(meshes) : len(meshes) + len(asked_for)]))
+    return found
+
+
+def efficiencies(given: object) -> tuple[Fraction, Fraction]:
+    """Forward and backward as written."""
+    ways = given if isinstance(given, Mapping) else {"forward": given, "backward": given}
+    found = []
+    for way in ("forward", "backward"):
+        text = str(ways[way])
+        found.append(Fraction(text.removesuffix(" %")) / (100 if text.endswith("%") else 1))
+    return found[0], found[1]
+
+
+def _column(at: Mapping[str, int], *parts: Mapping[str, Any]) -> list[Fraction]:
+    column = [Fraction(0)] * len(at)
+    for part in parts:
+        for link, value in part.items():
+            if link in at:
+                column[at[link]] += value
+    return column
+
+
+def test_the_flows_of_random_trains_are_those_of_an_enumeration(seeds: range) -> None:
+    """One flow is determined, several are ambiguous, none is self-locking: so in each train, and in torques."""
+    kinds: dict[str, int] = {}
+    for seed in seeds[:: max(1, len(seeds) // 400)]:
+        data = lossy(seed, oblique=False)
+        if "loads" not in data or len(data["gears"]) > 8:
+            continue
+        for coupling in data["couplings"]:
+            del coupling["friction"]
+        for part in data["links"].values():
+            part.pop("bearing", None)
+        inputs = list(data["inputs"])
+        found = GearTrain.declare(data).torques()
+        exact = {**data, "inputs": {link: Fraction(speed) for link, speed in data["inputs"].items()}}
+        truth = flows_by_enumeration(exact, inputs)
+        if truth is None or found.verdict.kind in ("still", "indeterminate"):
+            continue
+        kinds[found.verdict.kind] = kinds.get(found.verdict.kind, 0) + 1
+        if not truth:
+            assert found.verdict.kind == "self-locking", (seed, found.verdict)
+        else:
+            assert found.verdict.kind == ("ambiguous" if len(truth) > 1 else found.verdict.kind), (seed, found.verdict)
+            assert found.verdict.kind in ("determined", "incomplete", "ambiguous"), (seed, found.verdict)
+            assert tuple(found.external.get(link, Fraction(0)) for link in inputs) in truth, seed
+    assert kinds["self-locking"] > 5, kinds
+    assert kinds["determined"] > 50, kinds
+
+
+# --------------------------------------------------------------------------------------------- every way into the house
+
+PAIR: Data = {
+    "links": {"frame": {}, "a": {"wheels": {"p": 20}}, "b": {"wheels": {"w": 40}}},
+    "revolutes": [{"pair": ["frame", "a"], "axis": "A"}, {"pair": ["frame", "b"], "axis": "B"}],
+    "gears": [{"id": "G", "pair": ["p", "w"]}],
+    "inputs": {"a": 1},
+    "loads": {"b": 3},
+}
+
+
+@pytest.mark.parametrize("efficiency", [98, "98", 1.5, "101 %", "1.0000001", {"forward": 2, "backward": 1}, "7/6"])
+def test_no_declaration_lets_in_more_than_all(efficiency: object) -> None:
+    data = {**PAIR, "gears": [{"id": "G", "pair": ["p", "w"], "efficiency": efficiency}]}
+    for door in (GearTrain.declare, load):
+        with pytest.raises(GearTrainError):
+            door(data)  # type: ignore[operator]
+
+
+def test_nothing_built_past_the_declaration_lets_in_more_than_all() -> None:
+    with pytest.raises(GearTrainError, match="create power"):
+        Mesh("G", ("a", "b", "frame"), (1, 1, 1), 20, 40, Fraction(20), Fraction(98), Fraction(1))
+    with pytest.raises(GearTrainError, match="create power"):
+        Mesh("G", ("a", "b", "frame"), (1, 1, 1), 20, 40, Fraction(20), Fraction(1), Fraction(3, 2))
+    train = GearTrain.declare(PAIR)
+    gear = train.declaration.gears[0]
+    share = GearTrain.declare({**PAIR, "gears": [{**PAIR["gears"][0], "efficiency": "98 %"}]}).declaration.gears[0]
+    assert share.efficiency is not None
+    forged = Efficiencies.model_construct(
+        forward=type(share.efficiency.forward).parse("98", "fraction", plain=True), backward=share.efficiency.backward
+    )
+    copied = train.declaration.model_copy(update={"gears": (gear.model_copy(update={"efficiency": forged}),)})
+    with pytest.raises(GearTrainError, match="create power"):
+        GearTrain(copied).torques()
+
+
+@pytest.mark.parametrize("percent", range(1, 101, 9))
+def test_a_balance_of_numbers_loses_what_its_meshes_say(percent: int) -> None:
+    eta = Fraction(percent, 100)
+    mesh = Mesh("G", ("a", "b", "frame"), (1, 1, 1), 20, 40, Fraction(20), eta, eta)
+    (flow,), complete = find_flows(Balance(("a", "b"), (mesh,), {"b": Fraction(3)}, ("a",)))
+    assert complete
+    assert flow.solved.external["a"] * 1 == 3 * Fraction(1, 2) / eta

@@ -17,7 +17,7 @@ from models import PAIR, PLANETARY, pair, refusal
 from strategies import Data, driven_trains
 
 import geartrain
-from geartrain import GearTrain, load
+from geartrain import GearTrain, GearTrainError, load
 from geartrain.export.rexs import _per_minute
 from geartrain.scene import make_scene
 from geartrain.torques import watts_per_unit
@@ -253,29 +253,40 @@ def test_radians_change_nothing_but_the_last_digits(both: tuple[Data, Data], dat
     assert second.method == ("floats" if len(kinds) > 1 else "exact")
 
 
-NAMES = [name for name in geartrain.shipped() if geartrain.load(name).declaration.unit is None]
-
-
-@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("name", list(geartrain.shipped()))
 def test_no_shipped_train_hangs_on_the_units_or_the_order_of_its_inputs(name: str) -> None:
+    """A plain train is read in rpm, one with a unit of time in that; lengths go with no speed in time."""
     declared = geartrain.load(name).declaration
-    if declared.unit_name:
-        pytest.skip("its units are named")
-    cases = {case.state: case for case in declared.cases if case.inputs}
-    for state, case in cases.items():
-        known = geartrain.load(name).solve(state)
-        units = [*SCALES][: len(case.inputs)] + ["rpm"] * len(case.inputs)
+    if declared.unit is not None and declared.unit_days is None:
+        pytest.skip("its unit is a length")
+    one = SCALES["rpm"] if declared.unit_days is None else 1 / (declared.unit_days * 24 * 3600)
+    for case in declared.cases:
+        known = geartrain.load(name).solve(case.state)
         named = {
-            link: f"{speed * SCALES['rpm'] / SCALES[unit]} {unit}" if speed else "0"
-            for (link, speed), unit in zip(reversed(list(case.inputs.items())), units, strict=False)
+            link: f"{speed * one / SCALES[unit]} {unit}" if speed else "0"
+            for (link, speed), unit in zip(reversed(list(case.inputs.items())), [*SCALES, *SCALES], strict=False)
         }
-        data: dict[str, Any] = {"extends": name, "inputs": named, "loads": None, "links": {}}
+        data: dict[str, Any] = {"extends": name, "inputs": named, "loads": None}
         data["links"] = {link: {"bearing": None} for link, part in declared.links.items() if part.bearing}
-        data["states"] = {
-            other: {"inputs": named if other == state else {}, "loads": None} for other in declared.states
-        }
-        answer = geartrain.load(data).solve(state)
+        states = {each: {"inputs": named if each == case.state else {}, "loads": None} for each in declared.states}
+        answer = geartrain.load(data | {"states": states}).solve(case.state)
         assert answer.verdict.kind == known.verdict.kind
-        if answer.unit:
-            rpm = {link: speed / SCALES["rpm"] for link, speed in a_second(answer).items()}
-            assert rpm == dict(known.speeds)
+        if declared.unit is not None:
+            assert dict(answer.speeds) == dict(known.speeds)
+            assert answer.unit == known.unit
+        elif answer.unit:
+            assert {link: speed / one for link, speed in a_second(answer).items()} == dict(known.speeds)
+
+
+def test_radians_beside_turns_beyond_all_floats_are_refused_in_words() -> None:
+    """A train of 1,200 pairs 40/8 beside a shaft in rad/s: 5^1200 turns."""
+    links: Data = {"frame": {}, "z": {}}
+    data: Data = {"links": links, "revolutes": [{"pair": ["frame", "z"], "axis": "z"}], "gears": []}
+    for at in range(1201):
+        links[f"g{at}"] = {"wheels": {f"d{at}": 40, f"n{at}": 8}}
+        data["revolutes"].append({"pair": ["frame", f"g{at}"], "axis": f"x{at}"})
+        data["gears"] += [{"pair": [f"d{at - 1}", f"n{at}"]}] if at else []
+    train = GearTrain.declare({**data, "inputs": {"g0": "1 rpm", "z": "1 rad/s"}})
+    with pytest.raises(GearTrainError, match="leaves the range of float64"):
+        train.solve()
+    assert GearTrain.declare({**data, "inputs": {"g0": "1 rpm", "z": "1 turn/d"}}).solve()["g1200"] == 5**1200

@@ -225,18 +225,18 @@ def _train(
     wanted: Mapping[str, Fraction],
     tolerance: str,
 ) -> Train:
-    """Fixed axes; meshes are (link, wheel, link, wheel)."""
+    """Fixed axes; meshes are (link, wheel, link, wheel). What is wanted is a magnitude, hence a period."""
     links: dict[str, dict[str, Any]] = {"frame": {}}
     for one, first, other, second in meshes:
         for link, wheel in ((one, first), (other, second)):
             links.setdefault(link, {"wheels": {}})["wheels"][wheel] = {"teeth": {"search": list(counts[wheel])}}
     joints = [{"pair": ["frame", link], "axis": f"axis of {link}"} for link in links if link != "frame"]
     extra = {"tolerance": tolerance} if tolerance else {}
-    outputs = {link: {"targets": [{"speed": str(value), **extra}]} for link, value in wanted.items()}
+    outputs = {link: {"targets": [{"period": f"{1 / value} d", **extra}]} for link, value in wanted.items()}
     gears = [{"pair": [first, second]} for _, first, _, second in meshes]
     moved = {"inputs": {meshes[0][0]: 1}, "outputs": outputs}
     return GearTrain.declare(
-        {"name": "stages", "links": links, "revolutes": joints, "gears": gears, **moved}
+        {"name": "stages", "unit": {"per": "1 d"}, "links": links, "revolutes": joints, "gears": gears, **moved}
     ).declaration
 
 

@@ -30,19 +30,20 @@ def compare_trains(trains: Sequence[GearTrain], everything: bool = False) -> Doc
     sections = [Section("Outputs", (), (Table(header, rows),))]
     targets = _targets(columns)
     if targets:
-        sections.append(
-            Section(
-                "Error against the targets in ppm",
-                ("Positive is fast. By magnitude, either sense of rotation meets the target.",),
-                (Table(("output and target", *header[1:]), targets),),
-            )
-        )
+        said = ["Positive is fast."]
+        if any(row[0].endswith(_MAGNITUDE) for row in targets):
+            said.append("By magnitude: the target has no `sense`, so that either sense of rotation meets it.")
+        table = Table(("output and target", *header[1:]), targets)
+        sections.append(Section("Error against the targets in ppm", tuple(said), (table,)))
     teeth = _teeth(trains)
     if teeth:
         sections.append(
             Section("Wheels that differ", (), (Table(("wheel", *(train.name for train in trains)), teeth),))
         )
     return Document("Comparison", lead, sections)
+
+
+_MAGNITUDE = " (magnitude)"
 
 
 def _label(train: GearTrain, answer: Answer) -> str:
@@ -74,7 +75,7 @@ def _targets(columns: Sequence[tuple[str, GearTrain, Answer]]) -> list[tuple[str
         for name, found in answer.outputs.items():
             for target in found.targets:
                 how = labels.setdefault((name, target.label), "")
-                labels[name, target.label] = how if target.goal.signed else " (magnitude)"
+                labels[name, target.label] = how if target.goal.signed else _MAGNITUDE
     rows = []
     for (name, label), how in labels.items():
         cells = []

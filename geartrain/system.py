@@ -8,7 +8,7 @@ from fractions import Fraction
 from typing import Literal, NamedTuple
 
 from geartrain.circuits import Circuit
-from geartrain.exact import written
+from geartrain.exact import decimal, written
 from geartrain.train import Case
 
 RowKind = Literal["frame", "gear", "pin_and_slot", "pin_follower", "input", "fixed", "lock"]
@@ -25,21 +25,27 @@ class Equation(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class System:
-    """The Willis system of a train in one case: columns are links, rows are labelled equations."""
+    """The Willis system of a train in one case: columns are links, rows are labelled equations.
+
+    exact   False where inputs are in radians beside others in turns, so that their numbers are shown in decimal
+    """
 
     links: tuple[str, ...]
     equations: tuple[Equation, ...]
+    exact: bool = True
 
     def text(self) -> str:
         """One line an equation, as a reader would write it."""
+        right = written if self.exact else decimal
         width = max((len(equation.label) for equation in self.equations), default=0)
-        return "\n".join(f"{e.label:<{width}}  {_sum(e.terms, 'w[{}]')} = {e.right}" for e in self.equations)
+        return "\n".join(f"{e.label:<{width}}  {_sum(e.terms, 'w[{}]')} = {right(e.right)}" for e in self.equations)
 
     def latex(self) -> str:
         """The system as an `align` environment."""
         symbol = r"\omega_{{\text{{{}}}}}"
+        right = _fraction if self.exact else decimal
         lines = [
-            f"  {_sum(e.terms, symbol, escape=True)} &= {_fraction(e.right)} && \\text{{{_escape(e.label)}}}"
+            f"  {_sum(e.terms, symbol, escape=True)} &= {right(e.right)} && \\text{{{_escape(e.label)}}}"
             for e in self.equations
         ]
         return "\\begin{align}\n" + " \\\\\n".join(lines) + "\n\\end{align}"
@@ -62,7 +68,7 @@ def assemble(
             if a != b
         ]
         rows += [Equation(f"input {link}", "input", ((link, 1),), speed) for link, speed in case.inputs.items()]
-    return System(tuple(links), tuple(rows))
+    return System(tuple(links), tuple(rows), case is None or case.exact)
 
 
 def willis_terms(circuit: Circuit, signs: Mapping[str, int]) -> tuple[tuple[str, int], ...]:

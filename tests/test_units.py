@@ -290,3 +290,9 @@ def test_radians_beside_turns_beyond_all_floats_are_refused_in_words() -> None:
     with pytest.raises(GearTrainError, match="leaves the range of float64"):
         train.solve()
     assert GearTrain.declare({**data, "inputs": {"g0": "1 rpm", "z": "1 turn/d"}}).solve()["g1200"] == 5**1200
+
+
+def test_equations_show_radians_beside_turns_in_decimals() -> None:
+    train = load(TWO.format(rest="inputs: {a: 60 rpm, b: 10 rad/s}"))
+    assert "w[b] = 95.49296586" in train.equations().text()
+    assert "95.49296586" in train.equations().latex()

@@ -149,7 +149,7 @@ class GearTrain:
         """What a fitter would remark on a sound declaration: notes, never errors."""
         from geartrain.assembly import remarks
 
-        return tuple(remarks(self.declaration, self.tree, self.circuits, self.bookkeeping))
+        return tuple(remarks(self.declaration, self.tree, self.circuits))
 
     @cached_property
     def meshes(self) -> tuple[Mesh, ...]:

@@ -9,21 +9,11 @@ from geartrain.errors import Problem
 from geartrain.train import Train
 
 
-def remarks(train: Train, tree: Tree, circuits: Sequence[Circuit], oblique: frozenset[str]) -> Iterator[Problem]:
-    """Notes on a sound declaration.
-
-    oblique   links whose speed is a sum over non-parallel joints
-    """
+def remarks(train: Train, tree: Tree, circuits: Sequence[Circuit]) -> Iterator[Problem]:
+    """Notes on a sound declaration."""
     yield from _conventions(train, circuits)
     yield from _centre_distances(train, tree, circuits)
     yield from rigid_remarks(train, tree, train.cases)
-    for link in dict.fromkeys(link for case in train.cases for link in case.inputs if link in oblique):
-        yield Problem(
-            f"the input '{link}' has an axis that moves",
-            "its speed is a sum of joint speeds over axes in several directions, and no rotation",
-            "drive a link whose axes up to the frame are parallel",
-            train.place("links", link),
-        )
 
 
 def _conventions(train: Train, circuits: Sequence[Circuit]) -> Iterator[Problem]:

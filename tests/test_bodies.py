@@ -208,3 +208,20 @@ def test_a_crown_held_with_its_spider_takes_the_torque_about_both_axes() -> None
     train = load(text)
     assert train.solve()["right"] == 1
     assert train.torques().external["left"] == Fraction(3)
+
+
+@pytest.mark.parametrize(
+    "given", ["inputs: {left: 1, spider: 0}", "inputs: {left: 1}\nstates: {s: {inputs: {spider: 1}}}"]
+)
+def test_an_input_on_a_link_whose_axis_moves_is_refused(given: str) -> None:
+    with pytest.raises(GearTrainError, match="the input 'spider' has no speed about one axis") as refused:
+        load(DIFFERENTIAL + given + "\n")
+    assert refused.value.problems[0].place.startswith("text:")
+
+
+def test_a_load_on_a_link_whose_axis_moves_is_not_balanced() -> None:
+    text = "inputs: {left: 1, right: 3}\nloads: {crown: -2 N m, spider: 1 N m}\nsolve_for: left\n"
+    verdict = load(DIFFERENTIAL + text).torques().verdict
+    assert (verdict.kind, bool(verdict)) == ("undecided", False)
+    assert "a torque on 'spider' has no one axis" in verdict.text
+    assert load(DIFFERENTIAL + text).driven("spider", "left").verdict.kind == "undecided"

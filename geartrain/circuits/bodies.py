@@ -12,7 +12,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import combinations
 
-from geartrain.circuits.axes import Axes
+from geartrain.circuits.axes import Axes, bookkeeping_links
 from geartrain.circuits.tree import Tree
 from geartrain.errors import DeclarationError, Loc, Problem
 from geartrain.exact import eliminate
@@ -42,10 +42,10 @@ def close_joints(train: Train, tree: Tree, cases: Sequence[Case]) -> list[Case]:
     """The cases with every fixed link on an axis of the frame, and every lock between two coaxial links.
 
     What was prescribed across several axes stands in them joint by joint, each with its cause in words. Raises
-    `DeclarationError` for all that would be linkages.
+    `DeclarationError` for all that would be linkages, and for inputs whose link has no one axis in the frame.
     """
     lines = _Lines(train, tree)
-    problems: list[Problem] = []
+    problems = list(_driven_sums(train, cases, bookkeeping_links(train, tree)))
     closed = []
     for case in cases:
         across = [rigid for rigid in rigids(lines, case) if len(rigid.joints) > 1]
@@ -183,6 +183,17 @@ def _joint_by_joint(frame: str, case: Case, across: Sequence[Rigid], stops: Sequ
             locks.append((start, end))
             causes[(start, end)] = rigid.links
     return replace(case, fixed=tuple(dict.fromkeys(fixed)), locks=tuple(locks), causes=causes)
+
+
+def _driven_sums(train: Train, cases: Sequence[Case], sums: frozenset[str]) -> Iterator[Problem]:
+    """The inputs that prescribe a sum of joint speeds over axes in several directions."""
+    for link, loc in dict.fromkeys((link, case.loc) for case in cases for link in case.inputs if link in sums):
+        yield Problem(
+            f"the input '{link}' has no speed about one axis",
+            "the axes between it and the frame are not parallel, and the sum of joint speeds over them is no rotation",
+            "drive a link whose axes up to the frame are parallel",
+            train.place(*loc, link),
+        )
 
 
 def _linkage(train: Train, case: Case, rigid: Rigid) -> Problem:

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 
-from geartrain.circuits import Circuit
+from geartrain.circuits import Circuit, bookkeeping_links
 from geartrain.torques.balance import Balance, Mesh
 from geartrain.torques.directions import Flow, find_flows
 from geartrain.torques.judging import Question, judge, missing
@@ -37,12 +37,16 @@ def find_torques(setting: Setting) -> Torques:
         text = "no load is declared: give `loads` on links, negative against their turning, or `bearing` friction"
         return Torques(setting.case.state, TorqueVerdict("unloaded", text))
     asked = _asked(setting, loads, solve_for)
-    verdict = _still(setting, asked.links)
+    verdict = _summed(setting, (*loads, *asked.links))
+    if verdict is None:
+        verdict = _still(setting, asked.links)
     return _balanced(setting, loads, asked) if verdict is None else Torques(setting.case.state, verdict)
 
 
 def drive(setting: Setting, load: str, source: str) -> Torques:
     """Torques while a resisting unit of power leaves at `load` and `source` is to drive it; bearings left out."""
+    if (verdict := _summed(setting, (load, source))) is not None:
+        return Torques(setting.case.state, verdict)
     for link in (load, source):
         if not setting.speeds.get(link):
             why = "does not turn" if link in setting.speeds else "turns at a speed that is not determined"
@@ -89,6 +93,16 @@ def _entries(setting: Setting) -> tuple[str, ...]:
     if crank is None or crank in inputs:
         return inputs
     return (crank,) if len(inputs) == 1 else (crank, *inputs)
+
+
+def _summed(setting: Setting, links: Iterable[str]) -> TorqueVerdict | None:
+    """A torque about an axis that moves does no work with a sum of joint speeds, which is no rotation."""
+    sums = bookkeeping_links(setting.train, setting.tree)
+    for link in links:
+        if link in sums:
+            why = "the axes between it and the frame are not parallel, and its sum of joint speeds is no rotation"
+            return TorqueVerdict("undecided", f"a torque on '{link}' has no one axis: {why}")
+    return None
 
 
 def _still(setting: Setting, asked: tuple[str, ...]) -> TorqueVerdict | None:

@@ -197,7 +197,7 @@ def test_teeth_that_cannot_run_fail_check_and_report_with_what_would_fit(
         assert problem.fix
     assert call("report", path).exit_code == 1
     assert mesh.faults[0].what in to_markdown([report_train(load(path))])
-    (data,) = json.loads(call("report", path, "--json").output)["teeth"]
+    (data,) = json.loads(call("report", path, "--json").output)[0]["teeth"]
     assert data["verdict"]["kind"] == mesh.verdict.kind
     assert [fault["fix"] for fault in data["verdict"]["faults"]] == [fault.fix for fault in mesh.verdict.faults]
     assert data["efficiency"] is None

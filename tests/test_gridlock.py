@@ -633,14 +633,14 @@ def test_check_and_report_say_what_to_disengage(train_file: Callable[..., Path])
 
 
 def test_the_json_of_a_report_has_the_gridlock(train_file: Callable[..., Path]) -> None:
-    data = json.loads(call("report", train_file(THREE), "--json").stdout)["gridlock"]
+    data = json.loads(call("report", train_file(THREE), "--json").stdout)[0]["gridlock"]
     assert set(data) == {"moves", "jams", "held", "release"}
     assert data["moves"] is False
     assert set(data["jams"][0]) == {"carrier", "loop", "links", "meshes", "by", "release"}
     assert data["release"] == data["jams"][0]["release"]
     assert set(data["release"]) == {"meshes", "method", "least", "at_least", "choices", "proofs"}
     assert data["release"]["choices"] == ["a20~b30", "b30~c40", "c40~a20"]
-    moving = json.loads(call("report", "planetary", "--json").stdout)["gridlock"]
+    moving = json.loads(call("report", "planetary", "--json").stdout)[0]["gridlock"]
     assert moving == {"moves": True, "jams": [], "held": [], "release": None}
 
 

@@ -131,7 +131,7 @@ def test_json_has_every_digit(tmp_path: Path) -> None:
     file = tmp_path / "long.yaml"
     file.write_text(json.dumps(FAR), encoding="utf-8")
     value = long(999_999_999_999, 17)
-    data = json.loads(call("solve", file, "--json").output)
+    (data,) = json.loads(call("solve", file, "--json").output)["states"]
     assert read(data["speeds"][LAST]["exact"]) == value
     assert data["speeds"][LAST]["value"] is None
     assert data["speeds"][LAST]["decimal"] == decimal(value)

@@ -46,7 +46,7 @@ def test_teeth_that_cannot_turn_fail_the_check_and_the_report(tmp_path, clearanc
     assert "window of this pair" in result.output
     report = call("report", path)
     assert report.exit_code == 1
-    data = json.loads(call("report", path, "--json").output)
+    (data,) = json.loads(call("report", path, "--json").output)
     assert data["teeth"][0]["verdict"]["kind"] == kind
 
 
@@ -90,7 +90,7 @@ def test_friction_that_locks_is_a_fault_with_its_limit() -> None:
 
 
 def test_the_pairs_of_the_note_do_in_a_train_what_they_do_alone() -> None:
-    data = json.loads(call("report", "sorge-pairs", "--json").output)
+    (data,) = json.loads(call("report", "sorge-pairs", "--json").output)
     jumps = {mesh["pair"]: [round(jump["value"], 4) for jump in mesh["jumps"]] for mesh in data["teeth"]}
     assert jumps == {
         "3a": [0.1582],

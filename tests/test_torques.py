@@ -498,7 +498,7 @@ def test_a_pair_may_lose_more_on_the_way_back() -> None:
 def test_the_command_prints_keys_and_verdicts(tmp_path: Path) -> None:
     path = tmp_path / "t.yaml"
     path.write_text(LOADED, encoding="utf-8")
-    data = json.loads(call("torques", path, "--json").output)
+    (data,) = json.loads(call("torques", path, "--json").output)["states"]
     assert set(data) == {
         "state", "verdict", "efficiency", "circulating", "links", "pairs", "power_in", "loss", "drives",
         "flow", "losses", "watts_per_unit", "held", "left_out",

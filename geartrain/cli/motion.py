@@ -77,7 +77,7 @@ def run(
         for rows in _rows(asked, 0):
             typer.echo("\n".join(rows))
     else:
-        _report(asked, json or to.suffix == ".json", (to, cut), phases, seed, estimates, spectrum)
+        _report(asked, json or to.suffix == ".json", (to, cut), (train.name, state), phases, seed, estimates, spectrum)
     if plot is not None:
         from geartrain.plot import motion_figure
 
@@ -106,7 +106,14 @@ def _partial(to: Sink) -> Sink:
 
 
 def _report(
-    asked: Run, json: bool, into: tuple[Sink, Sink], phases: int, seed: int, estimates: bool, spectrum: bool
+    asked: Run,
+    json: bool,
+    into: tuple[Sink, Sink],
+    of: tuple[str, str | None],
+    phases: int,
+    seed: int,
+    estimates: bool,
+    spectrum: bool,
 ) -> None:
     """The figures, into the second place where they are cut short."""
     from geartrain import report
@@ -127,7 +134,7 @@ def _report(
             stopped = True
     to = into[stopped]
     if json:
-        emit(as_json(report.motion_data(asked)), to)
+        emit(as_json(report.motion_data(asked, *of)), to)
     else:
         show([report.motion_document(asked)], to)
     if stopped:

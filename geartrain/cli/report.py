@@ -46,8 +46,7 @@ def run(
     trains = load_all(files)
     good = all(sound(train, state) for train in trains for state in train.states or (None,))
     if json or to.suffix == ".json":
-        data = [report.train_data(train) for train in trains]
-        emit(as_json(data[0] if len(data) == 1 else data), to)
+        emit(as_json([report.train_data(train) for train in trains]), to)
     elif to.suffix == ".html":
         emit(report.to_html([_shared(train, view) for train in trains]), to)
     else:

@@ -2,15 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import Annotated
 
 import typer
 
-from geartrain.cli.common import GOOD, VERDICT, File, Force, Json, Out, StateName, as_json, emit, sink
-
-if TYPE_CHECKING:
-    from geartrain.analysis import GearTrain
 from geartrain.answer import Answer
+from geartrain.cli.common import GOOD, VERDICT, File, Force, Json, Out, StateName, as_json, emit, sink
 
 OutputName = Annotated[str | None, typer.Option("--output", help="An output or a link: only what drives it is solved.")]
 
@@ -26,6 +23,7 @@ def run(
 ) -> None:
     """Solve a train and print its speeds as fractions and decimals."""
     from geartrain.files import load
+    from geartrain.report.data import answers_data
 
     if method not in ("auto", "exact", "floats"):
         raise typer.BadParameter(f"'{method}' is not a method; use auto, exact or floats", param_hint="--method")
@@ -33,22 +31,11 @@ def run(
     train = load(file)
     states = [state] if state is not None or not train.states else list(train.states)
     answers = [train.solve(name, output, method) for name in states]  # type: ignore[arg-type]
-    if json:
-        emit(as_json(_data(train, answers, output)), to)
+    if json or to.suffix == ".json":
+        emit(as_json(answers_data(train, answers, whole=output is None)), to)
     else:
         emit("\n".join(_text(answer, output, train.bookkeeping) for answer in answers), to)
     raise typer.Exit(GOOD if all(answers) else VERDICT)
-
-
-def _data(train: GearTrain, answers: list[Answer], output: str | None) -> dict[str, Any]:
-    from geartrain.report.data import answers_data
-
-    if output is None and len(answers) == max(1, len(train.states)):
-        return answers_data(train, answers)
-    head = {"name": train.name, "unit": train.declaration.unit_name}
-    if len(answers) == 1:
-        return head | answers[0].to_dict()
-    return head | {"states": {answer.state: answer.to_dict() for answer in answers}}
 
 
 def _text(answer: Answer, output: str | None, oblique: frozenset[str]) -> str:

@@ -56,7 +56,7 @@ def run(
         _draw(train, list(found.values()), picture)
     if json or to.suffix == ".json":
         data = [report.torques_data(train, each) for each in found.values()]
-        emit(as_json(data[0] if len(data) == 1 else {"states": {str(each["state"]): each for each in data}}), to)
+        emit(as_json({"name": train.name, "title": train.declaration.title, "states": data}), to)
     else:
         show([report.torques_document(train, list(found.values()))], to)
     raise typer.Exit(GOOD if sound else VERDICT)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import Any
 
 from geartrain.analysis import GearTrain
@@ -27,17 +28,19 @@ def mobility_data(found: Mobility) -> dict[str, Any]:
     }
 
 
-def answers_data(train: GearTrain, answers: list[Answer]) -> dict[str, Any]:
-    """Name, unit, mobility, and the answer itself or, for a train with states, `states` by name."""
-    data: dict[str, Any] = {
+def answers_data(train: GearTrain, answers: Iterable[Answer], whole: bool = True) -> dict[str, Any]:
+    """Name, unit, mobility, and `states`, a list of answers: one for each state that was asked for.
+
+    A train without states has one answer, whose `state` is None. `whole` False has None for the mobility: it takes all
+    circuits, where one output takes only those that drive it.
+    """
+    return {
         "name": train.name,
         "title": train.declaration.title,
         "unit": train.declaration.unit_name,
-        "mobility": mobility_data(train.mobility),
+        "mobility": mobility_data(train.mobility) if whole else None,
+        "states": [answer.to_dict() for answer in answers],
     }
-    if train.states:
-        return data | {"states": {answer.state: answer.to_dict() for answer in answers}}
-    return data | answers[0].to_dict()
 
 
 def train_data(train: GearTrain) -> dict[str, Any]:
@@ -63,8 +66,8 @@ def train_data(train: GearTrain) -> dict[str, Any]:
         }
         for c in train.circuits
     ]
-    if len(declared.links) <= 500:
-        data["adjacency"] = {"links": list(train.graph), "cells": adjacency_labels(train.graph)}
+    small = len(declared.links) <= 500
+    data["adjacency"] = {"links": list(train.graph), "cells": adjacency_labels(train.graph)} if small else None
     data["remarks"] = [{"place": r.place, "what": r.what, "why": r.why} for r in train.remarks]
     data["sensitivity"] = [
         {

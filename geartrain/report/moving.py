@@ -67,8 +67,10 @@ def moving_data(train: GearTrain) -> list[dict[str, Any]]:
     """Motion in every state as plain data; empty for a train of ideal teeth and pins without sizes."""
     found = []
     for state, run in _runs(train):
-        data = {"error": str(run)} if isinstance(run, GearTrainError) else motion_data(run)
-        found.append({"state": state, **data})
+        if isinstance(run, GearTrainError):
+            found.append({"name": train.name, "state": state, "error": str(run)})
+        else:
+            found.append(motion_data(run, train.name, state))
     return found
 
 
@@ -208,24 +210,27 @@ def _spectrum(name: str, lines: list[Line]) -> Section:
     return Section(f"Spectrum of {name}", (text,), (Table(header, rows),))
 
 
-def motion_data(run: Run) -> dict[str, Any]:
-    """A run as plain data with stable keys; angles in rad."""
+def motion_data(run: Run, name: str, state: str | None) -> dict[str, Any]:
+    """A run of a train, by name, in a state as plain data with stable keys; angles in rad.
+
+    What was not asked for is None.
+    """
     motion, period = run.motion, run.motion.period
     used = {source.id for source in motion.ahead.used}
     drivers = {name: {"driver": d.wheel, "why": d.why} for name, d in motion.train.drivers.items() if name in used}
     composition = motion.ahead if run.turns >= 0 else motion.back
     outputs: dict[str, Any] = {}
     for at, tally in enumerate(run.tallies):
-        data = tally.to_dict() | {"sensitivity": dict(motion.sensitivity[tally.name])}
-        if run.phased:
-            peaks, rms = zip(*_sizes([tallies[at] for tallies in run.phased]), strict=True)
-            data["phases"] = {"peak_to_peak": [min(peaks), max(peaks)], "rms": [min(rms), max(rms)]}
-        if tally.name in run.estimates:
-            data["estimates"] = run.estimates[tally.name].to_dict()
-        if tally.name in run.spectra:
-            data["spectrum"] = [line.to_dict() for line in run.spectra[tally.name]]
-        outputs[tally.name] = data
-    found: dict[str, Any] = {
+        lines, estimates = run.spectra.get(tally.name), run.estimates.get(tally.name)
+        outputs[tally.name] = tally.to_dict() | {
+            "sensitivity": dict(motion.sensitivity[tally.name]),
+            "phases": _phases_data([tallies[at] for tallies in run.phased]),
+            "estimates": None if estimates is None else estimates.to_dict(),
+            "spectrum": None if lines is None else [line.to_dict() for line in lines],
+        }
+    return {
+        "name": name,
+        "state": state,
         "input": motion.train.lead,
         "turns": run.turns,
         "positions": run.done,
@@ -234,9 +239,14 @@ def motion_data(run: Run) -> dict[str, Any]:
         "turned_back": sorted(composition.turned_back),
         "rigid": [mesh.name for mesh in motion.train.rigid],
         "outputs": outputs,
+        "phases": {"sets": len(run.phased), "seed": run.seed} if run.phased else None,
+        "partial": {"done": run.done, "of": run.samples} if run.done < run.samples else None,
     }
-    if run.done < run.samples:
-        found["partial"] = {"done": run.done, "of": run.samples}
-    if run.phased:
-        found["phases"] = {"sets": len(run.phased), "seed": run.seed}
-    return found
+
+
+def _phases_data(tallies: list[Tally]) -> dict[str, Any] | None:
+    """Least and greatest of one output over runs with other phases."""
+    if not tallies:
+        return None
+    peaks, rms = zip(*_sizes(tallies), strict=True)
+    return {"peak_to_peak": [min(peaks), max(peaks)], "rms": [min(rms), max(rms)]}

@@ -141,13 +141,15 @@ def mesh_data(law: TriangularLaw, window: Window | None, running: Running | None
     }
     if not law.intervals:
         return data | {
+            "play": None,
             "speed_ratio": None,
             "transmission_error": None,
             "efficiency": None,
             "intervals": [],
             "jumps": [],
+            "impacts": None,
         }
-    return data | _law_data(law) | _impact_data(law, running or Running())
+    return data | _law_data(law) | {"impacts": _impact_data(law, running or Running())}
 
 
 def window_data(window: Window) -> dict[str, Any]:
@@ -179,15 +181,18 @@ def _law_data(law: TriangularLaw) -> dict[str, Any]:
     }
 
 
-def _impact_data(law: TriangularLaw, running: Running) -> dict[str, Any]:
+def _impact_data(law: TriangularLaw, running: Running) -> dict[str, Any] | None:
+    """None where no inertia is given; what takes a rate or a load that is not given is None in it."""
     found = find_blows(law, running)
     if found is None:
-        return {}
-    data: dict[str, Any] = {"inertia": found.inertia}
-    if found.energies is not None:
-        handed, dissipated, work = found.energies
-        data |= {"rate": running.rate, "handed": handed, "dissipated": dissipated, "work": work}
-        data["load_to_stay_in_contact"] = found.least_load
-    if found.void is not None:
-        data["void_above"] = found.void
-    return {"impacts": data}
+        return None
+    handed, dissipated, work = found.energies or (None, None, None)
+    return {
+        "inertia": found.inertia,
+        "rate": running.rate,
+        "handed": handed,
+        "dissipated": dissipated,
+        "work": work,
+        "load_to_stay_in_contact": found.least_load,
+        "void_above": found.void,
+    }

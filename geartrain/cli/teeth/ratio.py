@@ -71,16 +71,29 @@ def _pairs(asked: Asked, wanted: Wanted) -> None:
     """One pair in long ranges: by the tree, without a list of counts."""
     from geartrain import report
     from geartrain.synthesis.pairs import count_pairs, find_pairs
+    from geartrain.synthesis.result import Shortfall
+    from geartrain.synthesis.stages.fit import Fit
+    from geartrain.synthesis.stages.shortfall import OUTSIDE
 
     solutions = find_pairs(wanted, asked.wheels, asked.pinions, asked.tolerance, asked.best)
     count = None if asked.tolerance is None else count_pairs(wanted, asked.wheels, asked.pinions, asked.tolerance)
+    top, beneath = (asked.wheels, asked.pinions) if wanted.value >= 1 else (asked.pinions, asked.wheels)
+    considered = len(top) * len(beneath)
     data = {
         "wanted": wanted.to_dict(),
         "stages": 1,
+        "top": str(top),
+        "beneath": str(beneath),
+        "fit": Fit().to_dict(),
+        "order": asked.by,
+        "tolerance": None if asked.tolerance is None else float(asked.tolerance),
         "complete": True,
         "count": count,
-        "tolerance": None if asked.tolerance is None else float(asked.tolerance),
+        "considered": considered,
         "solutions": [solution.to_dict() for solution in solutions],
+        "shortfall": Shortfall(considered, {} if count is None else {OUTSIDE: considered - count}).to_dict(),
+        "note": "",
+        "ended": "whole",
     }
     rows = [report.stages_row(solution) for solution in solutions]
     asked.answer(data, rows, lambda: report.pairs_document(wanted, solutions, count))

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
+from geartrain.synthesis.counts import Runs
 from geartrain.synthesis.result import Shortfall, Stages
 from geartrain.synthesis.stages.fit import Fit
 from geartrain.synthesis.targets import Wanted
@@ -62,8 +63,8 @@ class StageFindings:
         return {
             "wanted": self.wanted.to_dict(),
             "stages": self.stages,
-            "top": list(self.top),
-            "beneath": list(self.beneath),
+            "top": str(Runs.of(self.top)) if self.top else "",
+            "beneath": str(Runs.of(self.beneath)) if self.beneath else "",
             "fit": self.fit.to_dict(),
             "order": self.by,
             "tolerance": float(self.tolerance),

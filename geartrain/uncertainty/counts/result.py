@@ -41,10 +41,8 @@ class Chance:
 
     def to_dict(self) -> dict[str, Any]:
         """Plain data for JSON."""
-        plain: dict[str, Any] = {"value": float(self.value)}
-        if isinstance(self.value, Fraction):
-            plain["exact"] = written(self.value)
-        return plain if self.low is None else plain | {"low": self.low, "high": self.high}
+        exact = written(self.value) if isinstance(self.value, Fraction) else None
+        return {"value": float(self.value), "exact": exact, "low": self.low, "high": self.high}
 
 
 @dataclass(frozen=True, slots=True)

@@ -59,9 +59,12 @@ class Findings:
         )
 
     def to_dict(self) -> dict[str, Any]:
-        """Plain data for JSON; angles in degrees, sizes of errors as fractions of pitch, half angle and depth."""
+        """Plain data for JSON; angles in degrees, sizes of errors as fractions of pitch, half angle and depth.
+
+        What was not asked for is an empty list, or None.
+        """
         trials, plan = self.trials, self.trials.plan
-        found: dict[str, Any] = {
+        return {
             "train": plan.name,
             "seed": trials.seed,
             "trials": trials.done,
@@ -76,15 +79,12 @@ class Findings:
                 event: [{"trials": count, **share.to_dict()} for count, share in trials.convergence(event)]
                 for event in ("jam", "stops")
             },
+            "partial": None if trials.complete else {"done": trials.done, "of": trials.wanted},
+            "clearances": [one.to_dict() for one in self.cleared],
+            "courses": [one.to_dict() for one in self.courses],
+            "indices": [one.to_dict() for one in self.indices],
+            "tolerance": None if self.tolerance is None else self.tolerance.to_dict(),
         }
-        if not trials.complete:
-            found["partial"] = {"done": trials.done, "of": trials.wanted}
-        for name, each in (("clearances", self.cleared), ("courses", self.courses), ("indices", self.indices)):
-            if each:
-                found[name] = [one.to_dict() for one in each]
-        if self.tolerance is not None:
-            found["tolerance"] = self.tolerance.to_dict()
-        return found
 
     def pointer_convergence(self, at: int) -> list[tuple[int, float, float, float]]:
         """Trials, and the standard deviation of an output with its interval (deg)."""

@@ -52,7 +52,7 @@ class PairTally:
 
     def to_dict(self) -> dict[str, Any]:
         """Plain data for JSON."""
-        known = {key: value for key, value in (("play", self.play), ("bound", self.bound)) if value == value}
+        known = {key: value if value == value else None for key, value in (("play", self.play), ("bound", self.bound))}
         events = {name: share.to_dict() for name, share in self.events.items()}
         return {"pair": self.name, "uncut": self.uncut, **known, **events}
 

@@ -1,0 +1,246 @@
+"""One question has one shape of JSON, whatever the train; the schema that is shipped holds every answer."""
+
+from __future__ import annotations
+
+import copy
+import json
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import Any
+
+import pytest
+from commands import LOCKED, RIGHT, WRONG, call
+from jsonschema import Draft202012Validator
+
+from geartrain import load, shipped
+from geartrain.report.json_schema import ANSWERS, answer_schema
+from geartrain.report.power import torques_data
+
+ONE_STATE = RIGHT.replace("inputs: {a: 1}", "states: {only: {inputs: {a: 1}}}")
+TWO_STATES = RIGHT.replace("inputs: {a: 1}", "states: {only: {inputs: {a: 1}}, other: {inputs: {b: 1}}}").replace(
+    "{expect: 1/2}", "{}"
+)
+LOADED = RIGHT + "loads: {c: -1 N m}\n"
+FREE = RIGHT.replace("inputs: {a: 1}", "inputs: {}").replace("{expect: 1/2}", "{}")
+LONG = RIGHT.replace("{expect: 1/2}", "{targets: [{speed: 1/2, tolerance: 1 %}]}")
+KINDS = {
+    "plain": RIGHT,
+    "wrong": WRONG,
+    "locked": LOCKED,
+    "free": FREE,
+    "one": ONE_STATE,
+    "two": TWO_STATES,
+    "loaded": LOADED,
+    "target": LONG,
+}
+
+
+def closed(schema: Any) -> Any:
+    """The schema with no room for keys that it does not name: what the tests hold answers against."""
+    if isinstance(schema, list):
+        return [closed(each) for each in schema]
+    if not isinstance(schema, Mapping):
+        return schema
+    found = {key: closed(value) for key, value in schema.items() if key not in ("required", "enum", "properties")}
+    found |= {key: schema[key] for key in ("required", "enum") if key in schema}
+    if "properties" in schema:
+        found["properties"] = {key: closed(value) for key, value in schema["properties"].items()}
+        found.setdefault("additionalProperties", False)
+    return found
+
+
+def holds(question: str, data: Any) -> None:
+    for schema in (ANSWERS[question], closed(ANSWERS[question]) if question in CLOSED else {}):
+        faults = sorted(Draft202012Validator(schema).iter_errors(data), key=lambda fault: list(map(str, fault.path)))
+        assert not faults, [(list(fault.path), fault.message[:300]) for fault in faults[:5]]
+
+
+# of these every key is told; the others have parts whose keys are those of another room's results
+CLOSED = {
+    "solve",
+    "torques",
+    "motion",
+    "teeth RATIO",
+    "teeth RATIO --approximants",
+    "mesh triangular",
+    "teeth --kind list",
+}
+
+
+def shape(data: Any) -> Any:
+    """The keys of objects, lists told by their first entry."""
+    if isinstance(data, Mapping):
+        return {key: shape(value) for key, value in data.items()}
+    return [shape(data[0])] if isinstance(data, list) and data else type(data).__name__ if data else None
+
+
+@pytest.fixture
+def files(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.chdir(tmp_path)
+    for name, text in KINDS.items():
+        (tmp_path / f"{name}.yaml").write_text(text, encoding="utf-8")
+    (tmp_path / "cube.txt").write_text("a b\nb c\nc d\nd a\ne f\nf g\ng h\nh e\na e\nb f\nc g\nd h\n", encoding="utf-8")
+    return tmp_path
+
+
+def data(*arguments: str) -> Any:
+    done = call(*arguments)
+    assert done.stdout, done.exception
+    return json.loads(done.stdout)
+
+
+# -------------------------------------------------------------------------------------------------- all shipped trains
+
+
+@pytest.mark.parametrize("name", shipped())
+def test_reports_speeds_and_torques_of_every_shipped_train_hold(name: str) -> None:
+    report = data("report", name, "--json")
+    holds("report", report)
+    train = load(name)
+    holds("solve", data("solve", name, "--json"))
+    states = [torques_data(train, train.torques(state)) for state in train.states or (None,)]
+    holds("torques", {"name": name, "title": "", "states": json.loads(json.dumps(states))})
+    (entry,) = report
+    assert [each["state"] for each in entry["states"]] == list(train.states or (None,))
+
+
+@pytest.mark.parametrize("name", KINDS)
+def test_the_answers_of_every_kind_of_train_hold(files: Path, name: str) -> None:
+    for verb in ("solve", "torques", "report", "compare"):
+        holds(verb, data(verb, f"{name}.yaml", "--json"))
+    holds("solve", data("solve", f"{name}.yaml", "--method", "floats", "--json"))
+    holds("solve", data("solve", f"{name}.yaml", "--output", "c", "--json"))
+
+
+# --------------------------------------------------------------------------------------------------- one shape of each
+
+
+@pytest.mark.parametrize("verb", ["solve", "torques", "report", "compare"])
+def test_no_number_of_states_changes_the_shape(files: Path, verb: str) -> None:
+    found = {name: data(verb, f"{name}.yaml", "--json") for name in ("plain", "one", "two")}
+    first, *others = [list(entry[0] if verb in ("report", "compare") else entry) for entry in found.values()]
+    assert others == [first, first]
+    entries = [entry[0] if isinstance(entry, list) else entry for entry in found.values()]
+    assert [[each["state"] for each in entry["states"]] for entry in entries] == [[None], ["only"], ["only", "other"]]
+    assert len({tuple(each) for entry in entries for each in entry["states"]}) == 1
+
+
+@pytest.mark.parametrize("verb", ["solve", "torques"])
+def test_one_state_asked_for_has_one_shape_whatever_others_there_are(files: Path, verb: str) -> None:
+    one, two = (data(verb, f"{name}.yaml", "--state", "only", "--json") for name in ("one", "two"))
+    assert list(one) == list(two)
+    assert [each["state"] for each in one["states"]] == [each["state"] for each in two["states"]] == ["only"]
+    assert shape(one["states"]) == shape(data(verb, "one.yaml", "--json")["states"])
+
+
+def test_one_file_and_several_have_one_shape(files: Path) -> None:
+    for verb in ("report", "compare"):
+        one, both = data(verb, "plain.yaml", "--json"), data(verb, "plain.yaml", "two.yaml", "--json")
+        assert (len(one), len(both)) == (1, 2)
+        assert one[0] == both[0]
+
+
+def test_json_is_what_a_file_of_that_name_holds(files: Path) -> None:
+    for verb in ("solve", "report", "compare", "torques"):
+        call(verb, "plain.yaml", "-o", f"{verb}.json")
+        assert json.loads((files / f"{verb}.json").read_text(encoding="utf-8")) == data(verb, "plain.yaml", "--json")
+
+
+# ------------------------------------------------------------------------------------------------- all other questions
+
+RATIO = ("teeth", "7/3", "--stages", "1", "--best", "2")
+CUT = ("errors", "moon-triangular", "--trials", "16", "--set", "placement=2 %")
+DOUBT = ("sweep", "target.yaml", "--free", "x=18:22", "--free", "z=38:42")
+PAIR = ("--teeth", "20", "30")
+TRIANGULAR = ("mesh", "triangular", *PAIR)
+MOTION = ("motion", "moon-triangular", "--turns", "1", "--samples", "256", "--output", "moon")
+ASKED: dict[str, list[tuple[str, ...]]] = {
+    "motion": [MOTION, (*MOTION, "--estimates", "--spectrum", "--phases", "2"), ("motion", "worm", "--samples", "64")],
+    "errors": [CUT, (*CUT, "--output", "moon"), (*CUT, "--clearance", "0.2:0.8:2")],
+    "sweep": [DOUBT, (*DOUBT, "--soft"), (*DOUBT, "--method", "sample", "--samples", "500"), (*DOUBT, "--scale", "0")],
+    "sphere": [
+        ("sphere", "cube"),
+        ("sphere", "cube", "--teeth", "4=12"),
+        ("sphere", "icosidodecahedron"),
+        ("sphere", "icosidodecahedron", "--teeth", "5=20,3=12"),
+        ("sphere", "--graph", "cube.txt"),
+    ],
+    "sphere --suggest": [("sphere", "icosidodecahedron", "--suggest", "24")],
+    "teeth RATIO": [
+        RATIO,
+        (*RATIO, "--tolerance", "1e-9"),
+        (*RATIO, "--range", "12:200000"),
+        (*RATIO, "--range", "12:200000", "--tolerance", "1e-9"),
+        ("teeth", "3/1000", "--stages", "1", "--range", "12:200000", "--best", "1"),
+        ("teeth", "1000003", "--stages", "1", "--range", "12:20", "--tolerance", "1e-9"),
+    ],
+    "teeth RATIO --approximants": [("teeth", "235/19", "--approximants")],
+    "teeth RATIO --kind": [("teeth", "7/2", "--kind", "planetary"), ("teeth", "10000", "--kind", "planetary")],
+    "teeth --kind list": [("teeth", "1", "--kind", "list")],
+    "teeth TRAIN": [("teeth", "pennestri-2002-missing", "--best", "1", "--workers", "1")],
+    "teeth NAME=PERIOD": [("teeth", "a=3", "b=5/2", "--range", "12:40")],
+    "mesh triangular": [
+        (*TRIANGULAR, "--window", "0.5", "--friction", "0.2"),
+        (*TRIANGULAR, "--window", "0.5", "--friction", "0.9"),
+        (*TRIANGULAR, "--clearance", "1.5"),
+        (*TRIANGULAR, "--clearance", "1.0001"),
+        (*TRIANGULAR, "--window", "0.5", "--inertia", "3 g cm2"),
+        (*TRIANGULAR, "--window", "0.5", "--inertia", "3 g cm2", "--rate", "1 turn/s", "--load", "1 N mm"),
+    ],
+    "mesh triangular --vary": [(*TRIANGULAR, "--vary", "window=0.1:0.9:3")],
+    "mesh pin": [
+        ("mesh", "pin", "--pin-radius", "10", "--offset", "5"),
+        ("mesh", "pin", "--pin-radius", "10", "--offset", "15"),
+        ("mesh", "pin", "--pin-radius", "10", "--offset", "5", "--friction", "0.2", "--driver", "slot"),
+    ],
+    "mesh FORM": [
+        ("mesh", "involute", "--teeth", "24", "36", "--friction", "0.1"),
+        ("mesh", "involute", "--teeth", "5", "6"),
+        ("mesh", "cycloidal", "--teeth", "8", "60"),
+        ("mesh", "lantern", "--teeth", "8", "60"),
+    ],
+    "mesh compare": [("mesh", "compare", "--teeth", "24", "36")],
+}
+
+
+@pytest.mark.parametrize("question", ASKED)
+def test_one_shape_for_one_question(files: Path, question: str) -> None:
+    found = [data(*words, "--json") for words in ASKED[question]]
+    for each in found:
+        holds(question, each)
+    if isinstance(found[0], dict) and question != "teeth --kind list":
+        assert all(list(each) == list(found[0]) for each in found), [list(each) for each in found]
+
+
+def test_every_question_is_tried() -> None:
+    assert {*ASKED, "solve", "report", "compare", "torques", "sphere --survey"} == set(ANSWERS)
+
+
+def test_the_schema_is_printed_and_is_one(files: Path) -> None:
+    schema = data("schema", "--as", "answers")
+    assert schema == answer_schema()
+    Draft202012Validator.check_schema(schema)
+    for each in schema["$defs"].values():
+        Draft202012Validator.check_schema(each)
+
+
+def _without(schema: Any, path: tuple[str, ...] = ()) -> Iterator[tuple[str, ...]]:
+    """Paths of keys that are required, as far as they lead through objects alone."""
+    for key in schema.get("required", ()):
+        yield (*path, key)
+        yield from _without(schema["properties"][key], (*path, key))
+
+
+def test_an_answer_that_lacks_a_key_or_has_a_strange_one_is_seen(files: Path) -> None:
+    """The check itself can fail."""
+    whole = data("solve", "plain.yaml", "--json")
+    for path in _without(ANSWERS["solve"]):
+        less = copy.deepcopy(whole)
+        inner = less
+        for step in path[:-1]:
+            inner = inner[step]
+        del inner[path[-1]]
+        with pytest.raises(AssertionError):
+            holds("solve", less)
+    with pytest.raises(AssertionError):
+        holds("solve", {**whole, "verdict": {}})

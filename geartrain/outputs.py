@@ -10,7 +10,7 @@ from typing import Any, Literal
 from geartrain.circuits import Circuit
 from geartrain.exact import as_float, decimal, written
 from geartrain.periods import table
-from geartrain.train import Case, Output, Target, Train
+from geartrain.train import Case, Output, Published, Target, Train
 
 DAYS_PER_CENTURY = 36525
 Number = Fraction | float
@@ -124,6 +124,12 @@ class OutputResult:
     bookkeeping: bool
 
     @property
+    def found(self) -> Number | None:
+        """What stands against the `published` figure, in its form; None where there is no such number."""
+        published = self.output.published
+        return None if published is None else as_published(published, self.speed, self.ratio)
+
+    @property
     def holds(self) -> bool:
         """False if an `expect` or a `published` figure is not met."""
         return self.expect_holds is not False and self.published_holds is not False
@@ -143,6 +149,7 @@ class OutputResult:
                 "value": str(published.value),
                 "as": published.as_,
                 "place": published.place,
+                "found": written(self.found) if isinstance(self.found, Fraction) else self.found,
                 "holds": self.published_holds,
             },
             "targets": [target.to_dict() for target in self.targets],
@@ -223,12 +230,16 @@ def _published_holds(output: Output, speed: Number | None, ratio: Number | None)
     published = output.published
     if published is None:
         return None
-    value = speed if published.as_ == "speed" else ratio
-    if value is None or (published.as_ == "input/output" and not value):
-        return False
-    exact = Fraction(value)
+    value = as_published(published, speed, ratio)
     bound = published.tolerance.value if published.tolerance else None
-    return published.value.holds(1 / exact if published.as_ == "input/output" else exact, bound)
+    return False if value is None else published.value.holds(Fraction(value), bound)
+
+
+def as_published(published: Published, speed: Number | None, ratio: Number | None) -> Number | None:
+    """An output in the form of the figure that a source prints of it."""
+    if published.as_ == "speed":
+        return speed
+    return ratio if published.as_ == "output/input" else 1 / ratio if ratio else None
 
 
 def goal_of(train: Train, target: Target) -> Goal:

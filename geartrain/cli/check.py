@@ -12,11 +12,12 @@ from geartrain.errors import GearTrainError
 
 if TYPE_CHECKING:
     from geartrain.analysis import GearTrain
+    from geartrain.outputs import OutputResult
 
 
 def run(
     files: Files,
-    quiet: Annotated[bool, typer.Option("--quiet", "-q", help="Print only what is wrong.")] = False,
+    quiet: Annotated[bool, typer.Option("--quiet", "-q", help="Print nothing of trains that are sound.")] = False,
 ) -> None:
     """Validate trains and verify every `expect` and `published` figure; the worst finding is the exit code."""
     worst = GOOD
@@ -28,6 +29,7 @@ def run(
 def _check(file: str, quiet: bool) -> int:
     from geartrain.files import load
     from geartrain.report.document import exact
+    from geartrain.report.results import figures_held
 
     try:
         train = load(file)
@@ -57,14 +59,14 @@ def _check(file: str, quiet: bool) -> int:
             typer.echo(f"note {file}: {line}")
     if train.is_placed and train.closure.kind in ("misses", "unclear"):
         typer.echo(f"note {file}: {train.closure.text}")
-    if good == GOOD and not quiet:
-        held = sum(result.expect_holds is not None for answer in answers for result in answer.outputs.values())
-        loops = f", {plural(train.mobility.redundant, 'redundant circuit')}" if train.mobility.redundant else ""
-        kept = f"all {held} expectations hold" if held else "nothing expected"
+    if good != GOOD or not quiet:
         for remark in train.remarks:
             typer.echo(f"note {remark.place}: {remark.what}" + (f"; {remark.why}" if remark.why else ""))
         for line in _left_out(train):
             typer.echo(f"note {file}: {line}")
+    if good == GOOD and not quiet:
+        loops = f", {plural(train.mobility.redundant, 'redundant circuit')}" if train.mobility.redundant else ""
+        kept = figures_held(answers) or "nothing expected"
         typer.echo(f"ok   {file}: mobility {train.mobility.by_rank}{loops}, {kept}")
     return good
 
@@ -82,14 +84,13 @@ def _place(state: str | None, name: str, states: object) -> tuple[str, ...]:
     return ("states", str(state), "outputs", name) if own else ("outputs", name)
 
 
-def _wanted(result: object) -> str:
-    from geartrain.outputs import OutputResult
+def _wanted(result: OutputResult) -> str:
+    from geartrain.report.results import found_words
 
-    if not isinstance(result, OutputResult):
-        return ""
     words = []
     if result.expect_holds is False and result.output.expect:
         words.append(f"expected {result.output.expect.value}")
     if result.published_holds is False and result.output.published:
-        words.append(f"published {result.output.published.value} as {result.output.published.as_}")
+        published = result.output.published
+        words.append(f"published {published.value} as {published.as_}, {found_words(result)}")
     return "; " + ", ".join(words)

@@ -13,7 +13,7 @@ from geartrain.report.assembling import closure_sections
 from geartrain.report.document import MOST_ROWS, Document, Exact, Section, Table, cut
 from geartrain.report.moving import moving_sections
 from geartrain.report.power import loaded_sections
-from geartrain.report.results import answer_sections, doubts, shift_table
+from geartrain.report.results import answer_sections, doubts, figures_held, shift_table
 from geartrain.report.teeth import teeth_sections
 from geartrain.train import Source, Train, Wheel
 
@@ -52,15 +52,13 @@ def _lead(train: GearTrain, answers: Sequence[Answer]) -> Iterator[str]:
         yield declared.note
     for key, source in declared.sources.items():
         yield source_line(key, source)
-    failed = sum(len(answer.failures) for answer in answers)
     for answer in answers:
         if not answer.verdict:
             state = f"State {answer.state}: " if answer.state is not None else ""
             yield f"{state}Verdict: {answer.verdict} ({answer.place})."
     if all(answer.verdict for answer in answers):
-        expected = sum(result.expect_holds is not None for answer in answers for result in answer.outputs.values())
-        held = f"all {expected} expectations hold" if not failed else f"{failed} of {expected} expectations FAIL"
-        yield f"Verdict: determined; {held}." if expected else "Verdict: determined."
+        held = figures_held(answers)
+        yield f"Verdict: determined; {held}." if held else "Verdict: determined."
     unit = declared.unit_name
     clock = f"; positive is {declared.view.positive} seen from the {declared.view.from_}" if declared.view.from_ else ""
     yield (

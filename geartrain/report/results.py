@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
 from itertools import islice
+from collections.abc import Iterable, Iterator, Sequence
 
 from geartrain.analysis import GearTrain
 from geartrain.answer import Answer
@@ -133,9 +133,34 @@ def _output(train: GearTrain, result: OutputResult) -> tuple[str, ...]:
         "" if expect is None else "holds" if result.expect_holds else f"FAILS: {expect.value} expected",
         ""
         if published is None
-        else f"{published.value} {published.as_}" + ("" if result.published_holds else " FAILS"),
+        else f"{published.value} {published.as_}"
+        + ("" if result.published_holds else f" FAILS: {found_words(result)}"),
         _as_read(declared, result),
     )
+
+
+def found_words(result: OutputResult) -> str:
+    """What stands against a published figure, in its form: exact and, where that is not one number, in decimals."""
+    if result.found is None:
+        ratio = result.output.published is not None and result.output.published.as_ != "speed"
+        open_ = result.speed is None or not ratio
+        return "undetermined" if open_ else "no such ratio, which needs one input that turns, and an output that does"
+    text, near = exact(result.found), figure(result.found)
+    return f"found {text}" + (f" = {near}" if near != text else "")
+
+
+def figures_held(answers: Iterable[Answer]) -> str:
+    """`all 3 expectations and 2 published figures hold`, or how many fail; empty where no figure is declared."""
+    results = [result for answer in answers for result in answer.outputs.values()]
+    kinds = {
+        "expectation": [each.expect_holds for each in results if each.expect_holds is not None],
+        "published figure": [each.published_holds for each in results if each.published_holds is not None],
+    }
+    named = [f"{len(held)} {kind}" + "s" * (len(held) > 1) for kind, held in kinds.items() if held]
+    total = sum(map(len, kinds.values()))
+    if failed := sum(held.count(False) for held in kinds.values()):
+        return f"{failed} of {' and '.join(named)} FAIL"
+    return f"{named[0]} holds" if total == 1 else f"all {' and '.join(named)} hold" if named else ""
 
 
 def _as_read(declared: Train, result: OutputResult) -> str:

@@ -1,0 +1,94 @@
+"""What `check` says: notes when they are needed, every figure it looked at, and what it found in place of one."""
+
+from __future__ import annotations
+
+import json
+import re
+from pathlib import Path
+
+import pytest
+from commands import RIGHT, call
+
+from geartrain import load, shipped
+
+
+def written(tmp_path: Path, outputs: str) -> Path:
+    path = tmp_path / "t.yaml"
+    path.write_text(RIGHT.split("outputs:")[0] + f"outputs:\n{outputs}\n", encoding="utf-8")
+    return path
+
+
+# b turns at -2/3 of the input, c at 1/2; the wheel x meshes with y and z nowhere else
+EXPECT, PUBLISHED = "  c: {expect: 1/2}", "  b: {published: {value: -1.50, as: input/output}}"
+
+
+@pytest.mark.parametrize(
+    ("outputs", "said"),
+    [
+        ("  c: {}", "nothing expected"),
+        (EXPECT, "1 expectation holds"),
+        (PUBLISHED, "1 published figure holds"),
+        (EXPECT + "\n  b: {expect: -2/3}", "all 2 expectations hold"),
+        (EXPECT + "\n" + PUBLISHED, "all 1 expectation and 1 published figure hold"),
+    ],
+)
+def test_every_figure_that_was_looked_at_is_counted(tmp_path: Path, outputs: str, said: str) -> None:
+    path = written(tmp_path, outputs)
+    done = call("check", path)
+    assert done.exit_code == 0
+    assert done.stdout == f"ok   {path}: mobility 1, {said}\n"
+    report = call("report", path).stdout
+    assert f"Verdict: determined; {said}." in report or said == "nothing expected"
+
+
+@pytest.mark.parametrize(
+    ("figure", "found"),
+    [
+        ("{value: -1.51, as: input/output}", "found -3/2 = -1.5"),
+        ("{value: -0.6, as: output/input}", "found -2/3 = -0.66666667"),
+        ("{value: 2, as: speed}", "found -2/3 = -0.66666667"),
+    ],
+)
+def test_a_figure_that_fails_is_told_beside_what_was_found(tmp_path: Path, figure: str, found: str) -> None:
+    path = written(tmp_path, f"  b: {{published: {figure}}}")
+    for verb in ("check", "report"):
+        done = call(verb, path)
+        assert done.exit_code == 1
+        assert found in done.stdout, done.stdout
+    assert "1 of 1 published figure FAIL" in call("report", path).stdout
+    (entry,) = json.loads(call("solve", path, "--json").stdout)["states"]
+    assert entry["outputs"]["b"]["published"]["found"] == found.split()[1]
+
+
+def test_a_ratio_that_there_is_not_is_said_to_be_none(tmp_path: Path) -> None:
+    path = tmp_path / "t.yaml"
+    path.write_text(
+        "extends: planetary\noutputs: {ring: {published: {value: 3, as: input/output}}}\n", encoding="utf-8"
+    )
+    said = call("check", path).stdout
+    assert "published 3 as input/output, no such ratio" in said
+
+
+def test_notes_are_told_when_a_figure_fails(tmp_path: Path) -> None:
+    train = load("prague-orloj")
+    assert train.remarks
+    path = tmp_path / "t.yaml"
+    name = next(iter(train.declaration.outputs))
+    path.write_text(f"extends: prague-orloj\noutputs: {{{name}: {{expect: 77}}}}\n", encoding="utf-8")
+    for more in ((), ("--quiet",)):
+        done = call("check", path, *more)
+        assert done.exit_code == 1
+        notes = [line for line in done.stdout.splitlines() if line.startswith("note")]
+        assert all(any(remark.what in line for line in notes) for remark in load(path).remarks)
+    assert call("check", "--quiet", "prague-orloj").stdout == ""
+
+
+@pytest.mark.parametrize("name", shipped())
+def test_no_train_with_figures_is_said_to_have_none(name: str) -> None:
+    text = shipped()[name].read_text(encoding="utf-8")
+    outputs = [output for answer in load(name).answers() for output in answer.outputs.values()]
+    expected = sum(output.output.expect is not None for output in outputs)
+    published = sum(output.output.published is not None for output in outputs)
+    said = call("check", name).stdout.splitlines()[-1]
+    counts = [int(count) for count in re.findall(r"(\d+) (?:expectation|published)", said)]
+    assert counts == [count for count in (expected, published) if count], text[:80]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from fractions import Fraction
@@ -15,6 +16,19 @@ Loc = tuple[str | int, ...]
 
 Marks = Callable[[Loc], str]
 """Turns a `Loc` into a place a reader can open, such as `file.yaml:12`."""
+
+
+_STEERING = re.compile(r"[\x00-\x08\x0b-\x1f\x7f-\x9f\u2028\u2029\u202a-\u202e\u2066-\u2069\ud800-\udfff]")
+"""Control characters but tab and line feed, other ends of a line, turns of the writing direction, lone surrogates."""
+
+
+def printable(text: str) -> str:
+    """Text of a user as it may be shown: what could steer a terminal, or hide what follows, is written out.
+
+    >>> printable("sun\\x1b[2J")
+    'sun\\\\x1b[2J'
+    """
+    return _STEERING.sub(lambda found: found[0].encode("unicode_escape").decode("ascii"), text)
 
 
 def dotted(loc: Loc) -> str:
@@ -41,7 +55,7 @@ class Problem:
             lines.append(f"  why: {self.why}")
         if self.fix:
             lines.append(f"  fix: {self.fix}")
-        return "\n".join(lines)
+        return printable("\n".join(lines))
 
 
 MOST_TOLD = 20

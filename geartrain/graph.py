@@ -9,6 +9,7 @@ import json
 from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
+from geartrain.errors import printable
 from geartrain.train import Train
 
 if TYPE_CHECKING:
@@ -83,21 +84,23 @@ def to_dot(graph: Graph) -> str:
     for first, second, data in graph.edges(data=True):
         style = {"revolute": "penwidth=1", "gear": "penwidth=3"}.get(data["kind"], "style=dashed, penwidth=2")
         lines.append(f"  {_quoted(first)} -- {_quoted(second)} [label={_quoted(data['label'])}, {style}];")
-    return "\n".join([*lines, "}"])
+    return printable("\n".join([*lines, "}"]))
 
 
 def to_graphml(graph: Graph) -> str:
     """GraphML with kind, label and, for gear pairs, the two wheels."""
     import networkx as nx
 
-    return "\n".join(nx.generate_graphml(_plain(graph)))
+    return printable("\n".join(nx.generate_graphml(_plain(graph))))  # XML has no control characters at all
 
 
 def to_json(graph: Graph) -> str:
     """Node-link JSON with kind, label and, for gear pairs, the two wheels."""
     import networkx as nx
 
-    return json.dumps(nx.node_link_data(_plain(graph), edges="edges"), indent=1, ensure_ascii=False)
+    data = nx.node_link_data(_plain(graph), edges="edges")
+    text = json.dumps(data, indent=1, ensure_ascii=False)
+    return text if printable(text) == text else json.dumps(data, indent=1)
 
 
 def _plain(graph: Graph) -> Graph:

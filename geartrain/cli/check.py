@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from geartrain.cli.common import GOOD, NOT_USABLE, VERDICT, Files, complain, plural
+from geartrain.cli.common import GOOD, NOT_USABLE, VERDICT, Files, complain, emit, plural
 from geartrain.errors import GearTrainError
 
 if TYPE_CHECKING:
@@ -42,32 +42,32 @@ def _check(file: str, quiet: bool) -> int:
     for answer in answers:
         state = f" state {answer.state}" if answer.state is not None else ""
         if not answer.verdict:
-            typer.echo(f"FAIL {answer.place}:{state} {answer.verdict}")
+            emit(f"FAIL {answer.place}:{state} {answer.verdict}")
             good = VERDICT
             continue
         for result in answer.failures:
             place = train.declaration.place(*_place(answer.state, result.name, train.declaration.states))
             speed = exact(result.speed)
             head, tail = (place, "") if place.startswith(file) else (file, f" (declared at {place})")
-            typer.echo(f"FAIL {head}:{state} output '{result.name}' is {speed}{_wanted(result)}{tail}")
+            emit(f"FAIL {head}:{state} output '{result.name}' is {speed}{_wanted(result)}{tail}")
             good = VERDICT
     for fault in faults:
-        typer.echo(f"FAIL {fault.place}: " + "; ".join(filter(None, (fault.what, fault.why, fault.fix))))
+        emit(f"FAIL {fault.place}: " + "; ".join(filter(None, (fault.what, fault.why, fault.fix))))
         good = VERDICT
     if good != GOOD or not quiet:
         for line in train.gridlock.lines():
-            typer.echo(f"note {file}: {line}")
+            emit(f"note {file}: {line}")
     if train.is_placed and train.closure.kind in ("misses", "unclear"):
-        typer.echo(f"note {file}: {train.closure.text}")
+        emit(f"note {file}: {train.closure.text}")
     if good != GOOD or not quiet:
         for remark in train.remarks:
-            typer.echo(f"note {remark.place}: {remark.what}" + (f"; {remark.why}" if remark.why else ""))
+            emit(f"note {remark.place}: {remark.what}" + (f"; {remark.why}" if remark.why else ""))
         for line in _left_out(train):
-            typer.echo(f"note {file}: {line}")
+            emit(f"note {file}: {line}")
     if good == GOOD and not quiet:
         loops = f", {plural(train.mobility.redundant, 'redundant circuit')}" if train.mobility.redundant else ""
         kept = figures_held(answers) or "nothing expected"
-        typer.echo(f"ok   {file}: mobility {train.mobility.by_rank}{loops}, {kept}")
+        emit(f"ok   {file}: mobility {train.mobility.by_rank}{loops}, {kept}")
     return good
 
 

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from geartrain.errors import GearTrainError, Problem
+from geartrain.errors import GearTrainError, Problem, printable
 
 if TYPE_CHECKING:
     from geartrain.analysis import GearTrain
@@ -55,15 +55,15 @@ def sound(train: GearTrain, state: str | None) -> bool:
     return bool(train.solve(first)) and not any(mesh.fault for mesh in train.meshes)
 
 
-def printable(text: str) -> str:
-    """Text of a user as it may stand on a terminal: control characters, which could steer it, are written out."""
-    return "".join(c if c.isprintable() or c in "\n\t" else repr(c)[1:-1] for c in text)
+def tell(text: str) -> None:
+    """A line on standard error: what was written, what was passed over, how to go on."""
+    typer.echo(printable(text), err=True)
 
 
 def complain(error: GearTrainError) -> None:
     """Every problem on standard error."""
     for problem in error.problems:
-        typer.echo(f"error: {problem}", err=True)
+        tell(f"error: {problem}")
 
 
 @dataclass(frozen=True)
@@ -94,7 +94,7 @@ class Sink:
         from geartrain.files import write_bytes
 
         write_bytes(self.path, data, self.force)
-        typer.echo(f"wrote {self.path}{said}", err=True)
+        tell(f"wrote {self.path}{said}")
 
 
 STANDARD, STANDARD_NAME = Sink(), Path("-")
@@ -132,7 +132,8 @@ def apart(*sinks: Sink) -> None:
 
 
 def emit(text: str, out: Sink = STANDARD) -> None:
-    """Text to a file, whole or not at all, or to standard output."""
+    """Text to a file, whole or not at all, or to standard output; control characters in it are written out."""
+    text = printable(text)
     if out.path is None:
         typer.echo(text)
     else:
@@ -193,5 +194,6 @@ def plural(count: int, noun: str) -> str:
 
 
 def as_json(data: Any) -> str:
-    """JSON as this command prints it."""
-    return json.dumps(data, indent=2, ensure_ascii=False, allow_nan=False)
+    """JSON as this command prints it; characters that a terminal would obey are escaped, as JSON does."""
+    text = json.dumps(data, indent=2, ensure_ascii=False, allow_nan=False)
+    return text if printable(text) == text else json.dumps(data, indent=2, allow_nan=False)

@@ -8,7 +8,7 @@ from typing import Annotated, Literal
 
 import typer
 
-from geartrain.cli.common import PICTURES, STANDARD_NAME, VERDICT, File, Force, file_name, sink, sound, suffix_of
+from geartrain.cli.common import PICTURES, STANDARD_NAME, VERDICT, File, Force, file_name, sink, sound, suffix_of, tell
 from geartrain.cli.common import draw as write_figure
 
 
@@ -46,7 +46,7 @@ def run(
         return
     verdict = train.solve(state if state is not None or not train.states else train.states[0]).verdict
     if not verdict:
-        typer.echo(f"the train is {verdict}", err=True)
+        tell(f"the train is {verdict}")
     raise typer.Exit(VERDICT)
 
 

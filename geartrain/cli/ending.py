@@ -13,8 +13,8 @@ from typing import Any
 import typer
 from typer.core import TyperGroup
 
-from geartrain.cli.common import INTERRUPTED, NOT_USABLE, complain
-from geartrain.errors import GearTrainError, Problem
+from geartrain.cli.common import INTERRUPTED, NOT_USABLE, complain, tell
+from geartrain.errors import GearTrainError, Problem, printable
 
 FAULT, READER_GONE = 3, 141
 TRACEBACK = "GEARTRAIN_TRACEBACK"
@@ -34,10 +34,13 @@ class Verbs(TyperGroup):
         """Run the verb that was asked for."""
         try:
             return super().invoke(ctx)
+        except typer.BadParameter as error:
+            error.message = printable(error.message)
+            raise
         except BrokenPipeError:
             raise _ReaderGoneError from None
         except KeyboardInterrupt:
-            typer.echo("stopped", err=True)
+            tell("stopped")
             raise typer.Exit(INTERRUPTED) from None
 
 
@@ -80,15 +83,13 @@ def _mute() -> None:
 
 def _tell_fault(error: Exception) -> None:
     """One line on standard error; the traceback goes into a file that can be sent."""
-    from geartrain.cli.common import printable
-
     text = "".join(traceback.format_exception(error))
     said = printable(str(error).partition("\n")[0])
     kept = _kept(text)
     how = f"please report it with {kept}" if kept else f"set {TRACEBACK}=1 to see where, and please report that"
-    typer.echo(f"internal error: {type(error).__name__}: {said}; this is a fault of geartrain: {how}", err=True)
+    tell(f"internal error: {type(error).__name__}: {said}; this is a fault of geartrain: {how}")
     if os.environ.get(TRACEBACK):
-        typer.echo(text, err=True)
+        tell(text)
 
 
 def _kept(text: str) -> str:

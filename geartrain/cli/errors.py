@@ -27,6 +27,7 @@ from geartrain.cli.common import (
     share,
     show,
     sink,
+    tell,
 )
 from geartrain.cli.long_runs import means
 from geartrain.cli.pictures import Picture, Plot, check_plot, draw_findings, mapped
@@ -96,7 +97,7 @@ def run(
             work.finish()
     _answer(findings or _partial(found), json or to.suffix == ".json", STANDARD if to.suffix in TABLES else to)
     if to.suffix in TABLES and found.complete:
-        typer.echo(f"wrote {out}", err=True)
+        tell(f"wrote {out}")
     if drawn is not None and plot is not None:
         draw_findings(drawn, picture, drawing)
     if findings is None:
@@ -194,9 +195,9 @@ class _Work:
 
     def stopped(self, done: int, wanted: int) -> None:
         """Say where an interrupted run can be taken up."""
-        typer.echo(f"stopped after {done} of {wanted} trials; the figures are of those", err=True)
+        tell(f"stopped after {done} of {wanted} trials; the figures are of those")
         if self.journal is not None:
-            typer.echo(f"what is done is in {self.journal.path}: give the same command with --resume", err=True)
+            tell(f"what is done is in {self.journal.path}: give the same command with --resume")
 
     def finish(self) -> None:
         """The journal is not needed any more."""
@@ -221,7 +222,7 @@ class _Table:
     @contextmanager
     def open(self) -> Iterator[Callable[[Rows], None]]:
         """What takes every block."""
-        from geartrain.files import ColumnTable, LongTable
+        from geartrain.files import ColumnTable, LongTable, csv_line
 
         plan, path = self.plan, self.to.path
         assert path is not None
@@ -229,8 +230,7 @@ class _Table:
             with ColumnTable(path, _about(plan), self.to.force, replay=self.resume) as columns:
                 yield lambda rows: columns.write(_columns(plan, rows))
         else:
-            names = ",".join(_names(plan))
-            with LongTable(path, names, force=self.to.force, replay=self.resume) as table:
+            with LongTable(path, csv_line(_names(plan)), force=self.to.force, replay=self.resume) as table:
                 yield lambda rows: table.write(_lines(plan, rows))
 
 
@@ -257,5 +257,7 @@ def _columns(plan: Plan, rows: Rows) -> dict[str, Any]:
 
 
 def _lines(plan: Plan, rows: Rows) -> list[str]:
+    from geartrain.files import csv_lines
+
     columns = _columns(plan, rows).values()
-    return [",".join(map(repr, row)) for row in zip(*(column.tolist() for column in columns), strict=True)]
+    return csv_lines(zip(*(column.tolist() for column in columns), strict=True))

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from geartrain.cli.common import GOOD, INTERRUPTED, VERDICT, File, Force, StateName, plural, sink, sound
+from geartrain.cli.common import GOOD, INTERRUPTED, VERDICT, File, Force, StateName, plural, sink, sound, tell
 from geartrain.cli.mesh.options import quantity
 from geartrain.errors import GearTrainError, Problem
 
@@ -112,17 +112,17 @@ def _all(work: Workpiece, to: Path, kinds: str | None, wheel: str | None, turns:
     try:
         count = write_folder(to, _shown(((each.path, each.make()) for each in files), len(files)), force)
     except KeyboardInterrupt:
-        typer.echo(f"stopped; nothing is written to {to}", err=True)
+        tell(f"stopped; nothing is written to {to}")
         raise typer.Exit(INTERRUPTED) from None
     _remark([*missing, *notices(work, wanted)])
-    typer.echo(f"wrote {plural(count, 'file')} to {to}", err=True)
+    tell(f"wrote {plural(count, 'file')} to {to}")
 
 
 def _remark(problems: Sequence[Problem]) -> None:
     for problem in problems[:_SHOWN]:
-        typer.echo(f"note: {problem}", err=True)
+        tell(f"note: {problem}")
     if len(problems) > _SHOWN:
-        typer.echo(f"note: {len(problems) - _SHOWN} more in README.md", err=True)
+        tell(f"note: {len(problems) - _SHOWN} more in README.md")
 
 
 def _shown(files: Iterable[tuple[str, bytes]], count: int) -> Iterator[tuple[str, bytes]]:

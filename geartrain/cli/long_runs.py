@@ -9,7 +9,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-import typer
+from geartrain.cli.common import tell
 
 if TYPE_CHECKING:
     from concurrent.futures import Executor
@@ -54,7 +54,7 @@ def _journal(path: Path, question: Mapping[str, Any], resume: bool) -> Iterator[
         return
     if resume and not path.exists():
         _check_others(path, question)
-        typer.echo(f"nothing to resume: there is no {path}; the run begins anew", err=True)
+        tell(f"nothing to resume: there is no {path}; the run begins anew")
     with Journal(path, question, resume=resume) as journal:
         try:
             yield journal
@@ -79,19 +79,13 @@ def end(journal: Journal | None, cut: bool) -> None:
         if journal is not None:
             journal.finish()
     elif journal is not None and len(journal):
-        typer.echo(f"stopped; what is done is in {journal.path}: give the same command with --resume", err=True)
+        tell(f"stopped; what is done is in {journal.path}: give the same command with --resume")
     else:
-        typer.echo("stopped before anything was done that could be kept", err=True)
+        tell("stopped before anything was done that could be kept")
 
 
-def csv_text(rows: Sequence[Mapping[str, Any]]) -> str:
-    """Rows as CSV with a header; empty without rows."""
-    import csv
-    import io
+def table_text(rows: Sequence[Mapping[str, Any]]) -> str:
+    """Rows with the same keys as CSV with a header; empty without rows."""
+    from geartrain.files import csv_text
 
-    text = io.StringIO()
-    if rows:
-        writer = csv.DictWriter(text, list(rows[0]), lineterminator="\n")
-        writer.writeheader()
-        writer.writerows(rows)
-    return text.getvalue().rstrip("\n")
+    return csv_text(list(rows[0]), [list(row.values()) for row in rows]).rstrip("\n") if rows else ""

@@ -25,6 +25,7 @@ from geartrain.cli.common import (
     emit,
     show,
     sink,
+    tell,
 )
 
 if TYPE_CHECKING:
@@ -75,7 +76,7 @@ def run(
         _write_table(asked, to.path, resume, force)
     elif csv:
         for rows in _rows(asked, 0):
-            typer.echo("\n".join(rows))
+            emit("\n".join(rows))
     else:
         _report(asked, json or to.suffix == ".json", (to, cut), (train.name, state), phases, seed, estimates, spectrum)
     if plot is not None:
@@ -138,17 +139,17 @@ def _report(
     else:
         show([report.motion_document(asked)], to)
     if stopped:
-        typer.echo(f"stopped after {asked.done} of {asked.samples} positions; the figures are of those", err=True)
+        tell(f"stopped after {asked.done} of {asked.samples} positions; the figures are of those")
         raise typer.Exit(INTERRUPTED)
 
 
 def _write_table(asked: Run, out: Path, resume: bool, force: bool) -> None:
-    from geartrain.files import LongTable
+    from geartrain.files import LongTable, csv_line
 
     try:
-        with LongTable(out, ",".join(asked.columns), resume, force) as table:
+        with LongTable(out, csv_line(asked.columns), resume, force) as table:
             if resume and not table.rows:
-                typer.echo(f"nothing to resume: there is no {table.partial}; the run begins anew", err=True)
+                tell(f"nothing to resume: there is no {table.partial}; the run begins anew")
             if table.rows:
                 asked.check_resumed(table.last(), table.rows)
             first = table.rows
@@ -157,21 +158,25 @@ def _write_table(asked: Run, out: Path, resume: bool, force: bool) -> None:
                     table.write(rows)
                     on_done(len(rows))
     except KeyboardInterrupt:
-        typer.echo(f"stopped after {table.rows} of {asked.samples} positions: {table.partial}", err=True)
-        typer.echo("give the same command with --resume to go on", err=True)
+        tell(f"stopped after {table.rows} of {asked.samples} positions: {table.partial}")
+        tell("give the same command with --resume to go on")
         raise typer.Exit(INTERRUPTED) from None
-    typer.echo(f"wrote {out}", err=True)
+    tell(f"wrote {out}")
 
 
 def _rows(asked: Run, first: int, header: bool = True) -> Iterator[list[str]]:
+    from geartrain.files import csv_line
+
     if header:
-        yield [",".join(asked.columns)]
+        yield [csv_line(asked.columns)]
     for passage in asked.motion.passages(asked.turns, asked.samples, first):
         yield _lines(asked, passage)
 
 
 def _lines(asked: Run, passage: Passage) -> list[str]:
-    return [",".join(map(repr, row)) for row in zip(*(c.tolist() for c in asked.values(passage)), strict=True)]
+    from geartrain.files import csv_lines
+
+    return csv_lines(zip(*(column.tolist() for column in asked.values(passage)), strict=True))
 
 
 @contextmanager

@@ -26,8 +26,9 @@ from geartrain.cli.common import (
     share,
     show,
     sink,
+    tell,
 )
-from geartrain.cli.long_runs import csv_text, end, means
+from geartrain.cli.long_runs import end, means, table_text
 from geartrain.cli.pictures import Plot, check_plot, draw_counts
 
 if TYPE_CHECKING:
@@ -105,7 +106,7 @@ def _answer(found: CountSweep, json: bool, to: Sink) -> None:
     from geartrain import report
 
     if to.suffix == ".csv":
-        emit(csv_text(report.sweep_rows(found)), to)
+        emit(table_text(report.sweep_rows(found)), to)
     elif to.suffix == ".parquet":
         _write_parquet(report.sweep_rows(found), to, {"train": found.name, "method": found.method})
     elif to.suffix == ".json":
@@ -159,6 +160,6 @@ def _write_parquet(rows: Sequence[Mapping[str, Any]], to: Sink, about: Mapping[s
     with ColumnTable(to.path, about, to.force) as table:
         if rows:
             table.write({name: [row[name] for row in rows] for name in rows[0]})
-            typer.echo(f"wrote {to.path}", err=True)
+            tell(f"wrote {to.path}")
         else:
-            typer.echo(f"nothing fits, so {to.path} is not written", err=True)
+            tell(f"nothing fits, so {to.path} is not written")

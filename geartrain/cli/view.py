@@ -20,6 +20,7 @@ from geartrain.cli.common import (
     plural,
     sink,
     sound,
+    tell,
 )
 from geartrain.errors import Problem, QuestionError
 
@@ -58,7 +59,7 @@ def run(
     data = text.encode("utf-8")
     to.write(data, f": {plural(len(scenes), 'scene')}, {len(data) / 1000:,.0f} kB")
     if open_it and to.path is not None and not webbrowser.open(path.resolve().as_uri()):
-        typer.echo("no browser could be started here; open the file by hand", err=True)
+        tell("no browser could be started here; open the file by hand")
     raise typer.Exit(GOOD if all(sound(train, each) for train, each in shown) else VERDICT)
 
 

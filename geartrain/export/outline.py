@@ -6,6 +6,7 @@ from geartrain.errors import GearTrainError, Problem
 from geartrain.export.drawing import wheel_drawing
 from geartrain.export.dxf import to_dxf
 from geartrain.export.svg import to_svg
+from geartrain.files import csv_text
 from geartrain.outlines import Wheel
 
 OUTLINES = (".svg", ".dxf", ".csv")
@@ -28,8 +29,8 @@ def outline_text(wheel: Wheel, suffix: str) -> str:
 
 def _csv(wheel: Wheel) -> str:
     """A point a row; each contour ends where it began, its arcs as chords within the wheel's tolerance."""
-    rows = ["contour,x_mm,y_mm"]
+    rows: list[tuple[object, ...]] = []
     for at, contour in enumerate(wheel.contours):
         points = contour.flattened(wheel.tolerance)
-        rows += [f"{at},{x:.6f},{y:.6f}" for x, y in [*points, points[0]]]
-    return "\n".join(rows) + "\n"
+        rows += [(at, f"{x:.6f}", f"{y:.6f}") for x, y in [*points, points[0]]]
+    return csv_text(("contour", "x_mm", "y_mm"), rows)

@@ -10,7 +10,7 @@ from math import degrees
 from typing import TYPE_CHECKING
 
 from geartrain import graph
-from geartrain.errors import GearTrainError, Problem, QuestionError
+from geartrain.errors import GearTrainError, Problem, QuestionError, printable
 from geartrain.export.drawing import Drawing
 from geartrain.export.dxf import to_dxf
 from geartrain.export.rexs import to_rexs
@@ -215,7 +215,7 @@ def _angles(play: Play) -> str:
 
 
 def _cell(text: str) -> str:
-    return text.replace("|", "\\|").replace("\n", " ").replace("<", "&lt;")
+    return printable(text.replace("|", "\\|").replace("\n", " ").replace("<", "&lt;"))
 
 
 def kind_of(name: str) -> str:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from html import escape
 
+from geartrain.errors import printable
 from geartrain.export.drawing import CUT, ENGRAVE, PITCH, Drawing, Mark
 from geartrain.outlines import Contour
 from geartrain.outlines.contour import arc_radius
@@ -28,7 +29,7 @@ def to_svg(drawing: Drawing) -> str:
     if drawing.marks:
         style = 'fill="#c02020" font-family="sans-serif" text-anchor="middle" dominant-baseline="central"'
         lines.append(f'<g id="{ENGRAVE}" {style}>{"".join(map(_text, drawing.marks))}</g>')
-    return "\n".join([*lines, "</svg>", ""])
+    return printable("\n".join([*lines, "</svg>", ""]))
 
 
 def _path(contour: Contour) -> str:

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import csv
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from fractions import Fraction
-from io import StringIO
 from typing import TYPE_CHECKING
 
 from geartrain.exact import decimal, written
+from geartrain.files import csv_text
 
 if TYPE_CHECKING:
     from geartrain.export.assembly import Workpiece
@@ -29,15 +28,8 @@ def to_tables(work: Workpiece) -> Mapping[str, str]:
         "axes": _axes,
         "outputs": _outputs,
     }
-    return {name: _csv(*make(work)) for name, make in made.items()}
-
-
-def _csv(head: str, rows: Iterable[Sequence[object]]) -> str:
-    out = StringIO()
-    writer = csv.writer(out, lineterminator="\n")
-    writer.writerow(head.split())
-    writer.writerows(["" if value is None else value for value in row] for row in rows)
-    return out.getvalue()
+    tables = {name: make(work) for name, make in made.items()}
+    return {name: csv_text(head.split(), rows) for name, (head, rows) in tables.items()}
 
 
 def _both(value: Fraction | None) -> tuple[str, str]:

@@ -7,6 +7,7 @@ from geartrain.files.declaring import as_yaml
 from geartrain.files.folder import check_folder, write_folder
 from geartrain.files.loading import load, read_declaration, shipped
 from geartrain.files.long import LongTable, partial_name
+from geartrain.files.separated import csv_line, csv_lines, csv_text
 from geartrain.files.tables import read_edges, read_points
 from geartrain.files.writing import destination, write_bytes, write_text
 
@@ -15,6 +16,9 @@ __all__ = [
     "LongTable",
     "as_yaml",
     "check_folder",
+    "csv_line",
+    "csv_lines",
+    "csv_text",
     "destination",
     "load",
     "partial_name",

@@ -13,6 +13,7 @@ try:
     from matplotlib.patches import Circle, FancyArrowPatch, Patch, PathPatch, Polygon, Rectangle
     from matplotlib.path import Path
     from matplotlib.patheffects import Stroke, withStroke
+    from matplotlib.text import Text
 except ImportError:
     raise MissingExtraError("matplotlib", "plot", "a plot") from None
 
@@ -29,6 +30,7 @@ __all__ = [
     "Polygon",
     "Rectangle",
     "Stroke",
+    "Text",
     "rc_context",
     "withStroke",
 ]

@@ -6,8 +6,8 @@ import re
 from io import BytesIO
 from threading import Lock
 
-from geartrain.errors import GearTrainError, Problem
-from geartrain.plot.library import Figure, rc_context
+from geartrain.errors import GearTrainError, Problem, printable
+from geartrain.plot.library import Figure, Text, rc_context
 
 SUFFIXES = (".svg", ".png", ".pdf")
 
@@ -31,8 +31,14 @@ def render(figure: Figure, suffix: str, dots: float = 100.0) -> bytes:
         raise GearTrainError(
             Problem(f"no plot can be written as {suffix or 'a file without suffix'}", fix=f"use {', '.join(SUFFIXES)}")
         )
+    for text in figure.findobj(Text):
+        if (shown := printable(text.get_text())) != text.get_text():
+            text.set_text(shown)
     buffer = BytesIO()
     with _ONE_AT_A_TIME, rc_context({"svg.hashsalt": "geartrain"}):
         figure.savefig(buffer, format=kind[1:], dpi=dots, metadata=_METADATA[kind])
     data = buffer.getvalue()
-    return _PATH.sub(lambda path: _LONG.sub(rb"\1", path[0]), data) if kind == ".svg" else data
+    if kind != ".svg":
+        return data
+    data = printable(data.decode("utf-8")).encode("utf-8")  # ids too: XML has no control characters at all
+    return _PATH.sub(lambda path: _LONG.sub(rb"\1", path[0]), data)

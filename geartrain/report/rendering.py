@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
+from geartrain.errors import printable
 from geartrain.report.document import Document, Table
 
 if TYPE_CHECKING:
     from rich.console import Console, RenderableType
+    from rich.text import Text
 
 
 def to_markdown(documents: Sequence[Document]) -> str:
@@ -16,21 +19,35 @@ def to_markdown(documents: Sequence[Document]) -> str:
     return "\n".join(line for document in documents for line in _markdown(document))
 
 
+_TAG = re.compile(r"<(?=[A-Za-z/!?])")
+_ENTITY = re.compile(r"&(?=#?\w+;)")
+
+
+def _plain(text: str) -> str:
+    """Text that Markdown would take for HTML, as text."""
+    return _TAG.sub("&lt;", _ENTITY.sub("&amp;", text))
+
+
+def _line(text: str) -> str:
+    """The same on one line, for a heading or a cell."""
+    return " ".join(_plain(text).split())
+
+
 def _markdown(document: Document) -> Iterator[str]:
-    yield from (f"# {document.title}", "")
+    yield from (f"# {_line(document.title)}", "")
     for paragraph in document.lead:
-        yield from (paragraph, "")
+        yield from (_plain(paragraph), "")
     for section in document.sections:
-        yield from (f"## {section.title}", "")
+        yield from (f"## {_line(section.title)}", "")
         for paragraph in section.paragraphs:
-            yield from (paragraph, "")
+            yield from (_plain(paragraph), "")
         for table in section.tables:
             yield from _pipes(table)
             yield ""
 
 
 def _pipes(table: Table) -> Iterator[str]:
-    rows = [[" ".join(cell.replace("|", "\\|").split()) for cell in row] for row in (table.header, *table.rows)]
+    rows = [[_line(cell).replace("|", "\\|") for cell in row] for row in (table.header, *table.rows)]
     widths = [max(3, *(len(cell) for cell in column)) for column in zip(*rows, strict=True)]
     lines = [
         "| " + " | ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)) + " |" for row in rows
@@ -42,17 +59,15 @@ def _pipes(table: Table) -> Iterator[str]:
 
 def to_terminal(documents: Sequence[Document], console: Console) -> None:
     """The documents on a terminal; matrices wider than it are shown in strips."""
-    from rich.text import Text
-
     for document in documents:
-        console.print(Text(document.title, style="bold underline"))
+        console.print(_shown(document.title, style="bold underline"))
         for paragraph in document.lead:
-            console.print(Text(paragraph))
+            console.print(_shown(paragraph))
         for section in document.sections:
             console.print()
-            console.print(Text(section.title, style="bold cyan"))
+            console.print(_shown(section.title, style="bold cyan"))
             for paragraph in section.paragraphs:
-                console.print(Text(paragraph))
+                console.print(_shown(paragraph))
             strips = [strip for table in section.tables for strip in _strips(table, console.width)]
             for at, strip in enumerate(strips):
                 if at:
@@ -61,17 +76,23 @@ def to_terminal(documents: Sequence[Document], console: Console) -> None:
         console.print()
 
 
+def _shown(text: str, style: str = "") -> Text:
+    """Text of a document for a terminal, which it does not steer."""
+    from rich.text import Text
+
+    return Text(printable(text), style=style)
+
+
 def _rich_table(table: Table) -> RenderableType:
     """A table without rules; failures in red."""
     from rich.table import Table as RichTable
-    from rich.text import Text
 
     gap = 1 if table.wide else 2
     shown = RichTable(box=None, pad_edge=False, header_style="bold", padding=(0, gap, 0, 0))
     for name in table.header:
-        shown.add_column(Text(name), no_wrap=table.wide, overflow="fold")
+        shown.add_column(_shown(name), no_wrap=table.wide, overflow="fold")
     for row in table.rows:
-        shown.add_row(*(Text(cell, style="bold red" if "FAILS" in cell else "") for cell in row))
+        shown.add_row(*(_shown(cell, style="bold red" if "FAILS" in cell else "") for cell in row))
     return shown
 
 

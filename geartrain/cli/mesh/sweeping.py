@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import typer
 
-from geartrain.cli.common import Sink, as_json, draw, emit
+from geartrain.cli.common import Sink, as_json, draw, emit, tell
 from geartrain.cli.mesh.pair import VARIED, Pair
 
 if TYPE_CHECKING:
@@ -19,6 +19,7 @@ def sweep(pair: Pair, vary: list[str], picture: Sink, json: bool, to: Sink) -> N
     from rich.console import Console
     from rich.progress import Progress
 
+    from geartrain.files import csv_text
     from geartrain.teeth.triangular.sweep import sweep as run_sweep
 
     ranges, units = _ranges(vary)
@@ -36,7 +37,7 @@ def sweep(pair: Pair, vary: list[str], picture: Sink, json: bool, to: Sink) -> N
     if json or to.suffix == ".json":
         emit(as_json([dict(zip(found.header, _plain(row), strict=True)) for row in found.rows()]), to)
     else:
-        emit(_csv(found), to)
+        emit(csv_text(found.header, map(_plain, found.rows())).rstrip("\n"), to)
     if len(ranges) == 1:
         _tell_changes(make, next(iter(ranges)), found, units)
     if picture.path is not None:
@@ -82,17 +83,6 @@ def _number(text: str) -> tuple[float, str]:
     return value, match[2] or ""
 
 
-def _csv(found: Sweep) -> str:
-    import csv
-    import io
-
-    text = io.StringIO()
-    writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(found.header)
-    writer.writerows(["" if value is None else value for value in _plain(row)] for row in found.rows())
-    return text.getvalue().rstrip("\n")
-
-
 def _plain(row: tuple[object, ...]) -> list[object]:
     """NaN becomes nothing."""
     return [None if value != value else value for value in row]
@@ -102,7 +92,7 @@ def _tell_changes(make: Any, name: str, found: Sweep, units: dict[str, str]) -> 
     from geartrain.teeth.triangular.sweep import best, changes
 
     for change in changes(make, name, found) if name not in ("z1", "z2") else ():
-        typer.echo(f"{name} {change.value:.10g}{units[name]}: {change.before} -> {change.after}", err=True)
+        tell(f"{name} {change.value:.10g}{units[name]}: {change.before} -> {change.after}")
     top = best(make, name, found) if name not in ("z1", "z2", "friction") else None
     if top is not None:
-        typer.echo(f"{name} {top[0]:.8g}{units[name]}: greatest mean efficiency, {top[1]:.8f}", err=True)
+        tell(f"{name} {top[0]:.8g}{units[name]}: greatest mean efficiency, {top[1]:.8f}")

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 import typer
 
 from geartrain.cli.common import GOOD, INTERRUPTED, STANDARD, VERDICT, Sink, as_json, emit, share, show
-from geartrain.cli.long_runs import csv_text, means
+from geartrain.cli.long_runs import means, table_text
 
 if TYPE_CHECKING:
     from geartrain.cli.long_runs import Means as Work
@@ -95,7 +95,7 @@ class Asked:
             if each == ".json":
                 emit(as_json(data), out)
             elif each == ".csv":
-                emit(csv_text(rows), out)
+                emit(table_text(rows), out)
             else:
                 show([document()], out, each)
         if "interrupted" in str(data.get("ended", "")):

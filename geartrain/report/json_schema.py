@@ -64,6 +64,7 @@ TARGET = _has(
     {
         "target": TEXT,
         "speed": SOME,
+        "compared": _enum("speed", "magnitude", "difference"),
         "ppm": SOME,
         "days_per_century": SOME,
         "degrees_per_unit": SOME,
@@ -117,11 +118,13 @@ TRAIN = {"name": TEXT, "title": TEXT, "unit": TEXT, "mobility": _maybe(MOBILITY)
 # ------------------------------------------------------------------------------------------------------------- torques
 
 _TORQUE_KINDS = (
-    *("determined", "self-locking", "ambiguous", "indeterminate", "contradictory"),
-    *("stalled", "undecided", "unloaded", "still"),
+    *("determined", "incomplete", "self-locking", "ambiguous", "indeterminate", "contradictory"),
+    *("unbalanced", "stalled", "undecided", "unloaded", "still"),
 )
 TORQUE_VERDICT = _has({"kind": _enum(*_TORQUE_KINDS), "text": TEXT, "candidates": TEXTS})
-DRIVE = _maybe(_has({"verdict": TORQUE_VERDICT, "efficiency": SOME, "exact": EXACT}))
+LEFT_OUT = _list(_has({"what": TEXT, "where": TEXTS, "why": TEXT}))
+HELD = _has({"links": TEXTS, "clutch": WORDS, "cause": _maybe(TEXTS), "torques": _maybe(_named(SOME))})
+DRIVE = _maybe(_has({"verdict": TORQUE_VERDICT, "efficiency": SOME, "exact": EXACT, "left_out": LEFT_OUT}))
 END = _has({"kind": _enum("in", "shaft", "pair", "bearing", "out"), "name": TEXT})
 TORQUES = _has(
     {
@@ -141,6 +144,8 @@ TORQUES = _has(
                 }
             )
         ),
+        "held": _list(HELD),
+        "left_out": LEFT_OUT,
         "power_in": SOME,
         "loss": SOME,
         "drives": _maybe(_has({"forward": DRIVE, "backward": DRIVE})),

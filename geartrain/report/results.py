@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from itertools import islice
 from collections.abc import Iterable, Iterator, Sequence
+from itertools import islice
 
 from geartrain.analysis import GearTrain
 from geartrain.answer import Answer

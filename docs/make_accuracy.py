@@ -90,9 +90,10 @@ HEAD = """# Error against run time
 
 Written by `python docs/make_accuracy.py` from the runs
 
-    geartrain bench kinematics --most 1000 --json -o docs/data/kinematics-small.json
-    geartrain bench kinematics --least 10000 --json -o docs/data/kinematics-large.json
-    geartrain bench kinematics --least 1000000 --most 1000000 --family tree --json -o docs/data/kinematics-million.json
+    geartrain bench kinematics --most 1000 --json --force -o docs/data/kinematics-small.json
+    geartrain bench kinematics --least 10000 --json --force -o docs/data/kinematics-large.json
+    geartrain bench kinematics --least 1000000 --most 1000000 --family tree --json --force \\
+        -o docs/data/kinematics-million.json
 
 on a machine with two cores. Compare times within a table only: they are ratios to the exact solve of the same train
 in the same run. The matrices of the sparse solvers come with rows and columns in random order, as a model arrives, and

@@ -199,7 +199,7 @@ HEAD = """# Error against run time: the law of triangular teeth
 
 Written by `python docs/make_mesh_accuracy.py` from the run
 
-    geartrain bench mesh --json -o docs/data/mesh.json
+    geartrain bench mesh --json --force -o docs/data/mesh.json
 
 on a machine with two cores. Compare times within a pair only: they are ratios to the direct formula in the same run.
 The methods:

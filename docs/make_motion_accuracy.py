@@ -247,7 +247,7 @@ HEAD = """# Error against run time: the motion of whole trains
 
 Written by `python docs/make_motion_accuracy.py` from the run
 
-    geartrain bench motion --json -o docs/data/motion.json
+    geartrain bench motion --json --force -o docs/data/motion.json
 
 on a machine with two cores, busy with other work too. Compare times within a train only: they are medians of five
 rounds, and ratios to the direct composition in the same round. The methods:

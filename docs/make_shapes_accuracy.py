@@ -207,7 +207,7 @@ HEAD = """# Error against run time: tooth shapes
 
 Written by `python docs/make_shapes_accuracy.py` from the run
 
-    geartrain bench shapes --json -o docs/data/shapes.json
+    geartrain bench shapes --json --force -o docs/data/shapes.json
 
 on a machine with two cores, busy with other work too: times are the least of five rounds, and still uneven; compare
 them within a table only, as ratios. The error is that of the distance of the last contact after half a pitch, 24 and 36

@@ -348,7 +348,7 @@ HEAD = """# Residual against steps and time: gears on a sphere
 
 Written by `python docs/make_sphere_accuracy.py` from the run
 
-    geartrain bench sphere --json -o docs/data/sphere.json
+    geartrain bench sphere --json --force -o docs/data/sphere.json
 
 on a machine with two cores, busy with other work too: times are medians of three rounds or more; compare them within
 a table only, as ratios. Where mpmath is not installed, the longest floats of the machine stand in for 40 digits.

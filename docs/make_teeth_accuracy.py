@@ -377,7 +377,7 @@ HEAD = """# Best error against time: tooth numbers
 
 Written by `python docs/make_teeth_accuracy.py` from the run
 
-    geartrain bench teeth --json -o docs/data/teeth.json
+    geartrain bench teeth --json --force -o docs/data/teeth.json
 
 on a machine with two cores, busy with other work too: times are medians of three rounds in which the ways take turns,
 of one round where a task is long; compare them within a table only, as ratios. A round of growth is the best of the

@@ -215,7 +215,7 @@ HEAD = """# Error against run time: counts in doubt, wheels cut by hand
 
 Written by `python docs/make_uncertainty_accuracy.py` from the run
 
-    geartrain bench uncertainty --json -o docs/data/uncertainty.json
+    geartrain bench uncertainty --json --force -o docs/data/uncertainty.json
 
 on a machine with two cores, busy with other work. So times of one process are those its processor spent, medians of
 three rounds; whatever is done many at a time stands beside a plain loop over single solutions in the same rounds, as

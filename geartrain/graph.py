@@ -49,6 +49,15 @@ def build_graph(train: Train) -> Graph:
     return graph
 
 
+MOST_SQUARE = 48
+"""Links up to which an adjacency matrix is shown unasked: its size grows with their square."""
+
+
+def edge_rows(graph: Graph) -> list[tuple[str, str, str, str]]:
+    """The edges in the order declared: two links, what joins them, and the axis or the pair's id."""
+    return [(first, second, data["kind"], str(data["label"])) for first, second, data in graph.edges(data=True)]
+
+
 def adjacency_labels(graph: Graph) -> list[list[str]]:
     """The adjacency matrix in letters: `R(axis)` for a turning pair, the id for a gear pair or coupling."""
     at = {link: position for position, link in enumerate(graph)}

@@ -341,7 +341,7 @@ def test_printed_floats_come_with_an_estimate_and_a_true_error_that_is_true(run:
         (["equations", "zf-8hp70", "--state", "9"], ["no state '9'", "1, 2, 3, 4, 5, 6, 7, 8, R"]),
         (["solve", "worm", "--state", "1"], ["no state '1'", "leave the state out"]),
         (["solve", "worm", "--method", "exakt"], ["'exakt'", "auto, exact or floats"]),
-        (["graph", "worm", "--as", "dott"], ["'dott'", "labels, matrix, dot, graphml, json"]),
+        (["graph", "worm", "--as", "dott"], ["'dott'", "labels, edges, matrix, dot, graphml, json"]),
         (["graph", "worm", "-o", "g.png"], ["'.png'", ".md, .dot, .gv, .graphml, .json"]),
         (["report", "worm", "-o", "r.pdf"], ["'.pdf'", ".md, .html, .json"]),
         (["compare", "worm", "-o", "r.pdf"], ["'.pdf'", ".md, .html, .json"]),
@@ -442,6 +442,32 @@ def test_latex_escapes_names_that_mean_something_there(run: Run, file: Callable[
 
 
 # --------------------------------------------------------------------------------------------------------------- graph
+
+
+def test_a_large_train_is_listed_by_its_edges_unless_the_square_is_asked(
+    run: Run, train_file: Callable[..., Path]
+) -> None:
+    """Rows of wheels, one twice as long as the other: the list doubles, the square is four times as large."""
+    sizes: dict[str, list[int]] = {"": [], "labels": []}
+    for count in (60, 120):
+        wheels = range(count)
+        data = {
+            "links": {"frame": {}} | {f"g{at}": {"wheels": {f"w{at}": 20}} for at in wheels},
+            "revolutes": [{"pair": ["frame", f"g{at}"], "axis": f"A{at}"} for at in wheels],
+            "gears": [{"pair": [f"w{at}", f"w{at + 1}"]} for at in wheels[:-1]],
+        }
+        file = train_file(json.dumps(data), f"row{count}.yaml")
+        for form, found in sizes.items():
+            code, told, _ = run("graph", file, *(["--as", form] if form else []))
+            assert code == 0
+            found.append(len(told))
+        _, told, _ = run("graph", file)
+        rows = [[cell.strip() for cell in line.strip("|").split("|")] for line in told.splitlines() if " | g" in line]
+        joints = [["frame", f"g{at}", "revolute", f"A{at}"] for at in wheels]
+        pairs = [[f"g{at}", f"g{at + 1}", "gear", f"w{at}~w{at + 1}"] for at in wheels[:-1]]
+        assert sorted(rows) == sorted(joints + pairs)
+    assert sizes[""][1] < 2.2 * sizes[""][0]
+    assert sizes["labels"][1] > 3.5 * sizes["labels"][0]
 
 
 def paper_edges() -> dict[frozenset[str], tuple[str, str]]:

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import re
+import sys
 import xml.etree.ElementTree as ET
 from fractions import Fraction
 from functools import cache
 from itertools import combinations, pairwise
 from math import atan2, hypot, pi
 from pathlib import Path
+from types import FrameType
 
 import numpy as np
 import pytest
@@ -32,6 +34,7 @@ from geartrain.plot import KINDS, picture, render
 from geartrain.plot.arranging import arrange, spread
 from geartrain.plot.dials import dials_figure
 from geartrain.plot.lever import find_levers
+from geartrain.plot.plan import _within, plan_figure
 from geartrain.scene import make_scene
 from geartrain.scene.posing import errors, pose
 
@@ -486,3 +489,42 @@ def test_a_train_that_locks_is_drawn_and_told(here: Path) -> None:
     assert result.exit_code == 1
     assert "locked" in result.stderr
     assert (here / "t.svg").exists()
+
+
+def test_a_row_twice_as_long_takes_twice_the_steps_to_draw() -> None:
+    """Steps are entries into functions of the plan's modules, among them one for each comparison of a spot."""
+    counts: list[int] = []
+    for count in (60, 120):
+        wheels = range(count)
+        train = geartrain.GearTrain.declare(
+            {
+                "links": {"frame": {}} | {f"g{at}": {"wheels": {f"w{at}": 20 + at % 7}} for at in wheels},
+                "revolutes": [{"pair": ["frame", f"g{at}"], "axis": f"A{at}"} for at in wheels],
+                "gears": [{"pair": [f"w{at}", f"w{at + 1}"]} for at in wheels[:-1]],
+                "inputs": {"g0": 1},
+            }
+        )
+        scene, steps = make_scene(train), [0]
+
+        def entered(frame: FrameType, event: str, _: object, steps: list[int] = steps) -> None:
+            steps[0] += event == "call" and Path(frame.f_code.co_filename).parent.name == "plot"
+
+        sys.setprofile(entered)
+        try:
+            plan_figure(scene)
+        finally:
+            sys.setprofile(None)
+        counts.append(steps[0])
+    assert counts[1] < 2.5 * counts[0], counts
+
+
+@given(
+    *(st.lists(st.tuples(*[st.floats(-9, 9)] * n), max_size=12) for n in (2, 3)),
+)
+def test_spots_are_hidden_by_the_discs_they_lie_in(
+    points: list[tuple[float, float]], discs: list[tuple[float, float, float]]
+) -> None:
+    found = _within(
+        np.array(points).reshape(-1, 2), np.array(discs).reshape(-1, 3)[:, :2], np.array([disc[2] for disc in discs])
+    )
+    assert list(found) == [any(hypot(x - u, y - v) < reach for u, v, reach in discs) for x, y in points]

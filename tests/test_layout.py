@@ -16,6 +16,7 @@ from shapely.geometry import Point
 
 import geartrain
 from geartrain.layout import Layout, WheelPlace, lay_out
+from geartrain.layout.shelves import find_shelves
 
 ROOT = Path(__file__).parent.parent / "trains"
 NAMES = sorted(path.stem for path in ROOT.glob("*/*.yaml"))
@@ -217,3 +218,15 @@ def test_each_wheel_of_a_shared_pinion_has_its_own_height() -> None:
     assert heights[2] - heights[1] > thin
     assert broad.centre[2] - broad.thickness / 2 <= heights[0] - thin / 2 + 1e-12
     assert broad.centre[2] + broad.thickness / 2 >= heights[2] + thin / 2 - 1e-12
+
+
+def test_shelves_are_found_in_a_row_of_thousands() -> None:
+    """Two wheels of a long row run into each other: the search goes down the whole row, and back where it must."""
+    row = [(f"w{at}", f"w{at + 1}") for at in range(3000)]
+    shelves = find_shelves(row, lambda one, other: {one, other} == {"w2990", "w2992"})
+    assert len(shelves) == 3001
+    for one, other in row:
+        assert shelves[one][0] <= shelves[other][1], "mates share a shelf"
+        assert shelves[other][0] <= shelves[one][1], "mates share a shelf"
+    (low, high), (under, over) = shelves["w2990"], shelves["w2992"]
+    assert high < under or over < low

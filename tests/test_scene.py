@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping
+from dataclasses import replace
 from fractions import Fraction
 from itertools import pairwise
-from math import hypot, isclose
+from math import cos, hypot, isclose, radians, sin
 from typing import Any
 
 import pytest
@@ -20,6 +21,7 @@ from strategies import asked_trains, driven_trains, rerooted
 import geartrain
 from geartrain import GearTrain, load
 from geartrain.scene import Scene, make_scene
+from geartrain.scene.posing import pose
 
 SHIPPED = [
     ("freeth-2021", None),
@@ -275,3 +277,20 @@ def test_a_follower_hangs_on_what_turns_its_pin() -> None:
     paths = {pointer.output: set(pointer.pairs) for pointer in scene.pointers}
     assert paths["venus"] == {"x51~spC44", "spC34~ve26", "ve26~r1", "venus"}
     assert paths["mercury"] == {"x51~spA72", "spA89~me40", "me40~me20", "mercury"}
+
+
+def test_bodies_carried_by_thousands_of_others_are_posed_in_any_order() -> None:
+    """A tower of arms, the last declared first: each turns a degree more than the one below it."""
+    scene = make_scene(load("planetary-24-18-60"))
+    carried = next(body for body in scene.bodies if body.parent is not None)
+    count = 3000
+    bodies = [
+        replace(carried, parent=at + 1, start=radians(count - 1 - at), speed="0", point=(1.0, 0.0, 0.0), sense=1)
+        for at in range(count - 1)
+    ]
+    ground = next(body for body in scene.bodies if body.parent is None)
+    tower = replace(scene, bodies=(*bodies, replace(ground, start=0.0)), movement=replace(scene.movement, steps=()))
+    found = pose(tower)
+    for at in (0, 1, 1500, 2998):
+        angle = radians(count - 1 - at)
+        assert found.turned[at][:2, 0] == pytest.approx([cos(angle), sin(angle)], abs=1e-9)

@@ -1,4 +1,4 @@
-"""`geartrain graph`: the adjacency matrix, or the graph for other tools."""
+"""`geartrain graph`: the adjacency matrix, the edges, or the graph for other tools."""
 
 from __future__ import annotations
 
@@ -8,30 +8,37 @@ import typer
 
 from geartrain.cli.common import File, Force, Out, as_json, emit, sink
 
-_SUFFIXES = {".md": "labels", ".dot": "dot", ".gv": "dot", ".graphml": "graphml", ".json": "json"}
-_FORMS = ("labels", "matrix", "dot", "graphml", "json")
+_SUFFIXES = {".md": "", ".dot": "dot", ".gv": "dot", ".graphml": "graphml", ".json": "json"}
+_FORMS = ("labels", "edges", "matrix", "dot", "graphml", "json")
 
 
 def run(
     file: File,
     form: Annotated[
-        str | None, typer.Option("--as", help=f"One of {', '.join(_FORMS)}; default by the suffix of -o, else labels.")
+        str | None,
+        typer.Option(
+            "--as", help=f"One of {', '.join(_FORMS)}; default by the suffix of -o, else labels, edges above 48 links."
+        ),
     ] = None,
     out: Out = None,
     force: Force = False,
 ) -> None:
-    """Print the graph: adjacency in letters (R(axis), G#) or numbers, Graphviz, GraphML, or JSON."""
+    """Print the graph: adjacency in letters (R(axis), G#) or numbers, edges, Graphviz, GraphML, or JSON."""
     from geartrain import graph
     from geartrain.files import load
     from geartrain.report import Document, Section, Table, to_markdown
 
     to = sink(out, force, _SUFFIXES)
-    form = form or _SUFFIXES.get(to.suffix, "labels")
-    if form not in _FORMS:
+    form = form or _SUFFIXES.get(to.suffix, "")
+    if form and form not in _FORMS:
         raise typer.BadParameter(f"'{form}' is not a form of graph; use {', '.join(_FORMS)}", param_hint="--as")
     train = load(file)
+    form = form or ("labels" if len(train.graph) <= graph.MOST_SQUARE else "edges")
     if form == "matrix":
         text = as_json(graph.adjacency_matrix(train.graph).to_dict())
+    elif form == "edges":
+        table = Table(("link", "link", "joined by", "axis or pair"), graph.edge_rows(train.graph))
+        text = to_markdown([Document(f"Edges of {train.name}", (), (Section("Edges", (), (table,)),))])
     elif form == "labels":
         names = list(train.graph)
         rows = [(name, *row) for name, row in zip(names, graph.adjacency_labels(train.graph), strict=True)]

@@ -57,29 +57,51 @@ class _Search:
     def found(self) -> dict[str, Shelf]:
         """Shelves by wheel; none where it cannot be done, or not be found."""
         for count in range(2, len(self.meshes) + 1):
-            spans = self._try(0, count, {})
+            spans = self._try(count)
             if spans is not None:
                 return spans
         return {}
 
-    def _try(self, at: int, count: int, spans: Mapping[str, Shelf]) -> dict[str, Shelf] | None:
-        if at == len(self.meshes):
-            return dict(spans)
-        for shelf in range(count):
+    def _try(self, count: int) -> dict[str, Shelf] | None:
+        """Depth first over the meshes in order, so many shelves each; what a step changed is put back when it fails."""
+        spans: dict[str, Shelf] = {}
+        choice = [0]  # the shelf to try next, by mesh
+        before: list[dict[str, Shelf | None]] = []
+        while choice:
+            at = len(choice) - 1
+            if at == len(self.meshes):
+                return spans
+            shelf = choice[at]
+            if shelf == count:
+                choice.pop()
+                if before:
+                    _put_back(spans, before.pop())
+                continue
+            choice[at] += 1
             self.tries -= 1
             if self.tries < 0:
                 return None
-            wider = dict(spans)
-            for wheel in self.meshes[at]:
+            mesh = self.meshes[at]
+            was = {wheel: spans.get(wheel) for wheel in mesh}
+            for wheel in mesh:
                 low, high = spans.get(wheel, (shelf, shelf))
-                wider[wheel] = min(low, shelf), max(high, shelf)
-            if all(self._clear(wheel, wider) for wheel in self.meshes[at]):
-                done = self._try(at + 1, count, wider)
-                if done is not None:
-                    return done
+                spans[wheel] = min(low, shelf), max(high, shelf)
+            if all(self._clear(wheel, spans) for wheel in mesh):
+                before.append(was)
+                choice.append(0)
+            else:
+                _put_back(spans, was)
         return None
 
     def _clear(self, wheel: str, spans: Mapping[str, Shelf]) -> bool:
         low, high = spans[wheel]
         others = (spans[other] for other in self.clashes.get(wheel, ()) if other in spans)
         return all(high < under or over < low for under, over in others)
+
+
+def _put_back(spans: dict[str, Shelf], was: Mapping[str, Shelf | None]) -> None:
+    for wheel, span in was.items():
+        if span is None:
+            spans.pop(wheel, None)
+        else:
+            spans[wheel] = span

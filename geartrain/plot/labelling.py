@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
+from math import floor
 
 from geartrain.plot.parts import LETTER
 
@@ -11,11 +12,14 @@ Box = tuple[float, float, float, float]
 """Middle, width and height, in inches."""
 
 
+_CELL = 0.5  # inches: boxes are looked for in the squares of a grid that they touch
+
+
 @dataclass(slots=True)
 class Room:
-    """What is taken already. `left` counts the words that found no place."""
+    """What is taken already, by square of a grid. `left` counts the words that found no place."""
 
-    taken: list[Box] = field(default_factory=list)
+    taken: dict[tuple[int, int], list[Box]] = field(default_factory=dict)
     left: int = 0
 
     def place(self, lines: Sequence[str], size: float, spots: Sequence[tuple[float, float]]) -> Box | None:
@@ -23,12 +27,22 @@ class Room:
         width = max(map(len, lines)) * size * LETTER + 0.04
         height = len(lines) * 1.25 * size / 72
         for x, y in spots:
-            box = (x, y, width, height)
-            if not any(overlap(box, other) for other in self.taken):
-                self.taken.append(box)
+            box = (float(x), float(y), width, height)
+            squares = list(_squares(box))
+            if not any(overlap(box, other) for square in squares for other in self.taken.get(square, ())):
+                for square in squares:
+                    self.taken.setdefault(square, []).append(box)
                 return box
         self.left += 1
         return None
+
+
+def _squares(box: Box) -> Iterator[tuple[int, int]]:
+    """The squares that a box touches."""
+    x, y, width, height = box
+    for across in range(floor((x - width / 2) / _CELL), floor((x + width / 2) / _CELL) + 1):
+        for along in range(floor((y - height / 2) / _CELL), floor((y + height / 2) / _CELL) + 1):
+            yield across, along
 
 
 def overlap(one: Box, other: Box) -> float:

@@ -158,19 +158,29 @@ def _hollow(outer: Floats, inner: Floats) -> Path:
 def _name_wheels(page: Page, standing: Stand, wheels: Sequence[Wheel]) -> None:
     """Names and counts, small wheels first, each at the first free spot in its wheel or beside it."""
     room = Room()
-    discs = [(page.at(standing.seen(standing.centre(wheel))), wheel.tip * page.scale) for wheel in wheels]
-    over = {wheel.id: [disc for disc, above in zip(discs, wheels[:at], strict=False) if above.kind != "ring"]
-            for at, wheel in enumerate(wheels)}  # fmt: skip
-    for wheel in sorted(wheels, key=lambda each: each.radius):
-        centre = page.at(standing.seen(standing.centre(wheel)))
-        lines = [wheel.id, str(wheel.teeth)]
-        spots = list(_spots(centre, wheel, page.scale))
-        spots.sort(key=lambda spot: any(np.hypot(*(spot - disc[0])) < disc[1] for disc in over[wheel.id]))
+    centres = np.array([page.at(standing.seen(standing.centre(wheel))) for wheel in wheels]).reshape(-1, 2)
+    reach = np.array([0.0 if wheel.kind == "ring" else wheel.tip * page.scale for wheel in wheels])  # what it hides
+    for at in sorted(range(len(wheels)), key=lambda at: wheels[at].radius):
+        wheel, lines = wheels[at], [wheels[at].id, str(wheels[at].teeth)]
+        spots = list(_spots(centres[at], wheel, page.scale))
+        hidden = _within(np.array(spots).reshape(-1, 2), centres[:at], reach[:at])
+        spots = [spots[spot] for spot in np.argsort(hidden, kind="stable")]
         box = room.place(lines, _FINE, spots)
         if box is not None:
             write(page.axes, box[0], box[1], "\n".join(lines), fontsize=_FINE, gid=f"name {wheel.id}", linespacing=1.0)
     if room.left:
         page.remarks.append(f"{room.left} names had no room")
+
+
+def _within(points: Floats, centres: Floats, reach: Floats) -> NDArray[np.bool_]:
+    """Which points (n, 2) lie in one of the discs (m, 2)."""
+    if not len(points) or not len(centres):
+        return np.zeros(len(points), dtype=bool)
+    middle = points.mean(axis=0)
+    far = np.hypot(*(points - middle).T).max()
+    near = np.hypot(*(centres - middle).T) < reach + far + 1e-9  # others hide none of them
+    apart = points[:, None] - centres[near]
+    return np.asarray((np.hypot(apart[..., 0], apart[..., 1]) < reach[near]).any(axis=1))
 
 
 def _spots(centre: Floats, wheel: Wheel, scale: float) -> Iterator[tuple[float, float]]:

@@ -17,8 +17,6 @@ from geartrain.report.results import answer_sections, doubts, figures_held, shif
 from geartrain.report.teeth import teeth_sections
 from geartrain.train import Source, Train, Wheel
 
-MOST_MATRIX = 48
-"""Trains with more links get their adjacency matrix from 'geartrain graph' only."""
 _CIRCUITS_ABREAST = 6
 
 
@@ -85,9 +83,9 @@ def _structure(train: GearTrain) -> Iterator[Section]:
     header = ("link", "wheels and teeth", "turns in (axis)", "note")
     table = Table(header if notes else header[:3], cut([row if notes else row[:3] for row in rows]))
     yield Section("Structure", (counts,), (table,))
-    if len(declared.links) <= MOST_MATRIX:
-        from geartrain.graph import adjacency_labels
+    from geartrain.graph import MOST_SQUARE, adjacency_labels
 
+    if len(declared.links) <= MOST_SQUARE:
         cells = adjacency_labels(train.graph)
         names = list(train.graph)
         matrix = Table(("", *names), [(name, *row) for name, row in zip(names, cells, strict=True)], wide=True)

@@ -67,19 +67,24 @@ def pose(scene: Scene, turns: Fraction = Fraction(0)) -> Pose:
 
 
 def _place(scene: Scene, angles: Floats, turned: Floats, moved: Floats, done: set[int], at: int) -> None:
-    """A body after its parent: it turns in its parent about its own axis, which the parent carries along."""
-    if at in done:
-        return
-    done.add(at)
-    body = scene.bodies[at]
-    if body.parent is None:
-        turned[at] = np.eye(3)
-        return
-    _place(scene, angles, turned, moved, done, body.parent)
-    about = _rotation(body.direction, angles[at] - angles[body.parent])
-    point = np.array(body.point)
-    turned[at] = turned[body.parent] @ about
-    moved[at] = turned[body.parent] @ (point - about @ point) + moved[body.parent]
+    """A body after its parents: each turns in its parent about its own axis, which the parent carries along."""
+    line, here = [], at
+    while here not in done:
+        line.append(here)
+        done.add(here)
+        above = scene.bodies[here].parent
+        if above is None:
+            break
+        here = above
+    for each in reversed(line):
+        body = scene.bodies[each]
+        if body.parent is None:
+            turned[each] = np.eye(3)
+            continue
+        about = _rotation(body.direction, angles[each] - angles[body.parent])
+        point = np.array(body.point)
+        turned[each] = turned[body.parent] @ about
+        moved[each] = turned[body.parent] @ (point - about @ point) + moved[body.parent]
 
 
 def _rotation(axis: tuple[float, float, float], angle: float) -> Floats:

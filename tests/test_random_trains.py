@@ -13,6 +13,8 @@ from random_trains import RandomTrain, driven_train, random_train
 
 from geartrain import GearTrain, GearTrainError
 from geartrain.answer import Answer
+from geartrain.components import Part
+from geartrain.speeds import exact_verdict
 
 
 def told(train: RandomTrain, motion: Motion, answer: Answer) -> str:
@@ -93,6 +95,18 @@ def test_floats_know_what_fractions_know() -> None:
                 near = floats.outputs[name].speed
                 assert (near is None) == (result.speed is None), (seed, name)
                 assert near is None or abs(near - result.speed) <= 1e-9 * max(1, abs(result.speed)), (seed, name)
+
+
+def test_the_verdict_modulo_a_prime_is_that_of_fractions() -> None:
+    for seed in range(400):
+        train = random_train(seed)
+        if any(move(train, state).kind == "refused" for state in train.states):
+            continue
+        asked = GearTrain.declare(train.data)
+        reduced = Part(tuple(train.data["links"]), "frame", asked.circuits, ()).reduced
+        for answer in asked.answers():
+            verdict = exact_verdict(reduced, asked.cases[answer.state], asked.signs)
+            assert verdict.kind == answer.verdict.kind, (seed, answer.state)
 
 
 def test_the_random_trains_are_of_every_kind() -> None:

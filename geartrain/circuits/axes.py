@@ -117,9 +117,11 @@ def bookkeeping_links(train: Train, tree: Tree) -> frozenset[str]:
     axes = Axes(train, tree)
     if axes.plain:
         return frozenset()
-    return frozenset(
-        link for link in tree.parent if not axes.are_parallel(tree.axis(up) for up in tree.chain(link)[:-1])
-    )
+    sums: set[str] = set()
+    for link, (up, label) in tree.parent.items():  # from the frame outwards
+        if up in sums or (up in tree.parent and not axes.are_parallel((label, tree.axis(up)))):
+            sums.add(link)
+    return frozenset(sums)
 
 
 def are_parallel(train: Train, tree: Tree, of: str, base: str) -> bool:

@@ -16,11 +16,11 @@ if TYPE_CHECKING:
 
 _UNITS = (
     "Torques as loads are given; power is torque times speed in the train's unit, positive into the train; in a pair, "
-    "in its carrier's frame. The torque of a brake or a lock is the one on the link it holds."
+    "in its carrier's frame. Brakes and locks: what they exert on what they hold."
 )
 _UNITS_IN_WATTS = (
     "Torques in N m; power is torque times speed in real time, positive into the train; in a pair, in its carrier's "
-    "frame. The torque of a brake or a lock is the one on the link it holds."
+    "frame. Brakes and locks: what they exert on what they hold."
 )
 
 

@@ -144,7 +144,7 @@ def test_friction_of_a_pin_that_is_not_counted_is_named_wherever_the_result_is_t
         assert "efficiency 1;" not in page
     path = tmp_path / "t.yaml"
     path.write_text(text, encoding="utf-8")
-    assert json.loads(call("torques", path, "--json").output)["left_out"] == data["left_out"]
+    assert json.loads(call("torques", path, "--json").output)["states"][0]["left_out"] == data["left_out"]
     assert f"note {path}: torques leave out friction of pins (P): " in call("check", path).output
 
 

@@ -294,7 +294,7 @@ def test_a_closed_clutch_and_a_brake_show_what_they_carry(tmp_path: Path) -> Non
     ]
     path = tmp_path / "t.yaml"
     path.write_text(CLUTCHED, encoding="utf-8")
-    assert json.loads(call("torques", path, "--json").output)["held"] == data["held"]
+    assert json.loads(call("torques", path, "--json").output)["states"][0]["held"] == data["held"]
 
 
 def test_a_lock_on_an_axis_that_points_back_turns_its_sign_there() -> None:

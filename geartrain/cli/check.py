@@ -62,7 +62,7 @@ def _check(file: str, quiet: bool) -> int:
     if good != GOOD or not quiet:
         for remark in train.remarks:
             emit(f"note {remark.place}: {remark.what}" + (f"; {remark.why}" if remark.why else ""))
-        for line in _left_out(train):
+        for line in _left_out(train) if not faults else ():
             emit(f"note {file}: {line}")
     if good == GOOD and not quiet:
         loops = f", {plural(train.mobility.redundant, 'redundant circuit')}" if train.mobility.redundant else ""

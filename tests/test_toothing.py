@@ -362,6 +362,23 @@ def test_axes_stand_as_far_apart_as_the_law_of_triangular_teeth_asks(name: str) 
     assert checked >= 8
 
 
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize("form", ["{form: ideal}", "{form: involute}", "{form: lantern}", "{form: cycloidal}"])
+@pytest.mark.parametrize("teeth", [1, 2, 10_001, 10**12])
+def test_wheels_that_nobody_cuts_are_named_and_drawn_all_the_same(teeth: int, form: str) -> None:
+    data = yaml.safe_load(f"""
+links: {{frame: {{}}, a: {{wheels: {{p: 20}}}}, b: {{wheels: {{w: {teeth}}}}}}}
+revolutes: [{{pair: [frame, a], axis: A}}, {{pair: [frame, b], axis: B}}]
+gears: [{{pair: [p, w], tooth_form: {form}}}]
+inputs: {{a: 1}}
+""")
+    work = Workpiece(GearTrain.declare(data), Making())
+    assert "w" not in work.blanks.wheels
+    assert any("wheel 'w'" in each.what for each in work.blanks.notices)
+    drawn = make_scene(work.train).wheels[1]
+    assert drawn.tip > drawn.root > 0
+
+
 def test_shifted_involutes_stand_where_they_run_without_play() -> None:
     """The layout used to leave them at the distance of their reference circles, where such teeth jam."""
     train = declared("{form: involute, shift: [0.4, 0.3]}")

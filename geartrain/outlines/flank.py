@@ -95,7 +95,7 @@ def _bends(path: Path, gear: int, X: Floats) -> Floats:
     """Which points are the last before a flank turns from hollow to bulging, or back."""
     points = (path.flank1 if gear == 1 else path.flank2)(X)
     steps = np.diff(points @ np.array([1, 1j]))
-    bent = np.angle(steps[1:] / steps[:-1])
+    bent = np.angle(steps[1:] * np.conj(steps[:-1]))
     sense = np.sign(np.where(np.abs(bent) > _STRAIGHT, bent, 0.0))
     bending = np.flatnonzero(sense)
     turns = sense[bending[1:]] != sense[bending[:-1]]

@@ -146,7 +146,7 @@ def test_ctrl_c_in_the_middle_is_exit_130() -> None:
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="pipes close otherwise")
-@pytest.mark.parametrize("arguments", [("list",), ("report", "freeth-2021"), ("report", "freeth-2021", "--json")])
+@pytest.mark.parametrize("arguments", [("list",), ("--help",), ("solve", "-h"), ("report", "freeth-2021", "--json")])
 def test_a_reader_that_goes_is_exit_141_in_silence(arguments: tuple[str, ...]) -> None:
     ours, theirs = os.pipe()
     os.close(ours)

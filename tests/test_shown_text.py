@@ -208,6 +208,18 @@ def test_no_error_steers_one(tmp_path: Path, wrong: dict[str, Any]) -> None:
     assert not STEERING.search(done.stderr)
 
 
+@pytest.mark.parametrize(
+    "words", [(EVIL,), (f"--{EVIL}",), ("solve", "worm", f"--x{EVIL}"), ("draw", "worm", "-k", EVIL), ("bench", EVIL)]
+)
+def test_no_complaint_of_a_wrong_command_line_steers_one(words: tuple[str, ...]) -> None:
+    command = [sys.executable, "-m", "geartrain", *words]
+    done = subprocess.run(command, capture_output=True, check=False)
+    said = done.stderr.decode("utf-8", "replace")
+    assert done.returncode == 2
+    assert "owned" in said
+    assert not STEERING.search(re.sub(r"\x1b\[\d*(;\d+)*m", "", said))
+
+
 def test_a_terminal_shows_a_hostile_report_as_text(hostile: Path) -> None:
     from rich.console import Console
 

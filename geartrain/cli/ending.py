@@ -7,7 +7,8 @@ import os
 import sys
 import tempfile
 import traceback
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from typing import Any
 
 import typer
@@ -30,18 +31,31 @@ class _ReaderGoneError(Exception):
 class Verbs(TyperGroup):
     """The verbs; a closed pipe and Ctrl-C are not left to typer, which would end with the exit code of a verdict."""
 
+    def make_context(self, *given: Any, **more: Any) -> Any:
+        """Read the command line; `--help` and `--version` end here."""
+        with _ends():
+            return super().make_context(*given, **more)
+
     def invoke(self, ctx: Any) -> Any:
         """Run the verb that was asked for."""
-        try:
+        with _ends():
             return super().invoke(ctx)
-        except typer.BadParameter as error:
-            error.message = printable(error.message)
-            raise
-        except BrokenPipeError:
-            raise _ReaderGoneError from None
-        except KeyboardInterrupt:
-            tell("stopped")
-            raise typer.Exit(INTERRUPTED) from None
+
+
+@contextmanager
+def _ends() -> Iterator[None]:
+    """Ends that are not typer's to tell."""
+    try:
+        yield
+    except BrokenPipeError:
+        raise _ReaderGoneError from None
+    except KeyboardInterrupt:
+        tell("stopped")
+        raise typer.Exit(INTERRUPTED) from None
+    except Exception as error:
+        if hasattr(error, "format_message"):  # wrong usage, in the words of typer and the user's
+            error.message = printable(str(error.message))  # type: ignore[attr-defined]
+        raise
 
 
 def guarded(run: Callable[[], Any]) -> int:
@@ -72,6 +86,8 @@ def _code(run: Callable[[], Any]) -> int:
     try:
         run()
     except SystemExit as ended:
+        if isinstance(ended.__context__, BrokenPipeError):  # rich, which shows the help, ends with 1 then
+            raise _ReaderGoneError from None
         return ended.code if isinstance(ended.code, int) else 0 if ended.code is None else FAULT
     return 0
 

@@ -93,9 +93,11 @@ def run(
     }
     question = {"train": train.model_dump(mode="json"), **asked}
     count = 1 if workers is None and scheduler is None else workers
-    with means("sweep", _kept(question, out), question, count, scheduler, resume) as (executor, journal, tell):
-        found = sweep(train, **asked, executor=executor, journal=journal, tell=tell)
+    with means("sweep", _kept(question, out), question, count, scheduler, resume) as (executor, journal, progress):
+        found = sweep(train, **asked, executor=executor, journal=journal, tell=progress)
         end(journal, found.cut)
+    if drawing.path is not None and not found.best:
+        tell(f"nothing fits, so {drawing.path} is not written")
     if plot is not None and found.best and not found.cut:
         held = {**asked, "most": 1}
         draw_counts(found, lambda one: sweep(train, **{**held, "free": {**asked["free"], **one}}), drawing)

@@ -33,7 +33,7 @@ if TYPE_CHECKING:
     from geartrain.closure import Closure
     from geartrain.graph import Graph
     from geartrain.gridlock import Gridlock
-    from geartrain.meshes import Mesh, PinJoint
+    from geartrain.meshes import Driver, Mesh, PinJoint
     from geartrain.motion import Impact, Motion, Moving
     from geartrain.speeds import FloatSpeeds
     from geartrain.torques import Setting, Torques
@@ -55,6 +55,7 @@ class GearTrain:
     def __init__(self, declaration: Train) -> None:
         self.declaration = declaration
         self._settings: dict[str | None, Setting | None] = {}
+        self._drivers: dict[tuple[str | None, tuple[str, ...]], Mapping[str, Driver]] = {}
 
     @classmethod
     def declare(cls, data: Mapping[str, Any]) -> GearTrain:
@@ -141,7 +142,7 @@ class GearTrain:
         """Whether the teeth of every loop meet, where positions of axes are declared, and angles to put wheels in."""
         from geartrain.closure import find_closure
 
-        plays = {mesh.name: mesh.play for mesh in self.meshes}
+        plays = {mesh.name: mesh.play for mesh in self._teeth}
         return find_closure(self.declaration, self.tree, self.circuits, plays)
 
     @cached_property
@@ -152,11 +153,63 @@ class GearTrain:
         return tuple(remarks(self.declaration, self.tree, self.circuits))
 
     @cached_property
-    def meshes(self) -> tuple[Mesh, ...]:
-        """The gear pairs with real teeth, each with its law; empty, and free of cost, where none declares a form."""
+    def _teeth(self) -> tuple[Mesh, ...]:
+        """The gear pairs with real teeth, whoever drives them."""
         from geartrain.meshes import find_meshes
 
         return find_meshes(self.declaration, self._shaft_angle)
+
+    @cached_property
+    def meshes(self) -> tuple[Mesh, ...]:
+        """The gear pairs with real teeth, each with its law; empty, and free of cost, where none declares a form.
+
+        Each is driven as in the first state that tells who drives it; `meshes_in` has those of another.
+        """
+        return tuple(next((way for way, _ in ways if way.who.known), ways[0][0]) for ways in self.driven_ways.values())
+
+    @cached_property
+    def driven_ways(self) -> Mapping[str, Sequence[tuple[Mesh, tuple[str, ...]]]]:
+        """By pair with real teeth, the ways it is driven, each with the names of its states; open ones count both."""
+        found: dict[str, list[tuple[Mesh, tuple[str, ...]]]] = {mesh.name: [] for mesh in self._teeth}
+        for state in self.states or (None,):
+            for mesh in self.meshes_in(state):
+                for way in mesh.ways:
+                    _count(found[mesh.name], way, state)
+        return found
+
+    @cached_property
+    def faults(self) -> tuple[Problem, ...]:
+        """Everything that keeps real teeth from turning, whichever of its wheels drives a pair in some state."""
+        from geartrain.meshes import find_faults
+
+        return tuple(fault for ways in self.driven_ways.values() for fault in find_faults([way for way, _ in ways]))
+
+    def meshes_in(self, state: str | None = None) -> tuple[Mesh, ...]:
+        """The gear pairs with real teeth as they are driven in one state."""
+        if not self._teeth:
+            return ()
+        drivers = self.drivers(state)
+        return tuple(mesh.driven_by(drivers[mesh.name]) for mesh in self._teeth)
+
+    def drivers(self, state: str | None = None, without: Sequence[str] = ()) -> Mapping[str, Driver]:
+        """Who drives each pair and coupling in one state: declared, or by the flow of power in its carrier's frame.
+
+        without   pairs left out
+        """
+        from geartrain.torques import find_drivers, find_torques, unknown_drivers
+
+        state = self._case(state).state
+        key = state, tuple(without)
+        if key not in self._drivers:
+            circuits, setting = self._circuits_without(without), self._setting(state)
+            if setting is None:
+                why = "the speeds of the train are not determined"
+                self._drivers[key] = unknown_drivers(self.declaration, circuits, why)
+            else:
+                setting = replace(setting, circuits=circuits)
+                loaded = find_torques(setting) if self.declaration.is_loaded(state) else None
+                self._drivers[key] = find_drivers(setting, loaded)
+        return self._drivers[key]
 
     def _shaft_angle(self, gear: GearPair) -> float | None:
         from geartrain.circuits.shafts import shaft_angle
@@ -223,7 +276,7 @@ class GearTrain:
         """What collisions of triangular teeth cost, by pair; empty unless inertias and a rate are declared."""
         declared, case = self.declaration, self._case(state)
         inertias = {name: link.inertia.si for name, link in declared.links.items() if link.inertia is not None}
-        if not inertias or declared.rate is None or declared.rate.unit is None or not self.meshes:
+        if not inertias or declared.rate is None or declared.rate.unit is None or not self._teeth:
             return {}
         from geartrain.motion import Motion, find_impacts
 
@@ -237,9 +290,8 @@ class GearTrain:
         verdict, speeds = solution.verdict, solution.speeds
         if not verdict or not any(case.inputs.values()):
             raise QuestionError(Problem(f"'{self.name}' does not move", verdict.text, "drive it from an input"))
-        loaded = self.torques(case.state) if declared.is_loaded(case.state) else None
-        circuits = self._circuits_without(without)
-        return find_moving(declared, case, circuits, self.signs, speeds, self.meshes, self.pins, loaded)
+        circuits, drivers = self._circuits_without(without), self.drivers(case.state, without)
+        return find_moving(declared, case, circuits, self.signs, speeds, self._teeth, self.pins, drivers)
 
     def _circuits_without(self, names: Sequence[str]) -> tuple[Circuit, ...]:
         known = [circuit.id for circuit in self.circuits]
@@ -263,7 +315,7 @@ class GearTrain:
             return None
         forms = speed_forms(self.equations(case.state)) if solution.verdict.kind == "free" else {}
         return Setting(
-            self.declaration, self.tree, self.circuits, self.signs, case, solution.speeds, self.meshes, self.pins, forms
+            self.declaration, self.tree, self.circuits, self.signs, case, solution.speeds, self._teeth, self.pins, forms
         )
 
     def equations(self, state: str | None = None) -> System:
@@ -507,3 +559,13 @@ def _check_cases(inputs: Mapping[str, Sequence[float]], declared: Sequence[str])
     for link, speeds in inputs.items():
         if not all(map(isfinite, speeds)):
             raise QuestionError(Problem(f"a speed of '{link}' is not finite", "nothing follows from it", "mend it"))
+
+
+def _count(ways: list[tuple[Mesh, tuple[str, ...]]], mesh: Mesh, state: str | None) -> None:
+    """Count a state for one way in which a pair is driven; a way that is certain somewhere is so in the list."""
+    own = () if state is None else (state,)
+    for at, (known, states) in enumerate(ways):
+        if known.driver == mesh.driver:
+            ways[at] = (known if known.who.known else mesh), states + own
+            return
+    ways.append((mesh, own))

@@ -22,6 +22,7 @@ from sorge import APPROACH, Segment, mp
 from sorge import Pair as Couple
 
 from geartrain import load
+from geartrain.motion import Motion, Ripple
 from geartrain.teeth.triangular.law import TriangularLaw
 from geartrain.teeth.triangular.sizes import Sizes, equal_depth
 
@@ -102,8 +103,8 @@ class Pinned:
 class Even:
     """Ideal teeth."""
 
-    def __init__(self, by: Wheels) -> None:
-        self.mean = mp.mpf(by.z1) / by.z2
+    def __init__(self, by: Wheels | Slot) -> None:
+        self.mean = mp.mpf(1) if isinstance(by, Slot) else mp.mpf(by.z1) / by.z2
 
     def angle(self, S: Any) -> Any:
         """The mean ratio times S."""
@@ -112,6 +113,23 @@ class Even:
     def speed(self, S: Any) -> Any:
         """The mean ratio."""
         return self.mean
+
+
+@dataclass(frozen=True)
+class Set:
+    """A law whose driver is counted from S, where it stands at the start."""
+
+    law: Any
+    S: Any
+    mean = property(lambda self: self.law.mean)
+
+    def angle(self, S: Any) -> Any:
+        """Driven angle."""
+        return self.mean * self.S + self.law.angle(S - self.S)
+
+    def speed(self, S: Any) -> Any:
+        """Ratio of speeds."""
+        return self.law.speed(S - self.S)
 
 
 # ---------------------------------------------------------------------------------------------------- trains, 50 digits
@@ -133,6 +151,17 @@ class Exactly:
                 self.laws.append(Even(pair.by))
             else:
                 self.laws.append(known.setdefault(own, Toothed(own)))
+        self._set_pins()
+
+    def _set_pins(self) -> None:
+        """Each pin is counted from where its link hangs at the start: there it points at the slot's axis."""
+        pins = {at: law for at, law in enumerate(self.laws) if isinstance(law, Pinned)}
+        if not pins:
+            return
+        self.laws = [Even(self.train.pairs[at].by) if at in pins else law for at, law in enumerate(self.laws)]
+        hung = self.at(0.0, [0.0] * len(self.train.at))
+        for at, law in pins.items():
+            self.laws[at] = Set(law, self.forward(hung, at)[0])
 
     @cached_property
     def means(self) -> list[Any]:
@@ -261,12 +290,23 @@ class Run:
     seconds: float
 
 
+def hung(motion: Motion, turns: float, samples: int) -> dict[str, Ripple]:
+    """The ripple of every output as its teeth hold it, no pointer set: what the equations below say."""
+    composition, at = motion.hung, np.arange(samples)
+    parts = [composition.at(turns * (each / (samples - 1))) for each in np.split(at, range(30_000, samples, 30_000))]
+    error, rate = (np.concatenate([part[column] for part in parts], axis=1) for column in (1, 2))
+    return {
+        tally.name: Ripple(tally.name, tally.ratio, error[row], tally.mean + rate[row])
+        for row, tally in enumerate(motion.tallies())
+    }
+
+
 def run(train: Train, turns: float, samples: int, places: int) -> Run:
     """Positions from 0 to `turns`, compared at so many of them."""
     loaded = load(declared(train))
     motion = loaded.motion()
     since = perf_counter()
-    _, found = motion.ripples(turns, samples)
+    found = hung(motion, turns, samples)
     seconds = perf_counter() - since
     exactly = Exactly(train, loaded)
     off, speed_off, misfit = dict.fromkeys(train.bases, 0.0), dict.fromkeys(train.bases, 0.0), 0.0
@@ -394,7 +434,7 @@ def long_chain(pairs: int, places: Sequence[int]) -> Measured:
     last, train = f"s{pairs}", chain(KINDS, pairs, triangular())
     every = ", ".join(f"{link}: {{}}" for link in train.bases)
     loaded = load(declared(train).replace(f"outputs: {{{every}}}", f"outputs: {{{last}: {{}}}}"))
-    (_, found), seconds = timed(lambda: loaded.motion().ripples(3.3, 201))
+    found, seconds = timed(lambda: hung(loaded.motion(), 3.3, 201))
     known: dict[Any, Toothed] = {}
     laws = [known.get(sizes) or known.setdefault(sizes, Toothed(sizes)) for sizes in _sizes(loaded)]
     off = 0.0

@@ -210,6 +210,12 @@ def _spin_value(space: Space, skeleton: Skeleton, link: str) -> Fraction | None:
 
 def circuits(data: Data, skeleton: Skeleton) -> Iterable[Row]:
     """One row for each gear pair and coupling."""
+    for _, (one, other) in sides(data, skeleton):
+        yield [a - b for a, b in zip(one, other, strict=True)]
+
+
+def sides(data: Data, skeleton: Skeleton) -> Iterable[tuple[tuple[str, str], tuple[Row, Row]]]:
+    """Who meets in each gear pair and coupling, and how fast what touches moves on either side: two equal rows."""
     wheels = {
         name: (link, {"teeth": wheel} if isinstance(wheel, int) else wheel)
         for link, part in data["links"].items()
@@ -217,7 +223,7 @@ def circuits(data: Data, skeleton: Skeleton) -> Iterable[Row]:
     }
     for gear in data.get("gears", ()):
         (i, first), (j, second) = (wheels[name] for name in gear["pair"])
-        yield _pitch_point(skeleton, i, j, first, second)
+        yield tuple(gear["pair"]), _pitch_point(skeleton, i, j, first, second)
     for coupling in data.get("couplings", ()):
         pin, slot = coupling["pin"], coupling["slot"]
         winding = 1 if coupling["kind"] == "pin_and_slot" else 0
@@ -226,11 +232,13 @@ def circuits(data: Data, skeleton: Skeleton) -> Iterable[Row]:
         slots, pins = skeleton.spin(carrier, slot, about), skeleton.spin(carrier, pin, about)
         assert slots is not None
         assert pins is not None
-        yield [a - winding * b for a, b in zip(slots, pins, strict=True)]
+        yield (slot, pin), (slots, [winding * b for b in pins])
 
 
-def _pitch_point(skeleton: Skeleton, i: str, j: str, first: Mapping[str, Any], second: Mapping[str, Any]) -> Row:
-    """The velocities of the pitch point as a point of both wheels are one, seen from the carrier."""
+def _pitch_point(
+    skeleton: Skeleton, i: str, j: str, first: Mapping[str, Any], second: Mapping[str, Any]
+) -> tuple[Row, Row]:
+    """The velocities of the pitch point as a point of either wheel, which are one, seen from the carrier."""
     carrier = skeleton.carrier(i, j)
     u = skeleton.unit[skeleton.axis[skeleton.path(carrier, i)[-1][0]]]
     v = skeleton.unit[skeleton.axis[skeleton.path(carrier, j)[-1][0]]]
@@ -253,7 +261,7 @@ def _pitch_point(skeleton: Skeleton, i: str, j: str, first: Mapping[str, Any], s
         of_i, of_j = cross(u, arm_i), cross(v, arm_j)
     at = next(at for at in range(3) if of_i[at] or of_j[at])
     assert all(of_i[at] * of_j[b] == of_i[b] * of_j[at] for b in range(3)), "both velocities lie along one line"
-    return [a * of_i[at] - b * of_j[at] for a, b in zip(spin_i, spin_j, strict=True)]
+    return [a * of_i[at] for a in spin_i], [b * of_j[at] for b in spin_j]
 
 
 def rigid(train: RandomTrain, skeleton: Skeleton, bodies: Sequence[tuple[str, str]]) -> Iterable[Row]:

@@ -15,7 +15,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property, partial
-from math import acos, asin, cos, pi, radians, sin
+from math import acos, cos, pi, radians, sin
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -139,9 +139,8 @@ class Slot:
         return iter(())
 
     def touching(self, S: float) -> tuple[Contact, float]:
-        """The slot's angle with the pin in it."""
-        only, most = Contact(0, 0), asin(self.e / self.r) + 0.1
-        return only, brentq(partial(self.gap, only, S), S - most, S + most, xtol=1e-15)
+        """At the start the pin points at the slot's axis, wherever its link hangs, and the slot points with it."""
+        return Contact(0, 0), S
 
 
 @dataclass(frozen=True)
@@ -197,7 +196,12 @@ class Train:
         return [(a, -a if pair.by.external else a) for a, pair in zip(ahead, self.pairs, strict=True)]
 
     def forward(self, angles: np.ndarray, number: int) -> tuple[float, float]:
-        """Forward angles S and q of one pair."""
+        """Forward angles S and q of one pair: of teeth as they hang, of a pin from where it was set at the start."""
+        pair = self.pairs[number]
+        return self.hanging(angles if pair.by.external else angles - self.set, number)
+
+    def hanging(self, angles: np.ndarray, number: int) -> tuple[float, float]:
+        """Forward angles of one pair from where all links read 0."""
         pair, (first, second) = self.pairs[number], self.senses[number]
         carrier = angles[self.at[pair.carrier]]
         S, q = angles[self.at[pair.driver]] - carrier, angles[self.at[pair.driven]] - carrier
@@ -211,16 +215,22 @@ class Train:
             ratios.append(first * second * pair.by.speed(contact, *self.forward(angles, number)))
         return self.speeds(ratios)
 
-    def start(self, turned: float = 0.0) -> tuple[np.ndarray, list[Contact]]:
-        """All angles and contacts where the inputs have turned so far and every pair touches."""
-        angles = self.means * turned
+    @cached_property
+    def set(self) -> np.ndarray:
+        """Where all links hang at the start: what is read, and what a pin is counted from, is set to 0 there."""
+        return self.start()[0]
+
+    def start(self) -> tuple[np.ndarray, list[Contact]]:
+        """All angles and contacts where the inputs have not turned and every pair touches."""
+        angles = np.zeros(len(self.at))
         for _ in range(200):
             ratios, ahead, contacts = [], [], []
             for number, pair in enumerate(self.pairs):
-                S, q = self.forward(angles, number)
+                S, q = self.hanging(angles, number)
                 contact, touches = pair.by.touching(S)
                 first, second = self.senses[number]
-                ratios.append(first * second * pair.by.speed(contact, S, touches))
+                speed = pair.by.speed(contact, S, touches) if pair.by.external else pair.by.mean
+                ratios.append(first * second * speed)
                 ahead.append(second * (touches - q))
                 contacts.append(contact)
             step = self.solved(ratios, ahead, 0.0)

@@ -27,12 +27,12 @@ def test_a_form_of_the_train_holds_for_every_pair_without_one() -> None:
     assert 1 + mesh.window.run == pytest.approx(1.0390, abs=6e-5)
 
 
-def test_the_wheel_nearer_to_the_input_drives_unless_one_is_declared() -> None:
+def test_power_flows_from_the_input_unless_a_driver_is_declared() -> None:
     (mesh,) = load(PAIR.format(rest=TEETH.replace("{a: 1}", "{b: 1}"))).meshes
     assert mesh.driver == "w"
     declared = PAIR.replace("pair: [p, w]", "pair: [p, w], driver: w")
     (mesh,) = load(declared.format(rest=TEETH)).meshes
-    assert (mesh.driver, mesh.why) == ("w", "declared")
+    assert (mesh.driver, mesh.who.why) == ("w", "declared")
     assert mesh.law.ratio == 3
 
 

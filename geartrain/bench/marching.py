@@ -42,7 +42,7 @@ class Marching:
         self.pairs = [self._pair(motion, source, row_of[source.id]) for source in motion.ahead.sources]
         self.ends = [(at[of], at[base]) for of, base in motion.outputs.values()]
         self.means = np.array([tally.mean for tally in motion.tallies()])
-        start = whole.at(np.zeros(1)).error[:, 0]
+        start = whole.hung.at(np.zeros(1)).error[:, 0]
         self.start = np.zeros(len(names))
         self.start[[at[link] for link in train.declaration.links]] = start
 

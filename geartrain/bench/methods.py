@@ -126,7 +126,7 @@ class Case:
             superposed = Superposition((built or self.direct).ahead)
             return partial(superposed.at, lagged=method == LAGGED)
         made = built or self.train.motion(outputs=self.outputs, tolerance=_tolerance(method))
-        return lambda turns: made.ahead.at(turns).error
+        return lambda turns: made.hung.at(turns).error
 
     @property
     def links(self) -> int:
@@ -158,7 +158,7 @@ class Case:
         for method in (BOUND, INDEPENDENT):
             forget()
             built = load(self.source).motion(outputs=self.outputs)
-            self.prepared.setdefault(method, []).append(_timed(partial(built.at, np.zeros(1))))
+            self.prepared.setdefault(method, []).append(_timed(partial(built.hung.at, np.zeros(1))))
             self.times.setdefault(method, []).append(_timed(partial(_estimate, built, method)))
 
     def _prepare(self, method: str) -> float:
@@ -175,7 +175,7 @@ class Case:
         others = [method for method in PER_POSITION if method != DIRECT]
         self.off |= {method: _Off.none(len(self.outputs)) for method in others}
         for turns in self.stretches(self.effort.positions):
-            passage = self.direct.ahead.at(turns)
+            passage = self.direct.hung.at(turns)
             for at, tally in enumerate(self.tallies):
                 tally.add(passage.error[at], passage.rate[at])
             for method in others:
@@ -194,7 +194,7 @@ class Case:
         last = self.effort.positions - 1
         at = np.random.default_rng(3).integers(0, last + 1, self.effort.sample)
         turns = np.append(self.turns * (at / last), [turn for _, turn in self.doubted.values()])
-        truth, found = Truth(self.direct), self.direct.ahead.at(turns).error
+        truth, found = Truth(self.direct), self.direct.hung.at(turns).error
         self.off[DIRECT] = _Off.none(len(self.outputs))
         self.off[DIRECT].add(np.array([truth.off(float(each), found[:, n]) for n, each in enumerate(turns)]).T)
 
@@ -214,7 +214,7 @@ class Case:
         error = marching.follow(turns, steps)
         took = time.perf_counter() - start
         self.off[method] = _Off.none(len(self.outputs))
-        self.off[method].add(error - self.direct.at(turns).error)
+        self.off[method].add(error - self.direct.hung.at(turns).error)
         self.marched[method] = took * self.effort.positions / len(turns)
 
     # -------------------------------------------------------------------------------------------------------- results

@@ -34,7 +34,7 @@ def _check(file: str, quiet: bool) -> int:
     try:
         train = load(file)
         answers = list(train.answers())
-        faults = [fault for mesh in train.meshes for fault in mesh.faults]
+        faults = train.faults
     except GearTrainError as error:
         complain(error)
         return NOT_USABLE

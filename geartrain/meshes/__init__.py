@@ -1,9 +1,8 @@
 """Real teeth and pins of a train: a law for every gear pair with a tooth form and every coupling with dimensions."""
 
 from geartrain.meshes.conjugate import ConjugateMesh
-from geartrain.meshes.driving import find_drivers
 from geartrain.meshes.finding import PinJoint, find_meshes, find_pins
-from geartrain.meshes.mesh import Driver, Fit, Mesh
+from geartrain.meshes.mesh import Driver, Fit, Mesh, find_faults
 from geartrain.meshes.sizing import PairSize, find_sizes
 from geartrain.meshes.triangular import TriangularMesh, explain, locked_by_friction
 
@@ -16,7 +15,7 @@ __all__ = [
     "PinJoint",
     "TriangularMesh",
     "explain",
-    "find_drivers",
+    "find_faults",
     "find_meshes",
     "find_pins",
     "find_sizes",

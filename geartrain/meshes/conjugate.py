@@ -39,6 +39,12 @@ class ConjugateMesh(Mesh):
         return self.law.verdict
 
     @property
+    def stands(self) -> float:
+        """Half a tooth of both wheels: the driven angle is counted from where flanks touch."""
+        pair = self.law.pair
+        return float(sum(pair.halves) / pair.path.pitch.p)
+
+    @property
     def wheels(self) -> tuple[str, str]:
         """The wheels that are gear 1 and gear 2 of the law."""
         first, second = self.gear.pair

@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING
 from geartrain.errors import GearTrainError, Problem
 from geartrain.meshes import conjugate
 from geartrain.meshes.conjugate import IDEAL, ConjugateMesh
-from geartrain.meshes.driving import find_drivers
 from geartrain.meshes.mesh import Driver, Mesh
 from geartrain.meshes.triangular import TriangularMesh
 from geartrain.teeth import ConjugateForm, Ideal, Triangular
@@ -49,7 +48,6 @@ class _Found:
 
     train: Train
     gear: GearPair
-    driver: Driver
     place: str
 
     @cached_property
@@ -78,9 +76,8 @@ class _Found:
         return None if rubbing is None else float(rubbing.value)
 
     @property
-    def driving(self) -> int:
-        """1 or 2: which wheel of the pair drives."""
-        return 1 if self.driver.wheel == self.gear.pair[0] else 2
+    def driver(self) -> Driver:
+        return Driver(self.gear.pair[0], "", False)
 
     @property
     def note(self) -> str:
@@ -99,18 +96,19 @@ class _Found:
 
 
 def find_meshes(train: Train, shaft_angle: ShaftAngle = lambda _: None) -> tuple[Mesh, ...]:
-    """Every gear pair with real teeth. Raises `GearTrainError` with all pairs whose teeth cannot be built.
+    """Every gear pair with real teeth, whoever drives: for now the first wheel does, till `Mesh.driven_by` says better.
+
+    Raises `GearTrainError` with all pairs whose teeth cannot be built.
 
     shaft_angle   of a pair; asked only where teeth hang on it
     """
     forms = [gear.tooth_form or train.tooth_form for gear in train.gears]
     if all(form is None or isinstance(form, Ideal) for form in forms):
         return ()
-    drivers = find_drivers(train)
     meshes: list[Mesh] = []
     problems: list[Problem] = []
     for at, (gear, form) in enumerate(zip(train.gears, forms, strict=True)):
-        found = _Found(train, gear, drivers[gear.name], train.place("gears", at))
+        found = _Found(train, gear, train.place("gears", at))
         try:
             match form:
                 case Triangular():
@@ -138,10 +136,8 @@ def _placed(problem: Problem, found: _Found) -> Problem:
 def _triangular(found: _Found, form: Triangular) -> Mesh:
     if why := refusal(found.kinds, any(found.internal)):
         raise GearTrainError(Problem("it cannot have triangular teeth", why, f"{COVERS}; {IDEAL}"))
-    law = form.law(*found.counts, found.friction or 0.0, found.driving, pitch_distance=found.distance)
-    return TriangularMesh(
-        found.gear, form.form, found.driver.wheel, found.driver.why, found.place, law, found.friction, found.note
-    )
+    law = form.law(*found.counts, found.friction or 0.0, pitch_distance=found.distance)
+    return TriangularMesh(found.gear, form.form, found.driver, found.place, law, found.friction, found.note)
 
 
 def _conjugate(found: _Found, form: ConjugateForm, shaft_angle: ShaftAngle) -> Mesh:
@@ -154,15 +150,12 @@ def _conjugate(found: _Found, form: ConjugateForm, shaft_angle: ShaftAngle) -> M
     law = form.law(
         *counts,
         found.friction or 0.0,
-        3 - found.driving if ring_first else found.driving,
+        2 if ring_first else 1,
         pitch_distance=found.distance,
         internal=any(found.internal),
         shaft_angle=_meeting(found, form, shaft_angle),
     )
-    who = found.driver
-    mesh = ConjugateMesh(
-        found.gear, form.form, who.wheel, who.why, found.place, law, found.friction, found.note, ring_first
-    )
+    mesh = ConjugateMesh(found.gear, form.form, found.driver, found.place, law, found.friction, found.note, ring_first)
     if not mesh.rigid:
         _ = mesh.faults  # teeth too far apart to touch raise: here, the pair is named
     return mesh

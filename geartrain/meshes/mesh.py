@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import TYPE_CHECKING, Protocol, Self
+from typing import TYPE_CHECKING, Any, Protocol, Self
 
 from geartrain.teeth.base import Rigid
 
@@ -41,25 +41,33 @@ class Fit(Protocol):
 
 @dataclass(frozen=True)
 class Driver:
-    """The wheel that drives a gear pair, and how that is known."""
+    """The wheel that drives a gear pair (of a coupling, the link), and how that is known.
+
+    known   False where the way of power is not determined: `wheel` is then taken to go on with, and no more
+    """
 
     wheel: str
     why: str
+    known: bool = True
+
+    def to_dict(self) -> dict[str, Any]:
+        """Plain data for JSON."""
+        return {"driver": self.wheel, "driver_is": self.why, "determined": self.known}
 
 
 @dataclass(frozen=True)
 class Mesh(ABC):
-    """A gear pair with real teeth: the wheel that drives, how (`why`) that is known, and friction if it is declared.
+    """A gear pair with real teeth, and friction if it is declared.
 
     form   name of the tooth form
-    law    with `driver` driving, forwards
+    who    the wheel that drives, and how that is known
+    law    with that wheel driving, forwards
     note   what the form takes the wheels for, where it is not what they are
     """
 
     gear: GearPair
     form: str
-    driver: str
-    why: str
+    who: Driver
     place: str
     law: Law
     friction: float | None = None
@@ -69,6 +77,11 @@ class Mesh(ABC):
     def name(self) -> str:
         """The name of the pair."""
         return self.gear.name
+
+    @property
+    def driver(self) -> str:
+        """The wheel that drives, or is taken to where that is not determined."""
+        return self.who.wheel
 
     @property
     def driven(self) -> str:
@@ -111,6 +124,11 @@ class Mesh(ABC):
         return self.verdict.play / (self.law.period * float(self.law.ratio))
 
     @property
+    def stands(self) -> float:
+        """Where a tooth of the driven wheel stands when its angle is 0, in pitches past the line of centres."""
+        return 0.0
+
+    @property
     def rigid(self) -> bool:
         """True if the pair keeps its ratio at every instant: it adds nothing to any motion but its play."""
         return isinstance(self.law, Rigid)
@@ -123,4 +141,22 @@ class Mesh(ABC):
     def driven_by(self, driver: Driver) -> Self:
         """The same teeth with this wheel driving."""
         law = self.law if driver.wheel == self.driver else self.reversed
-        return replace(self, driver=driver.wheel, why=driver.why, law=law)
+        return replace(self, who=driver, law=law)
+
+    @property
+    def ways(self) -> tuple[Self, ...]:
+        """The mesh as it is driven; where that is not determined, both ways."""
+        return (self,) if self.who.known else (self, self.driven_by(replace(self.who, wheel=self.driven)))
+
+
+def find_faults(ways: Sequence[Mesh]) -> tuple[Problem, ...]:
+    """Everything wrong with one pair in the ways it is driven; what is wrong in some ways only says in which."""
+    said = [list(way._faults()) for way in ways]
+    found: list[Problem] = []
+    for way, faults in zip(ways, said, strict=True):
+        for fault in faults:
+            always = all(fault in other for other in said)
+            label = way.label if always else f"{way.label}, '{way.driver}' driving"
+            placed = replace(fault, what=f"{label}: {fault.what}", place=way.place)
+            found += [] if placed in found else [placed]
+    return tuple(found)

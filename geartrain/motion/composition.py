@@ -42,6 +42,7 @@ class Source:
     start          the driver's forward angle (rad) where every link reads 0
     forward        1, or -1 where the driver turns backwards on average
     sense          of the driven side's mean relative motion, 1 or -1
+    turned         what of the start makes up for the lag of the driver's link, on which it was set (rad)
     """
 
     id: str
@@ -53,6 +54,7 @@ class Source:
     start: float
     forward: int
     sense: int
+    turned: float = 0.0
 
     @property
     def mean(self) -> float:
@@ -84,7 +86,8 @@ class Passage(NamedTuple):
 class Composition:
     """Sources in a train, and the outputs (link, seen from) that are asked for.
 
-    offsets       what teeth that keep their ratio add to each output by their play alone (rad); none by default
+    offsets       what each output is ahead of what its teeth and pins add to it, at every position (rad): teeth that
+                  keep their ratio add their play alone, and pointers are set; none by default
     turned_back   pairs whose driver was seen turning against its mean: their flanks change there, and the law, which
                   is that of the flanks in front, does not follow the play
     """

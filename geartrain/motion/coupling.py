@@ -93,7 +93,7 @@ def _newton(pairs: Coupled, base: Floats) -> tuple[Floats, Floats]:
         slopes[:, active[better]] = slope[:, better]
         onward = better & ~done
         if onward.any():
-            step[:, onward] = _solve(pairs.jacobian(slope[:, onward]), residual[:, onward])
+            step[:, onward] = _stepped(pairs.jacobian(slope[:, onward]), residual[:, onward])
         left = ~done
         if not left.any():
             return delta, slopes
@@ -101,6 +101,17 @@ def _newton(pairs: Coupled, base: Floats) -> tuple[Floats, Floats]:
     if float(size.max()) > _FORGIVEN:
         raise _refusal(pairs, "no angles of theirs fit all laws at once")
     return delta, slopes
+
+
+def _stepped(matrices: Floats, right: Floats) -> Floats:
+    """Newton's step; none from a place where the pairs stand at a dead centre, and which no step leaves."""
+    dead = _determinant(matrices) == 0
+    if not dead.any():
+        return _solve(matrices, right)
+    step = np.zeros_like(right)
+    if not dead.all():
+        step[:, ~dead] = _solve(matrices[~dead], right[:, ~dead])
+    return step
 
 
 def _solve(matrices: Floats, right: Floats) -> Floats:
@@ -122,6 +133,9 @@ def _determinant(matrices: Floats) -> Floats:
 
 def _refusal(pairs: Coupled, why: str) -> GearTrainError:
     names = ", ".join(pairs.names)
+    if len(pairs.names) == 1:
+        what = f"the driver of pair {names} is moved by what it drives, and cannot be followed"
+        return GearTrainError(Problem(what, why, "give it ideal teeth, or say who drives it with `driver`"))
     return GearTrainError(
         Problem(f"the pairs {names} hang on each other and cannot be followed", why, "give some of them ideal teeth")
     )

@@ -74,8 +74,7 @@ class Superposition:
         found = np.zeros((len(self.response), len(turns)))
         for at, source in enumerate(self.sources):
             S = angle.cycles(source.cycles) * source.law.period + source.start
-            if lagged:
-                S += self.lags[at]
+            S += self.lags[at] if lagged else -source.turned
             found += (source.sense * self.response[:, at])[:, None] * source.law.error(S)
         return found
 

@@ -10,12 +10,10 @@ from typing import TYPE_CHECKING
 from geartrain.circuits import Circuit
 from geartrain.components import Part
 from geartrain.errors import Loop
-from geartrain.meshes import Driver, find_drivers
 from geartrain.system import System, assemble
 
 if TYPE_CHECKING:
-    from geartrain.meshes import Mesh, PinJoint
-    from geartrain.torques import Torques
+    from geartrain.meshes import Driver, Mesh, PinJoint
     from geartrain.train import Case, Train
 
 
@@ -25,7 +23,7 @@ class Moving:
 
     system    the labelled rows without redundant circuits
     speeds    exact mean speeds; `lead` is the input whose angle is given
-    drivers   who drives each gear pair, and how that is known
+    drivers   who drives each pair and coupling, and how that is known
     angles    starting angles of links (rad); `phases`, of pairs, in pitches of their first wheel
     loops     loops that are redundant: real teeth in them contradict the rest
     """
@@ -34,6 +32,7 @@ class Moving:
     circuits: Sequence[Circuit]
     signs: Mapping[str, int]
     speeds: Mapping[str, Fraction]
+    frame: str
     lead: str
     teeth: Sequence[Mesh]
     pins: Sequence[PinJoint]
@@ -75,22 +74,22 @@ def find_moving(
     speeds: Mapping[str, Fraction],
     teeth: Sequence[Mesh],
     pins: Sequence[PinJoint],
-    loaded: Torques | None,
+    drivers: Mapping[str, Driver],
 ) -> Moving:
     """A train in one case, moving along some circuits: those that are left out leave their teeth out too.
 
-    loaded   torques of the case, if it has loads: power then decides who drives
+    drivers   who drives each pair and coupling
     """
     parts = Part(tuple(train.links), train.frame, circuits, tuple(case.inputs)).reduced.components
     redundant = {parts.circuits[chord].id for chord in parts.closing}
     whole = assemble(tuple(train.links), train.frame, circuits, case, signs)
     kept = {circuit.id for circuit in circuits}
-    drivers = _drivers(train, loaded)
     return Moving(
         System(whole.links, tuple(row for row in whole.equations if row.label not in redundant)),
         circuits,
         signs,
         speeds,
+        train.frame,
         next(link for link, speed in case.inputs.items() if speed),
         [mesh.driven_by(drivers[mesh.name]) for mesh in teeth if mesh.name in kept],
         [joint for joint in pins if joint.coupling.name in kept],
@@ -99,14 +98,3 @@ def find_moving(
         {gear.name: float(gear.phase.value) for gear in train.gears if gear.phase is not None},
         [parts.loop(chord) for chord in parts.closing] if teeth or pins else [],
     )
-
-
-def _drivers(train: Train, loaded: Torques | None) -> dict[str, Driver]:
-    """Who drives each gear pair: declared, or as power flows under the loads, or by the way from the input."""
-    drivers = find_drivers(train)
-    if loaded is not None and loaded.verdict:
-        declared = {gear.name for gear in train.gears if gear.driver is not None}
-        flows = {name: pair.driver for name, pair in loaded.pairs.items() if name in drivers and pair.driver}
-        why = "power flows so under the loads"
-        drivers |= {name: Driver(wheel, why) for name, wheel in flows.items() if name not in declared}
-    return drivers

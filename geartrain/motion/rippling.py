@@ -18,6 +18,7 @@ from geartrain.motion.composition import Composition, Passage, Source
 from geartrain.motion.moving import Moving
 from geartrain.motion.spreading import Joint, find_spread
 from geartrain.motion.tally import Tally, mean_speed
+from geartrain.teeth.base import Lagging
 
 if TYPE_CHECKING:
     from numpy.random import Generator
@@ -109,9 +110,16 @@ class Motion:
         return Joint(driver, follower, carrier, (circuit.a, circuit.b)[driven])
 
     def _driven_side(self, circuit: Circuit) -> int:
-        """0 where the circuit's first link is driven, 1 where its second is; a pin drives its slot."""
-        driver = self.train.drivers.get(circuit.id)
-        return 0 if driver is None else int(driver.wheel == circuit.wheels[0])
+        """0 where the circuit's first link is driven, 1 where its second is.
+
+        A pin's law gives the angle of its slot, whichever of the two drives: there is no play between them.
+        """
+        return int(circuit.kind == "gear" and self.train.drivers[circuit.id].wheel == circuit.wheels[0])
+
+    @cached_property
+    def _stands(self) -> Mapping[str, float]:
+        """Where a tooth of the driven wheel stands when its angle is 0 (pitches past the line of centres), by pair."""
+        return {mesh.name: mesh.stands for mesh in self.train.rippling}
 
     @cached_property
     def ahead(self) -> Composition:
@@ -119,18 +127,76 @@ class Motion:
         return self._compose(1)
 
     @cached_property
+    def hung(self) -> Composition:
+        """The same with every link as its teeth hold it, no pointer set: what the laws themselves say."""
+        return Composition(self.spread, self.ahead.sources, self._ends, self._hung(1, self._ends).offsets)
+
+    @cached_property
     def back(self) -> Composition:
         """The composition while the input turns the other way: the other flanks drive."""
         return self._compose(-1)
 
     def _compose(self, way: int) -> Composition:
-        outputs = tuple((self._index[of], self._index[base]) for of, base in self.outputs.values())
+        """Every link is set where ideal teeth would have it at turn 0; its pins are counted from there."""
+        found, setting = self._hung(way, self._ends), self._setting
+        if setting is None:
+            return found
+        sources = list(found.sources)
+        for at, source in enumerate(sources):
+            if source.id in self._pins:
+                turned = found.driver_shift(source, setting)
+                sources[at] = replace(source, start=source.start + turned, turned=turned)
+        own = found.offsets or (0.0,) * len(self._ends)
+        offsets = [each + setting[of] - setting[base] for each, (of, base) in zip(own, self._ends, strict=True)]
+        return Composition(self.spread, tuple(sources), self._ends, tuple(map(float, offsets)))
+
+    @cached_property
+    def _pins(self) -> frozenset[str]:
+        return frozenset(joint.coupling.name for joint in self.train.pins)
+
+    @cached_property
+    def _ends(self) -> tuple[tuple[int, int], ...]:
+        return tuple((self._index[of], self._index[base]) for of, base in self.outputs.values())
+
+    def _hung(self, way: int, outputs: tuple[tuple[int, int], ...]) -> Composition:
+        """The composition with every link as its teeth hold it: at turn 0 it lags by what they do."""
         found = Composition(self.spread, tuple(self._sources(way)), outputs)
         error = self._play(way)
         if error is None:
             return found
         sources = tuple(replace(each, start=each.start + found.driver_shift(each, error)) for each in found.sources)
         return Composition(self.spread, sources, outputs, tuple(float(error[of] - error[base]) for of, base in outputs))
+
+    @cached_property
+    def setting(self) -> Mapping[str, float]:
+        """By how much each output's pointer is turned on its wheels (rad), so that its teeth do not displace it."""
+        found = self._setting
+        ends = zip(self.outputs, self._ends, strict=True)
+        return {name: 0.0 if found is None else float(found[of] - found[base]) for name, (of, base) in ends}
+
+    @cached_property
+    def _setting(self) -> Floats | None:
+        """By how much links are turned on their wheels (rad), so that none lags at turn 0; None where nothing does.
+
+        Only links that are asked for, or that carry pins, are looked at.
+        """
+        if not self.train.rippling and self._play(1) is None:
+            return None
+        pins = [each for each in self._sources(1) if each.id in self._pins]
+        joints = [self.spread.joints[each.pair] for each in pins]
+        links = sorted({*(link for ends in self._ends for link in ends), *(j.driver for j in joints),
+                        *(j.carrier for j in joints)})  # fmt: skip
+        outputs = tuple((link, self._index[self.train.frame]) for link in links)
+        ideal = np.zeros(len(self.spread.links))
+        ideal[links] = Composition(self.spread, tuple(pins), outputs).at(np.zeros(1)).error[:, 0]
+        hung = self._hung(1, outputs)
+        # a pin turns with its link, so that at turn 0 it stands as if all teeth were ideal
+        still = {each.pair: Lagging.at(each.law, each.start + hung.driver_shift(each, ideal)) for each in pins}
+        sources = tuple(replace(each, law=still.get(each.pair, each.law)) for each in hung.sources)
+        real = Composition(self.spread, sources, outputs, hung.offsets).at(np.zeros(1)).error[:, 0]
+        setting = np.zeros_like(ideal)
+        setting[links] = ideal[links] - real
+        return setting
 
     def _play(self, way: int) -> Floats | None:
         """What the play of teeth that keep their ratio adds to the angle of each link (rad); None where it is nothing.
@@ -147,8 +213,9 @@ class Motion:
 
     def _sense(self, circuit: Circuit) -> int:
         """1, or -1 where the driven wheel turns backwards on average, seen from its carrier."""
-        end = (circuit.i, circuit.j)[self._driven_side(circuit)]
-        return -1 if self.train.relative(end, circuit.carrier) < 0 else 1
+        driver = (circuit.i, circuit.j)[1 - self._driven_side(circuit)]
+        forward = -1 if self.train.relative(driver, circuit.carrier) < 0 else 1
+        return forward if circuit.a * circuit.b < 0 else -forward
 
     def _sources(self, way: int) -> Iterator[Source]:
         laws: dict[str, Law] = {mesh.name: mesh.law for mesh in self.train.rippling}
@@ -192,10 +259,14 @@ class Motion:
         return Source(circuit.id, law, at, *senses, cycles, start, forward, sense)
 
     def _phase(self, circuit: Circuit, law: Law, driven: int) -> float:
-        """The driver's forward angle (rad) that puts a tooth of the first wheel at the pair's phase."""
+        """The driver's forward angle (rad) that puts a tooth of the first wheel at the pair's phase.
+
+        A pin's phase is that of the pin itself. Where the first wheel is the driven one its law is read backwards.
+        """
         phase = self.train.phases.get(circuit.id, 0.0)
-        if not phase or driven == 1:
+        if driven == 1 or circuit.kind != "gear":
             return phase * law.period
+        phase -= self._stands[circuit.id]
         wanted = phase * float(law.ratio) * law.period
         low, high = (phase - 2) * law.period, (phase + 2) * law.period
         for _ in range(_HALVINGS):

@@ -210,7 +210,7 @@ MOTION = {
     "turns": NUMBER,
     "positions": COUNT,
     "period": EXACT,
-    "drivers": _named(_has({"driver": TEXT, "why": TEXT})),
+    "drivers": _named(_has({"driver": TEXT, "driver_is": TEXT, "determined": FLAG})),
     "turned_back": TEXTS,
     "rigid": TEXTS,
     "outputs": _named(
@@ -219,6 +219,7 @@ MOTION = {
                 "transmission_error": _has({"peak_to_peak": NUMBER, "rms": NUMBER}),
                 "speed": _has({"min": NUMBER, "max": NUMBER, "mean": NUMBER}),
                 "ratio": TEXT,
+                "setting": NUMBER,
                 "sensitivity": _named(NUMBER),
                 "phases": _maybe(_has({"peak_to_peak": _list(NUMBER, 2), "rms": _list(NUMBER, 2)})),
                 "estimates": _maybe(
@@ -231,7 +232,14 @@ MOTION = {
     "phases": _maybe(_has({"sets": COUNT, "seed": COUNT})),
     "partial": _maybe(_has({"done": COUNT, "of": COUNT})),
 }
-_PAIR = {"pair": TEXT, "driver": TEXT, "driver_is": TEXT, "form": TEXT}
+_PAIR = {
+    "pair": TEXT,
+    "driver": TEXT,
+    "driver_is": TEXT,
+    "determined": FLAG,
+    "states": TEXTS,
+    "form": TEXT,
+}
 _CONJUGATE = {
     "teeth": _list(COUNT, 2),
     "gears": _list(TEXT, 2),

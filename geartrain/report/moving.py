@@ -140,11 +140,10 @@ def _pairs(run: Run) -> Section:
     outputs = list(motion.outputs)[:_ABREAST]
     rows = []
     for source in motion.ahead.used:
-        driver = motion.train.drivers.get(source.id)
+        driver = motion.train.drivers[source.id]
         low, high = source.law.error_range()
         shares = [f"{degrees(abs(motion.sensitivity[name][source.id]) * (high - low)):.4g}" for name in outputs]
-        who = (driver.wheel, driver.why) if driver else ("its pin", "a pin drives its slot")
-        rows.append((source.id, *who, str(source.cycles), *shares))
+        rows.append((source.id, driver.wheel, driver.why, str(source.cycles), *shares))
     header = ("pair", "driver", "how that is known", "periods a turn", *(f"{name} (deg)" for name in outputs))
     text = "What each pair gives to an output: the range of its own error times the output's sensitivity to it."
     return Section("Pairs", (text,), (Table(header, rows, wide=True),))
@@ -217,12 +216,13 @@ def motion_data(run: Run, name: str, state: str | None) -> dict[str, Any]:
     """
     motion, period = run.motion, run.motion.period
     used = {source.id for source in motion.ahead.used}
-    drivers = {name: {"driver": d.wheel, "why": d.why} for name, d in motion.train.drivers.items() if name in used}
+    drivers = {name: driver.to_dict() for name, driver in motion.train.drivers.items() if name in used}
     composition = motion.ahead if run.turns >= 0 else motion.back
     outputs: dict[str, Any] = {}
     for at, tally in enumerate(run.tallies):
         lines, estimates = run.spectra.get(tally.name), run.estimates.get(tally.name)
         outputs[tally.name] = tally.to_dict() | {
+            "setting": motion.setting[tally.name],
             "sensitivity": dict(motion.sensitivity[tally.name]),
             "phases": _phases_data([tallies[at] for tallies in run.phased]),
             "estimates": None if estimates is None else estimates.to_dict(),

@@ -43,7 +43,7 @@ def _badge(train: GearTrain) -> tuple[str, bool]:
     if wrong:
         kind = wrong[0].verdict.kind
         return (f"{kind} in {len(wrong)} of {len(answers)} states" if train.states else kind), False
-    if any(mesh.fault for mesh in train.meshes):
+    if train.faults:
         return "its teeth cannot turn", False
     failed = sum(len(answer.failures) for answer in answers)
     if failed:

@@ -34,18 +34,31 @@ def teeth_sections(train: GearTrain) -> Iterator[Section]:
 def _teeth(train: GearTrain) -> Section:
     lines: list[str] = []
     tables: list[Table] = []
-    if triangular := [mesh for mesh in train.meshes if isinstance(mesh, TriangularMesh)]:
+    ways = [mesh for mesh, _ in driven_ways(train)]
+    if triangular := [mesh for mesh in ways if isinstance(mesh, TriangularMesh)]:
         lines.append(_TRIANGULAR)
         tables += _triangular_tables(triangular)
-    if conjugate := [mesh for mesh in train.meshes if isinstance(mesh, ConjugateMesh)]:
+    if conjugate := [mesh for mesh in ways if isinstance(mesh, ConjugateMesh)]:
         lines.append(WORDS)
         tables.append(conjugate_table(conjugate))
-    if any(mesh.why != "declared" for mesh in train.meshes):
-        lines.append("The driving wheel is the one nearer to where power enters, unless `driver` is declared.")
+    tables.append(_drivers(train))
     lines += [f"Pair '{mesh.name}': {mesh.note}." for mesh in train.meshes if mesh.note]
-    for fault in (fault for mesh in train.meshes for fault in mesh.faults):
+    for fault in train.faults:
         lines.append(f"{fault.what}; {fault.why}. {fault.fix}." if fault.why else f"{fault.what}. {fault.fix}.")
     return Section("Teeth", lines, tables)
+
+
+def driven_ways(train: GearTrain) -> Iterator[tuple[Mesh, tuple[str, ...]]]:
+    """Every pair with real teeth in every way it is driven, with the states in which it is."""
+    for ways in train.driven_ways.values():
+        yield from ways
+
+
+def _drivers(train: GearTrain) -> Table:
+    """Who drives each pair, and how that is known."""
+    rows = [(mesh.name, mesh.driver, mesh.who.why, ", ".join(states)) for mesh, states in driven_ways(train)]
+    used = 4 if train.states else 3
+    return Table(("pair", "driver", "how that is known", "states")[:used], [row[:used] for row in rows], wide=True)
 
 
 def _triangular_tables(meshes: Sequence[TriangularMesh]) -> tuple[Table, Table]:
@@ -99,8 +112,8 @@ def teeth_data(train: GearTrain) -> dict[str, Any]:
     """Real teeth and pins of a train as plain data; empty lists where none are declared."""
     return {
         "teeth": [
-            {"pair": mesh.name, "driver": mesh.driver, "driver_is": mesh.why, "form": mesh.form, **_mesh_data(mesh)}
-            for mesh in train.meshes
+            {"pair": mesh.name, **mesh.who.to_dict(), "states": list(states), "form": mesh.form, **_mesh_data(mesh)}
+            for mesh, states in driven_ways(train)
         ],
         "pins": [
             {

@@ -101,14 +101,11 @@ class _Mounting:
         mesh = self.meshes.get(circuit.id)
         if mesh is None:
             return 0.5
-        pair = getattr(mesh.law, "pair", None)
-        # conjugate teeth count the driven angle from where their flanks touch, triangular ones from the tooth itself
-        found = 0.0 if pair is None else sum(pair.halves) / pair.path.pitch.p
         setting = self.moved.driving.get(circuit.id)
         if setting is None:
-            return found if pair is not None else 0.5
+            return mesh.stands or 0.5
         driven = circuit.wheels[1 - self._driver(circuit)]
-        return float(found + setting.error / self._pitch(driven))
+        return mesh.stands + setting.error / self._pitch(driven)
 
     def _driver(self, circuit: Circuit) -> int:
         """0 or 1: which wheel drives."""

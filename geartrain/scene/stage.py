@@ -121,7 +121,7 @@ class Stage:
     @cached_property
     def _built(self) -> tuple[tuple[Mesh, ...], tuple[Problem, ...]]:
         try:
-            return self.train.meshes, ()
+            return self.train.meshes_in(self.answer.state), ()
         except GearTrainError as error:
             return (), error.problems
 

@@ -57,8 +57,8 @@ def drive(setting: Setting, load: str, source: str) -> Torques:
 
 def _asked(setting: Setting, loads: Mapping[str, Fraction], solve_for: str | None) -> Asked:
     """The links whose torque is unknown: as many as there are inputs, or fewer where that is all that is plain."""
-    inputs, entries = setting.case.inputs, _entries(setting)
-    free = tuple(link for link in entries if link not in loads)
+    inputs, enter = setting.case.inputs, entries(setting)
+    free = tuple(link for link in enter if link not in loads)
     needed = len(inputs)
     if setting.forms and len(free) <= needed:
         # what turns freely has no torque but what is declared, unless one is asked for
@@ -77,8 +77,8 @@ def _asked(setting: Setting, loads: Mapping[str, Fraction], solve_for: str | Non
     lacking = needed - len(certain)
     if len(candidates) == lacking:
         return Asked(certain + candidates, enough=not setting.forms)
-    loaded = ", ".join(link for link in entries if link in loads)
-    why = f"{loaded} carries a load" if loaded else f"power enters at {entries[0]}, which is no input"
+    loaded = ", ".join(link for link in enter if link in loads)
+    why = f"{loaded} carries a load" if loaded else f"power enters at {enter[0]}, which is no input"
     text = (
         f"{why}, so {lacking} other torque{'s' if lacking > 1 else ''} must be unknown, and "
         f"{len(candidates)} can be: name one with `solve_for`"
@@ -87,7 +87,7 @@ def _asked(setting: Setting, loads: Mapping[str, Fraction], solve_for: str | Non
     return Asked(certain, False, TorqueVerdict("undecided", text, candidates))
 
 
-def _entries(setting: Setting) -> tuple[str, ...]:
+def entries(setting: Setting) -> tuple[str, ...]:
     """Where power may enter: the inputs, or, where only their speeds are given, the crank in place of one of them."""
     inputs, crank = tuple(setting.case.inputs), setting.train.crank
     if crank is None or crank in inputs:
@@ -123,7 +123,7 @@ def _balanced(setting: Setting, loads: Mapping[str, Fraction], asked: Asked, bea
         return Torques(state, _with_reason(asked, lacking), asked.links)
     means = {circuit.id: find_means(setting, circuit) for circuit in setting.circuits}
     driving = sum((torque * setting.speeds.get(link, 0) for link, torque in loads.items()), Fraction(0)) > 0
-    balance, neither = settle_means(_balance(setting, known, asked.links, means), means, driving)
+    balance, neither = settle_means(balance_of(setting, known, asked.links, means), means, driving)
     found, complete = find_flows(balance)
     question = Question(balance, setting.speeds, loads, rubbing, asked.enough, setting.open)
     # all else being known, the power asked for tells the order of losses
@@ -149,11 +149,12 @@ def _with_reason(asked: Asked, lacking: TorqueVerdict) -> TorqueVerdict:
     return TorqueVerdict("undecided", text, tuple(untried) or lacking.candidates)
 
 
-def _balance(
-    setting: Setting, known: Mapping[str, Fraction], asked: tuple[str, ...], means: Mapping[str, Means]
+def balance_of(
+    setting: Setting, known: Mapping[str, Fraction], asked: tuple[str, ...], means: Mapping[str, Means] | None = None
 ) -> Balance:
+    """The balance of a train with some torques known and some asked for; as if nothing rubbed where no means are."""
     case, train = setting.case, setting.train
-    meshes = tuple(_mesh(setting, circuit, means[circuit.id]) for circuit in setting.circuits)
+    meshes = tuple(_mesh(setting, circuit, means[circuit.id] if means else None) for circuit in setting.circuits)
     locks = _locks(setting)
     held = {*asked, *case.fixed, *(link for lock in locks for link in lock)}
     shares = find_shares(train, setting.circuits, {*held, *known})
@@ -179,12 +180,12 @@ def _locks(setting: Setting) -> tuple[tuple[str, str], ...]:
     return tuple((a, b) for a, b in setting.case.locks if a != b)
 
 
-def _mesh(setting: Setting, circuit: Circuit, means: Means) -> Mesh:
+def _mesh(setting: Setting, circuit: Circuit, means: Means | None) -> Mesh:
     """A circuit as a path of power, with what its teeth lose; nothing where nobody knows which way it rolls."""
     i, j, k = circuit.i, circuit.j, circuit.carrier
     senses = (setting.sense(i), setting.sense(j), setting.sense(k))
     relative = setting.relative(i, k) or Fraction(0)
-    forward, backward = means.given(0, driving=False)
+    forward, backward = means.given(0, driving=False) if means else (Fraction(1), Fraction(1))
     a, b = circuit.a, circuit.b
     if min(a, b, key=abs) < 0:  # the sign of a row is free: one for both orders of a planet and its ring
         a, b = -a, -b

@@ -84,6 +84,14 @@ class Setting:
         free = any(value for column, value in form.items() if column != GIVEN)
         return None if free else form.get(GIVEN, Fraction(0))
 
+    def bearer(self, link: str) -> str:
+        """What bears the axis that a link turns about, however its coaxial joints are declared."""
+        return self.tree.top.get(link, link)
+
+    def turn(self, circuit: Circuit) -> Fraction | None:
+        """Speed of a circuit's first link seen from its carrier: where it is 0 no power flows between the two."""
+        return self.relative(circuit.i, circuit.carrier)
+
     def bearing(self, link: str) -> Fraction:
         """Friction torque of a link's bearing, N m or plain."""
         torque = self.train.links[link].bearing

@@ -242,7 +242,7 @@ class GearPair(Declared):
     share: Annotated[Figure, AfterValidator(_positive)] | None = Field(
         None, description="Part of a torque it carries, among the pairs that have a wheel in common and a share"
     )
-    driver: Id | None = Field(None, description="The wheel that drives")
+    driver: Id | None = Field(None, description="The wheel that drives; default by the flow of power")
     phase: Figure | None = Field(
         None,
         description="Fraction of a pitch by which a tooth of the first wheel is past the line of centres at the start",

@@ -10,10 +10,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from geartrain.motion import Composition, Superposition
+from geartrain.teeth.base import Lagging
 from geartrain.uncertainty.cutting import CutWheel, Verdicts, batch_verdicts
 from geartrain.uncertainty.cutting.pair import CutPair
 from geartrain.uncertainty.trials.drawing import BLOCK, POSITION, Streams, draw_wheel, fitted
-from geartrain.uncertainty.trials.laws import CutLaws, Lagging
+from geartrain.uncertainty.trials.laws import CutLaws
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

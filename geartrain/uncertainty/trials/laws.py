@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from geartrain.teeth.base import Law, Rigid, behind
+from geartrain.teeth.base import Law, behind
 from geartrain.uncertainty.cutting.couples import Couples
 
 if TYPE_CHECKING:
@@ -22,26 +22,6 @@ if TYPE_CHECKING:
 
 _LEFT_BEHIND = 2  # pitches beyond the reach: who left so long ago lags more than who left later
 _BLOCK = 8192  # angles worked on at once: their arrays stay in a cache
-
-
-class Lagging(Rigid):
-    """A law that keeps its ratio, `error` (rad of the driven wheel) from uniform motion: even teeth on average."""
-
-    def __init__(self, ratio: Fraction, period: float, error: float) -> None:
-        super().__init__(ratio, period)
-        self.mean = error
-
-    def error(self, S: ArrayLike) -> Floats:
-        """The same everywhere."""
-        return self._constant(S, self.mean)
-
-    def error_range(self) -> tuple[float, float]:
-        """The same twice."""
-        return self.mean, self.mean
-
-    def error_moments(self) -> tuple[float, float]:
-        """The mean, and 0."""
-        return self.mean, 0.0
 
 
 class CutLaws(Law):

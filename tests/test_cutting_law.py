@@ -45,6 +45,14 @@ def test_without_errors_the_law_is_that_of_even_wheels(z1: int, z2: int, excess:
         assert np.abs(cut.efficiency(S) - law.efficiency(S))[~still].max() < 1e-12
 
 
+@pytest.mark.parametrize("direction", [1, -1])
+def test_without_errors_a_constant_load_costs_what_it_does_with_even_wheels(direction: int) -> None:
+    sizes = equally_deep(48, 24, 0.02)
+    law, cut = TriangularLaw(sizes, 0.2, direction), cut_law(sizes, *even(sizes), 0.0, 0.2, direction)
+    assert cut.efficiency_mean() == pytest.approx(law.efficiency_mean(), rel=1e-9)
+    assert cut.efficiency_at_constant_load() == pytest.approx(law.efficiency_at_constant_load(), rel=1e-9)
+
+
 @pytest.mark.parametrize(("z1", "z2", "excess"), [(16, 12, 0.02), (12, 60, 0.025), (24, 12, 0.09), (20, 15, 0.004)])
 def test_without_errors_the_events_are_the_verdict_on_even_wheels(z1: int, z2: int, excess: float) -> None:
     sizes = equally_deep(z1, z2, excess)

@@ -271,6 +271,8 @@ def test_a_bearing_behind_a_retrograde_pointer_says_what_its_mean_speed_hides() 
     w = 1 - 427 / 442 * turned
     factor, peak = np.mean(np.abs(w)) / abs(np.mean(w)), np.abs(w).max() / abs(np.mean(w))
     assert (factor, peak) == (pytest.approx(2.0656, abs=1e-4), pytest.approx(3.690611, abs=2e-5))
+    page = to_markdown([torques_document(train, [found])])
+    assert "N m without friction of bearings that turn back (saturn)." in page
     assert f"{factor:.3f} times" in why
     assert f"{peak:.3f} times" in why
 

@@ -145,6 +145,7 @@ def test_a_law_without_corners_and_what_a_table_leaves_to_its_law() -> None:
     assert table.error_range() == law.error_range()
     assert table.error_moments() == law.error_moments()
     assert table.efficiency_mean() == law.efficiency_mean()
+    assert table.efficiency_at_constant_load() == law.efficiency_at_constant_load()
 
 
 def test_two_corners_in_one_cell_and_one_on_its_edge() -> None:

@@ -72,7 +72,7 @@ def torque_sections(train: GearTrain, found: Torques) -> Iterator[Section]:
         )
     if found.bearing_loss:
         needed = ", ".join(f"at '{link}' {amounts.torque(found.external[link])}" for link in found.asked)
-        lines.append(f"Torque needed, with the friction of bearings: {needed}.")
+        lines.append(f"Torque needed, with the friction of bearings: {needed}{without(found)}.")
     tables = [_links(found, amounts), *_held(found), _pairs(found, amounts)]
     yield Section(head, lines, tuple(tables))
     flow = flow_of(train, found)

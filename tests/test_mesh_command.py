@@ -15,7 +15,7 @@ from commands import call
 
 PAIR = ("mesh", "triangular", "--teeth", 48, 96, "--half-angle", "30deg", "--friction", 0.2)
 KEYS = {"teeth", "verdict", "clearance", "window", "sizes", "play", "speed_ratio", "transmission_error"}
-KEYS |= {"efficiency", "intervals", "jumps"}
+KEYS |= {"efficiency", "intervals", "jumps", "impacts"}
 
 
 def process(*arguments: object) -> subprocess.CompletedProcess[str]:

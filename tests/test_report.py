@@ -10,6 +10,7 @@ import re
 import stat
 from collections.abc import Iterator
 from fractions import Fraction
+from html import unescape
 from html.parser import HTMLParser
 from pathlib import Path
 
@@ -99,7 +100,7 @@ def markdown_tables(text: str) -> list[Rows]:
         elif token.type in ("td_close", "th_close"):
             within = False
         elif token.type == "inline" and within:
-            tables[-1][-1].append(token.content)
+            tables[-1][-1].append(unescape(token.content))
     return tables
 
 

@@ -17,6 +17,7 @@ import pytest
 from commands import call
 from hypothesis import given
 from hypothesis import strategies as st
+from markdown_it import MarkdownIt
 
 from geartrain.errors import Problem, printable
 from geartrain.files import LongTable, csv_line, csv_lines, csv_text
@@ -159,6 +160,9 @@ def test_a_report_of_a_hostile_train_holds_none(verb: str, hostile: Path) -> Non
     text = call(verb, hostile).stdout
     assert "script" in text or verb == "compare"
     assert not re.search(r"<(script|img|b)\b", text)
+    tokens = MarkdownIt("commonmark").enable("table").parse(text)
+    inner = [child for token in tokens for child in token.children or ()]
+    assert not [token for token in (*tokens, *inner) if token.type.startswith("html")]
 
 
 # ------------------------------------------------------------------------------------------------------------ terminals

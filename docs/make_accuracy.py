@@ -124,8 +124,9 @@ elimination has a budget: beyond linear work it may spend 400 000 coefficient op
 coupled system past it is solved in floats with one refinement step whose residual is taken to twice the working
 precision; its verdict is then taken modulo the prime 2^61 - 1, and the answer says so by `method: floats` and a tilde.
 
-The float path reports an error estimate for each speed, from one more solve with the residual left after refinement,
-and the true error wherever the exact answer is within the budget (`geartrain solve FILE --method floats`). It refuses
+The float path reports an error estimate for each speed: two more solves with the residual left after refinement, and
+what errors of any sign within twice the precision may move (by the inverse up to 400 links, by random signs beyond). It
+reports the true error wherever the exact answer is within the budget (`geartrain solve FILE --method floats`). It refuses
 a train whose speeds leave the range of float64 rather than return a 0.
 
 ## What this run found

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import random
 from fractions import Fraction
 from typing import Any
 
@@ -9,6 +10,8 @@ import pytest
 from test_generators import ten_thousand_cascade
 
 from geartrain import GearTrain, GearTrainError, load
+from geartrain.bench.families import drift
+from geartrain.errors import RangeError
 from geartrain.speeds.floats import solve_floats
 
 EPS = Fraction(1, 2**53)
@@ -231,3 +234,53 @@ def test_the_estimate_holds_for_a_link_that_stands_still() -> None:
     exact, floats = train.solve(), train.floats()
     for link, speed in exact.speeds.items():
         assert abs(Fraction(floats[link]) - speed) <= Fraction(float(floats.estimate[link][0])), link
+
+
+def sets_between_shafts(seed: int) -> dict[str, Any]:
+    """Planetary sets between some shafts and the case, drawn at random; shafts may stand still by cancellation."""
+    count, draw = random.Random(seed).randint(3, 14), random.Random(seed)
+    links: dict[str, Any] = {"frame": {"wheels": {}}} | {f"s{at}": {"wheels": {}} for at in range(count)}
+    joints = [{"pair": ["frame", f"s{at}"], "axis": "main"} for at in range(count)]
+    gears: list[list[str]] = []
+    while len(gears) < 2 * (count - 1):
+        first, second, carrier = (f"s{at}" for at in draw.sample(range(count), 3))
+        first = "frame" if draw.random() < 0.25 else first
+        second = "frame" if draw.random() < 0.1 else second
+        if first == second:
+            continue
+        at = len(gears)
+        planet, sun, further = (draw.randint(17, 60) for _ in range(3))
+        links[f"p{at}"] = {"wheels": {f"u{at}": planet, f"v{at}": further}}
+        links[first]["wheels"][f"a{at}"] = sun
+        ring = {"teeth": draw.randint(60, 150), "internal": True} if draw.random() < 0.5 else draw.randint(17, 60)
+        links[second]["wheels"][f"b{at}"] = ring
+        joints.append({"pair": [carrier, f"p{at}"], "axis": f"P{at}"})
+        gears += [[f"a{at}", f"u{at}"], [f"v{at}", f"b{at}"]]
+    return {"links": links, "revolutes": joints, "gears": [{"pair": pair} for pair in gears], "inputs": {"s0": 1}}
+
+
+@pytest.mark.parametrize("inverted", [400, 0], ids=["by the inverse", "by random signs"])
+def test_no_speed_is_farther_off_than_its_estimate(inverted: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Also where a speed is 0 because great ones cancel, and what is left of it is nothing but rounding."""
+    monkeypatch.setattr("geartrain.speeds.floats._INVERTED", inverted)
+    judged = still = 0
+    for seed in range(700):
+        train = GearTrain.declare(sets_between_shafts(seed))
+        if not train.solve().verdict:
+            continue
+        floats, truth = train.solve(method="floats"), train.solve().speeds
+        judged += 1
+        for link, speed in floats.speeds.items():
+            off = abs(Fraction(speed) - truth[link])
+            assert off <= Fraction(floats.accuracy[link].estimate), (
+                f"seed {seed}: {link} is {speed}, off by {float(off)}"
+            )
+            still += not truth[link] and bool(speed)
+    assert judged > 300
+    assert still > 10, "zeros that floats do not hit are what is tried here"
+
+
+def test_speeds_beyond_floats_are_refused_without_a_warning(recwarn: pytest.WarningsRecorder) -> None:
+    with pytest.raises(RangeError, match="leaves the range"):
+        GearTrain.declare(drift(12_000)).solve(method="floats")
+    assert not recwarn.list

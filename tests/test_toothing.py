@@ -225,7 +225,7 @@ def test_no_two_wheels_of_a_shipped_train_overlap_as_they_turn(play: float) -> N
 @pytest.mark.slow
 @pytest.mark.parametrize("play", [0.0, 0.08])
 def test_no_two_wheels_overlap_at_many_positions(play: float) -> None:
-    _, wrong = overlapping(play, 40)
+    _, wrong = overlapping(play, 12)
     assert wrong == []
 
 

@@ -15,6 +15,7 @@ from hypothesis import strategies as st
 
 from geartrain import GearTrain
 from geartrain.bench.families import drift
+from geartrain.bench.kinematics import count_steps, kinematics
 from geartrain.products import Products, product_of_powers
 
 factors = st.integers(1, 10**12).flatmap(lambda n: st.sampled_from([n, -n])) | st.sampled_from([-36, 24, 997])
@@ -166,3 +167,14 @@ def test_a_drifting_train_behind_a_planetary_set_is_read_through_its_components(
     assert answer["carrier"] == Fraction(2, 7)
     assert answer["g899"] == Fraction(2, 7) * Fraction(-30, 50) * ratio(data, 899)
     assert answer["g899"] in list(answer.speeds.values())
+
+
+def test_the_benchmark_measures_the_drifting_chain(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("geartrain.bench.kinematics.SIZES", (120,))
+    monkeypatch.setattr("geartrain.bench.kinematics._DRIFTED", 100)
+    monkeypatch.setattr("geartrain.bench.kinematics._JUDGED", 20)
+    steps: list[str] = []
+    records = kinematics(120, steps.append, least=1, families=["drift"])
+    errors = {row.method: row.error for row in records.rows}
+    assert errors["exact"] == errors["exact, one output"] == 0
+    assert len(steps) <= count_steps(120, 1, ["drift"])

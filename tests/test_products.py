@@ -7,6 +7,7 @@ import random
 import tracemalloc
 from collections.abc import Callable
 from fractions import Fraction
+from importlib import import_module
 from typing import Any
 
 import pytest
@@ -170,9 +171,10 @@ def test_a_drifting_train_behind_a_planetary_set_is_read_through_its_components(
 
 
 def test_the_benchmark_measures_the_drifting_chain(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("geartrain.bench.kinematics.SIZES", (120,))
-    monkeypatch.setattr("geartrain.bench.kinematics._DRIFTED", 100)
-    monkeypatch.setattr("geartrain.bench.kinematics._JUDGED", 20)
+    module = import_module("geartrain.bench.kinematics")
+    monkeypatch.setattr(module, "SIZES", (120,))
+    monkeypatch.setattr(module, "_DRIFTED", 100)
+    monkeypatch.setattr(module, "_JUDGED", 20)
     steps: list[str] = []
     records = kinematics(120, steps.append, least=1, families=["drift"])
     errors = {row.method: row.error for row in records.rows}

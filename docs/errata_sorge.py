@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from math import atan2, cos, degrees, hypot, pi, radians, sin, sqrt
 
 import numpy as np
@@ -48,6 +48,10 @@ def sorge() -> Iterator[str]:
     yield from jumps()
     yield from windows()
     yield from impacts()
+    yield from equation_25()
+    yield from sub_regions()
+    yield from best_clearance()
+    yield from whole_train()
 
 
 def equation_16() -> Iterator[str]:
@@ -147,3 +151,115 @@ def impacts() -> Iterator[str]:
         f"dissipated, and the driver does {handed + lost:.5f} at each pitch of {degrees(2 * pi / 48):.1f} deg."
     )
     yield ""
+
+
+def equation_25() -> Iterator[str]:
+    """The jump of Fig. 3a by the printed equation, alpha_2 read at either end of the path, and at both."""
+    pair = law(48, 96, "1.01")
+    couple, sizes = pair.contact.path.couple, pair.sizes
+    (interval,) = pair.intervals
+    x = np.array([interval.start, interval.end])
+    y = couple.recess_angle(x, np)
+
+    def jump(first: float, last: float) -> float:
+        upper, lower = (
+            sizes.D * cos(sizes.beta2 - own) / cos(sizes.beta2 - at - other) - sizes.R1
+            for own, at, other in ((y[0], x[0], first), (y[1], x[1], last))
+        )
+        return float(1 - upper / lower)
+
+    yield (
+        f"**Eq. (25)** leaves alpha_2 in two cosines without an index. 48/96 at a = 1.01: with alpha_2i in both "
+        f"{jump(y[0], y[0]):.4f}, with alpha_2e in both {jump(y[1], y[1]):.4f}, each with its own {jump(*y):.4f}; "
+        "Fig. 3a prints 0.1582."
+    )
+    yield ""
+
+
+SMALL = ("1.001", "1.003", "1.006", "1.009", "1.0111", "1.0113", "1.0115", "1.0117", "1.0118", "1.0193", "1.025")
+
+
+def sub_regions() -> Iterator[str]:
+    """How the sub-regions of 96/96 share a pitch, and where the piece astride is born and is left alone."""
+    yield "**V**, 96/96: neither sub-region narrows until it vanishes. Shares of a pitch, by clearance:"
+    yield ""
+    body = []
+    for clearance in SMALL:
+        found = shares(clearance)
+        body.append((clearance, *(f"{share:.3f}" if share else "-" for share in found)))
+    yield from table(("a", "approach apart", "astride", "recess apart"), body)
+    born, alone = edge(lambda found: found[1] > 0), edge(lambda found: found[0] == found[2] == 0)
+    whole = [shares(f"{a:.7f}") for a in np.linspace(1.001, born - 1e-7, 51)]
+    least, most = (f(each for found in whole for each in (found[0], found[2])) for f in (min, max))
+    yield (
+        f"Each keeps {least:.3f} to {most:.3f} of a pitch until, at a = {born:.6f}, a third piece is born astride the "
+        f"matching position; it eats both, and is alone from a = {alone:.6f}."
+    )
+    yield ""
+
+
+def shares(clearance: str) -> tuple[float, float, float]:
+    """Parts of a pitch of 96/96: contact in approach by itself, astride the matching position, in recess by itself."""
+    pair = law(96, 96, clearance)
+    apart = {"approach": 0.0, "recess": 0.0}
+    astride = 0.0
+    for each in pair.intervals:
+        width = abs(each.width) / pair.period
+        ends = each.end if each.phase == "approach" else each.start
+        if abs(ends - pair.sizes.matching) < 1e-9:
+            astride += width
+        else:
+            apart[each.phase] += width
+    return apart["approach"], astride, apart["recess"]
+
+
+def edge(true: Callable[[tuple[float, float, float]], bool]) -> float:
+    """The clearance from which something is true of the shares."""
+    low, high = 1.005, 1.02
+    while high - low > 1e-10:
+        middle = (low + high) / 2
+        low, high = (low, middle) if true(shares(f"{middle:.12f}")) else (middle, high)
+    return high
+
+
+def best_clearance() -> Iterator[str]:
+    """Where 96/96 loses least by sliding, and where by collisions."""
+    rows = [("printed as best", 1.025)]
+    rows += [("least friction", least_of(lost)), ("least dissipated by collisions", least_of(dissipated))]
+    yield "**V**, 96/96: a = 1.025 is not best, neither for friction (0.2) nor for collisions:"
+    yield ""
+    body = [(name, f"{a:.7g}", f"{100 * lost(a):.3f} %", f"{dissipated(a):.2e}") for name, a in rows]
+    yield from table(("", "a", "lost by sliding", "dissipated at each pitch, in J2 w1^2"), body)
+
+
+def lost(a: float) -> float:
+    """Part of the power that sliding takes from 96/96."""
+    return 1 - law(96, 96, f"{a:.12f}").efficiency_mean()
+
+
+def dissipated(a: float) -> float:
+    """What the collisions of a pitch dissipate, over J2 w1^2."""
+    return law(96, 96, f"{a:.12f}").impact(1.0, 1.0)[1]
+
+
+def least_of(what: Callable[[float], float]) -> float:
+    """The clearance at which something is least: a scan of the pair's window, then finer ones around the best."""
+    low, high = 1.001, 1.0265
+    for _ in range(6):
+        grid = np.linspace(low, high, 41)
+        best = int(np.argmin([what(float(a)) for a in grid]))
+        low, high = float(grid[max(best - 1, 0)]), float(grid[min(best + 1, 40)])
+    return (low + high) / 2
+
+
+def whole_train() -> Iterator[str]:
+    """What a train of such pairs loses, against the order of 10 % of the conclusion."""
+    train = geartrain.load("pennestri-2002-teeth")
+    body = []
+    for link in ("5", "17", "19"):
+        found = train.driven(link, "2").efficiency
+        body.append((link, f"{100 * (1 - float(found)):.1f} %" if found else "locks"))
+    yield "**VI**: losses of the order of 10 % or less are those of a pair, not of a mechanism. The train of Pennestri"
+    yield "et al. with these teeth (`pennestri-2002-teeth`), driven at its crank:"
+    yield ""
+    yield from table(("load on link", "lost by sliding"), body)

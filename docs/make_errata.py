@@ -9,6 +9,7 @@ from pathlib import Path
 
 from errata_smith import smith
 from errata_sorge import sorge
+from errata_sphere import sphere
 
 import geartrain
 from geartrain import GearTrain
@@ -49,6 +50,17 @@ def cut_off(printed: str, value: Fraction | float) -> Iterator[str]:
     rounded = f"{float(round(value, decimals)):.{decimals}f}"
     if decimals and rounded != printed:
         yield f"printed cut off, for {rounded}"
+
+
+def table_3() -> Iterator[str]:
+    """The caption of Table 3."""
+    pairs = [gear.name for gear in paper().declaration.gears]
+    yield from ("## Table 3", "")
+    yield (
+        f"Its columns are {pairs[12]} to {pairs[-1]}, the last {len(pairs[12:])} of {len(pairs)} circuits; Tables 1 "
+        f"and 2 hold {pairs[0]} to {pairs[5]} and {pairs[6]} to {pairs[11]}. Its caption says 8-18, for 13-18."
+    )
+    yield ""
 
 
 def teeth_of_18() -> Iterator[str]:
@@ -342,8 +354,8 @@ def lead() -> Iterator[str]:
 def main() -> None:
     """Write the page."""
     parts = (
-        lead, teeth_of_18, months, table_4, table_6, freeth_2006, freeth_jones, freeth_2021, voulgaris, price, huygens,
-        sorge, smith,
+        lead, table_3, teeth_of_18, months, table_4, table_6, freeth_2006, freeth_jones, freeth_2021, voulgaris, price,
+        huygens, sorge, smith, sphere,
     )  # fmt: skip
     lines = [line for part in parts for line in part()]
     PAGE.write_text("\n".join(lines).rstrip() + "\n", encoding="utf-8")

@@ -77,6 +77,8 @@ _SPELT = {
 
 _NUMBER = r"[+-]?(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][+-]?\d{1,3})?"
 _MOST = Fraction("1e300")  # what a float holds, with room for units
+_LEAST_MEASURE = Fraction(1, 10**30)
+_IN_FLOATS = ("length", "angle", "inertia")
 _FIGURE = re.compile(rf"^\s*({_NUMBER})\s*(?:([/:])\s*({_NUMBER}))?\s*$")
 _QUANTITY = re.compile(rf"^\s*({_NUMBER}(?:\s*[/:]\s*\d+)?)\s*([^\d\s].*?)?\s*$")
 
@@ -224,7 +226,7 @@ class Quantity:
             figure = Figure.parse(raw)
             if not plain and figure.value:
                 raise _no_unit(text, dimension)
-            return cls(figure.value, None, text)
+            return _measured(cls(figure.value, None, text), dimension)
         unit = " ".join(match[2].split())
         if re.fullmatch(r"[eE][+-]?\d+", unit):
             raise _not_a_number(raw)
@@ -247,7 +249,19 @@ class Quantity:
                     "fix": f"use one of: {_units_of(dimension)}",
                 },
             )
-        return quantity
+        return _measured(quantity, dimension)
+
+
+def _measured(quantity: Quantity, dimension: str) -> Quantity:
+    """What is computed with in floats, where products and squares of it must be floats too."""
+    if dimension in _IN_FLOATS and quantity.value and not _LEAST_MEASURE < abs(quantity.base) < 1 / _LEAST_MEASURE:
+        bounds = f"between {float(_LEAST_MEASURE):g} and {float(1 / _LEAST_MEASURE):g}"
+        raise PydanticCustomError(
+            "number",
+            "{text} is beyond all measure",
+            {"text": quantity.text, "fix": f"write {_one(dimension)} {bounds} in base units"},
+        )
+    return quantity
 
 
 def _scale(unit: str) -> tuple[str, Fraction]:

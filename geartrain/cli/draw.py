@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from fractions import Fraction
 from pathlib import Path
 from typing import Annotated, Literal
 
@@ -10,6 +9,7 @@ import typer
 
 from geartrain.cli.common import PICTURES, STANDARD_NAME, VERDICT, File, Force, file_name, sink, sound, suffix_of, tell
 from geartrain.cli.common import draw as write_figure
+from geartrain.cli.numbers import turns as read_turns
 
 
 def run(
@@ -31,7 +31,7 @@ def run(
     from geartrain.files import load
 
     suffix_of(out, PICTURES)
-    turned = _number(turns)
+    turned = read_turns("--turns", turns)
     train = load(file)
     if out is None:
         out = file_name(f"{train.name}-{kind}", ".svg")
@@ -48,10 +48,3 @@ def run(
     if not verdict:
         tell(f"the train is {verdict}")
     raise typer.Exit(VERDICT)
-
-
-def _number(text: str) -> Fraction:
-    try:
-        return Fraction(text)
-    except (ValueError, ZeroDivisionError):
-        raise typer.BadParameter(f"'{text}' is no number of turns", param_hint="--turns") from None

@@ -11,7 +11,8 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from geartrain.cli.common import GOOD, INTERRUPTED, VERDICT, File, Force, StateName, plural, sink, sound, tell
-from geartrain.cli.mesh.options import quantity
+from geartrain.cli.numbers import quantity
+from geartrain.cli.numbers import turns as read_turns
 from geartrain.errors import GearTrainError, Problem
 
 if TYPE_CHECKING:
@@ -75,14 +76,7 @@ def _length(name: str, text: str) -> float:
 
 
 def _turns(text: str | None) -> Fraction | None:
-    if text is None:
-        return None
-    try:
-        return Fraction(text)
-    except (ValueError, ZeroDivisionError):
-        raise GearTrainError(
-            Problem(f"'{text}' is no number of turns", "", "give one such as 4 or 1/2", "--turns")
-        ) from None
+    return None if text is None else read_turns("--turns", text)
 
 
 def _one(work: Workpiece, out: Path, wheel: str | None, turns: Fraction | None, force: bool) -> None:

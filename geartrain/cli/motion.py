@@ -27,6 +27,8 @@ from geartrain.cli.common import (
     sink,
     tell,
 )
+from geartrain.cli.numbers import MOST_COUNT
+from geartrain.cli.numbers import turns as read_turns
 
 if TYPE_CHECKING:
     from geartrain.motion import Motion, Passage, Run
@@ -37,13 +39,15 @@ Names = list[str] | None
 def run(
     file: File,
     turns: Annotated[str, typer.Option("--turns", help="Turns of the input, or 'period'; negative: back.")] = "20",
-    samples: Annotated[int, typer.Option("--samples", min=2, help="Positions of the input.")] = 200_000,
+    samples: Annotated[int, typer.Option("--samples", min=2, max=MOST_COUNT, help="Positions of the input.")] = 200_000,
     output: Annotated[Names, typer.Option("--output", help="Output or link; may be repeated.")] = None,
     links: Annotated[bool, typer.Option("--links", help="Every link, not only the outputs.")] = False,
     state: StateName = None,
     without: Annotated[Names, typer.Option("--without", help="Leave out a pair, to open a loop of real teeth.")] = None,
-    phases: Annotated[int, typer.Option("--phases", min=0, help="Runs with random phases of the teeth.")] = 0,
-    seed: Annotated[int, typer.Option("--seed", help="Seed of the random phases.")] = 1,
+    phases: Annotated[
+        int, typer.Option("--phases", min=0, max=MOST_COUNT, help="Runs with random phases of the teeth.")
+    ] = 0,
+    seed: Annotated[int, typer.Option("--seed", min=0, help="Seed of the random phases.")] = 1,
     tolerance: Annotated[
         float | None, typer.Option("--tabulated", help="Read laws from tables of this accuracy (pitches).")
     ] = None,
@@ -88,10 +92,7 @@ def run(
 
 def _turns(text: str, motion: Motion) -> float:
     if text != "period":
-        try:
-            return float(text)
-        except ValueError:
-            raise typer.BadParameter(f"'{text}' is no number, nor 'period'", param_hint="--turns") from None
+        return float(read_turns("--turns", text))
     if motion.period is None:
         raise typer.BadParameter("nothing ripples, so there is no common period", param_hint="--turns")
     return float(motion.period)

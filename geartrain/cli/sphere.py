@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from geartrain.cli.common import GOOD, PICTURES, VERDICT, Force, Json, Out, Sink, apart, as_json, draw, emit, show, sink
+from geartrain.cli.numbers import decimal
 
 if TYPE_CHECKING:
     from geartrain.report.sphere import SphereAnswers
@@ -32,7 +33,7 @@ def run(
     least: Annotated[int, typer.Option("--least", help="With --graph: teeth of the smallest gear.")] = 12,
     radius: Annotated[str, typer.Option("--radius", help="Of the sphere, or of a wheel: 5=1.25.")] = "1",
     suggest: Annotated[int, typer.Option("--suggest", help="List the best tooth sets up to so many teeth.")] = 0,
-    best: Annotated[int, typer.Option("--best", help="How many suggestions.")] = 20,
+    best: Annotated[int, typer.Option("--best", min=1, max=100_000, help="How many suggestions.")] = 20,
     survey: Annotated[bool, typer.Option("--survey", help="The table of solids.")] = False,
     json: Json = False,
     plot: Annotated[Path | None, typer.Option("--plot", help="Draw the sphere and its gears to this file.")] = None,
@@ -144,10 +145,7 @@ def _sphere_radius(configuration: Configuration, text: str) -> float:
     from geartrain.spherical.sizing import size, sphere_radius
 
     kind, wheel, number = text.rpartition("=")
-    try:
-        value = float(number)
-    except ValueError:
-        raise typer.BadParameter(f"'{text}' is no radius", param_hint="--radius") from None
+    value = decimal("--radius", number, "radius", "1.25", low=1e-30)
     if not wheel:
         return value
     if kind not in configuration.kinds:

@@ -29,6 +29,7 @@ from geartrain.cli.common import (
     tell,
 )
 from geartrain.cli.long_runs import end, means, table_text
+from geartrain.cli.numbers import MOST_COUNT
 from geartrain.cli.pictures import Plot, check_plot, draw_counts
 
 if TYPE_CHECKING:
@@ -56,10 +57,14 @@ def run(
     method: Annotated[
         str | None, typer.Option("--method", help="enumerate, decompose or sample; default the first that fits.")
     ] = None,
-    most: Annotated[int, typer.Option("--most", help="Combinations to list.")] = 20,
-    limit: Annotated[int, typer.Option("--limit", help="Combinations or steps before a sample is drawn.")] = 2_000_000,
-    samples: Annotated[int, typer.Option("--samples", help="Combinations drawn in a sample.")] = 1_000_000,
-    seed: Annotated[int, typer.Option("--seed", help="Seed of the sample.")] = 1,
+    most: Annotated[int, typer.Option("--most", min=0, max=1_000_000, help="Combinations to list.")] = 20,
+    limit: Annotated[
+        int, typer.Option("--limit", min=1, max=MOST_COUNT, help="Steps before a sample is drawn.")
+    ] = 2_000_000,
+    samples: Annotated[
+        int, typer.Option("--samples", min=1, max=MOST_COUNT, help="Combinations of a sample.")
+    ] = 1_000_000,
+    seed: Annotated[int, typer.Option("--seed", min=0, help="Seed of the sample.")] = 1,
     workers: Annotated[int | None, typer.Option("--workers", help="Processes; default this one alone.")] = None,
     scheduler: Annotated[str | None, typer.Option("--scheduler", help="Address of a dask scheduler.")] = None,
     resume: Annotated[bool, typer.Option("--resume", help="Go on with an interrupted run.")] = False,

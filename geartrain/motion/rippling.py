@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from geartrain.circuits import Circuit
-from geartrain.errors import GearTrainError, Problem
+from geartrain.errors import GearTrainError, Problem, QuestionError
 from geartrain.exact import log10
 from geartrain.motion.composition import Composition, Passage, Source
 from geartrain.motion.moving import Moving
@@ -83,6 +83,9 @@ class Motion:
     def __init__(self, train: Moving, outputs: Mapping[str, tuple[str, str]], tolerance: float | None = None) -> None:
         self.train, self.outputs, self.tolerance = train, outputs, tolerance
         self._index = {link: at for at, link in enumerate(train.system.links)}
+        if tolerance is not None and not 0 < tolerance < 1:
+            why = "a table's accuracy is a part of a pitch"
+            raise QuestionError(Problem(f"a tolerance of {tolerance:g} pitches", why, "give one such as 1e-9"))
         self._refuse_loops()
 
     # ----------------------------------------------------------------------------------------------- what it is made of

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from geartrain.errors import GearTrainError, Problem
+from geartrain.errors import GearTrainError, Problem, QuestionError
 from geartrain.motion.estimates import Estimates, find_estimates
 from geartrain.motion.peaks import Peaks
 from geartrain.motion.spectrum import Line, find_spectrum
@@ -23,6 +23,10 @@ if TYPE_CHECKING:
 
     Floats = NDArray[np.float64]
     OnDone = Callable[[int], None]
+
+
+MOST_TURNS = 10**12
+"""Beyond so many turns of an input, positions as floats no longer tell the teeth of one turn apart."""
 
 
 def _nobody(_: int) -> None:
@@ -47,6 +51,19 @@ class Run:
     spectra: dict[str, list[Line]] = field(default_factory=dict)
     done: int = 0
 
+    def __post_init__(self) -> None:
+        if not abs(self.turns) <= MOST_TURNS:
+            why = "so far away positions do not tell the teeth of one turn apart"
+            raise QuestionError(
+                Problem(
+                    f"a motion over {self.turns:g} turns", why, f"give turns from -{MOST_TURNS:g} to {MOST_TURNS:g}"
+                )
+            )
+        if self.samples < 2:
+            raise QuestionError(
+                Problem(f"{self.samples} positions of the input", "from one to the next it turns", "give 2 or more")
+            )
+
     def go(self, on_done: OnDone = _nobody) -> None:
         """Count every position; `on_done` is told of each stretch."""
         self.tallies = self.motion.tallies()
@@ -62,6 +79,8 @@ class Run:
     def try_phases(self, count: int, seed: int, on_done: OnDone = _nobody) -> None:
         """The same run with `count` sets of random phases."""
         self.seed = seed if count else None
+        if seed < 0:
+            raise QuestionError(Problem(f"a seed of {seed}", "random numbers begin at 0 or more", "give 0 or more"))
         random = np.random.default_rng(seed)
         for _ in range(count):
             other = Run(self.motion.at_random(random), self.turns, self.samples)

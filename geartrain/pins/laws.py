@@ -11,13 +11,15 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from geartrain.teeth.base import Law
+from geartrain.errors import Problem, RangeError
+from geartrain.teeth.base import Law, check_friction
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
     from geartrain.teeth.base import Floats
 
+_LEAST = 1e-40  # of any unit: the fourth power of a distance is a float
 _SAMPLES = 4096  # of a smooth periodic function: its mean by equal samples is exact to rounding unless r is close to e
 
 
@@ -48,6 +50,7 @@ class PinLaw(Law):
 
     def __init__(self, pin_radius: float, offset: float, friction: float = 0.0) -> None:
         self.r, self.e, self.friction = pin_radius, offset, friction
+        _check(pin_radius, offset, friction)
 
     @property
     def amplitude(self) -> float:
@@ -65,6 +68,27 @@ class PinLaw(Law):
 
     def _turn(self) -> Floats:
         return np.arange(_SAMPLES, dtype=np.float64) * (self.period / _SAMPLES)
+
+
+def _check(pin_radius: float, offset: float, friction: float) -> None:
+    """Raises `RangeError` for distances that are none, and where the pin passes through the slot's axis."""
+    if not (_LEAST < pin_radius < 1 / _LEAST and (offset == 0 or _LEAST < offset < 1 / _LEAST)):
+        raise RangeError(
+            Problem(
+                f"a pin radius of {pin_radius:g} and an offset of {offset:g}",
+                f"distances of a pin lie between {_LEAST:g} and {1 / _LEAST:g}",
+                "give a pin radius above 0 and an offset of 0 or more",
+            )
+        )
+    if pin_radius == offset:
+        raise RangeError(
+            Problem(
+                f"a pin radius of {pin_radius:g} equals the offset: the pin would pass through the slot's axis",
+                "there the slot's direction is undetermined; the mean ratio is 1 above and 0 below",
+                "make them differ",
+            )
+        )
+    check_friction(friction)
 
 
 class SlotLaw(PinLaw):
@@ -130,6 +154,17 @@ class BackLaw(PinLaw):
     """A slot drives its pin: pin angle = S - asin((e/r) sin S). Only where the pin's circle encloses its axis."""
 
     ratio = Fraction(1)
+
+    def __init__(self, pin_radius: float, offset: float, friction: float = 0.0) -> None:
+        super().__init__(pin_radius, offset, friction)
+        if pin_radius < offset:
+            raise RangeError(
+                Problem(
+                    f"a follower cannot drive a pin of radius {pin_radius:g} at an offset of {offset:g}",
+                    "it swings, and stands at its dead points while the pin goes on",
+                    "let the pin drive",
+                )
+            )
 
     def error(self, S: ArrayLike) -> Floats:
         """Pin angle less its mean motion (rad)."""

@@ -9,13 +9,23 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from fractions import Fraction
+from math import inf
 from typing import TYPE_CHECKING
+
+from geartrain.errors import Problem, RangeError
 
 if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import ArrayLike, NDArray
 
     Floats = NDArray[np.float64]
+
+
+def check_friction(friction: float) -> float:
+    """A coefficient of friction. Raises `RangeError` for what is none."""
+    if not 0 <= friction < inf:
+        raise RangeError(Problem(f"a friction of {friction:g}", "it would push", "give 0 or more, such as 0.1"))
+    return friction
 
 
 class Law(ABC):

@@ -14,7 +14,7 @@ import numpy as np
 from geartrain.conjugate.admissible import Fault, faults
 from geartrain.conjugate.friction import efficiency, locking_friction
 from geartrain.conjugate.involute_faults import ring_tips
-from geartrain.teeth.base import Rigid
+from geartrain.teeth.base import Rigid, check_friction
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -101,7 +101,8 @@ class ConjugateLaw(Rigid):
     """
 
     def __init__(self, pair: Pair, friction: float = 0.0, driver: int = 1, direction: int = 1) -> None:
-        self.pair, self.path, self.friction, self.driver, self.direction = pair, pair.path, friction, driver, direction
+        self.pair, self.path, self.driver, self.direction = pair, pair.path, driver, direction
+        self.friction = check_friction(friction)
         pitch = pair.path.pitch
         sizes = ((pitch.z1, pitch.reach), (pitch.z2, abs(pitch.reach2)))
         (z1, self._reach), (z2, driven) = sizes if driver == 1 else sizes[::-1]

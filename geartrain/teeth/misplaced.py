@@ -18,7 +18,7 @@ from geartrain.conjugate.admissible import Fault
 from geartrain.contact.outline import Curve, Outline, Tooth
 from geartrain.contact.solving import contact, solve
 from geartrain.contact.tabulating import tabulate
-from geartrain.teeth.base import Law
+from geartrain.teeth.base import Law, check_friction
 from geartrain.teeth.conjugate import Fitness, Pair
 
 if TYPE_CHECKING:
@@ -38,7 +38,7 @@ class MisplacedLaw(Law):
 
     def __init__(self, pair: Pair, distance: float, friction: float = 0.0, driver: int = 1, direction: int = 1) -> None:
         self.pair, self.path, self.distance = pair, pair.path, distance
-        self.friction, self.driver, self.direction = friction, driver, direction
+        self.friction, self.driver, self.direction = check_friction(friction), driver, direction
         pitch = pair.path.pitch
         z1, z2 = (pitch.z1, pitch.z2) if driver == 1 else (pitch.z2, pitch.z1)
         self.ratio, self.period = Fraction(z1, z2), 2 * pi / z1

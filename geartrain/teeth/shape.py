@@ -20,7 +20,8 @@ if TYPE_CHECKING:
     from geartrain.teeth.conjugate import ConjugateLaw, Pair
     from geartrain.teeth.misplaced import MisplacedLaw
 
-FEWEST = 3
+FEWEST, MOST_TEETH = 3, 10**9
+_LEAST_ANGLE = 1e-6  # rad: axes that meet under less are as good as parallel, and cones lost in rounding
 _DESIGN = 1e-9  # of a centre distance: nearer to the design is at it
 
 
@@ -92,10 +93,16 @@ class Wheels:
             )
         if self.internal and self.bevel:
             raise refused("a ring's axis is parallel to its pinion's", "", "give the pair no shaft angle")
-        if self.shaft_angle is not None and not 0 < self.shaft_angle < pi:
+        if max(self.z1, self.z2) > MOST_TEETH:
+            raise refused(
+                f"a wheel of {max(self.z1, self.z2)} teeth",
+                "its teeth are lost in the rounding of its radius",
+                f"give at most {MOST_TEETH:g} teeth",
+            )
+        if self.shaft_angle is not None and not _LEAST_ANGLE <= self.shaft_angle <= pi - _LEAST_ANGLE:
             raise refused(
                 f"a shaft angle of {self.shaft_angle:.6g} rad is none",
-                "bevel axes meet between 0 and 180 deg",
+                f"bevel axes meet between 0 and 180 deg, and {_LEAST_ANGLE:g} rad from either at least",
                 "give parallel axes to a spur pair",
             )
 

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from geartrain.cli.common import GOOD, PICTURES, VERDICT, Force, Json, Out, apart, as_json, draw, emit, show, sink
-from geartrain.cli.mesh.options import quantity
 from geartrain.cli.mesh.shaping import FORMS, NAMES, Question, pair, question, shape, unknown
+from geartrain.cli.numbers import quantity
 from geartrain.errors import GearTrainError, Problem
 
 if TYPE_CHECKING:

@@ -1,31 +1,8 @@
-"""Quantities as options of `geartrain mesh` give them."""
+"""Where a complaint about a pair of `geartrain mesh` belongs."""
 
 from __future__ import annotations
 
-from geartrain.errors import GearTrainError, Problem
-
-
-def quantity(place: str, text: str, dimension: str, plain: bool = False) -> float:
-    """A quantity in SI units, as an option gives it."""
-    from pydantic_core import PydanticCustomError
-
-    from geartrain.quantity import Quantity
-
-    try:
-        found = Quantity.parse(text, dimension, plain)
-    except PydanticCustomError as error:
-        raise GearTrainError(Problem(error.message(), "", str((error.context or {}).get("fix", "")), place)) from None
-    return found.si
-
-
-def friction(text: str) -> float:
-    """A coefficient of friction."""
-    found = quantity("--friction", text, "fraction", plain=True)
-    if found < 0:
-        raise GearTrainError(
-            Problem(f"a friction of {text} would push", "", "a coefficient of friction is 0 or more", "--friction")
-        )
-    return found
+from geartrain.errors import GearTrainError
 
 
 def placed(error: GearTrainError, place: str) -> GearTrainError:

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from geartrain.cli.mesh.options import friction as _friction
-from geartrain.cli.mesh.options import placed, quantity
+from geartrain.cli.mesh.options import placed
+from geartrain.cli.numbers import friction as _friction
+from geartrain.cli.numbers import quantity
 from geartrain.errors import GearTrainError, Problem
 
 if TYPE_CHECKING:
@@ -39,7 +40,8 @@ class Pair:
         z1, z2 = (varied.pop(name, z) for name, z in zip(("z1", "z2"), self.teeth, strict=True))
         friction = _friction(str(varied.pop("friction", self.friction)))
         z1, z2 = round(float(z1)), round(float(z2))
-        distance = None if self.module is None else quantity("--module", self.module, "length") * (z1 + z2) / 2
+        size = None if self.module is None else quantity("--module", self.module, "length", least="above 0")
+        distance = None if size is None else size * (z1 + z2) / 2
         try:
             return self.form(**varied).law(z1, z2, friction, self.driver, self.direction, distance)
         except GearTrainError as error:

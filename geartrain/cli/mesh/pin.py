@@ -7,8 +7,9 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from geartrain.cli.common import Force, Json, Out, as_json, emit, show, sink
-from geartrain.cli.mesh.options import friction as _friction
-from geartrain.cli.mesh.options import quantity as _quantity
+from geartrain.cli.mesh.options import placed
+from geartrain.cli.numbers import friction as _friction
+from geartrain.cli.numbers import quantity as _quantity
 from geartrain.errors import GearTrainError, Problem
 
 if TYPE_CHECKING:
@@ -42,20 +43,12 @@ def _pin_law(pin_radius: str, offset: str, friction: float, driver: str) -> PinL
         raise typer.BadParameter(f"'{driver}' is neither pin nor slot", param_hint="--driver")
     r = _quantity("--pin-radius", pin_radius, "length", plain=True)
     e = _quantity("--offset", offset, "length", plain=True)
-    if r <= 0 or e < 0:
-        fix = "give a pin radius above 0 and an offset of 0 or more"
-        raise GearTrainError(Problem(f"{pin_radius} and {offset} are no distances", "", fix, "--pin-radius"))
-    if r == e:
-        what = f"a pin radius of {pin_radius} equals the offset: the pin would pass through the slot's axis"
-        why = "there the slot's direction is undetermined; the mean ratio is 1 above and 0 below"
-        raise GearTrainError(Problem(what, why, "make them differ", "--pin-radius"))
-    if driver == "pin":
-        return SlotLaw(r, e, friction)
-    if r < e:
-        what = f"a follower cannot drive a pin of radius {pin_radius} at an offset of {offset}"
-        why = "it swings, and stands at its dead points while the pin goes on"
-        raise GearTrainError(Problem(what, why, "let the pin drive", "--driver"))
-    law = BackLaw(r, e, friction)
+    try:
+        law = (SlotLaw if driver == "pin" else BackLaw)(r, e, friction)
+    except GearTrainError as error:
+        raise placed(error, "--driver" if driver == "slot" and 0 < r < e else "--pin-radius") from None
+    if not isinstance(law, BackLaw):
+        return law
     if friction >= law.locking_friction:
         what = f"a friction of {friction:g} locks the pin in its slot"
         why = f"the pin locks from {law.locking_friction:.6g} on when the slot drives"

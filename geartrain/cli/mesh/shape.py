@@ -11,9 +11,9 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from geartrain.cli.common import GOOD, PICTURES, VERDICT, Force, Json, Out, Sink, apart, as_json, draw, emit, show, sink
-from geartrain.cli.mesh.options import friction as _friction
-from geartrain.cli.mesh.options import quantity
 from geartrain.cli.mesh.shaping import FORMS, Question, pair, question, shape
+from geartrain.cli.numbers import friction as _friction
+from geartrain.cli.numbers import quantity
 from geartrain.errors import GearTrainError, Problem
 
 if TYPE_CHECKING:

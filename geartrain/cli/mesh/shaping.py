@@ -6,7 +6,8 @@ from dataclasses import dataclass
 from difflib import get_close_matches
 from typing import TYPE_CHECKING, Any
 
-from geartrain.cli.mesh.options import placed, quantity
+from geartrain.cli.mesh.options import placed
+from geartrain.cli.numbers import quantity
 from geartrain.errors import GearTrainError, Problem
 
 if TYPE_CHECKING:

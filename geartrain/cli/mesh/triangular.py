@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from geartrain.cli.common import GOOD, PICTURES, VERDICT, Force, Json, Out, Sink, apart, as_json, draw, emit, show, sink
-from geartrain.cli.mesh.options import quantity as _quantity
 from geartrain.cli.mesh.pair import VARIED, Pair
 from geartrain.cli.mesh.sweeping import sweep
+from geartrain.cli.numbers import quantity as _quantity
 
 if TYPE_CHECKING:
     from geartrain.teeth.triangular.law import TriangularLaw
@@ -94,9 +94,9 @@ def _page(pair: Pair, law: TriangularLaw, run: tuple[str | None, str | None, str
 
     inertia, rate, load = run
     running = report.Running(
-        None if inertia is None else _quantity("--inertia", inertia, "inertia"),
-        None if rate is None else _quantity("--rate", rate, "speed") / RADIANS_PER_TURN,
-        None if load is None else _quantity("--load", load, "torque"),
+        None if inertia is None else _quantity("--inertia", inertia, "inertia", least="above 0"),
+        None if rate is None else _quantity("--rate", rate, "speed", least="above 0") / RADIANS_PER_TURN,
+        None if load is None else _quantity("--load", load, "torque", least="0"),
     )
     found = find_window(law.sizes) if law.sizes.has_valleys else None
     if json or to.suffix == ".json":

@@ -31,7 +31,7 @@ def run(
     tolerance: Annotated[
         str | None, typer.Option("--tolerance", help="Greatest relative error: 1e-6, 20 ppm, 0.001 %.")
     ] = None,
-    best: Annotated[int, typer.Option("--best", min=1, help="How many solutions to list.")] = 20,
+    best: Annotated[int, typer.Option("--best", min=1, max=100_000, help="How many solutions to list.")] = 20,
     by: Annotated[
         str, typer.Option("--by", help="Order: error, total, largest, distinct, hunting, centres; in a train: change.")
     ] = "error",
@@ -41,7 +41,7 @@ def run(
     hunting: Annotated[Flag, typer.Option("--hunting", help="Wheels that mesh have no common divisor.")] = False,
     reverted: Annotated[Flag, typer.Option("--reverted", help="All pairs have one centre distance.")] = False,
     different: Annotated[Flag, typer.Option("--different", help="No count is there twice.")] = False,
-    most_total: Annotated[int | None, typer.Option("--most-total", help="Greatest sum of all counts.")] = None,
+    most_total: Annotated[int | None, typer.Option("--most-total", min=2, help="Greatest sum of all counts.")] = None,
     kind: Annotated[
         str | None, typer.Option("--kind", help="An epicyclic set instead of stages; 'list' names the kinds.")
     ] = None,

@@ -7,6 +7,7 @@ from typing import Any
 import typer
 
 from geartrain.cli.common import STANDARD, Sink, as_json, emit, show
+from geartrain.cli.numbers import decimal
 from geartrain.cli.teeth.asking import Asked
 
 
@@ -78,7 +79,4 @@ def _number(text: str | None, default: str, option: str) -> int:
 
 
 def _decimal(text: str | None) -> float:
-    try:
-        return float(text or 0)
-    except ValueError:
-        raise typer.BadParameter(f"'{text}' is no number of modules", param_hint="--clearance") from None
+    return decimal("--clearance", text or "0", "number of modules", "0.5")

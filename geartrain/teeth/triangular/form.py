@@ -20,6 +20,7 @@ _ONE_OR_TWO = {
     "anyOf": [{"type": "string"}, {"type": "array", "items": {"type": "string"}, "minItems": 2, "maxItems": 2}]
 }
 FEWEST = 3
+_THINNEST = 0.001 / 360  # turn: thinner teeth are lines, whose valleys are lost in rounding
 COVERS = (
     "the model covers external pairs of spur wheels, no rings, racks or bevels; a contrate is taken for a spur wheel"
 )
@@ -58,13 +59,15 @@ class Triangular(BaseModel):
     def _parameters_make_sense(self) -> Triangular:
         for angle in self.half_angle:
             turns = angle.si / RADIANS_PER_TURN
-            if not 0 < turns < 0.25:
+            if not _THINNEST <= turns < 0.25:
+                within = "outside 0 to 90 deg" if not 0 < turns < 0.25 else "thinner than any tooth can be cut"
                 raise PydanticCustomError(
                     "half_angle",
-                    "half_angle {angle} is outside 0 to 90 deg",
+                    "half_angle {angle} is {within}",
                     {
                         "angle": angle.text,
-                        "fix": "a triangular tooth has a half aperture between 0 and 90 deg",
+                        "within": within,
+                        "fix": "a triangular tooth has a half aperture between 0 and 90 deg, and 0.001 deg at least",
                     },
                 )
         given = [name for name in _CLEARANCES if getattr(self, name) is not None]

@@ -12,9 +12,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from geartrain.errors import GearTrainError, Problem
+from geartrain.errors import Problem, RangeError
 from geartrain.roots import bracketed_root
-from geartrain.teeth.base import Law, behind
+from geartrain.teeth.base import Law, behind, check_friction
 from geartrain.teeth.triangular.contact import APPROACH
 from geartrain.teeth.triangular.meshing import Contact, Meshing
 from geartrain.teeth.triangular.path import Interval
@@ -70,7 +70,7 @@ class TriangularLaw(Law):
     """
 
     def __init__(self, sizes: Sizes, friction: float = 0.0, direction: int = 1) -> None:
-        self.sizes, self.friction, self.direction = sizes, friction, direction
+        self.sizes, self.friction, self.direction = sizes, check_friction(friction), direction
         self.ratio, self.period = Fraction(sizes.z1, sizes.z2), sizes.p1
         self.contact = _contact(sizes)
 
@@ -141,17 +141,23 @@ class TriangularLaw(Law):
                 each[chosen] = function(interval, x)
 
     @cached_property
+    def _driven(self) -> tuple[Interval, ...]:
+        """The real path. Raises `RangeError` for a pair that has none: it has no law."""
+        if not self.intervals:
+            what = "give a clearance within the window of the pair, or teeth that exist"
+            raise RangeError(Problem(self.verdict.text, "these teeth have no law", what))
+        return self.intervals
+
+    @cached_property
     def _start(self) -> float:
         """Where the first interval starts, as a position within the pitch of the line of centres."""
-        if not self.intervals:
-            raise GearTrainError(Problem(self.verdict.text, "these teeth have no law", "see the window of the pair"))
-        first = self.intervals[0]
+        first = self._driven[0]
         return (first.start - first.couple * self.period) % self.period
 
     @cached_property
     def _edges(self) -> Floats:
         """The driver's angle from the start of the first interval to the edges of all."""
-        return np.concatenate(([0.0], np.cumsum([interval.width for interval in self.intervals])))
+        return np.concatenate(([0.0], np.cumsum([interval.width for interval in self._driven])))
 
     def corners(self) -> list[float]:
         """Driver angles (rad) at the ends of all stretches."""
@@ -179,7 +185,7 @@ class TriangularLaw(Law):
         """The intervals cut where something has a corner: where tau turns, and at the line of centres."""
         return [
             (interval, high, low)
-            for interval in self.intervals
+            for interval in self._driven
             for high, low in pairwise(sorted({interval.start, interval.end, *self._corners(interval)}, reverse=True))
         ]
 
@@ -309,7 +315,7 @@ class TriangularLaw(Law):
     def jumps(self) -> list[Jump]:
         """Every collision of a pitch, in order of time."""
         found = []
-        for last, new in zip(self.intervals, (*self.intervals[1:], self.intervals[0]), strict=True):
+        for last, new in zip(self._driven, (*self._driven[1:], self._driven[0]), strict=True):
             if new.held is not None:
                 continue
             before, after = self.contact.speed(last, last.end), self.contact.speed(new, new.start)

@@ -9,6 +9,9 @@ from dataclasses import dataclass
 from functools import cached_property
 from math import asin, cos, inf, pi, sin, sqrt
 
+from geartrain.errors import Problem, RangeError
+
+_LEAST = 1e-40  # of any unit: the fourth power of a radius is a float
 _GRAZING = 1 - 1e-12  # sine of the angle between flank and driven radius: at 1 the speed ratio is infinite
 _NEARLY_GRAZING = 2e-6  # rad: a little more than that sine leaves to a right angle
 
@@ -50,6 +53,21 @@ class Sizes:
     beta1: float
     beta2: float
     excess: float
+
+    def __post_init__(self) -> None:
+        # without valleys there are no teeth, and radii of equal depth may come out negative: a verdict says so
+        exist = min(self.z1, self.z2) >= 1 and self.has_valleys
+        lengths = all(_LEAST < (radius if exist else abs(radius)) < 1 / _LEAST for radius in (self.R1, self.R2))
+        angles = all(0 < beta < pi / 2 for beta in (self.beta1, self.beta2))
+        if min(self.z1, self.z2) < 1 or not (lengths and angles and -1 < self.excess < inf):
+            raise RangeError(
+                Problem(
+                    f"{self.z1} and {self.z2} teeth, outer radii {self.R1:g} and {self.R2:g}, half apertures "
+                    f"{self.beta1:g} and {self.beta2:g} rad, excess {self.excess:g} are no pair of triangular teeth",
+                    f"radii lie between {_LEAST:g} and {1 / _LEAST:g}, half apertures between 0 and a right angle",
+                    "give at least 3 teeth, radii and half apertures above 0, and an excess above 0",
+                )
+            )
 
     @cached_property
     def depths(self) -> tuple[float, float]:

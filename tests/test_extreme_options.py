@@ -1,0 +1,304 @@
+"""Every option that takes a number, with numbers nobody means: a right answer or a refusal with what to do."""
+
+from __future__ import annotations
+
+import json
+import signal
+import warnings
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from math import inf, nan, pi
+from pathlib import Path
+from types import FrameType
+
+import numpy as np
+import pytest
+from commands import call
+from hypothesis import Phase, given, settings
+from hypothesis import strategies as st
+
+import geartrain
+from geartrain.errors import GearTrainError
+from geartrain.motion import Run
+from geartrain.pins.laws import BackLaw, PinLaw, SlotLaw
+from geartrain.teeth.triangular.law import TriangularLaw
+from geartrain.teeth.triangular.sizes import Sizes, equal_depth
+
+PLAIN = (
+    "0",
+    "-0",
+    "-1",
+    "1",
+    "0.5",
+    "3.7",
+    "1e-300",
+    "-1e-300",
+    "1e-9",
+    "1e9",
+    "1e17",
+    "1e300",
+    "-1e300",
+    "1e999",
+    "nan",
+)
+PLAIN += ("inf", "-inf", "9" * 25, "", " ", "1/0", "x", "1,1", "1,", "1:2:3")
+UNITS = {"angle": "deg", "length": "mm", "torque": "N m", "speed": "turn/s", "inertia": "kg m2", "number": ""}
+SECONDS = 60
+
+PAIR = """
+name: pair
+links: {frame: {}, a: {wheels: {x: {teeth: 48, module: 1 mm}}}, b: {wheels: {y: {teeth: 96, module: 1 mm}}}}
+revolutes: [{pair: [frame, a], axis: A}, {pair: [frame, b], axis: B}]
+gears: [{pair: [x, y], friction: 0.1, tooth_form: {form: triangular, half_angle: 30 deg, clearance: 1.01}}]
+frame: frame
+inputs: {a: 1}
+outputs: {b: }
+"""
+
+TRIANGULAR = ("mesh", "triangular", "--teeth", "48", "96")
+CONJUGATE = {
+    "involute": ("pressure-angle:angle", "shift", "addendum", "dedendum", "centre-distance"),
+    "cycloidal": ("rolling", "addendum", "arcs", "centre-distance"),
+    "lantern": ("pin-diameter", "pin-radius", "arcs", "addendum", "pins"),
+    "uniform_stress": ("pressure-angle:angle", "arcs"),
+    "uniform_temperature": ("heat", "depth", "least-angle:angle", "arcs"),
+    "least_friction": ("pressure-angle:angle", "margin", "arcs"),
+}
+SHARED = ("friction", "bevel:angle", "backlash", "driver", "module:length")
+OUTLINED = (
+    "clearance:length",
+    "fillet:length",
+    "bore:length",
+    "rim:length",
+    "tolerance:length",
+    "wheel",
+    "module:length",
+)
+
+# the command without the option, and the options of each kind; {pair} is a small train, {out} a folder that is new
+CASES: list[tuple[tuple[str, ...], tuple[str, ...]]] = [
+    (
+        TRIANGULAR,
+        ("half-angle:angle", "clearance", "excess", "window", "backlash", "centre-distance", "radii", "driver"),
+    ),
+    ((*TRIANGULAR, "--clearance", "1.01"), ("half-angle:angle", "module:length", "friction", "radii")),
+    (
+        (*TRIANGULAR, "--clearance", "1.01", "--module", "2mm", "--rate", "1turn/s", "--load", "1N*m"),
+        ("inertia:inertia",),
+    ),
+    (
+        (*TRIANGULAR, "--clearance", "1.01", "--module", "2mm", "--inertia", "1kg*m2", "--load", "1N*m"),
+        ("rate:speed",),
+    ),
+    (
+        (*TRIANGULAR, "--clearance", "1.01", "--module", "2mm", "--inertia", "1kg*m2", "--rate", "1turn/s"),
+        ("load:torque",),
+    ),
+    ((*TRIANGULAR, "--clearance", "1.01", "--teeth-plot", "{out}/t.svg"), ("at:angle",)),
+    (("mesh", "pin", "--offset", "2"), ("pin-radius", "pin-radius:length")),
+    (("mesh", "pin", "--pin-radius", "10"), ("offset", "offset:length", "friction", "driver")),
+    (("mesh", "pin", "--pin-radius", "10", "--offset", "12", "--driver", "slot"), ("friction",)),
+    (("mesh", "compare", "--teeth", "24", "36"), ("arcs", "pressure-angle:angle", "bevel:angle", "forms")),
+    *(
+        (("mesh", form, "--teeth", "24", "36", *more), (*own, *SHARED))
+        for form, own in CONJUGATE.items()
+        for more in ((), ("--friction", "0.1", "--backlash", "0.01"))
+    ),
+    *(
+        (("mesh", form, "--teeth", "24", "36", "--module", "1mm", "--profile", "{out}/w.svg"), OUTLINED)
+        for form in ("involute", "lantern")
+    ),
+    (("motion", "{pair}", "--samples", "40"), ("turns", "seed", "phases", "tabulated", "output")),
+    (("motion", "{pair}", "--samples", "40", "--turns", "3", "--spectrum", "--estimates"), ("turns", "tabulated")),
+    (("motion", "{pair}", "--turns", "3"), ("samples:few",)),
+    (("errors", "{pair}", "--trials", "4"), ("seed", "set", "clearance", "tolerance", "jam", "workers:few")),
+    (("errors", "{pair}"), ("trials:few",)),
+    (("sweep", "{pair}", "--free", "x=47:49"), ("tolerance", "scale", "most", "limit", "samples:few", "seed", "free")),
+    (("teeth", "5.25"), ("stages", "range", "wheels", "pinions", "tolerance", "best", "most-total", "pick", "shift")),
+    (("teeth", "5.25", "--kind", "simple"), ("planets", "clearance", "ratio-is", "best", "tolerance", "mode")),
+    (("teeth", "a=3.2", "b=7.1"), ("effort", "walk", "tolerance", "best", "range")),
+    (("sphere", "cube"), ("teeth", "radius", "suggest", "best")),
+    (("draw", "{pair}", "-o", "{out}/d.svg"), ("turns",)),
+    (("export", "{pair}", "--to", "{out}/e", "--as", "svg"), ("module:length", "thickness:length", "bore:length")),
+    (("export", "{pair}", "--to", "{out}/e", "--as", "svg"), ("backlash:length", "turns")),
+    (("export", "planetary-24-18-60", "--to", "{out}/e", "--as", "svg", "--module", "1mm"), ("backlash:length",)),
+]
+
+
+@contextmanager
+def bounded(seconds: int) -> Iterator[None]:
+    """Whoever does not answer in time is endless."""
+
+    def stop(_: int, __: FrameType | None) -> None:
+        raise TimeoutError(f"no answer within {seconds} s")
+
+    old = signal.signal(signal.SIGALRM, stop)
+    signal.alarm(seconds)
+    try:
+        yield
+    finally:
+        signal.alarm(0)
+        signal.signal(signal.SIGALRM, old)
+
+
+def judge(arguments: list[str]) -> str:
+    """What is wrong with the answer of the command; empty if it answers, or refuses in the way of a user."""
+    with warnings.catch_warnings(record=True) as caught, bounded(SECONDS):
+        warnings.simplefilter("always")
+        done = call(*arguments)
+    found = done.exception
+    if isinstance(found, GearTrainError):
+        lame = [problem for problem in found.problems if not problem.what or not problem.fix]
+        return f"no way out of: {lame[0].what}" if lame else ""
+    if found is not None and not isinstance(found, SystemExit):
+        return f"{type(found).__name__}: {found}"
+    if done.exit_code not in (0, 1, 2):
+        return f"exit code {done.exit_code}"
+    loud = [str(each.message) for each in caught if issubclass(each.category, RuntimeWarning)]
+    if loud:
+        return f"warns: {loud[0]}"
+    if "--json" in arguments and done.exit_code < 2:
+        try:
+            json.loads(done.stdout, parse_constant=lambda name: pytest.fail(f"{name} in JSON"))
+        except json.JSONDecodeError as error:
+            return f"no JSON: {error}"
+    return ""
+
+
+def asked(option: str, value: str) -> list[str]:
+    """The option with a value, in the unit of its kind."""
+    name, _, kind = option.partition(":")
+    if kind == "few" and value in ("1e9", "9" * 25):
+        value = "7"
+    unit = UNITS.get(kind, "")
+    return [f"--{name}={value}{' ' * bool(unit)}{unit}"]
+
+
+def command(base: tuple[str, ...], folder: Path, number: int) -> list[str]:
+    file = folder / "pair.yaml"
+    if not file.exists():
+        file.write_text(PAIR, encoding="utf-8")
+    out = folder / str(number)
+    out.mkdir(exist_ok=True)
+    return [part.format(pair=file, out=out) for part in base]
+
+
+KEPT = [
+    ("mesh triangular --teeth 48 96 --clearance 1.01", "half-angle:angle", "1e-300"),
+    ("mesh triangular --teeth 48 96 --clearance 1.01", "half-angle:angle", "1e-9"),
+    ("mesh triangular --teeth 48 96 --clearance 1.01", "module:length", "0"),
+    ("mesh triangular --teeth 48 96 --clearance 1.01", "module:length", "-1"),
+    ("mesh triangular --teeth 48 96 --clearance 1.01", "module:length", "1e300"),
+    ("mesh triangular --teeth 48 96 --clearance 1.01 --module 2mm --rate 1turn/s", "inertia:inertia", "0"),
+    ("mesh triangular --teeth 48 96 --clearance 1.01 --module 2mm --inertia 1kg*m2", "rate:speed", "1e300"),
+    ("mesh pin --offset 2", "pin-radius", "1e300"),
+    ("mesh pin --pin-radius 10", "offset:length", "1e300"),
+    ("mesh compare --teeth 24 36", "bevel:angle", "1e-300"),
+    ("mesh cycloidal --teeth 24 36", "bevel:angle", "1e-300"),
+    ("motion {pair} --samples 40", "turns", "1e300"),
+    ("motion {pair} --samples 40", "turns", "nan"),
+    ("motion {pair} --samples 40", "turns", "-inf"),
+    ("motion {pair} --samples 40", "tabulated", "nan"),
+    ("motion {pair} --samples 40", "tabulated", "-1"),
+    ("motion {pair} --samples 40", "seed", "-1"),
+    ("motion {pair} --samples 40", "phases", "9" * 25),
+    ("draw {pair} -o {out}/d.svg", "turns", "inf"),
+    ("sphere cube", "radius", "inf"),
+    ("sphere cube", "radius", "nan"),
+    ("teeth 5.25", "best", "9" * 25),
+    ("teeth 5.25", "most-total", "0"),
+    ("sweep {pair} --free x=47:49", "seed", "-1"),
+]
+"""What once ended in a traceback, in nonsense or never."""
+
+ALL = [(" ".join(base), option, value) for base, options in CASES for option in options for value in PLAIN]
+
+
+def said(text: str, option: str, value: str, folder: Path, number: int) -> str:
+    """What is wrong with one command; empty if nothing is."""
+    base = tuple(text.split(" "))
+    told = ["--json"] if base[0] in ("mesh", "motion", "sweep", "teeth", "sphere") and "--profile" not in base else []
+    arguments = [*command(base, folder, number), *asked(option, value), *told]
+    try:
+        found = judge(arguments)
+    except TimeoutError as error:
+        found = str(error)
+    return found and f"{' '.join(arguments)}\n    {found}"
+
+
+@pytest.mark.parametrize(("text", "option", "value"), KEPT)
+def test_what_once_broke_the_command_is_answered_or_refused(text: str, option: str, value: str, tmp_path: Path) -> None:
+    assert not said(text, option, value, tmp_path, 0)
+
+
+@given(st.sampled_from(ALL), st.integers(0, 10**9))
+@settings(max_examples=120, deadline=None, phases=(Phase.reuse, Phase.generate))
+def test_any_option_of_a_number_takes_or_refuses_any_number(
+    tmp_path_factory: pytest.TempPathFactory, one: tuple[str, str, str], number: int
+) -> None:
+    assert not said(*one, tmp_path_factory.getbasetemp(), number)
+
+
+# ------------------------------------------------------------------------------------------------------- the library
+
+ODD = (0.0, -1.0, 1e-300, 1e300, nan, inf, -inf, 0.3, 1.01, 30.0)
+
+
+def right_or_refused(ask: Callable[[], list[float]]) -> bool:
+    """True for finite numbers, and for a refusal that says what to do."""
+    try:
+        found = ask()
+    except GearTrainError as error:
+        return all(problem.what and problem.fix for problem in error.problems)
+    return bool(np.isfinite(found).all())
+
+
+@given(*[st.sampled_from(ODD)] * 3, st.integers(-1, 40), st.integers(-1, 40))
+@settings(max_examples=150, deadline=None)
+def test_sizes_and_laws_of_triangular_teeth_take_or_refuse_any_number(
+    radius: float, beta: float, excess: float, z1: int, z2: int
+) -> None:
+    def ask() -> list[float]:
+        law = TriangularLaw(Sizes(z1, z2, radius, radius, beta, beta, excess), 0.1)
+        return [*law.error_range(), *law.speed_range(), *law.error_moments(), *law.error(np.linspace(0, 9, 7))]
+
+    with warnings.catch_warnings(), bounded(SECONDS):
+        warnings.simplefilter("error")
+        assert right_or_refused(ask)
+
+
+@given(st.sampled_from(ODD), st.sampled_from(ODD), st.sampled_from(ODD), st.sampled_from((SlotLaw, BackLaw)))
+def test_laws_of_pins_take_or_refuse_any_number(r: float, e: float, friction: float, law: type[PinLaw]) -> None:
+    def ask() -> list[float]:
+        made = law(r, e, friction)
+        return [made.amplitude, *made.speed_range(), *made.error_moments(), *made.error(np.linspace(0, 9, 7))]
+
+    assert right_or_refused(ask)
+
+
+@pytest.mark.parametrize(
+    "ask",
+    [
+        TriangularLaw.error_range,
+        TriangularLaw.speed_range,
+        TriangularLaw.error_moments,
+        TriangularLaw.efficiency_mean,
+        TriangularLaw.efficiency_at_constant_load,
+        TriangularLaw.corners,
+        lambda law: law.jumps,
+    ],
+)
+@pytest.mark.parametrize("excess", [0.04, 1.0, 1e300])
+def test_the_law_of_wheels_apart_is_refused_in_words(ask: Callable[[TriangularLaw], object], excess: float) -> None:
+    radii = equal_depth(48, 96, pi / 6, pi / 6)
+    law = TriangularLaw(Sizes(48, 96, *radii, pi / 6, pi / 6, excess))
+    assert law.verdict.kind == "apart"
+    with pytest.raises(GearTrainError, match="too far apart"):
+        ask(law)
+
+
+@pytest.mark.parametrize("turns", [1e300, nan, inf, -inf, 1e13])
+def test_a_motion_over_turns_that_no_position_tells_apart_is_refused(turns: float) -> None:
+    motion = geartrain.load(PAIR).motion()
+    with pytest.raises(GearTrainError, match="a motion over"):
+        Run(motion, turns, 10)

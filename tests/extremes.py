@@ -7,7 +7,7 @@ against its reference; the tests bound the errors, and a page of the documentati
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property, partial
@@ -515,11 +515,11 @@ def pin_near_offset(more: float, turns: float) -> Measured:
 CIRCULATING = (50, 45, 40, 44)  # basic ratio 100/99: the right sun makes 1/99 turn back for a turn of the arm
 
 
-def balanced(counts: tuple[int, int, int, int], etas: Sequence[Fraction]) -> list[Fraction]:
+def balanced(counts: tuple[int, int, int, int], etas: Sequence[Mapping[int, Fraction]]) -> list[Fraction]:
     """Efficiencies from the arm, at one turn, to the right sun, the left held: one for each way power can flow.
 
     Moments of one pair on its two wheels have one sign and the ratio of the teeth, times eta where the first wheel
-    drives as seen from the arm, over eta where the second does.
+    drives as seen from the arm (1), over eta where the second does (-1).
     """
     left_teeth, p, q, r = counts
     left = Fraction(-1)
@@ -529,8 +529,8 @@ def balanced(counts: tuple[int, int, int, int], etas: Sequence[Fraction]) -> lis
     found = []
     for first, second in product((1, -1), repeat=2):
         from_planet = -resisting
-        from_left = -from_planet * q / (r * etas[1] ** second)  # on the planet, against what the right sun does to it
-        held = -from_left * left_teeth / (p * etas[0] ** first)
+        from_left = -from_planet * q / (r * etas[1][second] ** second)  # on the planet, against what the right sun does to it
+        held = -from_left * left_teeth / (p * etas[0][first] ** first)
         if from_left * planet * first >= 0 and from_planet * right * second >= 0:
             found.append(resisting * (right + 1) / (resisting + held))
     return found
@@ -545,8 +545,9 @@ def lost_in_circulation(friction: float) -> Measured:
     """Efficiency from the arm to the slow sun, of teeth that rub: relative."""
     train = circulating(f"{triangular()}, friction: {friction}")
     torques, seconds = timed(lambda: train.driven("right", ARM))
-    exact = (Couple.of(sizes).mean_efficiency(mp.mpf(friction))[0] for sizes in _sizes(train))
-    (true,) = balanced(CIRCULATING, [Fraction(str(eta)) for eta in exact])
+    means = [Couple.of(sizes).mean_efficiency(mp.mpf(friction)) for sizes in _sizes(train)]
+    # the moment on the right sun is given, then that on the planet: on what is driven (1), or on the driver (-1)
+    (true,) = balanced(CIRCULATING, [{1: Fraction(str(load)), -1: Fraction(str(drive))} for drive, load in means])
     return Measured(float(abs(torques.efficiency / true - 1)), seconds)
 
 

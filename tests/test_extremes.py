@@ -99,7 +99,7 @@ def test_a_differential_near_locking_cannot_be_driven_from_its_slow_side(teeth: 
 @pytest.mark.parametrize("eta", [Fraction(9, 10), Fraction(99, 100), Fraction(999, 1000), 1 - Fraction(1, 10**12)])
 def test_the_efficiency_of_circulating_power_is_exact(eta: Fraction) -> None:
     train = circulating(f"efficiency: {eta}")
-    (true,) = balanced(CIRCULATING, (eta, eta))
+    (true,) = balanced(CIRCULATING, ({1: eta, -1: eta},) * 2)
     assert train.driven("right", ARM).efficiency == true
     # from the slow sun to the arm: what is lost of a hundred times the power must be less than the power
     back = train.driven(ARM, "right")

@@ -329,14 +329,15 @@ gears:
     tooth_form: {{form: involute, shift: [{x1}, {x2}], addendum: [{add1}, {add2}]}}
 inputs: {{a: 1}}
 outputs: {{b: }}
-loads: {{b: 1 N m}}
+loads: {{b: {load} N m}}
 """
 
 
 @pytest.mark.parametrize("pair", [ISSUE, AFTER, BEFORE], ids=["ring", "after", "before"])
 def test_a_train_moves_and_loses_what_its_one_sided_teeth_say(pair: Drawn, tmp_path: Path) -> None:
     given = {name: getattr(pair, name) for name in ("z1", "z2", "x1", "x2", "add1", "add2")}
-    text = TRAIN.format(**given, internal=", internal: true" if pair.ring else "")
+    # against the turning of b, so that a drives
+    text = TRAIN.format(**given, internal=", internal: true" if pair.ring else "", load=-1 if pair.ring else 1)
     train, file = geartrain.load(text), tmp_path / "one.yaml"
     file.write_text(text, encoding="utf-8")
     (mesh,) = train.meshes
@@ -352,7 +353,7 @@ def test_a_train_moves_and_loses_what_its_one_sided_teeth_say(pair: Drawn, tmp_p
 def test_a_train_of_one_sided_teeth_is_exported(tmp_path: Path) -> None:
     given = {name: getattr(ISSUE, name) for name in ("z1", "z2", "x1", "x2", "add1", "add2")}
     file = tmp_path / "ring.yaml"
-    file.write_text("name: ring\n" + TRAIN.format(**given, internal=", internal: true"), encoding="utf-8")
+    file.write_text("name: ring\n" + TRAIN.format(**given, internal=", internal: true", load=-1), encoding="utf-8")
     done = call("export", file, "--to", tmp_path / "out", "--as", "svg,dxf", "--thickness", "2mm")
     assert done.exit_code == 0, done.output
     assert list((tmp_path / "out").rglob("*.dxf"))

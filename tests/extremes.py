@@ -529,7 +529,9 @@ def balanced(counts: tuple[int, int, int, int], etas: Sequence[Mapping[int, Frac
     found = []
     for first, second in product((1, -1), repeat=2):
         from_planet = -resisting
-        from_left = -from_planet * q / (r * etas[1][second] ** second)  # on the planet, against what the right sun does to it
+        from_left = (
+            -from_planet * q / (r * etas[1][second] ** second)
+        )  # on the planet, against what the right sun does to it
         held = -from_left * left_teeth / (p * etas[0][first] ** first)
         if from_left * planet * first >= 0 and from_planet * right * second >= 0:
             found.append(resisting * (right + 1) / (resisting + held))

@@ -184,6 +184,22 @@ def turned(quaternions: np.ndarray) -> np.ndarray:
     return np.unwrap(angle)
 
 
+@pytest.mark.parametrize("internal", ["", ", internal: true"])
+def test_a_wheel_of_more_teeth_than_are_cut_is_its_pitch_circle(internal: str) -> None:
+    teeth = 10**6
+    work = inline(f"""
+        links: {{frame: {{}}, a: {{wheels: {{p: {{teeth: {teeth}{internal}}}}}}}, b: {{wheels: {{w: 60}}}}}}
+        revolutes: [{{pair: [frame, a], axis: A}}, {{pair: [frame, b], axis: B}}]
+        gears: [{{pair: [p, w]}}]
+        inputs: {{a: 1}}
+    """)
+    part = next(part for part in work.parts if part.name == "p")
+    wheel = next(wheel for wheel in work.scene.wheels if wheel.id == "p")
+    assert len(part.solid.vertices) < 10**5
+    across = np.hypot(*part.solid.vertices[:, :2].T)
+    assert float(abs(across - wheel.radius).min()) < 1e-9 * wheel.radius
+
+
 def test_trimesh_reads_the_bodies_of_a_glb_in_metres() -> None:
     trimesh = pytest.importorskip("trimesh")
     pytest.importorskip("pygltflib")

@@ -10,6 +10,7 @@ import numpy as np
 
 from geartrain.export.solid import Solid, between, joined, raised
 from geartrain.export.triangles import fill
+from geartrain.teeth.standard import MOST_TEETH
 
 if TYPE_CHECKING:
     from geartrain.export.triangles import Floats, Integers
@@ -18,6 +19,7 @@ if TYPE_CHECKING:
 _WEB = 0.75  # of the pitch radius: where the teeth of a crown wheel end inwards
 _FACE = 0.7  # a bevel tooth ends at this part of its cone's length, or where its thickness does
 _SLICES = 48  # of a worm
+_SIDES = 720  # of a wheel without teeth
 
 
 def likeness_solid(wheel: Wheel, profile: Profile, hand: int = 1) -> Solid:
@@ -36,7 +38,12 @@ def likeness_solid(wheel: Wheel, profile: Profile, hand: int = 1) -> Solid:
 
 
 def _polar(wheel: Wheel, profile: Profile) -> tuple[Floats, Floats]:
-    """Radius (mm) and angle of the whole outline; a point where two teeth meet stands once."""
+    """Radius (mm) and angle of the whole outline; a point where two teeth meet stands once.
+
+    Of a wheel of more teeth than are cut it is the pitch circle.
+    """
+    if wheel.teeth > MOST_TEETH:
+        return np.full(_SIDES, wheel.radius), np.arange(_SIDES) * 2 * pi / _SIDES
     r, angle = np.array(profile.points, dtype=float)[:-1].T
     turn = angle[None, :] + 2 * pi * np.arange(wheel.teeth)[:, None] / wheel.teeth
     return np.tile(r * wheel.radius, wheel.teeth), turn.reshape(-1)
@@ -46,7 +53,8 @@ def _section(wheel: Wheel, profile: Profile) -> tuple[Floats, Integers]:
     r, turn = _polar(wheel, profile)
     outline = np.stack([r * np.cos(turn), r * np.sin(turn)], axis=1)
     if wheel.kind == "ring":
-        around = np.arange(max(48, wheel.teeth)) * 2 * pi / max(48, wheel.teeth)
+        sides = min(max(48, wheel.teeth), MOST_TEETH)
+        around = np.arange(sides) * 2 * pi / sides
         rim = (wheel.root + 2 * wheel.module) * np.stack([np.cos(around), np.sin(around)], axis=1)
         return fill(rim, [outline])
     # every tooth is seen from the middle: a fan

@@ -17,7 +17,7 @@ ADDENDUM, DEDENDUM = 1.0, 1.25  # modules: those of the tallest, and the depth o
 PLAY = 0.05  # modules, of a pair of such wheels as they are cut where nothing else is said
 _ANGLES = (20, 25, 30, 32)  # deg: the flattest at which all wheels that hang together run is taken
 _ADDENDA = (ADDENDUM, 0.9, 0.8, 0.7, 0.6, 0.5, 0.4, 0.3)  # modules: the tallest that run are taken
-_MOST_TEETH = 10_000
+MOST_TEETH = 10_000
 
 
 @dataclass(frozen=True, slots=True)
@@ -121,8 +121,8 @@ def standard_form(first: Teeth, second: Teeth, play: float) -> Involute:
 
 def check_size(z: int) -> None:
     """Raise `GearTrainError` for a wheel of more teeth than are ever cut."""
-    if z > _MOST_TEETH:
-        what, why = f"a wheel of {z} teeth is not cut tooth by tooth", f"a wheel has {_MOST_TEETH} at most"
+    if z > MOST_TEETH:
+        what, why = f"a wheel of {z} teeth is not cut tooth by tooth", f"a wheel has {MOST_TEETH} at most"
         raise GearTrainError(Problem(what, why, "take a disc for a likeness"))
 
 

@@ -222,7 +222,7 @@ def test_a_pin_has_a_page_and_its_limits() -> None:
     for arguments, said in (
         (["--pin-radius", "9mm", "--offset", "9mm"], "through the slot's axis"),
         (["--pin-radius", "1mm", "--offset", "9mm", "--driver", "slot"], "cannot drive"),
-        (["--pin-radius", "9mm", "--offset", "-1mm"], "no distances"),
+        (["--pin-radius", "9mm", "--offset", "-1mm"], "an offset of 0 or more"),
         (["--pin-radius", "9mm", "--offset", "8mm", "--driver", "slot", "--friction", "2"], "locks"),
     ):
         done = process("mesh", "pin", *arguments)

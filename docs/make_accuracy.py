@@ -125,9 +125,9 @@ Declaring, finding circuits and solving exactly grow nearly linearly with the li
 much in a train of a hundred thousand as in one of a thousand, whose data fit a cache; a chain's numbers also grow, with
 the square root of its length. Where the ratio drifts they grow with the length: each link is kept as a short ratio to
 one before it, so that solving stays linear, but to read all speeds is to write their digits, which are as many as the
-square of the links. One output is one product. Floats end where the ratio leaves float64, so that large drifting trains
-are measured exactly only, and judged by fifty equations. The grid is the exception, by construction: its circuits are
-all coupled, and its exact numbers grow with the train.
+square of the links. One output is one product. Plain floats to compare with end where the ratio leaves float64, so
+that large drifting trains are measured exactly only, and judged by fifty equations. The grid is the exception, by
+construction: its circuits are all coupled, and its exact numbers grow with the train.
 
 ## The default
 
@@ -141,7 +141,7 @@ precision; its verdict is then taken modulo the prime 2^61 - 1, and the answer s
 The float path reports an error estimate for each speed: two more solves with the residual left after refinement, and
 what errors of any sign within twice the precision may move (by the inverse up to 400 links, by random signs beyond).
 It reports the true error wherever the exact answer is within the budget (`geartrain solve FILE --method floats`). It
-refuses a train whose speeds leave the range of float64 rather than return a 0.
+carries an exponent for each link where speeds leave the range of float64, rather than return a 0.
 
 ## What this run found
 """

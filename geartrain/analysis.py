@@ -24,6 +24,7 @@ from geartrain.circuits import (
 from geartrain.components import Part, Reduced, prune
 from geartrain.errors import DeclarationError, Problem, QuestionError, RangeError, Verdict
 from geartrain.exact import TooDenseError, as_float
+from geartrain.longfloat import rounded, scaled
 from geartrain.outputs import Number, Relative, Sensitivity, judge_outputs, relative_speed, sensitivity
 from geartrain.speeds import EXACT_BUDGET, Mobility, Solution, exact_verdict, find_mobility, solve
 from geartrain.system import System, assemble
@@ -468,10 +469,11 @@ class GearTrain:
             return self._rounded(part, case, wanted, solution)
         system = assemble(part.links, part.frame, part.circuits, case, self.signs)
         found = solve_floats(system, self._redundant(part.reduced))
-        speeds = dict(zip(part.links, found.speeds.values[:, 0].tolist(), strict=True))
-        estimates = dict(zip(part.links, found.estimate.values[:, 0].tolist(), strict=True))
+        powers = found.exponents.values[:, 0].tolist()
+        speeds = dict(zip(part.links, map(scaled, found.speeds.values[:, 0].tolist(), powers), strict=True))
+        estimates = dict(zip(part.links, map(scaled, found.estimate.values[:, 0].tolist(), powers), strict=True))
         accuracy = {
-            link: Accuracy(estimates[link], float(abs(Fraction(speed) - truth[link])) if link in truth else None)
+            link: Accuracy(estimates[link], rounded(abs(Fraction(speed) - truth[link])) if link in truth else None)
             for link, speed in speeds.items()
         }
 

@@ -11,6 +11,7 @@ from typing import Any
 from geartrain.errors import Verdict
 from geartrain.exact import abridged, decimal
 from geartrain.frozen import FrozenFields
+from geartrain.longfloat import Real, as_plain
 from geartrain.outputs import Number, OutputResult, number
 
 
@@ -18,12 +19,12 @@ from geartrain.outputs import Number, OutputResult, number
 class Accuracy:
     """How far floats are from the truth: the estimate that came with them, and the true error where it was had."""
 
-    estimate: float
-    true_error: float | None
+    estimate: Real
+    true_error: Real | None
 
     def to_dict(self) -> dict[str, Any]:
-        """Plain data for JSON."""
-        return {"estimate": self.estimate, "true_error": self.true_error}
+        """Plain data for JSON; null beyond the range of float64."""
+        return {"estimate": as_plain(self.estimate), "true_error": as_plain(self.true_error)}
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,7 +32,7 @@ class Answer(FrozenFields):
     """What a train does in one state.
 
     place     where the state's inputs were declared
-    speeds    link -> speed in the train's unit: exact Fractions, or floats where `method` says so
+    speeds    link -> speed in the train's unit: exact, or floats (`LongFloat` past 1e308) where `method` says so
     outputs   the declared outputs, judged
     ratios    link -> input -> speed over that input, exact, made when read; empty for floats
     method    "exact" or "floats"

@@ -9,11 +9,12 @@ from typing import Any, Literal
 
 from geartrain.circuits import Circuit
 from geartrain.exact import as_float, decimal, written
+from geartrain.longfloat import LongFloat, as_plain
 from geartrain.periods import table
 from geartrain.train import Case, Output, Published, Target, Train
 
 DAYS_PER_CENTURY = 36525
-Number = Fraction | float
+Number = Fraction | float | LongFloat
 SpeedOf = Callable[[str], Number | None]
 Relative = Callable[[str, str], Number | None]
 """Speed of a link seen from another, about the first one's axis; None where it is not determined."""
@@ -105,7 +106,7 @@ class TargetResult:
 class OutputResult:
     """One output: its exact speed and whether its declared expectations hold.
 
-    speed            exact, or a float where the train was solved in floats; None where undetermined
+    speed            exact, or a float (`LongFloat` past 1e308) where solved in floats; None where undetermined
     ratio            output over input, where there is exactly one non-zero input
     expect_holds     None without an `expect`
     published_holds  None without a `published`
@@ -141,7 +142,7 @@ class OutputResult:
             **number(self.speed),
             "of": self.of,
             "relative_to": self.relative_to,
-            "output/input": written(self.ratio) if isinstance(self.ratio, Fraction) else self.ratio,
+            "output/input": _plain(self.ratio),
             "expect": None if expect is None else {"value": str(expect.value), "holds": self.expect_holds},
             "published": None
             if published is None
@@ -149,7 +150,7 @@ class OutputResult:
                 "value": str(published.value),
                 "as": published.as_,
                 "place": published.place,
-                "found": written(self.found) if isinstance(self.found, Fraction) else self.found,
+                "found": _plain(self.found),
                 "holds": self.published_holds,
             },
             "targets": [target.to_dict() for target in self.targets],
@@ -158,8 +159,13 @@ class OutputResult:
 
 def near(value: Number, times: int) -> float | None:
     """A product as a float, or None where float64 has none."""
-    size = as_float(value) if isinstance(value, Fraction) else value
+    size = as_float(value) if isinstance(value, Fraction) else as_plain(value)
     return None if size is None else size * times
+
+
+def _plain(value: Number | None) -> str | float | None:
+    """A number for JSON: a fraction as text, else a float; None beyond the range of float64."""
+    return written(value) if isinstance(value, Fraction) else as_plain(value)
 
 
 def magnitude(value: Number) -> Number:
@@ -169,6 +175,8 @@ def magnitude(value: Number) -> Number:
 
 def number(speed: Number | None) -> dict[str, Any]:
     """`exact` and `value` of a speed for JSON; beyond the range of float64 `value` is null and `decimal` has it."""
+    if isinstance(speed, LongFloat):
+        return {"exact": None, "value": None, "decimal": f"{speed:.12g}"}
     if not isinstance(speed, Fraction):
         return {"exact": None, "value": speed}
     value = as_float(speed)
@@ -219,7 +227,7 @@ def _expect_holds(output: Output, speed: Number | None) -> bool | None:
     if expect is None or speed is None:
         return None if expect is None else False
     exact = Fraction(speed)
-    if isinstance(speed, float) and abs(exact - expect.value.value) <= Fraction(1, 10**9) * max(
+    if not isinstance(speed, Fraction) and abs(exact - expect.value.value) <= Fraction(1, 10**9) * max(
         Fraction(1), abs(exact)
     ):
         return True

@@ -11,6 +11,7 @@ from typing import Any
 import pytest
 
 from geartrain import GearTrain, GearTrainError
+from geartrain.exact import decimal
 
 Data = dict[str, Any]
 
@@ -265,9 +266,9 @@ def test_a_speed_below_the_range_of_floats_is_never_a_silent_zero(meshes: int) -
     assert abs(log10 + meshes * 0.4771212547196624) < 1e-6
     json.dumps(speed, allow_nan=False)
     with pytest.raises(GearTrainError, match="range of float64"):
-        train.floats()
-    with pytest.raises(GearTrainError, match="range of float64"):
-        train.solve(method="floats")
+        train.floats()[f"g{meshes}"]
+    assert train.floats().decimal(f"g{meshes}", digits=8) == decimal(Fraction((-1) ** meshes, 3**meshes), 8)
+    assert train.solve(method="floats").to_dict()["speeds"][f"g{meshes}"]["decimal"].endswith(f"e{exponent}")
 
 
 def test_a_speed_just_within_the_range_of_floats_is_a_float() -> None:
@@ -276,14 +277,15 @@ def test_a_speed_just_within_the_range_of_floats_is_a_float() -> None:
     assert abs(Fraction(value) * 3**600 - 1) <= Fraction(1, 2**53)
 
 
-def test_a_speed_above_the_range_of_floats_is_refused_in_floats_and_exact_otherwise() -> None:
+def test_a_speed_above_the_range_of_floats_is_no_float_and_exact_otherwise() -> None:
     data = fixed_axes(701)
     for at in range(700):
         mesh(data, f"g{at}", 60, f"g{at + 1}", 20)
     train = GearTrain.declare(data)
     assert train.solve()["g700"] == 3**700
     with pytest.raises(GearTrainError, match="float64"):
-        train.floats()
+        train.floats()["g700"]
+    assert train.floats().decimal("g700", digits=8) == decimal(Fraction(3**700), 8)
 
 
 # G07 and G08: loops that all but close -------------------------------------------------------------------------------

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 
 from geartrain.exact import abridged, decimal, written
+from geartrain.longfloat import Real
 
 
 class Exact(str):
@@ -14,9 +15,9 @@ class Exact(str):
 
     __slots__ = ("_value",)
 
-    _value: Fraction | float | str
+    _value: Fraction | Real | str
 
-    def __new__(cls, text: str, value: Fraction | float | None = None) -> Exact:
+    def __new__(cls, text: str, value: Fraction | Real | None = None) -> Exact:
         """`text` as shown, of `value`; the text itself is all there is to say where none is given."""
         made = super().__new__(cls, text)
         made._value = text if value is None else value
@@ -99,14 +100,14 @@ class Document:
     aside: Aside = field(default_factory=Aside)
 
 
-def figure(value: Fraction | float | None, digits: int = 8) -> str:
+def figure(value: Fraction | Real | None, digits: int = 8) -> str:
     """A number in decimal; a dash where there is none."""
     if value is None:
         return "-"
     return decimal(value, digits) if isinstance(value, Fraction) else f"{value:.{digits}g}"
 
 
-def exact(value: Fraction | float | None) -> str:
+def exact(value: Fraction | Real | None) -> str:
     """A number as a fraction, shortened where it is very long; a tilde marks a float."""
     if value is None:
         return "undetermined"
@@ -115,7 +116,7 @@ def exact(value: Fraction | float | None) -> str:
     return Exact(abridged(value), value)
 
 
-def one_to(ratio: Fraction | float | None) -> str:
+def one_to(ratio: Fraction | Real | None) -> str:
     """A ratio output over input as `1 : n`, or `n : 1` where the output is the faster."""
     if not ratio:
         return "-"

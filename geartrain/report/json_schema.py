@@ -59,7 +59,7 @@ VERDICT = _has(
     }
 )
 SPEED_KEYS = {"exact": EXACT, "value": SOME}
-SPEED = _has(SPEED_KEYS, {"decimal": TEXT, "estimate": NUMBER, "true_error": SOME})
+SPEED = _has(SPEED_KEYS, {"decimal": TEXT, "estimate": SOME, "true_error": SOME})
 TARGET = _has(
     {
         "target": TEXT,

@@ -7,17 +7,21 @@ products and sums; one step with it leaves every component within a rounding or 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
+from copy import copy
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from geartrain.errors import Problem, RangeError
-from geartrain.exact import PRIME, eliminate, residues
+from geartrain.exact import PRIME, as_float, eliminate, residues
 from geartrain.frozen import FrozenFields
 from geartrain.labelled import Labelled, labelled
+from geartrain.longfloat import HIGHEST, LOWEST, Real, scaled
+from geartrain.speeds.scaling import find_exponents
 from geartrain.system import Equation, System
 
 Floats = NDArray[np.float64]
@@ -25,26 +29,43 @@ _UNIT_ROUNDOFF = 2.0**-53
 _GIVEN = -1  # the column of what is prescribed
 _INVERTED, _ABREAST = 400, 64  # links up to which the inverse is made, and columns of it at a time
 _DRAWN = 12  # sets of signs beyond
+_ORDINARY = 400  # powers of two up to which speeds are solved as they are
+_LOW = 1e-200  # entries of a scaled row below this are dropped
 
 
 @dataclass(frozen=True, slots=True)
 class FloatSpeeds(FrozenFields):
     """Float64 speeds with an estimate of their error.
 
-    speeds     (link, case) in the train's unit
-    estimate   (link, case) absolute error to expect of each speed
+    speeds     (link, case) in the train's unit, to be multiplied by 2**exponents
+    estimate   (link, case) absolute error to expect of each speed, to be multiplied by 2**exponents too
     condition  link -> component-wise condition number cond(A, x) of the first case, where asked for
+    exponents  (link, case) 0 wherever float64 holds the speed and its estimate
     """
 
     speeds: Labelled
     estimate: Labelled
     condition: Mapping[str, float]
+    exponents: Labelled
 
     def __getitem__(self, link: str) -> float:
-        return float(self.speeds[link][0])
+        speed = self.number(link)
+        if isinstance(speed, float):
+            return speed
+        what = f"the speed of '{link}' is {speed}, beyond the range of float64"
+        fix = f"read `speeds` times 2 to the power of `exponents`, or `decimal('{link}')`"
+        raise RangeError(Problem(what, "a float holds 1e-308 to 1e308", fix))
+
+    def number(self, link: str, case: int = 0) -> Real:
+        """The speed of a link, as a float where one holds it."""
+        return scaled(float(self.speeds[link][case]), int(self.exponents[link][case]))
+
+    def decimal(self, link: str, case: int = 0, digits: int = 10) -> str:
+        """The speed of a link in decimal, of any size."""
+        return f"{self.number(link, case):.{digits}g}"
 
 
-@np.errstate(over="ignore", invalid="ignore", divide="ignore")  # what leaves the range is refused below
+@np.errstate(over="ignore", invalid="ignore", divide="ignore")  # what leaves the range is scaled, or refused below
 def solve_floats(
     system: System,
     redundant: Sequence[str] = (),
@@ -61,17 +82,60 @@ def solve_floats(
     ordering      column ordering of the factorisation; COLAMD is the one that never turns quadratic
     refine        one refinement step (else the raw LU, for comparison)
 
-    Raises `RangeError` where the system is not square and regular, or where a speed leaves the range of float64:
-    a silent 0 is never returned.
+    Where speeds leave the range of float64 each case is solved with a power of two of its own for every link.
+    Raises `RangeError` where the system is not square and regular, or where that does not bring it within the range
+    either: a silent 0 is never returned.
     """
     frame, matrix, rows = prepare(system, redundant)
-    right, remainder = _right_sides(rows, inputs)
+    given = _given(rows, inputs)
+    x, estimate, exponents, condition = _solve_any(matrix, rows, given, _Way(ordering, refine, condition_of))
+    return FloatSpeeds(
+        _with_frame(system, frame, x),
+        _with_frame(system, frame, estimate),
+        condition,
+        _with_frame(system, frame, exponents),
+    )
+
+
+class _Way(NamedTuple):
+    """How to solve, as `solve_floats` is told."""
+
+    ordering: str
+    refine: bool
+    condition_of: Sequence[str]
+
+
+def _solve_any(
+    matrix: Rows, rows: Sequence[Equation], given: Sequence[Sequence[Fraction]], way: _Way
+) -> tuple[Floats, Floats, NDArray[np.int64], dict[str, float]]:
+    """Speeds and estimates over powers of two, those powers, and conditions; ordinary trains need no powers."""
+    near = None
+    with suppress(RangeError):
+        near = _solve(matrix, rows, given, way)
+    if near is not None and _is_ordinary(near[0]):
+        return near[0], near[1], np.zeros(near[0].shape, dtype=np.int64), near[2]
+    cases = [_solve_far(matrix, rows, [line[at : at + 1] for line in given], way) for at in range(len(given[0]))]
+    x, estimate, exponents, conditions = zip(*cases, strict=True)
+    return np.hstack(x), np.hstack(estimate), np.hstack(exponents), conditions[0]
+
+
+def _is_ordinary(x: Floats) -> bool:
+    """True if no speed is so large or small that its errors, or their squares in `_reach`, leave float64."""
+    sizes = np.frexp(x)[1]
+    return bool(((x == 0) | (np.abs(sizes) <= _ORDINARY)).all())
+
+
+def _solve(
+    matrix: Rows, rows: Sequence[Equation], given: Sequence[Sequence[Fraction]], way: _Way
+) -> tuple[Floats, Floats, dict[str, float]]:
+    """Speeds, estimates and conditions; `RangeError` where float64 does not hold them."""
+    right, remainder = _right_sides(rows, given)
     try:
-        lu = matrix.factorise(ordering)
+        lu = matrix.factorise(way.ordering)
     except RuntimeError as error:
         raise RangeError(_no_factors(len(rows), str(error))) from None
     x = lu.solve(right)
-    if refine:
+    if way.refine:
         x = x + lu.solve(matrix.residual(x, right, remainder))
         matrix.prescribe(x, right)
     rest = matrix.residual(x, right, remainder)
@@ -79,10 +143,30 @@ def solve_floats(
     left = lu.solve(rest)
     more = lu.solve(matrix.residual(left, rest, np.zeros_like(rest)))
     # what is left, the rounding of x itself, and what residuals in twice the precision and the last solution may hide
-    hidden = 16 * _UNIT_ROUNDOFF**2 * matrix.size(x) + 16 * _UNIT_ROUNDOFF * matrix.size(more)
+    hidden = 16 * _UNIT_ROUNDOFF**2 * matrix.size(x) + 16 * _UNIT_ROUNDOFF * matrix.size(more) + matrix.sunk(x)
     estimate = 2 * (np.abs(left) + np.abs(more)) + _UNIT_ROUNDOFF * np.abs(x) + _reach(lu, hidden)
-    condition = {link: matrix.condition(lu, link, x[:, 0]) for link in condition_of}
-    return FloatSpeeds(_with_frame(system, frame, x), _with_frame(system, frame, estimate), condition)
+    return x, estimate, {link: matrix.condition(lu, link, x[:, 0]) for link in way.condition_of}
+
+
+def _solve_far(
+    matrix: Rows, rows: Sequence[Equation], given: Sequence[Sequence[Fraction]], way: _Way
+) -> tuple[Floats, Floats, NDArray[np.int64], dict[str, float]]:
+    """One case, in speeds over powers of two: scaling by them rounds nothing, so all is as good as near 1."""
+    exponents = np.array(find_exponents(rows, [right for (right,) in given], list(matrix.at)), dtype=np.int64)
+    near, shifts = matrix.scaled(exponents)
+    moved = [[right * Fraction(2) ** -shift] for (right,), shift in zip(given, shifts.tolist(), strict=True)]
+    x, estimate, condition = _solve(near, rows, moved, way)
+    powers = exponents[:, None]
+    held = _held(x, powers) & _held(estimate, powers)
+    folded = np.where(held, powers, 0).astype(np.intc)
+    return np.ldexp(x, folded), np.ldexp(estimate, folded), np.where(held, 0, powers), condition
+
+
+def _held(values: Floats, powers: NDArray[np.int64]) -> NDArray[np.bool_]:
+    """Where values times powers of two are 0 or within float64 with all their bits."""
+    sizes = np.frexp(values)[1] + powers
+    held: NDArray[np.bool_] = (values == 0) | ((sizes >= LOWEST) & (sizes <= HIGHEST))
+    return held
 
 
 def _reach(lu: Any, error: Floats) -> Floats:
@@ -115,11 +199,11 @@ def prepare(system: System, redundant: Sequence[str] = ()) -> tuple[str, Rows, l
     return frame, Rows(links, rows), rows
 
 
-def _with_frame(system: System, frame: str, values: Floats) -> Labelled:
+def _with_frame(system: System, frame: str, values: NDArray[Any]) -> Labelled:
     """One row a link in the order declared, the frame's being 0."""
     at = system.links.index(frame)
     return labelled(
-        np.insert(values, at, 0.0, axis=0),
+        np.insert(values, at, 0, axis=0),
         link=system.links,
         case=[str(case) for case in range(values.shape[1])],
     )
@@ -160,22 +244,29 @@ def _independent(system: System, links: Sequence[str], redundant: set[str]) -> l
     return rows
 
 
-def _right_sides(rows: Sequence[Equation], inputs: Mapping[str, Sequence[float]] | None) -> tuple[Floats, Floats]:
-    """Right-hand sides as float plus the exact remainder that the float leaves."""
+def _given(rows: Sequence[Equation], inputs: Mapping[str, Sequence[float]] | None) -> list[list[Fraction]]:
+    """The right-hand side of every row, one number a case."""
     cases = len(next(iter(inputs.values()))) if inputs else 1
-    right = np.zeros((len(rows), cases))
-    remainder = np.zeros((len(rows), cases))
-    for at, row in enumerate(rows):
-        if row.kind != "input":
+    return [
+        [Fraction(value) for value in inputs[row.terms[0][0]]]
+        if inputs is not None and row.kind == "input"
+        else [row.right] * cases
+        for row in rows
+    ]
+
+
+def _right_sides(rows: Sequence[Equation], given: Sequence[Sequence[Fraction]]) -> tuple[Floats, Floats]:
+    """Right-hand sides as float plus the exact remainder that the float leaves."""
+    right = np.zeros((len(rows), len(given[0])))
+    remainder = np.zeros_like(right)
+    for at, line in enumerate(given):
+        if not any(line):
             continue
-        if inputs is not None:
-            right[at] = inputs[row.terms[0][0]]
-            continue
-        try:
-            right[at] = float(row.right)
-        except OverflowError:
-            raise RangeError(_out_of_range(row.label)) from None
-        remainder[at] = float(row.right - Fraction(float(row.right)))
+        nearest = [as_float(value) for value in line]
+        if None in nearest:
+            raise RangeError(_out_of_range(rows[at].label))
+        right[at] = nearest
+        remainder[at] = [float(value - Fraction(near)) for value, near in zip(line, right[at].tolist(), strict=True)]
     return right, remainder
 
 
@@ -191,6 +282,22 @@ class Rows:
             for position, (link, coefficient) in enumerate(term for term in row.terms if term[0] in self.at):
                 self.columns[at, position] = self.at[link]
                 self.coefficients[at, position] = coefficient
+        self.low = np.zeros_like(self.coefficients, dtype=bool)
+
+    def scaled(self, exponents: NDArray[np.int64]) -> tuple[Rows, NDArray[np.int64]]:
+        """The rows in speeds over powers of two, and the power by which each was divided: entries of 1 to 2 lead.
+
+        All these scalings are exact. Entries that sink below 1e-200 of their row are dropped: no rounding is moved by
+        them, and their products would lose the bits that residuals are made of. What they may do is in `sunk`.
+        """
+        sizes = np.frexp(self.coefficients)[1] + exponents[self.columns]
+        shifts = np.where(self.coefficients != 0, sizes, np.iinfo(np.int64).min).max(axis=1) - 1
+        moved = np.clip(exponents[self.columns] - shifts[:, None], -2000, 2000).astype(np.intc)
+        near = copy(self)
+        near.coefficients = np.ldexp(self.coefficients, moved)
+        near.low = (self.coefficients != 0) & (np.abs(near.coefficients) < _LOW)
+        near.coefficients[near.low] = 0.0
+        return near, shifts
 
     def matrix(self) -> Any:
         """The rows as a sparse matrix, column compressed."""
@@ -227,6 +334,11 @@ class Rows:
     def size(self, x: Floats) -> Floats:
         """|A| |x|, row by row."""
         total: Floats = np.einsum("rt,rtc->rc", np.abs(self.coefficients), np.abs(x[self.columns]))
+        return total
+
+    def sunk(self, x: Floats) -> Floats:
+        """The most that dropped entries come to, row by row."""
+        total: Floats = np.einsum("rt,rtc->rc", _LOW * self.low, np.abs(x[self.columns]))
         return total
 
     def condition(self, lu: Any, link: str, x: Floats) -> float:

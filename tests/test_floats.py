@@ -406,6 +406,12 @@ def test_no_speed_beyond_the_range_is_farther_off_than_its_estimate() -> None:
     assert judged > 15
 
 
+def test_a_train_whose_sizes_take_too_long_to_find_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("geartrain.speeds.scaling._BUDGET", 1000)
+    with pytest.raises(RangeError, match="coupled too densely"):
+        GearTrain.declare(planetaries(300)).floats()
+
+
 def test_trains_of_ordinary_speeds_are_solved_as_they_are(monkeypatch: pytest.MonkeyPatch) -> None:
     def refuse(*_: object) -> None:
         raise AssertionError("nothing is to be scaled")

@@ -13,12 +13,19 @@ from fractions import Fraction
 from math import frexp, log2
 from typing import Any
 
-from geartrain.exact import eliminate
+from geartrain.errors import Problem, RangeError
+from geartrain.exact import TooDenseError, eliminate
 from geartrain.longfloat import LongFloat, split
 from geartrain.system import Equation
 
 _GIVEN = -1  # the column of what is prescribed
 _LOST = 44  # bits that a sum may lose before what is left of it is taken for the rounding of a 0
+_BUDGET = 4_000_000  # operations of the elimination
+_TOO_DENSE = Problem(
+    "speeds leave the range of float64 in a train that is coupled too densely",
+    "their sizes take too long to find",
+    "use the exact method, or ask for one output",
+)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -45,6 +52,8 @@ def find_exponents(rows: Sequence[Equation], given: Sequence[Fraction], links: S
     """An exponent of two for each link, so that its speed over that power is near 1.
 
     given   right-hand side of each row
+
+    Raises `RangeError` where the rows are too dense to be eliminated in a minute or so.
     """
     at = {link: column for column, link in enumerate(links)}
     lines = [{at[link]: c for link, c in row.terms if link in at} for row in rows]
@@ -53,7 +62,11 @@ def find_exponents(rows: Sequence[Equation], given: Sequence[Fraction], links: S
         for line, right in zip(lines, given, strict=True)
     ]
     found: dict[int, float] = {}
-    for column, form in eliminate(forms).forms().items():
+    try:
+        solved = eliminate(forms, _BUDGET).forms(_BUDGET)
+    except TooDenseError:
+        raise RangeError(_TOO_DENSE) from None
+    for column, form in solved.items():
         speed: Any = form.get(_GIVEN)
         if speed and len(form) == 1:
             found[column] = log2(abs(speed.mantissa)) + speed.exponent

@@ -262,9 +262,6 @@ class GearTrain:
         """
         from geartrain.motion import Motion
 
-        if tolerance is not None and not 0 < tolerance < 1:
-            fix = "give a part of a pitch such as 1e-9, or none"
-            raise QuestionError(Problem(f"the tolerance is {tolerance!r}", "it lies between 0 and 1 pitch", fix))
         case = self._case(state)
         names = outputs or tuple(case.outputs) or tuple(self.declaration.links)
         wanted = {}

@@ -85,7 +85,8 @@ class Motion:
         self._index = {link: at for at, link in enumerate(train.system.links)}
         if tolerance is not None and not 0 < tolerance < 1:
             why = "a table's accuracy is a part of a pitch"
-            raise QuestionError(Problem(f"a tolerance of {tolerance:g} pitches", why, "give one such as 1e-9"))
+            fix = "give a part of a pitch such as 1e-9, or none"
+            raise QuestionError(Problem(f"the tolerance is {tolerance!r}", why, fix))
         self._refuse_loops()
 
     # ----------------------------------------------------------------------------------------------- what it is made of

@@ -6,7 +6,7 @@ import json
 import signal
 import warnings
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import chdir, contextmanager
 from math import inf, nan, pi
 from pathlib import Path
 from types import FrameType
@@ -220,7 +220,8 @@ def said(text: str, option: str, value: str, folder: Path, number: int) -> str:
     told = ["--json"] if base[0] in ("mesh", "motion", "sweep", "teeth", "sphere") and "--profile" not in base else []
     arguments = [*command(base, folder, number), *asked(option, value), *told]
     try:
-        found = judge(arguments)
+        with chdir(folder):  # a search that is cut short leaves its journal where it runs
+            found = judge(arguments)
     except TimeoutError as error:
         found = str(error)
     return found and f"{' '.join(arguments)}\n    {found}"

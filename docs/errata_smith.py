@@ -8,11 +8,11 @@ from typing import Any
 
 import numpy as np
 
-from geartrain.conjugate import forms
-from geartrain.conjugate.path import Contact, Path
-from geartrain.conjugate.pitch import Pitch
+from geartrain.teeth.conjugate import optimal_sides as forms
+from geartrain.teeth.conjugate.path_of_contact import PathContact, PathOfContact
+from geartrain.teeth.conjugate.pitch_surfaces import PitchSurfaces
 
-SPUR, BEVEL = Pitch.spur(24, 36), Pitch.cones(24, 36)
+SPUR, BEVEL = PitchSurfaces.spur(24, 36), PitchSurfaces.cones(24, 36)
 FRACTIONS = (0.1, 0.25, 0.4, 0.5)  # of a pitch after the pitch point
 
 
@@ -24,13 +24,13 @@ def table(header: Sequence[str], body: Sequence[Sequence[str]]) -> Iterator[str]
     yield ""
 
 
-def involute(pitch: Pitch) -> Contact:
+def involute(pitch: PitchSurfaces) -> PathContact:
     """A 20 degree involute in recess."""
     side = forms.involute(pitch.p / 2, radians(20))
-    return Path(pitch, side, side).at(np.array(FRACTIONS) * pitch.p)
+    return PathOfContact(pitch, side, side).at(np.array(FRACTIONS) * pitch.p)
 
 
-def heads(c: Contact, R: float, bevel: bool) -> tuple[Any, Any]:
+def heads(c: PathContact, R: float, bevel: bool) -> tuple[Any, Any]:
     """r of gear 1 and the sine of its psi, by the triangle of its centre, pitch point and contact."""
     if bevel:
         r = np.arccos(np.cos(R) * np.cos(c.d) - np.sin(R) * np.sin(c.d) * c.sin_psi)
@@ -115,7 +115,7 @@ def long_ones() -> Iterator[str]:
         "uniform stress, 20 deg": forms.uniform_stress(SPUR, SPUR.A, SPUR.B, SPUR.p / 2, radians(20)),
     }
     for name, side in sides.items():
-        c = Path(SPUR, side, side).at(np.array(FRACTIONS) * SPUR.p)
+        c = PathOfContact(SPUR, side, side).at(np.array(FRACTIONS) * SPUR.p)
         r, sine = heads(c, SPUR.R1, False)
         c1, wrong = 1 / c.k1, -r / SPUR.R1 * np.sqrt(1 - sine**2)  # what (33) makes of cos phi with cot psi = -r'/r
         turned = 1 / ((SPUR.A + SPUR.B) / wrong - 1 / (c1 - c.d)) - c.d

@@ -9,8 +9,8 @@ import numpy as np
 
 import geartrain
 from geartrain.teeth import Triangular
-from geartrain.teeth.triangular.law import TriangularLaw
-from geartrain.teeth.triangular.meshing import find_window
+from geartrain.teeth.triangular.clearance_window import find_window
+from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
 
 FRICTION = 0.2
 PRINTED = {
@@ -19,7 +19,7 @@ PRINTED = {
 }  # fmt: skip
 
 
-def law(z1: int, z2: int, clearance: str) -> TriangularLaw:
+def law(z1: int, z2: int, clearance: str) -> TriangularTransmission:
     """A pair of the note: equilateral teeth of equal depth, friction 0.2."""
     form = Triangular.model_validate({"form": "triangular", "half_angle": "30 deg", "clearance": clearance})
     return form.law(z1, z2, FRICTION)

@@ -9,7 +9,7 @@ from math import asin, atan, atan2, cos, degrees, radians, sin
 import numpy as np
 
 from geartrain.report import SphereAnswers
-from geartrain.spherical import Configuration, from_polyhedron, size, windows
+from geartrain.spherical import Configuration, from_polyhedron, ratio_windows, size_gears
 
 NOTE = "icosidodecahedron"
 PRINTED_BETA = 41.8103148828  # deg
@@ -62,7 +62,7 @@ def positions() -> Iterator[tuple[str, str]]:
         f"the corrected angle, {PRINTED_BETA}°",
         f"{degrees(right) - PRINTED_BETA:.1e}° less than its own formula gives: wrong from the eighth decimal",
     )
-    (window,) = windows(faces)
+    (window,) = ratio_windows(faces)
     yield (
         "it is an angle between neighbours",
         "triangles meet in vertices only and do not mesh; it bounds their cone: "
@@ -81,7 +81,7 @@ def radii() -> Iterator[tuple[str, str]]:
     """Where wheels meet, how they are sized, and their pitch."""
     faces = gears()
     between = faces.angle(*(faces.meshes[0]))
-    cone = degrees(float(size(faces).cones[0, 0]))
+    cone = degrees(float(size_gears(faces).cones[0, 0]))
     edge = middle_of_an_edge(faces)
     meets = sin(edge) / sin(between - edge)
     yield (
@@ -119,11 +119,11 @@ def teeth() -> Iterator[tuple[str, str]]:
     first, second, third = (gears(*numbers) for numbers in ((5, 6), (10, 3), (10, 6)))
     closes = [bool(SphereAnswers(each).closure) for each in (first, second, third)]
     assert closes == [True] * 3
-    undercut = " and ".join(size(third).undercut)
+    undercut = " and ".join(size_gears(third).undercut)
     yield (
         "5/6 and 10/3 teeth as alternatives",
         f"both close, and both collide: tips of equal neighbours overlap by {overlap(first):.1f}° and "
-        f"{overlap(second):.1f}°; 10/6 closes and {'fits' if not size(third).collisions else 'collides'}, but "
+        f"{overlap(second):.1f}°; 10/6 closes and {'fits' if not size_gears(third).collisions else 'collides'}, but "
         f"both kinds, {undercut}, are undercut",
     )
     ways = senses(gears())
@@ -132,7 +132,7 @@ def teeth() -> Iterator[tuple[str, str]]:
 
 def overlap(faces: Configuration) -> float:
     """How far tips run into each other (deg of the sphere), the worst."""
-    found = size(faces)
+    found = size_gears(faces)
     return max(degrees(each.short * found.module) for each in found.collisions)
 
 
@@ -156,8 +156,8 @@ def kinds() -> Iterator[tuple[str, str]]:
     ball = "truncated icosahedron"
     moves = SphereAnswers(from_polyhedron(ball, "faces")).moves
     yield "it is called a buckyball", f"that is the {ball}, which {'turns' if moves else 'is locked'}"
-    three = size(from_polyhedron("rhombicosidodecahedron", "faces", teeth={"5": 25, "4": 14, "3": 12}))
-    idle = size(from_polyhedron(NOTE, "faces+edges", teeth=IDLERS))
+    three = size_gears(from_polyhedron("rhombicosidodecahedron", "faces", teeth={"5": 25, "4": 14, "3": 12}))
+    idle = size_gears(from_polyhedron(NOTE, "faces+edges", teeth=IDLERS))
     assert idle.exact
     yield (
         "more than two types are very difficult or impossible",

@@ -13,7 +13,7 @@ from errata_sphere import sphere
 
 import geartrain
 from geartrain import GearTrain
-from geartrain.periods import table
+from geartrain.train.periods import period_table
 
 PAGE = Path(__file__).resolve().parent / "errata.md"
 YEAR, SYNODIC, SIDEREAL = Fraction("365.242199"), Fraction("29.53059"), Fraction("27.3229")  # Table 5, in days
@@ -91,7 +91,7 @@ def months() -> Iterator[str]:
         f"sidereal month {number(SIDEREAL, 6)}."
     )
     yield ""
-    modern = table()["year_tropical_J2000"].value / table()["month_sidereal_J2000"].value
+    modern = period_table()["year_tropical_J2000"].value / period_table()["month_sidereal_J2000"].value
     body = [
         ("365.242199/29.5308", "12.3681", YEAR / Fraction("29.5308"), "the paper's text drops a digit of the divisor"),
         ("365.242199/29.53059", "", YEAR / SYNODIC, "the quotient it means, with the divisor of Table 5"),
@@ -110,7 +110,8 @@ def months() -> Iterator[str]:
     )
     yield "So the divisor 29.5308 is a misprint of 29.53059, and 12.3681 is the quotient of the misprint."
     yield (
-        f"The sidereal month of Table 5 is long by {number(SIDEREAL - table()['month_sidereal_J2000'].value, 3)} d, "
+        f"The sidereal month of Table 5 is long by "
+        f"{number(SIDEREAL - period_table()['month_sidereal_J2000'].value, 3)} d, "
         "and 13.3676 in the text is its consequence. The text also calls 29.53058 d a sidereal month; it is synodic."
     )
     yield ""
@@ -154,7 +155,7 @@ def table_6() -> Iterator[str]:
     for planet, o1, o2, x in printed:
         speed = conjecture(o1, o2, x)["x"]
         assert isinstance(speed, Fraction)
-        target = table()[f"{planet}_synodic_period_jpl"].value / table()["year_tropical_J2000"].value
+        target = period_table()[f"{planet}_synodic_period_jpl"].value / period_table()["year_tropical_J2000"].value
         error = 1 / abs(speed) / target - 1
         remark = ""
         if abs(error) > Fraction(1, 100):
@@ -210,8 +211,8 @@ def freeth_2021() -> Iterator[str]:
     yield "The period relation (315, 344) for Jupiter is not the only one that its authors' rules allow. Against the"
     yield "synodic period of the shipped table (positive is fast):"
     yield ""
-    year = table()["year_tropical_J2000"].value
-    synodic = table()["jupiter_synodic_period_jpl"].value
+    year = period_table()["year_tropical_J2000"].value
+    synodic = period_table()["jupiter_synodic_period_jpl"].value
     found = [Fraction(315, 344), Fraction(847, 925), Fraction(1162, 1269)]
     yield from rows(
         ("relation", "turns a year", "error in ppm"),
@@ -254,8 +255,8 @@ def freeth_2006() -> Iterator[str]:
     )
     yield "9.6 mm is declared in the shipped train. 9.9 mm is a later measurement, and 9.67 mm a figure used in models."
     yield ""
-    year = table()["year_tropical_J2000"].value
-    modern = year / table()["lunar_apsides_period_tropical_J2000"].value
+    year = period_table()["year_tropical_J2000"].value
+    modern = year / period_table()["lunar_apsides_period_tropical_J2000"].value
     body = [
         ("239 anomalistic in 223 synodic months", Fraction(254, 19) - Fraction(235, 19) * Fraction(239, 223)),
         ("269 in 251 (Hipparchus)", Fraction(254, 19) - Fraction(235, 19) * Fraction(269, 251)),
@@ -296,7 +297,7 @@ def price() -> Iterator[str]:
         change = f"links: {{crank: {{wheels: {{A: {{teeth: {teeth}}}}}}}}}\noutputs: {{handle: {{of: crank}}}}"
         speed = changed("price-1974", change, drop).solve()["handle"]
         assert isinstance(speed, Fraction)
-        days = table()["year_tropical_J2000"].value / abs(speed)
+        days = period_table()["year_tropical_J2000"].value / abs(speed)
         body.append((teeth, abs(speed), number(days, 5)))
     yield from rows(("teeth", "turns of the crank a year", "days a turn"), body)
 
@@ -306,8 +307,8 @@ def huygens() -> Iterator[str]:
     yield from ("## Huygens' planetarium 1682, after Dietzschold", "")
     train = geartrain.load("huygens-planetarium-1682")
     wheels = {name: wheel.count for name, (_, wheel) in train.declaration.wheels.items()}
-    year = table()["year_sidereal_J2000"].value
-    sky = year / table()["mercury_sidereal_period_jpl"].value
+    year = period_table()["year_sidereal_J2000"].value
+    sky = year / period_table()["mercury_sidereal_period_jpl"].value
     single = Fraction(wheels["me121"] or 0, wheels["me17"] or 1)
     compound = train.solve()["mercury"]
     assert isinstance(compound, Fraction)
@@ -323,7 +324,7 @@ def huygens() -> Iterator[str]:
     saturn = train.solve()["saturn"]
     assert isinstance(saturn, Fraction)
     own = Fraction(77708431, 2640858)
-    sky_saturn = table()["saturn_sidereal_period_jpl"].value / year
+    sky_saturn = period_table()["saturn_sidereal_period_jpl"].value / year
     yield "Saturn's 7 and 206, against the fraction that Huygens set out to approximate, and against the sky:"
     yield ""
     yield from rows(

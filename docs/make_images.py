@@ -14,8 +14,8 @@ from pathlib import Path
 from rich.console import Console
 
 import geartrain
-from geartrain.motion import Run
-from geartrain.plot import law_figure, motion_figure, picture, power_figure, render, sphere_figure, teeth_figure
+from geartrain.drawing import law_figure, motion_figure, picture, power_figure, render, sphere_figure, teeth_figure
+from geartrain.dynamics.motion import MotionRun
 from geartrain.report import Document, SphereAnswers, flow_of, report_train, to_terminal
 from geartrain.spherical import from_polyhedron
 
@@ -62,7 +62,7 @@ def pointers() -> None:
     train = geartrain.load("freeth-2021")
     planets = ("mercury", "venus", "mars", "jupiter", "saturn")
     for name, outputs, turns in (("pointers-year", ("moon", *planets), 1.0), ("mars-period", ("mars",), 284.0)):
-        figure = motion_figure(Run(train.motion(outputs=outputs), turns, 100_001))
+        figure = motion_figure(MotionRun(train.motion(outputs=outputs), turns, 100_001))
         (IMAGES / f"{name}.svg").write_bytes(render(figure, ".svg"))
         print(f"wrote docs/images/{name}.svg")
 

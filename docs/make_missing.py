@@ -10,9 +10,9 @@ from pathlib import Path
 from make_errata import changed, number, rows
 
 from geartrain import GearTrain, load
-from geartrain.periods import table
-from geartrain.synthesis.trains.findings import Assignment, PartFindings, TrainFindings
-from geartrain.synthesis.trains.searching import search
+from geartrain.synthesis.train.train_findings import Assignment, PartFindings, TrainFindings
+from geartrain.synthesis.train.train_search import search
+from geartrain.train.periods import period_table
 
 PAGE = Path(__file__).resolve().parent / "missing-parts.md"
 NAME = "pennestri-2002-missing"
@@ -64,7 +64,7 @@ def by_speed(part: PartFindings, planet: str) -> Iterator[tuple[Fraction, list[A
 
 def relation(speed: Fraction) -> str:
     """The period relation of the shipped table that a speed is exactly."""
-    known = (row for row in table().values() if row.kind == "speed" and row.value == speed)
+    known = (row for row in period_table().values() if row.kind == "speed" and row.value == speed)
     return ", ".join(f"{row.source} ({row.name})" for row in known)
 
 

@@ -8,12 +8,12 @@ Fraction(2, 7)
 
 from __future__ import annotations
 
-from geartrain.analysis import GearTrain as GearTrain
-from geartrain.answer import Answer as Answer
+from geartrain.analysis.gear_train import GearTrain as GearTrain
+from geartrain.analysis.loader import load as load
+from geartrain.analysis.loader import shipped as shipped
 from geartrain.errors import GearTrainError as GearTrainError
-from geartrain.errors import Verdict as Verdict
-from geartrain.files import load as load
-from geartrain.files import shipped as shipped
+from geartrain.kinematics.answer import Answer as Answer
+from geartrain.kinematics.verdict import Verdict as Verdict
 
 __version__ = "0.1.0"
 __all__ = ["Answer", "GearTrain", "GearTrainError", "Verdict", "__version__", "load", "shipped"]

@@ -22,9 +22,9 @@ from sorge import APPROACH, Segment, mp
 from sorge import Pair as Couple
 
 from geartrain import load
-from geartrain.motion import Motion, Ripple
-from geartrain.teeth.triangular.law import TriangularLaw
-from geartrain.teeth.triangular.sizes import Sizes, equal_depth
+from geartrain.dynamics.motion import Motion, TransmissionErrorCurve
+from geartrain.teeth.triangular.pair_geometry import TriangularSizes, equal_depth
+from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
 
 FRAME, ARM = "frame", "arm"
 SETS = {"left": (FRAME, "A"), "right": (FRAME, "A"), ARM: (FRAME, "A"), "planet": (ARM, "P")}
@@ -290,13 +290,13 @@ class Run:
     seconds: float
 
 
-def hung(motion: Motion, turns: float, samples: int) -> dict[str, Ripple]:
+def hung(motion: Motion, turns: float, samples: int) -> dict[str, TransmissionErrorCurve]:
     """The ripple of every output as its teeth hold it, no pointer set: what the equations below say."""
     composition, at = motion.hung, np.arange(samples)
     parts = [composition.at(turns * (each / (samples - 1))) for each in np.split(at, range(30_000, samples, 30_000))]
     error, rate = (np.concatenate([part[column] for part in parts], axis=1) for column in (1, 2))
     return {
-        tally.name: Ripple(tally.name, tally.ratio, error[row], tally.mean + rate[row])
+        tally.name: TransmissionErrorCurve(tally.name, tally.ratio, error[row], tally.mean + rate[row])
         for row, tally in enumerate(motion.tallies())
     }
 
@@ -464,17 +464,17 @@ def at_the_edge(window: float) -> Measured:
 DRAWN = [0.013, 0.29, 0.41, 0.67, 0.83, 0.999]  # of a pitch
 
 
-def thirty(z1: int, z2: int, excess: float) -> Sizes:
+def thirty(z1: int, z2: int, excess: float) -> TriangularSizes:
     """Equally deep teeth of 30 degrees."""
     beta = radians(30)
-    return Sizes(z1, z2, *equal_depth(z1, z2, beta, beta), beta, beta, excess)
+    return TriangularSizes(z1, z2, *equal_depth(z1, z2, beta, beta), beta, beta, excess)
 
 
 def almost_apart(share: float) -> Measured:
     """48 and 96 teeth at nearly the clearance where tips cease to touch: the error of the law, in driven pitches."""
     sizes = thirty(48, 96, 0.01)
     sizes = sizes.at(sizes.greatest_excess * share)
-    law, couple = TriangularLaw(sizes), Couple.of(sizes)
+    law, couple = TriangularTransmission(sizes), Couple.of(sizes)
     S = np.array(DRAWN) * sizes.p1
     errors, seconds = timed(lambda: law.error(S))
     pairs = zip(S.tolist(), errors.tolist(), strict=True)
@@ -484,8 +484,8 @@ def almost_apart(share: float) -> Measured:
 def near_friction_locking(teeth: tuple[int, int], digits: int, at_load: bool) -> Measured:
     """The mean efficiency with friction a little below the one that locks, relative."""
     sizes = thirty(*teeth, 0.01)
-    friction = TriangularLaw(sizes).locking_friction * (1 - 10.0**-digits)
-    law = TriangularLaw(sizes, friction)
+    friction = TriangularTransmission(sizes).locking_friction * (1 - 10.0**-digits)
+    law = TriangularTransmission(sizes, friction)
     mine, seconds = timed(law.efficiency_at_constant_load if at_load else law.efficiency_mean)
     true = Couple.of(sizes).mean_efficiency(mp.mpf(friction))[int(at_load)]
     return Measured(float(abs(mine / true - 1)), seconds)
@@ -495,7 +495,7 @@ def locking(teeth: tuple[int, int]) -> Measured:
     """The friction that locks: flank and friction before the line of centres, relative."""
     sizes = thirty(*teeth, 0.01)
     couple = Couple.of(sizes)
-    mine, seconds = timed(lambda: TriangularLaw(sizes).locking_friction)
+    mine, seconds = timed(lambda: TriangularTransmission(sizes).locking_friction)
     starts = [segment.start for segment in couple.path if segment.phase == APPROACH]
     most = max(mp.tan(couple.lean(x, APPROACH)) for x in starts if couple.angle(x, APPROACH) > 0)
     return Measured(float(abs(mine * most - 1)), seconds)

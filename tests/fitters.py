@@ -10,8 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from geartrain import GearTrain
-from geartrain.synthesis.rules.asked import Rules
-from geartrain.synthesis.rules.finding import Rule, find_rules
+from geartrain.synthesis.constraints.assembly_constraints import find_constraints
+from geartrain.synthesis.constraints.constraint_options import ConstraintOptions
+from geartrain.synthesis.constraints.count_conditions import CountConstraint
 from geartrain.train import Train
 
 Central = Mapping[str, tuple[int, bool]]
@@ -52,18 +53,22 @@ def declared(data: Mapping[str, Any]) -> Train:
     return GearTrain.declare(data).declaration
 
 
-def rules_of(train: Train | Mapping[str, Any], free: Sequence[str] | None = None, **asked: Any) -> tuple[Rule, ...]:
+def rules_of(
+    train: Train | Mapping[str, Any], free: Sequence[str] | None = None, **asked: Any
+) -> tuple[CountConstraint, ...]:
     """The rules with some wheels free, by default all."""
     found = train if isinstance(train, Train) else declared(train)
     wheels = found.wheels if free is None else free
-    return find_rules(found, {wheel: (found.wheels[wheel][1].count or 17,) for wheel in wheels}, Rules(**asked))
+    return find_constraints(
+        found, {wheel: (found.wheels[wheel][1].count or 17,) for wheel in wheels}, ConstraintOptions(**asked)
+    )
 
 
 def columns(**counts: Any) -> dict[str, NDArray[np.int64]]:
     return {name: np.atleast_1d(np.array(count, dtype=np.int64)) for name, count in counts.items()}
 
 
-def passed(rules: Sequence[Rule], **counts: int) -> bool:
+def passed(rules: Sequence[CountConstraint], **counts: int) -> bool:
     """True if a set of counts keeps all rules."""
     one = columns(**counts)
     return all(bool(rule.holds(one)[0]) for rule in rules)

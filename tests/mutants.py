@@ -13,8 +13,8 @@ from functools import cache
 from random import Random
 from typing import Any
 
-from geartrain.files import shipped
-from geartrain.files.nodes import parse
+from geartrain.analysis.loader import shipped
+from geartrain.train.yaml_nodes import parse_yaml
 
 Place = tuple[Any, Any]  # what holds the value, and its key or position there
 
@@ -47,7 +47,7 @@ def _originals() -> tuple[dict[str, Any], ...]:
     for name, path in shipped().items():
         if name.startswith("freeth-2021"):  # sixty-nine wheels take their time, and hold no key that others do not
             continue
-        data = {"name": name, **parse(path.read_text(encoding="utf-8"), name).plain()}
+        data = {"name": name, **parse_yaml(path.read_text(encoding="utf-8"), name).plain()}
         if "extends" in data:
             data["extends"] = data["extends"].removesuffix(".yaml")
         found.append(data)

@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 from numpy.polynomial import chebyshev as cheb
 
-from geartrain.conjugate.path import Path
+from geartrain.teeth.conjugate.path_of_contact import PathOfContact
 
 NODES = 20
 
@@ -88,7 +88,7 @@ class Seen:
         return matrix @ self.body[gear - 1]
 
 
-def seen(path: Path, recess: bool = True, first: float = 0.15, last: float = 0.95, nodes: int = NODES) -> Seen:
+def seen(path: PathOfContact, recess: bool = True, first: float = 0.15, last: float = 0.95, nodes: int = NODES) -> Seen:
     """A side of a path between the fractions `first` and `last` of its arc."""
     pitch = path.pitch
     arc = path.arcs[1] if recess else -path.arcs[0]

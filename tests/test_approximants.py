@@ -13,7 +13,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from geartrain.errors import QuestionError, RangeError
-from geartrain.synthesis.approximants import (
+from geartrain.synthesis.gear_pair_search import count_pairs, find_pairs
+from geartrain.synthesis.stern_brocot import (
     approximants,
     fractions_within,
     nearest_first,
@@ -21,9 +22,8 @@ from geartrain.synthesis.approximants import (
     runs,
     simplest_between,
 )
-from geartrain.synthesis.counts import read_counts
-from geartrain.synthesis.pairs import count_pairs, find_pairs
-from geartrain.synthesis.targets import Wanted, read_ratio
+from geartrain.synthesis.target_ratio import TargetRatio, read_ratio
+from geartrain.synthesis.tooth_count_ranges import read_counts
 
 PI = Fraction("3.14159265358979323846264338327950288419716939937510")
 ROOT = Fraction(math.isqrt(2 * 10**400), 10**200)  # the square root of two, to 200 decimals
@@ -231,7 +231,7 @@ tolerances = st.none() | st.builds(Fraction, st.integers(0, 300), st.integers(1,
 def test_pairs_are_those_of_brute_force(
     value: Fraction, wheels: Sequence[int], pinions: Sequence[int], tolerance: Fraction | None, best: int | None
 ) -> None:
-    found = find_pairs(Wanted(value), wheels, pinions, tolerance, best)
+    found = find_pairs(TargetRatio(value), wheels, pinions, tolerance, best)
     expected = all_pairs(value, wheels, pinions, tolerance)
     assert [stages.pairs[0] for stages in found] == expected[: 20 if best is None and tolerance is None else best]
     for stages in found:
@@ -239,7 +239,7 @@ def test_pairs_are_those_of_brute_force(
         assert stages.ratio == Fraction(stages.top[0], stages.beneath[0])
         assert stages.error == stages.ratio / value - 1
     if tolerance is not None:
-        assert count_pairs(Wanted(value), wheels, pinions, tolerance) == len(expected)
+        assert count_pairs(TargetRatio(value), wheels, pinions, tolerance) == len(expected)
 
 
 def pairs_by_denominator(
@@ -257,9 +257,9 @@ def pairs_by_denominator(
 def check_ranges(value: Fraction, wheels: range, pinions: range, tolerance: Fraction, best: int) -> None:
     top, beneath = (wheels, pinions) if value >= 1 else (pinions, wheels)
     inside = pairs_by_denominator(value, top, beneath, tolerance)
-    assert [stages.pairs[0] for stages in find_pairs(Wanted(value), wheels, pinions, tolerance)] == inside
-    assert count_pairs(Wanted(value), wheels, pinions, tolerance) == len(inside)
-    found = [stages.pairs[0] for stages in find_pairs(Wanted(value), wheels, pinions, best=best)]
+    assert [stages.pairs[0] for stages in find_pairs(TargetRatio(value), wheels, pinions, tolerance)] == inside
+    assert count_pairs(TargetRatio(value), wheels, pinions, tolerance) == len(inside)
+    found = [stages.pairs[0] for stages in find_pairs(TargetRatio(value), wheels, pinions, best=best)]
     assert found[: len(inside)] == inside[:best]
     assert len(found) == min(best, len(top) * len(beneath))
 
@@ -289,10 +289,10 @@ def test_so_do_ranges_where_the_tree_is_the_shorter_way(value: str, least: int) 
 @given(st.integers(10**30, 10**32), st.integers(10**7, 10**9))
 def test_in_ranges_of_a_thousand_million_the_best_pair_is_the_nearest_fraction(number: int, most: int) -> None:
     value = Fraction(number, 10**30)
-    (best,) = find_pairs(Wanted(value), range(1, 10**12), range(1, most + 1), best=1)
+    (best,) = find_pairs(TargetRatio(value), range(1, 10**12), range(1, most + 1), best=1)
     # the standard library finds the nearest fraction by its denominator alone
     assert best.ratio == value.limit_denominator(most)
-    (long,) = find_pairs(Wanted(value), range(1, 10**12), range(most // 2, most + 1), best=1)
+    (long,) = find_pairs(TargetRatio(value), range(1, 10**12), range(most // 2, most + 1), best=1)
     assert abs(long.error) >= abs(best.error)
     assert long.beneath[0] >= most // 2
 

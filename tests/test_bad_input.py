@@ -12,8 +12,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from geartrain import GearTrainError, errors, load
-from geartrain.files import nodes
-from geartrain.train import explain, references
+from geartrain.train import references
+from geartrain.train import validation as explain
+from geartrain.train import yaml_nodes as nodes
 
 Refuse = Callable[..., GearTrainError]
 

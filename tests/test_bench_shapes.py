@@ -15,11 +15,11 @@ from geartrain.bench import ShapeRecords, WorkRecord, count_shape_steps, quickes
 from geartrain.bench.shapes_cases import CASES, EXTREMES, Case
 from geartrain.bench.shapes_truth import TRUTH
 from geartrain.bench.shapes_ways import OFF, collocated, inwards, marched, packaged, searched
-from geartrain.conjugate import forms
-from geartrain.conjugate.chebyshev import Series
-from geartrain.conjugate.collocation import solved
-from geartrain.conjugate.pitch import Pitch
 from geartrain.errors import RangeError
+from geartrain.numerics.chebyshev import ChebyshevSeries
+from geartrain.teeth.conjugate import optimal_sides as forms
+from geartrain.teeth.conjugate.pitch_surfaces import PitchSurfaces
+from geartrain.teeth.conjugate.singular_collocation import solved
 
 SMOOTH = [case for case in CASES if case.kind != "friction"]
 
@@ -94,21 +94,21 @@ def test_a_direct_search_comes_near_the_closed_form_and_no_nearer() -> None:
 def test_a_path_that_comes_to_a_right_angle_before_its_end_is_refused() -> None:
     """Marched apart, it comes to 90 degrees at an arc of 0.93 modules, short of half a pitch."""
     with pytest.raises(RangeError, match="does not reach"):
-        forms.uniform_heat(Pitch.spur(5, 5), 0.4, 1.6, pi / 2)
+        forms.uniform_heat(PitchSurfaces.spur(5, 5), 0.4, 1.6, pi / 2)
 
 
 def test_a_ray_before_it_does_not_hide_a_path_that_comes_to_a_right_angle() -> None:
     with pytest.raises(RangeError, match="does not reach"):
-        forms.bounded_heat(Pitch.spur(5, 5), 0.4, 1.6, pi / 2, radians(12))
+        forms.bounded_heat(PitchSurfaces.spur(5, 5), 0.4, 1.6, pi / 2, radians(12))
 
 
 def test_a_solution_is_one_function_whatever_its_end() -> None:
-    pitch = Pitch.spur(24, 36)
+    pitch = PitchSurfaces.spur(24, 36)
     law = forms.stress_law(pitch, pitch.A, pitch.B, radians(20))
     long, short = (solved(pitch, law, float(np.sin(radians(20))), end) for end in (1.6, 0.9))
     d = np.linspace(0, 0.9, 50)
     np.testing.assert_allclose(long(d), short(d), rtol=3e-15)
-    warm: Series = solved(pitch, law, float(np.sin(radians(20))), 1.6, near=short)
+    warm: ChebyshevSeries = solved(pitch, law, float(np.sin(radians(20))), 1.6, near=short)
     np.testing.assert_allclose(warm(d), long(d), rtol=3e-15)
 
 

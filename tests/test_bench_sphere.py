@@ -17,9 +17,9 @@ from geartrain.bench.circles import FixedPoint, judged, overlaps
 from geartrain.bench.closing import draw_teeth, true_residue
 from geartrain.bench.maps import hull, trapezohedron, zonohedron
 from geartrain.bench.sphere_records import TARGET
-from geartrain.spherical.maps import propped, regions_of, sound
-from geartrain.spherical.packing import Packing, pack
-from geartrain.spherical.plane import Plane
+from geartrain.spherical.circle_packing import SpherePacking, pack_circles
+from geartrain.spherical.planar_map import checked_graph, regions_of, with_region_circles
+from geartrain.spherical.planar_packing import PlanarPacking
 
 
 @pytest.fixture(scope="module")
@@ -33,13 +33,13 @@ def records(heard: list[str]) -> SphereRecords:
 
 
 def map_of(edges: list[tuple[str, str]]) -> tuple[int, list[tuple[int, ...]]]:
-    named = sound(edges)
-    return propped(len(named), regions_of(named), list(named))
+    named = checked_graph(edges)
+    return with_region_circles(len(named), regions_of(named), list(named))
 
 
 @pytest.fixture(scope="module")
-def packing() -> Packing:
-    return pack(*map_of(hull(7)))
+def packing() -> SpherePacking:
+    return pack_circles(*map_of(hull(7)))
 
 
 def closures(records: SphereRecords, method: str) -> list[ClosureRecord]:
@@ -70,7 +70,7 @@ def test_the_fixed_point_only_divides_the_residual(records: SphereRecords) -> No
 
 
 def test_both_ways_lead_to_the_same_radii() -> None:
-    plane = Plane(*map_of(hull(11)))
+    plane = PlanarPacking(*map_of(hull(11)))
     u, _ = plane.radii()
     sweeps = FixedPoint(plane)
     sweeps.run(1e-12)
@@ -89,7 +89,7 @@ def test_packings_touch_in_forty_digits(records: SphereRecords) -> None:
         assert row.overlaps == 0
 
 
-def test_the_judge_tells_an_error_that_is_there(packing: Packing) -> None:
+def test_the_judge_tells_an_error_that_is_there(packing: SpherePacking) -> None:
     assert judged(packing) < 1e-14
     cones = packing.cones.copy()
     cones[3] += 1e-7

@@ -11,7 +11,7 @@ from math import prod
 import pytest
 from commands import call
 
-from geartrain.analysis import GearTrain
+from geartrain.analysis.gear_train import GearTrain
 from geartrain.bench import TeethGrowth, TeethRecord, TeethRecords, count_teeth_steps, teeth
 from geartrain.bench import teeth_ways as ways
 from geartrain.bench.teeth_records import (
@@ -32,7 +32,7 @@ from geartrain.bench.teeth_records import (
 )
 from geartrain.bench.teeth_ways import Case
 from geartrain.bench.timing import seconds_text
-from geartrain.synthesis.formulas.finding import with_counts
+from geartrain.synthesis.formulas.output_formulas import with_counts
 
 
 @pytest.fixture(scope="module")

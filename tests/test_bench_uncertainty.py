@@ -18,7 +18,7 @@ from geartrain.bench.uncertainty_pairs import EVERY, PLACES, Batch
 from geartrain.bench.uncertainty_records import COUNTS, SINGLY, slope
 from geartrain.bench.uncertainty_trials import BLOCK, EXACT, NORMAL, errors_of, jams
 from geartrain.bench.uncertainty_truth import SHARE, chance_of_jam, uneven_driven
-from geartrain.uncertainty.cutting import batch_verdicts, nominal_play
+from geartrain.uncertainty.manufacturing_errors import batch_verdicts, nominal_backlash
 
 
 @pytest.fixture(scope="module")
@@ -63,7 +63,7 @@ def test_the_pair_of_the_sum_jams_where_neighbours_use_up_its_play_and_only_ther
     places = rng.uniform(-1, 1, (300, 38))
     pair = uneven_driven(places)
     play = least_play(Pair.of(pair.sizes, np))
-    assert play == pytest.approx(nominal_play(pair.sizes) * pair.sizes.p2, rel=1e-6)
+    assert play == pytest.approx(nominal_backlash(pair.sizes) * pair.sizes.p2, rel=1e-6)
     late = pair.second.place - np.roll(pair.second.place, 1, axis=1)
     assert (pair.first.place == 0).all()
     found = batch_verdicts(pair.sizes, pair.first, pair.second).jams

@@ -6,7 +6,7 @@ import networkx as nx
 from hypothesis import given
 from hypothesis import strategies as st
 
-from geartrain.blocks import find_blocks
+from geartrain.numerics.block_triangular import find_blocks
 
 
 @st.composite

@@ -630,7 +630,7 @@ def test_the_list_names_every_file_of_trains_with_its_title(run: Run) -> None:
 
 @pytest.mark.parametrize("word", ["saros", "month_", "venus", ""])
 def test_periods_shows_the_rows_with_a_word_and_no_others(run: Run, word: str) -> None:
-    with open(ROOT / "geartrain" / "periods.csv", encoding="utf-8", newline="") as source:
+    with open(ROOT / "geartrain" / "train" / "periods.csv", encoding="utf-8", newline="") as source:
         rows = {row["name"]: row for row in csv.DictReader(source) if word in row["name"]}
     lines = {line.split()[0]: line.split() for line in run("periods", word)[1].splitlines()}
     assert set(lines) == set(rows)

@@ -19,16 +19,15 @@ from hypothesis import strategies as st
 from teeth3d import Wheel, best, misfits
 
 from geartrain import GearTrain, GearTrainError
-from geartrain.closure import (
-    Closure,
-    closure_on_sphere,
-    find_rule,
-    first_failure,
-    measure,
-    rule_on_sphere,
+from geartrain.bench.phasing import first_float_failure, measure_phase_accuracy
+from geartrain.kinematics.phasing import (
+    MeshPhasing,
+    find_divisibility_rule,
+    spherical_divisibility_rule,
+    spherical_phasing,
 )
-from geartrain.closure.angles import rational, recognised
-from geartrain.closure.lattice import saturate
+from geartrain.numerics.integer_lattice import saturated_lattice
+from geartrain.numerics.rational_angles import rational_angle, recognised_angle
 from geartrain.spherical import Configuration
 
 Data = dict[str, Any]
@@ -463,7 +462,7 @@ def test_carriers_geared_together_are_asked_for_what_only_all_their_meshes_fulfi
 @given(st.lists(st.lists(st.integers(-30, 30), min_size=6, max_size=6), min_size=1, max_size=4))
 def test_saturation_gives_all_whole_rows_of_a_span_with_columns_dual_to_them(rows: list[list[int]]) -> None:
     sparse = [{at: value for at, value in enumerate(row) if value} for row in rows]
-    basis, dual, index = saturate(sparse)
+    basis, dual, index = saturated_lattice(sparse)
     dense = np.array([[row.get(k, 0) for k in range(6)] for row in basis], object).reshape(-1, 6)
     columns = np.array([[row.get(k, 0) for k in range(6)] for row in dual], object).reshape(-1, 6)
     assert np.array_equal(dense @ columns.T, np.eye(len(basis), dtype=int))  # so no multiple of a row is missing
@@ -615,13 +614,13 @@ def test_rules_of_sets_are_found_and_agree_with_floats_for_all_tooth_numbers_of_
     config, text = SETS[name]
     if name in SIZES:
         assert (len(config.names), len(config.meshes)) == SIZES[name]
-    rule = rule_on_sphere(config)
+    rule = spherical_divisibility_rule(config)
     assert rule is not None
     assert rule.text == text
     kinds = list(dict.fromkeys(config.kinds))
     for counts in product(range(10, 22 if len(config.names) < 40 else 16, 1), repeat=min(len(kinds), 2)):
         teeth = dict(zip(kinds, (*counts, 12), strict=False))
-        numeric = closure_on_sphere(without_angles(config), teeth)
+        numeric = spherical_phasing(without_angles(config), teeth)
         assert numeric.how == "numeric"
         assert bool(numeric) == rule.holds(teeth), teeth
 
@@ -648,7 +647,7 @@ def test_rules_of_sets_are_found_and_agree_with_floats_for_all_tooth_numbers_of_
 )
 def test_teeth_in_space_agree_about_sets_on_a_sphere(name: str, teeth: dict[str, int]) -> None:
     config, _ = SETS[name]
-    closure = closure_on_sphere(config, teeth)
+    closure = spherical_phasing(config, teeth)
     wheels, pairs = on_sphere(config, teeth)
     off = misfits(wheels, pairs, closure.angles)
     together = best(wheels, pairs)
@@ -660,7 +659,7 @@ def test_largest_errors_of_the_icosidodecahedron_are_those_known() -> None:
     known = {(5, 3): 0, (10, 6): 0, (20, 12): 0, (25, 15): 0, (15, 6): 0, (20, 9): 0, (35, 24): 0}
     known |= {(12, 6): Fraction(2, 5), (10, 4): Fraction(1, 3), (25, 16): Fraction(1, 3), (11, 7): Fraction(7, 15)}
     for (five, three), error in known.items():
-        closure = closure_on_sphere(icosidodecahedron(), {"5": five, "3": three})
+        closure = spherical_phasing(icosidodecahedron(), {"5": five, "3": three})
         assert closure.last == pytest.approx(float(error), abs=1e-12)
         wheels, pairs = on_sphere(icosidodecahedron(), {"5": five, "3": three})
         assert best(wheels, pairs) == pytest.approx(float(error), abs=1e-9)
@@ -681,7 +680,7 @@ def test_the_residue_of_an_antiprism_is_that_of_its_formula(n: int) -> None:
         ours = config.azimuth(0, 2 * n), config.azimuth(0, 1)
         theta = abs((ours[0] - ours[1] + math.pi) % math.tau - math.pi)
         for cap, side in [(24, 12), (29, 17), (36, 18)]:
-            closure = closure_on_sphere(config, {"n": cap, "3": side})
+            closure = spherical_phasing(config, {"n": cap, "3": side})
             expected = cap / n - 4 * side * theta / math.tau
             near = [one for one in closure.loops if len(one.gears) == 4]
             assert len(near) == len(closure.loops) == 2 * n - 1
@@ -696,7 +695,7 @@ def test_equal_gears_on_an_antiprism_close_if_n_divides_three_times_their_teeth(
         k = math.cos(math.pi / n)
         config = antiprism(n, math.asin(k / (1 + k)))
         for teeth in range(8, 40):
-            closure = closure_on_sphere(config, {"n": teeth, "3": teeth})
+            closure = spherical_phasing(config, {"n": teeth, "3": teeth})
             assert bool(closure) == (3 * teeth % n == 0)
 
 
@@ -734,14 +733,14 @@ def test_a_bevel_differential_closes_if_its_spiders_divide_the_teeth_of_both_sid
 
 
 def test_angles_are_rational_parts_of_a_turn_only_where_niven_lets_them() -> None:
-    assert rational((1, 0, 0), (1, 1, 0), 1 / 8) == Fraction(1, 8)
-    assert rational((1, 0, 0), (-1, -1, 0), 5 / 8) == Fraction(5, 8)
-    assert rational((3, 4, 0), (-4, 3, 0), 0.25) == Fraction(1, 4)
-    assert rational((1, -1, 0), (0, 1, -1), 1 / 3) == Fraction(1, 3)
-    assert rational((1, 0, 0), (4, 3, 0), 0.1024) is None
-    assert recognised(1 / 3 + 1e-7, 1e-6) == Fraction(1, 3)
-    assert recognised(0.36787944, 1e-6) is None
-    assert recognised(1 - 1e-9, 1e-8) == 0
+    assert rational_angle((1, 0, 0), (1, 1, 0), 1 / 8) == Fraction(1, 8)
+    assert rational_angle((1, 0, 0), (-1, -1, 0), 5 / 8) == Fraction(5, 8)
+    assert rational_angle((3, 4, 0), (-4, 3, 0), 0.25) == Fraction(1, 4)
+    assert rational_angle((1, -1, 0), (0, 1, -1), 1 / 3) == Fraction(1, 3)
+    assert rational_angle((1, 0, 0), (4, 3, 0), 0.1024) is None
+    assert recognised_angle(1 / 3 + 1e-7, 1e-6) == Fraction(1, 3)
+    assert recognised_angle(0.36787944, 1e-6) is None
+    assert recognised_angle(1 - 1e-9, 1e-8) == 0
 
 
 def test_an_angle_between_whole_vectors_is_rational_if_and_only_if_floats_see_a_multiple_of_a_24th() -> None:
@@ -749,13 +748,13 @@ def test_an_angle_between_whole_vectors_is_rational_if_and_only_if_floats_see_a_
     for u, v in product(box, box):
         turn = math.atan2(float(np.linalg.norm(np.cross(u, v))), float(np.dot(u, v))) / math.tau
         near = abs(24 * turn - round(24 * turn)) < 1e-9
-        assert (rational(u, v, turn) is not None) == near, (u, v)
+        assert (rational_angle(u, v, turn) is not None) == near, (u, v)
 
 
 @given(st.fractions(0, Fraction(19, 20), max_denominator=200), st.floats(-1, 1), st.floats(1e-12, 1e-3))
 def test_a_fraction_is_recognised_if_and_only_if_few_are_as_simple(part: Fraction, off: float, slack: float) -> None:
     chance = 2 * 0.304 * part.denominator**2 * slack
-    found = recognised((float(part) + off * slack) % 1, slack * 1.0001)
+    found = recognised_angle((float(part) + off * slack) % 1, slack * 1.0001)
     if chance < 0.99e-3:
         assert found == part
     if found is not None:
@@ -768,7 +767,7 @@ def test_a_fraction_is_recognised_if_and_only_if_few_are_as_simple(part: Fractio
     )
 )
 def test_a_rule_holds_exactly_where_all_forms_are_whole(forms: list[dict[str, Fraction]]) -> None:
-    rule = find_rule(forms)
+    rule = find_divisibility_rule(forms)
     for counts in product(range(6), (0, 1, 5, 7), (0, 2, 3, 11)):
         teeth = dict(zip("abc", counts, strict=True))
         whole = all(sum(f * teeth[k] for k, f in form.items()) % 1 == 0 for form in forms)
@@ -778,10 +777,10 @@ def test_a_rule_holds_exactly_where_all_forms_are_whole(forms: list[dict[str, Fr
 
 def test_a_rule_has_no_condition_that_follows_from_others() -> None:
     quarter, half = Fraction(1, 4), Fraction(1, 2)
-    rule = find_rule([{"3": half, "5": quarter}, {"3": half, "5": 3 * quarter}])
+    rule = find_divisibility_rule([{"3": half, "5": quarter}, {"3": half, "5": 3 * quarter}])
     assert rule.text == "4 divides 2 z3 + z5"
-    assert find_rule([{"3": Fraction(1, 6), "sun": Fraction(1, 6)}]).text == "6 divides z[3] + z[sun]"
-    assert find_rule([{"3": Fraction(2)}]).text == "always"
+    assert find_divisibility_rule([{"3": Fraction(1, 6), "sun": Fraction(1, 6)}]).text == "6 divides z[3] + z[sun]"
+    assert find_divisibility_rule([{"3": Fraction(2)}]).text == "always"
 
 
 def test_play_takes_up_a_small_miss_and_not_a_large_one() -> None:
@@ -842,11 +841,11 @@ def test_what_is_answered_can_be_read_and_written() -> None:
 
 def test_tooth_numbers_must_be_chosen_and_regular_gears_must_be_regular() -> None:
     with pytest.raises(GearTrainError, match="no tooth number for 5"):
-        closure_on_sphere(icosidodecahedron(), {"3": 12})
+        spherical_phasing(icosidodecahedron(), {"3": 12})
     config = cuboctahedron()
     wrong = Configuration(config.names, config.axes, config.meshes, config.kinds, (7,) * len(config.names))
     with pytest.raises(GearTrainError, match="regular"):
-        closure_on_sphere(wrong, {"3": 12, "4": 12})
+        spherical_phasing(wrong, {"3": 12, "4": 12})
 
 
 def test_a_lattice_is_judged_by_its_squares() -> None:
@@ -867,9 +866,9 @@ def test_a_lattice_is_judged_by_its_squares() -> None:
 
 
 def test_both_ways_of_least_squares_leave_the_same_errors(monkeypatch: pytest.MonkeyPatch) -> None:
-    from geartrain.closure import squares
+    from geartrain.kinematics.phasing import least_squares as squares
 
-    asked = closure_on_sphere(icosidodecahedron(), {"5": 12, "3": 6}).problem
+    asked = spherical_phasing(icosidodecahedron(), {"5": 12, "3": 6}).problem
     rows, right = asked._by_nodes, asked.errors(asked.tree_angles)
     dense = right - rows.times(rows.least_squares(right))
     monkeypatch.setattr(squares, "_DENSE", 0)
@@ -880,9 +879,9 @@ def test_both_ways_of_least_squares_leave_the_same_errors(monkeypatch: pytest.Mo
 
 
 def test_floats_fail_where_they_say_they_may() -> None:
-    for found in measure([10**k for k in range(1, 17)]):
+    for found in measure_phase_accuracy([10**k for k in range(1, 17)]):
         assert found.error <= found.bound
-    assert first_failure() in (10**13, 10**14, 10**15)
+    assert first_float_failure() in (10**13, 10**14, 10**15)
 
 
 def test_closure_brings_numpy_alone_and_nothing_without_being_asked() -> None:
@@ -899,5 +898,5 @@ def test_anything_with_the_parts_of_a_configuration_is_judged() -> None:
     config = octahedron()
     alike = SimpleNamespace(**{name: getattr(config, name) for name in ("names", "axes", "meshes", "kinds", "regular")})
     alike.teeth = {"3": 11}
-    closure: Closure = closure_on_sphere(alike)
+    closure: MeshPhasing = spherical_phasing(alike)
     assert closure.kind == "closes"

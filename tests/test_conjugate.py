@@ -13,39 +13,41 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from geartrain.conjugate import forms
-from geartrain.conjugate.measures import height, measure, rubbing
-from geartrain.conjugate.path import Path
-from geartrain.conjugate.pitch import Pitch
-from geartrain.conjugate.side import Side
-from geartrain.roots import root
+from geartrain.numerics.roots import root
+from geartrain.teeth.conjugate import optimal_sides as forms
+from geartrain.teeth.conjugate.path_costs import height, measure, sliding_integral
+from geartrain.teeth.conjugate.path_of_contact import PathOfContact
+from geartrain.teeth.conjugate.path_side import PathSide
+from geartrain.teeth.conjugate.pitch_surfaces import PitchSurfaces
 
 TABLES = json.loads((File(__file__).parent / "data" / "tooth_shapes.json").read_text(encoding="utf-8"))
 PERFORMANCE = {(row[0], row[1]): row[2:] for row in TABLES["performance"]}
 
 
-def pitch_of(name: str) -> Pitch:
+def pitch_of(name: str) -> PitchSurfaces:
     """`spur(24,36)`, `bevel(24,36)` at right angles."""
     kind, z1, z2 = re.fullmatch(r"(\w+)\((\d+),(\d+)\)", name).groups()  # type: ignore[union-attr]
-    return Pitch.spur(int(z1), int(z2)) if kind == "spur" else Pitch.cones(int(z1), int(z2))
+    return PitchSurfaces.spur(int(z1), int(z2)) if kind == "spur" else PitchSurfaces.cones(int(z1), int(z2))
 
 
-def involute(pitch: Pitch) -> Path:
+def involute(pitch: PitchSurfaces) -> PathOfContact:
     side = forms.involute(pitch.p / 2, radians(20))
-    return Path(pitch, side, side)
+    return PathOfContact(pitch, side, side)
 
 
 @cache
-def heated(pair: str, reading: str) -> tuple[float, Path]:
+def heated(pair: str, reading: str) -> tuple[float, PathOfContact]:
     """Uniform heat with the working depth of the involute: its Q*, by solving for the depth, and its path."""
     pitch = pitch_of(pair)
     A, B, X = pitch.A, pitch.B, pitch.p / 2
     depth = measure(involute(pitch)).depth
 
-    def path(Q: float) -> Path:
+    def path(Q: float) -> PathOfContact:
         gamma = (A + B) / Q
         first, second = (A, -A) if reading == "a" else (A, B)
-        return Path(pitch, forms.uniform_heat(pitch, first, gamma, X), forms.uniform_heat(pitch, second, gamma, X))
+        return PathOfContact(
+            pitch, forms.uniform_heat(pitch, first, gamma, X), forms.uniform_heat(pitch, second, gamma, X)
+        )
 
     def off(Q: float) -> float:
         found = path(Q)
@@ -55,7 +57,7 @@ def heated(pair: str, reading: str) -> tuple[float, Path]:
     return Q, path(Q)
 
 
-def path_of(pair: str, shape: str) -> Path:
+def path_of(pair: str, shape: str) -> PathOfContact:
     """The path of one row of the tables."""
     pitch = pitch_of(pair)
     A, B, X = pitch.A, pitch.B, pitch.p / 2
@@ -65,17 +67,17 @@ def path_of(pair: str, shape: str) -> Path:
     if shape.startswith("UHS"):
         psi = radians(numbers[0])
         sides = (forms.uniform_stress(pitch, a, b, X, psi) for a, b in ((B, A), (A, B)))
-        return Path(pitch, *sides)
+        return PathOfContact(pitch, *sides)
     if shape.startswith(("UT-a", "UT-b")):
         return heated(pair, shape[3])[1]
     if shape.startswith("UT-c"):
         gamma = (A + B) / (1.25 * heated(pair, "b")[0])
-        return Path(pitch, *(forms.bounded_heat(pitch, b, gamma, X, radians(12)) for b in (A, B)))
+        return PathOfContact(pitch, *(forms.bounded_heat(pitch, b, gamma, X, radians(12)) for b in (A, B)))
     psi, u = radians(numbers[0]), numbers[1]
-    return Path(pitch, *(forms.least_friction(pitch, b, X, psi, u) for b in (A, B)))
+    return PathOfContact(pitch, *(forms.least_friction(pitch, b, X, psi, u) for b in (A, B)))
 
 
-def tilt(side: Side) -> float:
+def tilt(side: PathSide) -> float:
     return degrees(asin(float(side.sin_psi(np.array(side.end)))))
 
 
@@ -128,7 +130,7 @@ def test_points_of_the_profiles_are_those_of_the_table(row: list[str]) -> None:
     pitch = pitch_of(pair)
     if name.startswith("UT"):
         gamma = (pitch.A + pitch.B) / 0.4
-        path = Path(pitch, *(forms.uniform_heat(pitch, b, gamma, pitch.p / 2) for b in (pitch.A, pitch.B)))
+        path = PathOfContact(pitch, *(forms.uniform_heat(pitch, b, gamma, pitch.p / 2) for b in (pitch.A, pitch.B)))
     else:
         path = path_of(pair, next(shape for key, shape in SHAPES.items() if name.startswith(key)))
     X = np.array([float(row[1]) * pitch.p])
@@ -156,7 +158,7 @@ def test_points_of_the_profiles_are_those_of_the_table(row: list[str]) -> None:
 def test_every_path_obeys_the_fundamental_law_and_euler_savary(
     z1: int, z2: int, tilted: float, bevel: bool, shape: str
 ) -> None:
-    pitch = Pitch.cones(z1, z2) if bevel else Pitch.spur(z1, z2)
+    pitch = PitchSurfaces.cones(z1, z2) if bevel else PitchSurfaces.spur(z1, z2)
     A, B, X, psi = pitch.A, pitch.B, pitch.p * 0.4, radians(tilted)
     make = {
         "stress": lambda a, b: forms.uniform_stress(pitch, a, b, X, psi),
@@ -164,7 +166,7 @@ def test_every_path_obeys_the_fundamental_law_and_euler_savary(
         "friction": lambda a, b: forms.least_friction(pitch, b, X, psi, 0.12),
         "involute": lambda a, b: forms.involute(X, psi),
     }[shape]
-    path = Path(pitch, make(B, A), make(A, B))
+    path = PathOfContact(pitch, make(B, A), make(A, B))
     at = np.array([-0.9, -0.6, -0.3, 0.3, 0.6, 0.9]) * X
     c = path.at(at)
     step = 1e-5 * X
@@ -183,29 +185,29 @@ def test_every_path_obeys_the_fundamental_law_and_euler_savary(
 @given(st.integers(6, 300), st.integers(6, 300), st.floats(5, 40), st.floats(0.1, 0.6))
 @settings(max_examples=40, deadline=None)
 def test_the_loss_of_an_involute_has_its_closed_form(z1: int, z2: int, psi: float, arc: float) -> None:
-    pitch = Pitch.spur(z1, z2)
+    pitch = PitchSurfaces.spur(z1, z2)
     side = forms.involute(arc * pitch.p, radians(psi))
-    assert rubbing(pitch, side) == pytest.approx((arc * pitch.p) ** 2 / 2, rel=1e-13)
-    bevel = Pitch.cones(z1, z2)
+    assert sliding_integral(pitch, side) == pytest.approx((arc * pitch.p) ** 2 / 2, rel=1e-13)
+    bevel = PitchSurfaces.cones(z1, z2)
     side, X = forms.involute(arc * bevel.p, radians(psi)), arc * bevel.p
-    assert rubbing(bevel, side) == pytest.approx(
+    assert sliding_integral(bevel, side) == pytest.approx(
         2 * sin(X * cos(radians(psi)) / 2) ** 2 / cos(radians(psi)) ** 2, rel=1e-12
     )
 
 
 @pytest.mark.parametrize(("low", "high", "bound"), [(0, 20, 0.969836881841), (14.5, 20, 0.985303326879)])
 def test_no_friction_shape_beats_the_bound_of_its_window(low: float, high: float, bound: float) -> None:
-    pitch = Pitch.spur(24, 36)
+    pitch = PitchSurfaces.spur(24, 36)
     X = pitch.p / 2
     assert 1 / (1 + log(cos(radians(low)) / cos(radians(high))) / 2) == pytest.approx(bound, abs=5e-13)
     for u in (0.02, 0.05, 0.1, 0.2):
         side = forms.least_friction(pitch, pitch.B, X, radians(high), u)
         if tilt(side) >= low:
-            assert rubbing(pitch, side) > bound * X**2 / 2
+            assert sliding_integral(pitch, side) > bound * X**2 / 2
 
 
 def test_the_least_friction_side_is_that_of_the_table_and_least_among_its_neighbours() -> None:
-    pitch = Pitch.spur(24, 36)
+    pitch = PitchSurfaces.spur(24, 36)
     X = pi / 2
     for psi, u, first, end, last, ratio in (
         (25, 0.15, 0.3563150801726, 1.4803921288308, 14.73543682791, 0.9725332410128),
@@ -214,22 +216,22 @@ def test_the_least_friction_side_is_that_of_the_table_and_least_among_its_neighb
         side = forms.least_friction(pitch, pitch.B, X, radians(psi), u)
         assert side.joints == (pytest.approx(first, abs=2e-13), pytest.approx(end, abs=2e-13))
         assert tilt(side) == pytest.approx(last, abs=2e-11)
-        assert rubbing(pitch, side) / (X**2 / 2) == pytest.approx(ratio, abs=2e-13)
+        assert sliding_integral(pitch, side) / (X**2 / 2) == pytest.approx(ratio, abs=2e-13)
 
 
 def test_a_cycloid_loses_more_than_the_involute_by_the_closed_form() -> None:
-    pitch = Pitch.spur(24, 36)
+    pitch = PitchSurfaces.spur(24, 36)
     X, rho = pi / 2, 4.5
     closed = -4 * rho**2 * log(cos(X / (2 * rho)))
-    assert rubbing(pitch, forms.cycloid(X, rho)) == pytest.approx(closed, rel=1e-13)
+    assert sliding_integral(pitch, forms.cycloid(X, rho)) == pytest.approx(closed, rel=1e-13)
     assert closed / (X**2 / 2) == pytest.approx(1.005118582955953, abs=1e-13)
 
 
 def test_bevel_tends_to_spur_with_the_square_of_the_cone_angle() -> None:
     def off(size: float) -> float:
-        cones = Pitch(24, 36, 24 / 36 * size, size, True)
+        cones = PitchSurfaces(24, 36, 24 / 36 * size, size, True)
         scale = cones.R1 / 12
-        flat, psi, X = Pitch.spur(24, 36), radians(20), cones.p / 2
+        flat, psi, X = PitchSurfaces.spur(24, 36), radians(20), cones.p / 2
         side = forms.uniform_stress(cones, cones.A, cones.B, X, psi)
         plain = forms.uniform_stress(flat, flat.A, flat.B, X / scale, psi)
         return abs(side.end / scale - plain.end) / plain.end
@@ -240,10 +242,10 @@ def test_bevel_tends_to_spur_with_the_square_of_the_cone_angle() -> None:
 
 def test_uniform_stress_is_uniform_and_never_undercuts_from_five_teeth_to_a_hundred_thousand() -> None:
     for z1, z2, tilted in ((5, 5, 20), (5, 1000, 20), (12, 100_000, 1), (40, 40, 44), (100_000, 100_000, 20)):
-        pitch, psi = Pitch.spur(z1, z2), radians(tilted)
+        pitch, psi = PitchSurfaces.spur(z1, z2), radians(tilted)
         A, B, X = pitch.A, pitch.B, 0.3 * pitch.p
         sides = (forms.uniform_stress(pitch, a, b, X, psi) for a, b in ((B, A), (A, B)))
-        path = Path(pitch, *sides)
+        path = PathOfContact(pitch, *sides)
         c = path.at(np.linspace(-0.3, 0.3, 61) * pitch.p)
         assert np.ptp(c.H) <= 2e-12 * c.H.max()
         assert min(c.U1.min(), c.U2.min()) > 0

@@ -8,16 +8,16 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from geartrain.conjugate import forms
-from geartrain.conjugate.admissible import faults, tip_thickness
-from geartrain.conjugate.path import Path
-from geartrain.conjugate.pitch import Pitch
+from geartrain.teeth.conjugate import optimal_sides as forms
+from geartrain.teeth.conjugate.admissibility import faults, tip_thickness
+from geartrain.teeth.conjugate.path_of_contact import PathOfContact
+from geartrain.teeth.conjugate.pitch_surfaces import PitchSurfaces
 
 
-def involute(pitch: Pitch, approach: float, recess: float, psi: float) -> Path:
+def involute(pitch: PitchSurfaces, approach: float, recess: float, psi: float) -> PathOfContact:
     """Arcs in pitches, pressure angle in degrees."""
     sides = (forms.involute(arc * pitch.p, radians(psi)) for arc in (approach, recess))
-    return Path(pitch, *sides)
+    return PathOfContact(pitch, *sides)
 
 
 def inv(angle: float) -> float:
@@ -30,7 +30,7 @@ def inv(angle: float) -> float:
 def test_an_involute_is_undercut_from_where_its_line_touches_the_base_circle(
     z1: int, z2: int, psi: float, approach: float, recess: float
 ) -> None:
-    pitch = Pitch.spur(z1, z2)
+    pitch = PitchSurfaces.spur(z1, z2)
     found = {
         fault.gear: fault.X for fault in faults(involute(pitch, approach, recess, psi)) if fault.kind == "undercut"
     }
@@ -47,7 +47,7 @@ def test_an_involute_is_undercut_from_where_its_line_touches_the_base_circle(
 def test_the_tip_of_an_involute_is_as_wide_as_the_textbook_says(
     z1: int, z2: int, psi: float, approach: float, recess: float
 ) -> None:
-    pitch, alpha = Pitch.spur(z1, z2), radians(psi)
+    pitch, alpha = PitchSurfaces.spur(z1, z2), radians(psi)
     path = involute(pitch, approach, recess, psi)
     for gear, z, R, arc in ((1, z1, pitch.R1, recess), (2, z2, pitch.R2, approach)):
         d = arc * pitch.p * cos(alpha)
@@ -60,21 +60,21 @@ def test_the_tip_of_an_involute_is_as_wide_as_the_textbook_says(
 
 def test_a_bevel_pair_of_small_cones_has_the_tips_of_the_spur_pair() -> None:
     size = 1e-4
-    flat, cones = Pitch.spur(24, 36), Pitch(24, 36, 12 * size, 18 * size, True)
+    flat, cones = PitchSurfaces.spur(24, 36), PitchSurfaces(24, 36, 12 * size, 18 * size, True)
     for gear in (1, 2):
         plane = tip_thickness(involute(flat, 0.5, 0.6, 20), gear)
         assert tip_thickness(involute(cones, 0.5, 0.6, 20), gear) == pytest.approx(plane, abs=1e-6)
 
 
 def test_a_contact_ratio_below_one_is_named() -> None:
-    (fault,) = faults(involute(Pitch.spur(30, 30), 0.4, 0.5, 20))
+    (fault,) = faults(involute(PitchSurfaces.spur(30, 30), 0.4, 0.5, 20))
     assert fault.kind == "contact ratio"
     assert "0.9" in fault.what
 
 
 def test_uniform_stress_is_never_undercut_where_the_involute_is() -> None:
-    pitch = Pitch.spur(8, 40)
+    pitch = PitchSurfaces.spur(8, 40)
     X, psi = 0.7 * pitch.p, radians(20)
     assert any(fault.kind == "undercut" for fault in faults(involute(pitch, 0.7, 0.5, 20)))
     sides = (forms.uniform_stress(pitch, a, b, X, psi) for a, b in ((pitch.B, pitch.A), (pitch.A, pitch.B)))
-    assert not any(fault.kind == "undercut" for fault in faults(Path(pitch, *sides)))
+    assert not any(fault.kind == "undercut" for fault in faults(PathOfContact(pitch, *sides)))

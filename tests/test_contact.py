@@ -13,15 +13,15 @@ from hypothesis import strategies as st
 from shapely import Polygon
 from shapely.affinity import rotate, translate
 
-from geartrain.conjugate import forms
-from geartrain.conjugate.path import Path
-from geartrain.conjugate.pitch import Pitch
-from geartrain.contact.outline import Curve, Outline, Tooth, polyline
-from geartrain.contact.solving import KINDS, contact, solve
-from geartrain.contact.tabulating import tabulate
 from geartrain.errors import GearTrainError, QuestionError, RangeError
-from geartrain.teeth.triangular.law import TriangularLaw
-from geartrain.teeth.triangular.sizes import Sizes, equal_depth
+from geartrain.teeth.conjugate import optimal_sides as forms
+from geartrain.teeth.conjugate.path_of_contact import PathOfContact
+from geartrain.teeth.conjugate.pitch_surfaces import PitchSurfaces
+from geartrain.teeth.contact.outline_contact import KINDS, contact, solve
+from geartrain.teeth.contact.outline_curves import GearOutline, OutlineCurve, ToothFlanks, polyline
+from geartrain.teeth.contact.transmission_fit import tabulate
+from geartrain.teeth.triangular.pair_geometry import TriangularSizes, equal_depth
+from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
 
 TWENTY = radians(20)
 Z1, Z2 = 24, 36
@@ -34,7 +34,7 @@ def inv(angle: float) -> float:
 # ------------------------------------------------------------------------------------------------------------ outlines
 
 
-def involute(z: int, low: float, high: float, psi: float = TWENTY, relief: Callable | None = None) -> Curve:
+def involute(z: int, low: float, high: float, psi: float = TWENTY, relief: Callable | None = None) -> OutlineCurve:
     """The side ahead of a tooth of module 1 from radius low to high, at azimuth 0 on the pitch circle."""
     base = z / 2 * cos(psi)
 
@@ -44,22 +44,22 @@ def involute(z: int, low: float, high: float, psi: float = TWENTY, relief: Calla
             a = a - relief(r)
         return np.stack([r * np.sin(a), r * np.cos(a)], axis=1)
 
-    return Curve(points, sqrt(max(0.0, (low / base) ** 2 - 1)), sqrt((high / base) ** 2 - 1))
+    return OutlineCurve(points, sqrt(max(0.0, (low / base) ** 2 - 1)), sqrt((high / base) ** 2 - 1))
 
 
 def wheels(
     addenda: tuple[float, float] = (1.0, 1.0), dedendum: float = 1.25, thin: float = 0.0, relief: Callable | None = None
-) -> tuple[Outline, Outline]:
+) -> tuple[GearOutline, GearOutline]:
     """24 and 36 involute teeth; tooth 0 of the first has its front, of the second its back side on the pitch point."""
     tables = []
     for z, addendum, side in ((Z1, addenda[0], 1), (Z2, addenda[1], -1)):
         curve = involute(z, z / 2 - dedendum, z / 2 + addendum, relief=relief if side > 0 else None)
-        tooth = Tooth.symmetric((curve,), -pi / z / 2 + thin / 2)
-        tables.append(Outline((tooth if side > 0 else tooth.turned(pi / z - thin),), z))
+        tooth = ToothFlanks.symmetric((curve,), -pi / z / 2 + thin / 2)
+        tables.append(GearOutline((tooth if side > 0 else tooth.turned(pi / z - thin),), z))
     return tables[0], tables[1]
 
 
-def in_body(pitch: Pitch, gear: int) -> Callable[[np.ndarray], np.ndarray]:
+def in_body(pitch: PitchSurfaces, gear: int) -> Callable[[np.ndarray], np.ndarray]:
     """Points counted from the pitch point, as an outline counts them: from the axle, x forward, y outward."""
     R = -pitch.R1 if gear == 1 else pitch.R2
     if pitch.bevel:
@@ -68,31 +68,31 @@ def in_body(pitch: Pitch, gear: int) -> Callable[[np.ndarray], np.ndarray]:
     return lambda p: np.stack([p[:, 0], (p[:, 1] - R) * np.sign(-R)], axis=1)
 
 
-def conjugate(path: Path, other: Path | None = None) -> tuple[Outline, Outline, float]:
+def conjugate(path: PathOfContact, other: PathOfContact | None = None) -> tuple[GearOutline, GearOutline, float]:
     """Outlines with the flanks of a path of contact, the second wheel's of another path if given, and the distance."""
     pitch, (approach, recess) = path.pitch, path.arcs
 
     def side(flank, gear):
         change = in_body(pitch, gear)
-        return tuple(Curve(lambda X: change(flank(X)), *ends) for ends in ((-approach, -1e-300), (0.0, recess)))
+        return tuple(OutlineCurve(lambda X: change(flank(X)), *ends) for ends in ((-approach, -1e-300), (0.0, recess)))
 
-    one = Tooth.symmetric(side(path.flank1, 1), -pi / pitch.z1 / 2)
-    two = Tooth.symmetric(side((other or path).flank2, 2), pi / pitch.z2 / 2)
-    second = Outline((Tooth(two.behind, two.ahead),), pitch.z2, ring=pitch.R2 < 0)
-    return Outline((one,), pitch.z1), second, abs(pitch.R1 + pitch.R2)
+    one = ToothFlanks.symmetric(side(path.flank1, 1), -pi / pitch.z1 / 2)
+    two = ToothFlanks.symmetric(side((other or path).flank2, 2), pi / pitch.z2 / 2)
+    second = GearOutline((ToothFlanks(two.behind, two.ahead),), pitch.z2, ring=pitch.R2 < 0)
+    return GearOutline((one,), pitch.z1), second, abs(pitch.R1 + pitch.R2)
 
 
-def triangular(z: int, R: float, beta: float, length: float) -> Outline:
+def triangular(z: int, R: float, beta: float, length: float) -> GearOutline:
     def points(s):
         return np.stack([s * sin(beta), R - s * cos(beta)], axis=1)
 
-    return Outline((Tooth.symmetric((Curve(points, 0.0, length),)),), z)
+    return GearOutline((ToothFlanks.symmetric((OutlineCurve(points, 0.0, length),)),), z)
 
 
 # -------------------------------------------------------------------------------------------------------- brute force
 
 
-def dense(curves: tuple[Curve, ...], number: int = 4001) -> np.ndarray:
+def dense(curves: tuple[OutlineCurve, ...], number: int = 4001) -> np.ndarray:
     """Many points of a chain of curves, radius and azimuth, (2, n)."""
     parts = [curve.at(np.linspace(curve.start, curve.end, number)) for curve in curves]
     x, y, *z = np.concatenate(parts).T
@@ -100,7 +100,7 @@ def dense(curves: tuple[Curve, ...], number: int = 4001) -> np.ndarray:
     return np.stack([np.arctan2(r, z[0]) if z else r, np.arctan2(x, y)])
 
 
-def brute(first: Outline, second: Outline, distance: float, phi1: float, number: int = 4001) -> float:
+def brute(first: GearOutline, second: GearOutline, distance: float, phi1: float, number: int = 4001) -> float:
     """The driven angle from all couples and many points of the driver; equal teeth, sides with rising radius."""
     (r, a), (r2, a2) = dense(first.teeth[0].ahead, number), dense(second.teeth[0].behind, number)
     order = np.argsort(r2)
@@ -231,7 +231,7 @@ def test_an_eccentric_involute_runs_at_the_distance_of_its_middle() -> None:
 
 def test_a_tooth_ahead_of_its_place_leads_while_it_is_in_contact() -> None:
     first, second = wheels()
-    late = Outline(first.teeth, Z1, (0.0,) * 3 + (2e-4,) + (0.0,) * (Z1 - 4))
+    late = GearOutline(first.teeth, Z1, (0.0,) * 3 + (2e-4,) + (0.0,) * (Z1 - 4))
     at = -3 * 2 * pi / Z1  # its side on the pitch point
     phi1 = at + np.linspace(-0.15, 0.15, 31)
     found = contact(late, second, 30.0, phi1)
@@ -239,7 +239,7 @@ def test_a_tooth_ahead_of_its_place_leads_while_it_is_in_contact() -> None:
     assert np.abs(found.angle - (phi1 + 2e-4) * Z1 / Z2).max() < 2e-15
     elsewhere = contact(late, second, 30.0, phi1 + pi)
     assert np.abs(elsewhere.angle - (phi1 + pi) * Z1 / Z2).max() < 2e-15
-    driven = Outline(second.teeth, Z2, (0.0,) * 3 + (-2e-4,) + (0.0,) * (Z2 - 4))
+    driven = GearOutline(second.teeth, Z2, (0.0,) * 3 + (-2e-4,) + (0.0,) * (Z2 - 4))
     assert np.abs(contact(first, driven, 30.0, phi1).angle - phi1 * Z1 / Z2 - 2e-4).max() < 2e-15
 
 
@@ -249,8 +249,8 @@ def test_a_measured_tooth_comes_nearer_with_the_square_of_its_points() -> None:
     phi1 = np.linspace(0, 2 * pi / Z1, 31)
     off = []
     for number in (11, 21, 41):
-        measured = Tooth.symmetric(polyline(curve.at(np.linspace(curve.start, curve.end, number))), -pi / Z1 / 2)
-        worn = Outline((measured,), Z1)
+        measured = ToothFlanks.symmetric(polyline(curve.at(np.linspace(curve.start, curve.end, number))), -pi / Z1 / 2)
+        worn = GearOutline((measured,), Z1)
         off.append(np.abs(contact(worn, second, 30.0, phi1).angle - phi1 * Z1 / Z2).max())
         assert float(contact(worn, second, 30.0, 0.03).angle) == pytest.approx(
             brute(worn, second, 30.0, 0.03), abs=1e-7
@@ -264,7 +264,7 @@ def test_a_measured_tooth_comes_nearer_with_the_square_of_its_points() -> None:
 PITCH_POINT = 2 * 18 * float(np.arcsin(0.8 / 36))
 
 
-def lantern(start: float) -> tuple[Outline, Outline]:
+def lantern(start: float) -> tuple[GearOutline, GearOutline]:
     """24 teeth and 36 whole pins of radius 0.8 on 18; the mate is the parallel curve of the pin centre's path."""
     R1, R2, B = 12.0, 18.0, 0.8
 
@@ -275,9 +275,9 @@ def lantern(start: float) -> tuple[Outline, Outline]:
         x, y = gx * inner, gy * inner + R1
         return np.stack([x * np.cos(turn) - y * np.sin(turn), x * np.sin(turn) + y * np.cos(turn)], axis=1)
 
-    circle = Curve(lambda t: np.stack([B * np.sin(t), R2 + B * np.cos(t)], axis=1), 0.0, 2 * pi)
-    first = Outline((Tooth.symmetric((Curve(mate, start, 4.6),), -0.1),), 24)
-    return first, Outline((Tooth((circle,), (circle,)),), 36)
+    circle = OutlineCurve(lambda t: np.stack([B * np.sin(t), R2 + B * np.cos(t)], axis=1), 0.0, 2 * pi)
+    first = GearOutline((ToothFlanks.symmetric((OutlineCurve(mate, start, 4.6),), -0.1),), 24)
+    return first, GearOutline((ToothFlanks((circle,), (circle,)),), 36)
 
 
 def test_whole_pins_and_their_mate_have_no_error_whichever_drives() -> None:
@@ -321,8 +321,10 @@ JUMPS = {
 }
 
 
-def triangles(z1: int, z2: int, excess: float, beta: float = radians(30)) -> tuple[Sizes, Outline, Outline]:
-    sizes = Sizes(z1, z2, *equal_depth(z1, z2, beta, beta), beta, beta, excess)
+def triangles(
+    z1: int, z2: int, excess: float, beta: float = radians(30)
+) -> tuple[TriangularSizes, GearOutline, GearOutline]:
+    sizes = TriangularSizes(z1, z2, *equal_depth(z1, z2, beta, beta), beta, beta, excess)
     first = triangular(z1, sizes.R1, beta, sizes.flanks[0])
     return sizes, first, triangular(z2, sizes.R2, beta, sizes.flanks[1])
 
@@ -330,7 +332,7 @@ def triangles(z1: int, z2: int, excess: float, beta: float = radians(30)) -> tup
 @pytest.mark.parametrize(("z1", "z2", "excess"), CASES)
 def test_triangular_teeth_have_their_law_on_both_sides(z1: int, z2: int, excess: float) -> None:
     sizes, first, second = triangles(z1, z2, excess)
-    law = TriangularLaw(sizes)
+    law = TriangularTransmission(sizes)
     phi1 = np.linspace(-0.5, 0.6, 801)
     found = solve(first, second, sizes.D, phi1)
     assert np.abs(found.front.angle - law.angle(phi1)).max() < 2e-15
@@ -343,7 +345,7 @@ def test_triangular_teeth_have_their_law_on_both_sides(z1: int, z2: int, excess:
 @pytest.mark.parametrize(("z1", "z2", "excess"), CASES)
 def test_tables_of_triangular_teeth_jump_where_and_as_printed(z1: int, z2: int, excess: float) -> None:
     sizes, first, second = triangles(z1, z2, excess)
-    law, table = TriangularLaw(sizes), tabulate(first, second, sizes.D)
+    law, table = TriangularTransmission(sizes), tabulate(first, second, sizes.D)
     assert table.uncertainty < 1e-13
     before, after = table.speed(table.corners - 1e-12), table.speed(table.corners + 1e-12)
     assert sorted(np.round(1 - before / after, 5).tolist()) == JUMPS[z1, z2, excess]
@@ -373,7 +375,7 @@ def test_triangular_teeth_of_any_number_and_aperture_have_their_law(
 ) -> None:
     sizes = triangles(z1, z2, 0.0, radians(beta))[0]
     sizes, first, second = triangles(z1, z2, share * sizes.greatest_excess, radians(beta))
-    law = TriangularLaw(sizes)
+    law = TriangularTransmission(sizes)
     if not law.verdict or any(sizes.lean):
         return
     phi1 = np.linspace(0, 2 * pi / z1, 57)
@@ -383,30 +385,30 @@ def test_triangular_teeth_of_any_number_and_aperture_have_their_law(
 # ------------------------------------------------------------------------------------------------------ conjugate teeth
 
 
-def stress(pitch: Pitch, psi: float = TWENTY, share: float = 0.5) -> Path:
+def stress(pitch: PitchSurfaces, psi: float = TWENTY, share: float = 0.5) -> PathOfContact:
     ends = ((pitch.B, pitch.A), (pitch.A, pitch.B))
-    return Path(pitch, *(forms.uniform_stress(pitch, a, b, share * pitch.p, psi) for a, b in ends))
+    return PathOfContact(pitch, *(forms.uniform_stress(pitch, a, b, share * pitch.p, psi) for a, b in ends))
 
 
-def same(pitch: Pitch, side: Callable[[float], object], share: float = 0.5) -> Path:
-    return Path(pitch, side(share * pitch.p), side(share * pitch.p))  # type: ignore[arg-type]
+def same(pitch: PitchSurfaces, side: Callable[[float], object], share: float = 0.5) -> PathOfContact:
+    return PathOfContact(pitch, side(share * pitch.p), side(share * pitch.p))  # type: ignore[arg-type]
 
 
-def heat(pitch: Pitch) -> Path:
-    return Path(pitch, *(forms.uniform_heat(pitch, b, 0.3, pitch.p / 2) for b in (pitch.A, pitch.B)))
+def heat(pitch: PitchSurfaces) -> PathOfContact:
+    return PathOfContact(pitch, *(forms.uniform_heat(pitch, b, 0.3, pitch.p / 2) for b in (pitch.A, pitch.B)))
 
 
-SPUR, RING = Pitch.spur(24, 36), Pitch.spur(24, 72, True)
+SPUR, RING = PitchSurfaces.spur(24, 36), PitchSurfaces.spur(24, 72, True)
 SHAPES = {
     "uniform stress": lambda: stress(SPUR),
-    "uniform stress, many teeth": lambda: stress(Pitch.spur(1000, 3000)),
+    "uniform stress, many teeth": lambda: stress(PitchSurfaces.spur(1000, 3000)),
     "uniform stress in a ring": lambda: stress(RING),
-    "uniform stress, bevel": lambda: stress(Pitch.cones(24, 36)),
+    "uniform stress, bevel": lambda: stress(PitchSurfaces.cones(24, 36)),
     "uniform heat": lambda: heat(SPUR),
     "cycloid": lambda: same(SPUR, lambda X: forms.cycloid(X, 4.5)),
     "involute in a ring": lambda: same(RING, lambda X: forms.involute(X, TWENTY)),
-    "involute, bevel, two pairs": lambda: same(Pitch.cones(15, 45), lambda X: forms.involute(X, TWENTY), 0.7),
-    "involute, obtuse shaft angle": lambda: same(Pitch.cones(20, 40, 2.1), lambda X: forms.involute(X, TWENTY)),
+    "involute, bevel, two pairs": lambda: same(PitchSurfaces.cones(15, 45), lambda X: forms.involute(X, TWENTY), 0.7),
+    "involute, obtuse shaft angle": lambda: same(PitchSurfaces.cones(20, 40, 2.1), lambda X: forms.involute(X, TWENTY)),
 }
 
 
@@ -444,7 +446,7 @@ def test_cycloids_at_a_wrong_distance_are_what_a_scan_of_dense_points_says() -> 
 
 
 def test_an_eccentric_cycloid_repeats_itself_after_the_turns_that_bring_the_same_teeth_together() -> None:
-    first, second, distance = conjugate(same(Pitch.spur(6, 8), lambda X: forms.cycloid(X, 1.2)))
+    first, second, distance = conjugate(same(PitchSurfaces.spur(6, 8), lambda X: forms.cycloid(X, 1.2)))
     one, two = first.displaced(0.01, 0.0), second.displaced(0.0, 0.02)
     period = 4 * 2 * pi  # 24 pitches
     phi1 = np.linspace(0, 2, 7)
@@ -452,7 +454,7 @@ def test_an_eccentric_cycloid_repeats_itself_after_the_turns_that_bring_the_same
     assert after.angle - before.angle == pytest.approx(period * 6 / 8, abs=1e-13)
     part = contact(one, two, distance + 0.05, phi1 + period / 2).angle - before.angle
     assert np.abs(part - period * 3 / 8).max() > 1e-5
-    uneven = tabulate(Outline(first.teeth, 6, (0.0, 1e-3, 0.0, 0.0, 2e-3, 0.0)), second, distance, 1e-9)
+    uneven = tabulate(GearOutline(first.teeth, 6, (0.0, 1e-3, 0.0, 0.0, 2e-3, 0.0)), second, distance, 1e-9)
     assert uneven.period == pytest.approx(2 * pi)
     low, high = uneven.extremes()
     assert high == pytest.approx(2e-3 * 6 / 8, abs=1e-9)
@@ -462,7 +464,7 @@ def test_an_eccentric_cycloid_repeats_itself_after_the_turns_that_bring_the_same
 # ------------------------------------------------------------------------------------------------- any shape whatever
 
 
-def bulging(z: int, width: float, depth: float, bend: float, wave: float) -> Outline:
+def bulging(z: int, width: float, depth: float, bend: float, wave: float) -> GearOutline:
     """A tooth whose side is a cubic in radius, from width at its root to a sixth of it at its tip."""
 
     def points(t):
@@ -470,7 +472,7 @@ def bulging(z: int, width: float, depth: float, bend: float, wave: float) -> Out
         a = width * pi / z * (1 - 0.8 * t + bend * t * (1 - t) + wave * t * (1 - t) * (1 - 2 * t)) / 2
         return np.stack([r * np.sin(a), r * np.cos(a)], axis=1)
 
-    return Outline((Tooth.symmetric((Curve(points),)),), z)
+    return GearOutline((ToothFlanks.symmetric((OutlineCurve(points),)),), z)
 
 
 SIDES = st.tuples(st.integers(7, 40), st.floats(0.7, 1.1), st.floats(0.5, 1.1), st.floats(-0.6, 0.9), st.floats(-1, 1))
@@ -509,7 +511,7 @@ def test_polygons_of_the_wheels_meet_when_the_driven_one_is_turned_back(one, two
         assert overlap(float(found.phi2) - 1e-3) > 0
 
 
-def polygon(wheel: Outline) -> Polygon:
+def polygon(wheel: GearOutline) -> Polygon:
     """The wheel as one polygon; its teeth are symmetric and end on circles."""
     r, a = dense(wheel.teeth[0].ahead, 301)
     middles = 2 * pi * np.arange(wheel.z) / wheel.z
@@ -563,19 +565,19 @@ def test_what_cannot_be_answered_is_refused_with_what_why_and_what_to_do() -> No
     first, second = wheels()
     side = first.teeth[0].ahead
     bevel, *_ = conjugate(SHAPES["uniform stress, bevel"]())
-    torn = Curve(lambda t: np.stack([np.sign(t - 0.3), 5 + t], axis=1))
+    torn = OutlineCurve(lambda t: np.stack([np.sign(t - 0.3), 5 + t], axis=1))
     wrong: list[tuple[type[GearTrainError], Callable[[], object]]] = [
-        (QuestionError, lambda: Outline((first.teeth[0],) * 3, 24)),
-        (QuestionError, lambda: Outline(first.teeth, 24, (0.1,))),
-        (QuestionError, lambda: Outline((Tooth((), side),), 24)),
-        (QuestionError, lambda: Outline((Tooth((side[0], side[0]), side),), 24)),
-        (QuestionError, lambda: Outline((Tooth((Curve(side[0].points, 0.5, 0.5),), side),), 24)),
+        (QuestionError, lambda: GearOutline((first.teeth[0],) * 3, 24)),
+        (QuestionError, lambda: GearOutline(first.teeth, 24, (0.1,))),
+        (QuestionError, lambda: GearOutline((ToothFlanks((), side),), 24)),
+        (QuestionError, lambda: GearOutline((ToothFlanks((side[0], side[0]), side),), 24)),
+        (QuestionError, lambda: GearOutline((ToothFlanks((OutlineCurve(side[0].points, 0.5, 0.5),), side),), 24)),
         (QuestionError, lambda: solve(first, bevel, 1.0, 0.0)),
         (QuestionError, lambda: bevel.displaced(0.1, 0.0)),
         (RangeError, lambda: solve(first, second, -30.0, 0.0)),
         (RangeError, lambda: solve(bevel, bevel, 4.0, 0.0)),
         (RangeError, lambda: solve(first, second, 30.0, [0.0, np.nan])),
-        (RangeError, lambda: Outline((Tooth((torn,), side),), 24).ahead),
+        (RangeError, lambda: GearOutline((ToothFlanks((torn,), side),), 24).ahead),
     ]
     for kind, ask in wrong:
         with pytest.raises(kind) as caught:

@@ -10,16 +10,16 @@ from sorge import Pair, least_play
 from test_cutting_law import equally_deep, even
 
 from geartrain.errors import RangeError
-from geartrain.teeth.triangular.meshing import find_window
-from geartrain.teeth.triangular.sizes import Sizes
-from geartrain.uncertainty.cutting import (
-    Cutting,
+from geartrain.teeth.triangular.clearance_window import find_window
+from geartrain.teeth.triangular.pair_geometry import TriangularSizes
+from geartrain.uncertainty.manufacturing_errors import (
+    CuttingErrorModel,
     CutWheel,
-    Spread,
+    ErrorDistribution,
     batch_verdicts,
-    cut_law,
-    jam_bound,
-    nominal_play,
+    cut_transmission_function,
+    jamming_bound,
+    nominal_backlash,
 )
 
 THIRTY = radians(30)
@@ -31,20 +31,24 @@ def stacked(wheels: list[CutWheel]) -> CutWheel:
     return CutWheel(wheels[0].radius, wheels[0].half_angle, *(np.stack([getattr(w, n) for w in wheels]) for n in names))
 
 
-def cut(sizes: Sizes, rng: np.random.Generator, trials: int, cutting: Cutting) -> tuple[CutWheel, CutWheel]:
+def cut(
+    sizes: TriangularSizes, rng: np.random.Generator, trials: int, cutting: CuttingErrorModel
+) -> tuple[CutWheel, CutWheel]:
     driver, driven = (cutting.draw(wheel, rng, trials) for wheel in even(sizes))
     return driver, driven
 
 
 # --------------------------------------------------------------------------------------------------- one by one
 
-EVERY = Cutting(Spread(0.02), Spread(0.04), Spread(0.03), Spread(0.07))
-PLACES = Cutting(Spread(0.04))
+EVERY = CuttingErrorModel(
+    ErrorDistribution(0.02), ErrorDistribution(0.04), ErrorDistribution(0.03), ErrorDistribution(0.07)
+)
+PLACES = CuttingErrorModel(ErrorDistribution(0.04))
 
 
 @pytest.mark.parametrize("number", [pytest.param(5), pytest.param(60, marks=pytest.mark.slow)])
 @pytest.mark.parametrize("cutting", [EVERY, PLACES], ids=["every error", "places"])
-def test_a_batch_says_of_each_what_its_own_law_says(cutting: Cutting, number: int) -> None:
+def test_a_batch_says_of_each_what_its_own_law_says(cutting: CuttingErrorModel, number: int) -> None:
     """Play, clash, standstill and gap of random pairs, on both sides of their windows."""
     rng, kinds, done = np.random.default_rng(1), np.zeros(4, int), 0
     while done < number:
@@ -66,7 +70,7 @@ def test_a_batch_says_of_each_what_its_own_law_says(cutting: Cutting, number: in
         done += 1
         for at in range(4):
             here = shift if np.ndim(shift) == 0 else float(shift[at])
-            events = cut_law(sizes, driver.trial(at), driven.trial(at), here).events
+            events = cut_transmission_function(sizes, driver.trial(at), driven.trial(at), here).events
             assert found.play[at] == pytest.approx(events.play, abs=(1e-6 if cutting is PLACES else 1e-8) * sizes.p2)
             assert found.disengaged[at] == events.disengages
             assert found.standstill[at] == bool(events.of("standstill"))
@@ -94,7 +98,7 @@ def test_places_alone_are_reckoned_in_another_way_with_the_same_result() -> None
     rng = np.random.default_rng(3)
     for z1, z2, excess, sigma in ((64, 38, 0.02, 0.06), (24, 15, 0.02, 0.05), (15, 20, 0.03, 0.07)):
         sizes = equally_deep(z1, z2, excess)
-        driver, driven = cut(sizes, rng, 12, Cutting(Spread(sigma)))
+        driver, driven = cut(sizes, rng, 12, CuttingErrorModel(ErrorDistribution(sigma)))
         placed = batch_verdicts(sizes, driver, driven)
         general = batch_verdicts(sizes, driver.grown(1e-14 * np.ones(z1)), driven)
         assert np.abs(placed.play - general.play).max() < 1e-5 * sizes.p2
@@ -125,7 +129,7 @@ def test_the_nominal_play_of_the_table() -> None:
         (127, 32, 0.01, 0.176),
         (45, 225, 0.01, 0.394),
     ]:
-        assert round(nominal_play(equally_deep(z1, z2, excess)), 3) == play
+        assert round(nominal_backlash(equally_deep(z1, z2, excess)), 3) == play
 
 
 @pytest.mark.parametrize("trials", [pytest.param(4000), pytest.param(100_000, marks=pytest.mark.slow)])
@@ -133,9 +137,9 @@ def test_flanks_of_64_and_38_teeth_jam_as_often_as_printed(trials: int) -> None:
     sizes, rng = equally_deep(64, 38, 0.02), np.random.default_rng(5)
     seen = []
     for sigma in (0.0413, 0.0516, 0.0661):
-        found = batch_verdicts(sizes, *cut(sizes, rng, trials, Cutting(Spread(sigma))))
+        found = batch_verdicts(sizes, *cut(sizes, rng, trials, CuttingErrorModel(ErrorDistribution(sigma))))
         seen.append(float(found.jams.mean()))
-        assert seen[-1] <= jam_bound(sizes, sigma)
+        assert seen[-1] <= jamming_bound(sizes, sigma)
     slack = 3 * sqrt(0.01 / trials)
     assert 0.002 < seen[0] < 0.01 + (slack if trials < 10**5 else 0.0)
     assert seen[1] == pytest.approx(0.16, abs=0.03)
@@ -154,8 +158,10 @@ def test_flanks_of_64_and_38_teeth_jam_as_often_as_printed(trials: int) -> None:
 )
 def test_the_bound_of_the_table_is_about_one_in_a_hundred(z1: int, z2: int, excess: float, sigma: float) -> None:
     sizes = equally_deep(z1, z2, excess)
-    assert jam_bound(sizes, sigma) == pytest.approx(0.0125, abs=0.0075)
-    found = batch_verdicts(sizes, *cut(sizes, np.random.default_rng(6), 300, Cutting(Spread(sigma))))
+    assert jamming_bound(sizes, sigma) == pytest.approx(0.0125, abs=0.0075)
+    found = batch_verdicts(
+        sizes, *cut(sizes, np.random.default_rng(6), 300, CuttingErrorModel(ErrorDistribution(sigma)))
+    )
     assert found.jams.mean() <= 0.02
 
 
@@ -192,7 +198,9 @@ def test_the_probability_of_a_jam_is_its_integral(trials: int) -> None:
     assert 0.5 < true < 0.999
     driven = CutWheel.driven_of(sizes)
     rng = np.random.default_rng(7)
-    found = batch_verdicts(sizes, CutWheel.driver_of(sizes), Cutting(Spread(0.1, "uniform")).draw(driven, rng, trials))
+    found = batch_verdicts(
+        sizes, CutWheel.driver_of(sizes), CuttingErrorModel(ErrorDistribution(0.1, "uniform")).draw(driven, rng, trials)
+    )
     seen = float(found.jams.mean())
     assert abs(seen - true) < 4 * sqrt(true * (1 - true) / trials) + 2e-4
 
@@ -218,13 +226,17 @@ def test_eccentric_wheels_jam_when_their_errors_use_up_the_clearance() -> None:
 def test_errors_are_drawn_as_said() -> None:
     sizes, rng = equally_deep(48, 24, 0.02), np.random.default_rng(8)
     driver = CutWheel.driver_of(sizes)
-    wheel = Cutting(Spread(0.02), Spread(0.05, "uniform"), Spread(0.03)).draw(driver, rng, 500)
+    wheel = CuttingErrorModel(
+        ErrorDistribution(0.02), ErrorDistribution(0.05, "uniform"), ErrorDistribution(0.03)
+    ).draw(driver, rng, 500)
     assert wheel.place.shape == (500, 48)
     assert wheel.place.std() == pytest.approx(0.02 * 2 * pi / 48, rel=0.03)
     assert np.abs(wheel.tip).max() <= 0.05 * sizes.depths[0]
     assert wheel.tip.std() == pytest.approx(0.05 * sizes.depths[0] / sqrt(3), rel=0.03)
     assert wheel.leading.std() == pytest.approx(0.03 * THIRTY, rel=0.03)
-    again = Cutting(Spread(0.02), Spread(0.05, "uniform"), Spread(0.03)).draw(driver, np.random.default_rng(8), 500)
+    again = CuttingErrorModel(
+        ErrorDistribution(0.02), ErrorDistribution(0.05, "uniform"), ErrorDistribution(0.03)
+    ).draw(driver, np.random.default_rng(8), 500)
     assert (again.place == wheel.place).all()
 
 
@@ -232,13 +244,13 @@ def test_what_cannot_be_drawn_or_judged_is_refused() -> None:
     sizes = equally_deep(48, 24, 0.02)
     driver, driven = even(sizes)
     for make in (
-        lambda: Spread(-0.1),
-        lambda: Spread(float("nan")),
-        lambda: Cutting(Spread(0.1)).draw(driver, np.random.default_rng(0), 0),
-        lambda: Cutting(Spread(2.0)).draw(driver, np.random.default_rng(0), 5),
+        lambda: ErrorDistribution(-0.1),
+        lambda: ErrorDistribution(float("nan")),
+        lambda: CuttingErrorModel(ErrorDistribution(0.1)).draw(driver, np.random.default_rng(0), 0),
+        lambda: CuttingErrorModel(ErrorDistribution(2.0)).draw(driver, np.random.default_rng(0), 5),
         lambda: batch_verdicts(sizes, driver, driven),
         lambda: batch_verdicts(sizes, driven, driver),
-        lambda: jam_bound(sizes, -1.0),
+        lambda: jamming_bound(sizes, -1.0),
     ):
         with pytest.raises(RangeError) as caught:
             make()
@@ -247,6 +259,6 @@ def test_what_cannot_be_drawn_or_judged_is_refused() -> None:
 
 def test_a_bound_has_its_ends() -> None:
     sizes = equally_deep(64, 38, 0.02)
-    assert jam_bound(sizes, 0.0) == 0.0
-    assert jam_bound(sizes, 1.0) == 1.0
-    assert jam_bound(sizes.at(0.001), 0.01) == 1.0
+    assert jamming_bound(sizes, 0.0) == 0.0
+    assert jamming_bound(sizes, 1.0) == 1.0
+    assert jamming_bound(sizes.at(0.001), 0.01) == 1.0

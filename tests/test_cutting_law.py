@@ -10,20 +10,20 @@ from polygons import Judge, Outline
 
 from geartrain import load
 from geartrain.errors import RangeError
-from geartrain.teeth.triangular.law import TriangularLaw
-from geartrain.teeth.triangular.meshing import find_window
-from geartrain.teeth.triangular.sizes import Sizes, equal_depth
-from geartrain.uncertainty.cutting import CutLaw, CutWheel, cut_law
+from geartrain.teeth.triangular.clearance_window import find_window
+from geartrain.teeth.triangular.pair_geometry import TriangularSizes, equal_depth
+from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
+from geartrain.uncertainty.manufacturing_errors import CutTransmissionFunction, CutWheel, cut_transmission_function
 
 THIRTY = radians(30)
 KINDS = ("place", "tip", "leading", "trailing")
 
 
-def equally_deep(z1: int, z2: int, excess: float, beta: float = THIRTY) -> Sizes:
-    return Sizes(z1, z2, *equal_depth(z1, z2, beta, beta), beta, beta, excess)
+def equally_deep(z1: int, z2: int, excess: float, beta: float = THIRTY) -> TriangularSizes:
+    return TriangularSizes(z1, z2, *equal_depth(z1, z2, beta, beta), beta, beta, excess)
 
 
-def even(sizes: Sizes) -> tuple[CutWheel, CutWheel]:
+def even(sizes: TriangularSizes) -> tuple[CutWheel, CutWheel]:
     return CutWheel.driver_of(sizes), CutWheel.driven_of(sizes)
 
 
@@ -37,7 +37,10 @@ def test_without_errors_the_law_is_that_of_even_wheels(z1: int, z2: int, excess:
     sizes = equally_deep(z1, z2, excess)
     S = np.random.default_rng(1).uniform(-4 * pi, 4 * pi, 2000)
     for direction in (1, -1):
-        law, cut = TriangularLaw(sizes, 0.2, direction), cut_law(sizes, *even(sizes), 0.0, 0.2, direction)
+        law, cut = (
+            TriangularTransmission(sizes, 0.2, direction),
+            cut_transmission_function(sizes, *even(sizes), 0.0, 0.2, direction),
+        )
         assert np.abs(cut.error(S) - law.error(S)).max() < 1e-14 * sizes.p2
         assert np.abs(cut.speed(S) - law.speed(S)).max() < 1e-13 * float(law.ratio)
         still = np.isnan(law.efficiency(S))
@@ -48,7 +51,10 @@ def test_without_errors_the_law_is_that_of_even_wheels(z1: int, z2: int, excess:
 @pytest.mark.parametrize("direction", [1, -1])
 def test_without_errors_a_constant_load_costs_what_it_does_with_even_wheels(direction: int) -> None:
     sizes = equally_deep(48, 24, 0.02)
-    law, cut = TriangularLaw(sizes, 0.2, direction), cut_law(sizes, *even(sizes), 0.0, 0.2, direction)
+    law, cut = (
+        TriangularTransmission(sizes, 0.2, direction),
+        cut_transmission_function(sizes, *even(sizes), 0.0, 0.2, direction),
+    )
     assert cut.efficiency_mean() == pytest.approx(law.efficiency_mean(), rel=1e-9)
     assert cut.efficiency_at_constant_load() == pytest.approx(law.efficiency_at_constant_load(), rel=1e-9)
 
@@ -56,7 +62,7 @@ def test_without_errors_a_constant_load_costs_what_it_does_with_even_wheels(dire
 @pytest.mark.parametrize(("z1", "z2", "excess"), [(16, 12, 0.02), (12, 60, 0.025), (24, 12, 0.09), (20, 15, 0.004)])
 def test_without_errors_the_events_are_the_verdict_on_even_wheels(z1: int, z2: int, excess: float) -> None:
     sizes = equally_deep(z1, z2, excess)
-    law, cut = TriangularLaw(sizes), cut_law(sizes, *even(sizes))
+    law, cut = TriangularTransmission(sizes), cut_transmission_function(sizes, *even(sizes))
     kinds = {event.kind for event in cut.events.all}
     assert (law.verdict.kind in kinds) if law.verdict.kind != "runs" else not kinds
     assert cut.events.play == pytest.approx(law.verdict.play, abs=1e-12 * sizes.p2)
@@ -73,7 +79,7 @@ def test_without_errors_the_events_are_the_verdict_on_even_wheels(z1: int, z2: i
 def test_the_law_is_one_of_a_mesh_of_a_train() -> None:
     mesh = load("sorge-pairs").meshes[0]
     sizes = mesh.law.sizes
-    law = cut_law(mesh, *even(sizes))
+    law = cut_transmission_function(mesh, *even(sizes))
     S = np.linspace(0, law.period, 500)
     assert law.period == pytest.approx(2 * pi * lcm(sizes.z1, sizes.z2) / sizes.z1, rel=1e-15)
     assert np.abs(law.error(S) - mesh.law.error(S)).max() < 1e-14 * sizes.p2 + 1e-15 * law.period
@@ -86,7 +92,7 @@ def test_the_law_is_one_of_a_mesh_of_a_train() -> None:
 # --------------------------------------------------------------------------------------------------------- off centre
 
 
-def seen_from_the_centres(sizes: Sizes, t: float, e: tuple[float, float], k: tuple[float, float]) -> float:
+def seen_from_the_centres(sizes: TriangularSizes, t: float, e: tuple[float, float], k: tuple[float, float]) -> float:
     """The driver's lag at t by the law of even wheels, at the distance and on the line of their own centres."""
     y = 0.0
     for _ in range(200):
@@ -97,7 +103,7 @@ def seen_from_the_centres(sizes: Sizes, t: float, e: tuple[float, float], k: tup
         here = sizes.at(D / sizes.least_distance - 1)
         x = t - turned
         # the driven wheel's own angle is counted from the line the other way round
-        found = -float(sizes.ratio * -x + TriangularLaw(here).error(-x))
+        found = -float(sizes.ratio * -x + TriangularTransmission(here).error(-x))
         after = found - turned
         if abs(after - y) < 1e-15:
             break
@@ -110,14 +116,14 @@ def test_eccentric_wheels_are_even_wheels_at_the_distance_of_their_centres(which
     sizes = equally_deep(32, 20, 0.03)
     e, k = tuple(share * min(sizes.depths) for share in which), (0.4, 2.1)
     driver, driven = (wheel.eccentric(e[at], k[at]) for at, wheel in enumerate(even(sizes)))
-    law = cut_law(sizes, driver, driven)
+    law = cut_transmission_function(sizes, driver, driven)
     S = np.random.default_rng(2).uniform(0, law.period, 25)
     far = 0.0
     for angle, q in zip(S, law.angle(S), strict=True):
         far = max(far, abs(-seen_from_the_centres(sizes, -angle, e, k) - q))
     assert far < 1e-12 * sizes.p2
     low, high = law.error_range()
-    assert high - low > 1.2 * np.ptp(TriangularLaw(sizes).error_range())
+    assert high - low > 1.2 * np.ptp(TriangularTransmission(sizes).error_range())
 
 
 # ------------------------------------------------------------------------------------------------------ to first order
@@ -132,9 +138,9 @@ def touch(x, r, b, s, c, D):
     return approach if approach.real < recess.real else recess
 
 
-def linear(sizes: Sizes, S: float, errors: dict[str, np.ndarray], shift: float) -> float:
+def linear(sizes: TriangularSizes, S: float, errors: dict[str, np.ndarray], shift: float) -> float:
     """The first-order change of the driven angle at S: complex steps through the couple that pushes."""
-    law = TriangularLaw(sizes)
+    law = TriangularTransmission(sizes)
     x = float(law.alpha1(S))
     k = round((x + S) / sizes.p1)
     i, j = k % sizes.z1, k % sizes.z2
@@ -157,20 +163,20 @@ def linear(sizes: Sizes, S: float, errors: dict[str, np.ndarray], shift: float) 
 def test_small_errors_act_as_first_order_says_to_second_order() -> None:
     """The rest falls with the square of the errors, in the mean over a pitch and at angles away from switches."""
     sizes = equally_deep(24, 15, 0.03)
-    rng, law = np.random.default_rng(3), TriangularLaw(sizes)
+    rng, law = np.random.default_rng(3), TriangularTransmission(sizes)
     errors = {f"{kind}{at}": rng.standard_normal(z) for at, z in ((1, 24), (2, 15)) for kind in KINDS}
     for at, R in ((1, sizes.R1), (2, sizes.R2)):
         errors[f"tip{at}"] *= R
     shift = float(rng.standard_normal()) * sizes.R1
 
-    def cut(size: float) -> CutLaw:
+    def cut(size: float) -> CutTransmissionFunction:
         one, two = (
             wheel.placed(size * errors[f"place{at}"])
             .grown(size * errors[f"tip{at}"])
             .widened(size * errors[f"leading{at}"], size * errors[f"trailing{at}"])
             for at, wheel in zip((1, 2), even(sizes), strict=True)
         )
-        return cut_law(sizes, one, two, size * shift)
+        return cut_transmission_function(sizes, one, two, size * shift)
 
     corners = np.sort(np.array(law.corners()) % sizes.p1)
     S = rng.uniform(0, 2 * pi, 400)
@@ -201,12 +207,12 @@ def test_small_errors_act_as_first_order_says_to_second_order() -> None:
 # ------------------------------------------------------------------------------------------------------------ outlines
 
 
-def drawn(rng: np.random.Generator) -> tuple[Sizes, CutLaw, Judge]:
+def drawn(rng: np.random.Generator) -> tuple[TriangularSizes, CutTransmissionFunction, Judge]:
     """Two wheels with every kind of error, as the law has them and as outlines."""
     while True:
         z1, z2 = (int(z) for z in rng.integers(10, 40, 2))
         b1, b2 = (float(b) for b in np.radians(rng.uniform(20, 38, 2)))
-        sizes = Sizes(z1, z2, *equal_depth(z1, z2, b1, b2), b1, b2, 0.0)
+        sizes = TriangularSizes(z1, z2, *equal_depth(z1, z2, b1, b2), b1, b2, 0.0)
         if not (window := find_window(sizes)):
             continue
         sizes = sizes.at(window.at(rng.uniform(-0.1, 1.0)))
@@ -226,7 +232,7 @@ def drawn(rng: np.random.Generator) -> tuple[Sizes, CutLaw, Judge]:
             outlines.append(Outline(theta, r, b + less, b + more).about(e, towards))
         shift = 0.02 * min(sizes.depths) * rng.standard_normal()
         try:
-            law = cut_law(sizes, *wheels, shift)
+            law = cut_transmission_function(sizes, *wheels, shift)
         except (RangeError, TypeError):
             continue
         return sizes, law, Judge(outlines[0], outlines[1], sizes.D + shift)
@@ -276,7 +282,7 @@ def test_a_driven_wheel_that_is_dragged_follows_the_outlines() -> None:
     sizes = sizes.at(find_window(sizes).at(0.85))
     rng = np.random.default_rng(6)
     places = [0.03 * 2 * pi / z * rng.standard_normal(z) for z in (20, 30)]
-    law = cut_law(sizes, *(w.placed(p) for w, p in zip(even(sizes), places, strict=True)))
+    law = cut_transmission_function(sizes, *(w.placed(p) for w, p in zip(even(sizes), places, strict=True)))
     judge = Judge(
         *(
             Outline(np.arange(w.z) * w.pitch + p, np.full(w.z, w.radius), *np.full((2, w.z), THIRTY))
@@ -310,7 +316,7 @@ def test_after_a_clash_the_outlines_stick_fast_though_flanks_have_play(number: i
         sizes = equally_deep(16, 12, 0.0)
         sizes = sizes.at(find_window(sizes).at(rng.uniform(0.3, 0.8)))
         places = [0.05 * 2 * pi / z * rng.standard_normal(z) for z in (16, 12)]
-        law = cut_law(sizes, *(w.placed(p) for w, p in zip(even(sizes), places, strict=True)))
+        law = cut_transmission_function(sizes, *(w.placed(p) for w, p in zip(even(sizes), places, strict=True)))
         if not law.events or {event.kind for event in law.events.all} != {"clash"} or law.events.play < 0:
             continue
         number -= 1
@@ -341,7 +347,7 @@ def test_the_one_tooth_that_is_out_of_place_is_named() -> None:
     late = np.zeros(16)
     late[5] = 0.45 * sizes.p1
     driver, driven = even(sizes)
-    events = cut_law(sizes, driver.placed(late), driven).events
+    events = cut_transmission_function(sizes, driver.placed(late), driven).events
     assert events.jams
     assert events.play < 0
     teeth = {tooth[0] for event in events.of("jam", "clash") for tooth in (event.pushing, event.stopping) if tooth}
@@ -376,7 +382,7 @@ def test_a_tooth_broken_off_lets_the_wheels_lose_each_other() -> None:
     driver, driven = even(sizes)
     short = np.zeros(12)
     short[[4, 5]] = -0.9 * sizes.depths[0]
-    events = cut_law(sizes, driver.grown(short), driven).events
+    events = cut_transmission_function(sizes, driver.grown(short), driven).events
     gaps = events.of("disengaged")
     assert len(gaps) >= lcm(12, 18) // 12
     assert events.disengages
@@ -395,10 +401,10 @@ def test_impossible_wheels_are_refused() -> None:
         lambda: driver.widened(-0.6),
         lambda: driver.widened(1.0),
         lambda: driver.grown(-2.0),
-        lambda: cut_law(sizes, driven, driver),
+        lambda: cut_transmission_function(sizes, driven, driver),
         lambda: CutWheel.measured(driver, [0.0], [1.0], [0.5], [0.5]),
-        lambda: cut_law(load("longcase-clock-cycloidal").meshes[0], driver, driven),
-        lambda: cut_law(sizes.at(0.001), driver.widened(0.5), driven.widened(0.5)),
+        lambda: cut_transmission_function(load("longcase-clock-cycloidal").meshes[0], driver, driven),
+        lambda: cut_transmission_function(sizes.at(0.001), driver.widened(0.5), driven.widened(0.5)),
     ):
         with pytest.raises(RangeError) as caught:
             make()

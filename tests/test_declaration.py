@@ -322,20 +322,20 @@ def test_targets_that_make_no_sense_are_refused(targets: str, said: str) -> None
 
 
 def test_a_count_is_no_target() -> None:
-    from geartrain.periods import table
+    from geartrain.train.periods import period_table
 
-    name = next(row.name for row in table().values() if row.kind == "count")
+    name = next(row.name for row in period_table().values() if row.kind == "count")
     text = PAIR.format(rest=f"inputs: {{a: 1}}\nunit: {{per: 1 d}}\noutputs: {{b: {{targets: [{name}]}}}}")
     assert f"'{name}' is a count" in refusal(text)
 
 
 def test_a_speed_per_year_needs_a_unit_that_is_a_year() -> None:
-    from geartrain.periods import table
+    from geartrain.train.periods import period_table
 
-    name = next(row.name for row in table().values() if row.kind == "speed")
+    name = next(row.name for row in period_table().values() if row.kind == "speed")
     text = PAIR.format(rest=f"inputs: {{a: 1}}\nunit: {{per: %s}}\noutputs: {{b: {{targets: [{name}]}}}}")
     assert "the train's unit is no year" in refusal(text % "1 d")
-    assert load(text % "year_julian").solve().outputs["b"].targets[0].speed == table()[name].value
+    assert load(text % "year_julian").solve().outputs["b"].targets[0].speed == period_table()[name].value
 
 
 @pytest.mark.parametrize("unit", ["", "unit: {per: 18 ft}"])

@@ -16,8 +16,8 @@ from hypothesis import assume, event, given, reject, settings
 from hypothesis import strategies as st
 
 from geartrain import load
-from geartrain.torques import Balance, Mesh, find_flows
-from geartrain.torques.parting import find_parts
+from geartrain.dynamics.torques import LoadedPair, TorqueBalance, find_flow_patterns
+from geartrain.numerics.block_triangular import dulmage_mendelsohn_blocks
 
 ZERO, ONE = Fraction(0), Fraction(1)
 
@@ -48,7 +48,7 @@ def eliminated(matrix: list[list[Fraction]]) -> tuple[list[Fraction] | None, boo
     return solution, len(pivots) == width
 
 
-def on_links(mesh: Mesh, side: int) -> dict[str, Fraction]:
+def on_links(mesh: LoadedPair, side: int) -> dict[str, Fraction]:
     """Torques of a mesh by link for a multiplier of 1, from the loss of one wheel's torque."""
     first, second = Fraction(mesh.a), Fraction(mesh.b)
     if side > 0:
@@ -65,7 +65,7 @@ class OpenError(Exception):
     """Some pattern leaves a torque open: no example."""
 
 
-def by_force(balance: Balance) -> set[tuple[Fraction, ...]]:
+def by_force(balance: TorqueBalance) -> set[tuple[Fraction, ...]]:
     """Torques of meshes and outside under every pattern that agrees with itself."""
     ways = [(1, -1) if mesh.rolling and (mesh.forward, mesh.backward) != (1, 1) else (0,) for mesh in balance.meshes]
     found = set()
@@ -89,8 +89,8 @@ def by_force(balance: Balance) -> set[tuple[Fraction, ...]]:
     return found
 
 
-def by_blocks(balance: Balance) -> set[tuple[Fraction, ...]]:
-    flows, complete = find_flows(balance)
+def by_blocks(balance: TorqueBalance) -> set[tuple[Fraction, ...]]:
+    flows, complete = find_flow_patterns(balance)
     assert complete
     found = {(*f.solved.multipliers.values(), *f.solved.external.values(), *f.solved.brakes.values()) for f in flows}
     assert len(found) == len(flows)
@@ -106,7 +106,7 @@ torques = st.integers(-9, 9).filter(bool).map(Fraction)
 
 
 @st.composite
-def balances(draw: st.DrawFn) -> Balance:
+def balances(draw: st.DrawFn) -> TorqueBalance:
     """Any meshes between any links, with powers of any sense: far worse than trains."""
     links = tuple("abcde"[: draw(st.integers(2, 5))])
     meshes = []
@@ -114,18 +114,18 @@ def balances(draw: st.DrawFn) -> Balance:
         i, j, k = draw(st.permutations([*links, "frame"]))[:3]
         sign, rolling = draw(st.sampled_from([1, -1])), draw(st.sampled_from([-2, -1, 0, 1, 3]))
         meshes.append(
-            Mesh(f"m{at}", (i, j, k), (1, draw(st.sampled_from([1, -1])), 1), draw(counts), sign * draw(counts),
+            LoadedPair(f"m{at}", (i, j, k), (1, draw(st.sampled_from([1, -1])), 1), draw(counts), sign * draw(counts),
                  Fraction(rolling), draw(losses), draw(losses))
         )  # fmt: skip
     outside = draw(st.permutations(links))[: len(links) - len(meshes)]
     cut = draw(st.integers(0, len(outside)))
     known = draw(st.dictionaries(st.sampled_from(links), torques, min_size=1, max_size=2))
-    return Balance(links, tuple(meshes), known, tuple(outside[:cut]), tuple(outside[cut:]))
+    return TorqueBalance(links, tuple(meshes), known, tuple(outside[:cut]), tuple(outside[cut:]))
 
 
 @settings(max_examples=300)
 @given(balances())
-def test_blocks_find_what_a_trial_of_all_patterns_finds(balance: Balance) -> None:
+def test_blocks_find_what_a_trial_of_all_patterns_finds(balance: TorqueBalance) -> None:
     try:
         wanted = by_force(balance)
     except OpenError:
@@ -201,10 +201,10 @@ def test_trains_have_the_flows_that_a_trial_of_all_patterns_finds(
     assume(all(moving[f"s{at}"] for at in range(len(parts) + 1)))
     ends = ("s0", f"s{len(parts)}")
     loaded, asked = ends if at_input else ends[::-1]
-    balance = Balance(
+    balance = TorqueBalance(
         tuple(links),
         tuple(
-            Mesh(str(at), (i, j, k), (1, 1, 1), a, b, a * (moving[i] - moving[k]), eta, eta)
+            LoadedPair(str(at), (i, j, k), (1, 1, 1), a, b, a * (moving[i] - moving[k]), eta, eta)
             for at, (i, j, k, a, b, eta) in enumerate(meshes)
         ),
         {loaded: sense / moving[loaded]},
@@ -223,7 +223,7 @@ LOCKING = Stage("set", False, (30, 29, 30, 32, 1, 1), (Fraction(9, 10), Fraction
 PLAIN = Stage("pair", False, (1, 1, 1, 1, 23, 41), (Fraction(19, 20), ONE, ONE))
 
 
-def long_train(parts: Sequence[Stage], loaded: str, asked: str, power: int) -> Balance:
+def long_train(parts: Sequence[Stage], loaded: str, asked: str, power: int) -> TorqueBalance:
     """Speeds stage by stage; a set has the speed ratio arm/sun of 1/(1 - i0), i0 its basic ratio."""
     links, meshes, held = joined(parts)
     speeds = {"frame": ZERO, "s0": ONE}
@@ -236,10 +236,10 @@ def long_train(parts: Sequence[Stage], loaded: str, asked: str, power: int) -> B
             speeds[f"r{at}"] = ZERO
             speeds[f"s{at + 1}"] = speeds[f"s{at}"] / (1 - Fraction(p * r, s * q))
             speeds[f"p{at}"] = speeds[f"s{at + 1}"] * (1 + Fraction(r, q))
-    return Balance(
+    return TorqueBalance(
         tuple(links),
         tuple(
-            Mesh(str(at), (i, j, k), (1, 1, 1), a, b, a * (speeds[i] - speeds[k]), eta, eta)
+            LoadedPair(str(at), (i, j, k), (1, 1, 1), a, b, a * (speeds[i] - speeds[k]), eta, eta)
             for at, (i, j, k, a, b, eta) in enumerate(meshes)
         ),
         {loaded: power / speeds[loaded]},
@@ -251,12 +251,12 @@ def long_train(parts: Sequence[Stage], loaded: str, asked: str, power: int) -> B
 @pytest.mark.parametrize("size", [1, 20, 1500])
 def test_a_chain_of_any_length_multiplies_its_efficiencies(size: int) -> None:
     parts = [PLAIN._replace(teeth=(1, 1, 1, 1, 20 + at % 7, 31 + at % 11)) for at in range(size)]
-    flows, complete = find_flows(long_train(parts, f"s{size}", "s0", -1))
+    flows, complete = find_flow_patterns(long_train(parts, f"s{size}", "s0", -1))
     assert complete
     (flow,) = flows
     assert flow.solved.external["s0"] == 1 / Fraction(19, 20) ** size
     assert set(flow.pattern.values()) == {1}
-    flows, complete = find_flows(long_train(parts, "s0", f"s{size}", -1))
+    flows, complete = find_flow_patterns(long_train(parts, "s0", f"s{size}", -1))
     assert complete
     assert set(flows[0].pattern.values()) == {-1}
 
@@ -265,10 +265,10 @@ def test_a_chain_of_any_length_multiplies_its_efficiencies(size: int) -> None:
 def test_one_set_decides_whether_a_long_train_locks(where: int) -> None:
     parts = [PLAIN] * where + [LOCKING] + [PLAIN] * (60 - where)
     # i0 = (29*32)/(30*30) and e = 0.81: the sun cannot drive the arm, for i0 e < 1; the arm drives with (i0-1)/(i0/e-1)
-    forward, complete = find_flows(long_train(parts, "s61", "s0", -1))
+    forward, complete = find_flow_patterns(long_train(parts, "s61", "s0", -1))
     assert (forward, complete) == ((), True)
     ratio, eta = Fraction(29 * 32, 30 * 30), Fraction(81, 100)
-    back, complete = find_flows(long_train(parts, "s0", "s61", -1))
+    back, complete = find_flow_patterns(long_train(parts, "s0", "s61", -1))
     assert complete
     (flow,) = back
     speed = long_train(parts, "s61", "s0", 1).known["s61"]  # 1/w
@@ -277,7 +277,7 @@ def test_one_set_decides_whether_a_long_train_locks(where: int) -> None:
 
 def test_a_long_train_has_both_flows_where_its_set_has_two() -> None:
     parts = [PLAIN] * 20 + [LOCKING] + [PLAIN] * 20
-    flows, complete = find_flows(long_train(parts, "s41", "s0", 1))
+    flows, complete = find_flow_patterns(long_train(parts, "s41", "s0", 1))
     assert complete
     taken = sorted(flow.solved.external["s0"] for flow in flows)
     assert len(taken) == 2
@@ -297,24 +297,24 @@ def test_of_two_locking_sets_the_first_has_two_flows_for_one_of_the_second() -> 
 
 def test_what_hangs_on_two_equal_pairs_between_two_links_is_left_open() -> None:
     # as many unknowns as rows, and yet any share of the two pairs balances
-    balance = Balance(
+    balance = TorqueBalance(
         ("a", "b", "c", "d"),
         (
-            Mesh("near", ("a", "b", "d"), (1, 1, 1), 20, 30, ONE),
-            Mesh("far", ("a", "b", "frame"), (1, 1, 1), 20, 30, ONE),
-            Mesh("next", ("b", "c", "frame"), (1, 1, 1), 10, 50, ONE, Fraction(9, 10), Fraction(9, 10)),
+            LoadedPair("near", ("a", "b", "d"), (1, 1, 1), 20, 30, ONE),
+            LoadedPair("far", ("a", "b", "frame"), (1, 1, 1), 20, 30, ONE),
+            LoadedPair("next", ("b", "c", "frame"), (1, 1, 1), 10, 50, ONE, Fraction(9, 10), Fraction(9, 10)),
         ),
         # b drives c, which gets 0.9 * 50 for 10 on b; two thirds of these act on a
         {"c": Fraction(45), "a": Fraction(-20, 30) * 10},
         ("d",),
     )
-    (flow,), complete = find_flows(balance)
+    (flow,), complete = find_flow_patterns(balance)
     assert complete
     assert flow.solved.multipliers["next"] == -1
     assert (flow.solved.loose, flow.solved.open) == (("near", "far"), ("d",))
     assert "d" not in flow.solved.external
-    heavier = Balance(balance.links, balance.meshes, {**balance.known, "a": ONE}, balance.unknown)
-    assert find_flows(heavier) == ((), True)
+    heavier = TorqueBalance(balance.links, balance.meshes, {**balance.known, "a": ONE}, balance.unknown)
+    assert find_flow_patterns(heavier) == ((), True)
 
 
 def test_directions_of_trains_with_few_losses_a_block_bring_no_array_library() -> None:
@@ -324,15 +324,15 @@ def test_directions_of_trains_with_few_losses_a_block_bring_no_array_library() -
     assert done.stdout.strip() == "set()"
 
 
-def ring(size: int, losing: int) -> Balance:
+def ring(size: int, losing: int) -> TorqueBalance:
     """Links each of which hangs on the next two: one block, with as many meshes as links."""
     links = tuple(f"l{at}" for at in range(size))
     meshes = tuple(
-        Mesh(f"m{at}", (links[at], links[(at + 1) % size], links[(at + 2) % size]), (1, 1, 1), 20 + at, 37,
+        LoadedPair(f"m{at}", (links[at], links[(at + 1) % size], links[(at + 2) % size]), (1, 1, 1), 20 + at, 37,
              Fraction(1 if at % 2 else -1), *[Fraction(9, 10) if at < losing else ONE] * 2)
         for at in range(size)
     )  # fmt: skip
-    return Balance(links, meshes, {"l0": ONE}, ())
+    return TorqueBalance(links, meshes, {"l0": ONE}, ())
 
 
 def test_a_block_of_some_losses_is_tried_in_floats_first_and_agrees() -> None:
@@ -342,7 +342,7 @@ def test_a_block_of_some_losses_is_tried_in_floats_first_and_agrees() -> None:
 
 def test_a_block_with_too_many_losses_is_iterated_and_says_so() -> None:
     balance = ring(19, 17)
-    flows, complete = find_flows(balance)
+    flows, complete = find_flow_patterns(balance)
     assert not complete
     for flow in flows:
         sums = dict(balance.known)
@@ -373,7 +373,7 @@ loads: {{f: -1}}
 
 @given(st.dictionaries(st.integers(0, 7), st.sets(st.integers(0, 6), max_size=4), min_size=1))
 def test_parts_need_only_what_stands_before_them(rows: dict[int, set[int]]) -> None:
-    parts = find_parts(rows, 7)
+    parts = dulmage_mendelsohn_blocks(rows, 7)
     assert sorted(row for part in parts for row in part.rows) == sorted(rows)
     assert sorted(column for part in parts for column in part.columns) == list(range(7))
     known: set[int] = set()
@@ -390,5 +390,5 @@ def test_parts_need_only_what_stands_before_them(rows: dict[int, set[int]]) -> N
 
 
 def test_an_ordinary_chain_has_one_unknown_a_part() -> None:
-    parts = find_parts({at: {at, at + 1} for at in range(5000)} | {5000: {0}}, 5001)
+    parts = dulmage_mendelsohn_blocks({at: {at, at + 1} for at in range(5000)} | {5000: {0}}, 5001)
     assert prod(len(part.columns) for part in parts) == 1

@@ -30,13 +30,13 @@ pytest.importorskip("svgelements")
 import svgelements
 from matplotlib.figure import Figure
 
-from geartrain.plot import KINDS, picture, render
-from geartrain.plot.arranging import arrange, spread
-from geartrain.plot.dials import dials_figure
-from geartrain.plot.lever import find_levers
-from geartrain.plot.plan import _within, plan_figure
+from geartrain.drawing import KINDS, picture, render
+from geartrain.drawing.arrangement import arrange, spread
+from geartrain.drawing.dial_faces import dials_figure
+from geartrain.drawing.lever_diagram import find_levers
+from geartrain.drawing.plan_view import _within, plan_figure
 from geartrain.scene import make_scene
-from geartrain.scene.posing import errors, pose
+from geartrain.scene.pose import body_errors, scene_pose
 
 TRAINS = Path(__file__).parent.parent / "trains"
 FEW = [
@@ -140,7 +140,7 @@ def test_the_pitch_circles_of_every_pair_touch_on_paper(name: str) -> None:
 
 def load_apart(name: str) -> set[str]:
     """Pairs that the layout says it could not bring together."""
-    from geartrain.layout import lay_out
+    from geartrain.scene.layout import lay_out
 
     return set(lay_out(load(name)).apart)
 
@@ -204,7 +204,7 @@ def test_the_planet_goes_round_as_fractions_say() -> None:
 def test_a_pose_is_that_of_the_motion(name: str, turns: Fraction) -> None:
     train = load(name)
     motion = train.motion(None, tuple(train.declaration.links))
-    found = errors(make_scene(train), turns)
+    found = body_errors(make_scene(train), turns)
     assert found == pytest.approx(motion.at(np.array([float(turns)])).error[:, 0], abs=1e-9)
 
 
@@ -213,7 +213,7 @@ def test_meshing_wheels_have_one_velocity_where_their_pitch_surfaces_touch(name:
     train = load(name)
     scene = make_scene(train, train.states[1] if train.states else None)
     turns, step = Fraction(3, 7), Fraction(1, 10**6)
-    before, here, after = (pose(scene, turns + way * step) for way in (-1, 0, 1))
+    before, here, after = (scene_pose(scene, turns + way * step) for way in (-1, 0, 1))
     scale = max(wheel.radius for wheel in scene.wheels)
     for pair in scene.pairs:
         one, other = (scene.wheels[at] for at in pair.wheels)
@@ -457,7 +457,7 @@ def test_an_existing_file_is_kept_unless_forced(here: Path) -> None:
 def test_what_cannot_be_a_file_is_refused_with_a_reason_and_a_way_out(
     here: Path, path: str, said: str, force: bool
 ) -> None:
-    from geartrain.files import destination
+    from geartrain.numerics.files import destination
 
     (here / "folder").mkdir()
     with pytest.raises(GearTrainError, match=said) as caught:

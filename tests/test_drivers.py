@@ -18,9 +18,9 @@ from joint_rates import Row, Skeleton, Space, inputs_of, move, rigid, sides
 from random_trains import RandomTrain, driven_train
 
 from geartrain import GearTrain, load
-from geartrain.motion import Motion
+from geartrain.dynamics.motion import Motion
 from geartrain.scene import make_scene
-from geartrain.scene.posing import errors as errors_in_scene
+from geartrain.scene.pose import body_errors as errors_in_scene
 
 TOOTHED = ["pennestri-2002-teeth", "moon-triangular", "freeth-2021-teeth", "planetary-24-18-60-involute"]
 TOOTHED += ["bevel-differential-involute", "lantern-mill", "sorge-pairs", "longcase-clock-cycloidal"]

@@ -20,7 +20,7 @@ import typer
 from test_writing import ASKED, DOUBT
 
 from geartrain.cli import app, main
-from geartrain.cli.ending import Verbs
+from geartrain.cli.exit_codes import VerbGroup
 
 OTHERS = {"check": ("check", "worm"), "list": ("list",), "periods": ("periods",)}
 
@@ -44,7 +44,7 @@ def run(
     """Runs `main` as the console script does; the exit code, standard output, standard error."""
     monkeypatch.chdir(tmp_path)
     here = SimpleNamespace(mkstemp=functools.partial(tempfile.mkstemp, dir=tmp_path))
-    monkeypatch.setattr("geartrain.cli.ending.tempfile", here)
+    monkeypatch.setattr("geartrain.cli.exit_codes.tempfile", here)
 
     def command(*arguments: str) -> tuple[int, str, str]:
         monkeypatch.setattr(sys, "argv", ["geartrain", *arguments])
@@ -105,7 +105,7 @@ def test_a_fault_is_told_where_no_file_can_be_made(
     each = dict(verbs())["solve"]
     monkeypatch.setattr(each, "callback", broken(each, RuntimeError("x")))
     nowhere = SimpleNamespace(mkstemp=functools.partial(tempfile.mkstemp, dir=tmp_path / "nowhere"))
-    monkeypatch.setattr("geartrain.cli.ending.tempfile", nowhere)
+    monkeypatch.setattr("geartrain.cli.exit_codes.tempfile", nowhere)
     code, _, err = run("solve", "worm")
     assert code == 3
     assert "GEARTRAIN_TRACEBACK=1" in err
@@ -118,8 +118,8 @@ def test_a_fault_deep_inside_is_one_too(
     def fail(*_: object) -> None:
         raise RuntimeError("deep")
 
-    monkeypatch.setattr("geartrain.analysis.GearTrain.solve", fail)
-    monkeypatch.setattr("geartrain.files.load", fail)
+    monkeypatch.setattr("geartrain.analysis.gear_train.GearTrain.solve", fail)
+    monkeypatch.setattr("geartrain.analysis.loader.load", fail)
     for verb in ("solve", "report", "check", "compare", "torques", "equations", "graph"):
         assert run(verb, "worm")[0] == 3, verb
 
@@ -158,7 +158,7 @@ def test_a_reader_that_goes_is_exit_141_in_silence(arguments: tuple[str, ...]) -
 
 def test_all_exit_codes_are_told_where_exit_codes_are_told() -> None:
     root = Path(__file__).parent.parent
-    assert issubclass(app.info.cls, Verbs)  # type: ignore[arg-type]
+    assert issubclass(app.info.cls, VerbGroup)  # type: ignore[arg-type]
     for page in ("docs/commands.md", "docs/json.md"):
         codes = set(re.findall(r"^\| (\d+) \|", (root / page).read_text(encoding="utf-8"), re.M))
         assert {"0", "1", "2", "3", "130", "141"} <= codes, page
@@ -192,7 +192,7 @@ def test_a_run_with_nothing_to_resume_says_that_it_begins_anew(
 def test_a_journal_of_another_question_is_refused_and_kept(
     run: Callable[..., tuple[int, str, str]], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    from geartrain.parallel import Journal
+    from geartrain.numerics.work import Journal
 
     finish = Journal.finish
     monkeypatch.setattr(Journal, "finish", Journal.close)

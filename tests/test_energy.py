@@ -20,9 +20,9 @@ from reference_solver import echelon, pair_name, rigid_rows, solve_naively, turn
 from reference_solver import find_carrier as carrier_of
 
 from geartrain import GearTrain, GearTrainError, load, shipped
+from geartrain.dynamics.torques import LoadedPair, TorqueBalance, Torques, find_flow_patterns
 from geartrain.report import flow_of, there_and_back
-from geartrain.teeth.base import Law
-from geartrain.torques import Balance, Mesh, Torques, find_flows
+from geartrain.teeth.transmission import TransmissionFunction
 from geartrain.train.mechanism import Efficiencies
 
 Data = dict[str, Any]
@@ -202,7 +202,7 @@ loads: {{b: 3}}
             require_no_energy(train, found)
 
 
-def require_sound(law: Law) -> None:
+def require_sound(law: TransmissionFunction) -> None:
     for mean in (law.efficiency_mean(), law.efficiency_at_constant_load()):
         assert not mean > 1, law
 
@@ -338,9 +338,9 @@ def test_no_declaration_lets_in_more_than_all(efficiency: object) -> None:
 
 def test_nothing_built_past_the_declaration_lets_in_more_than_all() -> None:
     with pytest.raises(GearTrainError, match="create power"):
-        Mesh("G", ("a", "b", "frame"), (1, 1, 1), 20, 40, Fraction(20), Fraction(98), Fraction(1))
+        LoadedPair("G", ("a", "b", "frame"), (1, 1, 1), 20, 40, Fraction(20), Fraction(98), Fraction(1))
     with pytest.raises(GearTrainError, match="create power"):
-        Mesh("G", ("a", "b", "frame"), (1, 1, 1), 20, 40, Fraction(20), Fraction(1), Fraction(3, 2))
+        LoadedPair("G", ("a", "b", "frame"), (1, 1, 1), 20, 40, Fraction(20), Fraction(1), Fraction(3, 2))
     train = GearTrain.declare(PAIR)
     gear = train.declaration.gears[0]
     share = GearTrain.declare({**PAIR, "gears": [{**PAIR["gears"][0], "efficiency": "98 %"}]}).declaration.gears[0]
@@ -356,7 +356,7 @@ def test_nothing_built_past_the_declaration_lets_in_more_than_all() -> None:
 @pytest.mark.parametrize("percent", range(1, 101, 9))
 def test_a_balance_of_numbers_loses_what_its_meshes_say(percent: int) -> None:
     eta = Fraction(percent, 100)
-    mesh = Mesh("G", ("a", "b", "frame"), (1, 1, 1), 20, 40, Fraction(20), eta, eta)
-    (flow,), complete = find_flows(Balance(("a", "b"), (mesh,), {"b": Fraction(3)}, ("a",)))
+    mesh = LoadedPair("G", ("a", "b", "frame"), (1, 1, 1), 20, 40, Fraction(20), eta, eta)
+    (flow,), complete = find_flow_patterns(TorqueBalance(("a", "b"), (mesh,), {"b": Fraction(3)}, ("a",)))
     assert complete
     assert flow.solved.external["a"] * 1 == 3 * Fraction(1, 2) / eta

@@ -15,12 +15,11 @@ from hypothesis import strategies as st
 
 from geartrain import GearTrain
 from geartrain.errors import QuestionError, RangeError
-from geartrain.synthesis.epicyclic.declaring import declaration_of, declare
-from geartrain.synthesis.epicyclic.finding import find_sets
-from geartrain.synthesis.epicyclic.found import EpicyclicSet
-from geartrain.synthesis.epicyclic.kinds import Kind, kinds
-from geartrain.synthesis.targets import read_ratio
-from geartrain.synthesis.trains.searching import search
+from geartrain.synthesis.epicyclic.epicyclic_sets import EpicyclicSet, declaration_of, declare
+from geartrain.synthesis.epicyclic.set_kinds import EpicyclicKind, kinds
+from geartrain.synthesis.epicyclic.set_search import find_sets
+from geartrain.synthesis.target_ratio import read_ratio
+from geartrain.synthesis.train.train_search import search
 
 F = Fraction
 NAMES = list(kinds())
@@ -241,7 +240,7 @@ def test_a_ravigneaux_set_has_the_ratios_of_a_four_speed_overdrive(mode: str, ra
 # whether it goes together
 
 
-def goes_together(kind: Kind, counts: dict[str, int], planets: int) -> bool:
+def goes_together(kind: EpicyclicKind, counts: dict[str, int], planets: int) -> bool:
     """Put equal planets in at multiples of a turn, in every orientation, and see whether all teeth meet.
 
     A mesh is judged by the sum of tooth phases at its line of centres, which must be what it is at the first planet.
@@ -286,7 +285,7 @@ def test_known_assembly_rules_hold() -> None:
     assert {x.places for x in bevels.solutions} == {32}
 
 
-def placed(kind: Kind, counts: dict[str, int], planets: int) -> float:
+def placed(kind: EpicyclicKind, counts: dict[str, int], planets: int) -> float:
     """Least room between tips of planets of different copies, circles set down in the plane (modules)."""
     centres = []
     for link in kind.planets:

@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from reference_solver import echelon
 from scipy.optimize import linprog
 
-from geartrain.exact import (
+from geartrain.numerics.exact import (
     PRIME,
     TooDenseError,
     add_into,

@@ -19,9 +19,9 @@ from hypothesis import strategies as st
 from shipped import train as load
 
 from geartrain import GearTrain, GearTrainError
-from geartrain.export import Making, Workpiece, notices, one_wheel, parcel, whole
-from geartrain.export.plates import around
-from geartrain.export.sheets import file_names
+from geartrain.export import ManufacturingSizes, SolidModel, export_files, notices, train_file, wheel_file
+from geartrain.export.wheel_sheets import file_names
+from geartrain.scene.solids.bearing_plates import around
 
 shapely = pytest.importorskip("shapely")
 
@@ -44,8 +44,8 @@ def declared(text: str) -> GearTrain:
     return GearTrain.declare(yaml.safe_load(text))
 
 
-def workpiece(z1: int = 24, z2: int = 36, form: str = INVOLUTE, **making: float) -> Workpiece:
-    return Workpiece(declared(PAIR.format(z1=z1, z2=z2, form=form)), Making(**making))
+def workpiece(z1: int = 24, z2: int = 36, form: str = INVOLUTE, **making: float) -> SolidModel:
+    return SolidModel(declared(PAIR.format(z1=z1, z2=z2, form=form)), ManufacturingSizes(**making))
 
 
 # ---------------------------------------------------------------------------------------------------- reading back
@@ -135,7 +135,7 @@ def test_wheels_read_back_have_their_teeth_their_bore_and_the_same_area_in_svg_a
     pytest.importorskip("ezdxf")
     work = workpiece(form=form, module=2, bore=5)
     for wheel, z in (("p", 24), ("w", 36)):
-        svg, dxf = from_svg(one_wheel(work, wheel, ".svg")), from_dxf(one_wheel(work, wheel, ".dxf"))
+        svg, dxf = from_svg(wheel_file(work, wheel, ".svg")), from_dxf(wheel_file(work, wheel, ".dxf"))
         drawn, cut = polygon(svg["CUT"]), polygon(dxf["CUT"])
         assert teeth_of(np.array(cut.exterior.coords), z) == z, "they cross the pitch circle of module 2"
         assert drawn.area == pytest.approx(cut.area, rel=2e-5)
@@ -154,7 +154,7 @@ def test_exported_wheels_mesh_over_a_pitch_at_the_distance_of_the_layout(z1: int
     places = work.layout.wheels
     distance = hypot(*(a - b for a, b in zip(places["p"].centre[:2], places["w"].centre[:2], strict=True)))
     assert distance == pytest.approx((z1 + z2) / 2)
-    first, second = (polygon(from_svg(one_wheel(work, each, ".svg"))["CUT"]) for each in ("p", "w"))
+    first, second = (polygon(from_svg(wheel_file(work, each, ".svg"))["CUT"]) for each in ("p", "w"))
     rotate, translate = shapely.affinity.rotate, shapely.affinity.translate
 
     def overlap(turn: float, ahead: float, away: float = distance) -> float:
@@ -174,7 +174,7 @@ def test_exported_wheels_mesh_over_a_pitch_at_the_distance_of_the_layout(z1: int
 
 def test_triangular_teeth_are_the_polygon_of_their_half_angle() -> None:
     work = workpiece(64, 38, TRIANGULAR, module=1, bore=0)
-    (outline,) = from_svg(one_wheel(work, "w", ".svg"))["CUT"]
+    (outline,) = from_svg(wheel_file(work, "w", ".svg"))["CUT"]
     r = np.hypot(*outline.T)
     tips, valleys = outline[r > r.mean()], outline[r < r.mean()]
     assert (len(tips), len(valleys)) == (38, 38)
@@ -188,8 +188,8 @@ def test_triangular_teeth_are_the_polygon_of_their_half_angle() -> None:
 
 
 def test_a_ring_is_cut_inside_its_rim_and_its_planets_fit_in() -> None:
-    work = Workpiece(load("planetary-24-18-60-involute"), Making())
-    ring = polygon(from_svg(one_wheel(work, "ring", ".svg"))["CUT"])
+    work = SolidModel(load("planetary-24-18-60-involute"), ManufacturingSizes())
+    ring = polygon(from_svg(wheel_file(work, "ring", ".svg"))["CUT"])
     (hole,) = ring.interiors
     module = work.layout.wheels["ring"].module
     assert teeth_of(np.array(hole.coords), 30 * module) == 60
@@ -197,8 +197,8 @@ def test_a_ring_is_cut_inside_its_rim_and_its_planets_fit_in() -> None:
 
 
 def test_wheels_of_one_shape_share_a_sheet_that_says_how_often() -> None:
-    work = Workpiece(load("freeth-2008"), Making())
-    sheets = [each for each in parcel(work, ["svg"]) if each.path.startswith("wheels/")]
+    work = SolidModel(load("freeth-2008"), ManufacturingSizes())
+    sheets = [each for each in export_files(work, ["svg"]) if each.path.startswith("wheels/")]
     flat = [name for name, (_, wheel) in work.train.declaration.wheels.items() if wheel.kind == "spur"]
     listed = [name for each in sheets for name in re.split(", ", each.title.split(":")[0].split(", 2 times")[0])]
     names = [name for name in listed if not name.endswith("times")]
@@ -211,16 +211,16 @@ def test_wheels_of_one_shape_share_a_sheet_that_says_how_often() -> None:
     [("worm", "w2", "worm"), ("bevel-differential", "c41", "bevel"), ("lantern-mill", "pit72", "contrate")],
 )
 def test_what_has_no_flat_outline_is_refused_by_name_and_the_rest_is_written(train: str, wheel: str, word: str) -> None:
-    work = Workpiece(load(train), Making(), load(train).states[0] if load(train).states else None)
+    work = SolidModel(load(train), ManufacturingSizes(), load(train).states[0] if load(train).states else None)
     assert any(f"'{wheel}'" in each.what and word in each.what for each in notices(work, ["svg"]))
     with pytest.raises(GearTrainError, match=word):
-        one_wheel(work, wheel, ".svg")
-    assert any(each.path == "README.md" and wheel in each.make().decode() for each in parcel(work, ["svg"]))
+        wheel_file(work, wheel, ".svg")
+    assert any(each.path == "README.md" and wheel in each.make().decode() for each in export_files(work, ["svg"]))
 
 
 def test_plates_have_a_hole_at_every_axis_they_bear_and_stand_round_it() -> None:
     work = workpiece(module=2, bore=4)
-    (plate,) = [each for each in parcel(work, ["svg"]) if each.path.startswith("plates/")]
+    (plate,) = [each for each in export_files(work, ["svg"]) if each.path.startswith("plates/")]
     drawn = polygon(from_svg(plate.make())["CUT"])
     assert len(drawn.interiors) == 2
     centres = sorted((shapely.Polygon(ring).centroid.x, shapely.Polygon(ring).centroid.y) for ring in drawn.interiors)
@@ -232,8 +232,8 @@ def test_plates_have_a_hole_at_every_axis_they_bear_and_stand_round_it() -> None
 
 def test_slots_are_as_long_as_the_pin_wanders() -> None:
     """A pin at 9.6 mm about an axis 1.1 mm off comes as near as 8.5 mm, and as far as 10.7."""
-    work = Workpiece(load("freeth-2008"), Making(bore=2))
-    (slot,) = [each for each in parcel(work, ["svg"]) if "plates/slot" in each.path]
+    work = SolidModel(load("freeth-2008"), ManufacturingSizes(bore=2))
+    (slot,) = [each for each in export_files(work, ["svg"]) if "plates/slot" in each.path]
     drawn = polygon(from_svg(slot.make())["CUT"])
     hole = max((shapely.Polygon(ring) for ring in drawn.interiors), key=lambda ring: ring.centroid.x)
     left, low, right, high = hole.bounds
@@ -258,7 +258,7 @@ gears: [{{id: one, pair: [p, w], tooth_form: {first}}}, {{id: two, pair: [w, x],
 inputs: {{a: 1}}
 """
     for second, told in (("{form: involute, backlash: 0.2}", True), ("{form: cycloidal}", True), (INVOLUTE, False)):
-        work = Workpiece(declared(text.format(first=INVOLUTE, second=second)), Making())
+        work = SolidModel(declared(text.format(first=INVOLUTE, second=second)), ManufacturingSizes())
         said = [each for each in notices(work, ["svg"]) if "wheel 'w': its pairs 'one' and 'two'" in each.what]
         assert bool(said) == told
         assert all(each.why and each.fix for each in said)
@@ -282,8 +282,8 @@ def test_names_of_parts_become_names_of_files_that_differ(names: list[str]) -> N
 
 
 def test_graphml_is_read_back_by_networkx_with_every_link_and_pair() -> None:
-    work = Workpiece(load("freeth-2008"), Making())
-    graph = nx.parse_graphml(whole(work, "graphml").decode(), force_multigraph=True)
+    work = SolidModel(load("freeth-2008"), ManufacturingSizes())
+    graph = nx.parse_graphml(train_file(work, "graphml").decode(), force_multigraph=True)
     declaration = work.train.declaration
     assert set(graph) == set(declaration.links)
     kinds = [data["kind"] for _, _, data in graph.edges(data=True)]
@@ -292,8 +292,8 @@ def test_graphml_is_read_back_by_networkx_with_every_link_and_pair() -> None:
 
 
 def test_dot_is_read_back_with_every_edge() -> None:
-    work = Workpiece(load("planetary"), Making(), "ring fixed")
-    text = whole(work, "dot").decode()
+    work = SolidModel(load("planetary"), ManufacturingSizes(), "ring fixed")
+    text = train_file(work, "dot").decode()
     edges = re.findall(r'^  "([^"]*)" -- "([^"]*)" \[label="([^"]*)"', text, re.M)
     declaration = work.train.declaration
     joints = {(frozenset(joint.pair), joint.axis) for joint in declaration.revolutes}
@@ -303,8 +303,8 @@ def test_dot_is_read_back_with_every_edge() -> None:
     assert {(frozenset((a, b)), label) for a, b, label in edges} == joints | pairs
 
 
-def tables(work: Workpiece) -> dict[str, list[dict[str, str]]]:
-    files = {each.path: each.make().decode() for each in parcel(work, ["csv"])}
+def tables(work: SolidModel) -> dict[str, list[dict[str, str]]]:
+    files = {each.path: each.make().decode() for each in export_files(work, ["csv"])}
     return {
         path[7:-4]: list(csv.DictReader(io.StringIO(text))) for path, text in files.items() if path.endswith(".csv")
     }
@@ -312,7 +312,7 @@ def tables(work: Workpiece) -> dict[str, list[dict[str, str]]]:
 
 def test_tables_hold_exact_values_and_the_same_in_decimal() -> None:
     """Against the textbook's arithmetic of a planetary whose ring is held."""
-    found = tables(Workpiece(load("planetary-24-18-60"), Making()))
+    found = tables(SolidModel(load("planetary-24-18-60"), ManufacturingSizes()))
     speeds = {row["link"]: Fraction(row["speed"]) for row in found["links"]}
     # ring held: carrier = z_s / (z_s + z_r), planet from (w_p - w_c) z_p = -(w_s - w_c) z_s
     carrier = Fraction(24, 24 + 60)
@@ -329,7 +329,7 @@ def test_tables_hold_exact_values_and_the_same_in_decimal() -> None:
 @pytest.mark.parametrize("name", ["freeth-2008", "freeth-2021", "bevel-differential", "zf-8hp70"])
 def test_every_row_of_a_declaration_is_in_its_tables(name: str) -> None:
     train = load(name)
-    found = tables(Workpiece(train, Making()))
+    found = tables(SolidModel(train, ManufacturingSizes()))
     assert {row["wheel"] for row in found["wheels"]} == set(train.declaration.wheels)
     assert [row["pair"] for row in found["pairs"]] == [gear.name for gear in train.declaration.gears]
     assert {row["link"] for row in found["links"]} == set(train.declaration.links)
@@ -366,8 +366,8 @@ COMPONENTS = {
 
 def rexs(name: str) -> dict[str, object]:
     train = load(name)
-    work = Workpiece(train, Making(), train.states[0] if train.states else None)
-    return dict(json.loads(whole(work, "rexs"))["model"])
+    work = SolidModel(train, ManufacturingSizes(), train.states[0] if train.states else None)
+    return dict(json.loads(train_file(work, "rexs"))["model"])
 
 
 def attributes(model: dict) -> Iterator[dict]:  # type: ignore[type-arg]

@@ -11,7 +11,7 @@ from commands import LOCKED, call
 from test_extras import without
 
 from geartrain.errors import GearTrainError
-from geartrain.files import check_folder, write_folder
+from geartrain.numerics.files import check_folder, write_folder
 
 LIGHT = "svg,graphml,dot,rexs,csv"
 
@@ -64,7 +64,7 @@ def test_a_folder_that_is_stopped_half_way_is_not_there(tmp_path: Path, monkeypa
     def stop(*_: object) -> str:
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(sys.modules["geartrain.export.parcel"], "readme", stop)
+    monkeypatch.setattr(sys.modules["geartrain.export.file_set"], "readme", stop)
     done = call("export", "planetary-24-18-60", "--to", tmp_path / "set", "--as", LIGHT)
     assert done.exit_code == 130
     assert "nothing is written" in done.stderr

@@ -17,21 +17,21 @@ from hypothesis import strategies as st
 from shipped import train as load
 
 from geartrain import GearTrain, GearTrainError
-from geartrain.export import Making, Workpiece, one_wheel, whole
-from geartrain.export.likeness import likeness_solid
-from geartrain.export.triangles import fill
+from geartrain.export import ManufacturingSizes, SolidModel, train_file, wheel_file
+from geartrain.scene.solids.bevel_solids import likeness_solid
+from geartrain.scene.solids.triangle_solids import fill
 
 shapely = pytest.importorskip("shapely")
 
 
-def workpiece(name: str, state: str | None = None, **making: float) -> Workpiece:
-    return Workpiece(load(name), Making(**making), state)
+def workpiece(name: str, state: str | None = None, **making: float) -> SolidModel:
+    return SolidModel(load(name), ManufacturingSizes(**making), state)
 
 
-def inline(text: str, **making: float) -> Workpiece:
+def inline(text: str, **making: float) -> SolidModel:
     import yaml
 
-    return Workpiece(GearTrain.declare(yaml.safe_load(text)), Making(**making))
+    return SolidModel(GearTrain.declare(yaml.safe_load(text)), ManufacturingSizes(**making))
 
 
 # ----------------------------------------------------------------------------------------------------------- triangles
@@ -74,7 +74,7 @@ def test_a_wheel_as_stl_is_watertight_and_its_volume_is_its_area_times_its_thick
 ) -> None:
     work = workpiece(train, thickness=3)
     name = wheel or next(iter(work.blanks.wheels))
-    read = stl(one_wheel(work, name, ".stl"), tmp_path)
+    read = stl(wheel_file(work, name, ".stl"), tmp_path)
     edges: dict[tuple[bytes, bytes], int] = {}
     for triangle in read.vectors:
         corners = [corner.tobytes() for corner in triangle]
@@ -204,7 +204,7 @@ def test_trimesh_reads_the_bodies_of_a_glb_in_metres() -> None:
     trimesh = pytest.importorskip("trimesh")
     pytest.importorskip("pygltflib")
     work = workpiece("planetary-24-18-60")
-    scene = trimesh.load(io.BytesIO(whole(work, "glb")), file_type="glb")
+    scene = trimesh.load(io.BytesIO(train_file(work, "glb")), file_type="glb")
     assert {"frame", "sun", "planet", "carrier", "s", "p", "ring"} <= set(scene.graph.nodes)
     parts = {part.name: part for part in work.parts}
     for name, mesh in scene.geometry.items():
@@ -219,7 +219,7 @@ def test_key_frames_are_the_exact_angles_of_a_planetary_and_close() -> None:
     """Willis by hand: ring of 60 held, sun of 24 turned: the carrier 2/7, the planet of 18 over the carrier -20/21."""
     pytest.importorskip("pygltflib")
     work = workpiece("planetary-24-18-60")
-    glb = Glb(whole(work, "glb"))
+    glb = Glb(train_file(work, "glb"))
     channels = glb.channels()
     assert set(channels) == {"sun", "carrier", "planet"}
     relative = {"sun": Fraction(1), "carrier": Fraction(2, 7), "planet": Fraction(-24, 18) * (1 - Fraction(2, 7))}
@@ -241,7 +241,7 @@ def test_key_frames_of_real_teeth_follow_the_motion() -> None:
     pytest.importorskip("pygltflib")
     work = workpiece("moon-triangular")
     turns = Fraction(1, 2)
-    channels = Glb(whole(work, "glb", turns)).channels()
+    channels = Glb(train_file(work, "glb", turns)).channels()
     train = work.train
     links = tuple(train.declaration.links)
     motion = train.motion(None, links)
@@ -265,7 +265,7 @@ def test_key_frames_of_real_teeth_follow_the_motion() -> None:
 
 def test_a_train_that_cannot_turn_is_a_model_without_animation() -> None:
     pytest.importorskip("pygltflib")
-    glb = Glb(whole(inline(LOCKED), "glb"))
+    glb = Glb(train_file(inline(LOCKED), "glb"))
     assert "animations" not in glb.json or not glb.json["animations"]
     assert glb.json["meshes"]
 
@@ -274,12 +274,12 @@ def test_more_turns_than_key_frames_can_show_are_refused() -> None:
     pytest.importorskip("pygltflib")
     for turns in (Fraction(0), Fraction(-1), Fraction(10**9)):
         with pytest.raises(GearTrainError, match="no animation"):
-            whole(workpiece("planetary-24-18-60"), "glb", turns)
+            train_file(workpiece("planetary-24-18-60"), "glb", turns)
 
 
 def test_the_same_train_is_the_same_file() -> None:
     pytest.importorskip("pygltflib")
-    first, second = (whole(workpiece("planetary-24-18-60"), "glb") for _ in range(2))
+    first, second = (train_file(workpiece("planetary-24-18-60"), "glb") for _ in range(2))
     assert first == second
 
 
@@ -295,14 +295,14 @@ inputs: {a: 1}
 
 
 @pytest.fixture(scope="module")
-def pair() -> tuple[Workpiece, bytes]:
+def pair() -> tuple[SolidModel, bytes]:
     """Eleven and seventeen teeth, and their STEP file."""
     pytest.importorskip("OCP")
     work = inline(PAIR, thickness=2, bore=4)
-    return work, whole(work, "step")
+    return work, train_file(work, "step")
 
 
-def test_step_read_back_has_every_part_by_name_and_its_volume(pair: tuple[Workpiece, bytes], tmp_path: Path) -> None:
+def test_step_read_back_has_every_part_by_name_and_its_volume(pair: tuple[SolidModel, bytes], tmp_path: Path) -> None:
     cascadio = pytest.importorskip("cascadio")
     trimesh = pytest.importorskip("trimesh")
     work, data = pair
@@ -322,7 +322,7 @@ def test_step_read_back_has_every_part_by_name_and_its_volume(pair: tuple[Workpi
     assert sorted((flat.extents * 1000).round(1)) == pytest.approx(sorted((high - low).round(1)), abs=0.2)
 
 
-def test_step_keeps_arcs_and_parses_as_part_21(pair: tuple[Workpiece, bytes], tmp_path: Path) -> None:
+def test_step_keeps_arcs_and_parses_as_part_21(pair: tuple[SolidModel, bytes], tmp_path: Path) -> None:
     p21 = pytest.importorskip("steputils.p21")
     work, data = pair
     path = tmp_path / "pair.step"

@@ -10,7 +10,7 @@ import pytest
 import yaml
 
 from geartrain import GearTrain, GearTrainError, load
-from geartrain.files import shipped
+from geartrain.analysis.loader import shipped
 
 PARENT = """\
 name: parent
@@ -327,7 +327,7 @@ def test_a_chain_of_fifteen_hundred_parents_is_read(tmp_path: Path) -> None:
 
 
 def test_a_chain_of_parents_without_end_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("geartrain.files.loading._MOST_PARENTS", 3)
+    monkeypatch.setattr("geartrain.analysis.loader._MOST_PARENTS", 3)
     (tmp_path / "t0.yaml").write_text(PARENT, encoding="utf-8")
     for at in range(1, 6):
         (tmp_path / f"t{at}.yaml").write_text(f"extends: t{at - 1}.yaml\n", encoding="utf-8")

@@ -18,11 +18,11 @@ from hypothesis import Phase, given, settings
 from hypothesis import strategies as st
 
 import geartrain
+from geartrain.dynamics.motion import MotionRun
 from geartrain.errors import GearTrainError
-from geartrain.motion import Run
-from geartrain.pins.laws import BackLaw, PinLaw, SlotLaw
-from geartrain.teeth.triangular.law import TriangularLaw
-from geartrain.teeth.triangular.sizes import Sizes, equal_depth
+from geartrain.teeth.pin_transmission import PinToSlotTransmission, PinTransmission, SlotToPinTransmission
+from geartrain.teeth.triangular.pair_geometry import TriangularSizes, equal_depth
+from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
 
 PLAIN = (
     "0",
@@ -260,7 +260,7 @@ def test_sizes_and_laws_of_triangular_teeth_take_or_refuse_any_number(
     radius: float, beta: float, excess: float, z1: int, z2: int
 ) -> None:
     def ask() -> list[float]:
-        law = TriangularLaw(Sizes(z1, z2, radius, radius, beta, beta, excess), 0.1)
+        law = TriangularTransmission(TriangularSizes(z1, z2, radius, radius, beta, beta, excess), 0.1)
         return [*law.error_range(), *law.speed_range(), *law.error_moments(), *law.error(np.linspace(0, 9, 7))]
 
     with warnings.catch_warnings(), bounded(SECONDS):
@@ -268,8 +268,15 @@ def test_sizes_and_laws_of_triangular_teeth_take_or_refuse_any_number(
         assert right_or_refused(ask)
 
 
-@given(st.sampled_from(ODD), st.sampled_from(ODD), st.sampled_from(ODD), st.sampled_from((SlotLaw, BackLaw)))
-def test_laws_of_pins_take_or_refuse_any_number(r: float, e: float, friction: float, law: type[PinLaw]) -> None:
+@given(
+    st.sampled_from(ODD),
+    st.sampled_from(ODD),
+    st.sampled_from(ODD),
+    st.sampled_from((PinToSlotTransmission, SlotToPinTransmission)),
+)
+def test_laws_of_pins_take_or_refuse_any_number(
+    r: float, e: float, friction: float, law: type[PinTransmission]
+) -> None:
     def ask() -> list[float]:
         made = law(r, e, friction)
         return [made.amplitude, *made.speed_range(), *made.error_moments(), *made.error(np.linspace(0, 9, 7))]
@@ -280,19 +287,21 @@ def test_laws_of_pins_take_or_refuse_any_number(r: float, e: float, friction: fl
 @pytest.mark.parametrize(
     "ask",
     [
-        TriangularLaw.error_range,
-        TriangularLaw.speed_range,
-        TriangularLaw.error_moments,
-        TriangularLaw.efficiency_mean,
-        TriangularLaw.efficiency_at_constant_load,
-        TriangularLaw.corners,
+        TriangularTransmission.error_range,
+        TriangularTransmission.speed_range,
+        TriangularTransmission.error_moments,
+        TriangularTransmission.efficiency_mean,
+        TriangularTransmission.efficiency_at_constant_load,
+        TriangularTransmission.corners,
         lambda law: law.jumps,
     ],
 )
 @pytest.mark.parametrize("excess", [0.04, 1.0, 1e300])
-def test_the_law_of_wheels_apart_is_refused_in_words(ask: Callable[[TriangularLaw], object], excess: float) -> None:
+def test_the_law_of_wheels_apart_is_refused_in_words(
+    ask: Callable[[TriangularTransmission], object], excess: float
+) -> None:
     radii = equal_depth(48, 96, pi / 6, pi / 6)
-    law = TriangularLaw(Sizes(48, 96, *radii, pi / 6, pi / 6, excess))
+    law = TriangularTransmission(TriangularSizes(48, 96, *radii, pi / 6, pi / 6, excess))
     assert law.verdict.kind == "apart"
     with pytest.raises(GearTrainError, match="too far apart"):
         ask(law)
@@ -302,4 +311,4 @@ def test_the_law_of_wheels_apart_is_refused_in_words(ask: Callable[[TriangularLa
 def test_a_motion_over_turns_that_no_position_tells_apart_is_refused(turns: float) -> None:
     motion = geartrain.load(PAIR).motion()
     with pytest.raises(GearTrainError, match="a motion over"):
-        Run(motion, turns, 10)
+        MotionRun(motion, turns, 10)

@@ -30,7 +30,7 @@ from marching import declared
 from sorge import mp
 
 from geartrain import GearTrainError, load
-from geartrain.pins.laws import BackLaw, SlotLaw
+from geartrain.teeth.pin_transmission import PinToSlotTransmission, SlotToPinTransmission
 
 
 def parameters(case: Case) -> object:
@@ -142,11 +142,11 @@ def test_a_long_run_of_a_long_chain_keeps_few_numbers() -> None:
 @pytest.mark.parametrize("more", [1e-1, 1e-3, 1e-6, 1e-9])
 def test_the_law_of_a_pin_near_the_offset(more: float) -> None:
     """The angle the pin is from the fast place is a float of its own, so nothing need be lost."""
-    law, exactly = SlotLaw(1 + more, 1.0), Pinned(1 + more, 1.0)
+    law, exactly = PinToSlotTransmission(1 + more, 1.0), Pinned(1 + more, 1.0)
     S = np.geomspace(1e-15, 3, 80)
     for x, error, speed in zip(S.tolist(), law.error(S).tolist(), law.speed(S).tolist(), strict=True):
         assert abs(error - (exactly.angle(mp.mpf(x)) - mp.mpf(x))) < 8 * EPS
         assert abs(speed / exactly.speed(mp.mpf(x)) - 1) < 8 * EPS
-    back = BackLaw(1 + more, 1.0)
+    back = SlotToPinTransmission(1 + more, 1.0)
     for x, error in zip(S.tolist(), back.error(S).tolist(), strict=True):
         assert abs(error + mp.asin(mp.sin(mp.mpf(x)) / mp.mpf(1 + more))) < 16 * EPS

@@ -21,9 +21,9 @@ from shapely import affinity
 
 from geartrain import GearTrain, load
 from geartrain.errors import QuestionError
-from geartrain.quantity import Quantity
-from geartrain.synthesis.rules.decimals import cosine, is_positive, sine
-from geartrain.synthesis.rules.interference import (
+from geartrain.numerics.quantity import Quantity
+from geartrain.synthesis.constraints.decimal_sines import cosine, is_positive, sine
+from geartrain.synthesis.constraints.involute_interference import (
     InRing,
     OnInvolute,
     external_terms,

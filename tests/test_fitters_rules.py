@@ -20,17 +20,17 @@ from test_closure import in_space
 
 from geartrain import GearTrain, load
 from geartrain.errors import QuestionError
-from geartrain.quantity import Quantity
-from geartrain.synthesis.rules.asked import Rules, read_rules
-from geartrain.synthesis.rules.conditions import Condition, Equation
-from geartrain.synthesis.rules.finding import Rule, find_rules
-from geartrain.synthesis.rules.planets import bezout
+from geartrain.numerics.quantity import Quantity
+from geartrain.synthesis.constraints.assembly_constraints import find_constraints
+from geartrain.synthesis.constraints.constraint_options import ConstraintOptions, read_constraint_options
+from geartrain.synthesis.constraints.count_conditions import Condition, CountConstraint, CountEquation
+from geartrain.synthesis.constraints.planet_assembly import bezout
 
 Data = dict[str, Any]
 
 
-def equations(rules: Sequence[Rule]) -> list[Equation]:
-    return [rule for rule in rules if isinstance(rule, Equation)]
+def equations(rules: Sequence[CountConstraint]) -> list[CountEquation]:
+    return [rule for rule in rules if isinstance(rule, CountEquation)]
 
 
 def length(text: str) -> Quantity:
@@ -177,7 +177,7 @@ def test_bevel_wheels_have_no_sums() -> None:
 def test_an_equation_solved_for_a_wheel_gives_the_counts_that_meet_it(
     factors: dict[str, int], constant: int, seed: int
 ) -> None:
-    rule = Equation("", factors, constant)
+    rule = CountEquation("", factors, constant)
     rng = np.random.default_rng(seed)
     found = {wheel: rng.integers(1, 30, 40) for wheel in factors}
     wheel = rng.choice(list(factors))
@@ -194,7 +194,7 @@ def test_an_equation_solved_for_a_wheel_gives_the_counts_that_meet_it(
 
 @given(st.lists(st.integers(-9, 9).filter(bool), min_size=1, max_size=3), st.integers(-9, 9))
 def test_an_equation_is_possible_if_some_whole_numbers_meet_it(factors: list[int], constant: int) -> None:
-    rule = Equation("", {f"w{at}": factor for at, factor in enumerate(factors)}, constant)
+    rule = CountEquation("", {f"w{at}": factor for at, factor in enumerate(factors)}, constant)
     meets = any(
         sum(f * z for f, z in zip(factors, counts, strict=True)) + constant == 0
         for counts in product(range(-15, 16), repeat=len(factors))
@@ -480,7 +480,7 @@ def test_wheels_without_a_count_get_rules_too() -> None:
         own = data["links"][link]["wheels"]
         own[wheel] = {"teeth": {"search": [12, 80]}} | ({"internal": True} if wheel == "r" else {})
     free = {wheel: tuple(range(12, 81)) for wheel in "spr"}
-    rules = find_rules(declared(data), free, Rules(planets=3, clearance=Fraction(0)))
+    rules = find_constraints(declared(data), free, ConstraintOptions(planets=3, clearance=Fraction(0)))
     assert len(rules) == 3
     grid = box(s=range(12, 30), p=range(12, 30), r=range(40, 80))
     kept = np.logical_and.reduce([rule.holds(grid) for rule in rules])
@@ -491,11 +491,11 @@ def test_wheels_without_a_count_get_rules_too() -> None:
 
 def test_rules_can_be_sent_to_other_processes_and_come_cheapest_first() -> None:
     train = load("planets-in-place").declaration
-    asked = read_rules(
+    asked = read_constraint_options(
         planets="3", clearance="0.5", undercut="20 deg", interference="20 deg", ring_addendum="0.8", least=12,
         hunting=True, different=True, closure=True,
     )  # fmt: skip
-    rules = find_rules(train, dict.fromkeys(train.wheels, (20, 21)), asked)
+    rules = find_constraints(train, dict.fromkeys(train.wheels, (20, 21)), asked)
     some = columns(**{wheel: [20, 24, 18] for wheel in train.wheels})
     for rule in rules:
         again = pickle.loads(pickle.dumps(rule))
@@ -510,12 +510,14 @@ def test_rules_can_be_sent_to_other_processes_and_come_cheapest_first() -> None:
 
 
 def test_what_is_asked_is_read_from_texts() -> None:
-    assert read_rules() == Rules()
-    found = read_rules(planets="arm=3, inner=4", clearance="1/2", undercut="14.5 deg", largest_radius="60 mm", least=9)
+    assert read_constraint_options() == ConstraintOptions()
+    found = read_constraint_options(
+        planets="arm=3, inner=4", clearance="1/2", undercut="14.5 deg", largest_radius="60 mm", least=9
+    )
     assert found.planets == {"arm": 3, "inner": 4}
     assert found.clearance == Fraction(1, 2)
     assert found.least == 9
-    assert read_rules(planets="3").planets == 3
+    assert read_constraint_options(planets="3").planets == 3
     plain = json.loads(json.dumps(found.to_dict()))
     assert plain == {
         "shift": 0, "planets": {"arm": 3, "inner": 4}, "clearance": "1/2", "undercut": "14.5 deg", "addendum": "1",
@@ -536,7 +538,7 @@ def test_what_is_asked_is_read_from_texts() -> None:
 )
 def test_what_cannot_be_read_is_refused_with_advice(texts: dict[str, str]) -> None:
     with pytest.raises(QuestionError) as caught:
-        read_rules(**texts)
+        read_constraint_options(**texts)
     assert len(caught.value.problems) == len(texts)
     assert all(problem.what.startswith("--") and problem.fix for problem in caught.value.problems)
 

@@ -16,9 +16,9 @@ from test_generators import ten_thousand_cascade
 from geartrain import GearTrain, GearTrainError, load
 from geartrain.bench.families import drift
 from geartrain.errors import RangeError
-from geartrain.exact import decimal
-from geartrain.longfloat import LongFloat, scaled
-from geartrain.speeds.floats import FloatSpeeds, solve_floats
+from geartrain.kinematics.speeds.float_speeds import FloatSpeeds, solve_floats
+from geartrain.numerics.exact import decimal
+from geartrain.numerics.long_float import LongFloat, scaled
 
 EPS = Fraction(1, 2**53)
 
@@ -268,7 +268,7 @@ def sets_between_shafts(seed: int) -> dict[str, Any]:
 @pytest.mark.parametrize("inverted", [400, 0], ids=["by the inverse", "by random signs"])
 def test_no_speed_is_farther_off_than_its_estimate(inverted: int, monkeypatch: pytest.MonkeyPatch) -> None:
     """Also where a speed is 0 because great ones cancel, and what is left of it is nothing but rounding."""
-    monkeypatch.setattr("geartrain.speeds.floats._INVERTED", inverted)
+    monkeypatch.setattr("geartrain.kinematics.speeds.float_speeds._INVERTED", inverted)
     judged = still = 0
     for seed in range(700):
         train = GearTrain.declare(sets_between_shafts(seed))
@@ -407,7 +407,7 @@ def test_no_speed_beyond_the_range_is_farther_off_than_its_estimate() -> None:
 
 
 def test_a_train_whose_sizes_take_too_long_to_find_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("geartrain.speeds.scaling._BUDGET", 1000)
+    monkeypatch.setattr("geartrain.kinematics.speeds.scaling._BUDGET", 1000)
     with pytest.raises(RangeError, match="coupled too densely"):
         GearTrain.declare(planetaries(300)).floats()
 
@@ -416,7 +416,7 @@ def test_trains_of_ordinary_speeds_are_solved_as_they_are(monkeypatch: pytest.Mo
     def refuse(*_: object) -> None:
         raise AssertionError("nothing is to be scaled")
 
-    monkeypatch.setattr("geartrain.speeds.floats.find_exponents", refuse)
+    monkeypatch.setattr("geartrain.kinematics.speeds.scaling.find_exponents", refuse)
     for train in (*(train for train, _, _ in STIFF.values()), load("pennestri-2002"), GearTrain.declare(row((11, 10)))):
         assert not train.floats().exponents.values.any()
 

@@ -18,12 +18,14 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from models import PAIR, PLANETARY
 
-import geartrain.motion
+import geartrain.dynamics.motion
 from geartrain import GearTrain, GearTrainError, load
-from geartrain.meshes import ConjugateMesh, Mesh, TriangularMesh
-from geartrain.motion import Run
+from geartrain.dynamics.motion import MotionRun
 from geartrain.report import report_train, to_markdown, train_data
-from geartrain.teeth.conjugate import ConjugateLaw
+from geartrain.teeth.conjugate.conjugate_mesh import ConjugateMesh
+from geartrain.teeth.conjugate.conjugate_transmission import ConjugateTransmission
+from geartrain.teeth.gear_mesh import GearMesh
+from geartrain.teeth.triangular.triangular_mesh import TriangularMesh
 
 INVOLUTE = "{form: involute}"
 FORMS = ("involute", "cycloidal", "lantern", "uniform_stress", "uniform_temperature", "least_friction")
@@ -235,7 +237,7 @@ RIPPLING = "{form: triangular, half_angle: 30 deg, window: 0.5}"
 @pytest.mark.parametrize("form", FORMS)
 def test_conjugate_teeth_among_others_change_no_bit_of_any_motion(form: str) -> None:
     def motion(first: str) -> tuple[Any, Any]:
-        run = Run(load(CHAIN.format(first=first, second=RIPPLING)).motion(), 3.0, 257)
+        run = MotionRun(load(CHAIN.format(first=first, second=RIPPLING)).motion(), 3.0, 257)
         run.go()
         run.try_phases(2, 7)
         run.analyse()
@@ -247,10 +249,10 @@ def test_conjugate_teeth_among_others_change_no_bit_of_any_motion(form: str) -> 
 def test_no_position_is_asked_of_a_law_that_is_rigid(monkeypatch: pytest.MonkeyPatch) -> None:
     calls = []
     for name in ("error", "speed", "error_and_speed", "angle"):
-        monkeypatch.setattr(ConjugateLaw, name, lambda self, S, name=name: calls.append(name))
+        monkeypatch.setattr(ConjugateTransmission, name, lambda self, S, name=name: calls.append(name))
     motion = load("planetary-24-18-60-involute").motion()
     for turns in (5.0, -5.0):
-        run = Run(motion, turns, 1001)
+        run = MotionRun(motion, turns, 1001)
         run.go()
         run.estimate()
         run.analyse()
@@ -298,7 +300,7 @@ def test_teeth_at_another_distance_than_their_own_bring_their_law_to_the_motion(
     assert high - low > 1e-6
     assert only(pair("{form: cycloidal, centre_distance: 40}")).rigid
     assert only(pair("{form: involute, centre_distance: 40.1}")).rigid
-    run = Run(train.motion(outputs=["b", "c"]), 1.0, 4001)
+    run = MotionRun(train.motion(outputs=["b", "c"]), 1.0, 4001)
     run.go()
     b, c = run.tallies
     assert b.peak_to_peak == pytest.approx(high - low, rel=2e-3)
@@ -310,7 +312,7 @@ def test_teeth_at_another_distance_than_their_own_bring_their_law_to_the_motion(
 def test_rigid_teeth_in_a_redundant_loop_contradict_nothing_and_triangular_ones_do() -> None:
     form = "tooth_form: {form: involute, addendum: 0.9}\n"
     text = "extends: three-planets\nname: three\n"
-    run = Run(load(text + form).motion(), 1.0, 11)
+    run = MotionRun(load(text + form).motion(), 1.0, 11)
     run.go()
     assert all(tally.peak_to_peak == 0 for tally in run.tallies)
     ring = "gears: [" + ", ".join(f"{{pair: [p{at}, r78], tooth_form: {{form: ideal}}}}" for at in (1, 2, 3)) + "]\n"
@@ -322,7 +324,7 @@ def test_a_page_names_the_pairs_that_keep_their_ratio_and_follows_none(monkeypat
     def forbidden(*_: object) -> None:
         raise AssertionError("a motion is followed")
 
-    monkeypatch.setattr(geartrain.motion, "Run", forbidden)
+    monkeypatch.setattr(geartrain.dynamics.motion, "MotionRun", forbidden)
     train = load("longcase-clock-cycloidal")
     page = to_markdown([report_train(train)])
     assert "add nothing to any motion: g96~c8, c60~t8, t56~e7, cannon~mw40, mw6~h72 (cycloidal)" in page
@@ -456,7 +458,7 @@ def test_the_losses_of_a_bevel_differential_are_those_of_arcs_on_the_sphere_and_
 
 def test_the_balance_of_a_bevel_differential_with_one_wheel_held_is_exact_in_friction() -> None:
     train = load("bevel-differential-involute")
-    laws: dict[str, Mesh] = {mesh.name: mesh for mesh in train.meshes_in("one wheel held")}
+    laws: dict[str, GearMesh] = {mesh.name: mesh for mesh in train.meshes_in("one wheel held")}
     drive = laws["pinion~c41"].law.efficiency_at_constant_load()
     # in the crown's frame power goes from the held wheel to the loaded one
     eta0 = laws["l16~p10"].law.efficiency_at_constant_load() * laws["r16~p10"].law.efficiency_at_constant_load()
@@ -559,7 +561,8 @@ train.solve()
 assert "numpy" not in sys.modules
 from geartrain.report import train_data
 train_data(train)
-print([name for name in ("scipy", "matplotlib", "jinja2", "geartrain.teeth.triangular.law") if name in sys.modules])
+heavy = ("scipy", "matplotlib", "jinja2", "geartrain.teeth.triangular.triangular_transmission")
+print([name for name in heavy if name in sys.modules])
 """
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout.strip() == "[]"

@@ -20,10 +20,10 @@ from strategies import Data, asked_trains, driven_trains, overdriven_trains
 
 from geartrain import GearTrain, load, shipped
 from geartrain.errors import QuestionError
-from geartrain.synthesis.formulas import laurent as laurent
-from geartrain.synthesis.formulas.finding import Formula, Formulas, find_formulas, with_counts
-from geartrain.synthesis.formulas.functions import make_formula
+from geartrain.synthesis.formulas import laurent
 from geartrain.synthesis.formulas.laurent import Laurent
+from geartrain.synthesis.formulas.output_formulas import Formulas, find_formulas, with_counts
+from geartrain.synthesis.formulas.rational_functions import Formula, make_formula
 from geartrain.train import Train, declare
 
 ANY = (1,)
@@ -627,7 +627,7 @@ def test_formulas_need_no_array_library_until_columns_are_asked_for() -> None:
     import sys
 
     code = (
-        "import geartrain, sys; from geartrain.synthesis.formulas.finding import find_formulas;"
+        "import geartrain, sys; from geartrain.synthesis.formulas.output_formulas import find_formulas;"
         "t = geartrain.load('wolfrom-175').declaration; f = find_formulas(t, None, {'s12': (12, 13)})['output'];"
         "assert f.value({'s12': 12}) == geartrain.load('wolfrom-175').solve()['output'];"
         "assert f.exact_bounds({'s12': (12, 13)})[0]; assert 'numpy' not in sys.modules"

@@ -14,8 +14,8 @@ import pytest
 from pydantic import BaseModel
 
 from geartrain import GearTrainError, load
-from geartrain.files import shipped
-from geartrain.frozen import FrozenDict
+from geartrain.analysis.loader import shipped
+from geartrain.numerics.containers import FrozenDict
 
 
 def mutable(value: Any, path: str, met: set[int]) -> Iterator[str]:

@@ -22,11 +22,19 @@ from test_architecture import imported_by
 from test_cases import KINEMATIC, REJECT, declaration
 
 from geartrain import GearTrain, load
-from geartrain.gridlock import Release, choosing
-from geartrain.gridlock.choosing import choose
-from geartrain.gridlock.network import Network, blocks, shortest_loop, single_releases, turns, walk
-from geartrain.gridlock.planar import planar_set
-from geartrain.gridlock.searching import greedy_set
+from geartrain.kinematics.gridlock import MeshRemoval
+from geartrain.kinematics.gridlock import removal_choice as choosing
+from geartrain.kinematics.gridlock.branch_and_bound import greedy_removal
+from geartrain.kinematics.gridlock.gain_graph import (
+    GainGraph,
+    biconnected_blocks,
+    is_balanced,
+    shortest_loop,
+    single_mesh_removals,
+    walk_gain_graph,
+)
+from geartrain.kinematics.gridlock.planar_matching import planar_removal
+from geartrain.kinematics.gridlock.removal_choice import choose_removal
 
 Data = dict[str, Any]
 
@@ -111,7 +119,7 @@ def less(data: Data, gone: Iterable[str]) -> Data:
     return {**data, "gears": [gear for gear in data["gears"] if gear["id"] not in out]}
 
 
-def proved(release: Release, firm: Iterable[str] = ()) -> int:
+def proved(release: MeshRemoval, firm: Iterable[str] = ()) -> int:
     """The bound of its proofs, after counting how often each mesh is in a loop of each."""
     for proof in release.proofs:
         times = [pair for loop in proof.loops for pair in loop.pairs if pair not in firm]
@@ -376,14 +384,14 @@ def test_a_follower_holds_nothing_but_itself() -> None:
 # against enumeration --------------------------------------------------------------------------------------------------
 
 
-def least_by_trying(network: Network) -> int:
+def least_by_trying(network: GainGraph) -> int:
     loose = [mesh for mesh in range(len(network.ends)) if mesh not in network.firm]
     return next(
         size for size in range(len(loose) + 1) for some in itertools.combinations(loose, size) if _closed(network, some)
     )
 
 
-def _closed(network: Network, gone: Iterable[int]) -> bool:
+def _closed(network: GainGraph, gone: Iterable[int]) -> bool:
     """Whether speeds exist that all other meshes agree with, none of them 0: by dense elimination."""
     graph, out = nx.Graph(), set(gone)
     graph.add_nodes_from(range(network.size))
@@ -398,7 +406,7 @@ def _closed(network: Network, gone: Iterable[int]) -> bool:
 
 
 @st.composite
-def networks(draw: st.DrawFn, gains: Sequence[Any], firm: bool = False, most: int = 7) -> Network:
+def networks(draw: st.DrawFn, gains: Sequence[Any], firm: bool = False, most: int = 7) -> GainGraph:
     """Connected, with parallel meshes, at most 12 loose meshes."""
     size = draw(st.integers(2, most))
     ends = [(draw(st.integers(0, at - 1)), at) for at in range(1, size)]
@@ -406,7 +414,7 @@ def networks(draw: st.DrawFn, gains: Sequence[Any], firm: bool = False, most: in
     ends += draw(st.lists(other, min_size=1, max_size=12 - len(ends)))
     drawn = {mesh: draw(st.sampled_from(gains)) for mesh in range(len(ends))}
     held = frozenset(range(draw(st.integers(0, 2)))) & frozenset(range(size - 1)) if firm else frozenset()
-    return Network(size, ends, {mesh: gain for mesh, gain in drawn.items() if gain != 1}, held)
+    return GainGraph(size, ends, {mesh: gain for mesh, gain in drawn.items() if gain != 1}, held)
 
 
 SIGNS = (1, -1)
@@ -414,11 +422,11 @@ RATIOS = (1, 1, -1, Fraction(2), Fraction(3, 2), Fraction(1, 2))
 
 
 @given(st.one_of(networks(SIGNS, firm=True), networks(RATIOS, firm=True)))
-def test_a_chosen_set_is_as_small_as_trying_all_sets_finds(network: Network) -> None:
+def test_a_chosen_set_is_as_small_as_trying_all_sets_finds(network: GainGraph) -> None:
     least = least_by_trying(network)
-    assert turns(network) == (least == 0)
+    assert is_balanced(network) == (least == 0)
     assume(least > 0)
-    choice = choose(network, walk(network))
+    choice = choose_removal(network, walk_gain_graph(network))
     assert _closed(network, choice.meshes)
     assert not network.firm.intersection(choice.meshes)
     assert len(choice.meshes) == choice.at_least == least
@@ -429,12 +437,12 @@ def test_a_chosen_set_is_as_small_as_trying_all_sets_finds(network: Network) -> 
 
 
 @given(networks(SIGNS, firm=True))
-def test_a_matching_of_odd_regions_is_as_small_as_trying_all_sets_finds(network: Network) -> None:
-    for block in blocks(network):
+def test_a_matching_of_odd_regions_is_as_small_as_trying_all_sets_finds(network: GainGraph) -> None:
+    for block in biconnected_blocks(network):
         part, _ = network.part(block)
-        found = walk(part)
-        plain = Network(part.size, part.ends, found.breaking, part.firm)
-        join = planar_set(plain)
+        found = walk_gain_graph(part)
+        plain = GainGraph(part.size, part.ends, found.breaking, part.firm)
+        join = planar_removal(plain)
         graph = nx.Graph(part.ends)
         assert (join is not None) or not nx.check_planarity(graph)[0]
         if join is not None:
@@ -444,8 +452,8 @@ def test_a_matching_of_odd_regions_is_as_small_as_trying_all_sets_finds(network:
 
 
 @given(st.one_of(networks(SIGNS, firm=True), networks(RATIOS, firm=True)))
-def test_no_mesh_of_a_greedy_set_can_stay_and_its_loops_share_none(network: Network) -> None:
-    meshes, loops = greedy_set(network, walk(network))
+def test_no_mesh_of_a_greedy_set_can_stay_and_its_loops_share_none(network: GainGraph) -> None:
+    meshes, loops = greedy_removal(network, walk_gain_graph(network))
     assert _closed(network, meshes)
     assert not network.firm.intersection(meshes)
     assert not any(_closed(network, set(meshes) - {mesh}) for mesh in meshes)
@@ -457,14 +465,14 @@ def test_no_mesh_of_a_greedy_set_can_stay_and_its_loops_share_none(network: Netw
 
 
 @given(networks(RATIOS))
-def test_every_single_mesh_that_frees_is_found(network: Network) -> None:
-    assume(not turns(network))
-    found = single_releases(network, walk(network))
+def test_every_single_mesh_that_frees_is_found(network: GainGraph) -> None:
+    assume(not is_balanced(network))
+    found = single_mesh_removals(network, walk_gain_graph(network))
     assert sorted(found) == [mesh for mesh in range(len(network.ends)) if _closed(network, [mesh])]
 
 
 @given(networks(RATIOS))
-def test_the_shortest_loop_that_fails_is_found(network: Network) -> None:
+def test_the_shortest_loop_that_fails_is_found(network: GainGraph) -> None:
     loop = shortest_loop(network)
     if loop is None:
         assert _closed(network, ())
@@ -477,14 +485,14 @@ def test_the_shortest_loop_that_fails_is_found(network: Network) -> None:
             assert part.size > size or not _is_ring(part) or _closed(part, ())
 
 
-def _is_ring(part: Network) -> bool:
+def _is_ring(part: GainGraph) -> bool:
     degrees = [end for ends in part.ends for end in ends]
     return all(degrees.count(node) == 2 for node in range(part.size))
 
 
 @given(networks(SIGNS))
-def test_blocks_are_those_of_networkx(network: Network) -> None:
-    found = [{frozenset(network.ends[mesh]) for mesh in block} for block in blocks(network)]
+def test_blocks_are_those_of_networkx(network: GainGraph) -> None:
+    found = [{frozenset(network.ends[mesh]) for mesh in block} for block in biconnected_blocks(network)]
     known = nx.biconnected_component_edges(nx.Graph(network.ends))
     assert sorted(map(sorted, (map(sorted, block) for block in found))) == sorted(
         map(sorted, ([sorted(pair) for pair in block] for block in known))
@@ -494,17 +502,17 @@ def test_blocks_are_those_of_networkx(network: Network) -> None:
 def test_nine_mutual_wheels_are_beyond_the_plane_and_small_enough_to_search_or_said_to_be_greedy() -> None:
     for count in (5, 6, 7, 9):
         pairs = list(itertools.combinations(range(count), 2))
-        network = Network(count, pairs, dict.fromkeys(range(len(pairs)), -1))
-        choice = choose(network, walk(network))
+        network = GainGraph(count, pairs, dict.fromkeys(range(len(pairs)), -1))
+        choice = choose_removal(network, walk_gain_graph(network))
         least = len(pairs) - (count // 2) * (count - count // 2)  # what no two halves can keep
-        assert turns(network, choice.meshes)
+        assert is_balanced(network, choice.meshes)
         assert choice.at_least <= least <= len(choice.meshes)
         if len(pairs) <= choosing.SMALL or choice.method != "greedy":
             assert len(choice.meshes) == choice.at_least == least
 
 
 def test_a_greedy_set_says_that_a_smaller_one_may_do() -> None:
-    text = str(Release(("a", "b", "c"), "greedy", 2))
+    text = str(MeshRemoval(("a", "b", "c"), "greedy", 2))
     assert text == ("disengage 3 meshes: a, b, c; none of them can stay, but a smaller set may do; at least 2 must go")
 
 

@@ -15,20 +15,19 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-import geartrain.synthesis.trains.items as items
-import geartrain.synthesis.trains.joining as joining
-import geartrain.synthesis.trains.rows as rows
-from geartrain.synthesis.rules.conditions import Condition, Equation, Rule
-from geartrain.synthesis.trains.bands import Band, possible
-from geartrain.synthesis.trains.bundles import Asked, find_bundles
-from geartrain.synthesis.trains.items import Item, Recipe, forecast
-from geartrain.synthesis.trains.joining import Join
-from geartrain.synthesis.trains.merging import Work, do_task, merged
-from geartrain.synthesis.trains.plans import Question, find_question
-from geartrain.synthesis.trains.pooling import Order, Pool
-from geartrain.synthesis.trains.rows import Rows
-from geartrain.synthesis.trains.signs import Polynomial
-from geartrain.synthesis.trains.windows import Half
+import geartrain.synthesis.join.exact_join as joining
+import geartrain.synthesis.join.product_lists as items
+import geartrain.synthesis.join.product_lists as rows
+from geartrain.synthesis.constraints.count_conditions import Condition, CountConstraint, CountEquation
+from geartrain.synthesis.join.exact_join import ExactJoin
+from geartrain.synthesis.join.join_plan import JoinProblem, find_join_problem
+from geartrain.synthesis.join.polynomial_constraints import PolynomialConstraint, possible
+from geartrain.synthesis.join.polynomial_signs import SignPolynomial
+from geartrain.synthesis.join.product_lists import Item, ItemRecipe, PartialAssignments, forecast
+from geartrain.synthesis.join.solution_windows import PolynomialInequality
+from geartrain.synthesis.join.wheel_monomials import IntervalConstraint, find_wheel_monomials
+from geartrain.synthesis.train.best_assignments import AssignmentOrder, BestAssignments
+from geartrain.synthesis.train.pass_tasks import PassWork, do_task, merged
 
 Terms = tuple[tuple[int, tuple[int, ...]], ...]
 
@@ -67,7 +66,7 @@ def test_an_item_lists_every_product_with_all_its_ways(lots: list[tuple[set[int]
         tops = [count**power for count, (_, power) in zip(counts[::2], wheels[::2], strict=True)]
         bottoms = [count**power for count, (_, power) in zip(counts[1::2], wheels[1::2], strict=True)]
         ways.setdefault(Fraction(prod(tops), prod(bottoms)), Counter())[counts] += 1
-    item = Item(Recipe(wheels[::2], wheels[1::2]), domains, np.int64)
+    item = Item(ItemRecipe(wheels[::2], wheels[1::2]), domains, np.int64)
     assert (np.diff(item.x) >= 0).all()
     bottoms = np.ones(len(item), dtype=np.int64) if item.bottoms is None else item.bottoms
     listed = [Fraction(int(top), int(bottom)) for top, bottom in zip(item.tops, bottoms, strict=True)]
@@ -84,9 +83,9 @@ def test_an_item_lists_every_product_with_all_its_ways(lots: list[tuple[set[int]
 def test_long_lists_are_made_in_blocks_and_forecast_within_a_factor_of_three(monkeypatch: pytest.MonkeyPatch) -> None:
     domains = {wheel: tuple(range(15, 81)) for wheel in "abcd"}
     wheels = tuple((wheel, 1) for wheel in "abcd")
-    whole = items.Lists([domains[wheel] for wheel in "abcd"], np.int64)
+    whole = items.ProductLists([domains[wheel] for wheel in "abcd"], np.int64)
     monkeypatch.setattr(items, "_LONGEST", 5000)
-    parts = items.Lists([domains[wheel] for wheel in "abcd"], object)
+    parts = items.ProductLists([domains[wheel] for wheel in "abcd"], object)
     assert (whole.levels[-1] == parts.levels[-1]).all()
     assert (whole.times == parts.times).all()
     assert whole.times.sum() == 66**4
@@ -102,15 +101,15 @@ coefficients = st.one_of(st.integers(-50, 50), st.integers(-(10**40), 10**40)).f
 
 
 @st.composite
-def polynomials(draw: st.DrawFn, width: int) -> Polynomial:
+def polynomials(draw: st.DrawFn, width: int) -> SignPolynomial:
     powers = st.tuples(*[st.integers(0, 2)] * width)
     terms = draw(st.lists(st.tuples(coefficients, powers), min_size=1, max_size=4))
-    return Polynomial.of(
+    return SignPolynomial.of(
         (coefficient, tuple((at, power) for at, power in enumerate(some) if power)) for coefficient, some in terms
     )
 
 
-def exact(polynomial: Polynomial, point: Sequence[Fraction]) -> Fraction:
+def exact(polynomial: SignPolynomial, point: Sequence[Fraction]) -> Fraction:
     return sum(
         (
             coefficient * prod((point[at] ** power for at, power in monomial), start=Fraction(1))
@@ -127,10 +126,10 @@ def some_items(kinds: Sequence[tuple[list[int], list[int]]]) -> list[Item]:
         for at, kind in enumerate(kinds)
         for side, counts in zip("tb", kind, strict=True)
     }
-    return [Item(Recipe(((f"t{at}", 1),), ((f"b{at}", 1),)), domains, np.int64) for at in range(len(kinds))]
+    return [Item(ItemRecipe(((f"t{at}", 1),), ((f"b{at}", 1),)), domains, np.int64) for at in range(len(kinds))]
 
 
-def points(rows: Rows) -> list[list[Fraction]]:
+def points(rows: PartialAssignments) -> list[list[Fraction]]:
     columns = []
     for item in sorted(rows.columns):
         bottom = rows.bottom(item)
@@ -139,9 +138,9 @@ def points(rows: Rows) -> list[list[Fraction]]:
     return [list(point) for point in zip(*columns, strict=True)]
 
 
-def all_rows(made: list[Item], count: int) -> Rows:
+def all_rows(made: list[Item], count: int) -> PartialAssignments:
     grid = np.meshgrid(*(np.arange(len(item)) for item in made[:count]), indexing="ij")
-    return Rows(made, {at: column.ravel() for at, column in enumerate(grid)}, grid[0].size if grid else 1)
+    return PartialAssignments(made, {at: column.ravel() for at, column in enumerate(grid)}, grid[0].size if grid else 1)
 
 
 counts = st.lists(st.one_of(st.integers(1, 12), st.integers(10**8, 10**9)), min_size=1, max_size=4)
@@ -151,13 +150,13 @@ kinds = st.lists(st.tuples(counts, counts), min_size=2, max_size=2)
 @settings(deadline=None)
 @given(kinds, polynomials(2), st.data())
 def test_signs_are_exact_however_large_the_numbers(
-    chosen: list[tuple[list[int], list[int]]], polynomial: Polynomial, data: st.DataObject
+    chosen: list[tuple[list[int], list[int]]], polynomial: SignPolynomial, data: st.DataObject
 ) -> None:
     rows = all_rows(some_items(chosen), 2)
     at = data.draw(st.integers(0, rows.size - 1))
     root = exact(polynomial, points(rows)[at])
     # the polynomial less its value at one point: 0 there, and near 0 where floats cannot tell
-    for tried in (polynomial, polynomial.plus(Polynomial.of([(1, ())]), -root)):
+    for tried in (polynomial, polynomial.plus(SignPolynomial.of([(1, ())]), -root)):
         truth = [exact(tried, point) for point in points(rows)]
         assert tried.signs(rows).tolist() == [(number > 0) - (number < 0) for number in truth]
 
@@ -165,11 +164,11 @@ def test_signs_are_exact_however_large_the_numbers(
 @settings(deadline=None)
 @given(kinds, st.lists(st.tuples(polynomials(2), st.sampled_from([1, -1]), st.booleans()), min_size=1, max_size=3))
 def test_windows_leave_nothing_out_and_are_sure_of_nothing_wrong(
-    chosen: list[tuple[list[int], list[int]]], halves: list[tuple[Polynomial, int, bool]]
+    chosen: list[tuple[list[int], list[int]]], halves: list[tuple[SignPolynomial, int, bool]]
 ) -> None:
     made = some_items(chosen)
-    case = tuple(Half(*half) for half in halves)
-    band = Band("band", (case,))
+    case = tuple(PolynomialInequality(*half) for half in halves)
+    band = PolynomialConstraint("band", (case,))
     open_item, rows = made[1], all_rows(made, 1)
     everything = all_rows(made, 2)
     truth = [
@@ -211,7 +210,7 @@ class Even:
 
 
 @st.composite
-def joins(draw: st.DrawFn) -> tuple[dict[str, tuple[int, ...]], list[Asked], list[Rule]]:
+def joins(draw: st.DrawFn) -> tuple[dict[str, tuple[int, ...]], list[IntervalConstraint], list[CountConstraint]]:
     """Functions of any shape that share wheels, asked for values they have; and rules."""
     names = tuple("abcdef"[: draw(st.integers(2, 6))])
     domains = {name: tuple(sorted(draw(st.sets(st.integers(1, 9), min_size=1, max_size=3)))) for name in names}
@@ -230,12 +229,12 @@ def joins(draw: st.DrawFn) -> tuple[dict[str, tuple[int, ...]], list[Asked], lis
         intervals = draw(
             st.sampled_from([((low, high),), ((low, high), (high + 1, None)), ((None, low),), ((low, None),)])
         )
-        asked.append(Asked(f"demand {number}", used(function), intervals, draw(st.booleans())))
-    rules: list[Rule] = []
+        asked.append(IntervalConstraint(f"demand {number}", used(function), intervals, draw(st.booleans())))
+    rules: list[CountConstraint] = []
     if draw(st.booleans()):
         pair = draw(st.lists(st.sampled_from(names), min_size=2, max_size=3, unique=True))
         start = sum(factor * domains[wheel][0] for factor, wheel in zip((1, -1, 2), pair, strict=False))
-        rules.append(Equation("sum", dict(zip(pair, (1, -1, 2), strict=False)), -start))
+        rules.append(CountEquation("sum", dict(zip(pair, (1, -1, 2), strict=False)), -start))
     if draw(st.booleans()):
         pair = draw(st.lists(st.sampled_from(names), min_size=2, max_size=3, unique=True))
         rules.append(Condition("even", tuple(pair), Even(tuple(pair))))
@@ -260,7 +259,9 @@ def used(function: Quotient) -> Quotient:
     return Quotient(tuple(function.wheels[at] for at in kept), cut(function.numerator), cut(function.denominator))
 
 
-def solutions(domains: dict[str, tuple[int, ...]], asked: list[Asked], rules: list[Rule]) -> list[tuple[int, ...]]:
+def solutions(
+    domains: dict[str, tuple[int, ...]], asked: list[IntervalConstraint], rules: list[CountConstraint]
+) -> list[tuple[int, ...]]:
     found = []
     for counts in product(*domains.values()):
         teeth = dict(zip(domains, counts, strict=True))
@@ -269,7 +270,7 @@ def solutions(domains: dict[str, tuple[int, ...]], asked: list[Asked], rules: li
     return found
 
 
-def fits(asked: Asked, teeth: dict[str, int]) -> bool:
+def fits(asked: IntervalConstraint, teeth: dict[str, int]) -> bool:
     speed = asked.function.at(teeth)
     if speed is None:
         return False
@@ -278,15 +279,15 @@ def fits(asked: Asked, teeth: dict[str, int]) -> bool:
     return any((low is None or speed >= low) and (high is None or speed <= high) for low, high in asked.intervals)
 
 
-def keeps(rule: Rule, teeth: dict[str, int]) -> bool:
-    if isinstance(rule, Equation):
+def keeps(rule: CountConstraint, teeth: dict[str, int]) -> bool:
+    if isinstance(rule, CountEquation):
         return sum(factor * teeth[wheel] for wheel, factor in rule.coefficients.items()) + rule.constant == 0
     return sum(teeth[wheel] for wheel in rule.wheels) % 2 == 0
 
 
-def answered(question: Question, tasks: int = 1) -> tuple[int, list[tuple[int, ...]], tuple[int, ...]]:
+def answered(question: JoinProblem, tasks: int = 1) -> tuple[int, list[tuple[int, ...]], tuple[int, ...]]:
     """Count, solutions and tallies of a question cut into some tasks."""
-    work = Work(question, Order("total", 10**6, (), {}), 10**6)
+    work = PassWork(question, AssignmentOrder("total", 10**6, (), {}), 10**6)
     each = [{"parts": [[question.plan.item, at, tasks]], "budget": 1e12, "pieces": 2} for at in range(tasks)]
     tally = merged(work, (do_task(work.packed(), task) for task in each))
     assert tally.listed
@@ -298,7 +299,10 @@ def answered(question: Question, tasks: int = 1) -> tuple[int, list[tuple[int, .
 @settings(deadline=None, max_examples=35)
 @given(question=joins(), guess=st.sampled_from([1.0, 1e-3, 1e-9]), tasks=st.integers(1, 4))
 def test_a_join_of_any_functions_and_rules_finds_what_loops_find(
-    block: int, question: tuple[dict[str, tuple[int, ...]], list[Asked], list[Rule]], guess: float, tasks: int
+    block: int,
+    question: tuple[dict[str, tuple[int, ...]], list[IntervalConstraint], list[CountConstraint]],
+    guess: float,
+    tasks: int,
 ) -> None:
     domains, asked, rules = question
     truth = solutions(domains, asked, rules)
@@ -306,7 +310,7 @@ def test_a_join_of_any_functions_and_rules_finds_what_loops_find(
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(rows, "BLOCK", block)
         patch.setattr(joining, "BLOCK", block)
-        made = find_question(domains, asked, rules, chances)
+        made = find_join_problem(domains, asked, rules, chances)
         count, found, removed = answered(made, tasks)
     assert found == truth
     assert count == len(truth)
@@ -318,9 +322,9 @@ def test_numbers_of_assignments_beyond_a_machine_word_are_exact() -> None:
     names = [f"w{at}" for at in range(20)]
     domains = {name: tuple(range(11, 20)) for name in names}
     function = Quotient(tuple(names), ((1, (1,) * 10 + (0,) * 10),), ((1, (0,) * 10 + (1,) * 10),))
-    asked = [Asked("half or more", function, ((Fraction(1), None),))]
-    question = find_question(domains, asked, [], {"half or more": 0.5})
-    join = Join(question)
+    asked = [IntervalConstraint("half or more", function, ((Fraction(1), None),))]
+    question = find_join_problem(domains, asked, [], {"half or more": 0.5})
+    join = ExactJoin(question)
     counts, removed = join.count(question.plan, join.start())
     assert question.considered == 9**20 > 2**62
     ways: Counter[int] = Counter({1: 1})
@@ -342,10 +346,10 @@ def test_wheels_that_all_functions_see_through_one_monomial_are_bundled() -> Non
     wheels = ("a", "b", "c", "d", "e")
     first = Quotient(wheels[:4], ((1, (1, 0, 1, 0)),), ((1, (0, 1, 0, 1)),))
     second = Quotient(("a", "b", "e"), ((1, (1, 0, 0)),), ((1, (0, 1, 1)),))
-    asked = [Asked("first", first, ()), Asked("second", second, ())]
-    bundles = [dict(bundle.powers) for bundle in find_bundles(wheels, asked, frozenset())]
+    asked = [IntervalConstraint("first", first, ()), IntervalConstraint("second", second, ())]
+    bundles = [dict(bundle.powers) for bundle in find_wheel_monomials(wheels, asked, frozenset())]
     assert bundles == [{"a": 1, "b": -1}, {"c": 1, "d": -1}, {"e": 1}]
-    assert [dict(one.powers) for one in find_bundles(wheels, asked, frozenset("a"))] == [
+    assert [dict(one.powers) for one in find_wheel_monomials(wheels, asked, frozenset("a"))] == [
         {"a": 1},
         {"b": 1},
         {"c": 1, "d": -1},
@@ -355,8 +359,8 @@ def test_wheels_that_all_functions_see_through_one_monomial_are_bundled() -> Non
 
 def test_a_pool_keeps_the_best_of_many_in_exact_order() -> None:
     draw = np.random.default_rng(1)
-    order = Order("distinct", 7, (), {})
-    pool, offered = Pool(order, ("a", "b", "c")), []
+    order = AssignmentOrder("distinct", 7, (), {})
+    pool, offered = BestAssignments(order, ("a", "b", "c")), []
     for _ in range(30):
         table = draw.integers(1, 40, (3, 2000))
         pool.add(dict(zip("abc", table, strict=True)))

@@ -14,7 +14,7 @@ from jsonschema import Draft202012Validator
 
 from geartrain import load, shipped
 from geartrain.report.json_schema import ANSWERS, answer_schema
-from geartrain.report.power import torques_data
+from geartrain.report.power_report import torques_data
 
 ONE_STATE = RIGHT.replace("inputs: {a: 1}", "states: {only: {inputs: {a: 1}}}")
 TWO_STATES = RIGHT.replace("inputs: {a: 1}", "states: {only: {inputs: {a: 1}}, other: {inputs: {b: 1}}}").replace(

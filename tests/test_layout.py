@@ -15,8 +15,8 @@ import shipped
 from shapely.geometry import Point
 
 import geartrain
-from geartrain.layout import Layout, WheelPlace, lay_out
-from geartrain.layout.shelves import find_shelves
+from geartrain.scene.layout import Layout, WheelPlace, lay_out
+from geartrain.scene.layout.axial_slots import find_axial_slots
 
 ROOT = Path(__file__).parent.parent / "trains"
 NAMES = sorted(path.stem for path in ROOT.glob("*/*.yaml"))
@@ -223,7 +223,7 @@ def test_each_wheel_of_a_shared_pinion_has_its_own_height() -> None:
 def test_shelves_are_found_in_a_row_of_thousands() -> None:
     """Two wheels of a long row run into each other: the search goes down the whole row, and back where it must."""
     row = [(f"w{at}", f"w{at + 1}") for at in range(3000)]
-    shelves = find_shelves(row, lambda one, other: {one, other} == {"w2990", "w2992"})
+    shelves = find_axial_slots(row, lambda one, other: {one, other} == {"w2990", "w2992"})
     assert len(shelves) == 3001
     for one, other in row:
         assert shelves[one][0] <= shelves[other][1], "mates share a shelf"

@@ -20,8 +20,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from geartrain import load
-from geartrain.pins.laws import BackLaw, SlotLaw
 from geartrain.report import report_train, to_markdown, torques_data, torques_document
+from geartrain.teeth.pin_transmission import PinToSlotTransmission, SlotToPinTransmission
 
 PIN = """
 links: {frame: {}, a: {}, b: {}}
@@ -71,8 +71,8 @@ def pin_torques(r: float, e: float, f: float, load_torque: float, count: int, ba
 @pytest.mark.parametrize(("r", "e", "f"), [(10, 8, 0.3), (10, 8, 0.7), (9.6, 1.1, 0.2), (10, 9.5, 0.05)])
 def test_means_of_a_pin_are_those_of_the_forces_on_it(r: float, e: float, f: float) -> None:
     ahead = pin_torques(r, e, f, 1.0, 100_000)
-    assert 1 / SlotLaw(r, e, f).efficiency_at_constant_load() == pytest.approx(ahead.mean(), rel=1e-7)
-    back = BackLaw(r, e, f)
+    assert 1 / PinToSlotTransmission(r, e, f).efficiency_at_constant_load() == pytest.approx(ahead.mean(), rel=1e-7)
+    back = SlotToPinTransmission(r, e, f)
     if f < back.locking_friction:
         there = pin_torques(r, e, f, 1.0, 100_000, backward=True)
         assert 1 / back.efficiency_at_constant_load() == pytest.approx(there.mean(), rel=1e-6)
@@ -80,8 +80,8 @@ def test_means_of_a_pin_are_those_of_the_forces_on_it(r: float, e: float, f: flo
 
 @given(st.floats(0.01, 0.99), st.floats(0.0, 2.0))
 def test_means_of_a_pin_are_those_of_its_law(share: float, f: float) -> None:
-    for law in (SlotLaw(1.0, share, f), BackLaw(1.0, share, f)):
-        if isinstance(law, BackLaw) and f >= 0.95 * law.locking_friction:
+    for law in (PinToSlotTransmission(1.0, share, f), SlotToPinTransmission(1.0, share, f)):
+        if isinstance(law, SlotToPinTransmission) and f >= 0.95 * law.locking_friction:
             continue
         S = (np.arange(1 << 15) + 0.5) * (2 * pi / (1 << 15))
         eta, tau = law.efficiency(S), law.speed(S)
@@ -219,7 +219,7 @@ def test_teeth_a_pin_and_a_bearing_in_a_row_cost_the_product_of_their_means() ->
     truth = 3.5 * (24 / 36) * (1 + 0.2 / pi * log(15 / 5)) / teeth
     assert truth == pytest.approx(2.555516, abs=1e-6)
     assert float(found.external["a"]) == pytest.approx(truth, rel=1e-12)
-    law = SlotLaw(10, 5, 0.2)
+    law = PinToSlotTransmission(10, 5, 0.2)
     x = (np.arange(200_000) + 0.5) * (2 * pi * 3 / 200_000)
     y = train.meshes[0].law
     S = y.angle(x)

@@ -16,7 +16,15 @@ from hypothesis import strategies as st
 
 from geartrain import GearTrain
 from geartrain.errors import RangeError
-from geartrain.exact import abridged, as_float, count_digits, decimal, is_short, read, written
+from geartrain.numerics.exact import (
+    abridged_text,
+    as_float,
+    count_digits,
+    decimal,
+    fraction_text,
+    is_short,
+    read_fraction,
+)
 
 LEAST = 640  # digits: no process can set its limit lower, but for none at all
 PAIRS = 60
@@ -85,16 +93,16 @@ def test_integers_of_any_size_are_written_and_counted_as_python_does_without_its
     sys.set_int_max_str_digits(0)
     plain = str(number)
     sys.set_int_max_str_digits(LEAST)
-    assert written(number) == plain
+    assert fraction_text(number) == plain
     assert count_digits(number) == len(plain.lstrip("-"))
-    assert read(plain) == number
+    assert read_fraction(plain) == number
     assert is_short(number, 40) == (len(plain) <= 40)
 
 
 @given(whole, whole.filter(bool))
 def test_fractions_are_read_back_as_they_were_written(top: int, bottom: int) -> None:
     value = Fraction(top, bottom)
-    found = read(written(value))
+    found = read_fraction(fraction_text(value))
     assert (found.numerator, found.denominator) == (value.numerator, value.denominator)
     assert hash(found) == hash(value)
 
@@ -121,8 +129,8 @@ def test_a_long_number_is_told_by_its_decimal_and_the_number_of_its_digits(tmp_p
     file.write_text(json.dumps(FAR | {"outputs": {"last": {"of": LAST}}}), encoding="utf-8")
     value = long(999_999_999_999, 17)
     told = call("solve", file, "--output", "last").output
-    assert abridged(value) == "(720 digits)/(74 digits)"
-    assert abridged(value) in told
+    assert abridged_text(value) == "(720 digits)/(74 digits)"
+    assert abridged_text(value) in told
     assert decimal(value, 12) in told
     assert "e+6" in told
 
@@ -132,7 +140,7 @@ def test_json_has_every_digit(tmp_path: Path) -> None:
     file.write_text(json.dumps(FAR), encoding="utf-8")
     value = long(999_999_999_999, 17)
     (data,) = json.loads(call("solve", file, "--json").output)["states"]
-    assert read(data["speeds"][LAST]["exact"]) == value
+    assert read_fraction(data["speeds"][LAST]["exact"]) == value
     assert data["speeds"][LAST]["value"] is None
     assert data["speeds"][LAST]["decimal"] == decimal(value)
     (target,) = data["outputs"]["last"]["targets"]
@@ -141,7 +149,7 @@ def test_json_has_every_digit(tmp_path: Path) -> None:
 
 def test_a_notebook_shows_a_long_number_short() -> None:
     answer = GearTrain.declare(chain(999_999_999_999, 17)).solve()
-    assert abridged(long(999_999_999_999, 17)) in answer._repr_html_()
+    assert abridged_text(long(999_999_999_999, 17)) in answer._repr_html_()
 
 
 TOLD = [("solve",), ("solve", "--json"), ("check",), ("report",), ("report", "--json")]

@@ -109,7 +109,7 @@ from geartrain import load
 from geartrain.report import train_data
 data = train_data(load("pennestri-2002"))
 assert data["teeth"] == data["pins"] == []
-heavy = ("numpy", "scipy", "geartrain.teeth.triangular.law", "geartrain.pins.laws")
+heavy = ("numpy", "scipy", "geartrain.teeth.triangular.triangular_transmission", "geartrain.teeth.pin_transmission")
 print([name for name in sys.modules if name in heavy])
 """
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)

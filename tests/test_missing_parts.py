@@ -11,8 +11,8 @@ from pathlib import Path
 import pytest
 
 from geartrain import GearTrain, load
-from geartrain.synthesis.trains.findings import PartFindings, TrainFindings
-from geartrain.synthesis.trains.searching import search
+from geartrain.synthesis.train.train_findings import PartFindings, TrainFindings
+from geartrain.synthesis.train.train_search import search
 
 F = Fraction
 Row = tuple[int, int, int]

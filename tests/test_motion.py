@@ -13,20 +13,20 @@ from commands import call
 from scipy.optimize import fsolve
 
 from geartrain import GearTrainError, load
-from geartrain.components import Part
-from geartrain.motion import Composition, Passage, Run, Tally
-from geartrain.motion.coupling import Coupled, settle
-from geartrain.pins.laws import SlotLaw
-from geartrain.speeds import solve
-from geartrain.teeth.base import Rigid
-from geartrain.teeth.triangular.law import TriangularLaw
+from geartrain.dynamics.motion import ErrorComposition, ErrorSamples, MotionRun, RunningStatistics
+from geartrain.dynamics.motion.coupled_errors import CoupledErrors, solve_coupled_errors
+from geartrain.kinematics.components import SolvedPart
+from geartrain.kinematics.speeds import solve
+from geartrain.teeth.pin_transmission import PinToSlotTransmission
+from geartrain.teeth.transmission import ExactRatio
+from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
 
 
 def test_along_an_ordinary_train_laws_are_composed_one_in_the_other() -> None:
     train = load("moon-triangular")
     motion = train.motion(outputs=["sun", "c", "d", "moon"])
     angle, ripples = motion.ripples(3.0, 5001)
-    laws: list[TriangularLaw] = [mesh.law for mesh in train.meshes]
+    laws: list[TriangularTransmission] = [mesh.law for mesh in train.meshes]
     S, rate = angle, np.ones_like(angle)
     for name, law in zip(ripples, laws, strict=True):
         # each wheel's forward angle is the driven angle of the pair before
@@ -211,7 +211,7 @@ def test_a_train_of_ideal_teeth_has_no_ripple() -> None:
 def test_a_pin_alone_moves_its_slot_by_its_law() -> None:
     train = load("freeth-2008")
     (joint,) = train.pins
-    assert isinstance(joint.law, SlotLaw)
+    assert isinstance(joint.law, PinToSlotTransmission)
     source = train.motion(outputs=["moon"]).ahead.sources
     assert [each.id for each in source] == [joint.coupling.name]
 
@@ -324,7 +324,7 @@ def test_the_mean_angle_keeps_its_phase_over_a_million_million_turns() -> None:
 
 
 def test_estimates_and_spectrum_are_those_of_the_table_and_of_a_fourier_sum() -> None:
-    run = Run(load("moon-triangular").motion(outputs=["moon"]), 95.0, 380_001)
+    run = MotionRun(load("moon-triangular").motion(outputs=["moon"]), 95.0, 380_001)
     run.estimate()
     found = run.estimates["moon"].to_dict()
     assert degrees(found["bound"]["peak_to_peak"]) == pytest.approx(6.46, abs=5e-3)
@@ -360,7 +360,9 @@ def test_sensitivities_are_the_change_of_an_output_with_a_tooth_count(name: str)
         circuits = [*train.circuits[:at], circuit._replace(a=a, b=b), *train.circuits[at + 1 :]]
         case = train.declaration.case(state)
         lead = case.inputs[motion.train.lead]
-        changed = solve(Part(tuple(train.declaration.links), train.declaration.frame, circuits, ()), case, train.signs)
+        changed = solve(
+            SolvedPart(tuple(train.declaration.links), train.declaration.frame, circuits, ()), case, train.signs
+        )
         link = (circuit.i, circuit.j)[driven]
         relative = motion.train.relative(link, circuit.carrier)
         for output, (of, base) in motion.outputs.items():
@@ -374,10 +376,10 @@ def test_sensitivities_are_the_change_of_an_output_with_a_tooth_count(name: str)
 def test_an_interrupted_table_is_partial_and_is_taken_up(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     out, partial = tmp_path / "run.csv", tmp_path / "run.partial.csv"
     arguments = ("motion", "moon-triangular", "--turns", 3, "--samples", 100_001, "--output", "moon", "-o", out)
-    whole = Composition.at
+    whole = ErrorComposition.at
     calls = []
 
-    def at(self: Composition, turns: np.ndarray) -> Passage:
+    def at(self: ErrorComposition, turns: np.ndarray) -> ErrorSamples:
         if len(turns) == 1:  # where the pointers are set
             return whole(self, turns)
         calls.append(len(turns))
@@ -385,7 +387,7 @@ def test_an_interrupted_table_is_partial_and_is_taken_up(tmp_path: Path, monkeyp
             raise KeyboardInterrupt
         return whole(self, turns)
 
-    monkeypatch.setattr(Composition, "at", at)
+    monkeypatch.setattr(ErrorComposition, "at", at)
     stopped = call(*arguments)
     assert stopped.exit_code == 130
     assert not out.exists()
@@ -405,16 +407,16 @@ def test_an_interrupted_table_is_partial_and_is_taken_up(tmp_path: Path, monkeyp
 
 def test_an_interrupted_summary_says_what_it_has_seen(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     out = tmp_path / "run.json"
-    whole = Tally.add
+    whole = RunningStatistics.add
     seen: list[int] = []
 
-    def add(self: Tally, error: np.ndarray, rate: np.ndarray) -> None:
+    def add(self: RunningStatistics, error: np.ndarray, rate: np.ndarray) -> None:
         if len(seen) == 2:
             raise KeyboardInterrupt
         seen.append(len(error))
         whole(self, error, rate)
 
-    monkeypatch.setattr(Tally, "add", add)
+    monkeypatch.setattr(RunningStatistics, "add", add)
     arguments = ("motion", "moon-triangular", "--samples", 100_001, "--output", "moon", "-o", out)
     assert call(*arguments).exit_code == 130
     assert not out.exists()
@@ -452,16 +454,16 @@ def test_around_a_differential_every_link_is_struck_by_its_own_jump() -> None:
 
 
 def test_the_picture_shows_where_a_pointer_goes_back() -> None:
-    from geartrain.plot import motion_figure
+    from geartrain.drawing import motion_figure
 
-    year = motion_figure(Run(load("freeth-2021").motion(outputs=["mars"]), 3.0, 5001))
+    year = motion_figure(MotionRun(load("freeth-2021").motion(outputs=["mars"]), 3.0, 5001))
     labels = [panel.get_ylabel() for panel in year.axes]
     assert labels == ["mars\nangle (deg)", "mars\nerror less its mean (deg)", "mars\nspeed over mean"]
     back = year.axes[0].lines[2]
     assert back.get_label() == "going back"
     y = np.asarray(back.get_ydata(), dtype=float)
     assert (np.diff(y)[np.isfinite(np.diff(y))] < 0).all()
-    long = motion_figure(Run(load("freeth-2021").motion(outputs=["mars"]), 284.0, 100_001))
+    long = motion_figure(MotionRun(load("freeth-2021").motion(outputs=["mars"]), 284.0, 100_001))
     assert long.axes[0].get_ylabel() == "mars\nwhere it goes back (deg)"
     (arcs,) = long.axes[0].lines
     starts = np.flatnonzero(np.diff(np.isfinite(np.append(np.nan, arcs.get_ydata())).astype(int)) == 1)
@@ -561,7 +563,7 @@ def test_every_law_holds_at_the_angle_where_its_driver_stands(name: str) -> None
 def test_a_tally_of_stretches_is_that_of_the_whole() -> None:
     random = np.random.default_rng(3)
     error, rate = random.normal(size=(2, 1000)) + np.linspace(0, 5, 1000)
-    tally = Tally("x", Fraction(1))
+    tally = RunningStatistics("x", Fraction(1))
     for part in np.split(np.arange(1000), [10, 300, 950]):
         tally.add(error[part], rate[part])
     assert tally.rms == pytest.approx(float(np.std(error)), rel=1e-13)
@@ -577,7 +579,7 @@ def test_speeds_of_pairs_that_hang_on_each_other_are_the_slopes_of_their_angles(
     assert np.abs(passage.rate).max() > 0.01
 
 
-class Saw(Rigid):
+class Saw(ExactRatio):
     """A law of straight pieces: its error climbs steeply and falls gently."""
 
     def __init__(self, height: float, rise: float) -> None:
@@ -595,20 +597,20 @@ class Saw(Rigid):
 
 def test_newton_is_kept_from_leaping_over_corners_and_refuses_a_dead_centre() -> None:
     base = np.linspace(0, 2 * pi, 5001)[None]
-    one = Coupled(("m",), (Saw(0.5, 0.2),), np.array([1.0]), np.array([[-4.0]]))
-    delta, rate, turning = settle(one, base, [1.0])
+    one = CoupledErrors(("m",), (Saw(0.5, 0.2),), np.array([1.0]), np.array([[-4.0]]))
+    delta, rate, turning = solve_coupled_errors(one, base, [1.0])
     law = one.laws[0]
     assert np.abs(delta[0] - law.error(base[0] - 4 * delta[0])).max() < 1e-13
     assert np.allclose(turning[0], 1 - 4 * rate[0])
     # the driven side drives its own driver faster than it is driven: past a dead centre
     with pytest.raises(GearTrainError, match="dead centre"):
-        settle(Coupled(("m",), one.laws, np.array([1.0]), np.array([[4.0]])), base, [1.0])
+        solve_coupled_errors(CoupledErrors(("m",), one.laws, np.array([1.0]), np.array([[4.0]])), base, [1.0])
 
 
 def test_extremes_are_found_between_the_positions() -> None:
     """Twenty turns in 20,000 positions miss the peaks of the teeth by half a percent; looked at closer, they do not."""
     motion = load("moon-triangular").motion(outputs=["moon"])
-    run = Run(motion, 20.0, 200_001)
+    run = MotionRun(motion, 20.0, 200_001)
     run.go()
     (tally,) = run.tallies
     assert degrees(tally.peak_to_peak) == pytest.approx(5.968, abs=5e-4)
@@ -619,7 +621,7 @@ def test_extremes_are_found_between_the_positions() -> None:
     assert tally.most >= fine.max() - 1e-6
     assert tally.most <= fine.max() + 2e-5
     # nothing beyond the ends of the run is counted
-    short = Run(motion, 0.05, 51)
+    short = MotionRun(motion, 0.05, 51)
     short.go()
     inside = motion.at(np.linspace(0, 0.05, 200_001)).error[0]
     assert short.tallies[0].most <= inside.max() + 1e-9

@@ -15,10 +15,10 @@ from hypothesis import strategies as st
 from shapely import Polygon
 
 import geartrain
-from geartrain.contact import Curve, Outline, Tooth, solve
 from geartrain.errors import GearTrainError
-from geartrain.outlines import Cut, outline
+from geartrain.teeth.contact import GearOutline, OutlineCurve, ToothFlanks, solve
 from geartrain.teeth.involute import Involute
+from geartrain.teeth.outlines.wheel_outline import BlankSizes, outline
 
 ALPHA = pi / 9
 BACKLASH = 0.05
@@ -98,19 +98,19 @@ class Drawn:
         thin = BACKLASH / 4 / self.pitch_radius(at)
         return (pi / 2 + sign * 2 * x * tan(ALPHA)) / z + sign * (inv(ALPHA) - roll) - thin
 
-    def wheel(self, at: int) -> Outline:
+    def wheel(self, at: int) -> GearOutline:
         low, high, base = self.root(at), self.tip(at), self.base(at) * (1 + 1e-9)
 
-        def curve(start: float, end: float) -> Curve:
+        def curve(start: float, end: float) -> OutlineCurve:
             def points(t: np.ndarray) -> np.ndarray:
                 r = start + (end - start) * t
                 half = self.half(at, r)
                 return np.stack([r * np.sin(half), r * np.cos(half)], axis=1)
 
-            return Curve(points)
+            return OutlineCurve(points)
 
         flank = [curve(low, base), curve(base, high)] if low < base < high else [curve(low, high)]
-        return Outline((Tooth.symmetric(flank),), (self.z1, self.z2)[at], ring=bool(at and self.ring))
+        return GearOutline((ToothFlanks.symmetric(flank),), (self.z1, self.z2)[at], ring=bool(at and self.ring))
 
     def runs(self) -> bool:
         """True if drawn teeth keep the ratio to rounding all through a pitch, with play left behind."""
@@ -193,7 +193,7 @@ def test_a_pair_runs_where_its_drawn_flanks_keep_the_ratio_and_nowhere_else(pair
     first, last = (end / cos(pair.angle) for end in pair.ends)
     assert law.pair.arcs == pytest.approx((-first, last), abs=1e-9)
     assert law.path.contact_ratio == pytest.approx(pair.ratio, rel=1e-9)
-    from geartrain.conjugate.measures import measure
+    from geartrain.teeth.conjugate.path_costs import measure
 
     found = measure(law.path)
     assert found.one_pair.loss == pytest.approx(pair.loss(False), rel=1e-4)
@@ -285,7 +285,7 @@ def test_the_command_takes_contact_on_one_side() -> None:
 @pytest.mark.parametrize("pair", [ISSUE, AFTER, BEFORE], ids=["ring", "after", "before"])
 def test_whole_wheels_of_one_sided_pairs_turn_together_without_touching_elsewhere(pair: Drawn) -> None:
     law = pair.form().law(pair.z1, pair.z2, internal=pair.ring)
-    cut = Cut(module=1.0, tolerance=1e-4)
+    cut = BlankSizes(module=1.0, tolerance=1e-4)
     wheels = [outline(law.pair, gear, cut) for gear in (1, 2)]
     for at, wheel in enumerate(wheels):
         assert wheel.tip_radius == pytest.approx(pair.tip(at), rel=1e-9)

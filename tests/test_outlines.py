@@ -13,12 +13,13 @@ from commands import call
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from geartrain.conjugate import forms
-from geartrain.conjugate.path import Path
-from geartrain.conjugate.pitch import Pitch
 from geartrain.errors import QuestionError
-from geartrain.outlines import Contour, Cut, Wheel, outline
-from geartrain.teeth.conjugate import Pair
+from geartrain.teeth.conjugate import optimal_sides as forms
+from geartrain.teeth.conjugate.conjugate_transmission import ConjugatePair
+from geartrain.teeth.conjugate.path_of_contact import PathOfContact
+from geartrain.teeth.conjugate.pitch_surfaces import PitchSurfaces
+from geartrain.teeth.outlines.contour import Contour
+from geartrain.teeth.outlines.wheel_outline import BlankSizes, WheelOutline, outline
 
 shapely = pytest.importorskip("shapely")
 Points = np.ndarray[tuple[int, int], np.dtype[np.float64]]
@@ -242,14 +243,14 @@ def test_two_wheels_turn_through_a_pitch_untouched_with_the_backlash_between_the
         assert play * R2 == pytest.approx(BACKLASH, rel=0.02)
 
 
-def involute(pitch: Pitch, approach: float, recess: float, psi: float, backlash: float) -> Pair:
+def involute(pitch: PitchSurfaces, approach: float, recess: float, psi: float, backlash: float) -> ConjugatePair:
     """Arcs in pitches, psi in deg, backlash in modules."""
     sides = (forms.involute(arc * pitch.p, radians(psi)) for arc in (approach, recess))
     half = (pitch.p - backlash) / 4
-    return Pair(Path(pitch, *sides), (half, half))
+    return ConjugatePair(PathOfContact(pitch, *sides), (half, half))
 
 
-def points_of(wheel: Wheel) -> list[Points]:
+def points_of(wheel: WheelOutline) -> list[Points]:
     return [contour.flattened(1e-4) for contour in wheel.contours]
 
 
@@ -259,12 +260,12 @@ def test_involute_wheels_of_any_arcs_have_textbook_tips_and_stand_clear(
     z1: int, z2: int, psi: float, approach: float, phase: float
 ) -> None:
     recess = 1.1 - approach
-    pitch = Pitch.spur(z1, z2)
+    pitch = PitchSurfaces.spur(z1, z2)
     pair = involute(pitch, approach, recess, psi, 0.08)
     limits = (z1 / 2 * tan(radians(psi)), z2 / 2 * tan(radians(psi)))
     if approach * pi > 0.98 * limits[0] or recess * pi > 0.98 * limits[1] or pair.faults:
         return
-    wheels = [outline(pair, gear, Cut()) for gear in (1, 2)]
+    wheels = [outline(pair, gear, BlankSizes()) for gear in (1, 2)]
     for wheel, R, arc_ in ((wheels[0], pitch.R1, recess), (wheels[1], pitch.R2, approach)):
         length = R * sin(radians(psi)) + arc_ * pi * cos(radians(psi))  # on the line of action, from its touching point
         assert wheel.tip_radius == pytest.approx(hypot(R * cos(radians(psi)), length), rel=1e-12)
@@ -290,14 +291,14 @@ def test_the_root_is_rounded_by_the_fillet_asked_for(tmp_path: File) -> None:
 
 
 def test_a_fillet_that_does_not_fit_is_refused_with_the_largest_that_does() -> None:
-    pair = involute(Pitch.spur(24, 36), 0.6, 0.6, 20, 0.0)
+    pair = involute(PitchSurfaces.spur(24, 36), 0.6, 0.6, 20, 0.0)
     with pytest.raises(QuestionError) as caught:
-        outline(pair, 1, Cut(fillet=1.5))
+        outline(pair, 1, BlankSizes(fillet=1.5))
     (problem,) = caught.value.problems
     most = float(re.search(r"at most ([\d.]+) mm", problem.fix)[1])  # type: ignore[index]
-    assert outline(pair, 1, Cut(fillet=0.999 * most)).fillet == pytest.approx(0.999 * most)
+    assert outline(pair, 1, BlankSizes(fillet=0.999 * most)).fillet == pytest.approx(0.999 * most)
     with pytest.raises(QuestionError):
-        outline(pair, 1, Cut(fillet=1.01 * most))
+        outline(pair, 1, BlankSizes(fillet=1.01 * most))
 
 
 def test_a_ring_has_its_teeth_inwards_and_a_rim(tmp_path: File) -> None:
@@ -326,9 +327,9 @@ def test_a_lantern_is_a_disc_with_a_hole_for_each_pin(tmp_path: File) -> None:
 
 
 def test_chords_leave_a_flank_by_no_more_than_the_tolerance() -> None:
-    pair = involute(Pitch.spur(24, 36), 0.8, 0.8, 20, 0.0)
+    pair = involute(PitchSurfaces.spur(24, 36), 0.8, 0.8, 20, 0.0)
     for tolerance in (0.01, 0.001, 0.0001):
-        (teeth,) = outline(pair, 1, Cut(tolerance=tolerance)).contours
+        (teeth,) = outline(pair, 1, BlankSizes(tolerance=tolerance)).contours
         flank = teeth.points[np.abs(np.arctan2(teeth.points[:, 1], teeth.points[:, 0])) < pi / 24]
         flank = flank[(flank[:, 1] > 0) & (radii(flank) > 11.5)]
         middles = (flank[1:] + flank[:-1]) / 2

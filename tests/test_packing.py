@@ -16,12 +16,12 @@ from scipy.spatial import ConvexHull
 
 from geartrain import GearTrainError
 from geartrain.spherical import GraphSet, from_graph, from_polyhedron
-from geartrain.spherical.fitting import corners_of, loop_sums, pitch_rows, tangency
-from geartrain.spherical.loops import regions
-from geartrain.spherical.maps import separating_pair
-from geartrain.spherical.packing import Packing, boost, pack
-from geartrain.spherical.plane import angle_excess, stiffness
-from geartrain.spherical.tangency import angle_rows, azimuth_rows, moved
+from geartrain.spherical.assembly_loops import regions
+from geartrain.spherical.axis_adjustment import corners_of, loop_sums, pitch_rows, tangency
+from geartrain.spherical.circle_packing import SpherePacking, boost, pack_circles
+from geartrain.spherical.pitch_cones import angle_rows, azimuth_rows, moved
+from geartrain.spherical.planar_map import separating_pair
+from geartrain.spherical.planar_packing import angle_excess, stiffness
 
 Floats = NDArray[np.float64]
 Edge = tuple[str, str]
@@ -67,15 +67,15 @@ def faces_and_vertices_of_hull(points: int, seed: int) -> list[Edge]:
     return [(f"v{vertex}", f"f{at}") for at, face in enumerate(hull.simplices) for vertex in face]
 
 
-def packing_of(edges: Iterable[tuple[object, object]]) -> tuple[Packing, list[str]]:
+def packing_of(edges: Iterable[tuple[object, object]]) -> tuple[SpherePacking, list[str]]:
     found = from_graph(edges)  # type: ignore[arg-type]
     return found.packing, list(found.configuration.names)
 
 
-def solid_packing(name: str) -> Packing:
+def solid_packing(name: str) -> SpherePacking:
     """The packing of a solid's faces, from the regions between them."""
     configuration = from_polyhedron(name)
-    return pack(len(configuration.axes), regions(configuration))
+    return pack_circles(len(configuration.axes), regions(configuration))
 
 
 def angle(a: Floats, b: Floats) -> float:
@@ -96,7 +96,7 @@ def overlaps(axes: Floats, cones: Floats) -> int:
     return count
 
 
-def check_in_space(packing: Packing, digits: float = 1e-14) -> None:
+def check_in_space(packing: SpherePacking, digits: float = 1e-14) -> None:
     """Gears touch, regions pass through the points where they do, nothing overlaps, and the centre is right."""
     for i, j in packing.meshes:
         assert angle(packing.axes[i], packing.axes[j]) == pytest.approx(packing.cones[i] + packing.cones[j], abs=digits)
@@ -230,7 +230,7 @@ def test_an_axis_that_turns_with_all_others_changes_no_angle_between_azimuths() 
     axes = np.linalg.qr(np.random.default_rng(0).normal(size=(3, 3)))[0]
     at, to = np.array([0, 0]), np.array([1, 2])
     spin = np.cross(np.array([0.1, 0.5, -0.3]), axes)
-    from geartrain.spherical.tangency import frames
+    from geartrain.spherical.pitch_cones import frames
 
     steps = np.einsum("gx,gkx->gk", spin, frames(axes)).ravel()
     rows = azimuth_rows(axes, at, to) @ steps

@@ -27,10 +27,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from geartrain.errors import GearTrainError, MissingExtraError, QuestionError
-from geartrain.parallel import Journal, cores, open_executor, run, running
-from geartrain.parallel.crew import Crew, WorkerDiedError
-from geartrain.parallel.journal import first_difference
-from geartrain.parallel.processes import Processes
+from geartrain.numerics.work import Journal, cores, open_executor, run
+from geartrain.numerics.work import task_runner as running
+from geartrain.numerics.work.journal import first_difference
+from geartrain.numerics.work.processes import ProcessPool
+from geartrain.numerics.work.worker_pool import WorkerDiedError, WorkerPool
 
 TESTS = Path(__file__).parent
 
@@ -190,7 +191,7 @@ def test_a_worker_killed_in_the_middle_costs_nothing_but_time(crew: Executor, tm
         assert len(journal) == 30
     runs = [n for n, _ in begun(tmp_path)]
     assert runs.count(task) >= 2, "what the dead worker did was begun again"
-    if isinstance(crew, Processes):  # a cluster may be told too late that a result has arrived
+    if isinstance(crew, ProcessPool):  # a cluster may be told too late that a result has arrived
         assert [runs.count(n) for n in range(6)] == [1] * 6, "what was finished was not"
 
 
@@ -236,7 +237,7 @@ def test_only_a_task_that_kills_is_blamed_and_one_accident_is_forgiven(
         assert crew.most <= 4 * width
 
 
-class Mortal(Crew):
+class Mortal(WorkerPool):
     """A pool in this process: tasks end in any order; those that are deadly so many times take all others along."""
 
     def __init__(self, width: int, deadly: dict[int, int], seed: int) -> None:
@@ -486,7 +487,7 @@ SCRIPT = """
 import json, sys
 sys.path.insert(0, {tests!r})
 from clusters import gated
-from geartrain.parallel import Journal, open_executor, run
+from geartrain.numerics.work import Journal, open_executor, run
 with Journal({folder!r} + "/journal", {{"asked": 1}}) as journal, open_executor({workers}) as executor:
     print(json.dumps(list(run(gated, [({folder!r}, n, 6) for n in range(20)], executor, journal))))
 """
@@ -539,7 +540,7 @@ def test_an_iterator_that_is_left_keeps_what_was_finished_meanwhile(processes: E
 def test_one_worker_is_this_process_and_brings_no_pool() -> None:
     code = """
 import sys
-from geartrain.parallel import open_executor, run
+from geartrain.numerics.work import open_executor, run
 with open_executor(1) as executor:
     assert executor is None
     assert list(run(abs, [-1, 2], executor)) == [1, 2]
@@ -570,7 +571,7 @@ def test_what_cannot_be_asked_is_refused(asked: dict[str, Any], said: str) -> No
 
 def test_a_cluster_without_the_extra_names_it(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "distributed", None)
-    monkeypatch.delitem(sys.modules, "geartrain.parallel.cluster", raising=False)
+    monkeypatch.delitem(sys.modules, "geartrain.numerics.work.cluster", raising=False)
     with pytest.raises(MissingExtraError, match="distributed is not installed") as caught, open_executor(scheduler="x"):
         pass
     assert caught.value.problems[0].fix == "pip install 'geartrain[dask]'"
@@ -580,7 +581,7 @@ def test_nobody_at_an_address_is_said_without_a_word_of_noise() -> None:
     pytest.importorskip("distributed")
     code = """
 from geartrain.errors import GearTrainError
-from geartrain.parallel.cluster import connect
+from geartrain.numerics.work.cluster import connect
 for address in ("tcp://127.0.0.1:1", "nonsense://x", "tcp://", ""):
     try:
         connect(address, answer=0.5)
@@ -594,7 +595,7 @@ for address in ("tcp://127.0.0.1:1", "nonsense://x", "tcp://", ""):
 
 
 def test_a_cluster_of_another_version_is_refused(cluster: Any, monkeypatch: pytest.MonkeyPatch) -> None:
-    from geartrain.parallel import cluster as room
+    from geartrain.numerics.work import cluster as room
 
     monkeypatch.setattr(room, "version", lambda _: "9.9")
     with pytest.raises(GearTrainError, match=r"cannot do the work of geartrain 9\.9") as caught:
@@ -605,7 +606,7 @@ def test_a_cluster_of_another_version_is_refused(cluster: Any, monkeypatch: pyte
 
 def test_a_cluster_without_workers_is_told() -> None:
     distributed = pytest.importorskip("distributed")
-    from geartrain.parallel.cluster import connect
+    from geartrain.numerics.work.cluster import connect
 
     with (
         distributed.LocalCluster(n_workers=0, processes=False, dashboard_address=":0", silence_logs=60) as cluster,
@@ -615,7 +616,7 @@ def test_a_cluster_without_workers_is_told() -> None:
 
 
 def test_a_cluster_that_is_lost_in_the_middle_is_told_and_what_it_did_is_kept(cluster: Any, tmp_path: Path) -> None:
-    from geartrain.parallel.cluster import connect
+    from geartrain.numerics.work.cluster import connect
 
     tasks = [(str(tmp_path), n, 2) for n in range(9)]
     crew = connect(cluster.scheduler_address)
@@ -633,7 +634,7 @@ def test_a_cluster_that_is_lost_in_the_middle_is_told_and_what_it_did_is_kept(cl
 
 
 def test_a_cluster_whose_workers_do_not_come_back_is_told(cluster: Any, monkeypatch: pytest.MonkeyPatch) -> None:
-    from geartrain.parallel import cluster as room
+    from geartrain.numerics.work import cluster as room
 
     now = 0.0
     monkeypatch.setattr(room, "monotonic", lambda: now)

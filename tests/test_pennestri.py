@@ -7,7 +7,7 @@ from fractions import Fraction
 import pytest
 
 from geartrain import GearTrain, load
-from geartrain.graph import adjacency_labels, adjacency_matrix
+from geartrain.kinematics.graph import adjacency_labels, adjacency_matrix
 
 # exact, from the circuits of Tables 1 to 3 by hand; the paper prints four decimals
 SPEEDS = {

@@ -12,7 +12,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from geartrain import load
-from geartrain.pins.laws import BackLaw, SlotLaw
+from geartrain.teeth.pin_transmission import PinToSlotTransmission, SlotToPinTransmission
 
 TURN = np.linspace(0, 2 * pi, 721)
 distances = st.tuples(st.floats(0.1, 10), st.floats(0.1, 10)).filter(lambda pair: abs(pair[0] / pair[1] - 1) > 0.01)
@@ -25,7 +25,7 @@ def seen_from_the_slot(r: float, e: float, angles: np.ndarray) -> np.ndarray:
 
 @given(distances)
 def test_the_slot_follows_the_direction_of_the_pin(pair: tuple[float, float]) -> None:
-    law = SlotLaw(*pair)
+    law = PinToSlotTransmission(*pair)
     seen = seen_from_the_slot(*pair, TURN)
     start = 0 if pair[0] > pair[1] else pi
     assert np.allclose(law.angle(TURN) + start, seen - seen[0] + (0 if start == 0 else pi), atol=1e-9)
@@ -34,7 +34,7 @@ def test_the_slot_follows_the_direction_of_the_pin(pair: tuple[float, float]) ->
 
 @given(distances)
 def test_the_speed_is_the_derivative_of_the_angle(pair: tuple[float, float]) -> None:
-    law, step = SlotLaw(*pair), 1e-6
+    law, step = PinToSlotTransmission(*pair), 1e-6
     slope = (law.angle(TURN + step) - law.angle(TURN - step)) / (2 * step)
     assert np.allclose(law.speed(TURN), slope, rtol=1e-5, atol=1e-5)
     least, most = law.speed_range()
@@ -45,7 +45,7 @@ def test_the_speed_is_the_derivative_of_the_angle(pair: tuple[float, float]) -> 
 
 @given(distances)
 def test_the_amplitude_is_the_arcsine_of_the_lesser_over_the_greater(pair: tuple[float, float]) -> None:
-    law = SlotLaw(*pair)
+    law = PinToSlotTransmission(*pair)
     sampled = np.abs(law.error(np.linspace(0, 2 * pi, 200_001))).max()
     assert law.amplitude == pytest.approx(asin(min(pair) / max(pair)))
     assert sampled == pytest.approx(law.amplitude, rel=1e-5)
@@ -53,7 +53,7 @@ def test_the_amplitude_is_the_arcsine_of_the_lesser_over_the_greater(pair: tuple
 
 @given(distances.filter(lambda pair: pair[0] > pair[1]))
 def test_a_slot_that_drives_undoes_the_pin_that_drives(pair: tuple[float, float]) -> None:
-    there, back = SlotLaw(*pair), BackLaw(*pair)
+    there, back = PinToSlotTransmission(*pair), SlotToPinTransmission(*pair)
     assert np.allclose(back.angle(there.angle(TURN)), TURN, atol=1e-9)
     assert np.allclose(back.speed(there.angle(TURN)) * there.speed(TURN), 1, rtol=1e-7)
 
@@ -81,11 +81,11 @@ def loss(r: float, e: float, angle: float, friction: float, pin_drives: bool) ->
 @pytest.mark.parametrize(("r", "e"), [(9.6, 1.1), (10.0, 6.58), (1.0, 3.0)])
 def test_friction_takes_what_the_forces_on_one_pin_say(r: float, e: float) -> None:
     angles = np.linspace(0.1, 6.2, 40)
-    law = SlotLaw(r, e, 0.15)
+    law = PinToSlotTransmission(r, e, 0.15)
     assert np.allclose(law.efficiency(angles), [loss(r, e, a, 0.15, True) for a in angles], rtol=1e-12)
     if r > e:
-        back = BackLaw(r, e, 0.15)
-        slots = SlotLaw(r, e).angle(angles)
+        back = SlotToPinTransmission(r, e, 0.15)
+        slots = PinToSlotTransmission(r, e).angle(angles)
         assert np.allclose(back.efficiency(slots), [loss(r, e, a, 0.15, False) for a in angles], rtol=1e-12)
 
 
@@ -121,7 +121,7 @@ def test_the_superior_planets_turn_back_at_the_speeds_of_the_law(planet: str, le
 
 
 def test_the_protocol_is_that_of_all_laws() -> None:
-    law = SlotLaw(9.6, 1.1)
+    law = PinToSlotTransmission(9.6, 1.1)
     assert law.ratio == Fraction(1)
     assert law.period == 2 * pi
     low, high = law.error_range()

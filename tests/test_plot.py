@@ -12,8 +12,8 @@ import numpy as np
 import pytest
 
 from geartrain.errors import GearTrainError, QuestionError
-from geartrain.teeth.triangular.law import TriangularLaw
-from geartrain.teeth.triangular.sizes import Sizes, equal_depth
+from geartrain.teeth.triangular.pair_geometry import TriangularSizes, equal_depth
+from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
 
 pytest.importorskip("matplotlib")
 
@@ -21,8 +21,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.text import Text
 
-from geartrain.plot import law_figure, render, sweep_figure, teeth_figure
-from geartrain.plot.pose import DRIVEN, DRIVER, pose
+from geartrain.drawing import law_figure, render, sweep_figure, teeth_figure
+from geartrain.drawing.triangular_pose import DRIVEN, DRIVER, tooth_pair_pose
 
 PAIRS = [(48, 96, 0.01), (96, 72, 0.025), (96, 96, 0.01), (15, 60, 0.02), (45, 225, 0.017), (12, 18, 0.03)]
 STANDS = (45, 225, 0.017)
@@ -30,9 +30,11 @@ Points = np.ndarray[tuple[int, int], np.dtype[np.float64]]
 
 
 @cache
-def law(z1: int, z2: int, excess: float, direction: int = 1) -> TriangularLaw:
+def law(z1: int, z2: int, excess: float, direction: int = 1) -> TriangularTransmission:
     beta = radians(30)
-    return TriangularLaw(Sizes(z1, z2, *equal_depth(z1, z2, beta, beta), beta, beta, excess), 0.2, direction)
+    return TriangularTransmission(
+        TriangularSizes(z1, z2, *equal_depth(z1, z2, beta, beta), beta, beta, excess), 0.2, direction
+    )
 
 
 def drawn(figure: Figure, gid: str) -> list[Points]:
@@ -85,7 +87,7 @@ def test_the_wheels_touch_and_do_not_overlap(pair: tuple[int, int, float], direc
     pair_law = law(*pair, direction)
     for interval in pair_law.intervals:
         for share in (0.01, 0.5, 0.99):
-            here = pose(pair_law, interval.start - share * interval.width)
+            here = tooth_pair_pose(pair_law, interval.start - share * interval.width)
             one, two = (geometry.Polygon(here.outline(which)) for which in (DRIVER, DRIVEN))
             assert one.is_valid
             assert two.is_valid
@@ -107,7 +109,7 @@ def test_the_few_teeth_drawn_are_all_that_are_in_view(pair: tuple[int, int, floa
     assert axes.get_aspect() == 1.0
     for which, name in ((DRIVER, "driver"), (DRIVEN, "driven")):
         (few,) = drawn(figure, name)
-        whole = geometry.Polygon(pose(pair_law).outline(which)).intersection(view)
+        whole = geometry.Polygon(tooth_pair_pose(pair_law).outline(which)).intersection(view)
         assert geometry.Polygon(few).intersection(view).symmetric_difference(whole).area < 1e-12 * view.area
         assert len(few) <= 2 * max(pair_law.sizes.z1, pair_law.sizes.z2) + 1
         if pair[0] > 1000:
@@ -126,7 +128,7 @@ def test_the_normal_passes_through_contact_and_instant_centre_which_divides_the_
     pair: tuple[int, int, float],
 ) -> None:
     pair_law = law(*pair)
-    figure, here = teeth_figure(pair_law), pose(pair_law)
+    figure, here = teeth_figure(pair_law), tooth_pair_pose(pair_law)
     ((centre,),), ((point,),), ((one, other),) = (drawn(figure, name) for name in ("centre", "contact", "normal"))
     assert centre == pytest.approx([pair_law.sizes.D * here.tau / (1 + here.tau), 0.0], abs=1e-12)
     assert from_line(centre, one, other) < 1e-12
@@ -138,7 +140,7 @@ def test_the_normal_passes_through_contact_and_instant_centre_which_divides_the_
 def test_an_angle_that_no_couple_drives_at_is_a_position_of_a_tooth() -> None:
     pair_law = law(96, 96, 0.01)
     for alpha1 in (0.0, radians(9), radians(-1.2), radians(500)):
-        here = pose(pair_law, alpha1)
+        here = tooth_pair_pose(pair_law, alpha1)
         turns = (here.alpha1 - alpha1) / pair_law.sizes.p1
         assert turns == pytest.approx(round(turns), abs=1e-9)
         assert any(each.end <= here.alpha1 <= each.start for each in pair_law.intervals)
@@ -292,7 +294,7 @@ def test_the_same_figure_is_the_same_file(suffix: str, start: bytes) -> None:
 
 
 @pytest.mark.parametrize("draw", [law_figure, teeth_figure])
-def test_a_figure_drawn_again_is_the_same_vector_file(draw: Callable[[TriangularLaw], Figure]) -> None:
+def test_a_figure_drawn_again_is_the_same_vector_file(draw: Callable[[TriangularTransmission], Figure]) -> None:
     assert render(draw(law(12, 18, 0.03)), ".svg") == render(draw(law(12, 18, 0.03)), ".svg")
 
 
@@ -314,9 +316,9 @@ def fresh(code: str) -> subprocess.CompletedProcess[str]:
 
 
 def test_the_room_is_entered_without_matplotlib_and_pyplot_is_never_needed() -> None:
-    done = fresh("import geartrain.plot, sys; print('matplotlib' in sys.modules, 'numpy' in sys.modules)")
+    done = fresh("import geartrain.drawing, sys; print('matplotlib' in sys.modules, 'numpy' in sys.modules)")
     assert done.stdout.split() == ["False", "False"]
-    done = fresh("from geartrain.plot import *; import sys; print('matplotlib.pyplot' in sys.modules)")
+    done = fresh("from geartrain.drawing import *; import sys; print('matplotlib.pyplot' in sys.modules)")
     assert (done.stdout.split(), done.stderr) == (["False"], "")
 
 
@@ -324,14 +326,14 @@ def test_the_room_is_entered_without_matplotlib_and_pyplot_is_never_needed() -> 
 def test_without_matplotlib_the_extra_is_named(name: str) -> None:
     block = "import sys; sys.modules['matplotlib'] = None\n"
     done = fresh(
-        block + f"import geartrain.plot\ntry:\n    geartrain.plot.{name}\nexcept Exception as e:\n    print(e)"
+        block + f"import geartrain.drawing\ntry:\n    geartrain.drawing.{name}\nexcept Exception as e:\n    print(e)"
     )
     assert "pip install 'geartrain[plot]'" in done.stdout
     assert done.stderr == ""
 
 
 def test_what_is_not_in_the_room_is_missing() -> None:
-    import geartrain.plot
+    import geartrain.drawing
 
     with pytest.raises(AttributeError, match="nothing"):
-        _ = geartrain.plot.nothing
+        _ = geartrain.drawing.nothing

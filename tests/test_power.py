@@ -19,10 +19,18 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from geartrain import GearTrain, GearTrainError, load, shipped
+from geartrain.dynamics.torques import (
+    PowerFlow,
+    PowerNode,
+    Torques,
+    percent_of_text,
+    percent_text,
+    watts_per_unit,
+    watts_text,
+)
 from geartrain.report import flow_of, there_and_back, to_markdown, torques_data, torques_document
 from geartrain.report.document import Document
-from geartrain.report.power import ends, torque_sections
-from geartrain.torques import Node, PowerFlow, Torques, in_watts, share, share_of, watts_per_unit
+from geartrain.report.power_report import input_and_output, torque_sections
 
 ROOT = Path(__file__).parent.parent
 
@@ -108,12 +116,12 @@ def require_balance(found: Torques, flow: PowerFlow) -> None:
     assert flow.loss == found.loss == ends["in"] + ends["out"]
     assert all(loss > 0 for loss in flow.losses.values())
     for name, pair in found.pairs.items():
-        assert flow.losses.get(Node("pair", name), 0) == pair.loss
+        assert flow.losses.get(PowerNode("pair", name), 0) == pair.loss
     require_no_loop([(stream.source, stream.target) for stream in flow.streams if stream.circling < stream.power])
     assert sum(loop.power for loop in flow.loops) >= max((stream.circling for stream in flow.streams), default=0)
 
 
-def require_no_loop(edges: list[tuple[Node, Node]]) -> None:
+def require_no_loop(edges: list[tuple[PowerNode, PowerNode]]) -> None:
     while edges:
         left = [(a, b) for a, b in edges if any(b == source for source, _ in edges)]
         assert len(left) < len(edges), "what does not circle leads on"
@@ -140,7 +148,7 @@ def lossy(name: str) -> GearTrain:
 
 
 def load_of(train: GearTrain, state: str | None) -> dict[str, str]:
-    found = ends(train, state)
+    found = input_and_output(train, state)
     speed = Fraction(train.solve(state).speeds[found[1]]) if found else Fraction(0)
     return {found[1]: str(-1 if speed > 0 else 1)} if found and speed else {}
 
@@ -236,17 +244,17 @@ def test_power_circulates_in_the_compound_train_of_norton() -> None:
 def test_links_that_turn_together_are_one_shaft() -> None:
     train = load("extends: planetary\nloads: {carrier: -1}\n")
     flow = flow_of(train, train.torques("direct drive"))
-    shaft = Node("shaft", "sun + carrier")
+    shaft = PowerNode("shaft", "sun + carrier")
     assert [(stream.source, stream.target) for stream in flow.streams] == [
-        (Node("in", "sun"), shaft),
-        (shaft, Node("out", "carrier")),
+        (PowerNode("in", "sun"), shaft),
+        (shaft, PowerNode("out", "carrier")),
     ]
 
 
 def test_a_bearing_on_a_carrier_takes_from_both() -> None:
     train = load(RUBBING_PLANET)
     flow = flow_of(train, train.torques())
-    bearing = Node("bearing", "planet")
+    bearing = PowerNode("bearing", "planet")
     taken = {stream.source.name: stream.power for stream in flow.streams if stream.target == bearing}
     # planet at -2/3, carrier at 2/7, rubbing with 1/2
     assert taken == {"planet": Fraction(1, 3), "carrier": Fraction(1, 7)}
@@ -320,14 +328,14 @@ def test_plain_loads_are_no_watts() -> None:
     [(0.0, "0 W"), (2.5e-3, "2.5 mW"), (183.42, "183.4 W"), (-26419.9, "-26.42 kW"), (3e7, "30 MW"), (4e-9, "4 nW")],
 )
 def test_watts_have_prefixes(amount: float, text: str) -> None:
-    assert in_watts(amount) == text
+    assert watts_text(amount) == text
 
 
 def test_shares_are_percent_or_multiples() -> None:
-    assert share(Fraction(1, 7)) == "14.29 %"
-    assert share(Fraction(1, 7), 2) == "14 %"
-    assert share_of(Fraction(1, 2), "the power in") == "50 % of the power in"
-    assert share_of(Fraction(2587, 10), "the power in") == "258.7 times the power in"
+    assert percent_text(Fraction(1, 7)) == "14.29 %"
+    assert percent_text(Fraction(1, 7), 2) == "14 %"
+    assert percent_of_text(Fraction(1, 2), "the power in") == "50 % of the power in"
+    assert percent_of_text(Fraction(2587, 10), "the power in") == "258.7 times the power in"
 
 
 # --------------------------------------------------------------------------------------------------------------- report
@@ -418,7 +426,7 @@ def test_collisions_stand_beside_sliding() -> None:
     data = torques_data(train, found)["losses"]
     assert data[0]["impact"] == pytest.approx(energy * 3 * 20, rel=1e-12)
     assert {loss["name"] for loss in data} == {"a~b", "c~d"}
-    assert table[-1][4] == in_watts(sum(loss["impact"] for loss in data))
+    assert table[-1][4] == watts_text(sum(loss["impact"] for loss in data))
 
 
 def test_a_train_that_loses_nothing_in_no_loop_has_no_more_to_say() -> None:
@@ -477,7 +485,7 @@ def test_every_key_is_documented() -> None:
 
 def drawn(name: str, state: str | None) -> tuple[PowerFlow, Any]:
     pytest.importorskip("matplotlib")
-    from geartrain.plot import power_figure
+    from geartrain.drawing import power_figure
 
     train = load(TRAINS[name])
     flow = flow_of(train, train.torques(state))
@@ -491,7 +499,7 @@ PICTURES = [("ring", None), ("clock", None), ("rubbing", None), ("norton", None)
 @pytest.mark.parametrize(("name", "state"), PICTURES)
 def test_a_picture_names_every_shaft_pair_and_loss(name: str, state: str | None) -> None:
     flow, figure = drawn(name, state)
-    from geartrain.plot import render
+    from geartrain.drawing import render
 
     svg = render(figure, ".svg").decode()
     for node in flow.nodes:
@@ -500,9 +508,9 @@ def test_a_picture_names_every_shaft_pair_and_loss(name: str, state: str | None)
             assert f'id="{node.kind} {node.name}"' in svg
     for node, loss in flow.losses.items():
         word = "teeth" if node.kind == "pair" else "bearing"
-        assert f"<!-- {word} {share(loss / flow.power_in, 3)} -->" in svg
+        assert f"<!-- {word} {percent_text(loss / flow.power_in, 3)} -->" in svg
     for loop in flow.loops:
-        assert f"<!-- {share_of(loop.power / flow.power_in, 'the power in')} circulates -->" in svg
+        assert f"<!-- {percent_of_text(loop.power / flow.power_in, 'the power in')} circulates -->" in svg
     assert render(figure, ".png").startswith(b"\x89PNG")
     assert render(figure, ".pdf").startswith(b"%PDF")
 
@@ -525,11 +533,11 @@ def test_everything_is_inside_and_large_enough(name: str, state: str | None) -> 
 @pytest.mark.parametrize(("name", "state"), PICTURES)
 def test_bands_are_as_wide_as_their_powers_and_fill_their_nodes(name: str, state: str | None) -> None:
     pytest.importorskip("matplotlib")
-    from geartrain.plot.placing import place
+    from geartrain.drawing.sankey import lay_out_sankey
 
     train = load(TRAINS[name])
     flow = flow_of(train, train.torques(state))
-    placed = place(flow, lambda node, power: 0.5, lambda node, power: 0.4, 9.0)
+    placed = lay_out_sankey(flow, lambda node, power: 0.5, lambda node, power: 0.4, 9.0)
     assert placed.width >= 9.0 - 1e-9
     pieces = [piece for band in placed.bands for piece in band] + [turn.piece for turn in placed.turns]
     for piece in pieces:
@@ -554,7 +562,7 @@ def test_bands_are_as_wide_as_their_powers_and_fill_their_nodes(name: str, state
 
 
 def test_the_same_flow_is_the_same_picture() -> None:
-    from geartrain.plot import render
+    from geartrain.drawing import render
 
     assert len({render(drawn("reverse", "R")[1], ".svg") for _ in range(2)}) == 1
 
@@ -618,7 +626,7 @@ import sys, geartrain
 from geartrain.report import report_train, train_data
 train = geartrain.load(sys.argv[1])
 report_train(train), train_data(train)
-print(any(name.startswith("geartrain.torques") for name in sys.modules), "numpy" in sys.modules)
+print(any(name.startswith("geartrain.dynamics.torques") for name in sys.modules), "numpy" in sys.modules)
 """
     assert fresh(code, "planetary").stdout.split() == ["False", "False"]
     assert fresh(code, "norton-compound").stdout.split() == ["True", "False"]

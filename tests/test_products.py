@@ -17,7 +17,7 @@ from hypothesis import strategies as st
 from geartrain import GearTrain
 from geartrain.bench.families import drift
 from geartrain.bench.kinematics import count_steps, kinematics
-from geartrain.products import Products, product_of_powers
+from geartrain.numerics.factored_ratios import FactoredRatios, product_of_powers
 
 factors = st.integers(1, 10**12).flatmap(lambda n: st.sampled_from([n, -n])) | st.sampled_from([-36, 24, 997])
 ROUGH = [1009 * 1013, 1013 * 1019, 1009 * 1019, 1009**2]
@@ -38,7 +38,7 @@ def test_numbers_read_in_any_order_are_the_products_of_their_ratios(
 ) -> None:
     """Trees of some thousand numbers, as chains or bushes, with few and with many different tooth counts."""
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("geartrain.products._HOPS", hops)
+        patch.setattr("geartrain.numerics.factored_ratios._HOPS", hops)
         hold_against_plain_products(seed, kinds, width, long_root)
 
 
@@ -46,7 +46,7 @@ def hold_against_plain_products(seed: int, kinds: int, width: int, long_root: bo
     draw = random.Random(seed)
     count = 1200
     root = Fraction(7**400, 3**500) if long_root else Fraction(-22, 7)
-    products, plain = Products(count), [root]
+    products, plain = FactoredRatios(count), [root]
     products.set_root(0, root.numerator, root.denominator)
     for at in range(1, count):
         parent = max(0, at - draw.randint(1, width))
@@ -117,7 +117,7 @@ def test_memory_grows_with_a_drifting_train_not_with_its_square(question: Callab
 
 
 def test_reading_all_of_a_drifting_train_keeps_few_long_numbers(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("geartrain.products._KEPT", 1 << 20)
+    monkeypatch.setattr("geartrain.numerics.factored_ratios._KEPT", 1 << 20)
     train = GearTrain.declare(drift(6000))
     assert train.circuits
     assert peak(lambda: read_all(train)) < 6000 * 1200, "short ratios and a megabit, not six thousand long numbers"

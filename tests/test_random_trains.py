@@ -12,9 +12,9 @@ from joint_rates import TURNS_A_SECOND, Motion, move
 from random_trains import RandomTrain, driven_train, random_train
 
 from geartrain import GearTrain, GearTrainError
-from geartrain.answer import Answer
-from geartrain.components import Part
-from geartrain.speeds import exact_verdict
+from geartrain.kinematics.answer import Answer
+from geartrain.kinematics.components import SolvedPart
+from geartrain.kinematics.speeds import exact_verdict
 
 
 def told(train: RandomTrain, motion: Motion, answer: Answer) -> str:
@@ -103,7 +103,7 @@ def test_the_verdict_modulo_a_prime_is_that_of_fractions() -> None:
         if any(move(train, state).kind == "refused" for state in train.states):
             continue
         asked = GearTrain.declare(train.data)
-        reduced = Part(tuple(train.data["links"]), "frame", asked.circuits, ()).reduced
+        reduced = SolvedPart(tuple(train.data["links"]), "frame", asked.circuits, ()).reduced
         for answer in asked.answers():
             verdict = exact_verdict(reduced, asked.cases[answer.state], asked.signs)
             assert verdict.kind == answer.verdict.kind, (seed, answer.state)

@@ -392,7 +392,7 @@ def test_the_wheels_that_differ_are_those_that_differ_in_the_declarations() -> N
 
 
 def test_the_errors_compared_are_speed_over_target_less_one() -> None:
-    with open(ROOT / "geartrain" / "periods.csv", encoding="utf-8", newline="") as source:
+    with open(ROOT / "geartrain" / "train" / "periods.csv", encoding="utf-8", newline="") as source:
         periods = {row["name"]: row for row in csv.DictReader(source)}
     year = Fraction(periods["year_tropical_J2000"]["value"])
     trains = [load(name) for name in ("price-1974", "freeth-2008")]

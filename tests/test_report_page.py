@@ -16,7 +16,7 @@ from test_extras import without
 
 from geartrain import GearTrainError, load
 from geartrain.report import Picture, compare_trains, report_train, shared_document, to_html, to_markdown
-from geartrain.report.paging import inline, is_web
+from geartrain.report.html_page import inline, is_web
 
 SVG = (
     '<?xml version="1.0"?><!DOCTYPE svg><svg xmlns="http://www.w3.org/2000/svg" width="10pt" height="5pt" '

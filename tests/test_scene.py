@@ -21,7 +21,7 @@ from strategies import asked_trains, driven_trains, rerooted
 import geartrain
 from geartrain import GearTrain, load
 from geartrain.scene import Scene, make_scene
-from geartrain.scene.posing import pose
+from geartrain.scene.pose import scene_pose
 
 SHIPPED = [
     ("freeth-2021", None),
@@ -290,7 +290,7 @@ def test_bodies_carried_by_thousands_of_others_are_posed_in_any_order() -> None:
     ]
     ground = next(body for body in scene.bodies if body.parent is None)
     tower = replace(scene, bodies=(*bodies, replace(ground, start=0.0)), movement=replace(scene.movement, steps=()))
-    found = pose(tower)
+    found = scene_pose(tower)
     for at in (0, 1, 1500, 2998):
         angle = radians(count - 1 - at)
         assert found.turned[at][:2, 0] == pytest.approx([cos(angle), sin(angle)], abs=1e-9)

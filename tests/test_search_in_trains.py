@@ -18,19 +18,19 @@ from hypothesis import HealthCheck, assume, given, settings
 from hypothesis import strategies as st
 from strategies import driven_trains, ordinary_trains
 
-import geartrain.synthesis.trains.merging as merging
-import geartrain.synthesis.trains.passes as passes
-import geartrain.synthesis.trains.tasks as tasks
+import geartrain.synthesis.train.pass_tasks as merging
+import geartrain.synthesis.train.pass_tasks as tasks
+import geartrain.synthesis.train.search_passes as passes
 from geartrain import GearTrain, GearTrainError, load
 from geartrain.errors import QuestionError
-from geartrain.files import as_yaml
-from geartrain.parallel import Journal, open_executor
-from geartrain.synthesis.formulas.finding import find_formulas, with_counts
-from geartrain.synthesis.rules.conditions import Condition, Equation
-from geartrain.synthesis.rules.finding import Rules
-from geartrain.synthesis.trains.findings import By, TrainFindings
-from geartrain.synthesis.trains.searching import search
+from geartrain.numerics.work import Journal, open_executor
+from geartrain.synthesis.constraints.constraint_options import ConstraintOptions
+from geartrain.synthesis.constraints.count_conditions import Condition, CountEquation
+from geartrain.synthesis.formulas.output_formulas import find_formulas, with_counts
+from geartrain.synthesis.train.train_findings import By, TrainFindings
+from geartrain.synthesis.train.train_search import search
 from geartrain.train import Train
+from geartrain.train.yaml_nodes import as_yaml
 
 Data = dict[str, Any]
 Teeth = dict[str, int]
@@ -370,22 +370,22 @@ def test_a_planetary_set_keeps_its_coaxial_equation() -> None:
         for p in range(12, 41)
         if 40 <= s + 2 * p <= 90 and abs(1 + Fraction(s + 2 * p, s) - 4) <= Fraction("0.05")
     }
-    own = Equation("s + 2 p = r", {"s": 1, "p": 2, "r": -1}, 0)
-    for rules in ((own,), Rules(coaxial=True)):
+    own = CountEquation("s + 2 p = r", {"s": 1, "p": 2, "r": -1}, 0)
+    for rules in ((own,), ConstraintOptions(coaxial=True)):
         found = find(data, rules=rules, best=100)
         assert {(one["s"], one["p"], one["r"]) for one in listed(found)} == truth
         assert found.count == len(truth) > 1
         assert tallies_add_up(found)
     assert find(data, rules=()).count > found.count
     three = {(s, p, r) for s, p, r in truth if (s + r) % 3 == 0}
-    found = find(data, rules=Rules(coaxial=True, planets=3), best=100)
+    found = find(data, rules=ConstraintOptions(coaxial=True, planets=3), best=100)
     assert {(one["s"], one["p"], one["r"]) for one in listed(found)} == three
     assert 0 < len(three) < len(truth)
 
 
 def test_a_reverted_train_has_one_centre_distance() -> None:
     data = chain([(12, 40)] * 4, target("1/6", "1/50"))
-    equal = Equation("a0 + b0 = a1 + b1", {"a0": 1, "b0": 1, "a1": -1, "b1": -1}, 0)
+    equal = CountEquation("a0 + b0 = a1 + b1", {"a0": 1, "b0": 1, "a1": -1, "b1": -1}, 0)
     prime = Condition("a0 and b0 have no common divisor", ("a0", "b0"), Coprime("a0", "b0"))
     truth = [
         (a, b, c, a + b - c)
@@ -481,7 +481,7 @@ def test_all_states_are_asked_at_once_or_one_alone() -> None:
         "low": {"fixed": ["sun"], "outputs": {"ring": target("1.35", "1/50")}},
         "high": {"fixed": ["ring"], "outputs": {"sun": target("3.8", "1/50")}},
     }
-    coaxial = (Equation("s + 2 p = r", {"s": 1, "p": 2, "r": -1}, 0),)
+    coaxial = (CountEquation("s + 2 p = r", {"s": 1, "p": 2, "r": -1}, 0),)
     sets = [(s, p, s + 2 * p) for s in range(12, 41) for p in range(12, 41) if 40 <= s + 2 * p <= 90]
     low = {one for one in sets if abs((1 + Fraction(one[0], one[2])) / Fraction("1.35") - 1) <= Fraction(1, 50)}
     high = {one for one in sets if abs((1 + Fraction(one[2], one[0])) / Fraction("3.8") - 1) <= Fraction(1, 50)}
@@ -583,7 +583,7 @@ def test_an_empty_result_says_where_assignments_went_and_what_comes_nearest() ->
 
 def test_a_rule_that_leaves_nothing_is_named_with_what_there_would_be_without_it() -> None:
     data = chain([(15, 40)] * 4, target("1/4", "1e-3"))
-    impossible = Equation("a0 + a1 = 1000", {"a0": 1, "a1": 1}, -1000)
+    impossible = CountEquation("a0 + a1 = 1000", {"a0": 1, "a1": 1}, -1000)
     found = find(data, rules=(impossible,))
     without = find(data, rules=()).count
     assert found.count == 0
@@ -748,7 +748,7 @@ def test_the_twelve_wheels_of_an_eight_speed_gearbox_follow_from_its_published_r
     for state in data["states"].values():
         state["outputs"]["OUT"].pop("expect", None)
     declared = declare(data).declaration
-    found = search(declared, rules=Rules(coaxial=True), best=100, by="change")
+    found = search(declared, rules=ConstraintOptions(coaxial=True), best=100, by="change")
     assert found.complete
     assert found.considered > 10**12
     # gear 1 gives set 4, gear 8 set 2, gear 4 then set 1; what is left for set 3 is tried gear by gear
@@ -800,7 +800,7 @@ def many_tasks(monkeypatch: pytest.MonkeyPatch) -> None:
 def test_any_number_of_workers_gives_the_same_findings() -> None:
     questions: list[tuple[Data, Data]] = [
         (chain([(20, 44)] * 4, target("0.7071", "1e-4")), {"best": 30}),
-        (two_outputs(), {"by": "distinct", "rules": Rules(hunting=True)}),
+        (two_outputs(), {"by": "distinct", "rules": ConstraintOptions(hunting=True)}),
         (chain([(20, 44)] * 4, target("0.57735")), {"best": 5}),
     ]
     with open_executor(2) as executor:
@@ -854,7 +854,7 @@ def test_an_interrupt_keeps_what_is_known_and_the_journal_goes_on_from_there(
 
 def test_an_interrupt_at_any_time_gives_findings_that_say_so(monkeypatch: pytest.MonkeyPatch) -> None:
     data = chain([(15, 80)] * 2, target("254/19", "1e-4"))
-    real = passes.find_question
+    real = passes.find_join_problem
     for after in range(4):
         asked: list[object] = []
 

@@ -19,8 +19,8 @@ import geartrain
 from geartrain import GearTrain
 from geartrain.report import compare_trains, report_train, to_markdown
 from geartrain.synthesis.formulas import with_counts
-from geartrain.synthesis.trains.searching import search
-from geartrain.uncertainty.counts import sweep
+from geartrain.synthesis.train.train_search import search
+from geartrain.uncertainty.posterior import infer_counts
 
 Counts = tuple[int, int]
 HELD, SUN = 20, 21
@@ -129,7 +129,7 @@ def test_in_every_order_what_is_approached_is_approached_from_its_own_side(way: 
 def test_counts_in_doubt_are_weighed_by_the_sense_too(size: Fraction, method: Any) -> None:
     chances = {}
     for way, target in targets(size, "30 %").items():
-        found = sweep(stepped({"targets": [target]}, "range").declaration, method=method)
+        found = infer_counts(stepped({"targets": [target]}, "range").declaration, method=method)
         fits = met(size, Fraction(3, 10), SIGNS[way])
         assert found.evidence.value == Fraction(len(fits), len(BOX))
         chances[way] = {
@@ -170,7 +170,7 @@ def test_a_speed_of_zero_is_searched_by_difference(tolerance: str) -> None:
     near = {counts for counts, speed in speeds.items() if speed is not None and abs(speed) <= Fraction(tolerance)}
     assert {(one.teeth["p"], one.teeth["q"]) for one in result.solutions} == near
     for method in ("enumerate", "decompose"):
-        found = sweep(stepped({"targets": [target]}, "range").declaration, method=method) if near else None  # type: ignore[arg-type]
+        found = infer_counts(stepped({"targets": [target]}, "range").declaration, method=method) if near else None  # type: ignore[arg-type]
         assert found is None or found.evidence.value == Fraction(len(near), len(BOX))
 
 

@@ -256,12 +256,12 @@ def drawn(figure: Any, panel: int, gid: str) -> Any:
 @cache
 def figure() -> Any:
     pytest.importorskip("matplotlib")
-    from geartrain.cli.mesh.shaping import pair, question, shape
-    from geartrain.plot import shapes_figure
+    from geartrain.cli.mesh.conjugate_options import pair, read_form, read_wheels
+    from geartrain.drawing import shapes_figure
 
-    asked = question((24, 36))
+    asked = read_wheels((24, 36))
     forms = ("involute", "uniform_stress", "uniform_temperature", "least_friction", "cycloidal", "lantern")
-    return shapes_figure({form: pair(shape(form, {}), asked).path for form in forms})
+    return shapes_figure({form: pair(read_form(form, {}), asked).path for form in forms})
 
 
 def test_each_panel_draws_what_it_says() -> None:
@@ -299,10 +299,10 @@ def test_a_comparison_is_drawn_to_a_file(tmp_path: File) -> None:
 @pytest.mark.parametrize("more", [{"internal": True}, {"bevel": "90deg"}], ids=str)
 def test_one_form_of_a_ring_or_a_bevel_is_drawn_too(more: dict[str, Any]) -> None:
     pytest.importorskip("matplotlib")
-    from geartrain.cli.mesh.shaping import pair, question, shape
-    from geartrain.plot import shapes_figure
+    from geartrain.cli.mesh.conjugate_options import pair, read_form, read_wheels
+    from geartrain.drawing import shapes_figure
 
-    path = pair(shape("uniform_stress", {}), question((24, 60), **more)).path
+    path = pair(read_form("uniform_stress", {}), read_wheels((24, 60), **more)).path
     made = shapes_figure({"uniform_stress": path})
     stress = drawn(made, 3, "uniform_stress")[:, 1]
     unit = path.pitch.p / pi

@@ -12,15 +12,14 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from geartrain import load
-from geartrain.analysis import GearTrain
+from geartrain.analysis.gear_train import GearTrain
 from geartrain.errors import QuestionError, RangeError
-from geartrain.periods import table
-from geartrain.synthesis.orrery.aims import read_aims
-from geartrain.synthesis.orrery.orrery import Orrery
-from geartrain.synthesis.orrery.sharing import share
-from geartrain.synthesis.orrery.table import pair_ratios, reach
-from geartrain.synthesis.orrery.trees import Enumeration
-from geartrain.synthesis.orrery.wheels import fewest_wheels
+from geartrain.synthesis.orrery.arbor_trees import TreeEnumeration, fewest_wheels
+from geartrain.synthesis.orrery.orrery_result import Orrery
+from geartrain.synthesis.orrery.orrery_search import find_orrery
+from geartrain.synthesis.orrery.pair_ratio_table import pair_ratios, reach
+from geartrain.synthesis.orrery.period_targets import read_period_targets
+from geartrain.train.periods import period_table
 
 HILLIS = {
     "moon": "29.53058853",
@@ -110,7 +109,7 @@ def test_walked_trees_are_all_the_trees_there_are(question: tuple[list[int], lis
     counts, aims, slack = question
     ratios = sorted({Fraction(b, a) for a, b in product(counts, repeat=2)})
     names = [f"p{at}" for at in range(len(aims))]
-    asked = read_aims(dict(zip(names, aims, strict=True)), slack)
+    asked = read_period_targets(dict(zip(names, aims, strict=True)), slack)
     for extra in range(4):
         if len(aims) + extra > (4 if len(ratios) <= 3 else 3):
             continue
@@ -120,7 +119,7 @@ def test_walked_trees_are_all_the_trees_there_are(question: tuple[list[int], lis
                 if not useless(links, places):
                     expected.add(likeness([parent for parent, _ in links], periods, places))
         found = set()
-        for tree in Enumeration(pair_ratios(counts), asked, extra).trees():
+        for tree in TreeEnumeration(pair_ratios(counts), asked, extra).trees():
             periods = [arbor.period for arbor in tree]
             places = tuple(next(at for at, arbor in enumerate(tree) if arbor.aim == aim) for aim in range(len(aims)))
             found.add(likeness([arbor.parent for arbor in tree[1:]], periods, places))
@@ -153,7 +152,7 @@ def test_a_small_orrery_has_the_fewest_pairs_and_wheels_of_all_trees(
     counts, aims, slack = question
     ratios = sorted({Fraction(b, a) for a, b in product(counts, repeat=2)})
     names = [f"p{at}" for at in range(len(aims))]
-    found = share(dict(zip(names, aims, strict=True)), counts, slack)
+    found = find_orrery(dict(zip(names, aims, strict=True)), counts, slack)
     checked(found, dict(zip(names, aims, strict=True)), slack, counts)
     fewest: dict[int, int] = {}
     for pairs in range(len(aims), 4):
@@ -206,7 +205,7 @@ def test_no_choice_of_teeth_has_fewer_wheels(data: st.DataObject) -> None:
 def test_every_way_of_two_pairs_is_within_reach() -> None:
     counts = range(10, 25)
     ratios = sorted({Fraction(b, a) for a, b in product(counts, repeat=2)})
-    aims = read_aims({"x": Fraction(22, 7), "y": Fraction("1.2345")}, Fraction(1, 1000))
+    aims = read_period_targets({"x": Fraction(22, 7), "y": Fraction("1.2345")}, Fraction(1, 1000))
     pairs = pair_ratios(counts)
     found = reach(pairs, aims, 0.0, 0b11)
     seen = {Fraction(*pairs.terms(at)): int(bits) for at, bits in zip(found.first, found.sets, strict=True)}
@@ -237,7 +236,7 @@ def test_the_published_moon_was_made_for_a_month_with_two_digits_swapped() -> No
     # "+.3 lsd" is said beside it: so it is for the month of 29.530588853 d with 05 read as 50
     assert round((moon - Fraction("29.535088853")) * 10**9, 1) == Fraction("0.3")
     assert "29.530588853".replace("05", "50") == "29.535088853"
-    assert table()["month_synodic_J2000"].value == Fraction("29.530588853")
+    assert period_table()["month_synodic_J2000"].value == Fraction("29.530588853")
 
 
 def test_no_change_of_one_wheel_mends_the_published_moon() -> None:
@@ -257,7 +256,7 @@ def test_two_pairs_from_the_published_earth_mend_its_moon() -> None:
 
 
 def test_seven_periods_to_six_places_take_few_wheels() -> None:
-    found = share(DAYS, range(12, 401), Fraction("1e-6"), effort=4)
+    found = find_orrery(DAYS, range(12, 401), Fraction("1e-6"), effort=4)
     checked(found, DAYS, Fraction("1e-6"), range(12, 401))
     assert found.wheels <= 20
     assert found.least_pairs >= 9
@@ -290,7 +289,7 @@ def test_the_published_clock_misses_its_month_alone() -> None:
 
 def test_nothing_found_says_what_was_walked() -> None:
     with pytest.raises(QuestionError, match=r"no orrery found(.|\n)*walked(.|\n)*loosen"):
-        share({"far": Fraction(10**6)}, [6, 7], Fraction(1, 1000))
+        find_orrery({"far": Fraction(10**6)}, [6, 7], Fraction(1, 1000))
 
 
 @pytest.mark.parametrize(
@@ -310,7 +309,7 @@ def test_what_cannot_be_asked_is_refused(
     periods: dict[str, Fraction], counts: list[int], tolerance: float, kind: type[Exception]
 ) -> None:
     with pytest.raises(kind, match=r"fix:"):
-        share(periods, counts, tolerance)
+        find_orrery(periods, counts, tolerance)
 
 
 def test_an_interrupt_keeps_what_was_found() -> None:
@@ -324,18 +323,18 @@ def test_an_interrupt_keeps_what_was_found() -> None:
             raise KeyboardInterrupt
 
     days = {name: DAYS[name] for name in ("moon", "mercury", "venus")}
-    found = share(days, range(12, 61), Fraction("1e-4"), effort=10**6, tell=stop)
+    found = find_orrery(days, range(12, 61), Fraction("1e-4"), effort=10**6, tell=stop)
     assert found.ended == "interrupt"
     checked(found, days, Fraction("1e-4"), range(12, 61))
 
 
 def test_time_ends_a_search() -> None:
     with pytest.raises(QuestionError, match="time"):
-        share(DAYS, range(12, 101), Fraction("1e-9"), seconds=0)
+        find_orrery(DAYS, range(12, 101), Fraction("1e-9"), seconds=0)
 
 
 def test_the_same_question_has_the_same_answer() -> None:
     days = {name: DAYS[name] for name in ("moon", "earth")}
-    first, second = (share(days, range(12, 121), Fraction("1e-5"), effort=4) for _ in range(2))
+    first, second = (find_orrery(days, range(12, 121), Fraction("1e-5"), effort=4) for _ in range(2))
     assert first == second
     assert first.to_dict() == second.to_dict()

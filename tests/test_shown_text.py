@@ -20,7 +20,7 @@ from hypothesis import strategies as st
 from markdown_it import MarkdownIt
 
 from geartrain.errors import Problem, printable
-from geartrain.files import LongTable, csv_line, csv_lines, csv_text
+from geartrain.numerics.files import LongTable, csv_line, csv_lines, csv_text
 from geartrain.report import to_markdown
 from geartrain.report.document import Document, Section, Table
 

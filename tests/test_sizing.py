@@ -21,13 +21,15 @@ from geartrain.spherical import (
     idler_sphere,
     moved_antiprism,
     one_pitch,
-    size,
-    suggest,
-    windows,
+    ratio_windows,
+    size_gears,
+    suggest_tooth_counts,
     with_idlers,
 )
-from geartrain.spherical.alike import mesh_kinds
-from geartrain.spherical.cones import (
+from geartrain.spherical.assembly_loops import fundamental_loops, loop_rules, regions, residue
+from geartrain.spherical.configuration import mesh_kinds
+from geartrain.spherical.gear_sizes import impossibility_theorem
+from geartrain.spherical.pitch_cones import (
     base_pitch,
     line_of_action,
     operating_pitch,
@@ -39,9 +41,7 @@ from geartrain.spherical.cones import (
     virtual_teeth,
     wheel_radius,
 )
-from geartrain.spherical.families import antiprism_latitude, icosahedral_pitch, quasiregular
-from geartrain.spherical.loops import fundamental_loops, loop_rules, regions, residue
-from geartrain.spherical.theorems import theorem
+from geartrain.spherical.single_pitch_families import antiprism_latitude, icosahedral_pitch, quasiregular
 
 PHI = (1 + sqrt(5)) / 2
 S53 = atan(3 - sqrt(5))
@@ -50,7 +50,7 @@ ratios = st.tuples(st.floats(0.2, 2.8), st.integers(5, 200), st.integers(5, 200)
 
 def cones_of(configuration: Configuration) -> dict[str, float]:
     """The pitch cone of each kind in degrees, where it is the same in all meshes."""
-    return {kind: degrees(rho) for kind, rho in zip(configuration.kinds, size(configuration).outer, strict=True)}
+    return {kind: degrees(rho) for kind, rho in zip(configuration.kinds, size_gears(configuration).outer, strict=True)}
 
 
 def tip_gap(teeth: tuple[int, int], kind: str) -> float:
@@ -148,7 +148,7 @@ def test_two_pitches_have_cosines_about_that_of_the_mean() -> None:
 
 
 def test_the_icosidodecahedron_has_the_printed_sizes() -> None:
-    sizing = size(quasiregular("icosidodecahedron", {"5": 20, "3": 12}))
+    sizing = size_gears(quasiregular("icosidodecahedron", {"5": 20, "3": 12}))
     assert sizing.exact
     assert degrees(mesh_kinds(sizing.configuration)[0].angle) == pytest.approx(37.3773681406497, abs=5e-14)
     assert np.degrees(sizing.cones[0]) == pytest.approx([23.5224184477318, 13.8549496929179], abs=5e-13)
@@ -160,18 +160,18 @@ def test_the_icosidodecahedron_has_the_printed_sizes() -> None:
 
 @pytest.mark.parametrize(("teeth", "rho"), [((5, 6), 16.927335498), ((10, 3), 29.011414522), ((45, 33), 21.667679845)])
 def test_other_teeth_of_the_icosidodecahedron(teeth: tuple[int, int], rho: float) -> None:
-    sizing = size(quasiregular("icosidodecahedron", {"5": teeth[0], "3": teeth[1]}))
+    sizing = size_gears(quasiregular("icosidodecahedron", {"5": teeth[0], "3": teeth[1]}))
     assert degrees(sizing.cones[0, 0]) == pytest.approx(rho, abs=5e-10)
 
 
 def test_the_windows_of_the_tooth_ratio_are_the_printed_ones() -> None:
-    (ico,) = windows(quasiregular("icosidodecahedron"))
+    (ico,) = ratio_windows(quasiregular("icosidodecahedron"))
     assert (ico.low, ico.high) == pytest.approx((0.794654472, 5.330704256), abs=5e-10)
     assert (ico.low, ico.high) == pytest.approx((cos(S53), sqrt(3) / tan(pi / 10)))
-    (cubo,) = windows(quasiregular("cuboctahedron"))
+    (cubo,) = ratio_windows(quasiregular("cuboctahedron"))
     assert (cubo.low, cubo.high) == pytest.approx((0.577350269, 4.181540550), abs=5e-10)
     assert (cubo.low, cubo.high) == pytest.approx((1 / sqrt(3), sqrt(3) * (1 + sqrt(2))))
-    assert windows(quasiregular("octahedron")) == ()
+    assert ratio_windows(quasiregular("octahedron")) == ()
 
 
 @pytest.mark.parametrize(
@@ -189,7 +189,7 @@ def test_the_windows_of_the_tooth_ratio_are_the_printed_ones() -> None:
 )
 def test_tips_clear_or_collide_by_the_printed_degrees(teeth: tuple[int, int], kind: str, gap: float) -> None:
     assert tip_gap(teeth, kind) == pytest.approx(gap, abs=0.05)
-    sizing = size(quasiregular("icosidodecahedron", {"5": teeth[0], "3": teeth[1]}))
+    sizing = size_gears(quasiregular("icosidodecahedron", {"5": teeth[0], "3": teeth[1]}))
     kinds = dict(zip(sizing.configuration.names, sizing.configuration.kinds, strict=True))
     own = [found for found in sizing.collisions if {kinds[gear] for gear in found.gears} == {kind}]
     assert bool(own) == (gap < 0)
@@ -199,7 +199,7 @@ def test_tips_clear_or_collide_by_the_printed_degrees(teeth: tuple[int, int], ki
 
 
 def test_a_collision_says_who_and_by_how_many_modules() -> None:
-    sizing = size(quasiregular("icosidodecahedron", {"5": 10, "3": 3}))
+    sizing = size_gears(quasiregular("icosidodecahedron", {"5": 10, "3": 3}))
     worst = sizing.collisions[0]
     assert worst.room + worst.short == pytest.approx(2)
     assert "modules apart" in str(worst)
@@ -207,19 +207,19 @@ def test_a_collision_says_who_and_by_how_many_modules() -> None:
 
 
 def test_few_teeth_are_undercut() -> None:
-    few = size(quasiregular("icosidodecahedron", {"5": 10, "3": 6})).undercut
+    few = size_gears(quasiregular("icosidodecahedron", {"5": 10, "3": 6})).undercut
     assert few == pytest.approx({"5": 10.9, "3": 6.2}, abs=0.05)
     assert undercut_limit(radians(20)) == pytest.approx(17.097, abs=5e-4)
-    assert size(quasiregular("icosidodecahedron", {"5": 30, "3": 18})).undercut == {}
+    assert size_gears(quasiregular("icosidodecahedron", {"5": 30, "3": 18})).undercut == {}
 
 
 def test_a_set_without_teeth_is_asked_for_them() -> None:
     with pytest.raises(GearTrainError, match="no tooth number for 5, 3"):
-        size(quasiregular("icosidodecahedron"))
+        size_gears(quasiregular("icosidodecahedron"))
 
 
 def test_sizes_go_to_json() -> None:
-    data = size(quasiregular("cuboctahedron", {"4": 16, "3": 12})).to_dict()
+    data = size_gears(quasiregular("cuboctahedron", {"4": 16, "3": 12})).to_dict()
     assert json.loads(json.dumps(data))["exact"] is True
     assert len(data["meshes"]) == 24
 
@@ -244,7 +244,7 @@ def test_one_pitch_is_refused_with_the_theorem(solid: str, teeth: dict[str, int]
 
 @pytest.mark.parametrize("solid", ["octahedron", "cuboctahedron", "icosidodecahedron", "6-antiprism"])
 def test_no_theorem_stands_against_other_solids(solid: str) -> None:
-    assert theorem(from_polyhedron(solid)) == ""
+    assert impossibility_theorem(from_polyhedron(solid)) == ""
 
 
 def test_one_pitch_is_given_where_the_teeth_allow_it() -> None:
@@ -288,7 +288,7 @@ def test_the_printed_compromises_come_out(
     solid: str, kinds: str, teeth: tuple[int, ...], mismatch: float, cones: tuple[float, ...] | None
 ) -> None:
     fixed = dict(zip(kinds.split(), teeth, strict=True))
-    (found,) = suggest(from_polyhedron(solid), 120, fixed=fixed)
+    (found,) = suggest_tooth_counts(from_polyhedron(solid), 120, fixed=fixed)
     assert found.mismatch == pytest.approx(mismatch, abs=6e-13 * (1 if abs(mismatch) > 1e-3 else 0.1))
     if cones:
         assert np.degrees(found.cones).ravel() == pytest.approx(cones, abs=6e-7)
@@ -304,25 +304,27 @@ def test_the_printed_compromises_come_out(
     ],
 )
 def test_the_search_itself_finds_them(solid: str, rows: list[tuple[int, ...]]) -> None:
-    found = suggest(from_polyhedron(solid), 120, order="front")
+    found = suggest_tooth_counts(from_polyhedron(solid), 120, order="front")
     front = [tuple(row.teeth.values()) for row in found]
     assert set(rows) <= set(front)
     assert front[0] == rows[0]
     assert [row.total for row in found] == sorted(row.total for row in found)
     misses = [abs(row.mismatch) for row in found]
     assert misses == sorted(misses, reverse=True)
-    best = suggest(from_polyhedron(solid), 120, 1)
+    best = suggest_tooth_counts(from_polyhedron(solid), 120, 1)
     assert tuple(best[0].teeth.values()) == front[-1]
 
 
 def test_the_best_without_closure_is_useless() -> None:
     """101/66/45 has a mismatch of 4.7e-7, and does not close."""
     rid = from_polyhedron("rhombicosidodecahedron")
-    sizing = size(replace(rid, teeth={"5": 101, "4": 66, "3": 45}))
+    sizing = size_gears(replace(rid, teeth={"5": 101, "4": 66, "3": 45}))
     assert sizing.mismatch == pytest.approx(4.715872e-07, abs=6e-14)
-    assert not suggest(rid, 120, fixed={"5": 101, "4": 66, "3": 45})
+    assert not suggest_tooth_counts(rid, 120, fixed={"5": 101, "4": 66, "3": 45})
     rco = from_polyhedron("rhombicuboctahedron")
-    assert size(replace(rco, teeth={"4a": 120, "4b": 71, "3": 81})).mismatch == pytest.approx(1.334400e-06, abs=6e-13)
+    assert size_gears(replace(rco, teeth={"4a": 120, "4b": 71, "3": 81})).mismatch == pytest.approx(
+        1.334400e-06, abs=6e-13
+    )
 
 
 @pytest.mark.parametrize(
@@ -339,7 +341,7 @@ def test_the_best_without_closure_is_useless() -> None:
     ],
 )
 def test_uniform_antiprisms(n: int, teeth: tuple[int, int], mismatch: float) -> None:
-    found = suggest(from_polyhedron(f"{n}-antiprism"), 120, 100)
+    found = suggest_tooth_counts(from_polyhedron(f"{n}-antiprism"), 120, 100)
     (row,) = [row for row in found if tuple(row.teeth.values()) == teeth]
     assert abs(row.mismatch) == pytest.approx(mismatch, abs=max(5e-2 * mismatch, 1e-14))
 
@@ -348,11 +350,11 @@ def test_uniform_antiprisms(n: int, teeth: tuple[int, int], mismatch: float) -> 
 def test_the_search_agrees_with_one_set_at_a_time(least: int) -> None:
     """Closure by the printed rules, room by measuring every pair of gears."""
     rco = from_polyhedron("rhombicuboctahedron")
-    found = suggest(rco, 20, 10**6, least=least, mismatch=inf)
+    found = suggest_tooth_counts(rco, 20, 10**6, least=least, mismatch=inf)
     good = []
     for a, b, c in product(range(least, 21), repeat=3):
         if c % 3 == 0 and (a - 2 * b) % 4 == 0:
-            sizing = size(replace(rco, teeth={"4a": a, "4b": b, "3": c}))
+            sizing = size_gears(replace(rco, teeth={"4a": a, "4b": b, "3": c}))
             if not sizing.collisions:
                 good.append(((a, b, c), sizing.mismatch))
     assert sorted(tuple(row.teeth.values()) for row in found) == [row[0] for row in good]
@@ -363,7 +365,7 @@ def test_the_search_agrees_with_one_set_at_a_time(least: int) -> None:
 
 
 def test_an_empty_search_says_what_removed_how_many() -> None:
-    found = suggest(quasiregular("icosidodecahedron"), 7, least=6)
+    found = suggest_tooth_counts(quasiregular("icosidodecahedron"), 7, least=6)
     assert len(found) == 0
     assert found.removed["loops that do not close"] == found.considered == 4
     assert "no tooth numbers" in str(found)
@@ -371,7 +373,7 @@ def test_an_empty_search_says_what_removed_how_many() -> None:
 
 
 def test_suggestions_give_sets_with_teeth() -> None:
-    found = suggest(quasiregular("icosidodecahedron"), 60, 5, order="teeth")
+    found = suggest_tooth_counts(quasiregular("icosidodecahedron"), 60, 5, order="teeth")
     assert found[0].teeth == {"5": 10, "3": 6}
     assert one_pitch(found.configured()) > 0
     assert found.beyond > 0
@@ -379,7 +381,7 @@ def test_suggestions_give_sets_with_teeth() -> None:
 
 def test_an_odd_loop_is_named_instead_of_searched() -> None:
     with pytest.raises(GearTrainError, match="is odd"):
-        suggest(from_polyhedron("dodecahedron"))
+        suggest_tooth_counts(from_polyhedron("dodecahedron"))
 
 
 def test_too_many_kinds_are_refused_before_the_search() -> None:
@@ -388,15 +390,15 @@ def test_too_many_kinds_are_refused_before_the_search() -> None:
     names = tuple("abcdef")
     chain = tuple((i, i + 1) for i in range(5))
     with pytest.raises(GearTrainError, match="tooth sets to look at"):
-        suggest(Configuration(names, axes, chain, names, (0,) * 6), 60)
+        suggest_tooth_counts(Configuration(names, axes, chain, names, (0,) * 6), 60)
 
 
 def test_loops_that_only_nearly_close_pass_with_a_tolerance() -> None:
     """The antiprism moved for 20/13 misses by 0.000226907 of a pitch."""
     moved = moved_antiprism(4, 20, 13)
     fixed = {"cap": 20, "side": 13}
-    assert not suggest(moved, fixed=fixed)
-    (found,) = suggest(moved, fixed=fixed, tolerance=1e-3)
+    assert not suggest_tooth_counts(moved, fixed=fixed)
+    (found,) = suggest_tooth_counts(moved, fixed=fixed, tolerance=1e-3)
     assert found.residue == pytest.approx(0.000226907, abs=5e-10)
     assert found.mismatch == pytest.approx(0, abs=1e-13)
 
@@ -428,7 +430,7 @@ def test_regions_are_as_many_as_euler_says_and_turn_one_way() -> None:
 
 def worst_tangency(configuration: Configuration) -> float:
     """Largest | angle between axes - asin(l z_i) - asin(l z_j) | over the meshes, in space."""
-    sizing = size(configuration)
+    sizing = size_gears(configuration)
     apart = separations(configuration.axes)
     cones = np.arcsin(sizing.pitch * sizing.teeth)
     return float(max(abs(apart[i, j] - cones[i] - cones[j]) for i, j in configuration.meshes))
@@ -456,7 +458,7 @@ def test_moved_antiprisms(
 ) -> None:
     configuration = moved_antiprism(n, cap, side)
     assert (len(configuration.axes), len(configuration.meshes)) == (2 * n + 2, 4 * n)
-    assert size(configuration).exact
+    assert size_gears(configuration).exact
     assert worst_tangency(configuration) < 1e-14
     assert worst_residue(configuration) == pytest.approx(misses, abs=5e-10 if misses else 1e-15)
     if cones:
@@ -492,7 +494,7 @@ def test_idler_spheres(
 ) -> None:
     configuration = idler_sphere(solid, teeth, 8)  # type: ignore[arg-type]
     assert (len(configuration.axes), len(configuration.meshes)) == (gears, meshes)
-    assert size(configuration).exact
+    assert size_gears(configuration).exact
     assert worst_tangency(configuration) < 1e-14
     assert tuple(cones_of(configuration).values()) == pytest.approx(cones, abs=6e-13)
     assert worst_residue(configuration) == 0
@@ -537,9 +539,9 @@ def test_the_icosahedral_set_of_92(
 
 
 def test_not_all_printed_teeth_of_the_92_leave_room_for_tips() -> None:
-    assert size(icosahedral(35, 36, 16)).collisions == ()
-    assert size(icosahedral(45, 57, 27)).collisions == ()
-    assert len(size(icosahedral(20, 42, 11)).collisions) == 30
+    assert size_gears(icosahedral(35, 36, 16)).collisions == ()
+    assert size_gears(icosahedral(45, 57, 27)).collisions == ()
+    assert len(size_gears(icosahedral(20, 42, 11)).collisions) == 30
 
 
 def test_icosahedral_teeth_that_cannot_reach_are_refused() -> None:

@@ -14,9 +14,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.optimize import brentq, minimize
 
-from geartrain.conjugate import forms
-from geartrain.conjugate.path import Path
-from geartrain.conjugate.pitch import Pitch
+from geartrain.teeth.conjugate import optimal_sides as forms
+from geartrain.teeth.conjugate.path_of_contact import PathOfContact
+from geartrain.teeth.conjugate.pitch_surfaces import PitchSurfaces
 
 TABLES = json.loads((File(__file__).parent / "data" / "tooth_shapes.json").read_text(encoding="utf-8"))
 
@@ -161,7 +161,7 @@ WINDOWS = [
 ]  # fmt: skip
 
 
-def bound(pitch: Pitch, X: float, low: float, high: float) -> float:
+def bound(pitch: PitchSurfaces, X: float, low: float, high: float) -> float:
     """Least J over that of the 20 degree involute, from the three phases."""
     u0, u1 = cos(high), cos(low)
     if not pitch.bevel:
@@ -181,7 +181,7 @@ def bound(pitch: Pitch, X: float, low: float, high: float) -> float:
     return J / ((1 - cos(X * cos(radians(20)))) / cos(radians(20)) ** 2)
 
 
-def transcribed(pitch: Pitch, X: float, low: float, high: float, cells: int = 600) -> float:
+def transcribed(pitch: PitchSurfaces, X: float, low: float, high: float, cells: int = 600) -> float:
     """The least J of paths whose pressure angle is constant in each of many equal cells of X, found by descent."""
     h = X / cells
     whole = (lambda d: 1 - np.cos(d)) if pitch.bevel else (lambda d: d * d / 2)
@@ -208,7 +208,7 @@ def transcribed(pitch: Pitch, X: float, low: float, high: float, cells: int = 60
 def test_the_bound_of_a_window_is_that_of_the_table_and_of_a_direct_search(
     low: float, high: float, printed: float
 ) -> None:
-    pitch, X = Pitch.spur(24, 36), pi / 2
+    pitch, X = PitchSurfaces.spur(24, 36), pi / 2
     least = bound(pitch, X, radians(low), radians(high))
     assert least == pytest.approx(printed, abs=6e-13)
     found = transcribed(pitch, X, radians(low), radians(high)) / (X**2 / 2)
@@ -219,7 +219,7 @@ def test_the_bound_of_a_window_is_that_of_the_table_and_of_a_direct_search(
 def test_the_bounds_of_all_pairs_are_those_of_the_table(row: list[str]) -> None:
     kind, teeth = row[0][:-1].split("(")
     z1, z2 = map(int, teeth.split(","))
-    pitch = Pitch.spur(z1, z2) if kind == "spur" else Pitch.cones(z1, z2)
+    pitch = PitchSurfaces.spur(z1, z2) if kind == "spur" else PitchSurfaces.cones(z1, z2)
     for high, printed in ((20, row[1]), (25, row[2])):
         least = bound(pitch, pitch.p / 2, 0.0, radians(high))
         assert least == pytest.approx(float(printed), abs=2e-13)
@@ -267,7 +267,7 @@ def test_the_loss_at_an_instant_is_that_of_the_balance_of_torques(
 def test_an_involute_of_24_and_36_teeth_loses_as_told_at_the_measured_coefficients(mu: float, percent: float) -> None:
     made = forms.involute(pi / 2, radians(20))
     X = (np.arange(4000) + 0.5) / 4000 * pi - pi / 2
-    contact = Path(Pitch.spur(24, 36), made, made).at(X)
+    contact = PathOfContact(PitchSurfaces.spur(24, 36), made, made).at(X)
     slide = float((np.abs(contact.U1 - contact.U2) / contact.cos_psi).mean())
     assert 100 * mu * slide == pytest.approx(percent, abs=5e-4)
     assert mu * slide == pytest.approx(mu * pi / 2 * (1 / 24 + 1 / 36), rel=1e-6)
@@ -281,12 +281,14 @@ def test_tooth_friction_alone_leaves_98_4_percent_at_least_from_twelve_teeth() -
 # involutes, equations (4) and (5) ------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("pitch", [Pitch.spur(24, 36), Pitch.cones(24, 36), Pitch.cones(15, 45)], ids=str)
-def test_the_flank_of_an_involute_is_the_string_of_equations_4_and_5(pitch: Pitch) -> None:
+@pytest.mark.parametrize(
+    "pitch", [PitchSurfaces.spur(24, 36), PitchSurfaces.cones(24, 36), PitchSurfaces.cones(15, 45)], ids=str
+)
+def test_the_flank_of_an_involute_is_the_string_of_equations_4_and_5(pitch: PitchSurfaces) -> None:
     psi = radians(20)
     made = forms.involute(pitch.p / 2, psi)
     X = np.linspace(-0.5, 0.5, 41) * pitch.p
-    points = Path(pitch, made, made).flank1(X)
+    points = PathOfContact(pitch, made, made).flank1(X)
     R = pitch.R1
     if pitch.bevel:
         high = points[:, 1] * cos(R) + points[:, 2] * sin(R)

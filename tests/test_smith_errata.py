@@ -28,9 +28,9 @@ from smith import (
 )
 from test_conjugate import path_of
 
-from geartrain.conjugate import forms
-from geartrain.conjugate.path import Contact, Path
-from geartrain.conjugate.pitch import Pitch
+from geartrain.teeth.conjugate import optimal_sides as forms
+from geartrain.teeth.conjugate.path_of_contact import PathContact, PathOfContact
+from geartrain.teeth.conjugate.pitch_surfaces import PitchSurfaces
 
 SHAPES = ("involute20", "UHS psi0=20", "UT-b", "MF psi_hi=25 u=0.15")
 SPUR, BEVEL = ("spur(24,36)", "spur(12,60)"), ("bevel(24,36)", "bevel(15,45)")
@@ -38,7 +38,7 @@ FIRST, SECOND = 2e-10, 3e-7  # what differentiating points once and twice leaves
 
 
 @cache
-def side(pair: str, shape: str, recess: bool) -> tuple[Seen, Contact]:
+def side(pair: str, shape: str, recess: bool) -> tuple[Seen, PathContact]:
     path = path_of(pair, shape)
     found = seen(path, recess, 0.55 if shape.startswith("MF") else 0.3)
     return found, path.at(found.X)
@@ -337,11 +337,11 @@ def test_the_first_integral_solves_64_with_the_right_z_and_not_with_the_printed_
 # efficiency of trains, racks ----------------------------------------------------------------------------------------
 
 
-def loss(pitch: Pitch, X: float) -> float:
+def loss(pitch: PitchSurfaces, X: float) -> float:
     """Mean loss over mu of a 20 degree involute, from the definition by the midpoint rule over X."""
     made = forms.involute(X, np.radians(20))
     at = (np.arange(2000) + 0.5) / 1000 - 1
-    contact = Path(pitch, made, made).at(at * X)
+    contact = PathOfContact(pitch, made, made).at(at * X)
     slide = np.abs(contact.U1 - contact.U2)
     return float((slide / contact.cos_psi).mean())
 
@@ -349,14 +349,16 @@ def loss(pitch: Pitch, X: float) -> float:
 def test_51_and_52_lose_by_the_sum_of_curvatures_and_not_by_ratio_and_reciprocal() -> None:
     G = 0.02
     pairs = [(1.0, 1.0), (1.0, 3.0), (2.0, 2.0), (1.0, 10.0)]
-    spur = [loss(Pitch(100, 100, *pair), G) / (1 / pair[0] + 1 / pair[1]) for pair in pairs]
+    spur = [loss(PitchSurfaces(100, 100, *pair), G) / (1 / pair[0] + 1 / pair[1]) for pair in pairs]
     assert max(spur) / min(spur) == pytest.approx(1, abs=1e-9)
-    printed = [loss(Pitch(100, 100, a, b), G) / (a / b + b / a) for a, b in pairs]
+    printed = [loss(PitchSurfaces(100, 100, a, b), G) / (a / b + b / a) for a, b in pairs]
     assert max(printed) / min(printed) > 9
     cones = [(0.3, 0.4), (0.3, 1.2), (0.9, 0.6)]
-    bevel = [loss(Pitch(100, 100, a, b, True), G) / (1 / np.tan(a) + 1 / np.tan(b)) for a, b in cones]
+    bevel = [loss(PitchSurfaces(100, 100, a, b, True), G) / (1 / np.tan(a) + 1 / np.tan(b)) for a, b in cones]
     assert max(bevel) / min(bevel) == pytest.approx(1, abs=1e-9)
-    printed = [loss(Pitch(100, 100, a, b, True), G) / (np.sin(a) / np.sin(b) + np.sin(b) / np.sin(a)) for a, b in cones]
+    printed = [
+        loss(PitchSurfaces(100, 100, a, b, True), G) / (np.sin(a) / np.sin(b) + np.sin(b) / np.sin(a)) for a, b in cones
+    ]
     assert max(printed) / min(printed) > 2
 
 

@@ -17,10 +17,10 @@ from hypothesis import strategies as st
 from scipy.optimize import brentq
 
 from geartrain import GearTrain, GearTrainError, load
-from geartrain.files import as_yaml
 from geartrain.spherical import Configuration, from_polyhedron, polyhedron, solid, solid_names, to_train
-from geartrain.spherical.arranging import regular
-from geartrain.spherical.survey import SURVEYED, least_drop, survey
+from geartrain.spherical.polyhedron_gears import regular
+from geartrain.spherical.polyhedron_survey import SURVEYED, least_drop, survey
+from geartrain.train.yaml_nodes import as_yaml
 
 PHI = (1 + sqrt(5)) / 2
 NAMES = [name for name in solid_names() if not name.startswith("n-")]

@@ -18,13 +18,14 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from geartrain.errors import QuestionError, RangeError
-from geartrain.parallel import Journal, open_executor
-from geartrain.synthesis.stages import work as stages_work
-from geartrain.synthesis.stages.finding import Fit, StageFindings, find_stages
-from geartrain.synthesis.stages.pairing import best_pairing, suited
-from geartrain.synthesis.stages.products import expand, products_of
-from geartrain.synthesis.stages.windows import cuts, errors, neighbours, rounded_up
-from geartrain.synthesis.targets import Wanted
+from geartrain.numerics.work import Journal, open_executor
+from geartrain.synthesis.ratio import search_segments as stages_work
+from geartrain.synthesis.ratio.product_windows import expand, products_of
+from geartrain.synthesis.ratio.ratio_windows import cuts, errors, neighbours, rounded_up
+from geartrain.synthesis.ratio.stage_pairing import best_pairing, suited
+from geartrain.synthesis.ratio.stage_problem import StageConstraints
+from geartrain.synthesis.ratio.stage_search import StageFindings, find_stages
+from geartrain.synthesis.target_ratio import TargetRatio
 
 Set = tuple[int, ...]
 MONTH = Fraction("13.368267")
@@ -34,7 +35,7 @@ ORDERS = ["error", "total", "largest", "distinct", "hunting", "centres"]
 # all combinations, one by one -----------------------------------------------------------------------------------------
 
 
-def pairings(top: Set, beneath: Set, fit: Fit) -> list[list[tuple[int, int, bool]]]:
+def pairings(top: Set, beneath: Set, fit: StageConstraints) -> list[list[tuple[int, int, bool]]]:
     """Every pairing with every choice of rings that the fit allows: (on top, beneath, with a ring)."""
     found = []
     for order in permutations(beneath):
@@ -55,7 +56,7 @@ def distances(stages: Sequence[tuple[int, int, bool]]) -> set[int]:
 
 
 def every_solution(
-    value: Fraction, stages: int, top: Set, beneath: Set, tolerance: Fraction | None, fit: Fit, by: str
+    value: Fraction, stages: int, top: Set, beneath: Set, tolerance: Fraction | None, fit: StageConstraints, by: str
 ) -> list[tuple[Any, ...]]:
     """(what the order asks for, |error|, sum, largest, top, beneath) of every solution, in order."""
     found = []
@@ -105,10 +106,10 @@ def counts(draw: st.DrawFn, most: int = 5) -> Set:
 
 
 @st.composite
-def fits(draw: st.DrawFn, stages: int) -> Fit:
+def fits(draw: st.DrawFn, stages: int) -> StageConstraints:
     low, high = sorted(draw(st.tuples(st.integers(2, 60), st.integers(40, 200))))
     bounded = draw(st.sampled_from([False, False, True]))
-    return Fit(
+    return StageConstraints(
         hunting=draw(st.booleans()),
         reverted=draw(st.sampled_from([False, False, True])),
         different=draw(st.sampled_from([False, False, True])),
@@ -120,7 +121,7 @@ def fits(draw: st.DrawFn, stages: int) -> Fit:
 
 
 @st.composite
-def questions(draw: st.DrawFn) -> tuple[Fraction, int, Set, Set, Fit]:
+def questions(draw: st.DrawFn) -> tuple[Fraction, int, Set, Set, StageConstraints]:
     stages = draw(st.sampled_from([1, 2, 2, 3, 4]))
     top, beneath = (draw(counts({1: 12, 2: 7, 3: 4, 4: 3}[stages])) for _ in range(2))
     near = Fraction(prod(draw(st.sampled_from(top)) for _ in range(stages)))
@@ -132,13 +133,13 @@ def questions(draw: st.DrawFn) -> tuple[Fraction, int, Set, Set, Fit]:
 def asked(value: Fraction, stages: int, top: Set, beneath: Set, **more: Any) -> StageFindings:
     """A ratio below 1 has its pinions on top."""
     wheels, pinions = (top, beneath) if value >= 1 else (beneath, top)
-    return find_stages(Wanted(value), stages, wheels, pinions, **more)
+    return find_stages(TargetRatio(value), stages, wheels, pinions, **more)
 
 
 @given(questions(), st.fractions(0, Fraction(1, 2)), st.sampled_from(ORDERS), st.integers(1, 12))
 @settings(max_examples=150)
 def test_all_solutions_within_a_tolerance_are_counted_and_the_best_listed(
-    question: tuple[Fraction, int, Set, Set, Fit], tolerance: Fraction, by: str, best: int
+    question: tuple[Fraction, int, Set, Set, StageConstraints], tolerance: Fraction, by: str, best: int
 ) -> None:
     value, stages, top, beneath, fit = question
     found = asked(value, stages, top, beneath, tolerance=tolerance, by=by, best=best, fit=fit)
@@ -156,7 +157,7 @@ def test_all_solutions_within_a_tolerance_are_counted_and_the_best_listed(
 @given(questions(), st.integers(1, 12))
 @settings(max_examples=80)
 def test_without_a_tolerance_the_best_are_the_best_of_all(
-    question: tuple[Fraction, int, Set, Set, Fit], best: int
+    question: tuple[Fraction, int, Set, Set, StageConstraints], best: int
 ) -> None:
     value, stages, top, beneath, fit = question
     found = asked(value, stages, top, beneath, best=best, fit=fit)
@@ -170,7 +171,7 @@ def test_without_a_tolerance_the_best_are_the_best_of_all(
 @given(questions(), st.fractions(0, Fraction(1, 2)), st.sampled_from(ORDERS), st.sampled_from([2, 5, 12]))
 @settings(max_examples=50)
 def test_pieces_and_blocks_of_any_size_give_the_same(
-    question: tuple[Fraction, int, Set, Set, Fit], tolerance: Fraction, by: str, block: int
+    question: tuple[Fraction, int, Set, Set, StageConstraints], tolerance: Fraction, by: str, block: int
 ) -> None:
     value, stages, top, beneath, fit = question
     whole = asked(value, stages, top, beneath, tolerance=tolerance, by=by, best=3, fit=fit)
@@ -186,29 +187,29 @@ def test_pieces_and_blocks_of_any_size_give_the_same(
 @pytest.mark.parametrize(
     "fit",
     [
-        Fit(),
-        Fit(hunting=True),
-        Fit(reverted=True),
-        Fit(different=True),
-        Fit(internal=1),
-        Fit(reverted=True, internal=1),
-        Fit(hunting=True, reverted=True),
+        StageConstraints(),
+        StageConstraints(hunting=True),
+        StageConstraints(reverted=True),
+        StageConstraints(different=True),
+        StageConstraints(internal=1),
+        StageConstraints(reverted=True, internal=1),
+        StageConstraints(hunting=True, reverted=True),
     ],
     ids=["free", "hunting", "reverted", "different", "ring", "reverted ring", "hunting reverted"],
 )
-def test_two_stages_of_twenty_counts_agree_with_all_combinations(by: str, fit: Fit) -> None:
+def test_two_stages_of_twenty_counts_agree_with_all_combinations(by: str, fit: StageConstraints) -> None:
     top, beneath, tolerance = tuple(range(30, 50)), tuple(range(12, 24)), Fraction(1, 500)
     expected = every_solution(Fraction(5), 2, top, beneath, tolerance, fit, by)
-    found = find_stages(Wanted(Fraction(5)), 2, top, beneath, tolerance=tolerance, by=by, fit=fit, best=15)
+    found = find_stages(TargetRatio(Fraction(5)), 2, top, beneath, tolerance=tolerance, by=by, fit=fit, best=15)
     assert (found.count, listed(found)) == (len(expected), [key[4:] for key in expected[:15]])
 
 
 def test_five_stages_agree_with_all_combinations() -> None:
     top, beneath, value = (20, 21, 37), (11, 12, 17, 19), Fraction("12.3456")
-    expected = every_solution(value, 5, top, beneath, None, Fit(), "error")
-    assert listed(find_stages(Wanted(value), 5, top, beneath, best=40)) == [key[4:] for key in expected[:40]]
-    near = find_stages(Wanted(value), 5, top, beneath, tolerance=Fraction(1, 100), by="centres")
-    expected = every_solution(value, 5, top, beneath, Fraction(1, 100), Fit(), "centres")
+    expected = every_solution(value, 5, top, beneath, None, StageConstraints(), "error")
+    assert listed(find_stages(TargetRatio(value), 5, top, beneath, best=40)) == [key[4:] for key in expected[:40]]
+    near = find_stages(TargetRatio(value), 5, top, beneath, tolerance=Fraction(1, 100), by="centres")
+    expected = every_solution(value, 5, top, beneath, Fraction(1, 100), StageConstraints(), "centres")
     assert (near.count, listed(near)) == (len(expected), [key[4:] for key in expected[:20]])
 
 
@@ -222,12 +223,12 @@ def cut_into(patch: pytest.MonkeyPatch, block: int) -> None:
 
 
 def test_two_stages_for_the_month_have_nine_solutions() -> None:
-    found = find_stages(Wanted(MONTH), 2, range(30, 131), range(12, 41), tolerance=Fraction(1, 10**5))
+    found = find_stages(TargetRatio(MONTH), 2, range(30, 131), range(12, 41), tolerance=Fraction(1, 10**5))
     assert (found.count, len(found), found.complete) == (9, 9, True)
 
 
 def test_three_stages_for_the_month_have_eighty_five_solutions() -> None:
-    found = find_stages(Wanted(MONTH), 3, range(30, 101), range(15, 41), tolerance=Fraction(1, 10**6), best=100)
+    found = find_stages(TargetRatio(MONTH), 3, range(30, 101), range(15, 41), tolerance=Fraction(1, 10**6), best=100)
     assert found.count == len(found) == 85
     best = [solution for solution in found if solution.ratio == Fraction(39 * 73 * 91, 15 * 34 * 38)]
     assert ((39, 73, 91), (15, 34, 38)) in [(solution.top, solution.beneath) for solution in best]
@@ -245,7 +246,7 @@ def test_the_best_three_stages_of_all_counts_from_12_to_100_are_the_best() -> No
             error = float(over) / float(beneath) / float(value) - 1
             if abs(error) < float(least) + 1e-15:
                 least = min(least, abs(Fraction(over, beneath) / value - 1))
-    found = find_stages(Wanted(value), 3, range(12, 101), range(12, 101))
+    found = find_stages(TargetRatio(value), 3, range(12, 101), range(12, 101))
     assert abs(found[0].error) == least
     assert found[0].ratio == Fraction(37 * 59 * 71, 17 * 22 * 31)
     assert found.considered == comb(91, 3) ** 2
@@ -254,7 +255,7 @@ def test_the_best_three_stages_of_all_counts_from_12_to_100_are_the_best() -> No
 
 def test_an_exact_ratio_is_met_exactly_with_the_fewest_teeth_first() -> None:
     value = Fraction(235, 19)
-    found = find_stages(Wanted(value), 2, range(12, 121), range(12, 121), tolerance=Fraction(0), best=50)
+    found = find_stages(TargetRatio(value), 2, range(12, 121), range(12, 121), tolerance=Fraction(0), best=50)
     expected = [
         (sum(top) + sum(beneath), max(*top, *beneath), top, beneath)
         for top in combinations_with_replacement(range(12, 121), 2)
@@ -268,14 +269,14 @@ def test_an_exact_ratio_is_met_exactly_with_the_fewest_teeth_first() -> None:
 
 
 def test_a_ratio_below_one_has_pinions_over_wheels() -> None:
-    fast = find_stages(Wanted(MONTH), 2, range(30, 131), range(12, 41), tolerance=Fraction(1, 10**5))
-    slow = find_stages(Wanted(1 / MONTH), 2, range(30, 131), range(12, 41), tolerance=Fraction(1, 10**5))
+    fast = find_stages(TargetRatio(MONTH), 2, range(30, 131), range(12, 41), tolerance=Fraction(1, 10**5))
+    slow = find_stages(TargetRatio(1 / MONTH), 2, range(30, 131), range(12, 41), tolerance=Fraction(1, 10**5))
     assert slow.top == tuple(range(12, 41))
     assert {(s.beneath, s.top) for s in slow} == {(s.top, s.beneath) for s in fast}
 
 
 def test_many_solutions_are_listed_as_well_as_few() -> None:
-    question = (Wanted(MONTH), 3, range(30, 101), range(15, 41))
+    question = (TargetRatio(MONTH), 3, range(30, 101), range(15, 41))
     all_of_them = find_stages(*question, tolerance=Fraction(1, 20000), best=20000)
     some = find_stages(*question, tolerance=Fraction(1, 20000), best=900)
     assert len(all_of_them) == all_of_them.count == some.count > 8000
@@ -363,12 +364,12 @@ def test_products_past_float64_are_found_exactly() -> None:
     top = tuple(range(10**9, 10**9 + 16))
     beneath = tuple(range(10**9 + 7, 10**9 + 20))
     value = Fraction(10**18 + 3, 10**18)
-    expected = every_solution(value, 2, top, beneath, Fraction(1, 10**10), Fit(), "error")
+    expected = every_solution(value, 2, top, beneath, Fraction(1, 10**10), StageConstraints(), "error")
     found = asked(value, 2, top, beneath, tolerance=Fraction(1, 10**10))
     assert expected
     assert (found.count, listed(found)) == (len(expected), [key[4:] for key in expected[:20]])
-    small = find_stages(Wanted(Fraction(10**17)), 2, top, (3, 5), best=3)
-    expected = every_solution(Fraction(10**17), 2, top, (3, 5), None, Fit(), "error")
+    small = find_stages(TargetRatio(Fraction(10**17)), 2, top, (3, 5), best=3)
+    expected = every_solution(Fraction(10**17), 2, top, (3, 5), None, StageConstraints(), "error")
     assert listed(small) == [key[4:] for key in expected[:3]]
 
 
@@ -406,20 +407,25 @@ def test_pairings_are_judged_as_one_by_one(data: st.DataObject, size: int) -> No
 
 
 def test_a_sense_that_no_counts_can_give_is_named() -> None:
-    found = find_stages(Wanted(MONTH, -1), 2, range(30, 131), range(12, 41), tolerance=Fraction(1, 10**5))
+    found = find_stages(TargetRatio(MONTH, -1), 2, range(30, 131), range(12, 41), tolerance=Fraction(1, 10**5))
     assert (found.count, found.complete) == (0, True)
     assert found.shortfall.removed == {"the other sense of rotation": found.considered}
     for word in ("idler", "stage", "internal=1"):
         assert word in found.shortfall.advice
     turned = find_stages(
-        Wanted(MONTH, -1), 2, range(30, 131), range(12, 41), tolerance=Fraction(1, 10**5), fit=Fit(internal=1)
+        TargetRatio(MONTH, -1),
+        2,
+        range(30, 131),
+        range(12, 41),
+        tolerance=Fraction(1, 10**5),
+        fit=StageConstraints(internal=1),
     )
     assert turned.count == 9
-    assert find_stages(Wanted(MONTH, 1), 2, range(30, 131), range(12, 41), tolerance=Fraction(1, 10**5)).count == 9
+    assert find_stages(TargetRatio(MONTH, 1), 2, range(30, 131), range(12, 41), tolerance=Fraction(1, 10**5)).count == 9
 
 
 def test_an_empty_answer_names_the_nearest_miss_and_a_tolerance_that_gives_it() -> None:
-    question = (Wanted(Fraction("13.36838")), 2, range(12, 101), range(12, 101))
+    question = (TargetRatio(Fraction("13.36838")), 2, range(12, 101), range(12, 101))
     found = find_stages(*question, tolerance=Fraction(1, 10**8))
     best = find_stages(*question, best=1)[0]
     assert found.count == 0
@@ -431,14 +437,16 @@ def test_an_empty_answer_names_the_nearest_miss_and_a_tolerance_that_gives_it() 
 
 
 def test_an_empty_answer_says_what_one_more_stage_gives() -> None:
-    question = (Wanted(Fraction("13.36838")), range(12, 101), range(12, 101))
+    question = (TargetRatio(Fraction("13.36838")), range(12, 101), range(12, 101))
     found = find_stages(question[0], 2, *question[1:], tolerance=Fraction(1, 10**7))
     three = find_stages(question[0], 3, *question[1:], tolerance=Fraction(1, 10**7))
     assert f"one more stage gives {three.count} solutions" in found.shortfall.advice
 
 
 def test_a_condition_that_removes_everything_is_charged() -> None:
-    found = find_stages(Wanted(Fraction(16)), 2, (40, 80), (10, 20), tolerance=Fraction(0), fit=Fit(hunting=True))
+    found = find_stages(
+        TargetRatio(Fraction(16)), 2, (40, 80), (10, 20), tolerance=Fraction(0), fit=StageConstraints(hunting=True)
+    )
     removed = found.shortfall.removed
     assert removed is not None
     assert removed["no pairing with coprime counts in every stage"] == 3
@@ -447,13 +455,13 @@ def test_a_condition_that_removes_everything_is_charged() -> None:
 
 
 def test_counts_all_above_the_largest_allowed_are_charged_to_it() -> None:
-    found = find_stages(Wanted(Fraction(4)), 2, (40, 80), (10, 20), fit=Fit(largest=30))
+    found = find_stages(TargetRatio(Fraction(4)), 2, (40, 80), (10, 20), fit=StageConstraints(largest=30))
     assert found.shortfall.removed == {"a count above 30": 9}
     assert (found.count, len(found)) == (0, 0)
 
 
 def test_an_order_that_needs_a_tolerance_says_which_was_used() -> None:
-    found = find_stages(Wanted(MONTH), 3, range(30, 101), range(15, 41), by="total")
+    found = find_stages(TargetRatio(MONTH), 3, range(30, 101), range(15, 41), by="total")
     assert found.count == 85
     assert "1e-6" in found.note
     data = found.to_dict()
@@ -468,14 +476,14 @@ def test_an_order_that_needs_a_tolerance_says_which_was_used() -> None:
         ({"best": 0}, "best 0"),
         ({"by": "beauty"}, "beauty"),
         ({"tolerance": Fraction(-1)}, "tolerance"),
-        ({"fit": Fit(internal=3)}, "internal"),
-        ({"fit": Fit(least_total=9, most_total=8)}, "least_total"),
+        ({"fit": StageConstraints(internal=3)}, "internal"),
+        ({"fit": StageConstraints(least_total=9, most_total=8)}, "least_total"),
         ({"wheels": ()}, "no tooth counts"),
         ({"wheels": (0, 3)}, "0 teeth"),
     ],
 )
 def test_questions_without_sense_are_refused(change: dict[str, Any], said: str) -> None:
-    question = {"wanted": Wanted(MONTH), "stages": 2, "wheels": range(30, 60), "pinions": range(12, 20), **change}
+    question = {"wanted": TargetRatio(MONTH), "stages": 2, "wheels": range(30, 60), "pinions": range(12, 20), **change}
     with pytest.raises(QuestionError) as caught:
         find_stages(**question)
     assert said in str(caught.value)
@@ -484,30 +492,30 @@ def test_questions_without_sense_are_refused(change: dict[str, Any], said: str) 
 
 def test_tables_that_would_not_fit_in_memory_are_refused() -> None:
     with pytest.raises(RangeError, match="too many"):
-        find_stages(Wanted(MONTH), 5, range(12, 2000), range(12, 2000))
+        find_stages(TargetRatio(MONTH), 5, range(12, 2000), range(12, 2000))
     with pytest.raises(RangeError, match="too many"):
-        find_stages(Wanted(MONTH), 2, range(10**9, 10**9 + 10000), range(12, 2000))
+        find_stages(TargetRatio(MONTH), 2, range(10**9, 10**9 + 10000), range(12, 2000))
 
 
 def test_a_ratio_beyond_all_counts_is_refused_or_missed_by_the_nearest() -> None:
     with pytest.raises(RangeError, match="far out of reach"):
-        find_stages(Wanted(Fraction(10**999)), 3, range(12, 101), range(12, 101))
-    found = find_stages(Wanted(Fraction(10**6)), 3, range(12, 101), range(12, 101), tolerance=Fraction(1, 100))
+        find_stages(TargetRatio(Fraction(10**999)), 3, range(12, 101), range(12, 101))
+    found = find_stages(TargetRatio(Fraction(10**6)), 3, range(12, 101), range(12, 101), tolerance=Fraction(1, 100))
     assert "100 x 100 x 100 / 12 x 12 x 12" in found.shortfall.nearest
-    best = find_stages(Wanted(Fraction(10**6)), 3, range(12, 101), range(12, 101), best=2)
+    best = find_stages(TargetRatio(Fraction(10**6)), 3, range(12, 101), range(12, 101), best=2)
     assert listed(best) == [((100, 100, 100), (12, 12, 12)), ((99, 100, 100), (12, 12, 12))]
 
 
 def test_a_look_at_too_many_pairs_is_refused_with_a_tolerance_that_will_do() -> None:
-    question = (Wanted(MONTH), 4, range(12, 212), range(12, 212))
+    question = (TargetRatio(MONTH), 4, range(12, 212), range(12, 212))
     with pytest.raises(RangeError, match="narrow the tolerance"):
-        find_stages(*question, tolerance=Fraction(1, 1000), fit=Fit(hunting=True))
+        find_stages(*question, tolerance=Fraction(1, 1000), fit=StageConstraints(hunting=True))
 
 
 # many workers, and work cut short -------------------------------------------------------------------------------------
 
 
-QUESTION = (Wanted(Fraction("13.36838")), 3, range(12, 61), range(12, 61))
+QUESTION = (TargetRatio(Fraction("13.36838")), 3, range(12, 61), range(12, 61))
 
 
 @pytest.mark.parametrize("by", ["error", "total", "hunting"])
@@ -543,7 +551,7 @@ def test_an_interrupt_keeps_what_was_found_and_a_journal_takes_it_up(
             raise KeyboardInterrupt
         return real(task)
 
-    monkeypatch.setattr("geartrain.synthesis.stages.sweep.search_segment", some)
+    monkeypatch.setattr("geartrain.synthesis.ratio.search_segments.search_segment", some)
     with Journal(tmp_path / "journal", {"month": 1}) as journal:
         part = find_stages(*QUESTION, tolerance=Fraction(1, 10**5), journal=journal)
         assert 0 < len(journal) < 9

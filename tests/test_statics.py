@@ -20,8 +20,8 @@ from reference_solver import echelon, is_a_linkage, rigid_rows, solve_naively, w
 from strategies import Data, trains
 
 from geartrain import GearTrain, load
+from geartrain.dynamics.torques import Torques
 from geartrain.report import report_train, to_markdown, torques_data, torques_document
-from geartrain.torques import Torques
 
 AXLE = """
 links:

@@ -15,13 +15,13 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from geartrain import load
-from geartrain.analysis import GearTrain
+from geartrain.analysis.gear_train import GearTrain
 from geartrain.errors import GearTrainError, QuestionError, RangeError
-from geartrain.parallel import Journal, open_executor
+from geartrain.numerics.work import Journal, open_executor
 from geartrain.synthesis.formulas import with_counts
-from geartrain.uncertainty.counts import CountSweep, find_doubts, sweep
-from geartrain.uncertainty.counts.batch import Batch
-from geartrain.uncertainty.counts.question import ask
+from geartrain.uncertainty.posterior import ToothCountPosterior, find_priors, infer_counts
+from geartrain.uncertainty.posterior.enumeration import LikelihoodBatch
+from geartrain.uncertainty.posterior.inference_problem import build_inference_problem
 
 CHAIN: dict[str, Any] = {
     "name": "chain",
@@ -141,8 +141,8 @@ def case(request: pytest.FixtureRequest) -> tuple[dict[str, Any], list[Any]]:
     return data, list(all_of(data))
 
 
-def run(data: Mapping[str, Any], **options: Any) -> CountSweep:
-    return sweep(declared(data).declaration, **options)
+def run(data: Mapping[str, Any], **options: Any) -> ToothCountPosterior:
+    return infer_counts(declared(data).declaration, **options)
 
 
 @pytest.mark.parametrize("method", ["enumerate", "decompose"])
@@ -340,7 +340,7 @@ def test_shares_of_variance_are_those_of_conditional_means() -> None:
 
 def test_sampled_shares_come_near_the_exact_ones(monkeypatch: pytest.MonkeyPatch) -> None:
     exact = run(PLANETARY).shares["carrier"]
-    monkeypatch.setattr("geartrain.uncertainty.counts.shares._LISTED", 1)
+    monkeypatch.setattr("geartrain.uncertainty.posterior.variance_shares._LISTED", 1)
     about = run(PLANETARY).shares["carrier"]
     assert not about.exact
     for wheel, share in exact.whole.items():
@@ -380,8 +380,8 @@ def test_floats_stay_within_their_bounds_even_for_immense_counts() -> None:
     for size in (1, 10**3, 10**9):
         free = {wheel: [count * size + step for step in range(3)] for wheel, count in zip("sp", (22, 17), strict=True)}
         train = declared(PLANETARY).declaration
-        question = ask(train, find_doubts(train, free))
-        batch = Batch(question, every=True)
+        question = build_inference_problem(train, find_priors(train, free))
+        batch = LikelihoodBatch(question, every=True)
         draw = np.random.default_rng(size)
         counts = {wheel: draw.choice(np.array(some), 50) for wheel, some in batch.domains.items()}
         for name, (values, bounds) in batch.speeds(batch.columns(counts)).items():
@@ -394,7 +394,7 @@ def test_floats_stay_within_their_bounds_even_for_immense_counts() -> None:
 
 def test_the_antikythera_fits_its_inscriptions_and_others_fit_as_well() -> None:
     """What freeth-2008 prints meets every demand exactly; the evidence leaves more."""
-    found = sweep(load("freeth-2008-doubt").declaration, most=3)
+    found = infer_counts(load("freeth-2008-doubt").declaration, most=3)
     assert found.method == "decompose"
     assert found.best[0].misfit == 0
     printed = {"b2": 64, "c1": 38, "c2": 48, "e3": 223, "e4": 188, "m3": 27, "n1": 53, "f1": 53, "g1": 54}
@@ -409,7 +409,7 @@ def test_the_antikythera_fits_its_inscriptions_and_others_fit_as_well() -> None:
 
 def test_pointers_that_must_be_exact_force_the_published_counts() -> None:
     """Only wheels that mesh and cancel (e5 ~ k1, k2 ~ e6), and those that no dial sees, may be other than printed."""
-    found = sweep(load("freeth-2008-doubt").declaration, scale=Fraction(0), most=3)
+    found = infer_counts(load("freeth-2008-doubt").declaration, scale=Fraction(0), most=3)
     forced = {w: p.likeliest for w, p in found.posteriors.items() if max(c.value for c in p.chances) == 1}
     printed = {"b2": 64, "c1": 38, "c2": 48, "e3": 223, "e4": 188, "l1": 38, "m1": 96, "m3": 27, "n1": 53, "nO": 57}
     assert forced == printed | {"o1": 60, "f1": 53, "g1": 54, "h1": 60, "i1": 60}
@@ -419,7 +419,7 @@ def test_pointers_that_must_be_exact_force_the_published_counts() -> None:
 
 def test_the_metonic_train_alone_by_brute_force() -> None:
     """5 turns in 19 years through b2, l1, l2, m1, m2, n1, of which four are in doubt: plain fractions, no train."""
-    found = sweep(load("freeth-2008-doubt").declaration, outputs=["metonic"])
+    found = infer_counts(load("freeth-2008-doubt").declaration, outputs=["metonic"])
     fits = [
         (b2, l1, m1, n1)
         for b2, l1, m1, n1 in product(range(64, 67), (37, 38), range(95, 100), range(15, 81))
@@ -464,8 +464,8 @@ def test_an_interrupted_run_says_what_it_knows() -> None:
 
 def test_a_batch_says_what_the_solver_says() -> None:
     train = declared(CHAIN)
-    asked = ask(train.declaration, find_doubts(train.declaration, {}))
-    batch, draw = Batch(asked, every=True), random.Random(1)
+    asked = build_inference_problem(train.declaration, find_priors(train.declaration, {}))
+    batch, draw = LikelihoodBatch(asked, every=True), random.Random(1)
     counts = {wheel: np.array([draw.choice(domain) for _ in range(40)]) for wheel, domain in batch.domains.items()}
     rows = batch.columns(counts)
     met, speeds = batch.judged(rows)[0], batch.speeds(rows)

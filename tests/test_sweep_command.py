@@ -102,22 +102,22 @@ def test_options_that_say_nothing_are_refused(train: Path, options: tuple[str, s
 
 
 def test_a_sample_may_be_resumed_and_another_question_is_refused(train: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    from geartrain.uncertainty.counts import sweeping
+    from geartrain.uncertainty.posterior import inference as sweeping
 
     options = ("--method", "sample", "--samples", "100000", "--json")
     whole = json.loads(call("sweep", train, *options).stdout)
-    real = sweeping.Tally.join
+    real = sweeping.PosteriorTally.join
 
-    def cut(tally: sweeping.Tally, other: dict[str, object]) -> None:
+    def cut(tally: sweeping.PosteriorTally, other: dict[str, object]) -> None:
         real(tally, other)
         if tally.looked > 50_000:
             raise KeyboardInterrupt
 
-    monkeypatch.setattr(sweeping.Tally, "join", cut)
+    monkeypatch.setattr(sweeping.PosteriorTally, "join", cut)
     result = call("sweep", train, *options)
     assert result.exit_code == 130
     assert json.loads(result.stdout)["ended"] == "interrupted"
-    monkeypatch.setattr(sweeping.Tally, "join", real)
+    monkeypatch.setattr(sweeping.PosteriorTally, "join", real)
     assert len(list(train.parent.glob("*.partial.jsonl"))) == 1
     other = call("sweep", train, "--method", "sample", "--samples", "90000", "--resume")
     assert other.exit_code != 0

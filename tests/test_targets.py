@@ -14,8 +14,8 @@ from hypothesis import strategies as st
 
 import geartrain
 from geartrain.errors import GearTrainError, QuestionError, RangeError
-from geartrain.synthesis.counts import Runs, as_array, read_counts
-from geartrain.synthesis.targets import Wanted, read_ratio
+from geartrain.synthesis.target_ratio import TargetRatio, read_ratio
+from geartrain.synthesis.tooth_count_ranges import CountRuns, as_array, read_counts
 
 YEAR, MONTH = Fraction("365.242190402"), Fraction("29.530588853")  # days, as the table prints them
 
@@ -78,7 +78,7 @@ def test_a_name_brings_its_source_along() -> None:
 
 
 def test_every_name_of_the_table_is_read() -> None:
-    path = Path(geartrain.__file__).parent / "periods.csv"
+    path = Path(geartrain.__file__).parent / "train" / "periods.csv"
     for row in csv.DictReader(path.read_text(encoding="utf-8").splitlines()):
         value = abs(Fraction(row["exact"] or row["value"]))
         if row["kind"] == "period":
@@ -173,7 +173,7 @@ def test_a_speed_per_year_stays_what_it_is_per_year() -> None:
 def test_a_wanted_ratio_is_positive() -> None:
     for value in (Fraction(0), Fraction(-1, 3)):
         with pytest.raises(QuestionError, match="the sense is told apart"):
-            Wanted(value)
+            TargetRatio(value)
 
 
 @given(st.text(max_size=30) | st.text("0123456789.:/,+-eEdhx ", max_size=12))
@@ -207,7 +207,7 @@ def test_counts_ascend_without_repeats(text: str, counts: tuple[int, ...]) -> No
 @given(st.sets(st.integers(1, 60), min_size=1))
 def test_runs_are_the_sequence_of_their_counts(counts: set[int]) -> None:
     plain = sorted(counts)
-    runs = Runs.of(counts)
+    runs = CountRuns.of(counts)
     assert list(runs) == plain == list(runs.as_array()) == list(as_array(plain))
     assert [len(runs), runs.least, runs.most] == [len(plain), plain[0], plain[-1]]
     assert [runs[at] for at in range(len(runs))] == plain
@@ -218,13 +218,19 @@ def test_runs_are_the_sequence_of_their_counts(counts: set[int]) -> None:
         assert (np.int64(count) in runs) == (count in counts)
         assert runs.upto(count) == sum(other <= count for other in plain)
         assert list(runs.between(count, 30)) == [other for other in plain if count <= other <= 30]
-    assert read_counts(str(runs)) == runs == pickle.loads(pickle.dumps(runs)) == Runs.of(runs) == Runs.of(plain[::-1])
+    assert (
+        read_counts(str(runs))
+        == runs
+        == pickle.loads(pickle.dumps(runs))
+        == CountRuns.of(runs)
+        == CountRuns.of(plain[::-1])
+    )
 
 
 def test_a_range_of_any_length_stays_a_range() -> None:
     counts = read_counts("12:1000000000")
     assert (len(counts), counts[-1], counts[10**8], 10**9 in counts) == (10**9 - 11, 10**9, 10**8 + 12, True)
-    assert counts == Runs.of(range(12, 10**9 + 1))
+    assert counts == CountRuns.of(range(12, 10**9 + 1))
     assert counts.to_dict() == {"counts": "12:1000000000", "least": 12, "most": 10**9, "number": 10**9 - 11}
     with pytest.raises(RangeError, match="999999989 tooth counts to list"):
         counts.as_array()

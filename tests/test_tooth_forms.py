@@ -15,17 +15,17 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from pydantic import ValidationError
 
-from geartrain.conjugate.measures import height, measure
-from geartrain.conjugate.path import Path
-from geartrain.contact.solving import solve
 from geartrain.errors import GearTrainError
-from geartrain.teeth.conjugate import ConjugateLaw
+from geartrain.teeth.conjugate.conjugate_form import ConjugateToothForm, WheelPair
+from geartrain.teeth.conjugate.conjugate_transmission import ConjugateTransmission
+from geartrain.teeth.conjugate.off_design import OffDesignTransmission, outlines
+from geartrain.teeth.conjugate.path_costs import height, measure
+from geartrain.teeth.conjugate.path_of_contact import PathOfContact
+from geartrain.teeth.contact.outline_contact import solve
 from geartrain.teeth.cycloidal import Cycloidal
 from geartrain.teeth.involute import Involute
 from geartrain.teeth.lantern import Lantern
 from geartrain.teeth.least_friction import LeastFriction
-from geartrain.teeth.misplaced import MisplacedLaw, outlines
-from geartrain.teeth.shape import Shape, Wheels
 from geartrain.teeth.uniform_stress import UniformStress
 from geartrain.teeth.uniform_temperature import UniformTemperature
 
@@ -42,7 +42,7 @@ SHAPES = {
 RIGHT = pi / 2
 
 
-def shape(form: str, **given: Any) -> Shape:
+def shape(form: str, **given: Any) -> ConjugateToothForm:
     return SHAPES[form](form=form, **given)  # type: ignore[abstract]
 
 
@@ -56,7 +56,7 @@ EVERY = [
 ]
 
 
-def kinds(law: ConjugateLaw) -> set[tuple[str, int]]:
+def kinds(law: ConjugateTransmission) -> set[tuple[str, int]]:
     return {(fault.kind, fault.gear) for fault in law.verdict.faults}
 
 
@@ -103,7 +103,7 @@ def test_a_shifted_pair_is_that_of_a_worked_example() -> None:
     """12 and 24 teeth of 3 mm at 56.5 mm, printed by bolsover.com, "Profile Shifted External Spur Gears"."""
     height = [(44.840 / 2 - 36 / 2) / 3 - 0.6, (79.400 / 2 - 72 / 2) / 3 - 0.36]
     form = Involute(form="involute", shift=[0.6, 0.36], centre_distance=repr(56.5 / 3), addendum=height)
-    found = form.involutes(Wheels(12, 24))
+    found = form.involutes(WheelPair(12, 24))
     assert degrees(found.psi) == pytest.approx(26.0888, abs=6e-5)
     working = 2 * 3 * found.pitch.R1
     assert working == pytest.approx(37.667, abs=6e-4)
@@ -122,7 +122,7 @@ def test_without_a_distance_shifted_wheels_mesh_without_play(
     value = inv(alpha) + 2 * tan(alpha) * shifts / teeth
     assume(value > 1e-4)
     working = bisected(lambda a: inv(a) - value, 0.0, 1.5)
-    found = Involute(form="involute", shift=[x1, x2]).involutes(Wheels(z1, z2, ring))
+    found = Involute(form="involute", shift=[x1, x2]).involutes(WheelPair(z1, z2, ring))
     assert found.distance == pytest.approx(teeth / 2 * cos(alpha) / cos(working), rel=1e-11)
     thick = [2 * ((pi / 2 + 2 * x * tan(alpha)) / z + inv(alpha) - inv(working)) for z, x in ((z1, x1), (z2, x2))]
     second = 2 * pi / z2 - thick[1] if ring else thick[1]
@@ -207,7 +207,7 @@ def test_tips_of_a_ring_clear_those_of_its_pinion_by_the_textbook(z1: int, z2: i
     theta2 = acos((a**2 + tip2**2 - tip1**2) / (2 * a * tip2))
     gap = theta1 * z1 / z2 + inv(alpha) - inv(second) - theta2
     assert (("interference", 0) in kinds(law)) == (gap < 0)
-    from geartrain.conjugate.ringtips import tip_gap
+    from geartrain.teeth.conjugate.tip_interference import tip_gap
 
     assert tip_gap(law.path) == pytest.approx(gap, abs=1e-13)
 
@@ -231,14 +231,14 @@ def corner_cuts(z: int, x: float) -> float:
 
 @pytest.mark.parametrize(("z", "x"), [(8, 0.0), (10, 0.1), (12, 0.0), (14, 0.0), (16, 0.0), (17, -0.1), (9, 0.3)])
 def test_the_rack_cuts_the_involute_away_as_far_as_its_corner_goes(z: int, x: float) -> None:
-    wheel = Involute(form="involute", shift=[x, 0]).involutes(Wheels(z, 60)).first
+    wheel = Involute(form="involute", shift=[x, 0]).involutes(WheelPair(z, 60)).first
     expected = corner_cuts(z, x)
     assert expected > 0
     assert wheel.undercut() == pytest.approx(expected, abs=2e-4)
 
 
 def test_from_eighteen_teeth_on_no_standard_wheel_is_undercut() -> None:
-    cut = {z: Involute(form="involute").involutes(Wheels(z, 60)).first.undercut() for z in range(6, 30)}
+    cut = {z: Involute(form="involute").involutes(WheelPair(z, 60)).first.undercut() for z in range(6, 30)}
     assert [z for z, radius in cut.items() if radius == 0] == list(range(18, 30))
 
 
@@ -401,7 +401,7 @@ def test_the_margin_that_leaves_least_friction_no_path_is_the_one_of_its_lowest_
     d = (np.arange(200_000) + 0.5) / 200_000 * 2 * R * (most - u)
     arc = float(np.mean(1 / np.sqrt(1 - (u + d / (2 * R)) ** 2))) * 2 * R * (most - u)
 
-    def path(share: float) -> Path:
+    def path(share: float) -> PathOfContact:
         return shape("least_friction", margin=repr(u), arcs=[repr(share * arc / pi), 0]).path(24, 36)
 
     assert degrees(float(path(0.99).at(-path(0.99).arcs[0]).psi)) == pytest.approx(25, abs=1e-9)
@@ -464,7 +464,7 @@ def test_uniform_temperature_has_the_depth_it_is_asked_for() -> None:
 def test_what_is_to_be_uniform_is(wheels: dict[str, Any]) -> None:
     part = np.array([-0.9, -0.5, -0.1, 0.1, 0.5, 0.9])
 
-    def contact(form: Shape) -> Any:
+    def contact(form: ConjugateToothForm) -> Any:
         path = form.path(20, 50, **wheels)
         return path.at(np.where(part < 0, path.arcs[0], path.arcs[1]) * part)
 
@@ -479,7 +479,7 @@ def test_what_is_to_be_uniform_is(wheels: dict[str, Any]) -> None:
 # friction ------------------------------------------------------------------------------------------------------------
 
 
-def torque_balance(path: Path, X: float, friction: float, driver: int) -> float:
+def torque_balance(path: PathOfContact, X: float, friction: float, driver: int) -> float:
     """Efficiency by forces on bodies: normal from neighbouring flank points, friction against the bodies' sliding."""
     pitch, step = path.pitch, 1e-5 * path.pitch.p
     ends = np.array([X - step, X, X + step])
@@ -527,9 +527,9 @@ BALANCED = [
 
 @pytest.mark.parametrize(("form", "wheels", "driver"), BALANCED)
 def test_the_efficiency_of_a_contact_is_that_of_its_forces_on_turning_bodies(
-    form: Shape, wheels: dict[str, Any], driver: int
+    form: ConjugateToothForm, wheels: dict[str, Any], driver: int
 ) -> None:
-    from geartrain.conjugate.friction import efficiency
+    from geartrain.teeth.conjugate.path_costs import efficiency
 
     path = form.path(20, 45, **wheels)
     for part in (-0.9, -0.4, 0.3, 0.95):
@@ -540,7 +540,7 @@ def test_the_efficiency_of_a_contact_is_that_of_its_forces_on_turning_bodies(
 
 
 def test_recess_is_milder_than_approach_by_the_exact_fractions() -> None:
-    from geartrain.conjugate.friction import efficiency
+    from geartrain.teeth.conjugate.path_costs import efficiency
 
     path, friction, alpha = shape("involute").path(24, 36), 0.2, radians(20)
     A, B, d = 1 / 12, 1 / 18, 1.2
@@ -576,7 +576,7 @@ def test_the_mean_is_that_of_ten_thousand_instants(wheels: dict[str, Any]) -> No
 
 
 def test_while_two_pairs_touch_each_takes_half_the_drivers_torque() -> None:
-    from geartrain.conjugate.friction import efficiency
+    from geartrain.teeth.conjugate.path_costs import efficiency
 
     law = shape("involute").law(30, 50, 0.1)
     S = np.linspace(0, law.period, 400)
@@ -590,7 +590,7 @@ def test_while_two_pairs_touch_each_takes_half_the_drivers_torque() -> None:
 
 
 @pytest.mark.parametrize("form", EVERY)
-def test_the_second_wheel_drives_as_the_first_of_the_exchanged_pair_does(form: Shape) -> None:
+def test_the_second_wheel_drives_as_the_first_of_the_exchanged_pair_does(form: ConjugateToothForm) -> None:
     for angle in (None, RIGHT):
         law = form.law(21, 50, 0.1, driver=2, shaft_angle=angle)
         other = form.law(50, 21, 0.1, shaft_angle=angle)
@@ -602,7 +602,7 @@ def test_the_second_wheel_drives_as_the_first_of_the_exchanged_pair_does(form: S
 
 
 @pytest.mark.parametrize("form", EVERY)
-def test_turned_back_the_law_is_its_mirror_image_and_ahead_by_the_play(form: Shape) -> None:
+def test_turned_back_the_law_is_its_mirror_image_and_ahead_by_the_play(form: ConjugateToothForm) -> None:
     loose = form.model_copy(update={"backlash": shape("involute", backlash="0.1").backlash})
     law, back = loose.law(24, 36, 0.1), loose.law(24, 36, 0.1, direction=-1)
     S = np.linspace(-0.3, 0.5, 33)
@@ -628,7 +628,7 @@ def test_at_zero_a_tooth_of_the_driver_stands_on_the_line_of_centres() -> None:
 @given(st.sampled_from(EVERY), st.integers(18, 90), st.integers(18, 90), st.floats(0, 0.4), st.sampled_from([1, 2]))
 @settings(max_examples=40, deadline=None)
 def test_every_form_keeps_the_exact_ratio_and_never_gains(
-    form: Shape, z1: int, z2: int, friction: float, driver: int
+    form: ConjugateToothForm, z1: int, z2: int, friction: float, driver: int
 ) -> None:
     law = form.law(z1, z2, friction, driver)
     S = np.linspace(0, 3 * law.period, 101)
@@ -761,7 +761,7 @@ def test_a_misplaced_involute_does_what_its_working_circles_say(wheels: dict[str
     at_home = shape("involute", addendum="0.8").law(20, 50, **wheels).pair
     for driver in (1, 2):
         working = shape("involute", addendum="0.8", centre_distance=wide).law(20, 50, 0.2, driver, **wheels)
-        found = MisplacedLaw(at_home, float(wide), 0.2, driver)
+        found = OffDesignTransmission(at_home, float(wide), 0.2, driver)
         low, high = found.error_range()
         assert high - low < 1e-12
         assert low == pytest.approx(-working.verdict.play / 2, rel=1e-8)
@@ -777,7 +777,7 @@ def test_a_misplaced_involute_does_what_its_working_circles_say(wheels: dict[str
 
 def test_at_a_wrong_distance_other_teeth_have_a_law_of_their_own() -> None:
     law = shape("uniform_stress", arcs="0.6", centre_distance="30.03").law(24, 36, 0.1)
-    assert isinstance(law, MisplacedLaw)
+    assert isinstance(law, OffDesignTransmission)
     low, high = law.error_range()
     assert high - low > 1e-6
     slow, fast = law.speed_range()
@@ -793,7 +793,7 @@ def test_at_a_wrong_distance_other_teeth_have_a_law_of_their_own() -> None:
     assert law.efficiency_mean() == pytest.approx(design.efficiency_mean(), abs=2e-3)
     assert law.efficiency_at_constant_load() == pytest.approx(law.efficiency_mean(), abs=1e-4)
     for part, locks in ((0.999, False), (1.001, True)):
-        rubbed = MisplacedLaw(law.pair, 30.03, part * law.locking_friction)
+        rubbed = OffDesignTransmission(law.pair, 30.03, part * law.locking_friction)
         assert isnan(rubbed.efficiency_mean()) == locks
     assert law.verdict.play > 0
     assert law.verdict

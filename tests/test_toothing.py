@@ -19,11 +19,11 @@ from shapely.affinity import rotate, translate
 
 import geartrain
 from geartrain import GearTrain, GearTrainError
-from geartrain.export import Making, Workpiece, notices, one_wheel, parcel
-from geartrain.meshes import TriangularMesh
+from geartrain.export import ManufacturingSizes, SolidModel, export_files, notices, wheel_file
 from geartrain.scene import make_scene
+from geartrain.teeth.conjugate.conjugate_form import WheelPair
 from geartrain.teeth.involute import Involute
-from geartrain.teeth.shape import Wheels
+from geartrain.teeth.triangular.triangular_mesh import TriangularMesh
 
 TRAINS = sorted(path.stem for path in Path(geartrain.__file__).parent.parent.glob("trains/**/*.yaml"))
 NOTHING = 1e-9  # mm2: an overlap that is none
@@ -31,9 +31,9 @@ FEELER = 1e-12  # mm2: an overlap by which a touch is felt
 CHORDS = 2.5e-3  # modules: what the chords of two flanks add to their play
 
 
-def workpiece(name: str, **making: float) -> Workpiece:
+def workpiece(name: str, **making: float) -> SolidModel:
     train = shipped.train(name)
-    return Workpiece(train, Making(**making), train.states[0] if train.states else None)
+    return SolidModel(train, ManufacturingSizes(**making), train.states[0] if train.states else None)
 
 
 def unrolled(points: Any, bulges: Any) -> np.ndarray:
@@ -62,7 +62,7 @@ class Meshed:
     Knows the tooth numbers, where the layout puts the axes, and for triangular teeth their law.
     """
 
-    def __init__(self, work: Workpiece, gear: Any) -> None:
+    def __init__(self, work: SolidModel, gear: Any) -> None:
         first, second = gear.pair
         mesh = next((each for each in work.sized.meshes if each.name == gear.name), None)
         self.law = None
@@ -254,9 +254,9 @@ def test_the_play_that_is_measured_is_the_play_that_was_asked_for(name: str, pla
 def test_declared_play_is_cut_in_its_own_unit_where_a_module_is_asked_for(form: str) -> None:
     """`backlash: 0.1 mm` has nothing to be compared with until --module says what a module is."""
     train = declared(f"{{form: {form}, backlash: 0.1 mm}}")
-    assert Workpiece(train, Making()).blanks.wheels == {}
-    assert any("module" in each.fix for each in Workpiece(train, Making()).blanks.notices)
-    work = Workpiece(train, Making(module=2.0, bore=0.0))
+    assert SolidModel(train, ManufacturingSizes()).blanks.wheels == {}
+    assert any("module" in each.fix for each in SolidModel(train, ManufacturingSizes()).blanks.notices)
+    work = SolidModel(train, ManufacturingSizes(module=2.0, bore=0.0))
     (play,) = work.blanks.plays
     assert play.length == pytest.approx(0.1, abs=1e-9)
     assert play.angles == pytest.approx((0.1 / 24, 0.1 / 36))
@@ -282,13 +282,13 @@ def test_a_backlash_that_a_pair_cannot_have_is_refused_by_name() -> None:
     triangular = "{form: triangular, half_angle: 30 deg, clearance: 1.02}"
     for form, said in ((triangular, "triangular teeth of pair 'G1'"), ("{form: involute, backlash: 0.1}", "pair 'G1'")):
         with pytest.raises(GearTrainError, match=said) as caught:
-            _ = Workpiece(declared(form), Making(backlash=0.1)).blanks
+            _ = SolidModel(declared(form), ManufacturingSizes(backlash=0.1)).blanks
         assert caught.value.problems[0].fix.startswith("leave --backlash out, or ")
 
 
 def test_the_readme_states_the_play_of_every_pair() -> None:
     work = workpiece("planetary-24-18-60-involute", module=2.0, backlash=0.1)
-    text = next(each for each in parcel(work, ["svg"]) if each.path == "README.md").make().decode()
+    text = next(each for each in export_files(work, ["svg"]) if each.path == "README.md").make().decode()
     rows = re.findall(r"^- (\S+): ([\d.]+) mm, ([\d.]+)° of (\S+), ([\d.]+)° of (\S+)$", text, re.M)
     assert [(row[0], row[3], row[5]) for row in rows] == [("s~p", "s", "p"), ("p~ring", "p", "ring")]
     for _, length, first, one, second, other in rows:
@@ -297,7 +297,7 @@ def test_the_readme_states_the_play_of_every_pair() -> None:
         for angle, wheel in ((first, one), (second, other)):
             assert float(angle) == pytest.approx(degrees(0.1 / z[wheel]), rel=1e-3)
     jammed = workpiece("ferguson-paradox", backlash=0.05)
-    text = next(each for each in parcel(jammed, ["svg"]) if each.path == "README.md").make().decode()
+    text = next(each for each in export_files(jammed, ["svg"]) if each.path == "README.md").make().decode()
     assert re.search(r"^- w101~p20: -0\.3\d+ mm, .*; the pair jams$", text, re.M)
 
 
@@ -320,11 +320,11 @@ PLAIN = "{form: involute}"
      "{form: triangular, half_angle: 30 deg, clearance: 1.02}"],
 )  # fmt: skip
 def test_pairs_that_ask_for_different_teeth_of_one_wheel_are_named(second: str) -> None:
-    work = Workpiece(GearTrain.declare(yaml.safe_load(IDLER.format(first=PLAIN, second=second))), Making())
+    work = SolidModel(GearTrain.declare(yaml.safe_load(IDLER.format(first=PLAIN, second=second))), ManufacturingSizes())
     assert set(work.blanks.wheels) == {"p", "x"}
     assert any("wheel 'w': its pairs 'one' and 'two' ask for different" in each.what for each in notices(work, ["svg"]))
     with pytest.raises(GearTrainError, match="'one' and 'two'"):
-        one_wheel(work, "w", ".svg")
+        wheel_file(work, "w", ".svg")
     scene = make_scene(work.train)
     assert any("'w'" in notice["what"] for notice in scene.notices)
 
@@ -332,7 +332,7 @@ def test_pairs_that_ask_for_different_teeth_of_one_wheel_are_named(second: str) 
 @pytest.mark.parametrize("second", [PLAIN, "{form: involute, addendum: [1, 0.8]}", "{form: involute, dedendum: 1.4}"])
 def test_pairs_that_can_share_a_wheel_share_it(second: str) -> None:
     train = GearTrain.declare(yaml.safe_load(IDLER.format(first=PLAIN, second=second)))
-    work = Workpiece(train, Making(bore=0.0))
+    work = SolidModel(train, ManufacturingSizes(bore=0.0))
     assert set(work.blanks.wheels) == {"p", "w", "x"}
     for gear in train.declaration.gears:
         meshed = Meshed(work, gear)
@@ -341,7 +341,7 @@ def test_pairs_that_can_share_a_wheel_share_it(second: str) -> None:
 
 def test_a_wheel_beside_declared_teeth_without_a_form_of_its_own_is_named() -> None:
     text = IDLER.format(first=PLAIN, second="{form: ideal}")
-    work = Workpiece(GearTrain.declare(yaml.safe_load(text)), Making())
+    work = SolidModel(GearTrain.declare(yaml.safe_load(text)), ManufacturingSizes())
     assert set(work.blanks.wheels) == {"p", "w"}
     assert any("nothing says what teeth run with 'w'" in each.what for each in work.blanks.notices)
 
@@ -372,7 +372,7 @@ revolutes: [{{pair: [frame, a], axis: A}}, {{pair: [frame, b], axis: B}}]
 gears: [{{pair: [p, w], tooth_form: {form}}}]
 inputs: {{a: 1}}
 """)
-    work = Workpiece(GearTrain.declare(data), Making())
+    work = SolidModel(GearTrain.declare(data), ManufacturingSizes())
     assert "w" not in work.blanks.wheels
     assert any("wheel 'w'" in each.what for each in work.blanks.notices)
     drawn = make_scene(work.train).wheels[1]
@@ -382,7 +382,7 @@ inputs: {{a: 1}}
 def test_shifted_involutes_stand_where_they_run_without_play() -> None:
     """The layout used to leave them at the distance of their reference circles, where such teeth jam."""
     train = declared("{form: involute, shift: [0.4, 0.3]}")
-    work = Workpiece(train, Making(bore=0.0))
+    work = SolidModel(train, ManufacturingSizes(bore=0.0))
     meshed = Meshed(work, train.declaration.gears[0])
     assert meshed.distance > 30.6
     assert max(meshed.overlap(t) for t in meshed.positions(8)) <= NOTHING
@@ -392,6 +392,6 @@ def test_shifted_involutes_stand_where_they_run_without_play() -> None:
 def test_a_pinion_that_never_leaves_the_teeth_of_its_ring_is_refused() -> None:
     """82 teeth in 84, a module tall: no tip circle is crossed, and the teeth overlap on the far side."""
     form = Involute.model_validate({"form": "involute"})
-    found = form.pair(Wheels(82, 84, True)).faults
+    found = form.pair(WheelPair(82, 84, True)).faults
     assert [fault.kind for fault in found] == ["interference"]
     assert "tips of the ring" in found[0].what

@@ -13,7 +13,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from geartrain import GearTrainError, load, shipped
-from geartrain.torques import Balance, Mesh, find_flows
+from geartrain.dynamics.torques import LoadedPair, TorqueBalance, find_flow_patterns
 
 CASES = json.loads((Path(__file__).parent / "data" / "cases.json").read_text(encoding="utf-8"))["efficiency"]
 
@@ -39,15 +39,15 @@ def fractions(given: dict[str, str]) -> dict[str, Fraction]:
     return {name: Fraction(value) for name, value in given.items()}
 
 
-def balance_of(case: dict[str, Any]) -> Balance:
+def balance_of(case: dict[str, Any]) -> TorqueBalance:
     speeds = fractions(case["speeds"])
     meshes = []
     for at, gear in enumerate(case["gears"]):
         i, j, k = gear["i"], gear["j"], gear["carrier"]
         a, b = gear["zi"], gear["zj"] * (1 if gear["type"] == "external" else -1)
         eta = Fraction(gear["mesh_efficiency"])
-        meshes.append(Mesh(str(at), (i, j, k), (1, 1, 1), a, b, a * (speeds[i] - speeds[k]), eta, eta))
-    return Balance(
+        meshes.append(LoadedPair(str(at), (i, j, k), (1, 1, 1), a, b, a * (speeds[i] - speeds[k]), eta, eta))
+    return TorqueBalance(
         tuple(link for link in case["links"] if link != case["frame"]),
         tuple(meshes),
         fractions(case["torque_known"]),
@@ -60,7 +60,7 @@ def balance_of(case: dict[str, Any]) -> Balance:
 @pytest.mark.parametrize("case", CASES, ids=lambda case: case["id"])
 def test_all_consistent_flows_are_those_of_the_case(case: dict[str, Any]) -> None:
     balance = balance_of(case)
-    flows, complete = find_flows(balance)
+    flows, complete = find_flow_patterns(balance)
     assert complete
     found = [(flow.solved.external, flow.solved.brakes, flow.pattern, flow.solved.multipliers) for flow in flows]
     assert len(found) == case["n_consistent_solutions"] == len(case["solutions"])
@@ -105,12 +105,12 @@ def test_the_efficiency_is_the_ratio_with_each_tooth_ratio_lessened_by_its_loss(
     """Kreines' and Mueller's rule: the ratio of speeds with every basic ratio times eta to the sign of its flow."""
     (known,), (asked,) = case["torque_known"], case["torque_unknown"]
     balance = balance_of(case)
-    plain = Balance(
+    plain = TorqueBalance(
         balance.links,
-        tuple(Mesh(m.id, m.links, m.senses, m.a, m.b, m.rolling) for m in balance.meshes),
+        tuple(LoadedPair(m.id, m.links, m.senses, m.a, m.b, m.rolling) for m in balance.meshes),
         balance.known, balance.unknown, balance.held, balance.locks,
     )  # fmt: skip
-    (lossless,), _ = find_flows(plain)
+    (lossless,), _ = find_flow_patterns(plain)
     links = [link for link in case["links"] if link != case["frame"]]
 
     def ratio(lossy: bool) -> Fraction:

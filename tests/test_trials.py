@@ -15,24 +15,24 @@ from sorge import Pair, least_play
 from test_cutting_batch import chance_that_none_rises
 
 from geartrain import GearTrain, load
-from geartrain.parallel import Journal, open_executor
-from geartrain.teeth.triangular.law import TriangularLaw
-from geartrain.uncertainty.cutting import CutWheel, batch_verdicts, cut_law
-from geartrain.uncertainty.trials import (
-    Means,
-    Plan,
-    find_indices,
-    find_plan,
+from geartrain.numerics.work import Journal, open_executor
+from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
+from geartrain.uncertainty.confidence_intervals import IntervalEstimate, deviation_of, mean_of, percentile_of, wilson
+from geartrain.uncertainty.manufacturing_errors import CutWheel, batch_verdicts, cut_transmission_function
+from geartrain.uncertainty.monte_carlo import (
+    TrialExecution,
+    TrialPlan,
+    find_sobol_indices,
     find_tolerance,
-    question,
-    read_settings,
+    find_trial_plan,
+    journal_key,
+    read_error_overrides,
     run_clearances,
     run_course,
     run_trials,
 )
-from geartrain.uncertainty.trials.block import JAM, draw, judge, pointers
-from geartrain.uncertainty.trials.drawing import Streams
-from geartrain.uncertainty.trials.intervals import Figure, deviation_of, mean_of, percentile_of, wilson
+from geartrain.uncertainty.monte_carlo.random_streams import RandomStreams
+from geartrain.uncertainty.monte_carlo.trial_block import JAM, draw_trial_wheels, judge_trial_pairs, trial_pointers
 
 
 def chain(*counts: tuple[int, int], clearance: float = 1.02, **more: Any) -> GearTrain:
@@ -56,8 +56,8 @@ def chain(*counts: tuple[int, int], clearance: float = 1.02, **more: Any) -> Gea
     return GearTrain.declare(data | more)
 
 
-def planned(train: GearTrain, *settings: str) -> Plan:
-    return find_plan(train, read_settings(settings))
+def planned(train: GearTrain, *settings: str) -> TrialPlan:
+    return find_trial_plan(train, read_error_overrides(settings))
 
 
 EVERY = ("placement=2 %", "eccentricity=6 %", "tip=3 %", "aperture=uniform 4 %", "centre=2 %")
@@ -97,14 +97,14 @@ def test_the_probability_of_a_jam_is_its_integral() -> None:
 def test_every_trial_follows_the_law_of_its_own_wheels() -> None:
     """All kinds of error, every trial asked at its own angle."""
     plan = planned(chain((23, 16)), *EVERY)
-    drawn = draw(plan, Streams(3, 0), 40)
+    drawn = draw_trial_wheels(plan, RandomStreams(3, 0), 40)
     turns = np.random.default_rng(1).uniform(0, 16, 40)
-    found = pointers(drawn, np.arange(40)).errors(turns)[0]
+    found = trial_pointers(drawn, np.arange(40)).errors(turns)[0]
     pair, checked = drawn.pair(0), 0
     for at in range(40):
         if not drawn.good[0][at] or not drawn.good[1][at]:
             continue
-        law = cut_law(pair.sizes, pair.first.trial(at), pair.second.trial(at), float(pair.shift[at]))
+        law = cut_transmission_function(pair.sizes, pair.first.trial(at), pair.second.trial(at), float(pair.shift[at]))
         lag = float(law.error(2 * pi * turns[at])) - plan.pairs[0].even
         assert abs(found[at]) == pytest.approx(abs(lag), abs=1e-10)
         checked += 1
@@ -119,10 +119,10 @@ def test_marks_are_those_of_the_batch_and_a_wheel_is_one_in_all_its_pairs() -> N
     del data["links"]["l1"]["wheels"]["p1"]
     plan = planned(GearTrain.declare(data), "placement=2 %", "tip=3 %")
     assert [wheel.name for wheel in plan.wheels] == ["p0", "w0", "w1"]
-    drawn = draw(plan, Streams(1, 0), 30)
+    drawn = draw_trial_wheels(plan, RandomStreams(1, 0), 30)
     first, second = drawn.pair(0), drawn.pair(1)
     assert (first.second.place == second.first.place).all()
-    marks, play = judge(drawn)
+    marks, play = judge_trial_pairs(drawn)
     for at, pair in enumerate((first, second)):
         verdicts = batch_verdicts(pair.sizes, pair.first, pair.second)
         assert (((marks[:, at] & JAM) > 0) == verdicts.jams).all()
@@ -132,13 +132,15 @@ def test_marks_are_those_of_the_batch_and_a_wheel_is_one_in_all_its_pairs() -> N
 def test_a_chain_is_one_law_after_the_other() -> None:
     """The second driver stands where the first pair has brought it; composed here by hand, trial by trial."""
     plan = planned(chain((24, 17), (19, 30)), *EVERY[:4])
-    drawn = draw(plan, Streams(5, 0), 25)
+    drawn = draw_trial_wheels(plan, RandomStreams(5, 0), 25)
     turns = np.random.default_rng(2).uniform(0, 100, 25)
-    found = pointers(drawn, np.arange(25)).errors(turns)[0]
+    found = trial_pointers(drawn, np.arange(25)).errors(turns)[0]
     one, two = drawn.pair(0), drawn.pair(1)
     even = 19 / 30 * plan.pairs[0].even + plan.pairs[1].even
     for at in np.flatnonzero(drawn.good[0] & drawn.good[1] & drawn.good[2] & drawn.good[3]):
-        laws = [cut_law(pair.sizes, pair.first.trial(at), pair.second.trial(at)) for pair in (one, two)]
+        laws = [
+            cut_transmission_function(pair.sizes, pair.first.trial(at), pair.second.trial(at)) for pair in (one, two)
+        ]
         start = 2 * pi * float(turns[at])
         middle = float(laws[0].angle(start))
         end = float(laws[1].angle(middle))
@@ -150,7 +152,7 @@ def test_teeth_that_turn_against_their_numbering_are_seen_from_behind() -> None:
     wheel = CutWheel.even(9, 1.0, 0.5).placed(0.01 * np.arange(9.0))
     back = wheel.mirrored()
     assert back.place[1] == -wheel.place[8]
-    plan = find_plan(load("freeth-2021-cut"), outputs=("moon",))
+    plan = find_trial_plan(load("freeth-2021-cut"), outputs=("moon",))
     train = load("freeth-2021-cut").motion().train
     signs: dict[str, set[int]] = {}
     for pair in plan.pairs:
@@ -166,9 +168,9 @@ def test_teeth_that_turn_against_their_numbering_are_seen_from_behind() -> None:
 # --------------------------------------------------------------------------------------------------------- closed forms
 
 
-def even_teeth(plan: Plan) -> tuple[TriangularLaw, np.ndarray]:
+def even_teeth(plan: TrialPlan) -> tuple[TriangularTransmission, np.ndarray]:
     """The law of even teeth, and angles over a pitch."""
-    law = TriangularLaw(plan.pairs[0].sizes)
+    law = TriangularTransmission(plan.pairs[0].sizes)
     return law, (np.arange(2000) + 0.5) / 2000 * law.period
 
 
@@ -186,9 +188,9 @@ def test_the_variance_of_a_pointer_is_that_of_the_teeth_that_touch() -> None:
     # near a change of couples the lesser of two is taken: some hundredths of the variance
     assert pointer.deviation.value**2 == pytest.approx(true, rel=0.1)
     fine = planned(chain((64, 38)), "placement=0.06 %")
-    small = draw(fine, Streams(1, 0))
+    small = draw_trial_wheels(fine, RandomStreams(1, 0))
     turns = np.random.default_rng(4).uniform(0, 19, 256)
-    errors = pointers(small, np.arange(256)).errors(turns)[0]
+    errors = trial_pointers(small, np.arange(256)).errors(turns)[0]
     even = np.asarray(law.error(2 * pi * turns)) - law.error_moments()[0]
     part = np.abs(errors) - np.abs(even)
     assert part.std() < 3 * sigma2
@@ -205,10 +207,10 @@ def test_the_first_order_is_right_to_the_second_away_from_changes_of_couples() -
     S = (a + b) / 2
     left = []
     for scale in (0.02, 0.04):
-        drawn = draw(plan.scaled(scale), Streams(2, 0), 200)
-        errors = pointers(drawn, np.arange(200)).laws["g0"].error(np.full(200, S))
+        drawn = draw_trial_wheels(plan.scaled(scale), RandomStreams(2, 0), 200)
+        errors = trial_pointers(drawn, np.arange(200)).laws["g0"].error(np.full(200, S))
         one, two = drawn.pair(0).first.place, drawn.pair(0).second.place
-        couples = cut_law(
+        couples = cut_transmission_function(
             plan.pairs[0].sizes, CutWheel.driver_of(plan.pairs[0].sizes), CutWheel.driven_of(plan.pairs[0].sizes)
         ).driving(np.array([S]))
         first = -(float(law.speed(S)) * one[:, couples[0][0]] - two[:, couples[1][0]])
@@ -221,8 +223,8 @@ def test_a_fixed_error_of_the_distance_is_another_clearance() -> None:
     bare = planned(chain((40, 27)), "placement=3 %")
     pair = bare.pairs[0]
     factor = (pair.sizes.D + 0.1 * min(pair.sizes.depths)) / pair.sizes.least_distance
-    _, play = judge(draw(plan, Streams(1, 0), 50))
-    _, true = judge(draw(bare.cleared(factor), Streams(1, 0), 50))
+    _, play = judge_trial_pairs(draw_trial_wheels(plan, RandomStreams(1, 0), 50))
+    _, true = judge_trial_pairs(draw_trial_wheels(bare.cleared(factor), RandomStreams(1, 0), 50))
     # one is reckoned from tables, the other couple by couple
     assert play == pytest.approx(true, abs=2e-4)
 
@@ -241,14 +243,14 @@ def test_errors_are_read_in_the_units_of_their_wheel() -> None:
     }
     measured = [f"{at / 100:g} deg" for at in range(20)]
     data["links"]["l1"]["wheels"]["w0"] = {"teeth": 20, "cutting": {"measured": {"placement": measured}}}
-    plan = find_plan(GearTrain.declare(data))
+    plan = find_trial_plan(GearTrain.declare(data))
     first, second = plan.wheels
     assert first.errors["placement"].size == pytest.approx(0.6 / 12)
     assert first.errors["aperture"].size == pytest.approx(3 / 60)
     # the pitch circle, 7.5 mm, lies in the middle of teeth whose flanks stand at 30 degrees to the radius
     outer = 7.5 / (1 - first.depth / 2)
     assert first.errors["eccentricity"].size * first.depth * outer == pytest.approx(0.1)
-    drawn = draw(plan, Streams(1, 0), 3).pair(0)
+    drawn = draw_trial_wheels(plan, RandomStreams(1, 0), 3).pair(0)
     # ahead is early: a tooth's arrays count how late it is
     assert drawn.second.place == pytest.approx(-np.radians(np.arange(20) / 100))
     # teeth moved outwards by 0.1 mm a quarter of a turn from the first
@@ -285,18 +287,18 @@ def same(one: Any, other: Any) -> bool:
 def test_cut_and_taken_up_or_by_two_workers_it_is_the_same_bit_for_bit(workers: Any, tmp_path: Path) -> None:
     plan = planned(chain((15, 12), (14, 11)), "placement=2 %", "tip=2 %")
     true = run_trials(plan, 900, 7)
-    asked = question(plan, 7, 900)
+    asked = journal_key(plan, 7, 900)
     path = tmp_path / "journal"
     for stop in (1, 3):
         with Journal(path, asked) as journal, pytest.raises(CutError):
-            run_trials(plan, 900, 7, Means(None, journal, blocks_until(stop)))
+            run_trials(plan, 900, 7, TrialExecution(None, journal, blocks_until(stop)))
     with Journal(path, asked) as journal:
         assert 0 < len(journal) < 4
     with workers() as executor, Journal(path, asked) as journal:
-        assert same(run_trials(plan, 900, 7, Means(executor, journal)), true)
+        assert same(run_trials(plan, 900, 7, TrialExecution(executor, journal)), true)
         assert len(journal) == 4
     with workers() as executor:
-        assert same(run_trials(plan, 900, 7, Means(executor)), true)
+        assert same(run_trials(plan, 900, 7, TrialExecution(executor)), true)
     fewer = run_trials(plan, 300, 7)
     assert (fewer.errors == true.errors[:300]).all()
     assert not (run_trials(plan, 300, 8).errors == fewer.errors).any()
@@ -304,12 +306,16 @@ def test_cut_and_taken_up_or_by_two_workers_it_is_the_same_bit_for_bit(workers: 
 
 def test_greater_errors_are_the_same_errors_and_other_clearances_meet_the_same_wheels() -> None:
     plan = planned(chain((20, 15)), "placement=2 %", "tip=2 %", "eccentricity=4 %")
-    one, twice = (draw(each, Streams(1, 0), 5).wheels[0] for each in (plan, plan.scaled(2, "tip")))
+    one, twice = (draw_trial_wheels(each, RandomStreams(1, 0), 5).wheels[0] for each in (plan, plan.scaled(2, "tip")))
     assert np.allclose(twice.place, one.place, atol=2e-3)
-    placed = [draw(each, Streams(1, 0), 5) for each in (planned(chain((20, 15)), f"placement={s} %") for s in (1, 2))]
+    placed = [
+        draw_trial_wheels(each, RandomStreams(1, 0), 5)
+        for each in (planned(chain((20, 15)), f"placement={s} %") for s in (1, 2))
+    ]
     assert placed[1].wheels[0].place == pytest.approx(2 * placed[0].wheels[0].place)
     assert (
-        draw(plan.cleared(1.03), Streams(1, 0), 5).wheels[1].place == draw(plan, Streams(1, 0), 5).wheels[1].place
+        draw_trial_wheels(plan.cleared(1.03), RandomStreams(1, 0), 5).wheels[1].place
+        == draw_trial_wheels(plan, RandomStreams(1, 0), 5).wheels[1].place
     ).all()
 
 
@@ -369,12 +375,12 @@ def test_total_indices_are_the_shares_of_the_closed_form() -> None:
     law, S = even_teeth(plan)
     parts = np.array([float(np.mean(law.speed(S) ** 2)) * (0.005 * 2 * pi / 64) ** 2, (0.009 * 2 * pi / 38) ** 2])
     whole = parts.sum() + law.error_moments()[1] ** 2
-    found = {each.name: each for each in find_indices(plan, 0, "wheel", 1024).indices}
+    found = {each.name: each for each in find_sobol_indices(plan, 0, "wheel", 1024).indices}
     assert found["p0"].total.value == pytest.approx(parts[0] / whole, abs=0.07)
     assert found["w0"].total.value == pytest.approx(parts[1] / whole, abs=0.09)
     assert found["position"].total.value > 0.85
     assert all(each.first.value <= each.total.value + 0.1 for each in found.values())
-    kinds = {each.name for each in find_indices(plan, 0, "kind", 64).indices}
+    kinds = {each.name for each in find_sobol_indices(plan, 0, "kind", 64).indices}
     assert kinds == {"placement", "position"}
 
 
@@ -386,7 +392,7 @@ def test_variance_shares_sum_to_one_and_follow_the_sensitivities() -> None:
     assert sum(shares.values()) == pytest.approx(1)
     alone = []
     for pair, factor in zip(plan.pairs, (32 / 60, 1.0), strict=True):
-        law = TriangularLaw(pair.sizes)
+        law = TriangularTransmission(pair.sizes)
         S = (np.arange(2000) + 0.5) / 2000 * law.period
         sigma = [0.005 * 2 * pi / z for z in (pair.sizes.z1, pair.sizes.z2)]
         own = law.error_moments()[1] ** 2 + float(np.mean(law.speed(S) ** 2)) * sigma[0] ** 2 + sigma[1] ** 2
@@ -411,7 +417,9 @@ def test_along_a_turn_the_bands_are_in_order_and_hold_the_trials() -> None:
     bands = course.bands()
     assert (np.diff(bands, axis=0) >= 0).all()
     assert course.turns[-1] == pytest.approx(15 / 20)
-    alone = pointers(draw(plan, Streams(1, 1 << 20), 60), np.full(40, 7)).errors(course.turns)[0]
+    alone = trial_pointers(draw_trial_wheels(plan, RandomStreams(1, 1 << 20), 60), np.full(40, 7)).errors(course.turns)[
+        0
+    ]
     assert course.errors[7] == pytest.approx(alone, abs=1e-12)
     assert course.greatest[7] == pytest.approx(np.abs(alone).max())
 
@@ -426,4 +434,4 @@ def test_a_cycle_of_teeth_is_no_longer_than_it_is() -> None:
 
 
 def test_what_is_not_known_is_told_as_nothing() -> None:
-    assert Figure(1.0, float("-inf"), 2.0).to_dict() == [1.0, None, 2.0]
+    assert IntervalEstimate(1.0, float("-inf"), 2.0).to_dict() == [1.0, None, 2.0]

@@ -16,8 +16,14 @@ from typer.testing import CliRunner
 from geartrain import GearTrainError, load
 from geartrain.cli import app
 from geartrain.errors import MissingExtraError, QuestionError, RangeError
-from geartrain.files import ColumnTable
-from geartrain.uncertainty.trials import find_plan, find_tolerance, read_clearances, read_settings, run_trials
+from geartrain.numerics.files import ColumnTable
+from geartrain.uncertainty.monte_carlo import (
+    find_tolerance,
+    find_trial_plan,
+    read_clearances,
+    read_error_overrides,
+    run_trials,
+)
 
 PAIR = """
     name: pair
@@ -87,7 +93,7 @@ def test_everything_that_can_be_asked_stands_in_one_document(train_file: Write, 
 def test_an_interrupted_run_says_so_and_is_taken_up(
     train_file: Write, here: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    from geartrain.uncertainty.trials import running
+    from geartrain.uncertainty.monte_carlo import trial_run as running
 
     train, work = train_file(PAIR), running.work_block
     words = (train, "--trials", 700, "--seed", 3, "-o", here / "t.parquet")
@@ -116,17 +122,17 @@ def test_an_interrupted_run_says_so_and_is_taken_up(
 
 
 def test_a_journal_of_another_question_is_refused(train_file: Write, here: Path) -> None:
-    from geartrain.parallel import Journal
-    from geartrain.uncertainty.trials import question
+    from geartrain.numerics.work import Journal
+    from geartrain.uncertainty.monte_carlo import journal_key
 
-    plan = find_plan(load(train_file(PAIR)))
-    asked = question(plan, 1, 300)
+    plan = find_trial_plan(load(train_file(PAIR)))
+    asked = journal_key(plan, 1, 300)
     Journal(here / "j", asked).close()
     others = [
-        question(plan, 2, 300),
-        question(plan, 1, 301),
-        question(plan.scaled(1.01), 1, 300),
-        question(plan.cleared(1.03), 1, 300),
+        journal_key(plan, 2, 300),
+        journal_key(plan, 1, 301),
+        journal_key(plan.scaled(1.01), 1, 300),
+        journal_key(plan.cleared(1.03), 1, 300),
         asked | {"geartrain": "0.0.0"},
     ]
     for other in others:
@@ -197,7 +203,7 @@ def test_what_cannot_be_asked_is_refused_with_what_why_and_what_to_do(
 def test_trains_that_cannot_be_cut_are_refused(train_file: Write) -> None:
     bare = train_file(PAIR.replace("tooth_form", "note: ideal teeth #"), "bare.yaml")
     with pytest.raises(QuestionError, match="no triangular teeth"):
-        find_plan(load(bare), read_settings(["placement=2 %"]))
+        find_trial_plan(load(bare), read_error_overrides(["placement=2 %"]))
     loop = """
         links: {frame: {}, a: {wheels: {p: 20, q: 20}}, b: {wheels: {w: 15, v: 15}}}
         revolutes: [{pair: [frame, a], axis: A}, {pair: [frame, b], axis: B}]
@@ -208,8 +214,8 @@ def test_trains_that_cannot_be_cut_are_refused(train_file: Write) -> None:
     """
     closed = load(train_file(loop, "loop.yaml"))
     with pytest.raises(GearTrainError, match="close a loop"):
-        find_plan(closed)
-    assert find_plan(closed, without=("two",)).pairs[0].name == "one"
+        find_trial_plan(closed)
+    assert find_trial_plan(closed, without=("two",)).pairs[0].name == "one"
 
 
 def test_without_its_extra_it_says_which_one(train_file: Write, here: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -218,17 +224,17 @@ def test_without_its_extra_it_says_which_one(train_file: Write, here: Path, monk
     monkeypatch.setitem(sys.modules, "pyarrow", None)
     with pytest.raises(MissingExtraError, match=r"geartrain\[errors\]"):
         ColumnTable(here / "t.parquet", {})
-    plan = find_plan(load(train_file(PAIR)))
+    plan = find_trial_plan(load(train_file(PAIR)))
     monkeypatch.setitem(sys.modules, "SALib.analyze.sobol", None)
-    from geartrain.uncertainty.trials import find_indices
+    from geartrain.uncertainty.monte_carlo import find_sobol_indices
 
     with pytest.raises(MissingExtraError, match=r"geartrain\[errors\]"):
-        find_indices(plan, 0, trials=8)
+        find_sobol_indices(plan, 0, trials=8)
 
 
 def test_a_tolerance_that_nothing_can_meet_is_refused(train_file: Write) -> None:
     """Tips far too high jam, however well the teeth are placed."""
-    plan = find_plan(load(train_file(PAIR)), read_settings(["tip=value 60 %", "placement=1 %"]))
+    plan = find_trial_plan(load(train_file(PAIR)), read_error_overrides(["tip=value 60 %", "placement=1 %"]))
     with pytest.raises(RangeError, match="taken away"):
         find_tolerance(plan, "placement", 0.05, 64)
 
@@ -240,7 +246,7 @@ def test_sweeps_read_as_they_are_written() -> None:
 
 
 def test_a_few_wheels_that_cannot_be_cut_are_left_out_and_said(train_file: Write) -> None:
-    plan = find_plan(load(train_file(PAIR)), read_settings(["placement=22 %"]))
+    plan = find_trial_plan(load(train_file(PAIR)), read_error_overrides(["placement=22 %"]))
     found = run_trials(plan, 256)
     uncut = found.train.uncut
     assert 0 < uncut < 128

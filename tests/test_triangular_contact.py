@@ -12,18 +12,18 @@ import pytest
 from mechanics import power_ratio
 from sorge import APPROACH, RECESS, Pair, drawn, mp
 
-from geartrain.teeth.triangular.contact import Couple
-from geartrain.teeth.triangular.sizes import Sizes, equal_depth, pitch_true
+from geartrain.teeth.triangular.pair_geometry import TriangularSizes, equal_depth, pitch_true
+from geartrain.teeth.triangular.tooth_couple import ToothCouple
 
 MANY = [pytest.param(200), pytest.param(4000, marks=pytest.mark.slow)]
 STEEP = radians(84)
 
 
-def pairs(seed: int, number: int, most: float, shape: str = "near") -> Iterator[tuple[Sizes, Pair, Random]]:
+def pairs(seed: int, number: int, most: float, shape: str = "near") -> Iterator[tuple[TriangularSizes, Pair, Random]]:
     """Random pairs whose flanks lean nowhere beyond the perpendicular."""
     random = Random(seed)
     while number:
-        sizes = Sizes(*drawn(random, most, shape))
+        sizes = TriangularSizes(*drawn(random, most, shape))
         if max(sizes.beta1, sizes.beta2) + sizes.reach1 + sizes.reach2 < pi / 2:
             number -= 1
             yield sizes, Pair.of(sizes), random
@@ -79,7 +79,7 @@ def test_both_phases_meet_where_flank_lies_on_flank() -> None:
 def test_angle_speed_and_efficiency_at_50_digits(most: float, number: int) -> None:
     angle, speed, efficiency = Worst(), Worst(), Worst()
     for sizes, pair, random in pairs(3, number, most):
-        couple = Couple(sizes)
+        couple = ToothCouple(sizes)
         for x, phase in positions(pair, random):
             f = random.choice([0.05, 0.2, 0.5])
             angle.see(abs(couple.angle(phase, x) - pair.angle(x, phase)) / pair.p2, sizes, x)
@@ -97,7 +97,7 @@ def test_angle_speed_and_efficiency_at_50_digits(most: float, number: int) -> No
 @pytest.mark.parametrize("most", [1e3, 1e6])
 def test_arrays_give_the_floats_one_by_one(most: float, number: int) -> None:
     for sizes, pair, random in pairs(4, number // 4, most):
-        couple = Couple(sizes)
+        couple = ToothCouple(sizes)
         for x, phase in positions(pair, random):
             many = np.array([x, x])
             for what in (couple.angle, couple.speed):
@@ -146,7 +146,7 @@ def test_radii_by_rule_are_those_of_the_source() -> None:
 def test_the_speed_ratio_is_the_derivative_of_the_driven_angle(phase: str) -> None:
     speed, slope = Worst(), Worst()
     for sizes, pair, random in pairs(7, 40, 1e4):
-        couple = Couple(sizes)
+        couple = ToothCouple(sizes)
         for x, here in positions(pair, random, 4):
             if here != phase or pair.lean(x, phase) > STEEP:
                 continue
@@ -167,9 +167,9 @@ def test_turned_back_each_wheel_finds_the_other_where_it_was() -> None:
     """f21(-f12(-x)) = x: the front flanks of one direction are the back flanks of the other."""
     worst = Worst()
     for sizes, pair, random in pairs(8, 150, 1e5):
-        back = Couple(sizes.swapped())
+        back = ToothCouple(sizes.swapped())
         for x, _ in positions(pair, random):
-            y = -Couple(sizes).contact(-x)
+            y = -ToothCouple(sizes).contact(-x)
             tau = float(pair.speed(-x))
             worst.see(abs(back.contact(y) - x) / sizes.p1 * min(1, tau / sizes.ratio), sizes, x)
     assert worst.within(1e-11), worst
@@ -191,7 +191,7 @@ def test_efficiency_is_the_balance_of_forces(phase: str, wheel: int) -> None:
     sides = set()
     for given, _, random in pairs(9, 60, 1e3):
         sizes = given if wheel == 1 else given.swapped()
-        pair, couple = Pair.of(sizes), Couple(sizes)
+        pair, couple = Pair.of(sizes), ToothCouple(sizes)
         for _ in range(4):
             x = near_the_pitch_point(pair, phase, random)
             f = random.uniform(0.02, 0.6)

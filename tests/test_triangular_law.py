@@ -11,8 +11,8 @@ import numpy as np
 import pytest
 from sorge import RECESS, Pair, drawn, first_of_all, mp
 
-from geartrain.teeth.triangular.law import TriangularLaw
-from geartrain.teeth.triangular.sizes import Sizes, equal_depth
+from geartrain.teeth.triangular.pair_geometry import TriangularSizes, equal_depth
+from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
 
 THIRTY = radians(30)
 
@@ -42,18 +42,18 @@ MORE_DIGITS = [
 ]
 
 
-def equally_deep(z1: int, z2: int, excess: float, beta: float = THIRTY) -> Sizes:
-    return Sizes(z1, z2, *equal_depth(z1, z2, beta, beta), beta, beta, excess)
+def equally_deep(z1: int, z2: int, excess: float, beta: float = THIRTY) -> TriangularSizes:
+    return TriangularSizes(z1, z2, *equal_depth(z1, z2, beta, beta), beta, beta, excess)
 
 
 def laws(seed: int, number: int, most: float, kind: str = "runs", friction: float = 0.2):
     """Random pairs with a verdict, friction below locking."""
     random = Random(seed)
     while number:
-        sizes = Sizes(*drawn(random, most, "near"))
+        sizes = TriangularSizes(*drawn(random, most, "near"))
         if random.random() < 0.3:
             sizes = sizes.swapped()
-        law = TriangularLaw(sizes, friction)
+        law = TriangularTransmission(sizes, friction)
         if law.verdict.kind == kind and friction < 0.9 * law.locking_friction:
             number -= 1
             yield sizes, law, random
@@ -64,7 +64,7 @@ def laws(seed: int, number: int, most: float, kind: str = "runs", friction: floa
 
 @pytest.mark.parametrize(("z1", "z2", "excess", "jumps"), PRINTED)
 def test_jumps_and_phases_of_the_source(z1: int, z2: int, excess: float, jumps: dict[str, float]) -> None:
-    law = TriangularLaw(equally_deep(z1, z2, excess), 0.2)
+    law = TriangularTransmission(equally_deep(z1, z2, excess), 0.2)
     assert {jump.kind: round(jump.value, 4) for jump in law.jumps} == jumps
     assert law.verdict
 
@@ -72,7 +72,7 @@ def test_jumps_and_phases_of_the_source(z1: int, z2: int, excess: float, jumps: 
 @pytest.mark.parametrize(("z1", "z2", "excess", "speeds", "efficiency", "peak_to_peak", "active"), MORE_DIGITS)
 def test_more_digits_of_the_source(z1, z2, excess, speeds, efficiency, peak_to_peak, active) -> None:
     sizes = equally_deep(z1, z2, excess)
-    law, pair = TriangularLaw(sizes, 0.2), Pair.of(sizes)
+    law, pair = TriangularTransmission(sizes, 0.2), Pair.of(sizes)
     true = [pair.speed(x, s.phase) for s in pair.path for x in (s.start, s.end)]
     low, high = pair.error_range
     assert (float(min(true)), float(max(true))) == pytest.approx(speeds, rel=1e-12)
@@ -101,7 +101,7 @@ CASES = [
 def test_transmission_error_at_50_digits(kind: str, most: float, number: int) -> None:
     """Within a pitch, and over a turn, where an angle of many pitches has its own rounding; both directions."""
     for sizes, law, random in laws(31, number, most, kind, 0.0):
-        pair, back = Pair.of(sizes), TriangularLaw(sizes, direction=-1)
+        pair, back = Pair.of(sizes), TriangularTransmission(sizes, direction=-1)
         left = min(1.0, 100 * float((pair.R1 + pair.R2 - pair.D) / pair.h))
         assert back.verdict == law.verdict
         for direction, one in ((1, law), (-1, back)):
@@ -151,12 +151,12 @@ def test_moments_of_the_error_are_their_integrals(number: int) -> None:
 @pytest.mark.parametrize(
     "sizes",
     [
-        Sizes(6, 16, 0.375, 1.0, 0.3742031780826165, 0.3742031780826165, 6.990269009025791e-07),
-        Sizes(14, 7, 1.5222261804158816, 1.0, 0.6925654538644792, 0.6925654538644792, 0.028478185844130453),
+        TriangularSizes(6, 16, 0.375, 1.0, 0.3742031780826165, 0.3742031780826165, 6.990269009025791e-07),
+        TriangularSizes(14, 7, 1.5222261804158816, 1.0, 0.6925654538644792, 0.6925654538644792, 0.028478185844130453),
     ],
 )
-def test_moments_of_the_error_of_steep_flanks_are_their_integrals(sizes: Sizes) -> None:
-    law = TriangularLaw(sizes)
+def test_moments_of_the_error_of_steep_flanks_are_their_integrals(sizes: TriangularSizes) -> None:
+    law = TriangularTransmission(sizes)
     assert law.verdict
     assert law.error_moments() == pytest.approx(moments(Pair.of(sizes)), abs=1e-12 * sizes.p2)
 
@@ -204,7 +204,7 @@ def test_the_mean_speed_over_a_pitch_is_the_ratio() -> None:
         assert mean / law.period == pytest.approx(float(law.ratio), rel=1e-10), sizes
 
 
-def corners(law: TriangularLaw) -> list[float]:
+def corners(law: TriangularTransmission) -> list[float]:
     return [end * -1.0 for interval in law.intervals for end in (interval.start, interval.end)]
 
 
@@ -222,7 +222,7 @@ def test_backwards_the_back_flanks_drive() -> None:
     """angle_back(S) = p2 - angle_forward(-S)."""
     for kind in ("runs", "standstill"):
         for sizes, law, random in laws(39, 15, 1e3, kind):
-            back = TriangularLaw(sizes, 0.2, -1)
+            back = TriangularTransmission(sizes, 0.2, -1)
             S = np.array([random.uniform(-2, 2) * law.period for _ in range(200)])
             assert np.abs(back.angle(S) - (sizes.p2 - law.angle(-S))).max() < 1e-13 * sizes.p2 + 1e-15
             assert np.array_equal(back.speed(S), law.speed(-S))
@@ -236,7 +236,7 @@ def test_backwards_the_back_flanks_drive() -> None:
 
 
 def test_any_shape_of_angles_gives_that_shape() -> None:
-    law = TriangularLaw(equally_deep(48, 96, 0.01), 0.2)
+    law = TriangularTransmission(equally_deep(48, 96, 0.01), 0.2)
     S = np.linspace(-3, 9, 40000).reshape(8, 50, 100)
     for what in (law.error, law.speed, law.efficiency, law.alpha1):
         assert what(S).shape == S.shape
@@ -300,6 +300,9 @@ def test_a_driven_wheel_that_stands_never_turns_back_nor_lags() -> None:
 
 
 def test_astride_the_efficiency_is_the_highest_of_the_source() -> None:
-    means = [TriangularLaw(equally_deep(z1, z2, excess), 0.2).efficiency_mean() for z1, z2, excess, *_ in MORE_DIGITS]
+    means = [
+        TriangularTransmission(equally_deep(z1, z2, excess), 0.2).efficiency_mean()
+        for z1, z2, excess, *_ in MORE_DIGITS
+    ]
     assert max(means) == means[-1]
-    assert [interval.phase for interval in TriangularLaw(equally_deep(48, 96, 0.01)).intervals] == [RECESS]
+    assert [interval.phase for interval in TriangularTransmission(equally_deep(48, 96, 0.01)).intervals] == [RECESS]

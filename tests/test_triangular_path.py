@@ -23,11 +23,11 @@ from sorge import (
     verdict,
 )
 
-from geartrain.teeth.triangular.contact import Couple
-from geartrain.teeth.triangular.law import TriangularLaw
-from geartrain.teeth.triangular.meshing import Contact, find_window
-from geartrain.teeth.triangular.path import Interval, RealPath
-from geartrain.teeth.triangular.sizes import Sizes, equal_depth, pitch_true
+from geartrain.teeth.triangular.clearance_window import TriangularContact, find_window
+from geartrain.teeth.triangular.pair_geometry import TriangularSizes, equal_depth, pitch_true
+from geartrain.teeth.triangular.real_path import DriveInterval, RealPath
+from geartrain.teeth.triangular.tooth_couple import ToothCouple
+from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
 
 THIRTY = radians(30)
 TABLE = [
@@ -44,16 +44,16 @@ TABLE = [
 ]
 
 
-def equally_deep(z1: int, z2: int, beta: float = THIRTY, excess: float = 0.0) -> Sizes:
-    return Sizes(z1, z2, *equal_depth(z1, z2, beta, beta), beta, beta, excess)
+def equally_deep(z1: int, z2: int, beta: float = THIRTY, excess: float = 0.0) -> TriangularSizes:
+    return TriangularSizes(z1, z2, *equal_depth(z1, z2, beta, beta), beta, beta, excess)
 
 
-def leans(sizes: Sizes) -> bool:
+def leans(sizes: TriangularSizes) -> bool:
     """Whether a flank leans beyond the perpendicular where tips meet."""
     return max(sizes.beta1, sizes.beta2) + sizes.reach1 + sizes.reach2 > pi / 2
 
 
-def few_teeth(random: Random, most: int = 12) -> Sizes:
+def few_teeth(random: Random, most: int = 12) -> TriangularSizes:
     """Few teeth, any apertures, and radii up to a third from pitch-true."""
     while True:
         z1, z2 = random.randint(3, most), random.randint(3, most)
@@ -61,14 +61,14 @@ def few_teeth(random: Random, most: int = 12) -> Sizes:
         radii = random.choice(
             [equal_depth(z1, z2, beta1, beta2), pitch_true(z1, z2), (1.0, z2 / z1 * random.uniform(0.7, 1.4))]
         )
-        sizes = Sizes(z1, z2, *radii, beta1, beta2, 0.0)
+        sizes = TriangularSizes(z1, z2, *radii, beta1, beta2, 0.0)
         return sizes.at(sizes.greatest_excess * random.uniform(0.001, 0.999))
 
 
 # ------------------------------------------------------------------------------------------------------- at 50 digits
 
 
-def aligned(path: list[Segment], intervals: tuple[Interval, ...]) -> list[Segment]:
+def aligned(path: list[Segment], intervals: tuple[DriveInterval, ...]) -> list[Segment]:
     """The reference's segments in the order of the intervals: both begin anywhere in the pitch."""
     assert len(path) == len(intervals), (path, intervals)
     for at in range(len(path)):
@@ -97,11 +97,11 @@ def test_switches_and_jumps_at_50_digits(most: float, number: int, of_jumps: flo
     """
     random = Random(11)
     while number:
-        sizes = Sizes(*drawn(random, most, "near"))
+        sizes = TriangularSizes(*drawn(random, most, "near"))
         if leans(sizes):
             continue
         number -= 1
-        pair, law = Pair.of(sizes), TriangularLaw(sizes)
+        pair, law = Pair.of(sizes), TriangularTransmission(sizes)
         path = aligned(pair.path, law.intervals)
         jumps = {jump.alpha1: jump.value for jump in law.jumps}
         left = float((pair.R1 + pair.R2 - pair.D) / pair.h)
@@ -129,7 +129,7 @@ def test_the_lowest_couple_is_the_lowest_of_all(teeth: str, number: int) -> None
     """Found among the ends and the bottom of each piece; told by a scan of every couple."""
     random = Random(12)
     for _ in range(number):
-        sizes = few_teeth(random) if teeth == "few" else Sizes(*drawn(random, 300))
+        sizes = few_teeth(random) if teeth == "few" else TriangularSizes(*drawn(random, 300))
         pair, path = Pair.of(sizes, np), RealPath(sizes)
         t = (np.arange(24) + 0.37) / 24 * pair.p1
         true = first_of_all(pair, t)
@@ -150,8 +150,8 @@ def test_the_work_does_not_grow_with_the_number_of_couples() -> None:
     """A law needs about as many angles with a thousand couples in reach as with three."""
     counts, reaches = [], []
     for z in (50, 1000, 10**5, 10**6):
-        with patch.object(Couple, "angle", autospec=True, side_effect=Couple.angle) as angle:
-            law = TriangularLaw(equally_deep(z, 3 * z, THIRTY, 0.2 / z), 0.2)
+        with patch.object(ToothCouple, "angle", autospec=True, side_effect=ToothCouple.angle) as angle:
+            law = TriangularTransmission(equally_deep(z, 3 * z, THIRTY, 0.2 / z), 0.2)
             assert law.verdict.kind in ("runs", "jam")
             counts.append(angle.call_count)
         reaches.append(law.sizes.reach1 / law.sizes.p1)
@@ -188,11 +188,11 @@ def test_wheels_overlap_where_the_law_forbids_it(number: int) -> None:
     random, positions = Random(13), np.random.default_rng(13)
     kinds: dict[str, int] = {}
     while number:
-        sizes = few_teeth(random, 60) if number % 3 else Sizes(*drawn(random, 100, "near"))
+        sizes = few_teeth(random, 60) if number % 3 else TriangularSizes(*drawn(random, 100, "near"))
         if leans(sizes):
             continue
         number -= 1
-        pair, path, kind = Pair.of(sizes, np), RealPath(sizes), Contact(sizes).verdict.kind
+        pair, path, kind = Pair.of(sizes, np), RealPath(sizes), TriangularContact(sizes).verdict.kind
         t = positions.uniform(0, pair.p1, 150)
         upper = np.array([path.lowest(float(at)) for at in t]) + pair.ratio * t
         lower = -np.array([path.lowest(float(-at)) for at in t]) + pair.ratio * t - pair.p2
@@ -223,7 +223,7 @@ def test_a_pair_that_runs_is_right_where_flanks_lean_too(number: int) -> None:
     random, positions = Random(14), np.random.default_rng(14)
     while number:
         sizes = few_teeth(random, 30)
-        if not leans(sizes) or Contact(sizes).verdict.kind != "runs":
+        if not leans(sizes) or TriangularContact(sizes).verdict.kind != "runs":
             continue
         number -= 1
         path = RealPath(sizes)
@@ -245,13 +245,13 @@ def test_verdicts_are_those_of_a_scan(number: int) -> None:
     random = Random(15)
     kinds: dict[str, int] = {}
     while number:
-        sizes = few_teeth(random, 40) if number % 2 else Sizes(*drawn(random, 200, "near"))
+        sizes = few_teeth(random, 40) if number % 2 else TriangularSizes(*drawn(random, 200, "near"))
         if leans(sizes):
             continue
         number -= 1
         true = verdict(Pair.of(sizes, np))
         if true:
-            assert Contact(sizes).verdict.kind == true, sizes
+            assert TriangularContact(sizes).verdict.kind == true, sizes
             kinds[true] = kinds.get(true, 0) + 1
     assert min(kinds.get(kind, 0) for kind in ("runs", "jam", "clash", "standstill")) >= 5, kinds
 
@@ -260,8 +260,8 @@ def test_verdicts_are_those_of_a_scan(number: int) -> None:
 def test_the_play_is_that_of_a_scan(number: int) -> None:
     random = Random(16)
     while number:
-        sizes = Sizes(*drawn(random, 200, "near"))
-        contact = Contact(sizes)
+        sizes = TriangularSizes(*drawn(random, 200, "near"))
+        contact = TriangularContact(sizes)
         if leans(sizes) or contact.verdict.kind not in ("runs", "jam") or contact.dragged.clash:
             continue
         number -= 1
@@ -271,8 +271,8 @@ def test_the_play_is_that_of_a_scan(number: int) -> None:
 def test_the_angle_lost_is_the_step_up_of_the_first_couple() -> None:
     random, number = Random(17), 30
     while number:
-        sizes = Sizes(*drawn(random, 200, "near"))
-        contact = Contact(sizes)
+        sizes = TriangularSizes(*drawn(random, 200, "near"))
+        contact = TriangularContact(sizes)
         if leans(sizes) or contact.verdict.kind != "standstill" or contact.dragged.arrested:
             continue
         number -= 1
@@ -301,7 +301,7 @@ def test_overhang_is_a_path_that_uses_a_leaning_flank_at_its_end() -> None:
             or (over2 and abs(s.end - pair.exit) < 1e-6 * pair.p1)
             for s in used
         )
-        kind = Contact(sizes).verdict.kind
+        kind = TriangularContact(sizes).verdict.kind
         assert (kind == "overhang") == true, sizes
         kinds.add(kind)
     assert {"overhang", "runs"} <= kinds
@@ -311,25 +311,25 @@ def test_overhang_is_a_path_that_uses_a_leaning_flank_at_its_end() -> None:
 def test_teeth_without_a_valley_are_refused(z: int) -> None:
     most = pi / 2 - pi / z
     for beta, kind in ((most * (1 + 1e-12), "no valley"), (min(most * 1.1, 1.57), "no valley")):
-        assert Contact(Sizes(z, 3 * z, 1.0, 3.0, beta, 0.5, 1e-6)).verdict.kind == kind
-        assert Contact(Sizes(3 * z, z, 3.0, 1.0, 0.5, beta, 1e-6)).verdict.kind == kind
-    assert Contact(Sizes(z, 3 * z, 1.0, 3.0, most * 0.98, 0.5, 1e-6)).verdict.kind != "no valley"
+        assert TriangularContact(TriangularSizes(z, 3 * z, 1.0, 3.0, beta, 0.5, 1e-6)).verdict.kind == kind
+        assert TriangularContact(TriangularSizes(3 * z, z, 3.0, 1.0, 0.5, beta, 1e-6)).verdict.kind == kind
+    assert TriangularContact(TriangularSizes(z, 3 * z, 1.0, 3.0, most * 0.98, 0.5, 1e-6)).verdict.kind != "no valley"
 
 
 def test_beyond_the_reach_the_wheels_are_apart() -> None:
     random = Random(19)
     for _ in range(50):
-        sizes = Sizes(*drawn(random, 1e4))
+        sizes = TriangularSizes(*drawn(random, 1e4))
         beyond = sizes.at(sizes.greatest_excess * (1 + 1e-9))
         assert not Pair.of(beyond).touches
-        assert Contact(beyond).verdict.kind == "apart"
+        assert TriangularContact(beyond).verdict.kind == "apart"
         assert Pair.of(sizes).touches
 
 
 # ------------------------------------------------------------------------------------------------------------- windows
 
 
-def bisected(margin: Any, sizes: Sizes, low: float, high: float) -> float:
+def bisected(margin: Any, sizes: TriangularSizes, low: float, high: float) -> float:
     """Where a margin of the scan first changes its sign."""
 
     def positive(excess: float) -> bool:
@@ -363,7 +363,7 @@ def test_no_clearance_works_for_8_and_64() -> None:
     assert not window
     assert (round(window.jam, 4), round(window.run, 4)) == (0.0278, 0.0009)
     for share in np.linspace(0.001, 0.999, 200):
-        assert Contact(equally_deep(8, 64, THIRTY, window.reach * float(share))).verdict.kind != "runs"
+        assert TriangularContact(equally_deep(8, 64, THIRTY, window.reach * float(share))).verdict.kind != "runs"
 
 
 def test_15_to_53_and_45_to_225_share_hardly_any_clearance() -> None:
@@ -372,13 +372,13 @@ def test_15_to_53_and_45_to_225_share_hardly_any_clearance() -> None:
     assert round(min(one.run, other.run), 5) == 0.01526
 
 
-def kinds_over_the_reach(sizes: Sizes, steps: int = 40) -> list[tuple[float, str]]:
+def kinds_over_the_reach(sizes: TriangularSizes, steps: int = 40) -> list[tuple[float, str]]:
     reach = sizes.greatest_excess
     shares = (np.arange(steps) + 0.5) / steps
-    return [(float(share * reach), Contact(sizes.at(float(share * reach))).verdict.kind) for share in shares]
+    return [(float(share * reach), TriangularContact(sizes.at(float(share * reach))).verdict.kind) for share in shares]
 
 
-def agree(sizes: Sizes, steps: int = 40) -> bool:
+def agree(sizes: TriangularSizes, steps: int = 40) -> bool:
     """Whether a pair runs at just the clearances within its window."""
     window = find_window(sizes)
     return all(
@@ -414,7 +414,7 @@ def test_an_overhang_is_outside_the_window(z1: int, z2: int, beta: float) -> Non
 @pytest.mark.parametrize(("z1", "z2", "beta"), [(25, 7, 11.7418), (25, 8, 9.4915)])
 def test_some_pairs_run_in_two_stretches_of_clearance(z1: int, z2: int, beta: float) -> None:
     """The window is the first of them."""
-    sizes = Sizes(z1, z2, *pitch_true(z1, z2), radians(beta), radians(beta), 0.0)
+    sizes = TriangularSizes(z1, z2, *pitch_true(z1, z2), radians(beta), radians(beta), 0.0)
     window = find_window(sizes)
     seen = []
     for excess, kind in kinds_over_the_reach(sizes, 80):
@@ -427,7 +427,7 @@ def test_some_pairs_run_in_two_stretches_of_clearance(z1: int, z2: int, beta: fl
 
 
 def test_a_pair_that_clashes_before_it_runs_has_a_window() -> None:
-    sizes = Sizes(6, 12, *pitch_true(6, 12), 0.08579023490328726, 0.08579023490328726, 0.0)
+    sizes = TriangularSizes(6, 12, *pitch_true(6, 12), 0.08579023490328726, 0.08579023490328726, 0.0)
     runs = [excess for excess, kind in kinds_over_the_reach(sizes) if kind == "runs"]
     assert runs
     assert find_window(sizes)
@@ -438,7 +438,7 @@ def test_play_grows_with_clearance(number: int) -> None:
     """So that one clearance parts the pairs that jam from those that do not."""
     random = Random(21)
     while number:
-        sizes = Sizes(*drawn(random, 200, "near"))
+        sizes = TriangularSizes(*drawn(random, 200, "near"))
         if leans(sizes.at(sizes.greatest_excess * 1e-3)):
             continue
         number -= 1

@@ -20,36 +20,36 @@ from matplotlib.figure import Figure
 from matplotlib.text import Text
 
 from geartrain import load
-from geartrain.errors import QuestionError
-from geartrain.plot import (
-    Bands,
-    Likely,
-    Settling,
-    Sway,
+from geartrain.drawing import (
+    ConvergenceTrace,
+    CountProbabilities,
+    ErrorBands,
+    VarianceShare,
     convergence_figure,
     corner_figure,
     counts_figure,
-    findings_figure,
     histogram_figure,
     jam_map_figure,
+    monte_carlo_figure,
+    pointer_error_figure,
     render,
-    straying_figure,
     tornado_figure,
 )
-from geartrain.plot.trials import indices_figure
-from geartrain.uncertainty.counts import sweep
-from geartrain.uncertainty.counts.jointly import joint, telling
-from geartrain.uncertainty.trials import Figure as Figure_
-from geartrain.uncertainty.trials import (
-    Findings,
-    Index,
-    Indices,
-    find_plan,
-    jam_map,
-    read_settings,
+from geartrain.drawing.monte_carlo_plots import indices_figure
+from geartrain.errors import QuestionError
+from geartrain.uncertainty.monte_carlo import IntervalEstimate as Figure_
+from geartrain.uncertainty.monte_carlo import (
+    MonteCarloResult,
+    SobolIndex,
+    SobolIndices,
+    find_trial_plan,
+    jamming_map,
+    read_error_overrides,
     run_course,
     run_trials,
 )
+from geartrain.uncertainty.posterior import infer_counts
+from geartrain.uncertainty.posterior.posterior_result import joint_posterior, most_informative_wheels
 
 RNG = np.random.default_rng(1)
 TURNS = np.linspace(0, 2, 50)
@@ -76,7 +76,7 @@ def outline(figure: Figure, gid: str) -> tuple[float, float]:
 
 
 def test_bands_hold_their_share_of_the_trials_at_every_position() -> None:
-    bands = Bands.of(TURNS, ERRORS)
+    bands = ErrorBands.of(TURNS, ERRORS)
     low, lower, middle, upper, high = bands.percentiles
     for at in range(len(TURNS)):
         column = sorted(ERRORS[:, at])
@@ -87,7 +87,7 @@ def test_bands_hold_their_share_of_the_trials_at_every_position() -> None:
 
 
 def test_the_bands_that_are_drawn_are_those_of_the_trials() -> None:
-    figure = straying_figure({"moon": Bands.of(TURNS, ERRORS), "sun": Bands.of(TURNS, 2 * ERRORS)}, "b")
+    figure = pointer_error_figure({"moon": ErrorBands.of(TURNS, ERRORS), "sun": ErrorBands.of(TURNS, 2 * ERRORS)}, "b")
     assert line(figure, "median") == pytest.approx(np.stack((TURNS, np.median(ERRORS, axis=0)), axis=1))
     assert line(figure, "one") == pytest.approx(np.stack((TURNS, ERRORS[0]), axis=1))
     assert outline(figure, "every trial") == pytest.approx((ERRORS.min(), ERRORS.max()))
@@ -100,7 +100,7 @@ def test_the_bands_that_are_drawn_are_those_of_the_trials() -> None:
 
 def test_trials_that_jam_are_left_out() -> None:
     broken = np.vstack((ERRORS, np.full((3, 50), np.nan)))
-    one, other = Bands.of(TURNS, broken), Bands.of(TURNS, ERRORS)
+    one, other = ErrorBands.of(TURNS, broken), ErrorBands.of(TURNS, ERRORS)
     assert one.trials == other.trials
     assert (one.percentiles == other.percentiles).all()
     figure = histogram_figure({"moon": broken[:, 7]})
@@ -169,9 +169,9 @@ def test_a_map_without_a_contour_or_with_holes_is_drawn() -> None:
 
 def test_bars_are_sorted_and_carry_their_intervals() -> None:
     shares = {
-        "a": Sway(0.1, (0.05, 0.15), 0.2, (0.1, 0.3)),
-        "b": Sway(0.3, None, 0.5),
-        "c": Sway(0.2, (0.1, 0.4), 0.1),
+        "a": VarianceShare(0.1, (0.05, 0.15), 0.2, (0.1, 0.3)),
+        "b": VarianceShare(0.3, None, 0.5),
+        "c": VarianceShare(0.2, (0.1, 0.4), 0.1),
     }
     figure = tornado_figure(shares)
     (axes,) = figure.axes
@@ -185,14 +185,14 @@ def test_bars_are_sorted_and_carry_their_intervals() -> None:
 
 
 def test_what_does_not_fit_is_counted() -> None:
-    shares = {str(at): Sway(1 / (at + 1)) for at in range(30)}
+    shares = {str(at): VarianceShare(1 / (at + 1)) for at in range(30)}
     (axes,) = tornado_figure(shares, most=5).axes
     assert len(axes.get_yticklabels()) == 5
     assert "25 more, each 0.17 or less" in axes.get_xlabel()
 
 
 def test_likelihoods_are_the_sums_of_weights() -> None:
-    likely = Likely.of(COUNTS, WEIGHTS)
+    likely = CountProbabilities.of(COUNTS, WEIGHTS)
     assert likely.single["b1"] == pytest.approx({223: 0.3, 224: 0.7})
     assert likely.single["e3"] == pytest.approx({217: 0.4, 223: 0.4, 235: 0.2})
     assert likely.pairs["b1", "e3"] == pytest.approx(
@@ -202,7 +202,7 @@ def test_likelihoods_are_the_sums_of_weights() -> None:
 
 
 def test_a_corner_shows_every_chance_at_its_counts() -> None:
-    likely = Likely.of(COUNTS, WEIGHTS, {"b1": 223})
+    likely = CountProbabilities.of(COUNTS, WEIGHTS, {"b1": 223})
     figure = corner_figure(likely)
     panels = np.array(figure.axes).reshape(3, 3)
     bars = {round(bar.get_x() + bar.get_width() / 2): bar.get_height() for bar in panels[0, 0].patches}
@@ -222,7 +222,7 @@ def test_a_corner_shows_every_chance_at_its_counts() -> None:
 def test_settling_shows_estimates_their_widths_and_the_truth() -> None:
     n = np.array([10.0, 100.0, 1000.0])
     value = np.array([0.3, 0.2, 0.21])
-    figure = convergence_figure({"jam": Settling(n, value, value - 1 / n, value + 1 / n, 0.2)})
+    figure = convergence_figure({"jam": ConvergenceTrace(n, value, value - 1 / n, value + 1 / n, 0.2)})
     assert line(figure, "jam") == pytest.approx(np.stack((n, value), axis=1))
     assert line(figure, "truth of jam")[:, 1] == pytest.approx([0.2, 0.2])
     assert line(figure, "width of jam", 1) == pytest.approx(np.stack((n, 1 / n), axis=1))
@@ -260,16 +260,16 @@ def test_pairs_of_counts_are_those_of_all_combinations_that_fit() -> None:
         if abs(Fraction(teeth[0] * teeth[2], teeth[1] * teeth[3]) - Fraction("0.167")) <= Fraction("0.006")
     ]
     train = load(DOUBTFUL).declaration
-    found = sweep(train)
-    wheels = telling(found)
+    found = infer_counts(train)
+    wheels = most_informative_wheels(found)
     assert wheels == list(RANGES)
-    pairs = joint(found, wheels, lambda held: sweep(train, free=held))
+    pairs = joint_posterior(found, wheels, lambda held: infer_counts(train, free=held))
     assert len(pairs) == 6
     for (a, b), chances in pairs.items():
         places = wheels.index(a), wheels.index(b)
         seen = Counter((teeth[places[0]], teeth[places[1]]) for teeth in fitting)
         assert chances == pytest.approx({both: count / len(fitting) for both, count in seen.items()})
-    assert len(telling(found, 2)) == 2
+    assert len(most_informative_wheels(found, 2)) == 2
     figure = counts_figure(found, pairs)
     bars = figure.axes[0].patches
     alone = Counter(teeth[0] for teeth in fitting)
@@ -280,36 +280,36 @@ def test_pairs_of_counts_are_those_of_all_combinations_that_fit() -> None:
 
 def test_where_nothing_fits_nothing_is_drawn() -> None:
     train = load(DOUBTFUL.replace("0.167, tolerance: 0.006", "5, tolerance: 0.001")).declaration
-    found = sweep(train)
+    found = infer_counts(train)
     with pytest.raises(QuestionError, match="nothing to draw"):
-        counts_figure(found, joint(found, ["p", "q"], lambda held: sweep(train, free=held)))
+        counts_figure(found, joint_posterior(found, ["p", "q"], lambda held: infer_counts(train, free=held)))
 
 
 # --------------------------------------------------------------------------------------------------- trials of a train
 
 
 @pytest.fixture(scope="module")
-def findings() -> Findings:
-    plan = find_plan(load("moon-triangular"), read_settings(["placement=1 %"]), ("moon",))
+def findings() -> MonteCarloResult:
+    plan = find_trial_plan(load("moon-triangular"), read_error_overrides(["placement=1 %"]), ("moon",))
     trials = run_trials(plan, 300)
-    cleared = jam_map(plan, [0.3, 0.6], [0.5, 4.0], 20)
-    return Findings(trials, cleared, [run_course(plan, 0, 12, 1, 20)])
+    cleared = jamming_map(plan, [0.3, 0.6], [0.5, 4.0], 20)
+    return MonteCarloResult(trials, cleared, [run_course(plan, 0, 12, 1, 20)])
 
 
-def test_pictures_of_trials_show_their_trials(findings: Findings) -> None:
+def test_pictures_of_trials_show_their_trials(findings: MonteCarloResult) -> None:
     trials = findings.trials
-    errors = findings_figure(findings)
+    errors = monte_carlo_figure(findings)
     assert sum(bar.get_height() for bar in errors.axes[0].patches) == len(trials.pointers[0].kept)
     middle = line(errors, "median")[0, 0]
     assert middle == pytest.approx(np.degrees(np.median(trials.errors[np.isfinite(trials.errors)])), rel=0.1)
-    course = findings_figure(findings, "course")
+    course = monte_carlo_figure(findings, "course")
     assert line(course, "median")[:, 1] == pytest.approx(np.degrees(np.median(findings.courses[0].errors, axis=0)))
-    (axes,) = findings_figure(findings, "pairs").axes
+    (axes,) = monte_carlo_figure(findings, "pairs").axes
     assert sum(bar.get_width() for bar in axes.patches) == pytest.approx(1)
-    settled = line(findings_figure(findings, "convergence"), "any pair")
+    settled = line(monte_carlo_figure(findings, "convergence"), "any pair")
     assert settled[-1, 0] == 300
     assert settled[-1, 1] == pytest.approx((trials.marks & 1).any(axis=1).mean())
-    figure = findings_figure(findings, "map")
+    figure = monte_carlo_figure(findings, "map")
     (mesh,) = [each for each in figure.axes[0].collections if each.get_gid() == "map"]
     seen = np.array(mesh.get_array()).reshape(2, 2)
     for each in findings.cleared:
@@ -317,17 +317,17 @@ def test_pictures_of_trials_show_their_trials(findings: Findings) -> None:
         assert seen[at] == each.events["jam"].value
 
 
-def test_pictures_of_what_was_not_asked_are_refused(findings: Findings) -> None:
-    bare = Findings(findings.trials)
+def test_pictures_of_what_was_not_asked_are_refused(findings: MonteCarloResult) -> None:
+    bare = MonteCarloResult(findings.trials)
     for picture in ("course", "sobol", "map", "colour"):
         with pytest.raises(QuestionError) as caught:
-            findings_figure(bare, picture)
+            monte_carlo_figure(bare, picture)
         assert all(problem.fix for problem in caught.value.problems)
 
 
 def test_indices_are_drawn_with_their_intervals() -> None:
     first, total = Figure_(0.3, 0.2, 0.4), Figure_(0.5, 0.4, 0.6)
-    (axes,) = indices_figure(Indices("moon", "wheel", 64, (Index("e3", first, total),))).axes
+    (axes,) = indices_figure(SobolIndices("moon", "wheel", 64, (SobolIndex("e3", first, total),))).axes
     assert [bar.get_width() for bar in axes.patches] == [0.5, 0.3]
 
 
@@ -368,15 +368,17 @@ cutting: {placement: {normal: 2 %}}
 # ---------------------------------------------------------------------------------------------------------- all of them
 
 ALL: dict[str, Callable[[], Figure]] = {
-    "straying": lambda: straying_figure({"moon": Bands.of(TURNS, ERRORS)}),
+    "straying": lambda: pointer_error_figure({"moon": ErrorBands.of(TURNS, ERRORS)}),
     "histogram": lambda: histogram_figure({"a pointer with a long name": ERRORS[:, 3]}, "at the start"),
     "map": lambda: jam_map_figure(
         MAP_X, MAP_Y, np.linspace(0, 1, 30).reshape(5, 6), np.full((5, 6), 0.5), title="64/38"
     ),
-    "tornado": lambda: tornado_figure({f"wheel {at}": Sway(0.9**at, (0.1, 0.2), 1.0) for at in range(25)}, "moon"),
-    "corner": lambda: corner_figure(Likely.of(COUNTS, WEIGHTS, {"b1": 223}), "what fits"),
+    "tornado": lambda: tornado_figure(
+        {f"wheel {at}": VarianceShare(0.9**at, (0.1, 0.2), 1.0) for at in range(25)}, "moon"
+    ),
+    "corner": lambda: corner_figure(CountProbabilities.of(COUNTS, WEIGHTS, {"b1": 223}), "what fits"),
     "settling": lambda: convergence_figure(
-        {"a": Settling(np.ones(1), *(np.full(1, each) for each in (0.5, 0.4, 0.6)))}
+        {"a": ConvergenceTrace(np.ones(1), *(np.full(1, each) for each in (0.5, 0.4, 0.6)))}
     ),
 }
 
@@ -401,9 +403,9 @@ def test_everything_is_inside_and_the_words_are_large_enough(name: str) -> None:
 @pytest.mark.parametrize(
     "draw",
     [
-        lambda: straying_figure({}),
-        lambda: Bands.of(TURNS, np.full((3, 50), np.nan)),
-        lambda: Bands.of(TURNS, ERRORS[:, 1:]),
+        lambda: pointer_error_figure({}),
+        lambda: ErrorBands.of(TURNS, np.full((3, 50), np.nan)),
+        lambda: ErrorBands.of(TURNS, ERRORS[:, 1:]),
         lambda: histogram_figure({}),
         lambda: histogram_figure({"moon": [np.nan]}),
         lambda: jam_map_figure(MAP_X, MAP_Y, np.zeros((6, 5))),
@@ -411,13 +413,13 @@ def test_everything_is_inside_and_the_words_are_large_enough(name: str) -> None:
         lambda: jam_map_figure(MAP_X, MAP_Y, np.full((5, 6), 1.5)),
         lambda: jam_map_figure(MAP_X, MAP_Y, np.zeros((5, 6)), np.zeros((6, 5))),
         lambda: tornado_figure({}),
-        lambda: corner_figure(Likely.of({str(at): [1, 2] for at in range(10)}, [1, 1])),
-        lambda: corner_figure(Likely({}, {})),
-        lambda: Likely.of({"a": [1, 2]}, [0.0, 0.0]),
-        lambda: Likely.of({"a": [1, 2]}, [1.0, -1.0]),
-        lambda: Likely.of({"a": [1, 2, 3]}, [1.0, 1.0]),
+        lambda: corner_figure(CountProbabilities.of({str(at): [1, 2] for at in range(10)}, [1, 1])),
+        lambda: corner_figure(CountProbabilities({}, {})),
+        lambda: CountProbabilities.of({"a": [1, 2]}, [0.0, 0.0]),
+        lambda: CountProbabilities.of({"a": [1, 2]}, [1.0, -1.0]),
+        lambda: CountProbabilities.of({"a": [1, 2, 3]}, [1.0, 1.0]),
         lambda: convergence_figure({}),
-        lambda: convergence_figure({"a": Settling(*(np.zeros(1) for _ in range(4)))}),
+        lambda: convergence_figure({"a": ConvergenceTrace(*(np.zeros(1) for _ in range(4)))}),
     ],
 )
 def test_what_cannot_be_drawn_is_refused_with_what_to_do(draw: Callable[[], object]) -> None:

@@ -18,9 +18,9 @@ from strategies import Data, driven_trains
 
 import geartrain
 from geartrain import GearTrain, GearTrainError, load
+from geartrain.dynamics.torques import watts_per_unit
 from geartrain.export.rexs import _per_minute
 from geartrain.scene import make_scene
-from geartrain.torques import watts_per_unit
 
 SCALES = {
     "turn/s": Fraction(1),

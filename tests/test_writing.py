@@ -17,7 +17,7 @@ from commands import RIGHT, UNUSABLE, call
 
 from geartrain.cli import app
 from geartrain.errors import GearTrainError
-from geartrain.files import LongTable, destination, write_bytes, write_folder
+from geartrain.numerics.files import LongTable, destination, write_bytes, write_folder
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="no FIFO, no socket in a folder")
 

@@ -10,10 +10,10 @@ from typing import Any
 
 import numpy as np
 
-from geartrain.analysis import GearTrain
+from geartrain.analysis.gear_train import GearTrain
 from geartrain.bench.motion_records import GrowthRecord
-from geartrain.teeth.triangular import law as _laws
-from geartrain.teeth.triangular import meshing as _meshing
+from geartrain.teeth.triangular import clearance_window as _meshing
+from geartrain.teeth.triangular import triangular_transmission as _laws
 
 TEETH = {"form": "triangular", "half_angle": "30 deg", "window": 0.5}
 _GROWN = 4_000  # positions of the chains

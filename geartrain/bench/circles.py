@@ -16,11 +16,11 @@ from geartrain.bench.maps import graph
 from geartrain.bench.mesh_truth import Long, Multiple
 from geartrain.bench.sphere_records import TARGET, FitRecord, PackRecord
 from geartrain.bench.timing import timed
-from geartrain.spherical import GraphSet, from_graph, size
-from geartrain.spherical.graphs import Aim
-from geartrain.spherical.maps import propped, regions_of, sound
-from geartrain.spherical.packing import Packing, pack
-from geartrain.spherical.plane import Plane, Step, angle_excess
+from geartrain.spherical import GraphSet, from_graph, size_gears
+from geartrain.spherical.circle_packing import SpherePacking, pack_circles
+from geartrain.spherical.graph_set import Aim
+from geartrain.spherical.planar_map import checked_graph, regions_of, with_region_circles
+from geartrain.spherical.planar_packing import PackingNewtonStep, PlanarPacking, angle_excess
 
 Floats = NDArray[np.float64]
 Whole = NDArray[np.int64]
@@ -29,13 +29,13 @@ _PATIENCE = 60.0  # seconds of one fixed point
 
 def packed(family: str, given: int, rounds: int) -> list[PackRecord]:
     """One circle packing by both ways, its time the median of some rounds."""
-    named = sound(graph(family, given))
-    gears, regions = propped(len(named), regions_of(named), list(named))
-    radii = [Plane(gears, regions).radii()[1] for _ in range(3 * rounds)]
-    whole = [timed(lambda: pack(gears, regions)) for _ in range(rounds)]
-    sweeps = FixedPoint(Plane(gears, regions))
+    named = checked_graph(graph(family, given))
+    gears, regions = with_region_circles(len(named), regions_of(named), list(named))
+    radii = [PlanarPacking(gears, regions).radii()[1] for _ in range(3 * rounds)]
+    whole = [timed(lambda: pack_circles(gears, regions)) for _ in range(rounds)]
+    sweeps = FixedPoint(PlanarPacking(gears, regions))
     sweeps.run(TARGET)
-    packing: Packing = whole[0][1]
+    packing: SpherePacking = whole[0][1]
     record = PackRecord(
         family=family,
         gears=gears,
@@ -53,7 +53,7 @@ def packed(family: str, given: int, rounds: int) -> list[PackRecord]:
     return [record]
 
 
-def _middle(rounds: Sequence[Sequence[Step]]) -> list[tuple[float, float]]:
+def _middle(rounds: Sequence[Sequence[PackingNewtonStep]]) -> list[tuple[float, float]]:
     """Each step's median time over the rounds, and its residual, which is the same in all."""
     return [(median(step.seconds for step in each), each[0].residual) for each in zip(*rounds, strict=True)]
 
@@ -63,7 +63,7 @@ def fitted(family: str, given: int, aim: Aim, least: int, rounds: int) -> list[F
     edges = graph(family, given)
     runs = [timed(lambda: from_graph(edges, least, aim)) for _ in range(rounds)]
     found: GraphSet = runs[0][1]
-    sized = [timed(lambda: size(found.configuration))[0] for _ in range(rounds)]
+    sized = [timed(lambda: size_gears(found.configuration))[0] for _ in range(rounds)]
     return [
         FitRecord(
             family=family,
@@ -94,7 +94,7 @@ class FixedPoint:
     trace             sweeps and largest residuals (rad): every 10th sweep up to 100, then with steps of a tenth
     """
 
-    def __init__(self, plane: Plane) -> None:
+    def __init__(self, plane: PlanarPacking) -> None:
         near = np.ones(plane.count, dtype=bool)
         near[list(plane.far)] = False
         place = np.cumsum(near) - 1
@@ -147,13 +147,13 @@ def _thinned(trace: list[tuple[int, float]]) -> list[tuple[int, float]]:
     return [*kept, trace[-1]] if len(trace) > 1 else kept
 
 
-def judged(packing: Packing) -> float:
+def judged(packing: SpherePacking) -> float:
     """Largest error of a tangency or right angle (rad): floats taken as they are, angles between them in 40 digits."""
     real: Any = Multiple() if find_spec("mpmath") else Long()
     return max(float(abs(each)) for each in _misses(packing, real))
 
 
-def _misses(packing: Packing, m: Any) -> Iterator[Any]:
+def _misses(packing: SpherePacking, m: Any) -> Iterator[Any]:
     gears = [_circle(m, *each) for each in zip(packing.axes, packing.cones, strict=True)]
     regions = [_circle(m, *each) for each in zip(packing.region_axes, packing.region_cones, strict=True)]
     left = {(walk[k - 1], gear): at for at, walk in enumerate(packing.regions) for k, gear in enumerate(walk)}
@@ -177,7 +177,7 @@ def _angle(m: Any, one: tuple[list[Any], Any], other: tuple[list[Any], Any]) -> 
     return m.atan2(m.sqrt(sum(x * x for x in across)), sum(x * y for x, y in zip(a, b, strict=True)))
 
 
-def overlaps(packing: Packing) -> int:
+def overlaps(packing: SpherePacking) -> int:
     """Pairs of gears whose circles overlap by more than 1e-9 rad, every pair measured in space."""
     count = 0
     for at, axis in enumerate(packing.axes[:-1], 1):

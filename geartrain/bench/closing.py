@@ -11,12 +11,12 @@ from statistics import median
 import numpy as np
 from numpy.typing import NDArray
 
+from geartrain.bench.phasing import PhaseAccuracy, measure_phase_accuracy
 from geartrain.bench.sphere_records import TOLERANCE, ClosureRecord
 from geartrain.bench.timing import timed
-from geartrain.closure.accuracy import Measured, measure
-from geartrain.closure.problem import judge
+from geartrain.kinematics.phasing.phase_system import judge_residue
 from geartrain.spherical import from_polyhedron
-from geartrain.spherical.loops import closes, loop_rules, residue
+from geartrain.spherical.assembly_loops import closes, loop_rules, residue
 
 Whole = NDArray[np.int64]
 Rule = Sequence[Fraction | float]
@@ -78,16 +78,16 @@ def assembled(power: int, suns: int) -> list[ClosureRecord]:
     """Planets equally spaced between sun and ring: the residues of the loops, as `check` finds them."""
     teeth = 14 * np.random.default_rng(power).integers(10**power // 14 + 1, 10 ** (power + 1) // 14, suns)
     teeth[1::2] += 2  # the others close: three times the sun's teeth are then a multiple of the planets
-    found = measure(teeth.tolist(), _PLANETS)
+    found = measure_phase_accuracy(teeth.tolist(), _PLANETS)
     return [_of_planets(power, found, FRACTIONS), _of_planets(power, found, "floats")]
 
 
-def _of_planets(power: int, found: Sequence[Measured], method: str) -> ClosureRecord:
+def _of_planets(power: int, found: Sequence[PhaseAccuracy], method: str) -> ClosureRecord:
     exact = method == FRACTIONS
     truth = [true_residue((each.teeth,), (Fraction(-3, _PLANETS),)) for each in found]
     said = [each.exact if exact else each.floats for each in found]
     bound = [0.0 if exact else each.bound for each in found]
-    kinds = [judge(value, slack) for value, slack in zip(said, bound, strict=True)]
+    kinds = [judge_residue(value, slack) for value, slack in zip(said, bound, strict=True)]
     right = ["misses" if each else "closes" for each in truth]
     errors = [
         float(_apart(Fraction(a), b)) if exact else one.error for a, b, one in zip(said, truth, found, strict=True)

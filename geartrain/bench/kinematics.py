@@ -10,15 +10,15 @@ from typing import Any
 
 import numpy as np
 
-from geartrain.analysis import GearTrain
+from geartrain.analysis.gear_train import GearTrain
+from geartrain.analysis.loader import load
 from geartrain.bench.families import FAMILIES, Data
 from geartrain.bench.record import Record, Records, measure
-from geartrain.circuits import find_circuits, find_tree
-from geartrain.components import Components, Part, find_components
-from geartrain.files import load
-from geartrain.speeds import solve
-from geartrain.speeds.floats import Floats, Rows, prepare, solve_floats
-from geartrain.system import Equation, System
+from geartrain.kinematics.circuits import find_circuits, find_tree
+from geartrain.kinematics.components import Components, SolvedPart, find_components
+from geartrain.kinematics.speeds import solve
+from geartrain.kinematics.speeds.float_speeds import Floats, PaddedRows, prepare, solve_floats
+from geartrain.kinematics.willis_system import WillisEquation, WillisSystem
 
 SIZES = (100, 1_000, 10_000, 100_000, 1_000_000)
 ORDERINGS = ("COLAMD", "MMD_ATA", "MMD_AT_PLUS_A", "NATURAL")
@@ -80,7 +80,7 @@ def _measure_all(family: str, train: GearTrain, advance: Advance) -> list[Record
         advance(f"{family} {links}: {method}")
         rows.append(measure(family, links, method, task, error_of))
 
-    some = System(system.links, system.equations[:: links // _JUDGED]) if drifted else system
+    some = WillisSystem(system.links, system.equations[:: links // _JUDGED]) if drifted else system
     if not (drifted and links > _ALL_LINKS):  # to read them all takes the square of their number, whatever is kept
         take("exact", lambda: _read(_exact(train)), lambda speeds: _residue(some, speeds))
     if exact is not None:
@@ -129,7 +129,7 @@ def _components(train: GearTrain) -> Components:
 def _exact(train: GearTrain) -> Mapping[str, Fraction]:
     """Walk, reduce, eliminate, read off: everything but the circuits themselves."""
     declared = train.declaration
-    part = Part(tuple(declared.links), declared.frame, train.circuits, tuple(declared.inputs))
+    part = SolvedPart(tuple(declared.links), declared.frame, train.circuits, tuple(declared.inputs))
     return solve(part, declared.case(train.states[0] if train.states else None), train.signs, None).speeds
 
 
@@ -144,12 +144,12 @@ def _same(speed: Any, right: Fraction) -> float:
     return 0.0 if speed == right else float("inf")
 
 
-def _residue(system: System, speeds: Mapping[str, Fraction]) -> float:
+def _residue(system: WillisSystem, speeds: Mapping[str, Fraction]) -> float:
     """0 if the speeds satisfy every raw equation exactly."""
     return 0.0 if all(_holds(row, speeds) for row in system.equations) else float("inf")
 
 
-def _holds(row: Equation, speeds: Mapping[str, Fraction]) -> bool:
+def _holds(row: WillisEquation, speeds: Mapping[str, Fraction]) -> bool:
     """The row in integers, cross-multiplied: reducing fractions of long numbers would take longer than solving."""
     top, bottom = 0, 1
     for link, coefficient in row.terms:
@@ -177,7 +177,7 @@ def _walk(train: GearTrain) -> dict[str, float]:
     return speeds
 
 
-def _compiled(matrix: Rows, equations: Sequence[Equation]) -> tuple[Any, Any]:
+def _compiled(matrix: PaddedRows, equations: Sequence[WillisEquation]) -> tuple[Any, Any]:
     """The raw system as integer matrices of a compiled library."""
     import flint
 
@@ -188,7 +188,7 @@ def _compiled(matrix: Rows, equations: Sequence[Equation]) -> tuple[Any, Any]:
     return flint.fmpz_mat(lines), flint.fmpz_mat([[int(row.right)] for row in equations])
 
 
-def _refined(system: System, redundant: list[str]) -> Floats:
+def _refined(system: WillisSystem, redundant: list[str]) -> Floats:
     values: Floats = solve_floats(system, redundant).speeds.values[:, 0]
     return values
 
@@ -204,7 +204,7 @@ def _error(x: Any, truth: Floats | None) -> float | None:
 class _Shuffled:
     """The raw matrix with rows and columns in random order, as a user's model would arrive."""
 
-    def __init__(self, rows: Rows, seed: int) -> None:
+    def __init__(self, rows: PaddedRows, seed: int) -> None:
         draw = np.random.default_rng(seed)
         size = len(rows.columns)
         self.lines, self.columns = draw.permutation(size), draw.permutation(size)

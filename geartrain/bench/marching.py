@@ -11,10 +11,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from geartrain.analysis import GearTrain
-from geartrain.motion import Motion, Source
-from geartrain.teeth.base import Law
-from geartrain.teeth.triangular.law import TriangularLaw
+from geartrain.analysis.gear_train import GearTrain
+from geartrain.dynamics.motion import Motion, PairErrorSource
+from geartrain.teeth.transmission import TransmissionFunction
+from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
 
 Floats = NDArray[np.float64]
 
@@ -47,7 +47,7 @@ class Marching:
         self.start[[at[link] for link in train.declaration.links]] = start
 
     @staticmethod
-    def _pair(motion: Motion, source: Source, row: int) -> Marched:
+    def _pair(motion: Motion, source: PairErrorSource, row: int) -> Marched:
         joint = motion.spread.joints[source.pair]
         own, carried = source.forward * source.driver_sense, source.forward * source.carrier_sense
         ratio, scale = float(source.law.ratio), joint.coefficient * source.sense
@@ -108,9 +108,9 @@ class Marched(NamedTuple):
     scale: int
 
 
-def _speed_of(law: Law) -> Callable[[float], float]:
+def _speed_of(law: TransmissionFunction) -> Callable[[float], float]:
     """dq/dS at one angle, in plain floats: arrays of one element would cost ten times as much."""
-    if isinstance(law, TriangularLaw):
+    if isinstance(law, TriangularTransmission):
         return _Path(law).speed
     return lambda S: float(law.speed(S))
 
@@ -118,7 +118,7 @@ def _speed_of(law: Law) -> Callable[[float], float]:
 class _Path:
     """Triangular teeth in plain floats: which stretch of the path an angle falls in, and its formula."""
 
-    def __init__(self, law: TriangularLaw) -> None:
+    def __init__(self, law: TriangularTransmission) -> None:
         self.intervals, self.period, self.couple = law.intervals, law.period, law.contact.path.couple
         self.edges = [0.0, *accumulate(interval.width for interval in law.intervals)]
         first = law.intervals[0]

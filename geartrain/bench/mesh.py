@@ -1,7 +1,8 @@
 """Every way to the transmission law of triangular teeth: cost, memory and true error, as ratios to the direct formula.
 
-Direct is `TriangularLaw`: few candidates, switching points as roots, then one formula an angle. Its alternatives: the
-envelope of all couples sampled and interpolated; switching points found by scanning all couples; the law tabulated.
+Direct is `TriangularTransmission`: few candidates, switching points as roots, then one formula an angle. Its
+alternatives: the envelope of all couples sampled and interpolated; switching points found by scanning all couples;
+the law tabulated.
 """
 
 from __future__ import annotations
@@ -19,10 +20,10 @@ from geartrain.bench.mesh_records import DIRECT, SCANNED, TABULATED, MeshRecord,
 from geartrain.bench.mesh_truth import reference
 from geartrain.bench.mesh_ways import Coarse, Sampled, plain_law, scanned
 from geartrain.bench.record import Record, measure
-from geartrain.teeth.table import Table, Tabulated
-from geartrain.teeth.triangular.law import TriangularLaw
-from geartrain.teeth.triangular.meshing import Meshing, Window, find_window
-from geartrain.teeth.triangular.sizes import Sizes, equal_depth
+from geartrain.teeth.transmission_table import CellTable, TabulatedTransmission
+from geartrain.teeth.triangular.clearance_window import ClearanceWindow, TriangularVerdict, find_window
+from geartrain.teeth.triangular.pair_geometry import TriangularSizes, equal_depth
+from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
 
 Floats = NDArray[np.float64]
 Function = Callable[[Floats], Floats]
@@ -77,8 +78,8 @@ class _Step:
         error = None if function is None else pair.error_of(self.quantity, function)
         found = measure(pair.name, pair.couples, self.method, task, lambda _: error)
         plain = {field.name: getattr(found, field.name) for field in fields(Record)}
-        plain["note"] = found.note or (f"{function.cells} cells" if isinstance(function, Table) else "")
-        if isinstance(function, Table):
+        plain["note"] = found.note or (f"{function.cells} cells" if isinstance(function, CellTable) else "")
+        if isinstance(function, CellTable):
             plain["note"] += f", {function.nbytes / 1024:.3g} KB"
         return MeshRecord(**plain, quantity=self.quantity, angles=0 if function is None else pair.angles)
 
@@ -126,9 +127,9 @@ class _Pair:
         self._built: dict[str, Any] = {}
 
     @cached_property
-    def sizes(self) -> Sizes:
+    def sizes(self) -> TriangularSizes:
         z1, z2, beta, excess = self.given
-        sizes = Sizes(z1, z2, *equal_depth(z1, z2, beta, beta), beta, beta, 0.0)
+        sizes = TriangularSizes(z1, z2, *equal_depth(z1, z2, beta, beta), beta, beta, 0.0)
         return sizes.at(find_window(sizes).at(self.fraction) if excess is None else excess)
 
     @property
@@ -136,20 +137,20 @@ class _Pair:
         return int(2 * self.sizes.reach1 / self.sizes.p1) + 1
 
     @cached_property
-    def law(self) -> TriangularLaw:
+    def law(self) -> TriangularTransmission:
         return plain_law(self.sizes)
 
-    def window(self) -> Window:
+    def window(self) -> ClearanceWindow:
         """The window of clearance."""
         return find_window(self._fresh())
 
-    def _fresh(self) -> Sizes:
+    def _fresh(self) -> TriangularSizes:
         """The same pair a little larger than ever before: what was worked out for it is not remembered."""
         self._asked += 1
         scale = 1 + 1e-9 * self._asked
         return replace(self.sizes, R1=self.sizes.R1 * scale, R2=self.sizes.R2 * scale)
 
-    def verdict(self) -> Meshing:
+    def verdict(self) -> TriangularVerdict:
         """Whether the pair runs."""
         return plain_law(self._fresh()).verdict
 
@@ -167,7 +168,7 @@ class _Pair:
             return law
         if count:
             return Coarse(law, int(count.removesuffix(" cells")))
-        table = Tabulated(law)
+        table = TabulatedTransmission(law)
         _ = table.error_table
         return table
 

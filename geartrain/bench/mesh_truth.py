@@ -10,13 +10,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from geartrain.teeth.triangular.contact import Couple
-from geartrain.teeth.triangular.sizes import Sizes
+from geartrain.teeth.triangular.pair_geometry import TriangularSizes
+from geartrain.teeth.triangular.tooth_couple import ToothCouple
 
 Floats = NDArray[np.float64]
 
 
-def reference(sizes: Sizes, S: Floats) -> tuple[Floats, Floats]:
+def reference(sizes: TriangularSizes, S: Floats) -> tuple[Floats, Floats]:
     """Transmission error (rad) and speed ratio at driver angles S in the first pitch, from the law's definition.
 
     Contact of one couple from the two lines of flanks, every couple in reach asked, 40 digits if mpmath is installed,
@@ -52,7 +52,7 @@ class Long:
 class Exact:
     """The definition of the law, in whatever numbers `real` has, written as in a textbook: many digits may cancel."""
 
-    def __init__(self, sizes: Sizes, real: Any) -> None:
+    def __init__(self, sizes: TriangularSizes, real: Any) -> None:
         self.m, self.sizes = real, sizes
         self.R1, self.R2, self.b1, self.b2, excess = (
             real.number(x) for x in (sizes.R1, sizes.R2, sizes.beta1, sizes.beta2, sizes.excess)
@@ -61,7 +61,7 @@ class Exact:
         least = self.R1 + self.R2 - min(self._depth(self.R1, self.p1, self.b1), self._depth(self.R2, self.p2, self.b2))
         self.D = (1 + excess) * least
         self.reach = real.acos((self.D**2 + self.R1**2 - self.R2**2) / (2 * self.D * self.R1))
-        self.couple = Couple(sizes)
+        self.couple = ToothCouple(sizes)
 
     def _depth(self, R: Any, pitch: Any, b: Any) -> Any:
         """The bottom of a space is where the flanks of two neighbouring teeth meet."""

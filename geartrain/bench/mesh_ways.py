@@ -7,11 +7,11 @@ from math import ceil
 import numpy as np
 from numpy.typing import NDArray
 
-from geartrain.teeth.table import DEGREE, Table
-from geartrain.teeth.triangular.contact import APPROACH, RECESS, Couple
-from geartrain.teeth.triangular.law import TriangularLaw
-from geartrain.teeth.triangular.path import Interval
-from geartrain.teeth.triangular.sizes import Sizes
+from geartrain.teeth.transmission_table import DEGREE, CellTable
+from geartrain.teeth.triangular.pair_geometry import TriangularSizes
+from geartrain.teeth.triangular.real_path import DriveInterval
+from geartrain.teeth.triangular.tooth_couple import APPROACH, RECESS, ToothCouple
+from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
 
 Floats = NDArray[np.float64]
 Driver = tuple[int, str] | None
@@ -19,22 +19,22 @@ Driver = tuple[int, str] | None
 _SCAN = 128  # positions in a pitch at which the scan asks who drives
 
 
-def plain_law(sizes: Sizes) -> TriangularLaw:
+def plain_law(sizes: TriangularSizes) -> TriangularTransmission:
     """The law by the direct formula."""
-    return TriangularLaw(sizes, friction=0.2)
+    return TriangularTransmission(sizes, friction=0.2)
 
 
 class Coarse:
     """The error alone, on as many cells as asked for."""
 
-    def __init__(self, law: TriangularLaw, cells: int) -> None:
-        self.error = Table(law.error, law.period, np.unique(np.mod(law.corners(), law.period)), cells, DEGREE)
+    def __init__(self, law: TriangularTransmission, cells: int) -> None:
+        self.error = CellTable(law.error, law.period, np.unique(np.mod(law.corners(), law.period)), cells, DEGREE)
 
 
 class Sampled:
     """The envelope of all couples at `count` positions of a pitch, the driven wheel dragged, and linear between."""
 
-    def __init__(self, sizes: Sizes, count: int) -> None:
+    def __init__(self, sizes: TriangularSizes, count: int) -> None:
         self.ratio, self.pitch = sizes.ratio, sizes.p1
         self.grid: Floats = np.arange(count + 1.0) * (sizes.p1 / count)
         lowest = lowest_of_all(sizes, -self.grid[:-1])
@@ -53,9 +53,9 @@ class Sampled:
         return np.asarray(np.interp(np.mod(S, self.pitch), self.grid, self.speeds), dtype=float)
 
 
-def lowest_of_all(sizes: Sizes, t: Floats) -> Floats:
+def lowest_of_all(sizes: TriangularSizes, t: Floats) -> Floats:
     """U(t): the least driven angle over all couples in reach at driver positions t (rad); infinite where none is."""
-    couple, reach = Couple(sizes), sizes.reach1
+    couple, reach = ToothCouple(sizes), sizes.reach1
     lowest = np.full(t.shape, np.inf)
     for k in range(ceil((-reach - t.max()) / sizes.p1), int((reach - t.min()) // sizes.p1) + 1):
         x = t + k * sizes.p1
@@ -65,7 +65,7 @@ def lowest_of_all(sizes: Sizes, t: Floats) -> Floats:
     return lowest
 
 
-def scanned(sizes: Sizes) -> TriangularLaw:
+def scanned(sizes: TriangularSizes) -> TriangularTransmission:
     """The law on switching points found by a scan of all couples."""
     law = plain_law(sizes)
     vars(law.contact.path)["envelope"] = _Scan(sizes).envelope()
@@ -76,8 +76,8 @@ def scanned(sizes: Sizes) -> TriangularLaw:
 class _Scan:
     """Switching points where the lowest of all couples changes, by halving; what is shorter than a scan is missed."""
 
-    def __init__(self, sizes: Sizes) -> None:
-        self.sizes, self.couple = sizes, Couple(sizes)
+    def __init__(self, sizes: TriangularSizes) -> None:
+        self.sizes, self.couple = sizes, ToothCouple(sizes)
         reach = int(sizes.reach1 // sizes.p1) + 2
         self.numbers = np.arange(-reach, reach + 2)
 
@@ -95,7 +95,7 @@ class _Scan:
         at = int(np.nanargmin(np.fmin(*both)))
         return int(k[at]), APPROACH if both[0][at] < both[1][at] else RECESS
 
-    def envelope(self) -> list[Interval]:
+    def envelope(self) -> list[DriveInterval]:
         """Who drives over one pitch, beginning at a switching point."""
         positions = -self.sizes.p1 * np.arange(_SCAN + 1) / _SCAN
         drivers = [self.driver(float(t)) for t in positions]
@@ -111,7 +111,7 @@ class _Scan:
         for (start, driver), end in zip(switches, ends, strict=True):
             if driver is not None:
                 shift = driver[0] * self.sizes.p1
-                found.append(Interval(driver[1], start + shift, end + shift, driver[0]))
+                found.append(DriveInterval(driver[1], start + shift, end + shift, driver[0]))
         return found
 
     def _switch(self, t: float, end: float, here: Driver) -> float:

@@ -14,7 +14,8 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from geartrain.analysis import GearTrain
+from geartrain.analysis.gear_train import GearTrain
+from geartrain.analysis.loader import load
 from geartrain.bench.chains import forget
 from geartrain.bench.marching import Marching
 from geartrain.bench.motion_records import (
@@ -32,8 +33,7 @@ from geartrain.bench.motion_records import (
     TrainRecord,
 )
 from geartrain.bench.truth import Truth
-from geartrain.files import load
-from geartrain.motion import Motion, Superposition, Tally
+from geartrain.dynamics.motion import Motion, RunningStatistics, Superposition
 
 Floats = NDArray[np.float64]
 Ask = Callable[[Floats], Floats]
@@ -91,7 +91,7 @@ class Case:
     marched: dict[str, float] = field(default_factory=dict)
     memory: dict[str, float] = field(default_factory=dict)
     peaks: dict[str, float] = field(default_factory=dict)
-    tallies: list[Tally] = field(default_factory=list)
+    tallies: list[RunningStatistics] = field(default_factory=list)
 
     def steps(self) -> Iterator[tuple[str, Callable[[], None]]]:
         """What there is to measure, in order; each fills in a part of the case."""

@@ -7,7 +7,7 @@ from math import asin, inf, pi, radians, tan
 from typing import Literal
 
 from geartrain.bench.shapes_truth import TRUTH
-from geartrain.conjugate.pitch import Pitch
+from geartrain.teeth.conjugate.pitch_surfaces import PitchSurfaces
 
 Kind = Literal["stress", "heat", "friction"]
 
@@ -22,7 +22,7 @@ class Case:
 
     name: str
     kind: Kind
-    pitch: Pitch
+    pitch: PitchSurfaces
     amount: float
 
     @property
@@ -51,12 +51,12 @@ class Case:
         return {"stress": (tan(self.amount) ** 2 - 1) / 2, "heat": -1.0}.get(self.kind, inf)
 
 
-def _crown(z1: int, z2: int) -> Pitch:
+def _crown(z1: int, z2: int) -> PitchSurfaces:
     """A flat crown gear: its cone a plane, B = 0."""
-    return Pitch(z1, z2, asin(z1 / z2), pi / 2, True)
+    return PitchSurfaces(z1, z2, asin(z1 / z2), pi / 2, True)
 
 
-_SPUR, _BEVEL = Pitch.spur(24, 36), Pitch.cones(24, 36)
+_SPUR, _BEVEL = PitchSurfaces.spur(24, 36), PitchSurfaces.cones(24, 36)
 _SIX: tuple[tuple[Kind, float], ...] = (("stress", radians(20)), ("heat", 0.4), ("friction", radians(25)))
 CASES = tuple(
     Case(f"{kind} {name}", kind, pitch, amount)
@@ -72,16 +72,16 @@ _WIDE = tuple(
     case
     for z1, z2, hot in ((5, 5, "1.2"), (5, 1000, "0.8"), (100_000, 100_000, "0.8"))
     for case in (
-        Case(f"stress spur {z1}/{z2}, 20 deg", "stress", Pitch.spur(z1, z2), radians(20)),
-        Case(f"heat spur {z1}/{z2}, Q {hot}", "heat", Pitch.spur(z1, z2), float(hot)),
+        Case(f"stress spur {z1}/{z2}, 20 deg", "stress", PitchSurfaces.spur(z1, z2), radians(20)),
+        Case(f"heat spur {z1}/{z2}, Q {hot}", "heat", PitchSurfaces.spur(z1, z2), float(hot)),
     )
 )
 _CONES = tuple(
     case
     for label, pitch in (
         ("crown 24/36", _crown(24, 36)),
-        ("bevel 40/40 at 176 deg", Pitch.cones(40, 40, radians(176))),
-        ("bevel 5/1000 at 90 deg", Pitch.cones(5, 1000)),
+        ("bevel 40/40 at 176 deg", PitchSurfaces.cones(40, 40, radians(176))),
+        ("bevel 5/1000 at 90 deg", PitchSurfaces.cones(5, 1000)),
     )
     for case in (
         Case(f"stress {label}, 20 deg", "stress", pitch, radians(20)),

@@ -9,12 +9,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from geartrain.bench.shapes_cases import Case
-from geartrain.conjugate import forms
-from geartrain.conjugate.chebyshev import Series
-from geartrain.conjugate.collocation import Both, fitted, solved
+from geartrain.numerics.chebyshev import ChebyshevSeries
+from geartrain.teeth.conjugate import optimal_sides as forms
+from geartrain.teeth.conjugate.singular_collocation import ValueAndSlope, fitted, solved
 
 if TYPE_CHECKING:
-    from geartrain.conjugate.pitch import Floats
+    from geartrain.numerics.arrays import Floats
 
     Bend = Callable[[float, float], float]
 
@@ -40,7 +40,7 @@ def nodes_of(case: Case) -> int:
     return len(solved(case.pitch, *_law(case), case.end).coefficients)
 
 
-def _law(case: Case) -> tuple[Both, float]:
+def _law(case: Case) -> tuple[ValueAndSlope, float]:
     """The equation of a criterion, and what its solution starts with."""
     pitch = case.pitch
     if case.kind == "stress":
@@ -149,10 +149,10 @@ def collocated(case: Case, nodes: int) -> float:
     x, weights = np.polynomial.legendre.leggauss(nodes + 8)
     end, before = 0.94 * case.X, None
     for _ in range(12):
-        v: Series = fitted(pitch, law, first, end, 0.0, nodes, before)
+        v: ChebyshevSeries = fitted(pitch, law, first, end, 0.0, nodes, before)
         before = v
 
-        def sine(d: Floats, v: Series = v) -> Floats:
+        def sine(d: Floats, v: ChebyshevSeries = v) -> Floats:
             found: Floats = v(d) * (pitch.S(d) if case.kind == "heat" else 1.0)
             return found
 

@@ -14,7 +14,7 @@ from typing import Any
 from geartrain.bench.circles import fitted, packed
 from geartrain.bench.closing import assembled, closed
 from geartrain.bench.sphere_records import ClosureRecord, FitRecord, PackRecord, SphereRecords
-from geartrain.spherical.graphs import Aim
+from geartrain.spherical.graph_set import Aim
 
 Advance = Callable[[str], None]
 

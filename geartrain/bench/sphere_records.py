@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from geartrain.bench.timing import seconds_text
-from geartrain.spherical.graphs import Aim
+from geartrain.spherical.graph_set import Aim
 
 TARGET = 1e-11
 """Residual of the radii (rad) to which both ways to them are timed."""

@@ -32,14 +32,12 @@ from geartrain.bench.teeth_records import (
 )
 from geartrain.bench.teeth_ways import Case, Found, Pair
 from geartrain.bench.timing import timed
-from geartrain.synthesis.stages.finding import find_stages
-from geartrain.synthesis.stages.fit import Fit
-from geartrain.synthesis.stages.plan import lay_out
-from geartrain.synthesis.stages.products import multisets, products_of
-from geartrain.synthesis.stages.question import Question
-from geartrain.synthesis.stages.work import search_segment, task_of
-from geartrain.synthesis.targets import Wanted, read_ratio
-from geartrain.synthesis.trains.searching import search
+from geartrain.synthesis.ratio.product_windows import multisets, products_of
+from geartrain.synthesis.ratio.search_segments import lay_out, search_segment, task_of
+from geartrain.synthesis.ratio.stage_problem import StageConstraints, StageProblem
+from geartrain.synthesis.ratio.stage_search import find_stages
+from geartrain.synthesis.target_ratio import TargetRatio, read_ratio
+from geartrain.synthesis.train.train_search import search
 from geartrain.train import Train
 
 Advance = Callable[[str], None]
@@ -181,7 +179,7 @@ def _growths(quick: bool) -> Iterator[tuple[str, Callable[[], Sequence[TeethGrow
 
 def _of_products(stages: int, size: int, rounds: int) -> list[TeethGrowth]:
     counts = range(12, 12 + size)
-    task = partial(find_stages, Wanted(_MONTH), stages, counts, counts, best=1)
+    task = partial(find_stages, TargetRatio(_MONTH), stages, counts, counts, best=1)
     considered = multisets(size, stages) ** 2
     return [TeethGrowth(RATIO, stages, 2 * stages, 0, size, considered, *_cost(task, rounds)[:2])]
 
@@ -189,7 +187,9 @@ def _of_products(stages: int, size: int, rounds: int) -> list[TeethGrowth]:
 def _of_printed(rounds: int) -> list[TeethGrowth]:
     """All solutions within a tolerance, for which the public brute-force tool's time is known."""
     case = _case(*_PRINTED)
-    task = partial(find_stages, Wanted(case.value), case.stages, case.top, case.beneath, tolerance=Fraction(1, 10**6))
+    task = partial(
+        find_stages, TargetRatio(case.value), case.stages, case.top, case.beneath, tolerance=Fraction(1, 10**6)
+    )
     cost = _cost(task, rounds, lambda found: float(found.count))
     return [TeethGrowth(PRINTED, case.stages, 6, 0, len(case.top), case.considered, *cost)]
 
@@ -197,13 +197,13 @@ def _of_printed(rounds: int) -> list[TeethGrowth]:
 def _of_share(stages: int, size: int, sample: int) -> list[TeethGrowth]:
     """Some pieces of a search, evenly spread over all of them, with the tolerance that it would begin with."""
     counts = tuple(range(12, 12 + size))
-    question = Question(_MONTH, stages, counts, counts, Fit(), "error", 1, Fraction(0))
+    question = StageProblem(_MONTH, stages, counts, counts, StageConstraints(), "error", 1, Fraction(0))
     plan = lay_out(question)
     hint = plan.tolerance_for(4)
     number = len(plan.segments)
     sample = min(sample, number)
     chosen = [plan.segments[number * (2 * at + 1) // (2 * sample)] for at in range(sample)]
-    asked = Question(_MONTH, stages, counts, counts, Fit(), "error", 1, hint)
+    asked = StageProblem(_MONTH, stages, counts, counts, StageConstraints(), "error", 1, hint)
     tasks = [task_of(asked, *segment, hint) for segment in chosen]
 
     def task() -> None:

@@ -14,14 +14,14 @@ from itertools import combinations_with_replacement
 from math import prod
 from typing import Any, Literal
 
-from geartrain.analysis import GearTrain
-from geartrain.synthesis.approximants import approximants
-from geartrain.synthesis.counts import Counts
-from geartrain.synthesis.pairs import find_pairs
-from geartrain.synthesis.stages.finding import find_stages
-from geartrain.synthesis.stages.products import expand, multisets
-from geartrain.synthesis.targets import Wanted
-from geartrain.synthesis.trains.searching import search
+from geartrain.analysis.gear_train import GearTrain
+from geartrain.synthesis.gear_pair_search import find_pairs
+from geartrain.synthesis.ratio.product_windows import expand, multisets
+from geartrain.synthesis.ratio.stage_search import find_stages
+from geartrain.synthesis.stern_brocot import approximants
+from geartrain.synthesis.target_ratio import TargetRatio
+from geartrain.synthesis.tooth_count_ranges import Counts
+from geartrain.synthesis.train.train_search import search
 from geartrain.train import Train
 
 Pair = tuple[int, int]
@@ -167,7 +167,7 @@ def _shares(
 def nearest_pairs(value: Fraction, top: Counts, beneath: Counts, number: int) -> list[Pair]:
     """The nearest pairs of one stage, by the tree of Stern and Brocot."""
     sides = (top, beneath) if value >= 1 else (beneath, top)
-    return [(one.top[0], one.beneath[0]) for one in find_pairs(Wanted(value), *sides, best=number)]
+    return [(one.top[0], one.beneath[0]) for one in find_pairs(TargetRatio(value), *sides, best=number)]
 
 
 def convergent_pairs(value: Fraction, top: Counts, beneath: Counts, number: int) -> list[Pair]:
@@ -188,7 +188,7 @@ def convergent_pairs(value: Fraction, top: Counts, beneath: Counts, number: int)
 
 def by_products(case: Case) -> Found:
     """Sorted products: the best of all sets, proved."""
-    found = find_stages(Wanted(case.value), case.stages, case.top, case.beneath, best=1)
+    found = find_stages(TargetRatio(case.value), case.stages, case.top, case.beneath, best=1)
     return of_counts(case, found[0].top, found[0].beneath, case.considered, found.complete)
 
 

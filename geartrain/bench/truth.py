@@ -12,11 +12,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from geartrain.bench.mesh_truth import Exact, Long, Multiple
-from geartrain.exact import Row, eliminate
-from geartrain.motion import Motion, Source
-from geartrain.pins.laws import SlotLaw
-from geartrain.teeth.base import Law
-from geartrain.teeth.triangular.law import TriangularLaw
+from geartrain.dynamics.motion import Motion, PairErrorSource
+from geartrain.numerics.exact import LinearForm, eliminate
+from geartrain.teeth.pin_transmission import PinToSlotTransmission
+from geartrain.teeth.transmission import TransmissionFunction
+from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
 
 Floats = NDArray[np.float64]
 _SETTLED = 1e-25  # rad: far below what a float resolves, far above what 40 digits do
@@ -40,18 +40,18 @@ class Truth:
         ends = motion.ahead.outputs
         self.responses = [self._terms({of: 1, base: -1}, errors) for of, base in ends]
 
-    def _law(self, law: Law) -> Callable[[Any], Any]:
-        if isinstance(law, TriangularLaw) and law.direction > 0:
+    def _law(self, law: TransmissionFunction) -> Callable[[Any], Any]:
+        if isinstance(law, TriangularTransmission) and law.direction > 0:
             return _Teeth(law.sizes, self.real).error
-        assert isinstance(law, SlotLaw)
+        assert isinstance(law, PinToSlotTransmission)
         return partial(_slot_error, self.real, self.real.number(law.r), self.real.number(law.e))
 
-    def _spread(self) -> dict[int, Row]:
+    def _spread(self) -> dict[int, LinearForm]:
         """Every link's error as a sum over the errors of the sources, by -1 less their number, exactly."""
         system, spread = self.motion.train.system, self.motion.spread
         at = {link: number for number, link in enumerate(system.links)}
         own = {source.id: number for number, source in enumerate(self.sources)}
-        forms: list[Row] = []
+        forms: list[LinearForm] = []
         for row in system.equations:
             form = {at[link]: Fraction(coefficient) for link, coefficient in row.terms}
             if row.label in own:
@@ -60,7 +60,7 @@ class Truth:
             forms.append(form)
         return dict(eliminate(forms).forms())
 
-    def _terms(self, links: dict[int, int], errors: dict[int, Row]) -> list[tuple[int, Any]]:
+    def _terms(self, links: dict[int, int], errors: dict[int, LinearForm]) -> list[tuple[int, Any]]:
         """A signed sum of links' errors, as sources with their factors."""
         total: dict[int, Fraction] = {}
         for link, sign in links.items():
@@ -69,7 +69,7 @@ class Truth:
         number = self.real.number
         return [(at, number(each.numerator) / number(each.denominator)) for at, each in total.items() if each]
 
-    def _gain(self, source: Source, errors: dict[int, Row]) -> list[tuple[int, Any]]:
+    def _gain(self, source: PairErrorSource, errors: dict[int, LinearForm]) -> list[tuple[int, Any]]:
         joint = self.motion.spread.joints[source.pair]
         links = {joint.driver: source.forward * source.driver_sense}
         links[joint.carrier] = links.get(joint.carrier, 0) - source.forward * source.carrier_sense
@@ -97,7 +97,7 @@ class Truth:
                 deltas[at], last[at], changed = source.sense * self.laws[at](S), S, True
         return deltas
 
-    def _stands(self, source: Source, turns: Fraction) -> Any:
+    def _stands(self, source: PairErrorSource, turns: Fraction) -> Any:
         """The driver's forward angle (rad, whole turns left out) in mean motion."""
         joint, train = self.motion.spread.joints[source.pair], self.motion.train
         links = train.system.links

@@ -11,13 +11,13 @@ from itertools import islice
 import numpy as np
 from numpy.typing import NDArray
 
-from geartrain.analysis import GearTrain
-from geartrain.files import load
+from geartrain.analysis.gear_train import GearTrain
+from geartrain.analysis.loader import load
 from geartrain.synthesis.formulas import with_counts
-from geartrain.uncertainty.counts.batch import BLOCK, Batch, Grid
-from geartrain.uncertainty.counts.columns import Columns
-from geartrain.uncertainty.counts.doubts import find_doubts
-from geartrain.uncertainty.counts.question import Question, ask
+from geartrain.uncertainty.posterior.enumeration import BLOCK, CombinationGrid, LikelihoodBatch
+from geartrain.uncertainty.posterior.inference_problem import InferenceProblem, build_inference_problem
+from geartrain.uncertainty.posterior.monomial_columns import MonomialColumns
+from geartrain.uncertainty.posterior.priors import find_priors
 
 Bools = NDArray[np.bool_]
 Floats = NDArray[np.float64]
@@ -46,7 +46,7 @@ class Counted:
         return load(self.train)
 
     @cached_property
-    def question(self) -> Question:
+    def question(self) -> InferenceProblem:
         """Which combinations meet the targets?"""
         train = self.given.declaration
         free = {
@@ -54,17 +54,17 @@ class Counted:
             for name, (_, wheel) in train.wheels.items()
             if wheel.count is not None
         }
-        return ask(train, find_doubts(train, free), tolerance=self.tolerance, against="targets")
+        return build_inference_problem(train, find_priors(train, free), tolerance=self.tolerance, against="targets")
 
     @cached_property
-    def judge(self) -> Batch:
+    def judge(self) -> LikelihoodBatch:
         """Tells of many combinations whether they fit."""
-        return Batch(self.question)
+        return LikelihoodBatch(self.question)
 
     @cached_property
-    def teller(self) -> Batch:
+    def teller(self) -> LikelihoodBatch:
         """Tells the speeds of all outputs too."""
-        return Batch(self.question, every=True)
+        return LikelihoodBatch(self.question, every=True)
 
     @cached_property
     def counts(self) -> dict[str, Ints]:
@@ -89,16 +89,16 @@ class Counted:
 
     def neighbours(self) -> int:
         """How many fit of as many combinations, or a few more, that follow each other in a complete enumeration."""
-        grid = Grid(self.judge)
+        grid = CombinationGrid(self.judge)
         middle = grid.runs // 2
         runs = grid.runs_from(middle, grid.runs)
-        rows: Iterator[tuple[dict[str, int], Columns]] = islice(runs, -(-self.combinations // grid.block))
+        rows: Iterator[tuple[dict[str, int], MonomialColumns]] = islice(runs, -(-self.combinations // grid.block))
         return sum(int(self.judge.judged(each)[0].sum()) for _, each in rows)
 
     @property
     def followed(self) -> int:
         """How many combinations `neighbours` looks at."""
-        block = Grid(self.judge).block
+        block = CombinationGrid(self.judge).block
         return -(-self.combinations // block) * block
 
     def told(self) -> dict[str, tuple[Floats, Floats]]:

@@ -12,10 +12,10 @@ from numpy.typing import NDArray
 from geartrain.bench.uncertainty_pairs import sized
 from geartrain.bench.uncertainty_records import ErrorRecord
 from geartrain.bench.uncertainty_truth import SHARE, chance_of_jam, uneven_driven
-from geartrain.parallel import open_executor, run
-from geartrain.uncertainty.cutting import Cutting, CutWheel, Spread, batch_verdicts
-from geartrain.uncertainty.cutting.pair import CutPair
-from geartrain.uncertainty.trials.intervals import wilson
+from geartrain.numerics.work import open_executor, run
+from geartrain.uncertainty.confidence_intervals import wilson
+from geartrain.uncertainty.manufacturing_errors import CuttingErrorModel, CutWheel, ErrorDistribution, batch_verdicts
+from geartrain.uncertainty.manufacturing_errors.cut_pair import CutGearPair
 
 Bools = NDArray[np.bool_]
 
@@ -33,14 +33,14 @@ def block_of_jams(task: Sequence[Any]) -> str:
     return np.packbits(batch_verdicts(pair.sizes, pair.first, pair.second).jams).tobytes().hex()
 
 
-def _exact(rng: np.random.Generator) -> CutPair:
+def _exact(rng: np.random.Generator) -> CutGearPair:
     return uneven_driven(rng.uniform(-1.0, 1.0, (BLOCK, 38)))
 
 
-def _normal(rng: np.random.Generator) -> CutPair:
-    sizes, cutting = sized(64, 38, 0.02), Cutting(Spread(SIGMA))
+def _normal(rng: np.random.Generator) -> CutGearPair:
+    sizes, cutting = sized(64, 38, 0.02), CuttingErrorModel(ErrorDistribution(SIGMA))
     driver = cutting.draw(CutWheel.driver_of(sizes), rng, BLOCK)
-    return CutPair(sizes, driver, cutting.draw(CutWheel.driven_of(sizes), rng, BLOCK))
+    return CutGearPair(sizes, driver, cutting.draw(CutWheel.driven_of(sizes), rng, BLOCK))
 
 
 def jams(case: str, blocks: int, seed: int = 1, workers: int = 1, on_done: Callable[[], None] = lambda: None) -> Bools:

@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from geartrain.bench.uncertainty_pairs import sized
-from geartrain.uncertainty.cutting import CutWheel, nominal_play
-from geartrain.uncertainty.cutting.pair import CutPair
+from geartrain.uncertainty.manufacturing_errors import CutWheel, nominal_backlash
+from geartrain.uncertainty.manufacturing_errors.cut_pair import CutGearPair
 
 SHARE = 0.88
 """The play over the greatest difference of two driven places."""
@@ -28,13 +28,13 @@ def chance_of_jam(z: int, share: float) -> float:
     return -sum(z * comb(z - k, k) // (z - k) * (-q) ** k for k in range(1, z // 2 + 1))
 
 
-def uneven_driven(places: NDArray[np.float64]) -> CutPair:
+def uneven_driven(places: NDArray[np.float64]) -> CutGearPair:
     """64 even teeth drive 38 whose places, -1 to 1, use up the play when two neighbours differ by 2 `SHARE`.
 
     A driven tooth that is late against the one before it by more than the least play jams; errors as small as these
     let nothing else jam.
     """
     sizes = sized(64, 38, 0.01)
-    half = nominal_play(sizes) * sizes.p2 / (2 * SHARE)
+    half = nominal_backlash(sizes) * sizes.p2 / (2 * SHARE)
     driven = CutWheel.driven_of(sizes).placed(half * places)
-    return CutPair(sizes, CutWheel.driver_of(sizes), driven)
+    return CutGearPair(sizes, CutWheel.driver_of(sizes), driven)

@@ -16,7 +16,6 @@ from geartrain.cli import (
     errors,
     export,
     graph,
-    listing,
     mesh,
     motion,
     report,
@@ -28,11 +27,12 @@ from geartrain.cli import (
     torques,
     view,
 )
-from geartrain.cli.ending import Verbs, guarded
+from geartrain.cli import catalogue as listing
+from geartrain.cli.exit_codes import VerbGroup, guarded
 
 app = typer.Typer(
     name="geartrain",
-    cls=Verbs,
+    cls=VerbGroup,
     help="What does this gear train do? Exact speeds, named diagnoses and sources for any declared train.",
     no_args_is_help=True,
     pretty_exceptions_enable=False,

@@ -10,7 +10,7 @@ import typer
 from geartrain.cli.common import Force, Json, Out, Sink, as_json, emit, sink
 
 
-class Records(Protocol):
+class BenchmarkTables(Protocol):
     """What a benchmark measured."""
 
     def to_dict(self) -> dict[str, Any]:
@@ -141,7 +141,9 @@ def uncertainty(
     _measure("uncertainty", steps, lambda tell: bench.uncertainty(quick, tell), json, sink(out, force))
 
 
-def _measure(name: str, steps: int, run: Callable[[Callable[[str], None]], Records], json: bool, to: Sink) -> None:
+def _measure(
+    name: str, steps: int, run: Callable[[Callable[[str], None]], BenchmarkTables], json: bool, to: Sink
+) -> None:
     """Run a benchmark under a progress bar, and print what it measured."""
     from rich.console import Console
     from rich.progress import Progress

@@ -11,8 +11,8 @@ from geartrain.cli.common import GOOD, NOT_USABLE, VERDICT, Files, complain, emi
 from geartrain.errors import GearTrainError
 
 if TYPE_CHECKING:
-    from geartrain.analysis import GearTrain
-    from geartrain.outputs import OutputResult
+    from geartrain.analysis.gear_train import GearTrain
+    from geartrain.kinematics.judged_outputs import OutputResult
 
 
 def run(
@@ -27,9 +27,9 @@ def run(
 
 
 def _check(file: str, quiet: bool) -> int:
-    from geartrain.files import load
+    from geartrain.analysis.loader import load
+    from geartrain.report.answers import expectations_met
     from geartrain.report.document import exact
-    from geartrain.report.results import figures_held
 
     try:
         train = load(file)
@@ -66,7 +66,7 @@ def _check(file: str, quiet: bool) -> int:
             emit(f"note {file}: {line}")
     if good == GOOD and not quiet:
         loops = f", {plural(train.mobility.redundant, 'redundant circuit')}" if train.mobility.redundant else ""
-        kept = figures_held(answers) or "nothing expected"
+        kept = expectations_met(answers) or "nothing expected"
         emit(f"ok   {file}: mobility {train.mobility.by_rank}{loops}, {kept}")
     return good
 
@@ -85,12 +85,12 @@ def _place(state: str | None, name: str, states: object) -> tuple[str, ...]:
 
 
 def _wanted(result: OutputResult) -> str:
-    from geartrain.report.results import found_words
+    from geartrain.report.answers import result_words
 
     words = []
     if result.expect_holds is False and result.output.expect:
         words.append(f"expected {result.output.expect.value}")
     if result.published_holds is False and result.output.published:
         published = result.output.published
-        words.append(f"published {published.value} as {published.as_}, {found_words(result)}")
+        words.append(f"published {published.value} as {published.as_}, {result_words(result)}")
     return "; " + ", ".join(words)

@@ -16,7 +16,7 @@ import typer
 from geartrain.errors import GearTrainError, Problem, printable
 
 if TYPE_CHECKING:
-    from geartrain.analysis import GearTrain
+    from geartrain.analysis.gear_train import GearTrain
     from geartrain.report import Document
 
 GOOD, VERDICT, NOT_USABLE, INTERRUPTED = 0, 1, 2, 130
@@ -35,7 +35,7 @@ StateName = Annotated[str | None, typer.Option("--state", help="The state to sol
 
 def load_all(files: list[str]) -> list[GearTrain]:
     """All trains, or one error that tells what is wrong with each of the files."""
-    from geartrain.files import load
+    from geartrain.analysis.loader import load
 
     trains: list[GearTrain] = []
     problems: list[Problem] = []
@@ -49,7 +49,7 @@ def load_all(files: list[str]) -> list[GearTrain]:
     return trains
 
 
-def sound(train: GearTrain, state: str | None) -> bool:
+def is_sound(train: GearTrain, state: str | None) -> bool:
     """True if all is determined and as expected in a state (by default the first), and no teeth are at fault."""
     first = state if state is not None or not train.states else train.states[0]
     return bool(train.solve(first)) and not train.faults
@@ -91,7 +91,7 @@ class Sink:
             sys.stdout.buffer.write(data)
             sys.stdout.buffer.flush()
             return
-        from geartrain.files import write_bytes
+        from geartrain.numerics.files import write_bytes
 
         write_bytes(self.path, data, self.force)
         tell(f"wrote {self.path}{said}")
@@ -111,16 +111,16 @@ def sink(out: Path | None, force: bool, allowed: Iterable[str] = (), option: str
             why = "standard output is for the answer"
             raise GearTrainError(Problem(f"{option} - is not written", why, "name a file", option))
         return Sink(plain=out is not None)
-    from geartrain.files import destination
+    from geartrain.numerics.files import destination
 
     suffix_of(out, allowed, option)
     destination(out, force)
     return Sink(out, force)
 
 
-def apart(*sinks: Sink) -> None:
+def check_distinct_outputs(*sinks: Sink) -> None:
     """Make sure that no two results of one command go into one file. Raises `GearTrainError`."""
-    from geartrain.files import destination
+    from geartrain.numerics.files import destination
 
     taken: set[Path] = set()
     for each in sinks:
@@ -156,7 +156,7 @@ def show(documents: Sequence[Document], out: Sink, suffix: str | None = None) ->
 
 def draw(figure: Any, out: Sink) -> None:
     """A figure to a file, whole or not at all; as .svg where nothing says otherwise."""
-    from geartrain.plot import render
+    from geartrain.drawing import render
 
     out.write(render(figure, out.suffix or ".svg"))
 
@@ -175,11 +175,11 @@ def file_name(text: str, ending: str) -> Path:
     return Path(f"{stem or 'train'}{ending}")
 
 
-def share(text: str, option: str) -> Fraction:
+def read_share(text: str, option: str) -> Fraction:
     """A plain number, a percentage or ppm, as an option gives it; exact."""
     from pydantic_core import PydanticCustomError
 
-    from geartrain.quantity import Quantity
+    from geartrain.numerics.quantity import Quantity
 
     try:
         found = Quantity.parse(text, "fraction", plain=True)

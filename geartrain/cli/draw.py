@@ -7,9 +7,20 @@ from typing import Annotated, Literal
 
 import typer
 
-from geartrain.cli.common import PICTURES, STANDARD_NAME, VERDICT, File, Force, file_name, sink, sound, suffix_of, tell
+from geartrain.cli.common import (
+    PICTURES,
+    STANDARD_NAME,
+    VERDICT,
+    File,
+    Force,
+    file_name,
+    is_sound,
+    sink,
+    suffix_of,
+    tell,
+)
 from geartrain.cli.common import draw as write_figure
-from geartrain.cli.numbers import turns as read_turns
+from geartrain.cli.option_values import turns as read_turns
 
 
 def run(
@@ -28,7 +39,7 @@ def run(
     output: Annotated[list[str] | None, typer.Option("--output", help="Of dials: only this; may be repeated.")] = None,
 ) -> None:
     """Draw a train: plan to scale, stick diagram, graph, speed diagram (lever), dials."""
-    from geartrain.files import load
+    from geartrain.analysis.loader import load
 
     suffix_of(out, PICTURES)
     turned = read_turns("--turns", turns)
@@ -38,11 +49,11 @@ def run(
     elif not out.suffix and out != STANDARD_NAME:
         out = out.with_name(f"{out.name}.svg")
     to = sink(out, force, PICTURES)
-    from geartrain.plot import picture
+    from geartrain.drawing import picture
 
     figure = picture(train, kind, state, turned, labels, tuple(output or ()))
     write_figure(figure, to)
-    if sound(train, state):
+    if is_sound(train, state):
         return
     verdict = train.solve(state if state is not None or not train.states else train.states[0]).verdict
     if not verdict:

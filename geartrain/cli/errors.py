@@ -21,22 +21,22 @@ from geartrain.cli.common import (
     Out,
     Sink,
     StateName,
-    apart,
     as_json,
+    check_distinct_outputs,
     emit,
-    share,
+    read_share,
     show,
     sink,
     tell,
 )
 from geartrain.cli.long_runs import means
-from geartrain.cli.pictures import Picture, Plot, check_plot, draw_findings, mapped
+from geartrain.cli.uncertainty_plots import Picture, Plot, check_plot, draw_findings, with_map
 
 if TYPE_CHECKING:
     from concurrent.futures import Executor
 
-    from geartrain.parallel import Journal
-    from geartrain.uncertainty.trials import Findings, Means, Plan, Rows, Trials
+    from geartrain.numerics.work import Journal
+    from geartrain.uncertainty.monte_carlo import MonteCarloResult, TrialExecution, TrialPlan, TrialRecord, TrialResults
 
 Names = list[str] | None
 TABLES = (".parquet", ".csv")
@@ -72,18 +72,24 @@ def run(
     force: Force = False,
 ) -> None:
     """How often a train cut by hand jams, and how far its pointers stray; to a .parquet or .csv, every trial."""
-    from geartrain.files import load
-    from geartrain.uncertainty.trials import check_trials, find_plan, question, read_clearances, read_settings
+    from geartrain.analysis.loader import load
+    from geartrain.uncertainty.monte_carlo import (
+        check_trials,
+        find_trial_plan,
+        journal_key,
+        read_clearances,
+        read_error_overrides,
+    )
 
     to = sink(out, force, (".md", ".html", ".json", *TABLES))
     check_trials(trials)
     drawing = check_plot(plot, force, picture)
-    apart(to, drawing)
+    check_distinct_outputs(to, drawing)
     sweep = read_clearances(clearance) if clearance else []
-    chance = float(share(jam, "--jam"))
-    plan = find_plan(load(file), read_settings(set_ or ()), output or (), state, without or ())
+    chance = float(read_share(jam, "--jam"))
+    plan = find_trial_plan(load(file), read_error_overrides(set_ or ()), output or (), state, without or ())
     _check_extras(sobol)
-    asked_of = question(plan, seed, trials)
+    asked_of = journal_key(plan, seed, trials)
     count = 1 if workers is None and scheduler is None else workers
     with means("trials", _kept(asked_of, out), asked_of, count, scheduler, resume) as given:
         work = _Work(*given)
@@ -92,7 +98,7 @@ def run(
             work.stopped(found.done, trials)
         asked = _Studies(plan, trials, seed, work.later())
         findings = asked.findings(found, bool(output), sweep, sobol, tolerance, chance) if found.complete else None
-        drawn = mapped(findings, picture, sweep, work.later()) if findings is not None and plot is not None else None
+        drawn = with_map(findings, picture, sweep, work.later()) if findings is not None and plot is not None else None
         if findings is not None:
             work.finish()
     _answer(findings or _partial(found), json or to.suffix == ".json", STANDARD if to.suffix in TABLES else to)
@@ -114,7 +120,7 @@ def _check_extras(sobol: bool) -> None:
         raise MissingExtraError("SALib", "errors", "Sobol indices")
 
 
-def _answer(findings: Findings, json: bool, to: Sink) -> None:
+def _answer(findings: MonteCarloResult, json: bool, to: Sink) -> None:
     from geartrain import report
 
     if json:
@@ -123,18 +129,18 @@ def _answer(findings: Findings, json: bool, to: Sink) -> None:
         show([report.trials_document(findings)], to)
 
 
-def _partial(found: Trials) -> Findings:
-    from geartrain.uncertainty.trials import Findings
+def _partial(found: TrialResults) -> MonteCarloResult:
+    from geartrain.uncertainty.monte_carlo import MonteCarloResult
 
-    return Findings(found)
+    return MonteCarloResult(found)
 
 
 class _StoppedError(Exception):
     """The user interrupts."""
 
 
-def _trials(plan: Plan, trials: int, seed: int, work: _Work, table: _Table | None) -> Trials:
-    from geartrain.uncertainty.trials import run_trials
+def _trials(plan: TrialPlan, trials: int, seed: int, work: _Work, table: _Table | None) -> TrialResults:
+    from geartrain.uncertainty.monte_carlo import run_trials
 
     with suppress(_StoppedError), nullcontext() if table is None else table.open() as take:
         found = run_trials(plan, trials, seed, work.means(take))
@@ -146,16 +152,16 @@ def _trials(plan: Plan, trials: int, seed: int, work: _Work, table: _Table | Non
 class _Studies:
     """What is asked beside the trials themselves."""
 
-    def __init__(self, plan: Plan, trials: int, seed: int, means: Means) -> None:
+    def __init__(self, plan: TrialPlan, trials: int, seed: int, means: TrialExecution) -> None:
         self.plan, self.count, self.seed, self.means = plan, trials, seed, means
 
     def findings(
-        self, trials: Trials, named: bool, sweep: list[float], sobol: bool, tolerance: str | None, chance: float
-    ) -> Findings:
+        self, trials: TrialResults, named: bool, sweep: list[float], sobol: bool, tolerance: str | None, chance: float
+    ) -> MonteCarloResult:
         """All of them; the courses only of outputs that were named."""
-        from geartrain.uncertainty.trials import (
-            Findings,
-            find_indices,
+        from geartrain.uncertainty.monte_carlo import (
+            MonteCarloResult,
+            find_sobol_indices,
             find_tolerance,
             run_clearances,
             run_course,
@@ -164,11 +170,11 @@ class _Studies:
         plan, seed, means = self.plan, self.seed, self.means
         few = range(min(_FEW, len(plan.outputs)))
         kind = "" if tolerance == "all" else tolerance
-        return Findings(
+        return MonteCarloResult(
             trials,
             run_clearances(plan, sweep, self.count, seed, means) if sweep else (),
             [run_course(plan, at, _COURSE[0], seed, _COURSE[1]) for at in few] if named else (),
-            [find_indices(plan, at, by, self.count, seed, means) for at in few for by in ("wheel", "kind")]
+            [find_sobol_indices(plan, at, by, self.count, seed, means) for at in few for by in ("wheel", "kind")]
             if sobol
             else (),
             find_tolerance(plan, kind, chance, self.count, seed, means=means) if kind is not None else None,
@@ -181,17 +187,17 @@ class _Work:
     def __init__(self, executor: Executor | None, journal: Journal | None, tell: Callable[[int, int], None]) -> None:
         self.executor, self.journal, self.tell = executor, journal, tell
 
-    def means(self, take: Callable[[Rows], None] | None) -> Means:
+    def means(self, take: Callable[[TrialRecord], None] | None) -> TrialExecution:
         """For the trials: kept in the journal, and handed on block by block."""
-        from geartrain.uncertainty.trials import Means
+        from geartrain.uncertainty.monte_carlo import TrialExecution
 
-        return Means(self.executor, self.journal, self.tell, take)
+        return TrialExecution(self.executor, self.journal, self.tell, take)
 
-    def later(self) -> Means:
+    def later(self) -> TrialExecution:
         """For what is asked after the trials."""
-        from geartrain.uncertainty.trials import Means
+        from geartrain.uncertainty.monte_carlo import TrialExecution
 
-        return Means(self.executor, None, self.tell)
+        return TrialExecution(self.executor, None, self.tell)
 
     def stopped(self, done: int, wanted: int) -> None:
         """Say where an interrupted run can be taken up."""
@@ -215,14 +221,14 @@ def _kept(question: Mapping[str, Any], out: Path | None) -> Path:
 class _Table:
     """Every trial, block by block, into a file; an interrupted one is written anew from the journal."""
 
-    plan: Plan
+    plan: TrialPlan
     to: Sink
     resume: bool
 
     @contextmanager
-    def open(self) -> Iterator[Callable[[Rows], None]]:
+    def open(self) -> Iterator[Callable[[TrialRecord], None]]:
         """What takes every block."""
-        from geartrain.files import ColumnTable, LongTable, csv_line
+        from geartrain.numerics.files import ColumnTable, LongTable, csv_line
 
         plan, path = self.plan, self.to.path
         assert path is not None
@@ -234,11 +240,11 @@ class _Table:
                 yield lambda rows: table.write(_lines(plan, rows))
 
 
-def _about(plan: Plan) -> dict[str, str]:
+def _about(plan: TrialPlan) -> dict[str, str]:
     return {"train": plan.name, "events": "sum of 1 jam, 2 clash, 4 standstill, 8 disengaged, 16 wheels cannot be cut"}
 
 
-def _names(plan: Plan) -> list[str]:
+def _names(plan: TrialPlan) -> list[str]:
     return [
         "trial",
         "turns",
@@ -247,7 +253,7 @@ def _names(plan: Plan) -> list[str]:
     ]
 
 
-def _columns(plan: Plan, rows: Rows) -> dict[str, Any]:
+def _columns(plan: TrialPlan, rows: TrialRecord) -> dict[str, Any]:
     import numpy as np
 
     values = [rows.first + np.arange(len(rows.turns)), rows.turns, *np.degrees(rows.errors.T)]
@@ -256,8 +262,8 @@ def _columns(plan: Plan, rows: Rows) -> dict[str, Any]:
     return dict(zip(_names(plan), values, strict=True))
 
 
-def _lines(plan: Plan, rows: Rows) -> list[str]:
-    from geartrain.files import csv_lines
+def _lines(plan: TrialPlan, rows: TrialRecord) -> list[str]:
+    from geartrain.numerics.files import csv_lines
 
     columns = _columns(plan, rows).values()
     return csv_lines(zip(*(column.tolist() for column in columns), strict=True))

@@ -10,13 +10,13 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from geartrain.cli.common import GOOD, INTERRUPTED, VERDICT, File, Force, StateName, plural, sink, sound, tell
-from geartrain.cli.numbers import quantity
-from geartrain.cli.numbers import turns as read_turns
+from geartrain.cli.common import GOOD, INTERRUPTED, VERDICT, File, Force, StateName, is_sound, plural, sink, tell
+from geartrain.cli.option_values import quantity
+from geartrain.cli.option_values import turns as read_turns
 from geartrain.errors import GearTrainError, Problem
 
 if TYPE_CHECKING:
-    from geartrain.export import Making, Workpiece
+    from geartrain.export import ManufacturingSizes, SolidModel
 
 _PATIENCE = 2.0  # seconds before a progress bar is shown
 _SHOWN = 8  # notices on the terminal; all are in the README
@@ -45,8 +45,8 @@ def run(
     force: Force = False,
 ) -> None:
     """Write wheels and plates to cut, the assembly as a solid, the graph, REXS and tables of a train."""
-    from geartrain.export import Workpiece
-    from geartrain.files import load
+    from geartrain.analysis.loader import load
+    from geartrain.export import SolidModel
 
     if (to is None) == (out is None):
         what = "it is not said what to write" if to is None else "--to and -o are both given"
@@ -54,21 +54,23 @@ def run(
     train = load(file)
     if state is None and train.states:
         state = train.states[0]
-    work = Workpiece(train, _making(module, thickness, bore, backlash), state)
+    work = SolidModel(train, _making(module, thickness, bore, backlash), state)
     shown = _turns(turns)
     if out is not None:
         _one(work, out, wheel, shown, force)
     else:
         assert to is not None
         _all(work, to, kinds, wheel, shown, force)
-    raise typer.Exit(GOOD if sound(train, state) else VERDICT)
+    raise typer.Exit(GOOD if is_sound(train, state) else VERDICT)
 
 
-def _making(module: Size, thickness: Size, bore: Size, backlash: Size) -> Making:
-    from geartrain.export import Making
+def _making(module: Size, thickness: Size, bore: Size, backlash: Size) -> ManufacturingSizes:
+    from geartrain.export import ManufacturingSizes
 
     given = {"module": module, "thickness": thickness, "bore": bore, "backlash": backlash}
-    return Making(**{name: None if text is None else 1000 * _length(name, text) for name, text in given.items()})
+    return ManufacturingSizes(
+        **{name: None if text is None else 1000 * _length(name, text) for name, text in given.items()}
+    )
 
 
 def _length(name: str, text: str) -> float:
@@ -79,8 +81,8 @@ def _turns(text: str | None) -> Fraction | None:
     return None if text is None else read_turns("--turns", text)
 
 
-def _one(work: Workpiece, out: Path, wheel: str | None, turns: Fraction | None, force: bool) -> None:
-    from geartrain.export import WHEEL_SUFFIXES, kind_of, one_wheel, whole
+def _one(work: SolidModel, out: Path, wheel: str | None, turns: Fraction | None, force: bool) -> None:
+    from geartrain.export import WHEEL_SUFFIXES, kind_of, train_file, wheel_file
 
     suffix = out.suffix.lower()
     if wheel is not None and suffix not in WHEEL_SUFFIXES:
@@ -88,12 +90,12 @@ def _one(work: Workpiece, out: Path, wheel: str | None, turns: Fraction | None, 
         raise GearTrainError(Problem(f"no wheel is written as '{suffix or out.name}'", "", fix, "-o"))
     kind = "" if wheel is not None else kind_of(out.name)
     to = sink(out, force)
-    to.write(one_wheel(work, wheel, suffix) if wheel is not None else whole(work, kind, turns))
+    to.write(wheel_file(work, wheel, suffix) if wheel is not None else train_file(work, kind, turns))
 
 
-def _all(work: Workpiece, to: Path, kinds: str | None, wheel: str | None, turns: Fraction | None, force: bool) -> None:
-    from geartrain.export import KINDS, installed, notices, parcel
-    from geartrain.files import check_folder, write_folder
+def _all(work: SolidModel, to: Path, kinds: str | None, wheel: str | None, turns: Fraction | None, force: bool) -> None:
+    from geartrain.export import KINDS, export_files, installed, notices
+    from geartrain.numerics.files import check_folder, write_folder
 
     if wheel is not None:
         raise GearTrainError(Problem("--wheel is for one file", "", "give -o FILE in place of --to", "--wheel"))
@@ -101,7 +103,7 @@ def _all(work: Workpiece, to: Path, kinds: str | None, wheel: str | None, turns:
     missing: list[Problem] = []
     if kinds is None:
         wanted, missing = installed(wanted)
-    files = parcel(work, wanted, turns)
+    files = export_files(work, wanted, turns)
     check_folder(to, [each.path for each in files], force)
     try:
         count = write_folder(to, _shown(((each.path, each.make()) for each in files), len(files)), force)

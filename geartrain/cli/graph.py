@@ -24,8 +24,8 @@ def run(
     force: Force = False,
 ) -> None:
     """Print the graph: adjacency in letters (R(axis), G#) or numbers, edges, Graphviz, GraphML, or JSON."""
-    from geartrain import graph
-    from geartrain.files import load
+    from geartrain.analysis.loader import load
+    from geartrain.kinematics import graph
     from geartrain.report import Document, Section, Table, to_markdown
 
     to = sink(out, force, _SUFFIXES)

@@ -14,20 +14,20 @@ from geartrain.cli.common import tell
 if TYPE_CHECKING:
     from concurrent.futures import Executor
 
-    from geartrain.parallel import Journal
+    from geartrain.numerics.work import Journal
 
-    Means = tuple[Executor | None, Journal | None, Callable[[int, int], None]]
+    RunExecution = tuple[Executor | None, Journal | None, Callable[[int, int], None]]
 
 
 @contextmanager
 def means(
     what: str, path: Path, question: Mapping[str, Any], workers: int | None, scheduler: str | None, resume: bool
-) -> Iterator[Means]:
+) -> Iterator[RunExecution]:
     """An executor, a journal at `path` and a progress bar; where no file can be made, there is no journal."""
     from rich.console import Console
     from rich.progress import Progress, TimeElapsedColumn
 
-    from geartrain.parallel import open_executor
+    from geartrain.numerics.work import open_executor
 
     columns = (*Progress.get_default_columns(), TimeElapsedColumn())
     with (
@@ -47,7 +47,7 @@ def means(
 def _journal(path: Path, question: Mapping[str, Any], resume: bool) -> Iterator[Journal | None]:
     import os
 
-    from geartrain.parallel import Journal
+    from geartrain.numerics.work import Journal
 
     if not resume and not os.access(path.parent, os.W_OK):
         yield None
@@ -66,14 +66,14 @@ def _journal(path: Path, question: Mapping[str, Any], resume: bool) -> Iterator[
 def _check_others(path: Path, question: Mapping[str, Any]) -> None:
     """Refuse to resume where the folder holds journals of the same command, all of other questions."""
     from geartrain.errors import QuestionError
-    from geartrain.parallel import another_question
+    from geartrain.numerics.work import another_question
 
     others = sorted(path.parent.glob(f"{path.name.partition('-')[0]}-*.partial.jsonl"))
     if problems := [another_question(other, question) for other in others]:
         raise QuestionError(problems)
 
 
-def end(journal: Journal | None, cut: bool) -> None:
+def close_journal(journal: Journal | None, cut: bool) -> None:
     """A run that is whole needs no journal; for one that was cut, say where it can be taken up."""
     if not cut:
         if journal is not None:
@@ -86,6 +86,6 @@ def end(journal: Journal | None, cut: bool) -> None:
 
 def table_text(rows: Sequence[Mapping[str, Any]]) -> str:
     """Rows with the same keys as CSV with a header; empty without rows."""
-    from geartrain.files import csv_text
+    from geartrain.numerics.files import csv_text
 
     return csv_text(list(rows[0]), [list(row.values()) for row in rows]).rstrip("\n") if rows else ""

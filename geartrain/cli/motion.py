@@ -19,19 +19,19 @@ from geartrain.cli.common import (
     Out,
     Sink,
     StateName,
-    apart,
     as_json,
+    check_distinct_outputs,
     draw,
     emit,
     show,
     sink,
     tell,
 )
-from geartrain.cli.numbers import MOST_COUNT
-from geartrain.cli.numbers import turns as read_turns
+from geartrain.cli.option_values import MOST_COUNT
+from geartrain.cli.option_values import turns as read_turns
 
 if TYPE_CHECKING:
-    from geartrain.motion import Motion, Passage, Run
+    from geartrain.dynamics.motion import ErrorSamples, Motion, MotionRun
 
 Names = list[str] | None
 
@@ -61,13 +61,13 @@ def run(
     force: Force = False,
 ) -> None:
     """Transmission error and speed of outputs with real teeth and pins; to a .csv, every position."""
-    from geartrain.files import load
-    from geartrain.motion import Run
+    from geartrain.analysis.loader import load
+    from geartrain.dynamics.motion import MotionRun
 
     to = sink(out, force, (".md", ".html", ".json", ".csv"))
     picture = sink(plot, force, PICTURES, "--plot")
     cut = _partial(to)
-    apart(to, cut, picture)
+    check_distinct_outputs(to, cut, picture)
     if csv and to.path is not None:
         raise typer.BadParameter("positions are printed, or written: give --csv, or -o x.csv", param_hint="--csv")
     if resume and to.suffix != ".csv":
@@ -75,7 +75,7 @@ def run(
     train = load(file)
     outputs = (*(output or ()), *(train.declaration.links if links else ()))
     motion = train.motion(state, tuple(dict.fromkeys(outputs)), tuple(without or ()), tolerance)
-    asked = Run(motion, _turns(turns, motion), samples)
+    asked = MotionRun(motion, _turns(turns, motion), samples)
     if to.suffix == ".csv" and to.path is not None:
         _write_table(asked, to.path, resume, force)
     elif csv:
@@ -84,7 +84,7 @@ def run(
     else:
         _report(asked, json or to.suffix == ".json", (to, cut), (train.name, state), phases, seed, estimates, spectrum)
     if plot is not None:
-        from geartrain.plot import motion_figure
+        from geartrain.drawing import motion_figure
 
         with _progress("drawing", samples) as on_done:
             draw(motion_figure(asked, on_done), picture)
@@ -100,7 +100,7 @@ def _turns(text: str, motion: Motion) -> float:
 
 def _partial(to: Sink) -> Sink:
     """Where the figures of an interrupted run go. A table has a partial file of its own, which can be taken up."""
-    from geartrain.files import partial_name
+    from geartrain.numerics.files import partial_name
 
     if to.path is None or to.suffix == ".csv":
         return STANDARD
@@ -108,7 +108,7 @@ def _partial(to: Sink) -> Sink:
 
 
 def _report(
-    asked: Run,
+    asked: MotionRun,
     json: bool,
     into: tuple[Sink, Sink],
     of: tuple[str, str | None],
@@ -144,8 +144,8 @@ def _report(
         raise typer.Exit(INTERRUPTED)
 
 
-def _write_table(asked: Run, out: Path, resume: bool, force: bool) -> None:
-    from geartrain.files import LongTable, csv_line
+def _write_table(asked: MotionRun, out: Path, resume: bool, force: bool) -> None:
+    from geartrain.numerics.files import LongTable, csv_line
 
     try:
         with LongTable(out, csv_line(asked.columns), resume, force) as table:
@@ -165,8 +165,8 @@ def _write_table(asked: Run, out: Path, resume: bool, force: bool) -> None:
     tell(f"wrote {out}")
 
 
-def _rows(asked: Run, first: int, header: bool = True) -> Iterator[list[str]]:
-    from geartrain.files import csv_line
+def _rows(asked: MotionRun, first: int, header: bool = True) -> Iterator[list[str]]:
+    from geartrain.numerics.files import csv_line
 
     if header:
         yield [csv_line(asked.columns)]
@@ -174,8 +174,8 @@ def _rows(asked: Run, first: int, header: bool = True) -> Iterator[list[str]]:
         yield _lines(asked, passage)
 
 
-def _lines(asked: Run, passage: Passage) -> list[str]:
-    from geartrain.files import csv_lines
+def _lines(asked: MotionRun, passage: ErrorSamples) -> list[str]:
+    from geartrain.numerics.files import csv_lines
 
     return csv_lines(zip(*(column.tolist() for column in asked.values(passage)), strict=True))
 

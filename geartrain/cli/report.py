@@ -6,24 +6,11 @@ from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
 
-from geartrain.cli.common import (
-    GOOD,
-    VERDICT,
-    Files,
-    Force,
-    Json,
-    Out,
-    as_json,
-    emit,
-    load_all,
-    show,
-    sink,
-    sound,
-)
+from geartrain.cli.common import GOOD, VERDICT, Files, Force, Json, Out, as_json, emit, is_sound, load_all, show, sink
 from geartrain.errors import GearTrainError, MissingExtraError
 
 if TYPE_CHECKING:
-    from geartrain.analysis import GearTrain
+    from geartrain.analysis.gear_train import GearTrain
     from geartrain.report import Document, Picture
 
 
@@ -44,7 +31,7 @@ def run(
     if view and to.suffix != ".html":
         raise typer.BadParameter("a train turns in a page only: give -o x.html too", param_hint="--view")
     trains = load_all(files)
-    good = all(sound(train, state) for train in trains for state in train.states or (None,))
+    good = all(is_sound(train, state) for train in trains for state in train.states or (None,))
     if json or to.suffix == ".json":
         emit(as_json([report.train_data(train) for train in trains]), to)
     elif to.suffix == ".html":
@@ -87,6 +74,6 @@ def _pictures(train: GearTrain) -> tuple[list[Picture], list[str]]:
 
 
 def _svg(train: GearTrain, kind: Literal["plan", "dials"]) -> str:
-    from geartrain.plot import picture, render
+    from geartrain.drawing import picture, render
 
     return render(picture(train, kind), ".svg").decode("utf-8")

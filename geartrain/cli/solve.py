@@ -6,8 +6,8 @@ from typing import Annotated
 
 import typer
 
-from geartrain.answer import Answer
 from geartrain.cli.common import GOOD, VERDICT, File, Force, Json, Out, StateName, as_json, emit, sink
+from geartrain.kinematics.answer import Answer
 
 OutputName = Annotated[str | None, typer.Option("--output", help="An output or a link: only what drives it is solved.")]
 
@@ -22,8 +22,8 @@ def run(
     force: Force = False,
 ) -> None:
     """Solve a train and print its speeds as fractions and decimals."""
-    from geartrain.files import load
-    from geartrain.report.data import answers_data
+    from geartrain.analysis.loader import load
+    from geartrain.report.train_report import answers_data
 
     if method not in ("auto", "exact", "floats"):
         raise typer.BadParameter(f"'{method}' is not a method; use auto, exact or floats", param_hint="--method")

@@ -7,11 +7,25 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from geartrain.cli.common import GOOD, PICTURES, VERDICT, Force, Json, Out, Sink, apart, as_json, draw, emit, show, sink
-from geartrain.cli.numbers import decimal
+from geartrain.cli.common import (
+    GOOD,
+    PICTURES,
+    VERDICT,
+    Force,
+    Json,
+    Out,
+    Sink,
+    as_json,
+    check_distinct_outputs,
+    draw,
+    emit,
+    show,
+    sink,
+)
+from geartrain.cli.option_values import decimal
 
 if TYPE_CHECKING:
-    from geartrain.report.sphere import SphereAnswers
+    from geartrain.report.spherical_report import SphereAnswers
     from geartrain.spherical import Configuration, GraphSet
 
 _YAML = (".yaml", ".yml")
@@ -45,7 +59,7 @@ def run(
 
     to = sink(out, force, (".md", ".html", ".json", *_YAML))
     picture = sink(plot, force, PICTURES, "--plot")
-    apart(to, picture)
+    check_distinct_outputs(to, picture)
     if survey or suggest:
         _check_listed(to, picture)
     if survey:
@@ -60,8 +74,8 @@ def run(
         return
     found = report.SphereAnswers(configuration, _sphere_radius(configuration, radius), made)
     if to.suffix in _YAML:
-        from geartrain.files import as_yaml
         from geartrain.spherical import to_train
+        from geartrain.train.yaml_nodes import as_yaml
 
         emit(as_yaml(to_train(configuration)), to)
     elif json or to.suffix == ".json":
@@ -86,8 +100,8 @@ def _survey(json: bool, to: Sink) -> None:
     from rich.progress import track
 
     from geartrain import report
-    from geartrain.spherical.survey import SURVEYED
-    from geartrain.spherical.survey import survey as survey_solids
+    from geartrain.spherical.polyhedron_survey import SURVEYED
+    from geartrain.spherical.polyhedron_survey import survey as survey_solids
 
     names = track(SURVEYED, "survey", console=Console(stderr=True), transient=True)
     rows = [row for name in names for row in survey_solids((name,))]
@@ -99,9 +113,9 @@ def _survey(json: bool, to: Sink) -> None:
 
 def _suggest(configuration: Configuration, most: int, best: int, json: bool, to: Sink) -> None:
     from geartrain import report
-    from geartrain.spherical.compromise import suggest
+    from geartrain.spherical.tooth_count_search import suggest_tooth_counts
 
-    found = suggest(configuration, most, best)
+    found = suggest_tooth_counts(configuration, most, best)
     if json:
         emit(as_json(report.suggestions_data(found)), to)
     else:
@@ -114,14 +128,14 @@ def _solid(solid: str, gears: Any, teeth: str | None, drop: list[str], exact: bo
 
     shape: Any = solid
     if solid.endswith(_FILES):
-        from geartrain.files import read_points
+        from geartrain.numerics.files import read_points
 
         shape = read_points(Path(solid))
     return from_polyhedron(shape, gears, teeth=_teeth(teeth), drop=drop, exact=exact)
 
 
 def _graph(file: Path, aim: Any, least: int) -> GraphSet:
-    from geartrain.files import read_edges
+    from geartrain.numerics.files import read_edges
     from geartrain.spherical import from_graph
 
     return from_graph(read_edges(file), least, aim)
@@ -142,7 +156,8 @@ def _teeth(text: str | None) -> dict[str, int] | int | None:
 
 def _sphere_radius(configuration: Configuration, text: str) -> float:
     """The sphere's radius, given itself or through the pitch radius of one kind of wheel."""
-    from geartrain.spherical.sizing import size, sphere_radius
+    from geartrain.spherical.gear_sizes import size_gears
+    from geartrain.spherical.pitch_cones import sphere_radius
 
     kind, wheel, number = text.rpartition("=")
     value = decimal("--radius", number, "radius", "1.25", low=1e-30)
@@ -151,11 +166,11 @@ def _sphere_radius(configuration: Configuration, text: str) -> float:
     if kind not in configuration.kinds:
         kinds = ", ".join(dict.fromkeys(configuration.kinds))
         raise typer.BadParameter(f"there are no gears '{kind}'; kinds are {kinds}", param_hint="--radius")
-    cones = size(configuration).outer
+    cones = size_gears(configuration).outer
     return sphere_radius(value, float(cones[configuration.kinds.index(kind)]))
 
 
 def _draw(found: SphereAnswers, picture: Sink) -> None:
-    from geartrain.plot import sphere_figure
+    from geartrain.drawing import sphere_figure
 
     draw(sphere_figure(*found.pose()), picture)

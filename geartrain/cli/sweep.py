@@ -20,20 +20,20 @@ from geartrain.cli.common import (
     Out,
     Sink,
     StateName,
-    apart,
     as_json,
+    check_distinct_outputs,
     emit,
-    share,
+    read_share,
     show,
     sink,
     tell,
 )
-from geartrain.cli.long_runs import end, means, table_text
-from geartrain.cli.numbers import MOST_COUNT
-from geartrain.cli.pictures import Plot, check_plot, draw_counts
+from geartrain.cli.long_runs import close_journal, means, table_text
+from geartrain.cli.option_values import MOST_COUNT
+from geartrain.cli.uncertainty_plots import Plot, check_plot, draw_counts
 
 if TYPE_CHECKING:
-    from geartrain.uncertainty.counts import CountSweep
+    from geartrain.uncertainty.posterior import ToothCountPosterior
 
 Names = list[str] | None
 FORMS = (".md", ".html", ".json", ".csv", ".parquet")
@@ -74,11 +74,12 @@ def run(
     force: Force = False,
 ) -> None:
     """Which tooth counts fit what the outputs show; exit 0 if any does, 1 if none."""
-    from geartrain.files import ColumnTable, read_declaration
-    from geartrain.uncertainty.counts import sweep
+    from geartrain.analysis.loader import read_declaration
+    from geartrain.numerics.files import ColumnTable
+    from geartrain.uncertainty.posterior import infer_counts
 
     to, drawing = sink(out, force, FORMS), check_plot(plot, force)
-    apart(to, drawing)
+    check_distinct_outputs(to, drawing)
     if to.suffix == ".parquet" and to.path is not None:
         ColumnTable(to.path, {}, force)  # a missing library is said before the work, not after it
     train = read_declaration(file)
@@ -86,9 +87,9 @@ def run(
         "state": state,
         "free": _read_free(free or ()),
         "outputs": tuple(output or ()),
-        "tolerance": None if tolerance is None else share(tolerance, "--tolerance"),
+        "tolerance": None if tolerance is None else read_share(tolerance, "--tolerance"),
         "against": against,
-        "scale": share(scale, "--scale"),
+        "scale": read_share(scale, "--scale"),
         "soft": soft,
         "method": method,
         "most": most,
@@ -99,17 +100,17 @@ def run(
     question = {"train": train.model_dump(mode="json"), **asked}
     count = 1 if workers is None and scheduler is None else workers
     with means("sweep", _kept(question, out), question, count, scheduler, resume) as (executor, journal, progress):
-        found = sweep(train, **asked, executor=executor, journal=journal, tell=progress)
-        end(journal, found.cut)
+        found = infer_counts(train, **asked, executor=executor, journal=journal, tell=progress)
+        close_journal(journal, found.cut)
     if drawing.path is not None and not found.best:
         tell(f"nothing fits, so {drawing.path} is not written")
     if plot is not None and found.best and not found.cut:
         held = {**asked, "most": 1}
-        draw_counts(found, lambda one: sweep(train, **{**held, "free": {**asked["free"], **one}}), drawing)
+        draw_counts(found, lambda one: infer_counts(train, **{**held, "free": {**asked["free"], **one}}), drawing)
     _answer(found, json, to)
 
 
-def _answer(found: CountSweep, json: bool, to: Sink) -> None:
+def _answer(found: ToothCountPosterior, json: bool, to: Sink) -> None:
     from geartrain import report
 
     if to.suffix == ".csv":
@@ -161,7 +162,7 @@ def _kept(question: Mapping[str, Any], out: Path | None) -> Path:
 
 def _write_parquet(rows: Sequence[Mapping[str, Any]], to: Sink, about: Mapping[str, str]) -> None:
     """One row group; nothing where nothing was found."""
-    from geartrain.files import ColumnTable
+    from geartrain.numerics.files import ColumnTable
 
     assert to.path is not None
     with ColumnTable(to.path, about, to.force) as table:

@@ -18,8 +18,8 @@ from geartrain.cli.common import (
     Out,
     Sink,
     StateName,
-    apart,
     as_json,
+    check_distinct_outputs,
     draw,
     emit,
     show,
@@ -27,8 +27,8 @@ from geartrain.cli.common import (
 )
 
 if TYPE_CHECKING:
-    from geartrain.analysis import GearTrain
-    from geartrain.torques import Torques
+    from geartrain.analysis.gear_train import GearTrain
+    from geartrain.dynamics.torques import Torques
 
 
 def run(
@@ -43,11 +43,11 @@ def run(
 ) -> None:
     """Torques on links and pairs under the declared loads, flow of power and losses, efficiency there and back."""
     from geartrain import report
-    from geartrain.files import load
+    from geartrain.analysis.loader import load
 
     to = sink(out, force, (".md", ".html", ".json"))
     picture = sink(plot, force, PICTURES, "--plot")
-    apart(to, picture)
+    check_distinct_outputs(to, picture)
     train = load(file)
     states = (state,) if state is not None else train.states or (None,)
     found = {name: train.torques(name) for name in states}
@@ -65,8 +65,8 @@ def run(
 def _draw(train: GearTrain, found: Sequence[Torques], picture: Sink) -> None:
     """The flow under the declared loads; without any, that of a unit of power from the input to the output."""
     from geartrain import report
-    from geartrain.plot import power_figure
-    from geartrain.torques import watts_per_unit
+    from geartrain.drawing import power_figure
+    from geartrain.dynamics.torques import watts_per_unit
 
     loaded = [each for each in found if each.verdict.kind != "unloaded"] if len(found) > 1 else list(found)
     if len(loaded) != 1:
@@ -83,13 +83,13 @@ def _draw(train: GearTrain, found: Sequence[Torques], picture: Sink) -> None:
 
 def _summary(torques: Torques) -> str:
     """Efficiency, or why there is none, and what is lost where."""
-    from geartrain.torques import share
+    from geartrain.dynamics.torques import percent_text
 
     if not torques.verdict or not torques.power_in:
         return torques.verdict.text
     teeth = torques.loss - torques.bearing_loss
     lost = {"teeth": teeth, "bearings": torques.bearing_loss}
-    named = [f"{share(power / torques.power_in)} is lost in {where}" for where, power in lost.items() if power]
-    out = share(1 - torques.loss / torques.power_in)
+    named = [f"{percent_text(power / torques.power_in)} is lost in {where}" for where, power in lost.items() if power]
+    out = percent_text(1 - torques.loss / torques.power_in)
     uncounted = [f"left out: {', '.join(map(str, torques.left_out))}"] if torques.left_out else []
     return "; ".join([f"{out} of the power that enters comes out", *named, *uncounted])

@@ -16,10 +16,10 @@ from geartrain.cli.common import (
     Force,
     StateName,
     file_name,
+    is_sound,
     load_all,
     plural,
     sink,
-    sound,
     tell,
 )
 from geartrain.errors import Problem, QuestionError
@@ -27,7 +27,7 @@ from geartrain.errors import Problem, QuestionError
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from geartrain.analysis import GearTrain
+    from geartrain.analysis.gear_train import GearTrain
 
 Other = Annotated[str | None, typer.Argument(help="Another train, to stand beside the first.", metavar="[FILE2]")]
 Page = Annotated[
@@ -60,7 +60,7 @@ def run(
     to.write(data, f": {plural(len(scenes), 'scene')}, {len(data) / 1000:,.0f} kB")
     if open_it and to.path is not None and not webbrowser.open(path.resolve().as_uri()):
         tell("no browser could be started here; open the file by hand")
-    raise typer.Exit(GOOD if all(sound(train, each) for train, each in shown) else VERDICT)
+    raise typer.Exit(GOOD if all(is_sound(train, each) for train, each in shown) else VERDICT)
 
 
 def _states(train: GearTrain, state: str | None, first: bool) -> Sequence[str | None]:

@@ -1,45 +1,45 @@
 """Files for makers and for other tools: outlines to cut, plates, solids, graphs, tables.
 
-drawing, svg, dxf    a flat part with its layers, and how it is written
-making               sizes a maker chooses, and the layout at them
-blanks, sheets       the flat shape of every wheel, and a drawing of each kind of wheel
-plates               what bears the arbors; discs of pins and slots
-triangles, solid, likeness, assembly    closed surfaces, and where they stand
-turning              angles of all bodies while the lead turns
-stl, glb, step       the assembly for printers, browsers and CAD
-rexs, tables         the gear unit and its tables as data
-parcel               which files there are
+flat_files      a flat part with its layers as SVG or DXF
+wheel_sheets    a drawing of each kind of wheel
+triangle_files  the assembly as STL and GLB
+step_file       the assembly for CAD
+rexs            the gear unit as REXS
+csv_tables      its tables
+file_set        which files there are
+
+Shapes come from `geartrain.scene.solids`.
 """
 
 from __future__ import annotations
 
-from geartrain.export.assembly import Workpiece
-from geartrain.export.making import Making
-from geartrain.export.outline import OUTLINES, outline_text
-from geartrain.export.parcel import (
+from geartrain.export.file_set import (
     KINDS,
     SUFFIXES,
     WHEEL_SUFFIXES,
+    export_files,
     installed,
     kind_of,
     notices,
-    one_wheel,
-    parcel,
-    whole,
+    train_file,
+    wheel_file,
 )
+from geartrain.export.flat_files import OUTLINES, outline_text
+from geartrain.scene.solids.manufacturing_sizes import ManufacturingSizes
+from geartrain.scene.solids.solid_assembly import SolidModel
 
 __all__ = [
     "KINDS",
     "OUTLINES",
     "SUFFIXES",
     "WHEEL_SUFFIXES",
-    "Making",
-    "Workpiece",
+    "ManufacturingSizes",
+    "SolidModel",
+    "export_files",
     "installed",
     "kind_of",
     "notices",
-    "one_wheel",
     "outline_text",
-    "parcel",
-    "whole",
+    "train_file",
+    "wheel_file",
 ]

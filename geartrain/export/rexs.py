@@ -12,13 +12,13 @@ from fractions import Fraction
 from math import degrees
 from typing import TYPE_CHECKING, Any
 
-from geartrain.exact import as_float
-from geartrain.export.plates import basis
+from geartrain.numerics.exact import as_float
+from geartrain.scene.solids.bearing_plates import basis
 from geartrain.teeth.involute import Involute
 
 if TYPE_CHECKING:
-    from geartrain.export.assembly import Workpiece
-    from geartrain.layout import WheelPlace
+    from geartrain.scene.layout import WheelPlace
+    from geartrain.scene.solids.solid_assembly import SolidModel
     from geartrain.train import GearPair, Wheel
 
 VERSION = "1.4"
@@ -26,13 +26,13 @@ _ANGLE = 20.0  # deg, where no form is declared
 _EPOCH = datetime(2000, 1, 1, tzinfo=UTC)  # the same train is the same file
 
 
-def to_rexs(work: Workpiece, date: datetime = _EPOCH) -> str:
+def to_rexs(work: SolidModel, date: datetime = _EPOCH) -> str:
     """The gear unit as text."""
     return json.dumps({"model": _Unit(work).model(date)}, indent=1, ensure_ascii=False, allow_nan=False) + "\n"
 
 
 class _Unit:
-    def __init__(self, work: Workpiece) -> None:
+    def __init__(self, work: SolidModel) -> None:
         self.work, self.declared = work, work.train.declaration
         self.components: list[dict[str, Any]] = []
         self.relations: list[dict[str, Any]] = []
@@ -138,7 +138,7 @@ class _Unit:
         return found
 
 
-def _per_minute(work: Workpiece) -> Mapping[str, Fraction]:
+def _per_minute(work: SolidModel) -> Mapping[str, Fraction]:
     """Speeds in turns a minute; plain numbers, and turns in a length, are taken for these."""
     answer = work.train.solve(work.scene.state, method="exact")
     declared = work.train.declaration

@@ -2,20 +2,18 @@
 
 from __future__ import annotations
 
-from geartrain.report.comparing import compare_trains
-from geartrain.report.content import report_train
-from geartrain.report.data import train_data
-from geartrain.report.document import Aside, Document, Picture, Section, Table
-from geartrain.report.meshing import Running, mesh_document
-from geartrain.report.moving import motion_data, motion_document
-from geartrain.report.paging import to_html
-from geartrain.report.pins import pin_data, pin_document
-from geartrain.report.power import flow_of, there_and_back, torques_data, torques_document
-from geartrain.report.rendering import to_markdown, to_terminal
-from geartrain.report.shapes import shape_data, shape_document
-from geartrain.report.shapes_compared import Compared, Shaped, compared_data, compared_document
-from geartrain.report.sharing import shared_document
-from geartrain.report.sphere import (
+from geartrain.report.conjugate_pair_page import shape_data, shape_document
+from geartrain.report.document import Document, PageExtras, Picture, Section, Table
+from geartrain.report.gear_pairs import mesh_data
+from geartrain.report.html_page import to_html
+from geartrain.report.monte_carlo_report import trials_data, trials_document
+from geartrain.report.motion_report import motion_data, motion_document
+from geartrain.report.pair_page import Running, mesh_document, pin_data, pin_document
+from geartrain.report.posterior_report import sweep_data, sweep_document, sweep_rows
+from geartrain.report.power_report import flow_of, there_and_back, torques_data, torques_document
+from geartrain.report.reconstructions_compared import compare_trains
+from geartrain.report.shared_page import shared_document
+from geartrain.report.spherical_report import (
     SphereAnswers,
     sphere_data,
     sphere_document,
@@ -23,8 +21,9 @@ from geartrain.report.sphere import (
     suggestions_document,
     survey_document,
 )
-from geartrain.report.sweep import sweep_data, sweep_document, sweep_rows
-from geartrain.report.synthesis import (
+from geartrain.report.text import to_markdown, to_terminal
+from geartrain.report.tooth_forms_compared import FormComparison, MeasuredForm, compared_data, compared_document
+from geartrain.report.tooth_numbers import (
     approximants_document,
     assignment_rows,
     assignments_document,
@@ -37,17 +36,16 @@ from geartrain.report.synthesis import (
     stages_document,
     stages_row,
 )
-from geartrain.report.teeth import mesh_data
-from geartrain.report.trials import trials_data, trials_document
+from geartrain.report.train_report import report_train, train_data
 
 __all__ = [
-    "Aside",
-    "Compared",
     "Document",
+    "FormComparison",
+    "MeasuredForm",
+    "PageExtras",
     "Picture",
     "Running",
     "Section",
-    "Shaped",
     "SphereAnswers",
     "Table",
     "approximants_document",

@@ -6,18 +6,18 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 
-from geartrain.exact import abridged, decimal, written
-from geartrain.longfloat import Real
+from geartrain.numerics.exact import abridged_text, decimal, fraction_text
+from geartrain.numerics.long_float import Real
 
 
-class Exact(str):
+class ExactText(str):
     """A cell that holds an exact value; `full` is all of it where the text is shortened, and what a page copies."""
 
     __slots__ = ("_value",)
 
     _value: Fraction | Real | str
 
-    def __new__(cls, text: str, value: Fraction | Real | None = None) -> Exact:
+    def __new__(cls, text: str, value: Fraction | Real | None = None) -> ExactText:
         """`text` as shown, of `value`; the text itself is all there is to say where none is given."""
         made = super().__new__(cls, text)
         made._value = text if value is None else value
@@ -26,10 +26,10 @@ class Exact(str):
     @property
     def full(self) -> str:
         """The whole value; the digits of a very long one are written when they are asked for."""
-        return written(self._value) if isinstance(self._value, Fraction) else str(self._value)
+        return fraction_text(self._value) if isinstance(self._value, Fraction) else str(self._value)
 
 
-class Cited(str):
+class CitedText(str):
     """A cell that names a source by its key; a page links it to the source."""
 
     __slots__ = ()
@@ -62,7 +62,7 @@ class Picture:
 
 
 @dataclass(frozen=True, slots=True)
-class Reference:
+class SourceReference:
     """A source in full. A page links `url` if it is of http or https, and shows any other as text."""
 
     cite: str
@@ -71,7 +71,7 @@ class Reference:
 
 
 @dataclass(frozen=True, slots=True)
-class Aside:
+class PageExtras:
     """What only a page has room for, beside what a document says in any form.
 
     badge       the verdict in a word or two; `sound` if there is nothing to complain of
@@ -87,7 +87,7 @@ class Aside:
     pictures: Sequence[Picture] = ()
     viewer: str = ""
     sections: Sequence[Section] = ()
-    references: Mapping[str, Reference] = field(default_factory=dict)
+    references: Mapping[str, SourceReference] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, slots=True)
@@ -97,7 +97,7 @@ class Document:
     title: str
     lead: Sequence[str]
     sections: Sequence[Section]
-    aside: Aside = field(default_factory=Aside)
+    aside: PageExtras = field(default_factory=PageExtras)
 
 
 def figure(value: Fraction | Real | None, digits: int = 8) -> str:
@@ -113,7 +113,7 @@ def exact(value: Fraction | Real | None) -> str:
         return "undetermined"
     if not isinstance(value, Fraction):
         return f"~{value:.12g}"
-    return Exact(abridged(value), value)
+    return ExactText(abridged_text(value), value)
 
 
 def one_to(ratio: Fraction | Real | None) -> str:

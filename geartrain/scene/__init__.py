@@ -2,32 +2,32 @@
 
 from __future__ import annotations
 
-from geartrain.scene.making import make_scene
-from geartrain.scene.result import (
-    Body,
-    Coupling,
+from geartrain.scene.construction import make_scene
+from geartrain.scene.elements import (
     DialFace,
+    ErrorSource,
+    ErrorStep,
     Movement,
-    Pair,
     Pointer,
-    Profile,
     Scene,
-    Source,
-    Step,
-    Wheel,
+    SceneBody,
+    SceneCoupling,
+    ScenePair,
+    SceneWheel,
+    ToothProfile,
 )
 
 __all__ = [
-    "Body",
-    "Coupling",
     "DialFace",
+    "ErrorSource",
+    "ErrorStep",
     "Movement",
-    "Pair",
     "Pointer",
-    "Profile",
     "Scene",
-    "Source",
-    "Step",
-    "Wheel",
+    "SceneBody",
+    "SceneCoupling",
+    "ScenePair",
+    "SceneWheel",
+    "ToothProfile",
     "make_scene",
 ]

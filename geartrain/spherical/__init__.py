@@ -1,21 +1,20 @@
 """Gears on a sphere: configurations on polyhedra and graphs, whether they turn, close, and fit."""
 
-from geartrain.spherical.arranging import from_polyhedron
-from geartrain.spherical.compromise import Suggestions, suggest
-from geartrain.spherical.configuration import Configuration
-from geartrain.spherical.declaring import to_train
-from geartrain.spherical.families import icosahedral, idler_sphere, moved_antiprism, with_idlers
-from geartrain.spherical.graphs import GraphSet, from_graph
+from geartrain.spherical.configuration import Configuration, to_train
+from geartrain.spherical.gear_sizes import SphereSizing, one_pitch, ratio_windows, size_gears
+from geartrain.spherical.graph_set import GraphSet, from_graph
+from geartrain.spherical.named_solids import solid, solid_names
 from geartrain.spherical.polyhedra import Polyhedron, polyhedron
-from geartrain.spherical.sizing import Sizing, one_pitch, size, windows
-from geartrain.spherical.solids import solid, solid_names
+from geartrain.spherical.polyhedron_gears import from_polyhedron
+from geartrain.spherical.single_pitch_families import icosahedral, idler_sphere, moved_antiprism, with_idlers
+from geartrain.spherical.tooth_count_search import ToothCountSuggestions, suggest_tooth_counts
 
 __all__ = [
     "Configuration",
     "GraphSet",
     "Polyhedron",
-    "Sizing",
-    "Suggestions",
+    "SphereSizing",
+    "ToothCountSuggestions",
     "from_graph",
     "from_polyhedron",
     "icosahedral",
@@ -23,11 +22,11 @@ __all__ = [
     "moved_antiprism",
     "one_pitch",
     "polyhedron",
-    "size",
+    "ratio_windows",
+    "size_gears",
     "solid",
     "solid_names",
-    "suggest",
+    "suggest_tooth_counts",
     "to_train",
-    "windows",
     "with_idlers",
 ]

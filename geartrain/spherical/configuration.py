@@ -1,17 +1,25 @@
-"""A set of gears on a sphere: where their axes point, who meshes with whom, and of which kinds they are."""
+"""A set of gears on a sphere: where their axes point, who meshes with whom, and of which kinds they are.
+
+What is alike in a set on a sphere: kinds of gear, kinds of mesh, and how near gears come that do not mesh.
+
+A configuration as the declaration of a train: a link, a bevel wheel and an axis for each gear.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
+from fractions import Fraction
+from math import degrees, inf
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
+from geartrain.errors import Problem, QuestionError
+from geartrain.spherical.pitch_cones import mesh_angles, separations
 
-    Floats = NDArray[np.float64]
+if TYPE_CHECKING:
+    from geartrain.numerics.arrays import Floats
 
 
 @dataclass(frozen=True)
@@ -53,3 +61,114 @@ class Configuration:
         first = np.cross(n, least)
         first /= np.linalg.norm(first)
         return first, np.cross(n, first)
+
+
+def kinds_in_order(configuration: Configuration) -> tuple[str, ...]:
+    """The kinds of gear, each once, in the order of their first gears."""
+    return tuple(dict.fromkeys(configuration.kinds))
+
+
+def mesh_kinds(configuration: Configuration) -> tuple[MeshKind, ...]:
+    """Kinds of mesh, in the order of their gears' kinds; meshes are alike to 1e-9 rad."""
+    order = {kind: at for at, kind in enumerate(kinds_in_order(configuration))}
+    groups: dict[tuple[int, int, int], list[int]] = {}
+    angles = mesh_angles(configuration.axes, configuration.meshes)
+    for at, (i, j) in enumerate(configuration.meshes):
+        a, b = sorted((order[configuration.kinds[i]], order[configuration.kinds[j]]))
+        # the nearest slot or its neighbour: angles on a slot's edge must not be parted by rounding
+        slot = round(float(angles[at]) * 1e9)
+        key = next((found for near in (slot, slot - 1, slot + 1) if (found := (a, b, near)) in groups), (a, b, slot))
+        groups.setdefault(key, []).append(at)
+    names = tuple(order)
+    return tuple(
+        MeshKind(names[a], names[b], float(angles[found[0]]), tuple(found))
+        for (a, b, _), found in sorted(groups.items())
+    )
+
+
+def nearest_unmeshed(configuration: Configuration) -> dict[tuple[str, str], float]:
+    """Least angle (rad) between gears that do not mesh, for each pair of kinds, in both orders."""
+    apart = unmeshed_angles(configuration)
+    kinds = np.array(configuration.kinds)
+    found: dict[tuple[str, str], float] = {}
+    for a in kinds_in_order(configuration):
+        rows = apart[kinds == a].min(axis=0)
+        for b in kinds_in_order(configuration):
+            least = float(rows[kinds == b].min())
+            if least < inf:
+                found[a, b] = least
+    return found
+
+
+def unmeshed_angles(configuration: Configuration) -> Floats:
+    """Angles between all axes, inf for a gear and itself and for gears that mesh."""
+    apart = separations(configuration.axes)
+    np.fill_diagonal(apart, inf)
+    if configuration.meshes:
+        i, j = np.array(configuration.meshes).T
+        apart[i, j] = apart[j, i] = inf
+    return apart
+
+
+@dataclass(frozen=True)
+class MeshKind:
+    """Meshes that are alike: the kinds of their two gears, the angle between the axes (rad), and which they are."""
+
+    a: str
+    b: str
+    angle: float
+    meshes: tuple[int, ...]
+
+    def __str__(self) -> str:
+        return f"{self.a}-{self.b} at {degrees(self.angle):.6f} deg"
+
+
+_NOTE = (
+    "All axes go through the centre of the sphere and point outwards; a speed is positive counterclockwise, "
+    "seen from outside. Two wheels in mesh turn against each other."
+)
+
+_SHORT = 1 << 20
+
+
+def to_train(configuration: Configuration, name: str = "") -> dict[str, Any]:
+    """The configuration as plain data with the keys of a declaration, for `GearTrain.declare` or `files.as_yaml`.
+
+    Links and wheels have the names of the gears, and so have their axes. With axes outwards every mesh reverses, as
+    the wheels stand on the positive sides of their axes (`facing` 1, the default): z_i w_i + z_j w_j = 0. The first
+    gear is the input, at speed 1. Directions are floats at full length. Raises `GearTrainError` where a tooth number
+    is missing.
+    """
+    missing = [kind for kind in dict.fromkeys(configuration.kinds) if kind not in configuration.teeth]
+    if missing or not configuration.names:
+        raise QuestionError(
+            Problem(
+                f"no tooth number for {', '.join(missing)}" if missing else "a set without gears is no train",
+                "a declaration has one for every wheel",
+                "choose `teeth` for every kind" if missing else "drop fewer gears",
+            )
+        )
+    gears = list(zip(configuration.names, configuration.kinds, configuration.axes.tolist(), strict=True))
+    return {
+        "name": name or "spherical",
+        "title": configuration.title or f"{len(gears)} gears on a sphere",
+        "note": _NOTE,
+        "frame": "frame",
+        "links": {"frame": {}} | {gear: _link(gear, configuration.teeth[kind]) for gear, kind, _ in gears},
+        "axes": {
+            gear: {"direction": _direction(axis), "position": ["0 mm", "0 mm", "0 mm"]} for gear, _, axis in gears
+        },
+        "revolutes": [{"pair": ["frame", gear], "axis": gear} for gear, _, _ in gears],
+        "gears": [{"pair": [configuration.names[i], configuration.names[j]]} for i, j in configuration.meshes],
+        "inputs": {configuration.names[0]: 1},
+    }
+
+
+def _direction(axis: list[float]) -> list[str]:
+    """Floats at full length, short ones as fractions: a decimal counts as known to its last digit only."""
+    exact = [Fraction(part) for part in axis]
+    return [str(part) if part.denominator < _SHORT else f"{float(part):.17g}" for part in exact]
+
+
+def _link(gear: str, teeth: int) -> dict[str, Any]:
+    return {"wheels": {gear: {"teeth": teeth, "kind": "bevel"}}}

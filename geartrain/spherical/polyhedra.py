@@ -13,10 +13,10 @@ import numpy as np
 from geartrain.errors import GearTrainError, Problem
 
 if TYPE_CHECKING:
-    from numpy.typing import ArrayLike, NDArray
+    from numpy.typing import ArrayLike
 
-    Floats = NDArray[np.float64]
-    Ints = NDArray[np.int64]
+    from geartrain.numerics.arrays import Floats, Ints
+
 
 NEAR = 1e-6
 """What counts as equal, as a part of the solid's size: points, planes and symmetries alike."""

@@ -7,17 +7,26 @@ from typing import TYPE_CHECKING, Literal
 
 from pydantic import Field, model_validator
 
-from geartrain.quantity import Figure
-from geartrain.teeth.shape import Shape, TwoFigures, TwoLengths, Wheels, arcs_of, bad, check_arcs, refused
+from geartrain.numerics.quantity import Figure
+from geartrain.teeth.conjugate.conjugate_form import (
+    ConjugateToothForm,
+    TwoFigures,
+    TwoLengths,
+    WheelPair,
+    arcs_of,
+    bad,
+    check_arcs,
+    refused,
+)
 
 if TYPE_CHECKING:
-    from geartrain.conjugate.pitch import Pitch
-    from geartrain.teeth.conjugate import Pair
+    from geartrain.teeth.conjugate.conjugate_transmission import ConjugatePair
+    from geartrain.teeth.conjugate.pitch_surfaces import PitchSurfaces
 
 _HALF = Figure.parse("1/2")
 
 
-class Cycloidal(Shape):
+class Cycloidal(ConjugateToothForm):
     """Cycloidal teeth, as in clocks: by default every dedendum is radial."""
 
     form: Literal["cycloidal"] = Field(description="The name of this form")
@@ -55,18 +64,18 @@ class Cycloidal(Shape):
             raise bad("height", "an addendum is no height", "write modules, 0 or more, not 0 for both wheels")
         return self
 
-    def pair(self, wheels: Wheels) -> Pair:
+    def pair(self, wheels: WheelPair) -> ConjugatePair:
         """The pair at its design distance."""
-        from geartrain.conjugate.cycloid import cycloid
-        from geartrain.conjugate.path import Path
+        from geartrain.teeth.conjugate.closed_form_sides import cycloid
+        from geartrain.teeth.conjugate.path_of_contact import PathOfContact
 
         pitch = wheels.pitch
         circles = self._circles(pitch, wheels)
         arcs = self._arcs(pitch, circles)
         approach, recess = (cycloid(pitch, X, rho) for X, rho in zip(arcs, circles, strict=True))
-        return self.standard(Path(pitch, approach, recess), wheels)
+        return self.standard(PathOfContact(pitch, approach, recess), wheels)
 
-    def _circles(self, pitch: Pitch, wheels: Wheels) -> tuple[float, float]:
+    def _circles(self, pitch: PitchSurfaces, wheels: WheelPair) -> tuple[float, float]:
         """Rolling circles of approach and recess: modules, or rad."""
         if self.rolling is not None:
             if wheels.bevel:
@@ -78,7 +87,7 @@ class Cycloidal(Shape):
         first, second = (float(figure.value) for figure in self.rolling_fraction or (_HALF, _HALF))
         return first * pitch.R1, second * (pitch.R1 if wheels.internal else pitch.R2)
 
-    def _arcs(self, pitch: Pitch, circles: tuple[float, float]) -> tuple[float, float]:
+    def _arcs(self, pitch: PitchSurfaces, circles: tuple[float, float]) -> tuple[float, float]:
         if self.addendum is None:
             return arcs_of(self.arcs or (_HALF, _HALF), pitch)
         # the addendum of the second wheel ends the approach, that of the first the recess
@@ -90,12 +99,12 @@ class Cycloidal(Shape):
         return found[0], found[1]
 
 
-def _arc(pitch: Pitch, R: float, z: int, rho: float, height: Fraction) -> float:
+def _arc(pitch: PitchSurfaces, R: float, z: int, rho: float, height: Fraction) -> float:
     """The arc (X) that ends at an addendum."""
     from math import asin, sin
 
-    from geartrain.conjugate.cycloid import circle_reach, cone_reach
-    from geartrain.conjugate.involutes import cone_height
+    from geartrain.teeth.conjugate.closed_form_sides import circle_reach, cone_reach
+    from geartrain.teeth.conjugate.involute_geometry import cone_height
 
     if pitch.bevel:
         d, size = cone_reach(R, rho, R + cone_height(R, z, float(height))), sin(rho)

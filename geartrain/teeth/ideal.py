@@ -8,7 +8,7 @@ from typing import Literal
 
 from pydantic import BaseModel, ConfigDict, Field
 
-from geartrain.teeth.base import Rigid
+from geartrain.teeth.transmission import ExactRatio
 
 
 class Ideal(BaseModel):
@@ -18,7 +18,7 @@ class Ideal(BaseModel):
 
     form: Literal["ideal"] = Field(description="The name of this form")
 
-    def law(self, z1: int, z2: int, driver: int = 1) -> Rigid:
+    def law(self, z1: int, z2: int, driver: int = 1) -> ExactRatio:
         """The law of a pair: its ratio and nothing else, both ways round. `driver` 2 lets the second wheel drive."""
         first, second = (z1, z2) if driver == 1 else (z2, z1)
-        return Rigid(Fraction(first, second), 2 * pi / first)
+        return ExactRatio(Fraction(first, second), 2 * pi / first)

@@ -7,19 +7,26 @@ from typing import TYPE_CHECKING, Literal
 
 from pydantic import Field, model_validator
 
-from geartrain.quantity import Angle
-from geartrain.teeth.shape import Shape, TwoFigures, Wheels, bad, check_angle, refused
+from geartrain.numerics.quantity import Angle
+from geartrain.teeth.conjugate.conjugate_form import (
+    ConjugateToothForm,
+    TwoFigures,
+    WheelPair,
+    bad,
+    check_angle,
+    refused,
+)
 
 if TYPE_CHECKING:
-    from geartrain.conjugate.involutes import Involutes, Wheel
-    from geartrain.conjugate.pitch import Pitch
-    from geartrain.teeth.conjugate import Pair
+    from geartrain.teeth.conjugate.conjugate_transmission import ConjugatePair
+    from geartrain.teeth.conjugate.involute_geometry import InvolutePair, InvoluteWheel
+    from geartrain.teeth.conjugate.pitch_surfaces import PitchSurfaces
 
 _MOST_MODULES = 1_000_000
 _PAIR = "give a sum of 0, such as `shift: [0.3, -0.3]`"
 
 
-class Involute(Shape):
+class Involute(ConjugateToothForm):
     """Involute teeth as a rack cuts them, shifted or not; spherical involutes on bevels."""
 
     form: Literal["involute"] = Field(description="The name of this form")
@@ -49,20 +56,20 @@ class Involute(Shape):
                     )
         return self
 
-    def misplaced(self, wheels: Wheels) -> float | None:
+    def misplaced(self, wheels: WheelPair) -> float | None:
         """None: these teeth are at home at any distance, which `pair` takes into account."""
         return None
 
-    def pair(self, wheels: Wheels) -> Pair:
+    def pair(self, wheels: WheelPair) -> ConjugatePair:
         """The pair at its own centre distance, declared or without play."""
         wheels.check()
         return self._bevel(wheels) if wheels.bevel else self._spur(wheels)
 
     # ------------------------------------------------------------------------------------------------ parallel axes
 
-    def involutes(self, wheels: Wheels) -> Involutes:
+    def involutes(self, wheels: WheelPair) -> InvolutePair:
         """Sizes of a pair with parallel axes, in modules."""
-        from geartrain.conjugate.involutes import Involutes, free_distance
+        from geartrain.teeth.conjugate.involute_geometry import InvolutePair, free_distance
 
         first, second = self._wheel(wheels, 0), self._wheel(wheels, 1)
         if self.centre_distance is None:
@@ -77,36 +84,36 @@ class Involute(Shape):
                     "give a longer centre_distance or a larger pressure_angle",
                 )
         thinned = wheels.modules(self.backlash, "backlash")
-        return Involutes(first, second, distance, thinned)
+        return InvolutePair(first, second, distance, thinned)
 
-    def _wheel(self, wheels: Wheels, at: int) -> Wheel:
-        from geartrain.conjugate.involutes import Wheel
+    def _wheel(self, wheels: WheelPair, at: int) -> InvoluteWheel:
+        from geartrain.teeth.conjugate.involute_geometry import InvoluteWheel
 
         add, mate, ded = (
             float(figure.value) for figure in (self.addendum[at], self.addendum[1 - at], self.dedendum[at])
         )
         z = wheels.z2 if at else wheels.z1
         shift, ring = float(self.shift[at].value), bool(at and wheels.internal)
-        return Wheel(z, self.pressure_angle.si, shift, add, ded, min(mate, ded), ring)
+        return InvoluteWheel(z, self.pressure_angle.si, shift, add, ded, min(mate, ded), ring)
 
-    def _spur(self, wheels: Wheels) -> Pair:
-        from geartrain.conjugate import forms
-        from geartrain.conjugate.involute_faults import involute_faults
-        from geartrain.conjugate.path import Path
-        from geartrain.teeth.conjugate import Pair
+    def _spur(self, wheels: WheelPair) -> ConjugatePair:
+        from geartrain.teeth.conjugate import optimal_sides as forms
+        from geartrain.teeth.conjugate.conjugate_transmission import ConjugatePair
+        from geartrain.teeth.conjugate.path_of_contact import PathOfContact
+        from geartrain.teeth.conjugate.tip_interference import involute_faults
 
         found = self.involutes(wheels)
         approach, recess = (forms.involute(max(X, 0.0), found.psi) for X in found.arcs)
-        path = Path(found.pitch, approach, recess, found.arcs)
-        return Pair(path, found.halves, involute_faults(found, path))
+        path = PathOfContact(found.pitch, approach, recess, found.arcs)
+        return ConjugatePair(path, found.halves, involute_faults(found, path))
 
     # ----------------------------------------------------------------------------------------------- axes that meet
 
-    def _bevel(self, wheels: Wheels) -> Pair:
-        from geartrain.conjugate import forms
-        from geartrain.conjugate.involutes import base_cone, cone_height, spherical_arc
-        from geartrain.conjugate.path import Path
-        from geartrain.teeth.conjugate import Pair
+    def _bevel(self, wheels: WheelPair) -> ConjugatePair:
+        from geartrain.teeth.conjugate import optimal_sides as forms
+        from geartrain.teeth.conjugate.conjugate_transmission import ConjugatePair
+        from geartrain.teeth.conjugate.involute_geometry import base_cone, cone_height, spherical_arc
+        from geartrain.teeth.conjugate.path_of_contact import PathOfContact
 
         if sum(figure.value for figure in self.shift):
             raise refused("the shifts of a bevel pair do not sum to 0", "its axes keep their pitch cones", _PAIR)
@@ -131,9 +138,11 @@ class Involute(Shape):
                 "give greater addenda, or shift the wheels less far apart",
             )
         approach, recess = (forms.involute(max(X, 0.0), psi) for X in arcs)
-        return Pair(Path(pitch, approach, recess, (arcs[0], arcs[1])), self._bevel_halves(pitch, wheels))
+        return ConjugatePair(
+            PathOfContact(pitch, approach, recess, (arcs[0], arcs[1])), self._bevel_halves(pitch, wheels)
+        )
 
-    def _bevel_halves(self, pitch: Pitch, wheels: Wheels) -> tuple[float, float]:
+    def _bevel_halves(self, pitch: PitchSurfaces, wheels: WheelPair) -> tuple[float, float]:
         """Half the thickness of the teeth on the pitch cones, as X; a shift thickens by 2 x tan psi modules."""
         module, thin = pitch.p / pi, self.play(pitch, wheels) / 4
         first, second = (

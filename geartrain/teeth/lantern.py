@@ -8,13 +8,21 @@ from typing import TYPE_CHECKING, Annotated, Literal
 from pydantic import BeforeValidator, Field, model_validator
 
 from geartrain.errors import Problem, RangeError
-from geartrain.quantity import Figure, Length
-from geartrain.teeth.shape import Shape, TwoFigures, Wheels, arcs_of, bad, check_arcs, refused
+from geartrain.numerics.quantity import Figure, Length
+from geartrain.teeth.conjugate.conjugate_form import (
+    ConjugateToothForm,
+    TwoFigures,
+    WheelPair,
+    arcs_of,
+    bad,
+    check_arcs,
+    refused,
+)
 
 if TYPE_CHECKING:
-    from geartrain.conjugate.admissible import Fault
-    from geartrain.conjugate.pitch import Pitch
-    from geartrain.teeth.conjugate import Pair
+    from geartrain.teeth.conjugate.admissibility import ToothFault
+    from geartrain.teeth.conjugate.conjugate_transmission import ConjugatePair
+    from geartrain.teeth.conjugate.pitch_surfaces import PitchSurfaces
 
 
 def _first_or_second(raw: object) -> object:
@@ -22,7 +30,7 @@ def _first_or_second(raw: object) -> object:
     return int(raw) if raw in ("1", "2") else raw
 
 
-class Lantern(Shape):
+class Lantern(ConjugateToothForm):
     """Round pins on one wheel, a lantern, and teeth that mate with them on the other."""
 
     form: Literal["lantern"] = Field(description="The name of this form")
@@ -53,7 +61,7 @@ class Lantern(Shape):
             check_arcs(self.arcs)
         return self
 
-    def misplaced(self, wheels: Wheels) -> float | None:
+    def misplaced(self, wheels: WheelPair) -> float | None:
         """Always None: raises `RangeError` where the declared centre distance is not the design's."""
         if (distance := super().misplaced(wheels)) is not None:
             raise RangeError(
@@ -65,12 +73,12 @@ class Lantern(Shape):
             )
         return None
 
-    def pair(self, wheels: Wheels) -> Pair:
+    def pair(self, wheels: WheelPair) -> ConjugatePair:
         """The pair at its design distance."""
-        from geartrain.conjugate.lantern import lantern, pin_angle
-        from geartrain.conjugate.path import Path
-        from geartrain.conjugate.pin_cut import flank_start
-        from geartrain.teeth.conjugate import Pair
+        from geartrain.teeth.conjugate.closed_form_sides import lantern, pin_angle
+        from geartrain.teeth.conjugate.conjugate_transmission import ConjugatePair
+        from geartrain.teeth.conjugate.path_of_contact import PathOfContact
+        from geartrain.teeth.conjugate.pin_undercut import flank_start
 
         if wheels.bevel:
             raise _beyond("a bevel lantern", "round pins on a cone have no mate in closed form")
@@ -87,19 +95,19 @@ class Lantern(Shape):
         tooth = pitch.p / 2 - pin - self.play(pitch, wheels) / 2
         halves = (pin, tooth) if self.pins == 1 else (tooth, pin)
         (approach, recess), arcs = (sides, real) if self.pins == 1 else (sides[::-1], real[::-1])
-        path, cut = Path(pitch, approach, recess, (arcs[0], arcs[1])), self._cut(pitch, start, outside, inside)
-        return Pair(path, halves, extra=cut, solid=(self.pins != 1, self.pins != 2))
+        path, cut = PathOfContact(pitch, approach, recess, (arcs[0], arcs[1])), self._cut(pitch, start, outside, inside)
+        return ConjugatePair(path, halves, extra=cut, solid=(self.pins != 1, self.pins != 2))
 
-    def _cut(self, pitch: Pitch, start: float, outside: float, inside: float) -> tuple[Fault, ...]:
+    def _cut(self, pitch: PitchSurfaces, start: float, outside: float, inside: float) -> tuple[ToothFault, ...]:
         """A fault where the pins on their way in leave less of the mate's flank than the arcs need."""
-        from geartrain.conjugate.admissible import Fault
+        from geartrain.teeth.conjugate.admissibility import ToothFault
 
         left = (outside + min(inside, -start)) / pitch.p
         if inside <= -start or (left >= 1 - 1e-12 and not inside):
             return ()
         mate, where = 3 - self.pins, start / pitch.p
         side = f"{abs(where):.4g} pitches {'beyond' if where > 0 else 'short of'} the pitch point"
-        fault = Fault(
+        fault = ToothFault(
             "undercut",
             mate,
             -start if self.pins == 1 else start,
@@ -110,7 +118,7 @@ class Lantern(Shape):
         )
         return (fault,)
 
-    def _sizes(self, R: float, wheels: Wheels) -> tuple[float, float]:
+    def _sizes(self, R: float, wheels: WheelPair) -> tuple[float, float]:
         """Distance of the pins from the axle, and their radius, in modules."""
         A = R if self.pin_radius is None else wheels.modules(self.pin_radius, "pin_radius")
         B = wheels.modules(self.pin_diameter, "pin_diameter") / 2
@@ -130,9 +138,11 @@ class Lantern(Shape):
             )
         return A, B
 
-    def _arcs(self, pitch: Pitch, R: float, A: float, B: float, mate: float, start: float) -> tuple[float, float]:
+    def _arcs(
+        self, pitch: PitchSurfaces, R: float, A: float, B: float, mate: float, start: float
+    ) -> tuple[float, float]:
         """Arcs (X) on the mate's addendum and on its dedendum; by default a pitch from where the flank begins."""
-        from geartrain.conjugate.lantern import pin_arc, pin_reach
+        from geartrain.teeth.conjugate.closed_form_sides import pin_arc, pin_reach
 
         if self.addendum is not None:
             height = float(self.addendum.value)

@@ -7,20 +7,28 @@ from typing import TYPE_CHECKING, Literal
 
 from pydantic import Field, model_validator
 
-from geartrain.quantity import Angle, Figure, Quantity
-from geartrain.teeth.shape import Shape, TwoFigures, Wheels, arcs_of, bad, check_angle, check_arcs
+from geartrain.numerics.quantity import Angle, Figure, Quantity
+from geartrain.teeth.conjugate.conjugate_form import (
+    ConjugateToothForm,
+    TwoFigures,
+    WheelPair,
+    arcs_of,
+    bad,
+    check_angle,
+    check_arcs,
+)
 
 if TYPE_CHECKING:
-    from geartrain.conjugate.path import Path
-    from geartrain.conjugate.pitch import Pitch
-    from geartrain.teeth.conjugate import Pair
+    from geartrain.teeth.conjugate.conjugate_transmission import ConjugatePair
+    from geartrain.teeth.conjugate.path_of_contact import PathOfContact
+    from geartrain.teeth.conjugate.pitch_surfaces import PitchSurfaces
 
 _HALF, _NONE, _WHOLE = Figure.parse("1/2"), Figure.parse("0"), Figure.parse("1")
 _STEEP, _FLAT = Quantity.parse("80 deg", "angle", False), Quantity.parse("50 deg", "angle", False)
 _CEILING, _MARGIN = Quantity.parse("25 deg", "angle", False), Figure.parse("0.15")
 
 
-class LeastFriction(Shape):
+class LeastFriction(ConjugateToothForm):
     """A constant pressure angle from the pitch point, then the slowest contact allowed along the dedendum.
 
     `literal` gives the source's shape instead: above 45 deg, clear of the pitch point, and of no use as a pair.
@@ -77,30 +85,30 @@ class LeastFriction(Shape):
             raise bad("arcs", "the literal shape has one side only", "give `arcs: [0, 1]` or `arcs: [1, 0]`")
         return self
 
-    def pair(self, wheels: Wheels) -> Pair:
+    def pair(self, wheels: WheelPair) -> ConjugatePair:
         """The pair at its design distance."""
         pitch = wheels.pitch
         return self.standard(self._literal(pitch) if self.literal else self._usual(pitch), wheels)
 
-    def _usual(self, pitch: Pitch) -> Path:
-        from geartrain.conjugate.forms import least_friction
-        from geartrain.conjugate.path import Path
-        from geartrain.conjugate.side import none
+    def _usual(self, pitch: PitchSurfaces) -> PathOfContact:
+        from geartrain.teeth.conjugate.optimal_sides import least_friction
+        from geartrain.teeth.conjugate.path_of_contact import PathOfContact
+        from geartrain.teeth.conjugate.path_side import none
 
         psi, u = (self.pressure_angle or _CEILING).si, float((self.margin or _MARGIN).value)
         approach, recess = (
             least_friction(pitch, b, X, psi, u) if X else none(psi)
             for b, X in zip((pitch.A, pitch.B), arcs_of(self.arcs or (_HALF, _HALF), pitch), strict=True)
         )
-        return Path(pitch, approach, recess)
+        return PathOfContact(pitch, approach, recess)
 
-    def _literal(self, pitch: Pitch) -> Path:
-        from geartrain.conjugate.extremal import extremal
-        from geartrain.conjugate.path import Path
-        from geartrain.conjugate.side import none
+    def _literal(self, pitch: PitchSurfaces) -> PathOfContact:
+        from geartrain.teeth.conjugate.closed_form_sides import extremal
+        from geartrain.teeth.conjugate.path_of_contact import PathOfContact
+        from geartrain.teeth.conjugate.path_side import none
 
         first, last = (angle.si for angle in self.pressure_angles or (_STEEP, _FLAT))
         approach, recess = (
             extremal(pitch, X, first, last) if X else none(0.0) for X in arcs_of(self.arcs or (_NONE, _WHOLE), pitch)
         )
-        return Path(pitch, approach, recess)
+        return PathOfContact(pitch, approach, recess)

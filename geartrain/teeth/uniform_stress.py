@@ -6,14 +6,21 @@ from typing import TYPE_CHECKING, Literal
 
 from pydantic import Field, model_validator
 
-from geartrain.quantity import Angle
-from geartrain.teeth.shape import Shape, TwoFigures, Wheels, arcs_of, check_angle, check_arcs
+from geartrain.numerics.quantity import Angle
+from geartrain.teeth.conjugate.conjugate_form import (
+    ConjugateToothForm,
+    TwoFigures,
+    WheelPair,
+    arcs_of,
+    check_angle,
+    check_arcs,
+)
 
 if TYPE_CHECKING:
-    from geartrain.teeth.conjugate import Pair
+    from geartrain.teeth.conjugate.conjugate_transmission import ConjugatePair
 
 
-class UniformStress(Shape):
+class UniformStress(ConjugateToothForm):
     """Teeth whose contact pressure is the same at every instant while one pair bears the load."""
 
     form: Literal["uniform_stress"] = Field(description="The name of this form")
@@ -28,11 +35,11 @@ class UniformStress(Shape):
         check_arcs(self.arcs)
         return self
 
-    def pair(self, wheels: Wheels) -> Pair:
+    def pair(self, wheels: WheelPair) -> ConjugatePair:
         """The pair at its design distance."""
-        from geartrain.conjugate.forms import uniform_stress
-        from geartrain.conjugate.path import Path
-        from geartrain.conjugate.side import none
+        from geartrain.teeth.conjugate.optimal_sides import uniform_stress
+        from geartrain.teeth.conjugate.path_of_contact import PathOfContact
+        from geartrain.teeth.conjugate.path_side import none
 
         pitch, psi = wheels.pitch, self.pressure_angle.si
         A, B = pitch.A, pitch.B
@@ -40,4 +47,4 @@ class UniformStress(Shape):
             uniform_stress(pitch, a, b, X, psi) if X else none(psi)
             for a, b, X in zip((B, A), (A, B), arcs_of(self.arcs, pitch), strict=True)
         )
-        return self.standard(Path(pitch, approach, recess), wheels)
+        return self.standard(PathOfContact(pitch, approach, recess), wheels)

@@ -7,19 +7,28 @@ from typing import TYPE_CHECKING, Literal
 
 from pydantic import Field, model_validator
 
-from geartrain.quantity import Angle, Figure, Quantity
-from geartrain.teeth.shape import Shape, TwoFigures, Wheels, arcs_of, bad, check_angle, check_arcs, refused
+from geartrain.numerics.quantity import Angle, Figure, Quantity
+from geartrain.teeth.conjugate.conjugate_form import (
+    ConjugateToothForm,
+    TwoFigures,
+    WheelPair,
+    arcs_of,
+    bad,
+    check_angle,
+    check_arcs,
+    refused,
+)
 
 if TYPE_CHECKING:
-    from geartrain.conjugate.pitch import Pitch
-    from geartrain.conjugate.side import Side
-    from geartrain.teeth.conjugate import Pair
+    from geartrain.teeth.conjugate.conjugate_transmission import ConjugatePair
+    from geartrain.teeth.conjugate.path_side import PathSide
+    from geartrain.teeth.conjugate.pitch_surfaces import PitchSurfaces
 
 _USUAL = Quantity.parse("12 deg", "angle", False)
 _INVOLUTE = pi / 9  # 20 deg, whose working depth is the default
 
 
-class UniformTemperature(Shape):
+class UniformTemperature(ConjugateToothForm):
     """Teeth whose heat per area of profile is the same at every instant.
 
     Three readings: a, on the first wheel only; b, on the hotter of the two, which is always the dedendum; c, as b, but
@@ -53,21 +62,21 @@ class UniformTemperature(Shape):
         check_arcs(self.arcs)
         return self
 
-    def pair(self, wheels: Wheels) -> Pair:
+    def pair(self, wheels: WheelPair) -> ConjugatePair:
         """The pair at its design distance."""
-        from geartrain.conjugate.path import Path
+        from geartrain.teeth.conjugate.path_of_contact import PathOfContact
 
         pitch = wheels.pitch
         if self.heat is not None:
             approach, recess = self._sides(pitch, (pitch.A + pitch.B) / float(self.heat.value))
         else:
             approach, recess = self._deep(pitch)
-        return self.standard(Path(pitch, approach, recess), wheels)
+        return self.standard(PathOfContact(pitch, approach, recess), wheels)
 
-    def _sides(self, pitch: Pitch, gamma: float) -> tuple[Side, Side]:
+    def _sides(self, pitch: PitchSurfaces, gamma: float) -> tuple[PathSide, PathSide]:
         """Approach and recess with gamma = (A + B) / heat."""
-        from geartrain.conjugate.forms import bounded_heat, uniform_heat
-        from geartrain.conjugate.side import none
+        from geartrain.teeth.conjugate.optimal_sides import bounded_heat, uniform_heat
+        from geartrain.teeth.conjugate.path_side import none
 
         psi = (self.least_angle or _USUAL).si
         arcs = arcs_of(self.arcs, pitch)
@@ -83,10 +92,10 @@ class UniformTemperature(Shape):
                 found.append(uniform_heat(pitch, b, gamma, X))
         return found[0], found[1]
 
-    def _deep(self, pitch: Pitch) -> tuple[Side, Side]:
+    def _deep(self, pitch: PitchSurfaces) -> tuple[PathSide, PathSide]:
         """The sides with the wanted working depth, which grows with gamma."""
-        from geartrain.conjugate.depths import to_depth, working_depth
-        from geartrain.conjugate.forms import involute
+        from geartrain.teeth.conjugate.optimal_sides import involute
+        from geartrain.teeth.conjugate.path_costs import to_depth, working_depth
 
         arcs = arcs_of(self.arcs, pitch)
         if self.depth is not None:
@@ -99,7 +108,7 @@ class UniformTemperature(Shape):
         return self._sides(pitch, gamma)
 
 
-def _cold(pitch: Pitch, gamma: float) -> Exception:
+def _cold(pitch: PitchSurfaces, gamma: float) -> Exception:
     return refused(
         f"a heat of {(pitch.A + pitch.B) / gamma:.6g} is more than these teeth can have",
         "the contact would stand still beside the pitch point",

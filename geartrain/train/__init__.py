@@ -2,38 +2,38 @@
 
 from __future__ import annotations
 
-from geartrain.train.cutting import AngleError, Cutting, Fitting, LengthError
-from geartrain.train.declaration import Case, Train
-from geartrain.train.explain import declare, suggest
+from geartrain.train.declaration import StateCase, Train
+from geartrain.train.manufacturing import AngleError, LengthError, PairMounting, WheelManufacture
 from geartrain.train.mechanism import Axis, GearPair, Link, Revolute, Source, Teeth, Wheel
-from geartrain.train.questions import Dial, Expect, Output, Published, Target, Unit, View
-from geartrain.train.running import Clutch, Erratum, Remove, State
+from geartrain.train.outputs import Dial, Expect, Output, Published, SpeedUnit, Target, View
+from geartrain.train.states import Clutch, Erratum, Remove, State
+from geartrain.train.validation import declare, suggest
 
 __all__ = [
     "AngleError",
     "Axis",
-    "Case",
     "Clutch",
-    "Cutting",
     "Dial",
     "Erratum",
     "Expect",
-    "Fitting",
     "GearPair",
     "LengthError",
     "Link",
     "Output",
+    "PairMounting",
     "Published",
     "Remove",
     "Revolute",
     "Source",
+    "SpeedUnit",
     "State",
+    "StateCase",
     "Target",
     "Teeth",
     "Train",
-    "Unit",
     "View",
     "Wheel",
+    "WheelManufacture",
     "declare",
     "suggest",
 ]

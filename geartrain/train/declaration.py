@@ -11,16 +11,16 @@ from typing import Annotated
 from pydantic import BeforeValidator, Field, PrivateAttr
 
 from geartrain.errors import Loc, Marks, dotted
-from geartrain.exact import abridged, decimal
-from geartrain.periods import table
-from geartrain.pins import Coupling
-from geartrain.quantity import Friction, Quantity, Speed, Torque, in_unit, same_kind
+from geartrain.numerics.exact import abridged_text, decimal
+from geartrain.numerics.quantity import Friction, Quantity, Speed, Torque, in_unit, same_kind
 from geartrain.teeth import ToothForm
-from geartrain.train.common import ByName, Declared, Id, Nothing
-from geartrain.train.cutting import Cutting, Fitting
+from geartrain.teeth.pin_coupling import Coupling
+from geartrain.train.fields import ByName, Declared, Id, Nothing
+from geartrain.train.manufacturing import PairMounting, WheelManufacture
 from geartrain.train.mechanism import Axis, GearPair, Link, Revolute, Source, Wheel
-from geartrain.train.questions import Dial, Output, Unit, View
-from geartrain.train.running import Clutch, Erratum, Remove, State
+from geartrain.train.outputs import Dial, Output, SpeedUnit, View
+from geartrain.train.periods import period_table
+from geartrain.train.states import Clutch, Erratum, Remove, State
 
 
 def _cited(raw: object) -> object:
@@ -28,7 +28,7 @@ def _cited(raw: object) -> object:
 
 
 @dataclass(frozen=True, slots=True)
-class Case:
+class StateCase:
     """What is prescribed when the train is run in one state; `state` is None for a train without states.
 
     inputs    in the train's unit, `Train.unit_name`
@@ -54,7 +54,7 @@ class Case:
 
     def shown(self, speed: Fraction) -> str:
         """A speed for a reader: as a fraction, or in decimal where it is not exact."""
-        return abridged(speed) if self.exact else decimal(speed)
+        return abridged_text(speed) if self.exact else decimal(speed)
 
     def says(self, *links: str) -> str:
         """A brake on one link or a lock of two, in words, and what it follows from where it is not declared itself."""
@@ -90,7 +90,7 @@ class Train(Declared):
     )
     errata: tuple[Erratum, ...] = Field((), description="What the sources print that is not so")
     frame: Id = Field("frame", description="The link whose speed is 0")
-    unit: Unit | None = Field(None, description="What a speed of 1 means; absent: plain numbers")
+    unit: SpeedUnit | None = Field(None, description="What a speed of 1 means; absent: plain numbers")
     view: View = Field(View(), description="From where the train is seen, and which sense is positive")
     links: ByName[Annotated[Link, Nothing]] = Field(description="Every link, with its wheels")
     axes: ByName[Axis] = Field(
@@ -101,10 +101,10 @@ class Train(Declared):
     couplings: tuple[Coupling, ...] = Field((), description="Pins in slots")
     tooth_form: ToothForm | None = Field(None, description="Form of the teeth of every pair that has none of its own")
     friction: Friction | None = Field(None, description="Friction of the teeth of every pair that has none of its own")
-    cutting: Cutting | None = Field(
+    cutting: WheelManufacture | None = Field(
         None, description="How far the teeth of every wheel are off that says nothing of its own"
     )
-    fitting: Fitting | None = Field(
+    fitting: PairMounting | None = Field(
         None, description="How far the axes of every pair are off that says nothing of its own"
     )
     inputs: ByName[Speed] = Field(
@@ -143,11 +143,11 @@ class Train(Declared):
         return {name: (link, wheel) for link, part in self.links.items() for name, wheel in part.wheels.items()}
 
     @property
-    def cases(self) -> tuple[Case, ...]:
+    def cases(self) -> tuple[StateCase, ...]:
         """What is prescribed in each state, or once for a train without states."""
         return tuple(self.case(state) for state in self.states) if self.states else (self.case(None),)
 
-    def case(self, state: str | None) -> Case:
+    def case(self, state: str | None) -> StateCase:
         """What is prescribed in one state."""
         own = self.states[state] if state is not None else State()
         inputs = self.inputs if own.inputs is None else own.inputs
@@ -168,7 +168,7 @@ class Train(Declared):
             update = {key: getattr(output, key) for key in output.model_fields_set}
             outputs[name] = inherited.model_copy(update=update) if inherited else output
         loc: Loc = ("states", state, "inputs") if state is not None and own.inputs is not None else ("inputs",)
-        return Case(
+        return StateCase(
             state,
             {link: self._speed(speed) for link, speed in inputs.items()},
             tuple(dict.fromkeys(fixed)),
@@ -219,7 +219,7 @@ class Train(Declared):
         """Length of the unit in days, where it is a time."""
         if self.unit is None:
             return None
-        row = table().get(self.unit.per)
+        row = period_table().get(self.unit.per)
         if row is not None:
             return row.value if row.kind == "period" else None
         quantity = self.unit_quantity
@@ -236,7 +236,7 @@ class Train(Declared):
     @property
     def unit_quantity(self) -> Quantity | None:
         """The unit where it is declared as a quantity (a time or a length)."""
-        if self.unit is None or self.unit.per in table():
+        if self.unit is None or self.unit.per in period_table():
             return None
         try:
             return Quantity.parse(self.unit.per, "time or length", plain=False)

@@ -15,10 +15,10 @@ from pydantic import (
 )
 from pydantic_core import PydanticCustomError
 
-from geartrain.quantity import Angle, Figure, Friction, Inertia, Length, Quantity, Share, Torque
+from geartrain.numerics.quantity import Angle, Figure, Friction, Inertia, Length, Quantity, Share, Torque
 from geartrain.teeth import ToothForm
-from geartrain.train.common import Boolean, ByName, Count, Declared, Id, Status, also, short_for, side
-from geartrain.train.cutting import Cutting, Fitting
+from geartrain.train.fields import Boolean, ByName, Count, Declared, Id, Status, also, short_for, side
+from geartrain.train.manufacturing import PairMounting, WheelManufacture
 
 
 class Source(Declared):
@@ -103,7 +103,7 @@ class Wheel(Declared):
     )
     hand: Literal["right", "left"] = Field("right", description="Hand of a worm's thread")
     module: Length | None = Field(None, description="Pitch diameter over tooth count")
-    cutting: Cutting | None = Field(None, description="How far its teeth are off; default the train's")
+    cutting: WheelManufacture | None = Field(None, description="How far its teeth are off; default the train's")
     status: Status | None = Field(None, description="surviving, reconstructed or hypothetical")
     source: str | None = Field(None, description="Key of the source")
     note: str | None = Field(None, description="A remark for the reader")
@@ -247,7 +247,7 @@ class GearPair(Declared):
         None,
         description="Fraction of a pitch by which a tooth of the first wheel is past the line of centres at the start",
     )
-    fitting: Fitting | None = Field(None, description="How far its axes are off; default the train's")
+    fitting: PairMounting | None = Field(None, description="How far its axes are off; default the train's")
     source: str | None = Field(None, description="Key of the source")
     note: str | None = Field(None, description="A remark for the reader")
 

@@ -6,10 +6,10 @@ from collections.abc import Iterable, Iterator, Mapping
 from difflib import get_close_matches
 
 from geartrain.errors import Loc, Problem, dotted
-from geartrain.periods import suggestion, table
-from geartrain.quantity import Quantity
+from geartrain.numerics.quantity import Quantity
 from geartrain.train.declaration import Train
-from geartrain.train.questions import Output, Target
+from geartrain.train.outputs import Output, Target
+from geartrain.train.periods import period_table, suggested_period
 
 
 def find_problems(train: Train) -> Iterator[Problem]:
@@ -273,12 +273,12 @@ def _output(train: Train, name: str, output: Output, loc: Loc, link_given: bool 
 def _target(train: Train, target: Target, loc: Loc) -> Iterator[Problem]:
     place = train.place(*loc)
     if target.name is not None:
-        row = table().get(target.name)
+        row = period_table().get(target.name)
         if row is None:
             yield Problem(
                 f"no astronomical period '{target.name}'",
                 "the shipped table has no such row",
-                suggestion(target.name),
+                suggested_period(target.name),
                 place,
             )
             return
@@ -348,14 +348,16 @@ def _source(train: Train, key: str | None, *loc: str | int) -> Iterator[Problem]
 
 
 def _units(train: Train) -> Iterator[Problem]:
-    if train.unit is not None and train.unit.per not in table() and train.unit_quantity is None:
+    if train.unit is not None and train.unit.per not in period_table() and train.unit_quantity is None:
         yield Problem(
             f"'{train.unit.per}' is no unit",
             "it is neither a row of the shipped table nor a time or length",
-            suggestion(train.unit.per),
+            suggested_period(train.unit.per),
             train.place("unit"),
         )
-    elif train.unit is not None and train.unit.per in table() and table()[train.unit.per].kind != "period":
+    elif (
+        train.unit is not None and train.unit.per in period_table() and period_table()[train.unit.per].kind != "period"
+    ):
         yield Problem(
             f"'{train.unit.per}' is no period",
             "a unit is one turn per a time or a length",

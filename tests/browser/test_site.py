@@ -136,7 +136,12 @@ def test_the_reference_of_python_is_made_from_the_docstrings(site: Path) -> None
     text = (site / "api.html").read_text(encoding="utf-8")
     assert ":::" not in text
     names = Links(site / "api.html").ids
-    assert {"geartrain.load", "geartrain.GearTrain.solve", "geartrain.layout.lay_out", "geartrain.scene.Scene"} <= names
+    assert {
+        "geartrain.load",
+        "geartrain.GearTrain.solve",
+        "geartrain.scene.layout.lay_out",
+        "geartrain.scene.Scene",
+    } <= names
     assert re.search(r"<li><code>centre</code>: middle of its pitch circle", text), "columns of docstrings are lists"
 
 

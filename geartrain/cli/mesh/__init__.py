@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import typer
 
-from geartrain.cli.mesh import compare, pin, shape, triangular
-from geartrain.cli.mesh.shaping import FORMS
+from geartrain.cli.mesh import compare, pin, triangular
+from geartrain.cli.mesh import conjugate as shape
+from geartrain.cli.mesh.conjugate_options import FORMS
 
 app = typer.Typer(help="What the teeth of one pair do within a pitch.", no_args_is_help=True)
 app.command("triangular")(triangular.run)

@@ -8,14 +8,35 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from geartrain.cli.common import GOOD, PICTURES, VERDICT, Force, Json, Out, apart, as_json, draw, emit, show, sink
-from geartrain.cli.mesh.shaping import FORMS, NAMES, Question, pair, question, shape, unknown
-from geartrain.cli.numbers import quantity
+from geartrain.cli.common import (
+    GOOD,
+    PICTURES,
+    VERDICT,
+    Force,
+    Json,
+    Out,
+    as_json,
+    check_distinct_outputs,
+    draw,
+    emit,
+    show,
+    sink,
+)
+from geartrain.cli.mesh.conjugate_options import (
+    FORMS,
+    NAMES,
+    ConjugateOptions,
+    pair,
+    read_form,
+    read_wheels,
+    unknown_form,
+)
+from geartrain.cli.option_values import quantity
 from geartrain.errors import GearTrainError, Problem
 
 if TYPE_CHECKING:
-    from geartrain.report import Compared, Shaped
-    from geartrain.teeth.conjugate import Pair
+    from geartrain.report import FormComparison, MeasuredForm
+    from geartrain.teeth.conjugate.conjugate_transmission import ConjugatePair
 
 _BASE = 20.0  # deg
 _USUAL = "involute,uniform_stress,uniform_temperature_b,least_friction,cycloidal,lantern"
@@ -42,15 +63,15 @@ def run(
     from geartrain import report
 
     to, picture = sink(out, force, (".md", ".html", ".json")), sink(plot, force, PICTURES, "--plot")
-    apart(to, picture)
-    asked = question(teeth, internal, bevel)
+    check_distinct_outputs(to, picture)
+    asked = read_wheels(teeth, internal, bevel)
     found = _compared(asked, _names(forms), _arcs(arcs), _angle(pressure_angle), pressure_angle)
     if json or to.suffix == ".json":
         emit(as_json(report.compared_data(found)), to)
     else:
         show([report.compared_document(found)], to)
     if plot is not None:
-        from geartrain.plot import shapes_figure
+        from geartrain.drawing import shapes_figure
 
         draw(shapes_figure({form.name: form.path for form in found.forms if form.path and form.runs}), picture)
     raise typer.Exit(GOOD if all(form.runs for form in found.forms) else VERDICT)
@@ -62,7 +83,7 @@ def _names(text: str) -> list[str]:
         raise GearTrainError(Problem("no form is named", "", f"use some of: {', '.join(NAMES)}", "--forms"))
     for name in names:
         if name not in NAMES:
-            raise unknown(name)
+            raise unknown_form(name)
     return names
 
 
@@ -95,9 +116,9 @@ def _angle(text: str | None) -> float | None:
 
 
 def _compared(
-    asked: Question, names: list[str], arcs: tuple[float, float], angle: float | None, text: str | None
-) -> Compared:
-    from geartrain.report import Compared
+    asked: ConjugateOptions, names: list[str], arcs: tuple[float, float], angle: float | None, text: str | None
+) -> FormComparison:
+    from geartrain.report import FormComparison
 
     base = _shaped("involute", _involute(asked, arcs, radians(_BASE)))
     if not base.runs:
@@ -119,10 +140,10 @@ def _compared(
         + ("; of uniform temperature also the working depth" if any("temperature" in name for name in names) else "")
         + ". Two loads: one pair of teeth bears all, or those in contact share it; first order in friction."
     )
-    return Compared(base, tuple(found), matched)
+    return FormComparison(base, tuple(found), matched)
 
 
-def _no_base(base: Shaped) -> GearTrainError:
+def _no_base(base: MeasuredForm) -> GearTrainError:
     """What keeps the involute with which forms are compared from running; its pressure angle is not to choose."""
     what = "the 20 deg involute, with which forms are compared, cannot run: "
     fixes = (fault.fix.partition(", or ")[0] for fault in base.faults)
@@ -132,20 +153,20 @@ def _no_base(base: Shaped) -> GearTrainError:
     )
 
 
-def _involute(asked: Question, arcs: tuple[float, float], psi: float) -> Pair:
+def _involute(asked: ConjugateOptions, arcs: tuple[float, float], psi: float) -> ConjugatePair:
     """An involute pair with given arcs, one of which may be negative, whatever addenda they take."""
-    from geartrain.conjugate.forms import involute
-    from geartrain.conjugate.path import Path as Contact
-    from geartrain.teeth.conjugate import Pair
+    from geartrain.teeth.conjugate.conjugate_transmission import ConjugatePair
+    from geartrain.teeth.conjugate.optimal_sides import involute
+    from geartrain.teeth.conjugate.path_of_contact import PathOfContact as Contact
 
     pitch = asked.wheels.pitch
     real = (arcs[0] * pitch.p, arcs[1] * pitch.p)
     approach, recess = (involute(max(arc, 0.0), psi) for arc in real)
-    return Pair(Contact(pitch, approach, recess, real), (pitch.p / 4, pitch.p / 4))
+    return ConjugatePair(Contact(pitch, approach, recess, real), (pitch.p / 4, pitch.p / 4))
 
 
-def _made(name: str, asked: Question, arcs: tuple[float, float], angle: str | None) -> Shaped:
-    from geartrain.report import Shaped
+def _made(name: str, asked: ConjugateOptions, arcs: tuple[float, float], angle: str | None) -> MeasuredForm:
+    from geartrain.report import MeasuredForm
 
     reading = name[-1] if name.startswith("uniform_temperature_") else None
     form = name[:-2] if reading else name
@@ -155,19 +176,19 @@ def _made(name: str, asked: Question, arcs: tuple[float, float], angle: str | No
     try:
         if form == "lantern":
             given["arcs"] = f"0,{sum(arcs) + _lost(asked)!r}"
-        return _shaped(name, pair(shape(form, given), asked))
+        return _shaped(name, pair(read_form(form, given), asked))
     except GearTrainError as error:
-        return Shaped(name, None, None, error.problems)
+        return MeasuredForm(name, None, None, error.problems)
 
 
-def _lost(asked: Question) -> float:
+def _lost(asked: ConjugateOptions) -> float:
     """What the pins of a lantern cut off the recess, in pitches."""
-    found = pair(shape("lantern", {}), asked)
+    found = pair(read_form("lantern", {}), asked)
     return float(max(-found.arcs[0], 0.0) / found.path.pitch.p * (1 + 1e-8))
 
 
-def _shaped(name: str, found: Pair) -> Shaped:
-    from geartrain.conjugate.measures import measure
-    from geartrain.report import Shaped
+def _shaped(name: str, found: ConjugatePair) -> MeasuredForm:
+    from geartrain.report import MeasuredForm
+    from geartrain.teeth.conjugate.path_costs import measure
 
-    return Shaped(name, found.path, None if found.faults else measure(found.path), found.faults)
+    return MeasuredForm(name, found.path, None if found.faults else measure(found.path), found.faults)

@@ -7,13 +7,13 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from geartrain.cli.common import Force, Json, Out, as_json, emit, show, sink
-from geartrain.cli.mesh.options import placed
-from geartrain.cli.numbers import friction as _friction
-from geartrain.cli.numbers import quantity as _quantity
+from geartrain.cli.option_values import at_option
+from geartrain.cli.option_values import friction as _friction
+from geartrain.cli.option_values import quantity as _quantity
 from geartrain.errors import GearTrainError, Problem
 
 if TYPE_CHECKING:
-    from geartrain.pins.laws import PinLaw
+    from geartrain.teeth.pin_transmission import PinTransmission
 
 
 def run(
@@ -36,18 +36,18 @@ def run(
         show([report.pin_document(law, driver)], to)
 
 
-def _pin_law(pin_radius: str, offset: str, friction: float, driver: str) -> PinLaw:
-    from geartrain.pins.laws import BackLaw, SlotLaw
+def _pin_law(pin_radius: str, offset: str, friction: float, driver: str) -> PinTransmission:
+    from geartrain.teeth.pin_transmission import PinToSlotTransmission, SlotToPinTransmission
 
     if driver not in ("pin", "slot"):
         raise typer.BadParameter(f"'{driver}' is neither pin nor slot", param_hint="--driver")
     r = _quantity("--pin-radius", pin_radius, "length", plain=True)
     e = _quantity("--offset", offset, "length", plain=True)
     try:
-        law = (SlotLaw if driver == "pin" else BackLaw)(r, e, friction)
+        law = (PinToSlotTransmission if driver == "pin" else SlotToPinTransmission)(r, e, friction)
     except GearTrainError as error:
-        raise placed(error, "--driver" if driver == "slot" and 0 < r < e else "--pin-radius") from None
-    if not isinstance(law, BackLaw):
+        raise at_option(error, "--driver" if driver == "slot" and 0 < r < e else "--pin-radius") from None
+    if not isinstance(law, SlotToPinTransmission):
         return law
     if friction >= law.locking_friction:
         what = f"a friction of {friction:g} locks the pin in its slot"

@@ -7,8 +7,9 @@ from typing import Annotated
 import typer
 
 from geartrain.cli.common import Force, Json, Out, StateName, sink
-from geartrain.cli.teeth import belonging, epicyclic, orrery, ratio, train
-from geartrain.cli.teeth.asking import FORMS, Asked, Means, is_train
+from geartrain.cli.teeth import epicyclic, orrery, ratio, train
+from geartrain.cli.teeth import search_options as belonging
+from geartrain.cli.teeth.search_options import FORMS, SearchExecution, SearchOptions, is_train
 
 Names = list[str] | None
 Flag = bool
@@ -92,8 +93,8 @@ def run(
     force: Force = False,
 ) -> None:
     """Tooth numbers for a wanted motion: complete, exact, and with a reason where there are none."""
-    asked = Asked(tolerance, best, by, counts, wheels, pinions, csv, json, sink(out, force, FORMS), pick)
-    means = Means(workers, scheduler, resume, out)
+    asked = SearchOptions(tolerance, best, by, counts, wheels, pinions, csv, json, sink(out, force, FORMS), pick)
+    means = SearchExecution(workers, scheduler, resume, out)
     belonging.check_texts(context, wanted)
     if kind is not None:
         if kind != "list":

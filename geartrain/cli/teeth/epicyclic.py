@@ -7,12 +7,12 @@ from typing import Any
 import typer
 
 from geartrain.cli.common import STANDARD, Sink, as_json, emit, show
-from geartrain.cli.numbers import decimal
-from geartrain.cli.teeth.asking import Asked
+from geartrain.cli.option_values import decimal
+from geartrain.cli.teeth.search_options import SearchOptions
 
 
 def run(
-    asked: Asked,
+    asked: SearchOptions,
     texts: list[str],
     kind: str,
     mode: str,
@@ -28,9 +28,9 @@ def run(
     if kind == "list":
         listing(asked.json, asked.out)
         return
-    from geartrain.synthesis.epicyclic.declaring import declaration_of
-    from geartrain.synthesis.epicyclic.finding import find_sets
-    from geartrain.synthesis.targets import read_ratio
+    from geartrain.synthesis.epicyclic.epicyclic_sets import declaration_of
+    from geartrain.synthesis.epicyclic.set_search import find_sets
+    from geartrain.synthesis.target_ratio import read_ratio
 
     if len(texts) > 1:
         raise typer.BadParameter("a set is made for one ratio", param_hint="WANTED")
@@ -63,7 +63,7 @@ def run(
 def listing(json: bool, to: Sink = STANDARD) -> None:
     """The kinds there are."""
     from geartrain import report
-    from geartrain.synthesis.epicyclic.kinds import kinds
+    from geartrain.synthesis.epicyclic.set_kinds import kinds
 
     if json:
         emit(as_json({name: kind.to_dict() for name, kind in kinds().items()}), to)

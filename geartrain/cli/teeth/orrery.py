@@ -7,23 +7,23 @@ from fractions import Fraction
 
 import typer
 
-from geartrain.cli.teeth.asking import Asked
+from geartrain.cli.teeth.search_options import SearchOptions
 
 _TOLERANCE = Fraction(1, 10**6)
 
 
-def run(asked: Asked, texts: list[str], effort: int, walk: int | None) -> None:
+def run(asked: SearchOptions, texts: list[str], effort: int, walk: int | None) -> None:
     """Answer for an orrery."""
     from rich.console import Console
     from rich.progress import Progress
 
     from geartrain import report
-    from geartrain.synthesis.orrery.sharing import share
+    from geartrain.synthesis.orrery.orrery_search import find_orrery
 
     periods = _periods(texts)
     with Progress(console=Console(stderr=True), transient=True, disable=not sys.stderr.isatty()) as progress:
         task = progress.add_task("trees", total=None)
-        found = share(
+        found = find_orrery(
             periods,
             asked.counts,
             _TOLERANCE if asked.tolerance is None else asked.tolerance,
@@ -38,7 +38,7 @@ def run(asked: Asked, texts: list[str], effort: int, walk: int | None) -> None:
 
 def _periods(texts: list[str]) -> dict[str, Fraction]:
     """Name -> period in turns of the first arbor."""
-    from geartrain.synthesis.targets import read_ratio
+    from geartrain.synthesis.target_ratio import read_ratio
 
     found: dict[str, Fraction] = {}
     for text in texts:

@@ -4,29 +4,35 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from geartrain.cli.long_runs import end
-from geartrain.cli.teeth.asking import Asked, Means
+from geartrain.cli.long_runs import close_journal
+from geartrain.cli.teeth.search_options import SearchExecution, SearchOptions
 
 if TYPE_CHECKING:
-    from geartrain.synthesis.stages.finding import StageFindings
-    from geartrain.synthesis.targets import Wanted
+    from geartrain.synthesis.ratio.stage_search import StageFindings
+    from geartrain.synthesis.target_ratio import TargetRatio
 
 _LONG = 100_000
 
 
 def run(
-    asked: Asked, means: Means, text: str, per: str | None, stages: int, fit: dict[str, Any], approximants: bool
+    asked: SearchOptions,
+    means: SearchExecution,
+    text: str,
+    per: str | None,
+    stages: int,
+    fit: dict[str, Any],
+    approximants: bool,
 ) -> None:
     """Answer for one ratio."""
     from geartrain import report
-    from geartrain.synthesis.stages.fit import Fit
-    from geartrain.synthesis.targets import read_ratio
+    from geartrain.synthesis.ratio.stage_problem import StageConstraints
+    from geartrain.synthesis.target_ratio import read_ratio
 
     wanted = read_ratio(text, per)
     if approximants:
         _fractions(asked, wanted)
     long = stages == 1 and max(len(asked.wheels), len(asked.pinions)) > _LONG
-    if long and asked.by == "error" and Fit(**fit) == Fit() and wanted.sense <= 0:
+    if long and asked.by == "error" and StageConstraints(**fit) == StageConstraints() and wanted.sense <= 0:
         # anything else that is asked is for the search that looks at every pair
         _pairs(asked, wanted)
     found, cut = _search(asked, means, wanted, stages, fit)
@@ -35,8 +41,11 @@ def run(
     asked.answer(data, rows, lambda: report.stages_document(found))
 
 
-def _search(asked: Asked, means: Means, wanted: Wanted, stages: int, fit: dict[str, Any]) -> tuple[StageFindings, bool]:
-    from geartrain.synthesis.stages.finding import Fit, find_stages
+def _search(
+    asked: SearchOptions, means: SearchExecution, wanted: TargetRatio, stages: int, fit: dict[str, Any]
+) -> tuple[StageFindings, bool]:
+    from geartrain.synthesis.ratio.stage_problem import StageConstraints
+    from geartrain.synthesis.ratio.stage_search import find_stages
 
     question = {
         "ratio": str(wanted.value),
@@ -57,23 +66,23 @@ def _search(asked: Asked, means: Means, wanted: Wanted, stages: int, fit: dict[s
             tolerance=asked.tolerance,
             best=asked.best,
             by=asked.by,
-            fit=Fit(**fit),
+            fit=StageConstraints(**fit),
             executor=executor,
             journal=journal,
             tell=tell,
         )
         cut = not found.complete
-        end(journal, cut)
+        close_journal(journal, cut)
     return found, cut
 
 
-def _pairs(asked: Asked, wanted: Wanted) -> None:
+def _pairs(asked: SearchOptions, wanted: TargetRatio) -> None:
     """One pair in long ranges: by the tree, without a list of counts."""
     from geartrain import report
-    from geartrain.synthesis.pairs import count_pairs, find_pairs
-    from geartrain.synthesis.result import Shortfall
-    from geartrain.synthesis.stages.fit import Fit
-    from geartrain.synthesis.stages.shortfall import OUTSIDE
+    from geartrain.synthesis.gear_pair_search import count_pairs, find_pairs
+    from geartrain.synthesis.ratio.stage_infeasibility import OUTSIDE
+    from geartrain.synthesis.ratio.stage_problem import StageConstraints
+    from geartrain.synthesis.search_outcome import Shortfall
 
     solutions = find_pairs(wanted, asked.wheels, asked.pinions, asked.tolerance, asked.best)
     count = None if asked.tolerance is None else count_pairs(wanted, asked.wheels, asked.pinions, asked.tolerance)
@@ -84,7 +93,7 @@ def _pairs(asked: Asked, wanted: Wanted) -> None:
         "stages": 1,
         "top": str(top),
         "beneath": str(beneath),
-        "fit": Fit().to_dict(),
+        "fit": StageConstraints().to_dict(),
         "order": asked.by,
         "tolerance": None if asked.tolerance is None else float(asked.tolerance),
         "complete": True,
@@ -99,9 +108,9 @@ def _pairs(asked: Asked, wanted: Wanted) -> None:
     asked.answer(data, rows, lambda: report.pairs_document(wanted, solutions, count))
 
 
-def _fractions(asked: Asked, wanted: Wanted) -> None:
+def _fractions(asked: SearchOptions, wanted: TargetRatio) -> None:
     from geartrain import report
-    from geartrain.synthesis.approximants import approximants
+    from geartrain.synthesis.stern_brocot import approximants
 
     most = max(asked.wheels.most, asked.pinions.most)
     found = approximants(wanted.value, most)

@@ -7,28 +7,36 @@ from typing import TYPE_CHECKING, Any
 
 import typer
 
-from geartrain.cli.long_runs import end
-from geartrain.cli.teeth.asking import Asked, Means
+from geartrain.cli.long_runs import close_journal
+from geartrain.cli.teeth.search_options import SearchExecution, SearchOptions
 
 if TYPE_CHECKING:
-    from geartrain.synthesis.trains.findings import Standing, TrainFindings
+    from geartrain.synthesis.train.train_findings import Standing, TrainFindings
     from geartrain.train import Train
 
 
 def run(
-    asked: Asked, means: Means, file: str, state: str | None, free: str, rules: dict[str, Any], where: list[str]
+    asked: SearchOptions,
+    means: SearchExecution,
+    file: str,
+    state: str | None,
+    free: str,
+    rules: dict[str, Any],
+    where: list[str],
 ) -> None:
     """Answer for the free wheels of a train."""
     from geartrain import report
-    from geartrain.files import read_declaration
-    from geartrain.synthesis.rules.asked import read_rules
+    from geartrain.analysis.loader import read_declaration
+    from geartrain.synthesis.constraints.constraint_options import read_constraint_options
 
     train = read_declaration(file)
     _check_kept(file, asked.out.path)
     options = {name: value for name, value in rules.items() if value is not None}
     chosen = free if free in ("search", "uncertain") else tuple(name.strip() for name in free.split(","))
     stands = [_assignment(text) for text in where]
-    found, standings, cut = _search(asked, means, train, state, chosen, read_rules(**options), options, stands)
+    found, standings, cut = _search(
+        asked, means, train, state, chosen, read_constraint_options(**options), options, stands
+    )
     data = {
         **found.to_dict(),
         "where": [standing.to_dict() for standing in standings],
@@ -44,8 +52,8 @@ def run(
 
 
 def _search(
-    asked: Asked,
-    means: Means,
+    asked: SearchOptions,
+    means: SearchExecution,
     train: Train,
     state: str | None,
     free: Any,
@@ -53,7 +61,7 @@ def _search(
     options: dict[str, Any],
     stands: list[dict[str, int]],
 ) -> tuple[TrainFindings, list[Standing], bool]:
-    from geartrain.synthesis.trains.searching import search
+    from geartrain.synthesis.train.train_search import search
 
     question = {
         "train": train.model_dump(mode="json"),
@@ -79,7 +87,7 @@ def _search(
         )
         cut = any(part.reason.startswith("interrupted") for part in found.parts)
         standings = [standing for teeth in stands for standing in found.standing(teeth)]
-        end(journal, cut)
+        close_journal(journal, cut)
     return found, standings, cut
 
 
@@ -102,7 +110,7 @@ def _parent(file: str, out: Path | None) -> str:
     """What a solution extends, as seen from the file it is written to."""
     import os
 
-    from geartrain.files import shipped
+    from geartrain.analysis.loader import shipped
 
     if file in shipped() or out is None:
         return file

@@ -1,6 +1,6 @@
 """Several periods from one arbor with few wheels."""
 
-from geartrain.synthesis.orrery.orrery import Orrery
-from geartrain.synthesis.orrery.sharing import share
+from geartrain.synthesis.orrery.orrery_result import Orrery
+from geartrain.synthesis.orrery.orrery_search import find_orrery
 
-__all__ = ["Orrery", "share"]
+__all__ = ["Orrery", "find_orrery"]

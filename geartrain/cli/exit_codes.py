@@ -1,0 +1,124 @@
+"""How the command ends: every end has its exit code, and a fault of geartrain itself is never taken for a verdict."""
+
+from __future__ import annotations
+
+import errno
+import os
+import sys
+import tempfile
+import traceback
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from typing import Any
+
+import typer
+from typer.core import TyperGroup
+
+from geartrain.cli.common import INTERRUPTED, NOT_USABLE, complain, tell
+from geartrain.errors import GearTrainError, Problem, printable
+
+FAULT, READER_GONE = 3, 141
+TRACEBACK = "GEARTRAIN_TRACEBACK"
+"""An environment variable: where it is set, a fault's traceback is printed too."""
+
+_DISK = {errno.ENOSPC, errno.EIO, errno.EFBIG, errno.EBADF, getattr(errno, "EDQUOT", errno.ENOSPC)}
+
+
+class _ReaderGoneError(Exception):
+    """Nobody reads standard output any more."""
+
+
+class VerbGroup(TyperGroup):
+    """The verbs; a closed pipe and Ctrl-C are not left to typer, which would end with the exit code of a verdict."""
+
+    def make_context(self, *given: Any, **more: Any) -> Any:
+        """Read the command line; `--help` and `--version` end here."""
+        with _ends():
+            return super().make_context(*given, **more)
+
+    def invoke(self, ctx: Any) -> Any:
+        """Run the verb that was asked for."""
+        with _ends():
+            return super().invoke(ctx)
+
+
+@contextmanager
+def _ends() -> Iterator[None]:
+    """Ends that are not typer's to tell."""
+    try:
+        yield
+    except BrokenPipeError:
+        raise _ReaderGoneError from None
+    except KeyboardInterrupt:
+        tell("stopped")
+        raise typer.Exit(INTERRUPTED) from None
+    except Exception as error:
+        if hasattr(error, "format_message"):  # wrong usage, in the words of typer and the user's
+            error.message = printable(str(error.message))  # type: ignore[attr-defined]
+        raise
+
+
+def guarded(run: Callable[[], Any]) -> int:
+    """Run the command, tell whatever went wrong on standard error, and say with which code to exit."""
+    try:
+        code = _code(run)
+        sys.stdout.flush()
+    except GearTrainError as error:
+        complain(error)
+        return NOT_USABLE
+    except KeyboardInterrupt:
+        return INTERRUPTED
+    except (BrokenPipeError, _ReaderGoneError):
+        _mute()
+        return READER_GONE
+    except Exception as error:
+        if isinstance(error, OSError) and error.filename is None and error.errno in _DISK:
+            what = Problem("the result cannot be written", str(error), "make room there", "standard output")
+            complain(GearTrainError(what))
+            _mute()
+            return NOT_USABLE
+        _tell_fault(error)
+        return FAULT
+    return code
+
+
+def _code(run: Callable[[], Any]) -> int:
+    try:
+        run()
+    except SystemExit as ended:
+        if isinstance(ended.__context__, BrokenPipeError):  # rich, which shows the help, ends with 1 then
+            raise _ReaderGoneError from None
+        return ended.code if isinstance(ended.code, int) else 0 if ended.code is None else FAULT
+    return 0
+
+
+def _mute() -> None:
+    """What is left in the buffer goes nowhere, lest the interpreter complain of it on its way out."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+
+
+def _tell_fault(error: Exception) -> None:
+    """One line on standard error; the traceback goes into a file that can be sent."""
+    text = "".join(traceback.format_exception(error))
+    said = printable(str(error).partition("\n")[0])
+    kept = _kept(text)
+    how = f"please report it with {kept}" if kept else f"set {TRACEBACK}=1 to see where, and please report that"
+    tell(f"internal error: {type(error).__name__}: {said}; this is a fault of geartrain: {how}")
+    if os.environ.get(TRACEBACK):
+        tell(text)
+
+
+def _kept(text: str) -> str:
+    """The name of a new file with a traceback and what was asked, "" where none can be made."""
+    import platform
+    from importlib.metadata import version
+
+    head = f"geartrain {version('geartrain')}, Python {platform.python_version()}, {platform.platform()}\n"
+    asked = f"asked: {sys.argv!r}\n\n"
+    try:
+        handle, name = tempfile.mkstemp(prefix="geartrain-fault-", suffix=".txt", text=True)
+        with os.fdopen(handle, "w", encoding="utf-8", errors="backslashreplace") as file:
+            file.write(head + asked + text)
+    except OSError:
+        return ""
+    return name

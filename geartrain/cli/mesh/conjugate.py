@@ -1,0 +1,216 @@
+"""`geartrain mesh involute` and the other conjugate forms: costs and faults of one pair, and outlines of its wheels."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from inspect import Parameter, Signature
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from geartrain.cli.common import (
+    GOOD,
+    PICTURES,
+    VERDICT,
+    Force,
+    Json,
+    Out,
+    Sink,
+    as_json,
+    check_distinct_outputs,
+    draw,
+    emit,
+    show,
+    sink,
+)
+from geartrain.cli.mesh.conjugate_options import FORMS, ConjugateOptions, pair, read_form, read_wheels
+from geartrain.cli.option_values import friction as _friction
+from geartrain.cli.option_values import quantity
+from geartrain.errors import GearTrainError, Problem
+
+if TYPE_CHECKING:
+    from geartrain.teeth.conjugate.conjugate_transmission import ConjugatePair
+    from geartrain.teeth.outlines.tooth_requirement import LanternPins
+    from geartrain.teeth.outlines.wheel_outline import BlankSizes, WheelOutline
+
+_SIZES = ("module", "clearance", "fillet", "bore", "rim")
+
+
+def _common(
+    teeth: Annotated[tuple[int, int], typer.Option("--teeth", help="Teeth of the driving and the driven wheel.")],
+    internal: Annotated[bool, typer.Option("--internal", help="The second wheel is a ring.")] = False,
+    bevel: Annotated[str | None, typer.Option("--bevel", help="Angle between the axes, such as 90deg.")] = None,
+    friction: Annotated[str, typer.Option("--friction", help="Coefficient of friction.")] = "0",
+    driver: Annotated[int, typer.Option("--driver", min=1, max=2, help="Which wheel drives, 1 or 2.")] = 1,
+    backlash: Annotated[
+        str | None, typer.Option("--backlash", help="Play on the pitch circle, in modules or with a unit.")
+    ] = None,
+    module: Annotated[str | None, typer.Option("--module", help="Pitch diameter over teeth, such as 2mm.")] = None,
+    profile: Annotated[
+        Path | None, typer.Option("--profile", help="Write the outline of a whole wheel, to scale: .svg, .dxf, .csv.")
+    ] = None,
+    wheel: Annotated[int, typer.Option("--wheel", min=1, max=2, help="With --profile: which wheel, 1 or 2.")] = 1,
+    clearance: Annotated[
+        str | None, typer.Option("--clearance", help="With --profile: root to mate's tip; default module/4.")
+    ] = None,
+    fillet: Annotated[
+        str | None, typer.Option("--fillet", help="With --profile: radius at the root; default 0.38 module, or less.")
+    ] = None,
+    bore: Annotated[str | None, typer.Option("--bore", help="With --profile: diameter of the hole.")] = None,
+    rim: Annotated[
+        str | None, typer.Option("--rim", help="With --profile: what stands round a ring or a lantern.")
+    ] = None,
+    tolerance: Annotated[
+        str, typer.Option("--tolerance", help="With --profile: how far chords may leave a flank.")
+    ] = "0.001mm",
+    plot: Annotated[
+        Path | None, typer.Option("--plot", help="Draw flanks, path of contact and costs to this file.")
+    ] = None,
+    json: Json = False,
+    out: Out = None,
+    force: Force = False,
+) -> None:
+    """Only its parameters count: those that all forms have."""
+
+
+def command(form: str) -> Callable[..., None]:
+    """The command of a form: the options all have, and its own."""
+
+    def run(**given: Any) -> None:
+        own = {name: given.pop(name) for name in FORMS[form]}
+        _run(form, own, **given)
+
+    common = list(Signature.from_callable(_common, eval_str=True).parameters.values())
+    own = [_option(name, text) for name, text in FORMS[form].items()]
+    parameters = [common[0], *own, *common[1:]]
+    run.__signature__ = Signature(parameters)  # type: ignore[attr-defined]
+    run.__annotations__ = {parameter.name: parameter.annotation for parameter in parameters}
+    run.__doc__ = f"Costs, faults and outlines of a pair with {form.replace('_', '-')} teeth."
+    return run
+
+
+def _option(name: str, text: str) -> Parameter:
+    """A form's own option, its text left to the form."""
+    kind = Annotated[str | None, typer.Option(f"--{name.replace('_', '-')}", help=text)]
+    return Parameter(name, Parameter.POSITIONAL_OR_KEYWORD, default=None, annotation=kind)
+
+
+def _run(
+    form: str,
+    own: dict[str, str | None],
+    *,
+    friction: str,
+    driver: int,
+    wheel: int,
+    profile: Path | None,
+    plot: Path | None,
+    json: bool,
+    out: Out,
+    force: bool,
+    **given: Any,
+) -> None:
+    from geartrain import report
+    from geartrain.teeth.conjugate.conjugate_transmission import ConjugateTransmission
+
+    to, picture = sink(out, force, (".md", ".html", ".json")), sink(plot, force, PICTURES, "--plot")
+    outlined = _outlined(profile, force)
+    check_distinct_outputs(to, outlined, picture)
+    asked = read_wheels(given["teeth"], given["internal"], given["bevel"], given["module"], given["backlash"])
+    found = pair(read_form(form, own, asked.backlash), asked)
+    law = ConjugateTransmission(found, _friction(friction), driver)
+    wheels = [] if profile is None else [_cut(form, own, found, asked, wheel, outlined, given)]
+    if json or to.suffix == ".json":
+        emit(as_json(report.shape_data(form, law, wheels)), to)
+    else:
+        show([report.shape_document(form, law, wheels)], to)
+    if plot is not None:
+        from geartrain.drawing import shapes_figure
+
+        draw(shapes_figure({form: found.path}), picture)
+    raise typer.Exit(GOOD if law.verdict and law.friction < law.locking_friction else VERDICT)
+
+
+# ------------------------------------------------------------------------------------------------------------ outlines
+
+
+def _outlined(profile: Path | None, force: bool) -> Sink:
+    """Where an outline goes; a form that there is not is refused before the work."""
+    from geartrain.export import OUTLINES
+
+    to = sink(profile, force, option="--profile")
+    if to.path is not None and to.suffix not in OUTLINES:
+        what = f"'{to.suffix}' is no form of outline"
+        raise GearTrainError(Problem(what, "", f"use {', '.join(OUTLINES)}", "--profile"))
+    return to
+
+
+def _cut(
+    form: str,
+    own: dict[str, str | None],
+    found: ConjugatePair,
+    asked: ConjugateOptions,
+    wheel: int,
+    to: Sink,
+    given: dict[str, Any],
+) -> WheelOutline:
+    """The outline of a wheel, written."""
+    from geartrain.export import outline_text
+    from geartrain.teeth.outlines.wheel_outline import outline
+
+    if given["module"] is None:
+        why = "an outline is to scale, and nothing gives these wheels a size"
+        raise GearTrainError(Problem("there is no module", why, "give for example --module 2mm", "--module"))
+    sizes = _sizes(given)
+    if form == "involute" and sizes.clearance is None:
+        sizes = replace(sizes, clearance=_rack_clearance(own, asked, wheel) * sizes.module)
+    made = outline(found, wheel, sizes, _pins(form, own, asked))
+    emit(outline_text(made, to.suffix), to)
+    return made
+
+
+def _sizes(given: dict[str, Any]) -> BlankSizes:
+    from geartrain.teeth.outlines.wheel_outline import BlankSizes
+
+    sizes = {
+        name: None if given[name] is None else 1000 * quantity(f"--{name}", given[name], "length")
+        for name in (*_SIZES, "tolerance")
+    }
+    return BlankSizes(**sizes)  # type: ignore[arg-type]
+
+
+def _rack_clearance(own: dict[str, str | None], asked: ConjugateOptions, wheel: int) -> float:
+    """What the rack's dedendum leaves between a wheel's root and its mate's tip, in modules."""
+    from geartrain.teeth.involute import Involute
+
+    model = read_form("involute", own, asked.backlash)
+    assert isinstance(model, Involute)
+    found = model.involutes(asked.wheels)
+    first, second = found.first, found.second
+    ends = (second.tip, first.root) if wheel == 1 else (first.tip, second.root)
+    free = found.distance - sum(ends) if not second.ring else abs(ends[0] - ends[1]) - found.distance
+    if free < 0:
+        raise GearTrainError(
+            Problem(
+                f"the root of gear {wheel} stands in the way of its mate's tip",
+                f"they overlap by {-free:.4g} modules at this centre distance",
+                "give a greater --dedendum or a smaller --addendum",
+                "--dedendum",
+            )
+        )
+    return free
+
+
+def _pins(form: str, own: dict[str, str | None], asked: ConjugateOptions) -> LanternPins | None:
+    """Which wheel has pins, and where."""
+    if form != "lantern":
+        return None
+    from geartrain.teeth.lantern import Lantern
+    from geartrain.teeth.outlines.tooth_requirement import LanternPins
+
+    model = read_form(form, own)
+    assert isinstance(model, Lantern)
+    z = asked.z1 if model.pins == 1 else asked.z2
+    radius = z / 2 if model.pin_radius is None else asked.wheels.modules(model.pin_radius, "pin_radius")
+    return LanternPins(model.pins, radius, asked.wheels.modules(model.pin_diameter, "pin_diameter") / 2)

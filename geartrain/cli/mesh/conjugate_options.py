@@ -1,0 +1,170 @@
+"""Conjugate tooth forms as options give them: the options of each, the pair of wheels, and what is wrong with them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from difflib import get_close_matches
+from typing import TYPE_CHECKING, Any
+
+from geartrain.cli.option_values import at_option, quantity
+from geartrain.errors import GearTrainError, Problem
+
+if TYPE_CHECKING:
+    from geartrain.teeth.conjugate.conjugate_form import ConjugateToothForm, WheelPair
+    from geartrain.teeth.conjugate.conjugate_transmission import ConjugatePair
+
+FORMS: dict[str, dict[str, str]] = {
+    "involute": {
+        "pressure_angle": "Of the rack; default 20deg.",
+        "shift": "Of the rack outwards, in modules; two with a comma.",
+        "addendum": "In modules, default 1; two with a comma.",
+        "dedendum": "In modules, default 1.25; two with a comma.",
+        "centre_distance": "In modules, or with a unit; default without play.",
+    },
+    "cycloidal": {
+        "rolling": "Radius of the rolling circles in modules, or with a unit; two with a comma: approach, recess.",
+        "rolling_fraction": "The same over the pitch radius of the wheel whose dedendum it makes; default 1/2.",
+        "arcs": "Approach and recess in pitches; default 0.5,0.5.",
+        "addendum": "In place of arcs, in modules; two with a comma.",
+    },
+    "lantern": {
+        "pins": "Which wheel has the pins, 1 or 2; default 2.",
+        "pin_diameter": "In modules, or with a unit; default 1.5.",
+        "pin_radius": "Of the circle of pins, in modules or with a unit; default the pitch circle.",
+        "arcs": "Approach and recess in pitches; default one, where the teeth's addenda push.",
+        "addendum": "In place of arcs: of the teeth that the pins mate with, in modules.",
+    },
+    "uniform_stress": {
+        "pressure_angle": "At the pitch point, below 45deg; default 20deg.",
+        "arcs": "Approach and recess in pitches; default 0.5,0.5.",
+    },
+    "uniform_temperature": {
+        "reading": "a, on the first wheel; b, on the hotter surface; c, as b with bounded stress. Default b.",
+        "heat": "Heat per area over friction times tangential force.",
+        "depth": "In place of heat: working depth in modules; default that of the 20 deg involute.",
+        "least_angle": "At the pitch point, with reading c; default 12deg.",
+        "arcs": "Approach and recess in pitches; default 0.5,0.5.",
+    },
+    "least_friction": {
+        "pressure_angle": "The greatest, at the pitch point, below 45deg; default 25deg.",
+        "margin": "Least speed along a dedendum over the pitch-line speed; default 0.15.",
+        "arcs": "Approach and recess in pitches; default 0.5,0.5.",
+    },
+}
+"""The options of each form, by the names of its fields."""
+
+NAMES = (
+    *("involute", "cycloidal", "lantern", "uniform_stress", "uniform_temperature"),
+    *("uniform_temperature_a", "uniform_temperature_b", "uniform_temperature_c", "least_friction"),
+)
+"""Forms that can be compared; the readings of uniform temperature stand on their own."""
+
+_MIXED = "a ring's axis is parallel to its pinion's"
+
+
+@dataclass(frozen=True)
+class ConjugateOptions:
+    """The wheels that all forms are asked about; angles in rad, the module in m, backlash as written."""
+
+    z1: int
+    z2: int
+    internal: bool = False
+    shaft_angle: float | None = None
+    module: float | None = None
+    backlash: str | None = None
+
+    @property
+    def wheels(self) -> WheelPair:
+        """As the forms take them. Raises `GearTrainError` where they are no pair."""
+        from geartrain.teeth.conjugate.conjugate_form import WheelPair
+
+        found = WheelPair(self.z1, self.z2, self.internal, self.shaft_angle, self.module)
+        try:
+            found.check()
+        except GearTrainError as error:
+            raise at_option(error, "--teeth") from None
+        return found
+
+
+def read_wheels(
+    teeth: tuple[int, int],
+    internal: bool = False,
+    bevel: str | None = None,
+    module: str | None = None,
+    backlash: str | None = None,
+) -> ConjugateOptions:
+    """From the options. Raises `GearTrainError`."""
+    if internal and bevel is not None:
+        raise GearTrainError(Problem("a ring is no bevel wheel", _MIXED, "give --internal or --bevel", "--bevel"))
+    angle = None if bevel is None else quantity("--bevel", bevel, "angle")
+    size = None if module is None else quantity("--module", module, "length")
+    if size is not None and size <= 0:
+        raise GearTrainError(Problem(f"a module of {module} is no size", "", "give a module above 0", "--module"))
+    if backlash is not None and quantity("--backlash", backlash, "length", plain=True) and size is None:
+        _plain(backlash)
+    asked = ConjugateOptions(*teeth, internal, angle, size, backlash)
+    _ = asked.wheels
+    return asked
+
+
+def _plain(backlash: str) -> None:
+    from geartrain.numerics.quantity import Quantity
+
+    if Quantity.parse(backlash, "length", True).unit is not None:
+        why = "forms are in modules, and nothing says how long one is"
+        fix = "give for example --module 2mm, or the backlash as a plain number of modules"
+        raise GearTrainError(Problem(f"a backlash of {backlash} has nothing to be compared with", why, fix, "--module"))
+
+
+def read_form(form: str, given: dict[str, str | None], backlash: str | None = None) -> ConjugateToothForm:
+    """The tooth form with the options given. Raises `GearTrainError` for options it cannot have."""
+    from pydantic import ValidationError
+
+    data: dict[str, Any] = {name: _parts(value) for name, value in given.items() if value is not None}
+    if str(data.get("pins")).isdigit():
+        data["pins"] = int(data["pins"])
+    if backlash is not None:
+        data["backlash"] = backlash
+    try:
+        return _model(form).model_validate({"form": form, **data})
+    except ValidationError as error:
+        problems = (_problem(item, form) for item in error.errors(include_url=False))
+        raise GearTrainError(dict.fromkeys(problems)) from None
+
+
+def pair(form: ConjugateToothForm, asked: ConjugateOptions) -> ConjugatePair:
+    """The pair of wheels with this form. Raises `GearTrainError` where the form gives none."""
+    from geartrain.teeth.conjugate.conjugate_form import conjugate_pair_of
+
+    try:
+        return conjugate_pair_of(form, asked.wheels)
+    except GearTrainError as error:
+        raise at_option(error, "--teeth") from None
+
+
+def _parts(value: str) -> Any:
+    return [part.strip() for part in value.split(",")] if "," in value else value
+
+
+def _model(form: str) -> type[ConjugateToothForm]:
+    from importlib import import_module
+
+    model: type[ConjugateToothForm] = getattr(import_module(f"geartrain.teeth.{form}"), form.title().replace("_", ""))
+    return model
+
+
+def _problem(item: Any, form: str) -> Problem:
+    context = item.get("ctx") or {}
+    loc = [str(step) for step in item["loc"]]
+    name = loc[0] if loc else item["type"] if item["type"] in FORMS[form] else ""
+    fix = str(context.get("fix") or f"see geartrain mesh {form} --help")
+    what = item["msg"] if "fix" in context else f"'{item['input']}' does not fit here"
+    place = f"--{name.replace('_', '-')}" if name else f"mesh {form}"
+    return Problem(what, "", fix, place)
+
+
+def unknown_form(name: str) -> GearTrainError:
+    """A form nobody has heard of."""
+    close = get_close_matches(name, NAMES, n=2, cutoff=0.5)
+    fix = f"did you mean {' or '.join(close)}?" if close else f"use some of: {', '.join(NAMES)}"
+    return GearTrainError(Problem(f"there is no tooth form '{name}' to compare", "", fix, "--forms"))

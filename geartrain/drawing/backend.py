@@ -1,0 +1,80 @@
+"""What the figures take from matplotlib, in one place: importing this module without it names the extra.
+
+A figure as the bytes of an image file.
+"""
+
+from __future__ import annotations
+
+import re
+from io import BytesIO
+from threading import Lock
+
+from geartrain.errors import GearTrainError, MissingExtraError, Problem, printable
+
+try:
+    from matplotlib import rc_context
+    from matplotlib.axes import Axes
+    from matplotlib.collections import PolyCollection
+    from matplotlib.figure import Figure
+    from matplotlib.lines import Line2D
+    from matplotlib.patches import Circle, FancyArrowPatch, Patch, PathPatch, Polygon, Rectangle
+    from matplotlib.path import Path
+    from matplotlib.patheffects import Stroke, withStroke
+    from matplotlib.text import Text
+except ImportError:
+    raise MissingExtraError("matplotlib", "plot", "a plot") from None
+
+__all__ = [
+    "SUFFIXES",
+    "Axes",
+    "Circle",
+    "FancyArrowPatch",
+    "Figure",
+    "Line2D",
+    "Patch",
+    "Path",
+    "PathPatch",
+    "PolyCollection",
+    "Polygon",
+    "Rectangle",
+    "Stroke",
+    "Text",
+    "rc_context",
+    "render",
+    "withStroke",
+]
+
+
+SUFFIXES = (".svg", ".png", ".pdf")
+
+_METADATA: dict[str, dict[str, str | None]] = {
+    ".svg": {"Date": None},
+    ".png": {"Software": None},
+    ".pdf": {"CreationDate": None},
+}
+_PATH = re.compile(rb'\bd="[^"]*"')
+_LONG = re.compile(rb"(\.\d{3})\d+")  # a thousandth of a point is finer than any screen
+_ONE_AT_A_TIME = Lock()  # the salt of SVG names can only be given for all figures at once
+
+
+def render(figure: Figure, suffix: str, dots: float = 100.0) -> bytes:
+    """The figure as a file of the format of `suffix` (.svg, .png or .pdf); `dots` per inch where it is of pixels.
+
+    The same figure gives the same bytes with one release of matplotlib. Raises `GearTrainError` for another suffix.
+    """
+    kind = suffix.lower()
+    if kind not in SUFFIXES:
+        raise GearTrainError(
+            Problem(f"no plot can be written as {suffix or 'a file without suffix'}", fix=f"use {', '.join(SUFFIXES)}")
+        )
+    for text in figure.findobj(Text):
+        if (shown := printable(text.get_text())) != text.get_text():
+            text.set_text(shown)
+    buffer = BytesIO()
+    with _ONE_AT_A_TIME, rc_context({"svg.hashsalt": "geartrain"}):
+        figure.savefig(buffer, format=kind[1:], dpi=dots, metadata=_METADATA[kind])
+    data = buffer.getvalue()
+    if kind != ".svg":
+        return data
+    data = printable(data.decode("utf-8")).encode("utf-8")  # ids too: XML has no control characters at all
+    return _PATH.sub(lambda path: _LONG.sub(rb"\1", path[0]), data)

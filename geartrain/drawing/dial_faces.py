@@ -1,0 +1,234 @@
+"""Dial faces as they are read: scales, spirals, and pointers at their angle after some turns."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from math import ceil, cos, pi, sin
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from geartrain.drawing.backend import Axes, Circle, Figure
+from geartrain.drawing.style import BLACK, BLUE, GREEN, GREY, ORANGE, PURPLE, RED, SMALL, sheet, title_of, write
+from geartrain.errors import Problem, QuestionError
+from geartrain.numerics.exact import decimal, is_short
+from geartrain.scene import Pointer, Scene
+from geartrain.scene.pose import body_errors, turns_of
+
+if TYPE_CHECKING:
+    pass
+
+
+_MOST = 60  # faces
+_FACE, _ROW, _HEAD = 3.0, 0.2, 0.5  # inches: a face with its margin, a line below it, the title
+_COLOURS = (BLUE, RED, GREEN, ORANGE, PURPLE)
+_INNER = 0.42  # radius of the innermost turn of a spiral over the outermost
+_MARKS = 360  # divisions of a turn that are still drawn singly
+_FINE = 8.0  # points
+
+
+@dataclass(frozen=True, slots=True)
+class PointerReading:
+    """Where a pointer stands after some turns of the lead.
+
+    turned   turns of it since the zero pose on the mean, clockwise as read positive, exact; None if undetermined
+    error    what teeth and pins add (turns, clockwise as read)
+    """
+
+    output: str
+    turned: Fraction | None
+    error: float
+
+    @property
+    def angle(self) -> float:
+        """Turns past the zero mark, from 0 to 1, clockwise as read."""
+        return (float((self.turned or Fraction(0)) % 1) + self.error) % 1.0
+
+
+@dataclass(frozen=True, slots=True)
+class DialPicture:
+    """A face with the pointers that are read on it; `name` is empty for a plain circle of one output."""
+
+    name: str
+    turns: int
+    divisions: int
+    pointers: tuple[int, ...]
+
+
+def pointer_readings(scene: Scene, turns: Fraction) -> list[PointerReading]:
+    """Every pointer of a scene after `turns` of its lead."""
+    error = body_errors(scene, turns)
+    found = []
+    for pointer in scene.pointers:
+        body, base = scene.bodies[pointer.body], scene.bodies[pointer.base]
+        known = pointer.speed is not None
+        start = (body.start - base.start * body.sense * base.sense) / (2 * pi)
+        swing = float(error[pointer.body] - error[pointer.base] * body.sense * base.sense) / (2 * pi) + start
+        turned = turns_of(pointer.speed, turns) * pointer.sense if known else None
+        found.append(PointerReading(pointer.output, turned, pointer.sense * swing))
+    return found
+
+
+def dials_figure(
+    scene: Scene, turns: Fraction = Fraction(0), outputs: Sequence[str] = (), labels: bool = True
+) -> Figure:
+    """The dials of a scene after `turns` of its lead; outputs without one get a plain face, if none has a dial.
+
+    outputs   those that are wanted, by default all that are read on a dial
+    Raises `QuestionError` for outputs that are not there, and for trains without any.
+    """
+    faces = find_faces(scene, outputs)
+    readings = pointer_readings(scene, turns)
+    columns = min(len(faces), 4)
+    rows = [faces[at : at + columns] for at in range(0, len(faces), columns)]
+    tall = [_FACE + 0.35 + (_ROW * max(len(face.pointers) for face in row) if labels else 0.0) for row in rows]
+    width = max(_FACE * columns, 5.0)
+    title = title_of(scene.name, scene.title) + (f", after {turns} turns of {_lead(scene)}" if turns else "")
+    figure, axes = sheet(width, _HEAD + sum(tall) + 0.1, title)
+    top = sum(tall) + 0.1
+    for row, high in zip(rows, tall, strict=True):
+        for column, face in enumerate(row):
+            x = width / 2 + (column - (columns - 1) / 2) * _FACE
+            _draw_face(axes, face, scene, readings, (x, top - _FACE / 2 - 0.2), labels)
+        top -= high
+    return figure
+
+
+def _lead(scene: Scene) -> str:
+    return scene.bodies[scene.lead].id if scene.lead is not None else "nothing"
+
+
+def find_faces(scene: Scene, outputs: Sequence[str]) -> list[DialPicture]:
+    """The faces to be drawn. Raises `QuestionError`."""
+    known = {pointer.output: at for at, pointer in enumerate(scene.pointers)}
+    for name in outputs:
+        if name not in known:
+            fix = f"choose from {', '.join(known)}" if known else "declare `outputs`"
+            raise QuestionError(Problem(f"'{scene.name}' has no output '{name}'", "it is not declared", fix))
+    wanted = [known[name] for name in outputs] or list(known.values())
+    on: dict[int, list[int]] = {}
+    for at in wanted:
+        dial = scene.pointers[at].dial
+        if dial is not None:
+            on.setdefault(dial, []).append(at)
+    faces = [_dialled(scene, dial, pointers) for dial, pointers in on.items()]
+    if outputs or not faces:
+        faces += [DialPicture("", 1, 12, (at,)) for at in wanted if scene.pointers[at].dial is None]
+    if not faces:
+        raise QuestionError(
+            Problem(f"'{scene.name}' has nothing to read", "it declares no outputs", "declare `outputs`, and `dials`")
+        )
+    if len(faces) > _MOST:
+        raise QuestionError(
+            Problem(f"{len(faces)} faces are too many", f"a page holds {_MOST}", "name some outputs with --output")
+        )
+    return faces
+
+
+def _dialled(scene: Scene, dial: int, pointers: Iterable[int]) -> DialPicture:
+    face = scene.dials[dial]
+    return DialPicture(face.id, face.turns, face.divisions, tuple(pointers))
+
+
+# -------------------------------------------------------------------------------------------------------------- drawing
+
+
+def place(centre: tuple[float, float], radius: float, turn: float | Fraction) -> tuple[float, float]:
+    """The point at some turns past the zero mark above, clockwise."""
+    angle = 2 * pi * float(turn)
+    return centre[0] + radius * sin(angle), centre[1] + radius * cos(angle)
+
+
+def _draw_face(
+    axes: Axes,
+    face: DialPicture,
+    scene: Scene,
+    readings: Sequence[PointerReading],
+    centre: tuple[float, float],
+    labels: bool,
+) -> None:
+    outer = _FACE / 2 - 0.35
+    _draw_scale(axes, face, centre, outer)
+    for order, at in enumerate(face.pointers):
+        color = _COLOURS[order % len(_COLOURS)]
+        share = 1.0 if face.turns > 1 else 0.97 - 0.09 * (order % 8)
+        _draw_pointer(axes, face, readings[at], centre, outer * share, color)
+        if labels:
+            y = centre[1] - outer - 0.3 - _ROW * order
+            write(axes, centre[0], y, _words(scene.pointers[at], readings[at], face), color, fontsize=_FINE)
+            if len(face.pointers) > 1 and readings[at].turned is not None:
+                x, y = place(centre, outer * (share - 0.1), readings[at].angle)
+                write(axes, x, y, readings[at].output, color, fontsize=6.0)
+    axes.add_patch(Circle(centre, 0.05, facecolor=BLACK, zorder=7))
+    name = face.name or readings[face.pointers[0]].output
+    write(axes, centre[0], centre[1] + _FACE / 2 + 0.02, name, fontsize=SMALL, fontweight="bold", gid=f"dial {name}")
+
+
+def radius_at(face: DialPicture, outer: float, turned: float) -> float:
+    """Radius of a spiral after some turns from its inner end; of a circle, always the outer one."""
+    return outer if face.turns == 1 else outer * (_INNER + (1 - _INNER) * turned / face.turns)
+
+
+def _draw_scale(axes: Axes, face: DialPicture, centre: tuple[float, float], outer: float) -> None:
+    """The line along which cells lie, their borders, and numbers at some of them."""
+    turned = np.linspace(0, face.turns, 120 * face.turns + 1)
+    line = np.array([place(centre, radius_at(face, outer, each), each) for each in turned])
+    axes.plot(*line.T, color=BLACK, linewidth=1.0, zorder=3, gid=f"scale {face.name}")
+    tick = 0.07 if face.turns == 1 else min(0.07, outer * (1 - _INNER) / face.turns * 0.45)
+    every = max(1, ceil(face.divisions / face.turns / _MARKS))
+    ends = []
+    for cell in range(0, face.divisions + (face.turns > 1), every):
+        turn = Fraction(cell * face.turns, face.divisions)
+        radius = radius_at(face, outer, float(turn))
+        ends += [place(centre, radius, turn), place(centre, radius - tick, turn), (np.nan, np.nan)]
+    fine = 0.9 if len(ends) < 300 else 0.4
+    axes.plot(*zip(*ends, strict=True), color=GREY, linewidth=fine, zorder=3, gid=f"cells {face.name}")
+    if face.name:
+        _draw_numbers(axes, face, centre, outer)
+
+
+def _draw_numbers(axes: Axes, face: DialPicture, centre: tuple[float, float], outer: float) -> None:
+    """Numbers of cells at round steps: about twelve to a turn of a circle, the first cell of each turn of a spiral."""
+    if face.turns > 1:
+        for turn in range(face.turns):
+            x, y = place(centre, radius_at(face, outer, turn), turn)
+            write(axes, x - 0.02, y, str(turn * face.divisions // face.turns), GREY, ha="right", fontsize=5.5)
+        return
+    steps = (1, 2, 5, 10, 15, 20, 30, 50, 60, 100, 200, 500)
+    step = next((step for step in steps if face.divisions / step <= 12), max(face.divisions // 12, 1))
+    for cell in range(0, face.divisions, step):
+        if face.divisions - cell < step * 0.6 and cell:
+            continue
+        x, y = place(centre, outer + 0.12, Fraction(cell, face.divisions))
+        write(axes, x, y, str(cell), GREY, fontsize=6.5)
+
+
+def _draw_pointer(
+    axes: Axes, face: DialPicture, reading: PointerReading, centre: tuple[float, float], reach: float, color: str
+) -> None:
+    """A hand from the middle; on a spiral as long as the turn it has come to."""
+    if reading.turned is None:
+        return
+    along = (float(reading.turned % face.turns) + reading.error) % face.turns
+    tip = place(centre, radius_at(face, reach, along), reading.angle)
+    tail = place(centre, -0.12, reading.angle)
+    style: dict[str, Any] = {"solid_capstyle": "round", "zorder": 6}
+    axes.plot(*zip(tail, tip, strict=True), color="white", linewidth=4.0, **style)
+    axes.plot(*zip(centre, tip, strict=True), color=color, linewidth=2.2, gid=f"pointer {reading.output}", **style)
+    axes.plot(*zip(tail, centre, strict=True), color=color, linewidth=2.2, **style)
+    if face.turns > 1:
+        axes.plot(*tip, "o", color=color, markersize=4, zorder=7)
+
+
+def _words(pointer: Pointer, reading: PointerReading, face: DialPicture) -> str:
+    """The output, where it stands, and the way it goes."""
+    if reading.turned is None:
+        return f"{pointer.output}: undetermined"
+    where = reading.turned % face.turns
+    text = f"at {where if is_short(where, 12) else decimal(where, 6)} turn"
+    if abs(reading.error) > 5e-7:
+        text += f" {'+' if reading.error > 0 else '-'} {abs(reading.error) * 360:.3g}°"
+    way = pointer.text.removesuffix(" as read")
+    return f"{pointer.output}: {text}" + (f", {way}" if way == "stands still" else f", going {way}" if way else "")

@@ -1,0 +1,150 @@
+"""Conjugate tooth forms side by side: flanks, paths of contact, and each cost along the path."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from math import degrees, inf, pi
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from geartrain.drawing.backend import Axes, Figure, Line2D
+from geartrain.drawing.style import BLACK, BLUE, GREEN, GREY, ORANGE, PURPLE, RED, SKY, SMALL, TEXT, WIDTH, plain
+from geartrain.errors import Problem, QuestionError
+
+if TYPE_CHECKING:
+    from geartrain.numerics.arrays import Floats
+    from geartrain.teeth.conjugate.path_of_contact import PathContact, PathOfContact
+    from geartrain.teeth.conjugate.pitch_surfaces import PitchSurfaces
+
+Dashes = tuple[float, tuple[float, ...]]
+Styles = Mapping[str, tuple[str, Dashes]]
+
+_SAMPLES = 301  # of each side
+_BESIDE = 1e-6  # of a side: nearer to the pitch point costs may be 0/0
+_MOST = 3.0  # of the greatest value of a middling form: what exceeds it leaves its panel
+_FLAT = 0.8  # of the greatest value: where the least is above it, a panel does not begin at 0
+_AWAY = 0.1  # of a pitch: infinite costs are followed up to what they are this far from the pitch point
+# colour and dashes both tell the forms apart, for print without colour
+_STYLES: tuple[tuple[str, Dashes], ...] = (
+    (BLACK, (0, ())),
+    (BLUE, (0, (6, 2))),
+    (RED, (0, (2, 1.5))),
+    (GREEN, (0, (8, 2, 1.5, 2))),
+    (PURPLE, (0, (4, 1.5, 1, 1.5, 1, 1.5))),
+    (ORANGE, (0, (1, 1))),
+    (SKY, (0, (10, 3))),
+    (GREY, (0, (3, 3))),
+    (BLACK, (0, (1, 2))),
+    (BLUE, (0, ())),
+)
+
+
+def shapes_figure(paths: Mapping[str, PathOfContact]) -> Figure:
+    """Flanks of both gears, path of contact, stress, heat, flash, sliding and loss of forms for one pair, by name.
+
+    Raises `QuestionError` where there is none to draw.
+    """
+    if not paths:
+        raise QuestionError(Problem("no form can be drawn", "none of them can run", "change the arcs or the teeth"))
+    figure = Figure(figsize=(WIDTH, 13.0), layout="constrained")
+    panels = figure.subplots(4, 2)
+    for axes in panels.flat:
+        plain(axes)
+    pitch = next(iter(paths.values())).pitch
+    unit = pitch.p / pi
+    styles = {name: _STYLES[at % len(_STYLES)] for at, name in enumerate(paths)}
+    for name, path in paths.items():
+        X = _places(path)
+        _line(panels[0, 0], name, styles, _flat(path.flank1(X)) / unit)
+        _line(panels[0, 1], name, styles, _flat(path.flank2(X)) / unit)
+        contact = path.at(X)
+        points = _flat(pitch.point(contact.d, contact.sin_psi, contact.cos_psi)) / unit
+        _line(panels[1, 0], name, styles, points)
+    for axes, text in zip(
+        panels.flat,
+        ("flank of gear 1, stretched", "flank of gear 2, stretched", "path of contact, stretched"),
+        strict=False,
+    ):
+        _drawn(axes, text)
+    for axes, (label, cost) in zip(panels.flat[3:], _costs(pitch, unit), strict=True):
+        _along(axes, label, cost, paths, styles)
+    title = f"{_title(pitch)}; curves that leave a panel go on beyond it"
+    figure.suptitle(title, fontsize=TEXT, x=0.01, ha="left", color=BLACK)
+    handles = [
+        Line2D([], [], color=color, linestyle=dashes, linewidth=1.8, label=name)
+        for name, (color, dashes) in styles.items()
+    ]
+    figure.legend(handles=handles, loc="outside lower center", ncols=3, fontsize=SMALL, frameon=False, handlelength=4)
+    return figure
+
+
+def _title(pitch: PitchSurfaces) -> str:
+    if pitch.bevel:
+        return f"{pitch.z1} drives {pitch.z2}, axes at {degrees(pitch.R1 + pitch.R2):.6g}°"
+    return f"{pitch.z1} drives {pitch.z2}{', a ring' if pitch.R2 < 0 else ''}"
+
+
+def _places(path: PathOfContact) -> Floats:
+    """X along the whole path, no sample on the pitch point itself."""
+    approach, recess = path.arcs
+    if min(approach, recess) < 0:
+        return np.linspace(-approach, recess, _SAMPLES)
+    steps = np.linspace(_BESIDE, 1.0, _SAMPLES)
+    sides = [-approach * steps[::-1]] if approach else []
+    return np.concatenate([*sides, *([recess * steps] if recess else [])])
+
+
+def _flat(points: Floats) -> Floats:
+    """x and y from the pitch point; on the sphere as seen from outside over it."""
+    return points[..., :2]
+
+
+def _line(axes: Axes, name: str, styles: Styles, points: Floats) -> None:
+    color, dashes = styles[name]
+    axes.plot(points[:, 0], points[:, 1], color=color, linestyle=dashes, linewidth=1.8, gid=name)
+
+
+def _drawn(axes: Axes, text: str) -> None:
+    """Not to scale: steep flanks would lie on each other."""
+    axes.plot([0], [0], "+", color=BLACK, markersize=9, gid="pitch point")
+    axes.axhline(0.0, color=GREY, linewidth=0.8, linestyle="-.")
+    axes.set_title(text, fontsize=TEXT, loc="left", color=BLACK)
+    axes.set_xlabel("along the pitch line (modules)", fontsize=SMALL)
+    axes.set_ylabel("towards gear 2 (modules)", fontsize=SMALL)
+
+
+# --------------------------------------------------------------------------------------------------------------- costs
+
+
+def _costs(pitch: PitchSurfaces, unit: float) -> Iterator[tuple[str, Callable[[PathContact], Floats]]]:
+    """Each cost with its label; lengths in modules, so that spur and bevel can be set side by side."""
+    yield r"Hertz pressure $\sqrt{H}$", lambda c: np.sqrt(c.H * unit)
+    yield "heat per area, hotter flank $Q$", lambda c: np.maximum(c.Q1, c.Q2)
+    yield r"flash temperature $\Theta$", lambda c: c.flash * unit**0.25
+    yield "sliding over pitch-line speed", lambda c: (pitch.A + pitch.B) * np.abs(pitch.S(c.d))
+    yield r"power lost over $\mu\,(A+B)\,|X|$ times power", lambda c: c.rub / np.abs(c.X)
+
+
+def _along(
+    axes: Axes,
+    label: str,
+    cost: Callable[[PathContact], Floats],
+    paths: Mapping[str, PathOfContact],
+    styles: Styles,
+) -> None:
+    low, high, tops = inf, 0.0, []
+    for name, path in paths.items():
+        X = _places(path)
+        pitches = X / path.pitch.p
+        values = cost(path.at(X))
+        _line(axes, name, styles, np.stack([pitches, values], axis=1))
+        away = values[(np.abs(pitches) > _AWAY) & np.isfinite(values)]
+        low, high = min(low, float(away.min(initial=inf))), max(high, float(away.max(initial=0.0)))
+        tops.append(float(away.max(initial=0.0)))
+    high = min(high, _MOST * float(np.median(tops)))
+    rim = 0.1 * (high - low)
+    axes.set_ylim(low - rim if low > _FLAT * high else 0.0, high + max(rim, 0.02 * high) or 1.0)
+    axes.axvline(0.0, color=GREY, linewidth=0.8, linestyle="-.")
+    axes.set_title(label, fontsize=TEXT, loc="left", color=BLACK)
+    axes.set_xlabel("contact at X (pitches): approach, recess", fontsize=SMALL)

@@ -1,0 +1,253 @@
+"""The graph of a train: links as vertices, turning pairs as thin edges with their axis, gear pairs as heavy ones.
+
+The style is that of Buchsbaum and Freudenstein (1970), Synthesis of kinematic structure of geared kinematic chains.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from math import hypot
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from geartrain.analysis.gear_train import GearTrain
+from geartrain.drawing.arrangement import settle
+from geartrain.drawing.backend import Axes, Circle, Figure, Line2D, Path, PathPatch, Rectangle
+from geartrain.drawing.style import BLACK, BLUE, GREY, LETTER, PURPLE, RED, SMALL, sheet, title_of, too_many, write
+
+if TYPE_CHECKING:
+    from geartrain.numerics.arrays import Floats
+
+
+_MOST = 150  # links
+_EDGE, _HUB = 1.05, 0.055  # inches: length of an edge, and what each further edge at its ends adds
+_CLEAR = 0.33  # inches between an edge and a vertex that is none of its ends
+_CROWDED = 6.0  # inches of bend that an inch too little of clearance is worth
+_ROOMY = 3.0  # inches: what a graph of one link would add to its edges
+_BENDS = [0.0, *(side * size for size in (0.15, 0.3, 0.5, 0.8, 1.2, 1.7) for side in (1, -1))]
+_SHORT = 4  # letters of a name that fits into its vertex
+_SHARES = (0.5, 0.44, 0.56, 0.38, 0.62, 0.32, 0.68, 0.27, 0.73)  # of an edge, where its label may stand
+_FINE = 7.5  # points
+_RIM, _HEAD, _FOOT = 0.75, 0.75, 0.55
+
+
+@dataclass(frozen=True, slots=True)
+class GraphEdge:
+    """A pair of links: revolute, gear or coupling, with the axis or the pair's name as its label."""
+
+    ends: tuple[str, str]
+    kind: str
+    label: str
+    broken: bool = False
+
+
+def edges_of(train: GearTrain, broken: Sequence[str] = ()) -> list[GraphEdge]:
+    """All pairs in the order declared; `broken` names gear pairs and couplings to be marked."""
+    declared = train.declaration
+    wheels = declared.wheels
+    found = [GraphEdge(joint.pair, "revolute", joint.axis) for joint in declared.revolutes]
+    for gear in declared.gears:
+        ends = (wheels[gear.pair[0]][0], wheels[gear.pair[1]][0])
+        found.append(GraphEdge(ends, "gear", gear.name, gear.name in broken))
+    for coupling in declared.couplings:
+        found.append(GraphEdge((coupling.pin, coupling.slot), "coupling", coupling.name, coupling.name in broken))
+    return found
+
+
+def graph_figure(train: GearTrain, state: str | None = None, labels: bool = True) -> Figure:
+    """Links, turning pairs, gear pairs and couplings; pairs of a loop that does not close are red.
+
+    Raises `QuestionError` for more links than a page holds.
+    """
+    declared = train.declaration
+    links = list(declared.links)
+    too_many(train, len(links), _MOST, "links")
+    broken = {
+        pair for loop in train.solve(_first(train, state)).verdict.loops if not loop.closes for pair in loop.pairs
+    }
+    edges = edges_of(train, tuple(broken))
+    places = _places(links, edges)
+    low, high = places.min(0), places.max(0)
+    width, height = high - low + 2 * _RIM
+    width = max(float(width), 6.0)
+    shift = np.array([width / 2, _FOOT + _RIM]) - np.array([(low[0] + high[0]) / 2, low[1]])
+    figure, axes = sheet(width, float(height) + _HEAD + _FOOT - 0.3, title_of(declared.name, declared.title))
+    at = {link: (float(x), float(y)) for link, (x, y) in zip(links, places + shift, strict=True)}
+    named = max(map(len, links)) > _SHORT
+    curves = _curves(edges, at)
+    for edge, curve in zip(edges, curves, strict=True):
+        _draw_edge(axes, edge, curve)
+    if labels:
+        _draw_labels(axes, edges, curves, list(at.values()))
+    for link in links:
+        _draw_vertex(axes, link, at, edges, link == declared.frame, named)
+    figure.legend(handles=list(_legend(edges)), loc="lower center", ncols=5, fontsize=SMALL - 1, frameon=False)
+    return figure
+
+
+def _first(train: GearTrain, state: str | None) -> str | None:
+    return state if state is not None or not train.states else train.states[0]
+
+
+# -------------------------------------------------------------------------------------------------------------- placing
+
+
+def _places(links: Sequence[str], edges: Sequence[GraphEdge]) -> Floats:
+    """Inches (n, 2), the longer side across."""
+    degree = dict.fromkeys(links, 0)
+    for edge in edges:
+        for end in edge.ends:
+            degree[end] += 1
+    pairs = [edge.ends for edge in edges]
+    least = _EDGE + _ROOMY / len(links)
+    lengths = {
+        edge.ends: max(least + _HUB * max(sum(degree[end] for end in edge.ends) - 6, 0), _width(edge.label) + 0.55)
+        for edge in edges
+    }
+    places = settle(links, pairs, lengths)
+    middle = places - places.mean(0)
+    _, _, turned = np.linalg.svd(middle, full_matrices=False)
+    flat = middle @ turned.T if len(links) > 2 else middle
+    signs = np.where(flat[np.abs(flat).argmax(0), [0, 1]] < 0, -1.0, 1.0) if len(links) > 2 else 1.0
+    return np.asarray(np.round(flat * signs, 3))
+
+
+def _curves(edges: Sequence[GraphEdge], at: Mapping[str, tuple[float, float]]) -> list[Floats]:
+    """The curve of every edge; a later one between the same links bends more."""
+    turns: dict[frozenset[str], int] = {}
+    found = []
+    for edge in edges:
+        turn = turns[frozenset(edge.ends)] = turns.get(frozenset(edge.ends), -1) + 1
+        found.append(_curve(edge, at, turn))
+    return found
+
+
+def _curve(edge: GraphEdge, at: Mapping[str, tuple[float, float]], turn: int) -> Floats:
+    """Ends and middle control point (3, 2): the least bend that keeps clear of other vertices and of earlier edges."""
+    start, end = (np.array(at[link]) for link in edge.ends)
+    along = end - start
+    normal = np.array([-along[1], along[0]]) / max(float(hypot(*along)), 1e-9)
+    others = np.array([place for link, place in at.items() if link not in edge.ends]).reshape(-1, 2)
+    trials = [(bend, np.array([start, (start + end) / 2 + 2 * bend * normal, end])) for bend in _BENDS[turn:]]
+    costs = [abs(bend) + _CROWDED * max(_CLEAR - _clearance(curve, others), 0.0) for bend, curve in trials]
+    return trials[int(np.argmin(costs))][1]
+
+
+def _clearance(curve: Floats, others: Floats) -> float:
+    if not len(others):
+        return np.inf
+    points = np.array([_point(curve, share) for share in np.linspace(0.05, 0.95, 25)])
+    return float(np.sqrt(((points[:, None] - others[None]) ** 2).sum(2)).min())
+
+
+def _point(curve: Floats, share: float) -> Floats:
+    """A point of a quadratic Bezier curve."""
+    rest = 1 - share
+    return np.asarray(rest**2 * curve[0] + 2 * rest * share * curve[1] + share**2 * curve[2])
+
+
+# -------------------------------------------------------------------------------------------------------------- drawing
+
+
+def _draw_edge(axes: Axes, edge: GraphEdge, curve: Floats) -> None:
+    width, style, color = {
+        "revolute": (0.9, "-", GREY),
+        "gear": (3.2, "-", BLUE),
+        "coupling": (2.2, (0, (4, 2)), PURPLE),
+    }[edge.kind]
+    color = RED if edge.broken else color
+    path = Path(curve, [Path.MOVETO, Path.CURVE3, Path.CURVE3])
+    axes.add_patch(
+        PathPatch(
+            path,
+            facecolor="none",
+            edgecolor=color,
+            linewidth=width,
+            linestyle=style,
+            capstyle="butt",
+            zorder=2 if edge.kind == "revolute" else 3,
+            gid=f"{edge.kind} {edge.label}",
+        )
+    )
+
+
+def _draw_labels(
+    axes: Axes, edges: Sequence[GraphEdge], curves: Sequence[Floats], vertices: Sequence[tuple[float, float]]
+) -> None:
+    """Every edge's label on it, near its middle, where it hides no other one."""
+    taken: list[tuple[float, ...]] = [(x, y, 0.3, 0.25) for x, y in vertices]
+    for edge, curve in zip(edges, curves, strict=True):
+        size = _width(edge.label), 0.15
+        spots = [(*map(float, _point(curve, share)), *size) for share in _SHARES]
+        best = min(spots, key=lambda spot: sum(_overlap(spot, other) for other in taken))
+        taken.append(best)
+        turning = edge.kind == "revolute"
+        color = RED if edge.broken else {"revolute": GREY, "gear": BLUE}.get(edge.kind, PURPLE)
+        style = "italic" if turning else "normal"
+        write(axes, best[0], best[1], edge.label, color, 6.0, fontsize=_FINE, fontstyle=style)
+
+
+def _width(text: str) -> float:
+    return len(text) * _FINE * LETTER
+
+
+def _overlap(one: tuple[float, ...], other: tuple[float, ...]) -> float:
+    """The area two boxes (middle, width, height) share."""
+    across = (one[2] + other[2]) / 2 - abs(one[0] - other[0])
+    along = (one[3] + other[3]) / 2 - abs(one[1] - other[1])
+    return max(across, 0.0) * max(along, 0.0)
+
+
+def _draw_vertex(
+    axes: Axes, link: str, at: Mapping[str, tuple[float, float]], edges: Sequence[GraphEdge], frame: bool, named: bool
+) -> None:
+    x, y = at[link]
+    size = 0.11 if named else 0.19
+    style: dict[str, Any] = {
+        "facecolor": "white",
+        "edgecolor": BLACK,
+        "linewidth": 1.3,
+        "zorder": 5,
+        "gid": f"link {link}",
+    }
+    if frame:
+        axes.add_patch(Rectangle((x - size, y - size), 2 * size, 2 * size, hatch="////", **style))
+    else:
+        axes.add_patch(Circle((x, y), size, **style))
+    if not named:
+        write(axes, x, y, link, fontweight="bold", fontsize=9)
+        return
+    dx, dy = _free_side(link, at, edges)
+    reach = size + 0.05
+    across = "left" if dx > 0.35 else "right" if dx < -0.35 else "center"
+    write(axes, x + reach * dx, y + (reach + 0.05) * dy, link, ha=across, fontweight="bold", fontsize=8.5, zorder=9)
+
+
+def _free_side(link: str, at: Mapping[str, tuple[float, float]], edges: Sequence[GraphEdge]) -> tuple[float, float]:
+    """The unit direction, of sixteen, farthest from all edges of a vertex."""
+    here = np.array(at[link])
+    mates = [other for edge in edges if link in edge.ends for other in edge.ends if other != link]
+    if not mates:
+        return 1.0, 0.0
+    away = np.array([at[mate] for mate in mates]) - here
+    away /= np.maximum(np.sqrt((away**2).sum(1)), 1e-9)[:, None]
+    angles = np.arange(16) * np.pi / 8
+    sides = np.stack([np.cos(angles), np.sin(angles)], 1)
+    nearest = np.round((sides @ away.T).max(1) + 0.08 * np.abs(sides[:, 1]), 9)  # beside reads better than above
+    x, y = sides[int(nearest.argmin())]
+    return float(x), float(y)
+
+
+def _legend(edges: Sequence[GraphEdge]) -> Iterator[Line2D]:
+    kinds = {edge.kind for edge in edges}
+    if "revolute" in kinds:
+        yield Line2D([], [], color=GREY, linewidth=0.9, label="turning pair, with its axis")
+    if "gear" in kinds:
+        yield Line2D([], [], color=BLUE, linewidth=3.2, label="gear pair")
+    if "coupling" in kinds:
+        yield Line2D([], [], color=PURPLE, linewidth=2.2, linestyle=(0, (4, 2)), label="pin in a slot")
+    yield Line2D([], [], marker="s", color=BLACK, markerfacecolor="white", linestyle="", label="frame")
+    if any(edge.broken for edge in edges):
+        yield Line2D([], [], color=RED, linewidth=3.2, label="loop that does not close")

@@ -1,0 +1,219 @@
+"""Speed diagrams of epicyclic sets: coaxial members at abscissae given by teeth, their speeds as ordinates on a line.
+
+Seen from its carrier k, a set turns all its members in fixed proportion: w_m = w_k + x_m u. So the points (x_m, w_m)
+of one state lie on a straight line, the carrier's at x = 0 (Kutzbach 1927; Benford and Leising 1981, the lever
+analogy).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from itertools import groupby
+from typing import Any
+
+from geartrain.analysis.gear_train import GearTrain
+from geartrain.drawing.arrangement import spread
+from geartrain.drawing.backend import Axes, Figure
+from geartrain.drawing.style import BLACK, BLUE, GREY, LETTER, PALE, RED, SMALL, sheet, title_of, too_many
+from geartrain.errors import Problem, QuestionError
+from geartrain.kinematics.answer import Answer
+from geartrain.kinematics.components import find_components
+from geartrain.numerics.exact import decimal, fraction_text, is_short
+
+Point = tuple[Fraction, list[str], Fraction | None]
+"""Abscissa, the members there, their speed; None where undetermined."""
+
+_MOST = 120  # panels
+_LEAST, _TALL, _PAGE = 1.7, 1.3, 11.5  # inches: least width and height of a panel, greatest width of a row
+_GAP, _HEAD = 0.7, 0.95  # inches between panels, and for the names above and below one
+_FINE = 8.5  # points
+_LONG = 11  # letters of a fraction that is still written out
+
+
+@dataclass(frozen=True, slots=True)
+class Lever:
+    """One epicyclic set: its carrier, and the abscissa of each member, the greatest of them 1.
+
+    abscissae   link -> x, exact; the carrier's is 0
+    """
+
+    carrier: str
+    abscissae: Mapping[str, Fraction]
+
+
+def find_levers(train: GearTrain) -> list[Lever]:
+    """Every elementary set of a train: what meshes in one moving carrier's frame, and turns on that carrier's axis.
+
+    A planet is a member only where fewer than two other links are. Raises `QuestionError` where nothing is epicyclic.
+    """
+    declared, tree = train.declaration, train.tree
+    parts = find_components(tuple(declared.links), declared.frame, train.circuits)
+    found = []
+    for group, carrier in enumerate(parts.group_carrier):
+        if carrier == parts.frame:
+            continue
+        nodes = [node for node, own in enumerate(parts.node_group) if own == group]
+        if len(nodes) < 2:  # the slot of a follower, held by its pin
+            continue
+        relative = {parts.links[parts.node_link[node]]: parts.relative(node) for node in nodes}
+        name = parts.links[carrier]
+        axis = tree.axis(name)
+        coaxial = {link: x for link, x in relative.items() if link == declared.frame or tree.axis(link) == axis}
+        members = coaxial if len(coaxial) > 1 else relative
+        scale = max(members.values(), key=abs)
+        found.append(Lever(name, {name: Fraction(0)} | {link: x / scale for link, x in members.items()}))
+    if not found:
+        raise QuestionError(
+            Problem(
+                f"'{train.name}' has no epicyclic set",
+                "a speed diagram shows members that turn about the axis of a moving carrier, and no carrier moves",
+                "draw another kind: plan, stick, graph or dials",
+            )
+        )
+    return found
+
+
+def lever_figure(train: GearTrain, state: str | None = None, labels: bool = True) -> Figure:
+    """A panel for each set and each state (or the one named): sets side by side, states below each other.
+
+    Raises `QuestionError` where nothing is epicyclic, or for more panels than a page holds.
+    """
+    levers = find_levers(train)
+    states: list[str | None] = [state] if state is not None else [*train.states] or [None]
+    too_many(train, len(levers) * len(states), _MOST, "panels of sets and states")
+    answers = [train.solve(name) for name in states]
+    wide = [max(_width(_points(train, lever, answer)) for answer in answers) for lever in levers]
+    bands = _bands(wide)
+    width = max(max(sum(wide[at] + _GAP for at in band) for band in bands) + 0.45, 5.0)
+    height = (_TALL + _HEAD) * len(bands) * len(answers) + 0.45 * len(answers) + 0.35
+    declared = train.declaration
+    figure, page = sheet(width, height, title_of(declared.name, declared.title))
+    top = height - 0.35
+    for answer in answers:
+        page.text(0.15, top - 0.3, _heading(answer, declared.unit_name), fontsize=SMALL, parse_math=False)
+        top -= 0.45
+        for band in bands:
+            top -= _TALL + _HEAD
+            left = 0.0
+            for at in band:
+                left += _GAP
+                box = (left / width, (top + 0.3) / height, wide[at] / width, _TALL / height)
+                axes = figure.add_axes(box, label=f"{levers[at].carrier} {answer.state or ''}")
+                _panel(axes, train, levers[at], answer, labels)
+                left += wide[at]
+    return figure
+
+
+def _bands(wide: Sequence[float]) -> list[list[int]]:
+    """Panels side by side as far as a page is wide."""
+    bands: list[list[int]] = [[]]
+    left = 0.0
+    for at, each in enumerate(wide):
+        if bands[-1] and left + each + _GAP > _PAGE:
+            bands.append([])
+            left = 0.0
+        bands[-1].append(at)
+        left += each + _GAP
+    return bands
+
+
+def _width(points: Sequence[Point]) -> float:
+    """Inches in which the words above and below a panel stand side by side."""
+    above = sum(_letters(max([*links, _said(speed)], key=len)) for _, links, speed in points)
+    below = sum(_letters(_said(x)) for x, _, _ in points)
+    return max(above, below, _LEAST)
+
+
+def _letters(text: str) -> float:
+    return len(text) * _FINE * LETTER + 0.1
+
+
+def _heading(answer: Answer, unit: str) -> str:
+    state = f"state {answer.state}, " if answer.state is not None else ""
+    return f"{state}speeds in {unit or 'the unit of the inputs'}" + ("" if answer.verdict else f"; {answer.verdict}")
+
+
+def _panel(axes: Axes, train: GearTrain, lever: Lever, answer: Answer, labels: bool) -> None:
+    """One set in one state: a vertical for each member, the line through their speeds."""
+    points = _points(train, lever, answer)
+    xs = [float(x) for x, _, _ in points]
+    speeds = [None if speed is None else float(speed) for _, _, speed in points]
+    known = [(x, speed) for x, speed in zip(xs, speeds, strict=True) if speed is not None]
+    _frame(axes, xs, [speed for _, speed in known])
+    for x in xs:
+        axes.axvline(x, color=PALE, linewidth=1.0, zorder=1)
+    axes.axhline(0.0, color=BLACK, linewidth=0.8, zorder=1)
+    axes.plot(*zip(*known, strict=True), color=BLUE, linewidth=1.8, zorder=2, gid="line") if known else None
+    for x, speed in known:
+        axes.plot([x, x], [0.0, speed], color=GREY, linewidth=2.2, zorder=2)
+        axes.plot([x], [speed], "o", color=RED if x == 0 else BLUE, markersize=6, markeredgecolor="white", zorder=4)
+    if labels:
+        _names(axes, points, xs)
+
+
+def _points(train: GearTrain, lever: Lever, answer: Answer) -> list[Point]:
+    """Abscissa, members and their speed about the carrier's axis, from left to right; None where undetermined."""
+    own = train.signs.get(lever.carrier, 1)
+    ordered = sorted(lever.abscissae.items(), key=lambda item: item[1])
+    found: list[Point] = []
+    for x, members in groupby(ordered, key=lambda item: item[1]):
+        links = [link for link, _ in members]
+        for same in [links] if x else [[lever.carrier], [link for link in links if link != lever.carrier]]:
+            if same:
+                speed = answer.speeds.get(same[0])
+                turned = None if speed is None else Fraction(speed) * own * train.signs.get(same[0], 1)
+                found.append((x, same, turned))
+    return found
+
+
+def _frame(axes: Axes, xs: Sequence[float], speeds: Sequence[float]) -> None:
+    for side in ("top", "right", "bottom"):
+        axes.spines[side].set_visible(False)
+    axes.tick_params(labelsize=_FINE - 0.5, colors=GREY)
+    axes.set_xticks([])
+    axes.locator_params(axis="y", nbins=4)
+    low, high = min(xs), max(xs)
+    rim = 0.08 * (high - low) or 0.5
+    axes.set_xlim(low - rim, high + rim)
+    bottom, top = min([0.0, *speeds]), max([0.0, *speeds])
+    more = 0.08 * (top - bottom) or 0.5
+    axes.set_ylim(bottom - more, top + more)
+
+
+def _names(axes: Axes, points: Sequence[Point], xs: Sequence[float]) -> None:
+    """Members with their speeds above, abscissae below, moved apart where verticals stand close."""
+    low, high = axes.get_xlim()
+    figure = axes.get_figure(root=True)
+    assert figure is not None
+    inches = axes.get_position().width * figure.get_size_inches()[0] / (high - low)
+    heads = [("\n".join(links), _said(speed)) for _, links, speed in points]
+    feet = [_said(x) for x, _, _ in points]
+    wide = [_letters(max([*name.split("\n"), speed], key=len)) for name, speed in heads]
+    bounds = low * inches - 0.25, high * inches + 0.25
+    above = spread([x * inches for x in xs], wide, bounds)
+    below = spread([x * inches for x in xs], list(map(_letters, feet)), bounds)
+    across = axes.get_xaxis_transform()
+    for (name, speed), foot, x, up, down in zip(heads, feet, xs, above, below, strict=True):
+        up, down = up / inches, down / inches
+        axes.plot([x, up], [1.0, 1.07], color=PALE, linewidth=0.8, transform=across, clip_on=False)
+        axes.plot([x, down], [0.0, -0.07], color=PALE, linewidth=0.8, transform=across, clip_on=False)
+        how: dict[str, Any] = {
+            "transform": across,
+            "ha": "center",
+            "fontsize": _FINE,
+            "parse_math": False,
+            "clip_on": False,
+        }
+        carrier = x == 0
+        axes.text(up, 1.08, speed, va="bottom", color=RED if carrier else BLUE, gid=f"speed {name}", **how)
+        axes.text(up, 1.19, name, va="bottom", color=BLACK, fontweight="bold", **how)
+        axes.text(down, -0.08, foot, va="top", color=GREY, gid=f"abscissa {name}", **how)
+
+
+def _said(value: Fraction | None) -> str:
+    """A short fraction as it is, a long one in decimals, nothing known as a question mark."""
+    if value is None:
+        return "?"
+    return fraction_text(value) if is_short(value, _LONG) else f"≈ {decimal(value, 6)}"

@@ -1,0 +1,223 @@
+"""What becomes of a pair as one or two of its parameters change."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from geartrain.drawing.backend import Axes, Figure, Patch
+from geartrain.drawing.style import (
+    BLACK,
+    BLUE,
+    GREEN,
+    GREY,
+    HALO,
+    ORANGE,
+    PALE,
+    PURPLE,
+    RED,
+    SKY,
+    SMALL,
+    TEXT,
+    WIDTH,
+    plain,
+)
+from geartrain.errors import Problem, QuestionError
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from geartrain.numerics.arrays import Floats
+
+    Texts = NDArray[np.str_]
+
+EFFICIENCY = "efficiency_mean"
+_SHOWN = {
+    EFFICIENCY: "mean efficiency",
+    "error_pp_deg": "transmission error\npeak to peak (deg)",
+    "tau": "speed ratio,\nleast and greatest",
+}
+_FAULTS = {  # hatches of the verdicts on pairs that do not run
+    "jam": "xx",
+    "clash": "\\\\",
+    "standstill": "//",
+    "overhang": "++",
+    "no valley": "..",
+    "apart": "--",
+    "none": "",
+}
+_STANDS = "standstill"  # a fault with which the pair still turns
+_KNOWN = {"approach": BLUE, "recess": RED, "astride": GREEN, "approach+recess": PURPLE}
+_OTHERS = (SKY, ORANGE, GREEN, PURPLE, BLUE, RED)
+_FEW = 60  # samples that are marked each
+_MANY = 2500  # cells of a map from which it is drawn as pixels in a vector file
+_REGION = 0.01  # of a map: a lesser region is not named
+
+
+def sweep_figure(
+    parameters: Mapping[str, NDArray[Any]], columns: Mapping[str, NDArray[Any]], verdicts: NDArray[np.str_]
+) -> Figure:
+    """Results of a sweep over one or two parameters; NaN is left out.
+
+    One parameter, all arrays (n,): panels of mean efficiency, transmission error and speed ratios over it, before
+    bands for the verdicts. Two, all arrays grids (n, m) with each parameter constant along one axis: a map of the
+    mean efficiency, blank where the pair does not turn, with the faults hatched. The scale follows the pairs that run.
+
+    parameters   name as it stands at the axis, and values
+    columns      of these `efficiency_mean`, `error_pp_deg` and `tau_min` with `tau_max` are shown, or else all
+    verdicts     "jam", "clash", "standstill", "overhang", "no valley", "apart" or "none" of a pair that does not run;
+                 of one that runs any text, such as its phases
+    """
+    verdicts = np.asarray(verdicts).astype(str)
+    values = {name: np.asarray(column, dtype=float) for name, column in columns.items()}
+    places = {name: np.asarray(column, dtype=float) for name, column in parameters.items()}
+    shapes = {array.shape for array in (*values.values(), *places.values(), verdicts)}
+    if len(shapes) > 1 or not 1 <= len(places) == verdicts.ndim <= 2 or not values or not verdicts.size:
+        raise QuestionError(
+            Problem(
+                f"no sweep to draw: {len(places)} parameters, {len(values)} columns, arrays of shapes {sorted(shapes)}",
+                fix="give one parameter and arrays (n,), or two and grids (n, m), and at least one column",
+            )
+        )
+    return _lines(places, values, verdicts) if len(places) == 1 else _map(places, values, verdicts)
+
+
+def _running(verdicts: Texts) -> list[str]:
+    """The verdicts on pairs that run, in order of appearance."""
+    return [kind for kind in dict.fromkeys(verdicts.ravel().tolist()) if kind not in _FAULTS]
+
+
+# ------------------------------------------------------------------------------------------------------ one parameter
+
+
+def _lines(parameters: dict[str, Floats], columns: dict[str, Floats], verdicts: Texts) -> Figure:
+    ((name, x),) = parameters.items()
+    order = np.argsort(x, kind="stable")
+    x, verdicts = x[order], verdicts[order]
+    panels = _panels(columns)
+    figure = Figure(figsize=(WIDTH, 1.2 + 2.4 * len(panels)), layout="constrained")
+    rows = figure.subplots(len(panels), 1, sharex=True, squeeze=False)[:, 0]
+    styles = _band_styles(verdicts)
+    for axes, (stem, curves) in zip(rows, panels.items(), strict=True):
+        plain(axes)
+        for low, high, kind in _bands(x, verdicts):
+            axes.axvspan(low, high, **styles[kind], gid=f"band {kind}")
+        _curves(axes, x, {label: values[order] for label, values in curves.items()}, verdicts)
+        axes.set_ylabel(_SHOWN.get(stem, stem), fontsize=TEXT)
+    if x[-1] > x[0]:
+        rows[-1].set_xlim(x[0], x[-1])
+    rows[-1].set_xlabel(name, fontsize=TEXT)
+    handles = [Patch(**style, label=kind) for kind, style in styles.items()]
+    figure.legend(handles=handles, loc="outside upper left", ncols=5, fontsize=SMALL, frameon=False)
+    return figure
+
+
+def _panels(columns: dict[str, Floats]) -> dict[str, dict[str, Floats]]:
+    """The columns of each panel; the least and the greatest of one quantity share one."""
+    found: dict[str, dict[str, Floats]] = {}
+    for name, values in columns.items():
+        stem, _, end = name.rpartition("_")
+        paired = end in ("min", "max") and {f"{stem}_min", f"{stem}_max"} <= columns.keys()
+        found.setdefault(stem if paired else name, {})[name] = values
+    return {name: found[name] for name in _SHOWN if name in found} or found
+
+
+def _curves(axes: Axes, x: Floats, curves: dict[str, Floats], verdicts: Texts) -> None:
+    marker = "o" if len(x) <= _FEW else ""
+    for (name, values), color in zip(curves.items(), (BLACK, BLACK), strict=False):
+        axes.plot(x, values, color=color, linewidth=1.8, marker=marker, markersize=3.5, gid=name)
+    if len(curves) == 2:
+        low, high = curves.values()
+        axes.fill_between(x, low, high, color=GREY, alpha=0.25, linewidth=0)
+    runs = ~np.isin(verdicts, list(_FAULTS))
+    seen = np.concatenate([values[runs & np.isfinite(values)] for values in curves.values()])
+    if len(seen) and seen.max() > seen.min():
+        rim = 0.3 * (seen.max() - seen.min())
+        axes.set_ylim(seen.min() - rim, seen.max() + rim)
+
+
+def _band_styles(verdicts: Texts) -> dict[str, dict[str, Any]]:
+    """The look of each verdict's band: coloured where the pair runs, grey and hatched where not."""
+    others = iter(_OTHERS * len(verdicts))
+    styles: dict[str, dict[str, Any]] = {}
+    for kind in dict.fromkeys(verdicts.tolist()):
+        if kind in _FAULTS:
+            styles[kind] = {"facecolor": (PALE, 0.35), "edgecolor": (GREY, 0.6), "hatch": _FAULTS[kind], "linewidth": 0}
+        else:
+            color = _KNOWN[kind] if kind in _KNOWN else next(others)
+            styles[kind] = {"facecolor": (color, 0.2), "edgecolor": "none", "linewidth": 0}
+    return styles
+
+
+def _bands(x: Floats, verdicts: Texts) -> Iterator[tuple[float, float, str]]:
+    """Stretches of one verdict, cut half way between samples."""
+    edges = np.concatenate((x[:1], (x[1:] + x[:-1]) / 2, x[-1:]))
+    changes = (np.flatnonzero(verdicts[1:] != verdicts[:-1]) + 1).tolist()
+    for start, end in zip([0, *changes], [*changes, len(x)], strict=True):
+        yield float(edges[start]), float(edges[end]), str(verdicts[start])
+
+
+# ------------------------------------------------------------------------------------------------------ two parameters
+
+
+def _map(parameters: dict[str, Floats], columns: dict[str, Floats], verdicts: Texts) -> Figure:
+    (first, x), (second, y) = parameters.items()
+    name = EFFICIENCY if EFFICIENCY in columns else next(iter(columns))
+    x, y, values, verdicts = _sorted(x, y, columns[name], verdicts)
+    stuck = np.isin(verdicts, [kind for kind in _FAULTS if kind != _STANDS])
+    shown = np.ma.masked_invalid(np.where(stuck, np.nan, values))
+    figure = Figure(figsize=(WIDTH, 7.0), layout="constrained")
+    axes = figure.add_subplot()
+    mesh = axes.pcolormesh(x, y, shown, shading="nearest", cmap="viridis", rasterized=shown.size > _MANY, gid="map")
+    bar = figure.colorbar(mesh, ax=axes, pad=0.02)
+    bar.set_label(_SHOWN.get(name, name), fontsize=TEXT)
+    bar.ax.tick_params(labelsize=SMALL)
+    axes.set_xlabel(first, fontsize=TEXT)
+    axes.set_ylabel(second, fontsize=TEXT)
+    axes.tick_params(labelsize=SMALL)
+    if min(verdicts.shape) > 1:
+        _regions(axes, x, y, verdicts)
+    faults = [kind for kind in _FAULTS if (verdicts == kind).any()]
+    handles = [Patch(facecolor="none", edgecolor=GREY, hatch=_FAULTS[kind], label=kind) for kind in faults]
+    if handles:
+        figure.legend(handles=handles, loc="outside upper left", ncols=7, fontsize=SMALL, frameon=False)
+    return figure
+
+
+def _sorted(x: Floats, y: Floats, values: Floats, verdicts: Texts) -> tuple[Floats, Floats, Floats, Texts]:
+    """The grids with both parameters rising along their axes."""
+    rows = np.argsort(x[:, 0] if x[0, 0] != x[-1, 0] else y[:, 0], kind="stable")
+    cells = np.argsort(x[0] if x[0, 0] != x[0, -1] else y[0], kind="stable")
+    at = np.ix_(rows, cells)
+    return x[at], y[at], values[at], verdicts[at]
+
+
+def _regions(axes: Axes, x: Floats, y: Floats, verdicts: Texts) -> None:
+    """Faults hatched; the ways of running named and marked off from each other."""
+    for kind, hatch in _FAULTS.items():
+        if hatch and (verdicts == kind).any():
+            here = (verdicts == kind).astype(float)
+            area = axes.contourf(x, y, here, levels=[0.5, 1.5], colors="none", hatches=[hatch])
+            area.set_edgecolor(GREY)
+            area.set_linewidth(0.0)
+    running = _running(verdicts)
+    faulty = np.isin(verdicts, list(_FAULTS))
+    for kind in running[1:]:
+        bound = np.ma.masked_array((verdicts == kind).astype(float), faulty)
+        axes.contour(x, y, bound, levels=[0.5], colors="white", linewidths=1.8)
+    for kind in running if len(running) > 1 else []:
+        _name(axes, x, y, verdicts == kind, kind)
+    axes.set_xlim(x.min(), x.max())
+    axes.set_ylim(y.min(), y.max())
+
+
+def _name(axes: Axes, x: Floats, y: Floats, here: NDArray[np.bool_], kind: str) -> None:
+    """A region's name at that of its cells which is nearest to its middle."""
+    rows, cells = np.nonzero(here)
+    if len(rows) < _REGION * here.size:
+        return
+    at = np.argmin((rows - rows.mean()) ** 2 + (cells - cells.mean()) ** 2)
+    place = float(x[rows[at], cells[at]]), float(y[rows[at], cells[at]])
+    axes.annotate(kind, place, ha="center", va="center", fontsize=TEXT, color=BLACK, path_effects=HALO, gid="region")

@@ -1,0 +1,274 @@
+"""The plan of a train to scale: wheels with their teeth, arms, pins and slots, from the front and from the side."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from fractions import Fraction
+from math import cos, floor, log10, pi, sin
+from textwrap import shorten, wrap
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from geartrain.drawing.backend import Axes, Circle, Figure, Line2D, Patch, Path, PathPatch, Polygon
+from geartrain.drawing.oblique_side_views import SideScale, draw_across, draw_obliquely, draw_side
+from geartrain.drawing.projection import ProjectedScene, ScaledPage, arms_of, broken_wheels, project_scene
+from geartrain.drawing.style import (
+    BLACK,
+    BLUE,
+    GREY,
+    LETTER,
+    ORANGE,
+    PURPLE,
+    RED,
+    SMALL,
+    LabelSpace,
+    sheet,
+    title_of,
+    write,
+)
+from geartrain.scene import Scene, SceneCoupling, SceneWheel
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from geartrain.numerics.arrays import Floats
+
+
+_LEAST, _MOST, _WHEEL = 5.0, 11.0, 0.85  # inches: sides of the plan, and what each wheel should have on the average
+_RIM, _HEAD, _FOOT = 0.3, 0.75, 0.75
+_FAR, _NEAR = np.array([0.55, 0.68, 0.80]), np.array([0.93, 0.96, 0.98])  # colours of the lowest and highest layer
+_SIDE = 1.1  # inches: least width of the side view
+_FINE = 7.5  # points
+_CHORD, _COARSE = 0.002, 0.02  # inches and modules that an outline may leave its teeth by
+
+
+def plan_figure(scene: Scene, turns: Fraction = Fraction(0), labels: bool = True) -> Figure:
+    """The scene after `turns` of its lead, to scale; trains across the plane are drawn obliquely.
+
+    What lets a train not turn is red, with the verdict above.
+    """
+    standing = project_scene(scene, turns)
+    points = np.concatenate([*(standing.seen(_extent(standing, wheel)) for wheel in scene.wheels), *_hubs(standing)])
+    low, high = points.min(0), points.max(0)
+    size = np.maximum(high - low, 1e-6)
+    side = min(max(_LEAST, _WHEEL * len(scene.wheels) ** 0.5 * 1.7), _MOST)
+    scale = side / float(size[:2].max())
+    layered = standing.flat and size[2] > 1e-9 and len({wheel.layer for wheel in scene.wheels}) > 1
+    deep = max(float(size[2]) * scale, _SIDE) if layered else 0.0
+    width = max(size[0] * scale + 2 * _RIM + (deep + 2 * _RIM if layered else 0.0), 5.5)
+    said = _verdict(scene, float(width))
+    height = size[1] * scale + 2 * _RIM + _HEAD + _FOOT + 0.17 * said.count("\n")
+    figure, axes = sheet(float(width), float(height), _title(scene, turns))
+    left = (width - size[0] * scale - (deep + 2 * _RIM if layered else 0.0)) / 2
+    page = ScaledPage(axes, scale, np.array([left - low[0] * scale, _FOOT + _RIM - low[1] * scale]), _FOOT - 0.1)
+    if standing.flat:
+        _draw_flat(page, standing, labels)
+    else:
+        draw_obliquely(axes, standing, page.at, labels)
+    if layered:
+        depth = SideScale(left + size[0] * scale + 2 * _RIM, deep, float(low[2]), float(size[2]))
+        draw_side(page, standing, depth)
+    _scale_bar(axes, scale)
+    _remark(page, scene, float(width))
+    if said:
+        axes.text(0.15, float(height) - 0.55, said, fontsize=_FINE + 1, color=RED, va="top", parse_math=False)
+    handles = list(_legend(scene))
+    figure.legend(handles=handles, loc="lower right", ncols=len(handles), fontsize=SMALL - 1.5, frameon=False)
+    return figure
+
+
+def _title(scene: Scene, turns: Fraction) -> str:
+    title = title_of(scene.name, scene.title)
+    if scene.state is not None:
+        title += f" (state {scene.state})"
+    if turns:
+        title += f", after {turns} turns of {scene.bodies[scene.lead].id if scene.lead is not None else 'nothing'}"
+    return title
+
+
+def _verdict(scene: Scene, width: float) -> str:
+    """Why a train does not turn, in lines that fit; nothing where it does."""
+    if scene.verdict["kind"] == "determined":
+        return ""
+    room = int((width - 0.3) / ((_FINE + 1) * LETTER))
+    lines = wrap(f"{scene.verdict['kind']}: {scene.verdict['text']}", room)
+    return "\n".join(lines[:4]) + (" ..." if len(lines) > 4 else "")
+
+
+def _extent(standing: ProjectedScene, wheel: SceneWheel) -> Floats:
+    """Points around a wheel."""
+    most = max(wheel.tip, wheel.root) * (1.12 if wheel.kind == "ring" else 1.0)
+    half = wheel.thickness / 2
+    return np.concatenate([standing.circle(wheel, most, half), standing.circle(wheel, most, -half)])
+
+
+def _hubs(standing: ProjectedScene) -> list[Floats]:
+    """Axes of all bodies, so that trains without wheels have a size too."""
+    bodies = standing.scene.bodies
+    return [standing.seen([standing.pose.point(at, body.point)]) for at, body in enumerate(bodies)]
+
+
+# --------------------------------------------------------------------------------------------------------------- wheels
+
+
+def _draw_flat(page: ScaledPage, standing: ProjectedScene, labels: bool) -> None:
+    scene = standing.scene
+    wheels = sorted(scene.wheels, key=lambda wheel: (float(standing.seen(standing.centre(wheel))[2]), -wheel.radius))
+    heights = sorted({round(float(standing.seen(standing.centre(wheel))[2]), 6) for wheel in wheels})
+    red = broken_wheels(scene)
+    for order, wheel in enumerate(wheels):
+        level = heights.index(round(float(standing.seen(standing.centre(wheel))[2]), 6)) / max(len(heights) - 1, 1)
+        if not standing.faces(wheel):
+            draw_across(page.axes, standing, wheel, page.at, red, 2 + order / len(wheels))
+            continue
+        _draw_wheel(page, standing, wheel, level, 2 + order / len(wheels), wheel.id in red)
+    _draw_arms(page, standing)
+    for coupling in scene.couplings:
+        _draw_coupling(page, standing, coupling)
+    for spot in {tuple(np.round(page.at(standing.seen(standing.centre(wheel))), 4)) for wheel in wheels}:
+        page.axes.add_artist(Circle(spot, 0.035, facecolor=BLACK, edgecolor="white", linewidth=0.5, zorder=6))
+    if labels:
+        _name_wheels(page, standing, wheels[::-1])
+
+
+def _draw_wheel(
+    page: ScaledPage, standing: ProjectedScene, wheel: SceneWheel, level: float, order: float, red: bool
+) -> None:
+    chord = min(_CHORD / page.scale, _COARSE * wheel.module)
+    outline = page.at(standing.seen(standing.outline(wheel, chord=chord)))
+    face = (*(_FAR + (_NEAR - _FAR) * level), 0.78)
+    style: dict[str, Any] = {"edgecolor": RED if red else BLACK, "linewidth": 1.2 if red else 0.6, "zorder": order}
+    if wheel.kind == "ring":
+        rim = page.at(standing.seen(standing.circle(wheel, wheel.root * 1.1)))
+        page.axes.add_artist(PathPatch(_hollow(rim, outline), facecolor=face, gid=f"wheel {wheel.id}", **style))
+    else:
+        page.axes.add_artist(Polygon(outline, facecolor=face, gid=f"wheel {wheel.id}", **style))
+    for pin in standing.pins(wheel):
+        page.axes.add_artist(Polygon(page.at(standing.seen(pin)), facecolor="white", **style))
+    centre = page.at(standing.seen(standing.centre(wheel)))
+    page.axes.add_artist(
+        Circle(
+            (float(centre[0]), float(centre[1])),
+            wheel.radius * page.scale,
+            fill=False,
+            edgecolor=RED if red else BLUE,
+            linewidth=0.6,
+            linestyle="-.",
+            zorder=order,
+            gid=f"pitch {wheel.id}",
+        )
+    )
+
+
+def _hollow(outer: Floats, inner: Floats) -> Path:
+    """What lies between two closed lines."""
+    codes = [
+        code for line in (outer, inner) for code in (Path.MOVETO, *[Path.LINETO] * (len(line) - 1), Path.CLOSEPOLY)
+    ]
+    return Path(np.concatenate([outer, outer[:1], inner[::-1], inner[-1:]]), codes)
+
+
+def _name_wheels(page: ScaledPage, standing: ProjectedScene, wheels: Sequence[SceneWheel]) -> None:
+    """Names and counts, small wheels first, each at the first free spot in its wheel or beside it."""
+    room = LabelSpace()
+    centres = np.array([page.at(standing.seen(standing.centre(wheel))) for wheel in wheels]).reshape(-1, 2)
+    reach = np.array([0.0 if wheel.kind == "ring" else wheel.tip * page.scale for wheel in wheels])  # what it hides
+    for at in sorted(range(len(wheels)), key=lambda at: wheels[at].radius):
+        wheel, lines = wheels[at], [wheels[at].id, str(wheels[at].teeth)]
+        spots = list(_spots(centres[at], wheel, page.scale))
+        hidden = _within(np.array(spots).reshape(-1, 2), centres[:at], reach[:at])
+        spots = [spots[spot] for spot in np.argsort(hidden, kind="stable")]
+        box = room.place(lines, _FINE, spots)
+        if box is not None:
+            write(page.axes, box[0], box[1], "\n".join(lines), fontsize=_FINE, gid=f"name {wheel.id}", linespacing=1.0)
+    if room.left:
+        page.remarks.append(f"{room.left} names had no room")
+
+
+def _within(points: Floats, centres: Floats, reach: Floats) -> NDArray[np.bool_]:
+    """Which points (n, 2) lie in one of the discs (m, 2)."""
+    if not len(points) or not len(centres):
+        return np.zeros(len(points), dtype=bool)
+    middle = points.mean(axis=0)
+    far = np.hypot(*(points - middle).T).max()
+    near = np.hypot(*(centres - middle).T) < reach + far + 1e-9  # others hide none of them
+    apart = points[:, None] - centres[near]
+    return np.asarray((np.hypot(apart[..., 0], apart[..., 1]) < reach[near]).any(axis=1))
+
+
+def _spots(centre: Floats, wheel: SceneWheel, scale: float) -> Iterator[tuple[float, float]]:
+    """Where a wheel's name may stand: between hub and teeth, then round its hub, then outside."""
+    reach = wheel.root * scale
+    if wheel.kind == "ring":  # on its rim
+        for at in range(16):
+            angle = pi / 4 + at * pi / 8
+            yield float(centre[0]) + 1.05 * reach * cos(angle), float(centre[1]) + 1.05 * reach * sin(angle)
+        return
+    for share in (0.72, 0.5, 0.86) if reach > 0.3 else ():
+        for at in range(16):
+            angle = pi / 2 + at * pi / 8
+            yield float(centre[0]) + share * reach * cos(angle), float(centre[1]) + share * reach * sin(angle)
+    for more in (0.17, 0.3, 0.45):
+        for at in range(12):
+            angle = pi / 2 + at * pi / 6
+            out = max(wheel.tip, wheel.root) * scale + more
+            if reach <= 0.6:
+                yield float(centre[0]) + out * cos(angle), float(centre[1]) + out * sin(angle)
+
+
+# ----------------------------------------------------------------------------------------------------- arms, pins, bars
+
+
+def _draw_arms(page: ScaledPage, standing: ProjectedScene) -> None:
+    arms = list(arms_of(standing))
+    wide = 4.5 if len(arms) < 6 else 2.5
+    for body, start, end in arms:
+        line = page.at(standing.seen(np.array([start, end])))
+        name = f"arm {standing.scene.bodies[body].id}"
+        page.axes.plot(*line.T, color="white", linewidth=wide + 2, solid_capstyle="round", zorder=4)
+        page.axes.plot(*line.T, color=ORANGE, linewidth=wide, solid_capstyle="round", zorder=4, gid=name)
+
+
+def _draw_coupling(page: ScaledPage, standing: ProjectedScene, coupling: SceneCoupling) -> None:
+    """The pin, and the slot as far as the pin goes."""
+    pin = page.at(standing.seen(standing.pose.point(coupling.pin, coupling.pin_at)))
+    body = standing.scene.bodies[coupling.slot]
+    hub = page.at(standing.seen(standing.pose.point(coupling.slot, coupling.slot_at if body else body.point)))
+    along = pin - hub
+    far = float(np.hypot(*along)) or 1.0
+    reach = coupling.offset * page.scale
+    ends = hub + np.outer([max(far - 1.2 * reach, 0.3 * far), far + 0.6 * reach + 0.04], along / far)
+    page.axes.plot(*ends.T, color=PURPLE, linewidth=5.5, solid_capstyle="round", zorder=5, gid=f"slot {coupling.id}")
+    page.axes.plot(*ends.T, color="white", linewidth=3.0, solid_capstyle="round", zorder=5)
+    spot = (float(pin[0]), float(pin[1]))
+    page.axes.add_artist(Circle(spot, 0.045, facecolor=PURPLE, edgecolor=BLACK, zorder=6, gid=f"pin {coupling.id}"))
+
+
+def _remark(page: ScaledPage, scene: Scene, width: float) -> None:
+    """What could not be placed or has no room, in one line at the foot."""
+    found = [*(notice["what"] for notice in scene.notices[:1]), *page.remarks]
+    if len(scene.notices) > 1:
+        found.insert(1, f"and {len(scene.notices) - 1} more")
+    text = shorten("; ".join(found), int((width - 0.3) / (_FINE * LETTER)), placeholder=" ...")
+    page.axes.text(0.15, 0.08, text, fontsize=_FINE, color=GREY, parse_math=False, gid="remark")
+
+
+def _scale_bar(axes: Axes, scale: float) -> None:
+    """A round number of millimetres, about an inch long."""
+    raw = 1.1 / scale
+    power = 10.0 ** floor(log10(raw))
+    length = max(step * power for step in (1, 2, 5) if step * power <= raw * 1.0001)
+    y = 0.45
+    axes.plot([0.2, 0.2 + length * scale], [y, y], color=BLACK, linewidth=2.5, solid_capstyle="butt", gid="scale bar")
+    write(axes, 0.2 + length * scale / 2, y + 0.12, f"{length:g} mm", fontsize=_FINE + 0.5)
+
+
+def _legend(scene: Scene) -> Iterator[Line2D | Patch]:
+    yield Line2D([], [], color=BLUE, linestyle="-.", linewidth=0.6, label="pitch circles")
+    if any(body.role == "carrier" for body in scene.bodies):
+        yield Line2D([], [], color=ORANGE, linewidth=4.5, label="carriers")
+    if scene.couplings:
+        yield Line2D([], [], color=PURPLE, linewidth=5.5, label="slots")
+    if any(pair.broken for pair in scene.pairs):
+        yield Patch(facecolor="white", edgecolor=RED, label="loop that does not close")

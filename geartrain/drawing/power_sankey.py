@@ -1,0 +1,226 @@
+"""The flow of power as bands: in at the left, through shafts and pairs, out at the right, losses falling away."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from fractions import Fraction
+from textwrap import fill
+from typing import Any
+
+from geartrain.drawing.backend import Axes, Figure, Line2D, Patch, Path, PathPatch, Rectangle, Stroke
+from geartrain.drawing.sankey import BEND, DROP, TURN, BandSegment, ReturnBand, SankeyLayout, SankeySpot, lay_out_sankey
+from geartrain.drawing.style import BLACK, BLUE, GREEN, GREY, PURPLE, RED, SKY, SMALL, TEXT, WIDTH
+from geartrain.dynamics.torques.power_flow import PowerFlow, PowerNode, percent_of_text, percent_text, watts_text
+from geartrain.errors import GearTrainError, Problem
+
+_FINEST = 0.7  # points: a band is never drawn narrower
+_MOST = 300  # nodes
+_LETTER = 0.62 / 72  # inches of a letter by points of its size, on the average
+_HEAD, _FOOT = 0.6, 0.45  # inches above and below
+_HALO = (Stroke(linewidth=3.0, foreground="white"),)
+_MOVE, _LINE, _CURVE, _CLOSE = map(int, (Path.MOVETO, Path.LINETO, Path.CURVE4, Path.CLOSEPOLY))
+_ROUND = 0.5523  # of a quarter circle by a cubic
+
+
+def power_figure(flow: PowerFlow, title: str, watts: float | None = None) -> Figure:
+    """Bands as wide as their powers, in shares of the power put in; what circles runs back above.
+
+    watts   in one unit of power, where that is known
+    Raises `GearTrainError` where no power flows, or through too many nodes to be seen.
+    """
+    if not flow.streams or not flow.power_in:
+        raise GearTrainError(Problem("there is no flow of power to draw", title, "give loads to links that turn"))
+    if len(flow.nodes) > _MOST:
+        raise GearTrainError(
+            Problem(f"power passes {len(flow.nodes)} shafts and pairs, too many for a picture", "", "draw a part of it")
+        )
+    words = _Words(flow, watts)
+    placed = lay_out_sankey(flow, words.width, words.loss_width, WIDTH)
+    title = fill(title, int(placed.width / (TEXT * _LETTER)) + 8)
+    head = _HEAD + 0.17 * title.count("\n")
+    height = placed.height + head + _FOOT
+    figure = Figure(figsize=(placed.width, height), dpi=100)
+    axes = figure.add_axes((0.0, 0.0, 1.0, 1.0))
+    axes.set_xlim(0.0, placed.width)
+    axes.set_ylim(placed.low + placed.height + _FOOT, placed.low - head)
+    axes.set_axis_off()
+    for turn in placed.turns:
+        _back(axes, placed, turn)
+    for band in placed.bands:
+        _ahead(axes, placed, band)
+    for spot in placed.spots:
+        if spot.node:
+            _spot(axes, placed, spot, spot.node, words)
+    _loops(axes, placed, flow)
+    axes.text(0.1, placed.low - head + 0.12, title, fontsize=TEXT, color=BLACK, va="top", parse_math=False)
+    figure.legend(handles=list(_legend(placed)), loc="lower center", ncols=6, fontsize=SMALL, frameon=False)
+    return figure
+
+
+class _Words:
+    """What stands at nodes, in shares of the power put in."""
+
+    def __init__(self, flow: PowerFlow, watts: float | None) -> None:
+        self.whole, self.watts = flow.power_in, watts
+
+    def lines(self, node: PowerNode, power: Fraction) -> tuple[str, str]:
+        """Name and amount."""
+        amount = percent_text(power / self.whole)
+        if node.kind == "bearing":
+            return f"bearing {node.name}", amount
+        if node.kind in ("in", "out"):
+            own = f"{float(power):.4g}" if self.watts is None else watts_text(float(power) * self.watts)
+            return f"{node.name} {node.kind}", own if node.kind == "in" else f"{own}, {amount}"
+        return node.name, amount
+
+    def width(self, node: PowerNode, power: Fraction) -> float:
+        """Of the longer line, in inches."""
+        return max(map(len, self.lines(node, power))) * SMALL * _LETTER
+
+    def loss(self, node: PowerNode, power: Fraction) -> str:
+        """What a node loses."""
+        return f"{'teeth' if node.kind == 'pair' else 'bearing'} {percent_text(power / self.whole, 3)}"
+
+    def loss_width(self, node: PowerNode, power: Fraction) -> float:
+        """Of what a node loses, in inches."""
+        return len(self.loss(node, power)) * SMALL * _LETTER
+
+
+# --------------------------------------------------------------------------------------------------------------- bands
+
+
+def _ahead(axes: Axes, placed: SankeyLayout, band: Sequence[BandSegment]) -> None:
+    """A band that leads on: what circles above, what passes below."""
+    circling = float(band[0].stream.circling) * placed.scale
+    for top, width, color in ((0.0, circling, PURPLE), (circling, band[0].width - circling, SKY)):
+        if width > 0:
+            _ribbon(axes, placed, band, top, width, color)
+
+
+def _ribbon(
+    axes: Axes, placed: SankeyLayout, band: Sequence[BandSegment], shift: float, width: float, color: str
+) -> None:
+    """A part of a band from its first column to its last, with a notch where power enters and a tip where it leaves."""
+    upper: list[tuple[float, float]] = []
+    codes: list[int] = []
+    for piece in band:
+        left = placed.x[piece.source.column] + piece.source.width / 2
+        right = placed.x[piece.target.column] - piece.target.width / 2
+        middle, start, end = (left + right) / 2, piece.start + shift, piece.end + shift
+        upper += [(left, start), (middle, start), (middle, end), (right, end)]
+        codes += [_LINE, *[_CURVE] * 3]
+    lower = [(x, y + width) for x, y in reversed(upper)]
+    depth = min(0.15, width / 2)
+    enters, leaves = (end.kind in ("in", "out") for end in (band[0].stream.source, band[0].stream.target))
+    (x, y), (far, last) = upper[0], upper[-1]
+    tip, notch = far + depth * leaves, x + depth * enters
+    points = [*upper, (tip, last + width / 2), *lower, (notch, y + width / 2), upper[0]]
+    _fill(axes, points, [_MOVE, *codes[1:], _LINE, *codes, _LINE, _CLOSE], color)
+
+
+def _fill(axes: Axes, points: list[tuple[float, float]], codes: list[int], color: str, zorder: float = 2.0) -> None:
+    axes.add_patch(
+        PathPatch(Path(points, codes), facecolor=color, edgecolor=color, linewidth=_FINEST, alpha=0.6, zorder=zorder)
+    )
+
+
+def _back(axes: Axes, placed: SankeyLayout, turn: ReturnBand) -> None:
+    """A band that runs back: out to the right, up, leftwards above everything, down and in."""
+    piece, w = turn.piece, turn.piece.width
+    right = placed.x[piece.source.column] + piece.source.width / 2
+    left = placed.x[piece.target.column] - piece.target.width / 2
+    inner = _track(right, right + turn.right, left, left - turn.left, piece.start, piece.end, turn.lane + w, TURN)
+    outer = _track(
+        right, right + turn.right + w, left, left - turn.left - w, piece.start + w, piece.end + w, turn.lane, TURN + w
+    )
+    points = [*inner, *reversed(outer), inner[0]]
+    edge = [*[_LINE, *[_CURVE] * 3] * 4, _LINE]
+    _fill(axes, points, [_MOVE, *edge, _LINE, *edge, _CLOSE], PURPLE, 1.0)
+
+
+def _track(
+    right: float, far: float, left: float, near: float, start: float, end: float, lane: float, r: float
+) -> list[tuple[float, float]]:
+    """One edge of a band that runs back, as corners of radius r."""
+    k = r * (1 - _ROUND)
+    return [
+        (right, start),
+        (far - r, start), (far - k, start), (far, start - k), (far, start - r),
+        (far, lane + r), (far, lane + k), (far - k, lane), (far - r, lane),
+        (near + r, lane), (near + k, lane), (near, lane + k), (near, lane + r),
+        (near, end - r), (near, end - k), (near + k, end), (near + r, end),
+        (left, end),
+    ]  # fmt: skip
+
+
+# --------------------------------------------------------------------------------------------------------------- nodes
+
+
+def _spot(axes: Axes, placed: SankeyLayout, spot: SankeySpot, node: PowerNode, words: _Words) -> None:
+    x = placed.x[spot.column]
+    if spot.width:
+        pair = node.kind != "shaft"
+        axes.add_patch(
+            Rectangle(
+                (x - spot.width / 2, spot.top),
+                spot.width,
+                max(spot.height, 0.03),
+                facecolor="white" if pair else BLACK,
+                edgecolor=BLACK,
+                linewidth=1.2,
+                zorder=3,
+                gid=f"{node.kind} {node.name}",
+            )
+        )
+    name, amount = words.lines(node, spot.power)
+    color = {"in": BLUE, "out": GREEN}.get(node.kind, BLACK)
+    weight = "normal" if node.kind == "pair" else "bold"
+    _write(axes, x, spot.top - 0.21, name, color, va="bottom", fontweight=weight)
+    _write(axes, x, spot.top - 0.05, amount, color if spot.width == 0 else GREY, va="bottom")
+    if spot.shed:
+        _shed(axes, spot, x + spot.width / 2, words.loss(node, placed.sheds[node]))
+
+
+def _shed(axes: Axes, spot: SankeySpot, x: float, text: str) -> None:
+    """What is lost leaves at the lower right corner and falls."""
+    w, r, k = spot.shed, BEND, _ROUND
+    y = spot.top + spot.height
+    far, neck = x + r + w, y + DROP
+    middle, wing, tip = x + r + w / 2, max(0.65 * w, 0.05), neck + spot.head
+    points = [
+        (x, y - w), (x + k * (r + w), y - w), (far, y + r - k * (r + w)), (far, y + r), (far, neck),
+        (middle + wing, neck), (middle, tip), (middle - wing, neck), (x + r, neck),
+        (x + r, y + r), (x + r, y + r - k * r), (x + k * r, y), (x, y), (x, y - w),
+    ]  # fmt: skip
+    codes = [_MOVE, *[_CURVE] * 3, *[_LINE] * 6, *[_CURVE] * 3, _CLOSE]
+    _fill(axes, points, codes, RED, 4.0)
+    _write(axes, middle, tip + 0.03, text, RED, va="top")
+
+
+def _write(axes: Axes, x: float, y: float, text: str, color: str, **how: Any) -> None:
+    """A word, and a halo behind it: a word with a halo of its own is mere outlines in a vector file."""
+    how = {"ha": "center", "fontsize": SMALL, "color": color, "zorder": 5, **how}
+    axes.text(x, y, text, path_effects=_HALO, parse_math=False, **how)
+    axes.text(x, y, text, parse_math=False, **how)
+
+
+def _loops(axes: Axes, placed: SankeyLayout, flow: PowerFlow) -> None:
+    """How much circles in each loop, in the middle of the highest band of it that runs back."""
+    for loop in flow.loops:
+        turn = min(
+            (turn for turn in placed.turns if turn.piece.stream.source in loop.nodes), key=lambda each: each.lane
+        )
+        piece = turn.piece
+        x = (placed.x[piece.source.column] + placed.x[piece.target.column]) / 2
+        text = f"{percent_of_text(loop.power / flow.power_in, 'the power in')} circulates"
+        _write(axes, x, turn.lane + piece.width / 2, text, BLACK, va="center", fontsize=TEXT)
+
+
+def _legend(placed: SankeyLayout) -> Iterator[Patch | Line2D]:
+    yield Patch(facecolor=BLACK, label="shaft")
+    yield Patch(facecolor="white", edgecolor=BLACK, label="pair")
+    yield Patch(facecolor=SKY, alpha=0.6, label="power")
+    if placed.turns:
+        yield Patch(facecolor=PURPLE, alpha=0.6, label="power that circles")
+    if placed.sheds:
+        yield Patch(facecolor=RED, alpha=0.6, label="lost")

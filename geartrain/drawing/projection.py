@@ -1,0 +1,160 @@
+"""A scene as it stands on paper after some turns: outlines of wheels, arms, pins, seen from a direction."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from geartrain.drawing.backend import Axes
+from geartrain.scene import Scene, SceneWheel
+from geartrain.scene.pose import ScenePose, scene_pose
+
+if TYPE_CHECKING:
+    from geartrain.numerics.arrays import Floats
+
+
+_OBLIQUE = (0.52, -0.62, 0.59)  # towards the reader, of trains that do not lie in one plane
+_MOST = 0.7  # of the wheels that must face the reader in a plan; the others are then seen from the side
+_NARROW = 0.72  # of the pitch radius of a bevel wheel at its wide end, at its narrow end
+_ROUND = 73  # points of a circle
+_FINE = 5000  # teeth beyond which nobody sees them on paper: such a wheel is drawn as a circle
+
+
+@dataclass(frozen=True, slots=True)
+class ProjectedScene:
+    """A scene in a pose, and the directions right, up and towards the reader as rows of `screen` (3, 3)."""
+
+    scene: Scene
+    pose: ScenePose
+    screen: Floats
+
+    @property
+    def flat(self) -> bool:
+        """True if most wheels face the reader."""
+        return sum(map(self.faces, self.scene.wheels)) >= _MOST * len(self.scene.wheels)
+
+    def faces(self, wheel: SceneWheel) -> bool:
+        """True if a wheel is seen along its axis."""
+        return abs(float(self.axis(wheel) @ self.screen[2])) > 1 - 1e-9
+
+    def seen(self, points: object) -> Floats:
+        """Right, up and towards the reader of points (..., 3)."""
+        return np.asarray(np.asarray(points, dtype=float) @ self.screen.T)
+
+    def axis(self, wheel: SceneWheel) -> Floats:
+        """Unit vector along the axis of a wheel, towards its body's direction."""
+        return self.pose.way(wheel.body, wheel.direction)
+
+    def centre(self, wheel: SceneWheel) -> Floats:
+        """Middle of the pitch circle of a wheel."""
+        return self.pose.point(wheel.body, wheel.centre)
+
+    def outline(self, wheel: SceneWheel, scale: float = 1.0, height: float = 0.0, chord: float = 0.0) -> Floats:
+        """Teeth of a wheel (points, 3) times `scale`, moved along its axis by `height` (mm).
+
+        chord   how far (mm) points that are left out may lie beside the line
+        """
+        profile = self.scene.profiles[wheel.profile]
+        tooth = thinned(np.array(profile.points), chord / (wheel.radius * scale))
+        if profile.hole or wheel.teeth > _FINE:
+            return self.circle(wheel, wheel.tip * scale, height)
+        radius = wheel.radius * scale * np.tile(tooth[:-1, 0], wheel.teeth)
+        steps = 2 * np.pi / wheel.teeth * np.arange(wheel.teeth)
+        return self._around(wheel, radius, wheel.turn + (steps[:, None] + tooth[None, :-1, 1]).ravel(), height)
+
+    def circle(self, wheel: SceneWheel, radius: float, height: float = 0.0) -> Floats:
+        """A circle about a wheel's axis (points, 3)."""
+        angle = np.linspace(0, 2 * np.pi, _ROUND)
+        return self._around(wheel, np.full(_ROUND, radius), angle, height)
+
+    def pins(self, wheel: SceneWheel) -> Iterator[Floats]:
+        """The pins of a lantern, (points, 3) each; of other wheels none."""
+        profile = self.scene.profiles[wheel.profile]
+        if profile.hole and wheel.teeth <= _FINE:
+            tooth = np.array(profile.points)
+            for at in range(wheel.teeth):
+                angle = wheel.turn + 2 * np.pi * at / wheel.teeth + tooth[:, 1]
+                yield self._around(wheel, wheel.radius * tooth[:, 0], angle, 0.0)
+
+    def _around(self, wheel: SceneWheel, radius: Floats, angle: Floats, height: float) -> Floats:
+        along, first = np.array(wheel.direction), np.array(wheel.reference)
+        second = np.cross(along, first)
+        ring = np.cos(angle)[:, None] * first + np.sin(angle)[:, None] * second
+        return self.pose.point(wheel.body, np.array(wheel.centre) + radius[:, None] * ring + height * along)
+
+    def ends(self, wheel: SceneWheel) -> tuple[tuple[float, float], tuple[float, float]]:
+        """Height along the axis (mm) and scale of the two ends of a wheel; of a bevel wheel the wide end first."""
+        half = wheel.thickness / 2
+        if wheel.cone <= 0 or wheel.cone > np.pi / 2 - 1e-6:
+            return (half, 1.0), (-half, 1.0)
+        apex = -wheel.facing * wheel.radius / np.tan(wheel.cone)
+        return (0.0, 1.0), ((1 - _NARROW) * float(apex), _NARROW)
+
+
+def thinned(tooth: Floats, chord: float) -> Floats:
+    """The fewest of a line's points (radius, angle) that keep it within `chord` of itself (Douglas and Peucker)."""
+    x, y = tooth[:, 0] * np.cos(tooth[:, 1]), tooth[:, 0] * np.sin(tooth[:, 1])
+    kept, waiting = {0, len(tooth) - 1}, [(0, len(tooth) - 1)]
+    while waiting:
+        low, high = waiting.pop()
+        u, v = x[high] - x[low], y[high] - y[low]
+        between = slice(low + 1, high)
+        off = abs((x[between] - x[low]) * v - (y[between] - y[low]) * u) / (np.hypot(u, v) or 1.0)
+        if high - low > 1 and off.max() > chord:
+            middle = low + 1 + int(off.argmax())
+            kept.add(middle)
+            waiting += [(low, middle), (middle, high)]
+    return tooth[sorted(kept)]
+
+
+def project_scene(scene: Scene, turns: Fraction) -> ProjectedScene:
+    """A scene after some turns of its lead, from the front where most axes are parallel, else obliquely."""
+    posed = scene_pose(scene, turns)
+    front = ProjectedScene(scene, posed, np.diag([float(scene.front), 1.0, float(scene.front)]))
+    return front if front.flat else ProjectedScene(scene, posed, _screen(np.array(_OBLIQUE)))
+
+
+def _screen(view: Floats) -> Floats:
+    towards = view / np.linalg.norm(view)
+    right = np.cross([0.0, 0.0, 1.0], towards)
+    right /= np.linalg.norm(right)
+    return np.array([right, np.cross(towards, right), towards])
+
+
+class ScaledPage:
+    """Axes in inches on which millimetres are drawn.
+
+    foot      height of the words below the side view
+    remarks   what is to be told at the foot of the page
+    """
+
+    def __init__(self, axes: Axes, scale: float, shift: Floats, foot: float = 0.0) -> None:
+        self.axes, self.scale, self.shift, self.foot = axes, scale, shift, foot
+        self.remarks: list[str] = []
+
+    def at(self, seen: Floats) -> Floats:
+        """Inches (..., 2) of what is seen (..., 3)."""
+        return np.asarray(seen[..., :2] * self.scale + self.shift)
+
+
+def arms_of(standing: ProjectedScene) -> Iterator[tuple[int, Floats, Floats]]:
+    """Body, own axis and borne axis of every arm of a carrier, as points of space."""
+    scene = standing.scene
+    seen = set()
+    for at, body in enumerate(scene.bodies):
+        if body.parent is None or scene.bodies[body.parent].role != "carrier":
+            continue
+        ends = standing.pose.point(body.parent, scene.bodies[body.parent].point), standing.pose.point(at, body.point)
+        key = (body.parent, *np.round(ends[1], 6))
+        if key not in seen:
+            seen.add(key)
+            yield body.parent, *ends
+
+
+def broken_wheels(scene: Scene) -> set[str]:
+    """Wheels of pairs in a loop that does not close."""
+    return {scene.wheels[wheel].id for pair in scene.pairs if pair.broken for wheel in pair.wheels}

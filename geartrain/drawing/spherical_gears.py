@@ -1,0 +1,92 @@
+"""A sphere and its gears, seen from afar: the near ones over the far ones, teeth where they stand."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from geartrain.drawing.backend import Figure, Polygon
+from geartrain.drawing.style import BLACK, BLUE, GREEN, GREY, ORANGE, PALE, PURPLE, RED, SKY, SMALL
+
+if TYPE_CHECKING:
+    from geartrain.numerics.arrays import Floats
+    from geartrain.spherical import Configuration
+
+
+_SIZE = 7.5  # inches
+_VIEW = (0.32, -0.43, 0.84)  # towards the reader
+_TOOTH = np.array([-0.30, -0.17, 0.17, 0.30])  # foot, tip, tip, foot, in pitches from the middle of a tooth
+_TIP, _FOOT = 0.9, -1.1  # modules from the pitch cone
+_COLOURS = (BLUE, ORANGE, GREEN, RED, PURPLE, SKY)
+
+
+def sphere_figure(
+    configuration: Configuration, cones: Floats, phases: Sequence[float], view: tuple[float, float, float] = _VIEW
+) -> Figure:
+    """Every gear of a set on its sphere.
+
+    cones    half angle of each pitch cone (rad)
+    phases   of each gear, in pitches: a tooth stands that far past the gear's own zero direction
+    view     direction towards the reader
+    """
+    figure = Figure(figsize=(_SIZE, _SIZE), dpi=100, layout="constrained")
+    axes = figure.subplots()
+    axes.set_aspect("equal")
+    axes.set_axis_off()
+    axes.set_xlim(-1.12, 1.12)
+    axes.set_ylim(-1.12, 1.12)
+    screen = _screen(np.asarray(view, dtype=float))
+    kinds = list(dict.fromkeys(configuration.kinds))
+    towards = configuration.axes @ screen[2]
+    _draw_sphere(axes)
+    for i in np.argsort(towards * np.cos(cones)):
+        near = towards[i] > 0
+        colour = _COLOURS[kinds.index(configuration.kinds[i]) % len(_COLOURS)] if near else PALE
+        ring = _outline(configuration, int(i), float(cones[i]), float(phases[i])) @ screen.T
+        axes.add_patch(Polygon(ring[:, :2], facecolor=colour, edgecolor=BLACK, linewidth=0.5, alpha=1 if near else 0.5))
+        if near:
+            _draw_axle(axes, configuration.axes[i] @ screen.T)
+    _legend(axes, configuration, kinds)
+    return figure
+
+
+def _screen(view: Floats) -> Floats:
+    """Rows: right, up and towards the reader."""
+    towards = view / np.linalg.norm(view)
+    right = np.cross([0.0, 0.0, 1.0], towards)
+    if np.linalg.norm(right) < 1e-9:
+        right = np.array([1.0, 0.0, 0.0])
+    right /= np.linalg.norm(right)
+    return np.array([right, np.cross(towards, right), towards])
+
+
+def _outline(configuration: Configuration, i: int, cone: float, phase: float) -> Floats:
+    """A wheel with its teeth as points of the unit sphere, (points, 3)."""
+    count = configuration.teeth[configuration.kinds[i]]
+    module = 2 * np.sin(cone) / count
+    polar = cone + module * np.tile([_FOOT, _TIP, _TIP, _FOOT], count)
+    azimuth = 2 * np.pi / count * (phase + np.repeat(np.arange(count), len(_TOOTH)) + np.tile(_TOOTH, count))
+    first, second = configuration.frame(i)
+    around = np.cos(azimuth)[:, None] * first + np.sin(azimuth)[:, None] * second
+    ring: Floats = np.cos(polar)[:, None] * configuration.axes[i] + np.sin(polar)[:, None] * around
+    return ring
+
+
+def _draw_sphere(axes: Any) -> None:
+    angle = np.linspace(0, 2 * np.pi, 200)
+    axes.plot(np.cos(angle), np.sin(angle), color=GREY, linewidth=0.8)
+
+
+def _draw_axle(axes: Any, point: Floats) -> None:
+    axes.plot(point[0], point[1], marker="o", markersize=2.5, color=BLACK)
+
+
+def _legend(axes: Any, configuration: Configuration, kinds: list[str]) -> None:
+    for at, kind in enumerate(kinds):
+        number = configuration.kinds.count(kind)
+        text = f"{kind}: {number} of {configuration.teeth[kind]} teeth"
+        axes.plot([], [], marker="o", linestyle="", color=_COLOURS[at % len(_COLOURS)], label=text)
+    axes.legend(loc="lower left", frameon=False, fontsize=SMALL)
+    axes.set_title(configuration.title)

@@ -1,0 +1,233 @@
+"""Levels on which the axes of a skeleton lie, so that little crosses and nothing hides another thing.
+
+Columns of a stick diagram: meshes that share a wheel stand together, and none hides another.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from itertools import pairwise
+
+from geartrain.analysis.gear_train import GearTrain
+from geartrain.drawing.arrangement import arrange, neighbours
+from geartrain.kinematics.circuits import Circuit
+
+_NEAREST = 9  # levels tried for an axis
+
+
+@dataclass(slots=True)
+class StickShaft:
+    """A link on its axis: height, ends and whether the frame bears it; the frame itself has none."""
+
+    link: str
+    axis: str
+    y: float = 0.0
+    xs: list[float] = field(default_factory=list)
+
+
+def find_levels(
+    order: Sequence[str], shafts: dict[str, StickShaft], spans: Sequence[tuple[str, str, float]]
+) -> list[list[str]]:
+    """Axes on common levels, from below, where they leave each other room.
+
+    spans   uprights between two axes, at their column. One axis after the other takes the level nearest to those it
+            is joined to, at which least is crossed.
+    """
+    ends = {axis: _ends(axis, shafts) for axis in order}
+    level: dict[str, int] = {}
+    for axis in _walk(order, [(one, other) for one, other, _ in spans]):
+        near = [level[mate] for one, other, _ in spans for mate in _mate(axis, one, other) if mate in level]
+        middle = round(sum(near) / len(near)) if near else 0
+        trials = [
+            middle + step for step in sorted(range(-len(order), len(order) + 1), key=lambda step: (abs(step), step))
+        ]
+        free = [each for each in trials if each not in near and _fits(axis, each, level, ends)]
+        level[axis] = min(free[:_NEAREST], key=lambda each: _cost(axis, each, level, ends, spans))
+    levels = sorted(set(level.values()))
+    return [[axis for axis in order if level[axis] == each] for each in levels]
+
+
+def _mate(axis: str, one: str, other: str) -> list[str]:
+    return [other] if axis == one else [one] if axis == other else []
+
+
+def _ends(axis: str, shafts: dict[str, StickShaft]) -> tuple[float, float]:
+    """What an axis takes of its level, with the names before and after it."""
+    own = [shaft for shaft in shafts.values() if shaft.axis == axis]
+    left = min(min(shaft.xs) - 0.25 - 0.085 * len(shaft.link) for shaft in own)
+    return left, max(max(shaft.xs) for shaft in own) + 0.35 + 0.065 * len(axis)
+
+
+def _fits(axis: str, here: int, level: dict[str, int], ends: dict[str, tuple[float, float]]) -> bool:
+    left, right = ends[axis]
+    return all(right < ends[other][0] or ends[other][1] < left for other, each in level.items() if each == here)
+
+
+def _cost(
+    axis: str,
+    here: int,
+    level: dict[str, int],
+    ends: dict[str, tuple[float, float]],
+    spans: Sequence[tuple[str, str, float]],
+) -> float:
+    """Lengths of the axis' own uprights, and what crosses what; uprights on each other are worst."""
+    cost = 0.3 * abs(here)
+    placed = {**level, axis: here}
+    known = [(*sorted((placed[one], placed[other])), x, axis in (one, other)) for one, other, x in spans
+             if one in placed and other in placed]  # fmt: skip
+    for low, high, x, own in known:
+        if own:
+            cost += high - low
+            cost += 2 * sum(low < each < high and ends[other][0] < x < ends[other][1] for other, each in level.items())
+            cost += 20 * sum(x == at and low < top and bottom < high for bottom, top, at, mine in known if not mine)
+        else:
+            cost += 2 * (low < here < high and ends[axis][0] < x < ends[axis][1])
+    return cost
+
+
+def _walk(order: Sequence[str], pairs: Sequence[tuple[str, str]]) -> list[str]:
+    """The axes from the one with most mates on, each after one it is joined to."""
+    mates = neighbours(order, pairs)
+    seen: dict[str, None] = {}
+    for start in sorted(order, key=lambda axis: -len(set(mates[axis]))):
+        queue = [start]
+        while queue:
+            here = queue.pop(0)
+            if here not in seen:
+                seen[here] = None
+                queue += [mate for mate in mates[here] if mate not in seen]
+    return list(seen)
+
+
+COLUMN, _PLANE = 0.3, 0.34  # inches from mesh to mesh within a plane, and between planes
+_CRANK = 0.3  # inches that a carrier's crank takes before a plane
+
+
+@dataclass(frozen=True, slots=True)
+class StickCrank:
+    """A carrier's arm at `x`, from its own shaft to the axis it bears."""
+
+    carrier: str
+    axis: str
+    x: float
+
+
+def axis_in(train: GearTrain, axis_of: dict[str, str], link: str, carrier: str) -> str:
+    """The axis on which a link stands in a mesh; the frame, on that of the mesh's carrier."""
+    return axis_of[link] or axis_of[carrier]
+
+
+def find_planes(train: GearTrain) -> list[list[Circuit]]:
+    """Meshes that share a wheel, together; planes in an order in which each link's stand close."""
+    circuits = {circuit.id: circuit for circuit in train.circuits}
+    by_wheel: dict[str, list[str]] = {}
+    for circuit in train.circuits:
+        for wheel in circuit.wheels if circuit.kind == "gear" else ():
+            by_wheel.setdefault(wheel, []).append(circuit.id)
+    mates = neighbours(list(circuits), [pair for names in by_wheel.values() for pair in pairwise(names)])
+    planes: dict[str, list[str]] = {}
+    seen: set[str] = set()
+    for name in circuits:
+        found, queue = [], [name]
+        while queue:
+            here = queue.pop(0)
+            if here not in seen:
+                seen.add(here)
+                found.append(here)
+                queue.extend(mates[here])
+        if found:
+            planes[name] = found
+    home = {name: plane for plane, names in planes.items() for name in names}
+    by_link: dict[str, list[str]] = {}
+    for circuit in train.circuits:
+        for link in (circuit.i, circuit.j):
+            if link != train.declaration.frame:
+                by_link.setdefault(link, []).append(home[circuit.id])
+    order = arrange(list(planes), [pair for names in by_link.values() for pair in pairwise(names)])
+    return [[circuits[name] for name in planes[plane]] for plane in order]
+
+
+def find_columns(
+    train: GearTrain,
+    planes: Sequence[Sequence[Circuit]],
+    row: dict[str, int],
+    axis_of: dict[str, str],
+    shafts: dict[str, StickShaft],
+) -> tuple[list[tuple[Circuit, float]], list[StickCrank], list[tuple[str, float]], float]:
+    """A column for every mesh; a crank before the first plane in which a borne axis meshes."""
+    columns: list[tuple[Circuit, float]] = []
+    cranks: list[StickCrank] = []
+    borne: set[str] = set()
+    x = 0.0
+    for plane in planes:
+        taken: list[list[tuple[float, float]]] = []
+        for circuit in plane:
+            for axis in (axis_of[circuit.i], axis_of[circuit.j]):
+                bearer = _bearer(train, axis, axis_of)
+                if axis and axis not in borne and bearer is not None:
+                    borne.add(axis)
+                    x += _CRANK
+                    cranks.append(StickCrank(bearer, axis, x))
+        x += _PLANE
+        for circuit in plane:
+            column = _free(taken, circuit, train, axis_of, row)
+            here = x + column * COLUMN
+            columns.append((circuit, here))
+            for link in (circuit.i, circuit.j):
+                if link in shafts:
+                    ring = ring_of(train, circuit)
+                    own = ring and train.declaration.wheels[ring][0] == link
+                    shafts[link].xs.append(here + (COLUMN if own else 0.0))
+        x += len(taken) * COLUMN
+    meshing = {wheel for circuit in train.circuits for wheel in circuit.wheels if circuit.kind == "gear"}
+    lone = []
+    for name, (link, _) in train.declaration.wheels.items():
+        if name not in meshing and link in shafts:
+            x += _PLANE + COLUMN
+            lone.append((name, x))
+            shafts[link].xs.append(x)
+    return columns, cranks, lone, x + _PLANE
+
+
+def _bearer(train: GearTrain, axis: str, axis_of: dict[str, str]) -> str | None:
+    """The moving link that bears an axis."""
+    tops = (train.tree.top[link] for link, own in axis_of.items() if own == axis and link in train.tree.top)
+    return next((top for top in tops if top != train.declaration.frame), None)
+
+
+def ring_of(train: GearTrain, circuit: Circuit) -> str:
+    """The wheel of a pair that is a ring, or nothing."""
+    if circuit.kind != "gear":
+        return ""
+    return next((wheel for wheel in circuit.wheels if train.declaration.wheels[wheel][1].internal), "")
+
+
+def _free(
+    taken: list[list[tuple[float, float]]],
+    circuit: Circuit,
+    train: GearTrain,
+    axis_of: dict[str, str],
+    row: dict[str, int],
+) -> int:
+    """The first column of a plane in which a mesh hides no other; a ring takes the next one for its upright too."""
+    one, other = (row[axis_in(train, axis_of, link, circuit.carrier)] for link in (circuit.i, circuit.j))
+    low, high = float(min(one, other)), float(max(one, other))
+    ring = ring_of(train, circuit)
+    spans = [(low, high)]
+    if ring:
+        planet = other if train.declaration.wheels[ring][0] == circuit.i else one
+        beyond = (planet, planet + 0.4) if planet == high else (planet - 0.4, planet)
+        spans = [beyond, (min(low, beyond[0]), max(high, beyond[1]))]
+    at = 0
+    while not all(_clear(taken, at + step, span) for step, span in enumerate(spans)):
+        at += 1
+    for step, span in enumerate(spans):
+        while len(taken) <= at + step:
+            taken.append([])
+        taken[at + step].append(span)
+    return at
+
+
+def _clear(taken: list[list[tuple[float, float]]], column: int, span: tuple[float, float]) -> bool:
+    return column >= len(taken) or all(span[1] <= low or high <= span[0] for low, high in taken[column])

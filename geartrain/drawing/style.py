@@ -1,0 +1,144 @@
+"""Colours, sizes and wording that the figures share.
+
+Words on a picture where there is room for them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
+from math import degrees, floor
+from textwrap import fill
+from typing import TYPE_CHECKING, Any
+
+from geartrain.drawing.backend import Axes, Figure, Stroke, withStroke
+from geartrain.errors import GearTrainError, Problem, QuestionError
+from geartrain.teeth.triangular.real_path import STANDSTILL
+from geartrain.teeth.triangular.tooth_couple import APPROACH, RECESS
+from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
+
+if TYPE_CHECKING:
+    from geartrain.analysis.gear_train import GearTrain
+
+
+WIDTH = 9.0  # inches: 900 pixels at 100 dots per inch
+TEXT, SMALL = 11.0, 10.0  # points
+
+# colours that remain distinct to the colour-blind (Okabe and Ito)
+BLACK, GREY, PALE = "#222222", "#6e6e6e", "#bdbdbd"
+BLUE, SKY, GREEN, ORANGE, RED, PURPLE = "#0072b2", "#56b4e9", "#009e73", "#e69f00", "#d55e00", "#cc79a7"
+HALO = (withStroke(linewidth=3.0, foreground="white"),)  # keeps text readable over lines
+LETTER = 0.62 / 72  # inches of a letter by points of its size, on the average
+PHASES = {APPROACH: BLUE, RECESS: RED, STANDSTILL: BLACK}
+
+
+def pair_text(law: TriangularTransmission) -> str:
+    """Tooth numbers, half angle, clearance factor and friction of a law's pair, the driver first."""
+    sizes = law.sizes
+    betas = [f"{degrees(beta):.6g}°" for beta in (sizes.beta1, sizes.beta2)]
+    beta = betas[0] if betas[0] == betas[1] else ", ".join(betas)
+    backwards = "" if law.direction > 0 else ", backwards"
+    return (
+        f"{sizes.z1} drives {sizes.z2}{backwards}: half angle {beta}, clearance factor {1 + sizes.excess:.10g}, "
+        f"friction {law.friction:.6g}"
+    )
+
+
+def require_contact(law: TriangularTransmission) -> None:
+    """Raise `GearTrainError` where the pair has no teeth, or none that touch."""
+    if not law.sizes.has_valleys or not law.intervals:
+        raise GearTrainError(
+            Problem("this pair has no contact to draw", law.verdict.text, "change its teeth or its clearance")
+        )
+
+
+def plain(axes: Axes) -> None:
+    """Text of one size, a light grid, no box."""
+    axes.tick_params(labelsize=SMALL)
+    axes.grid(True, color=PALE, linewidth=0.5, alpha=0.6)
+    axes.set_axisbelow(True)
+    for side in ("top", "right"):
+        axes.spines[side].set_visible(False)
+
+
+def write(axes: Axes, x: float, y: float, text: str, color: str = BLACK, halo: float = 3.0, **how: Any) -> None:
+    """Words as they are, and a halo behind them: words with a halo of their own are mere outlines in a vector file."""
+    how = {"ha": "center", "va": "center", "fontsize": SMALL, "color": color, "zorder": 8, "parse_math": False, **how}
+    behind = {key: value for key, value in how.items() if key != "gid"}
+    axes.text(x, y, text, path_effects=(Stroke(linewidth=halo, foreground="white"),), **behind)
+    axes.text(x, y, text, **how)
+
+
+def sheet(width: float, height: float, title: str) -> tuple[Figure, Axes]:
+    """A figure whose axes are inches from its lower left corner, with a title at its top (two lines: 0.5 inches)."""
+    figure = Figure(figsize=(width, height), dpi=100)
+    axes = figure.add_axes((0.0, 0.0, 1.0, 1.0))
+    axes.set_xlim(0.0, width)
+    axes.set_ylim(0.0, height)
+    axes.set_axis_off()
+    room = int((width - 0.3) / (TEXT * LETTER))
+    words = fill(title, max(room, 20)).splitlines()
+    text = "\n".join(words[:2]) + (" ..." if len(words) > 2 else "")
+    axes.text(0.15, height - 0.12, text, fontsize=TEXT, color=BLACK, va="top", parse_math=False, gid="title")
+    return figure, axes
+
+
+def title_of(name: str, title: str) -> str:
+    """What stands above a picture of a train."""
+    return f"{name}: {title}" if title else name
+
+
+def too_many(train: GearTrain, count: int, most: int, what: str) -> None:
+    """Raise `QuestionError` where a picture would hold more than `most` of something."""
+    if count > most:
+        raise QuestionError(
+            Problem(
+                f"'{train.name}' has {count} {what}, too many for this picture",
+                f"a page holds {most} that can still be told apart",
+                "draw a part of it, or another kind of picture",
+            )
+        )
+
+
+Box = tuple[float, float, float, float]
+"""Middle, width and height, in inches."""
+
+
+_CELL = 0.5  # inches: boxes are looked for in the squares of a grid that they touch
+
+
+@dataclass(slots=True)
+class LabelSpace:
+    """What is taken already, by square of a grid. `left` counts the words that found no place."""
+
+    taken: dict[tuple[int, int], list[Box]] = field(default_factory=dict)
+    left: int = 0
+
+    def place(self, lines: Sequence[str], size: float, spots: Sequence[tuple[float, float]]) -> Box | None:
+        """The first of the spots (inches) at which the lines hide nothing; None where there is none."""
+        width = max(map(len, lines)) * size * LETTER + 0.04
+        height = len(lines) * 1.25 * size / 72
+        for x, y in spots:
+            box = (float(x), float(y), width, height)
+            squares = list(_squares(box))
+            if not any(overlap(box, other) for square in squares for other in self.taken.get(square, ())):
+                for square in squares:
+                    self.taken.setdefault(square, []).append(box)
+                return box
+        self.left += 1
+        return None
+
+
+def _squares(box: Box) -> Iterator[tuple[int, int]]:
+    """The squares that a box touches."""
+    x, y, width, height = box
+    for across in range(floor((x - width / 2) / _CELL), floor((x + width / 2) / _CELL) + 1):
+        for along in range(floor((y - height / 2) / _CELL), floor((y + height / 2) / _CELL) + 1):
+            yield across, along
+
+
+def overlap(one: Box, other: Box) -> float:
+    """The area two boxes share."""
+    across = (one[2] + other[2]) / 2 - abs(one[0] - other[0])
+    along = (one[3] + other[3]) / 2 - abs(one[1] - other[1])
+    return max(across, 0.0) * max(along, 0.0)

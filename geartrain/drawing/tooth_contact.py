@@ -1,0 +1,221 @@
+"""The two wheels of a pair at one moment, to scale."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from math import atan2, degrees, pi
+
+import numpy as np
+
+from geartrain.drawing.backend import Axes, Circle, FancyArrowPatch, Figure, Line2D, Path, Polygon
+from geartrain.drawing.style import (
+    BLACK,
+    GREY,
+    HALO,
+    ORANGE,
+    PHASES,
+    PURPLE,
+    SKY,
+    SMALL,
+    TEXT,
+    WIDTH,
+    pair_text,
+    require_contact,
+)
+from geartrain.drawing.triangular_pose import DRIVEN, DRIVER, ToothPairPose, tooth_pair_pose
+from geartrain.teeth.triangular.tooth_couple import APPROACH
+from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
+
+_FEW = 40  # teeth of both wheels, up to which they are drawn whole
+_SHAPE = 0.68  # height over width of the view of a few teeth
+_COLORS = {DRIVER: ORANGE, DRIVEN: SKY}
+_NAMES = {DRIVER: "driver", DRIVEN: "driven"}
+
+
+def teeth_figure(law: TriangularTransmission, alpha1: float | None = None, whole: bool | None = None) -> Figure:
+    """The wheels when the driving couple is at `alpha1` (rad); by default in the middle of the first interval.
+
+    Where no couple drives at alpha1, the moment at which some driver's tooth is there. Only the teeth near the
+    contact are drawn, or the wheels as a whole if `whole`, by default if they have few teeth. Raises `GearTrainError`
+    where no teeth touch.
+    """
+    require_contact(law)
+    here = tooth_pair_pose(law, alpha1)
+    whole = law.sizes.z1 + law.sizes.z2 <= _FEW if whole is None else whole
+    view = _whole(here) if whole else _near(here)
+    figure = Figure(figsize=(WIDTH, WIDTH * view.shape + 1.3), layout="constrained")
+    axes = figure.add_subplot()
+    axes.set_aspect("equal")
+    axes.set_xlim(view.left, view.right)
+    axes.set_ylim(view.bottom, view.top)
+    axes.set_axis_off()
+    for which in (DRIVER, DRIVEN):
+        _wheel(axes, here, which, view)
+        _turning(axes, here, which, view)
+    _line_of_centres(axes, here, view)
+    if here.touching:
+        _contact(axes, here, view)
+    axes.set_title(f"{pair_text(law)}\n{_moment(here)}", fontsize=TEXT, loc="left", color=BLACK)
+    figure.legend(handles=list(_legend(here)), loc="outside lower center", ncols=4, fontsize=SMALL, frameon=False)
+    return figure
+
+
+# ---------------------------------------------------------------------------------------------------------------- view
+
+
+@dataclass(frozen=True, slots=True)
+class ToothViewport:
+    """The part of the plane that is drawn, and whether it shows the wheels whole."""
+
+    left: float
+    right: float
+    bottom: float
+    top: float
+    whole: bool
+
+    @property
+    def shape(self) -> float:
+        """Height over width."""
+        return (self.top - self.bottom) / (self.right - self.left)
+
+    def within(self, here: ToothPairPose, which: int) -> float:
+        """The angle (rad) either side of the line of centres that holds all of a wheel in view."""
+        if self.whole:
+            return pi
+        z = here.wheel(which)[0]
+        near = self.left if which == DRIVER else here.sizes.D - self.right
+        if near <= 0:
+            return pi
+        return min(pi, atan2(max(self.top, -self.bottom), near) + 2 * pi / z)
+
+
+def _whole(here: ToothPairPose) -> ToothViewport:
+    sizes = here.sizes
+    rim, tall = 0.03 * sizes.D, max(sizes.R1, sizes.R2)
+    return ToothViewport(-sizes.R1 - rim, sizes.D + sizes.R2 + rim, -tall - rim, tall + rim, True)
+
+
+def _near(here: ToothPairPose) -> ToothViewport:
+    """Contact, instant centre and pitch point with a pitch or two about them."""
+    sizes = here.sizes
+    pitch = 2 * pi * sizes.D / (sizes.z1 + sizes.z2)
+    points = [(sizes.D * sizes.ratio / (1 + sizes.ratio), 0.0)]
+    if here.touching:
+        points += [here.contact, here.centre]
+    xs = [x for x, _ in points] + [here.wheel(DRIVER)[2], sizes.D - here.wheel(DRIVEN)[2], sizes.R1, sizes.D - sizes.R2]
+    ys = [y for _, y in points]
+    left, right, bottom, top = min(xs) - pitch, max(xs) + pitch, min(ys) - 1.5 * pitch, max(ys) + 1.5 * pitch
+    wider = max(0.0, (top - bottom) / _SHAPE - (right - left)) / 2
+    taller = max(0.0, (right - left) * _SHAPE - (top - bottom)) / 2
+    return ToothViewport(left - wider, right + wider, bottom - taller, top + taller, False)
+
+
+# -------------------------------------------------------------------------------------------------------------- wheels
+
+
+def _wheel(axes: Axes, here: ToothPairPose, which: int, view: ToothViewport) -> None:
+    sizes, (z, tip, _, _) = here.sizes, here.wheel(which)
+    color, name = _COLORS[which], _NAMES[which]
+    outline = here.outline(which, view.within(here, which))
+    axes.add_patch(Polygon(outline, facecolor=(color, 0.35), edgecolor=BLACK, linewidth=1.3, gid=name))
+    centre = tuple(here.place(which, 0.0, 0.0))
+    pitch = sizes.D * z / (sizes.z1 + sizes.z2)
+    for radius, style, width in ((tip, "-", 0.7), (pitch, "--", 1.1)):
+        axes.add_patch(_circle(centre, radius, style, width))
+
+
+def _circle(centre: tuple[float, ...], radius: float, style: str, width: float) -> Circle:
+    x, y = centre
+    return Circle((x, y), radius, fill=False, edgecolor=GREY, linestyle=style, linewidth=width)
+
+
+def _turning(axes: Axes, here: ToothPairPose, which: int, view: ToothViewport) -> None:
+    """An arrow the way a wheel turns, with its name, inside its body on the entry side."""
+    z, _, root, _ = here.wheel(which)
+    pitch = 2 * pi / z
+    if view.whole:
+        radius, first, last = 0.55 * root, 0.7, 0.2
+    else:
+        radius = root - 0.45 * pitch * root
+        high = (view.top if here.direction > 0 else -view.bottom) / radius
+        first, last = 0.9 * high, 0.9 * high - 0.8 * pitch
+    arc = here.place(which, radius, np.linspace(first, last, 30))
+    if which == DRIVER or here.touching:
+        arrow = FancyArrowPatch(path=Path(arc), arrowstyle="-|>", mutation_scale=18, linewidth=2.0, color=BLACK)
+        axes.add_patch(arrow)
+    x, y = arc[len(arc) // 2]
+    axes.annotate(
+        f"{_NAMES[which]}, {z} teeth",
+        (x, y),
+        xytext=(-12 if which == DRIVER else 12, 0),
+        textcoords="offset points",
+        ha="right" if which == DRIVER else "left",
+        va="center",
+        fontsize=TEXT,
+    )
+
+
+def _line_of_centres(axes: Axes, here: ToothPairPose, view: ToothViewport) -> None:
+    axes.axhline(0.0, color=GREY, linewidth=0.9, linestyle="-.")
+    if view.whole:
+        axes.plot([0.0, here.sizes.D], [0.0, 0.0], "+", color=BLACK, markersize=10)
+    for name, x, aside in (("$O_1$", 0.0, 1), ("$O_2$", here.sizes.D, -1)):
+        at = x if view.left < x < view.right else view.left if aside > 0 else view.right
+        text = name if at == x else f"to {name}"
+        _label(axes, text, (at, 0.0), (4 * aside, 8), aside)
+
+
+# ------------------------------------------------------------------------------------------------------------- contact
+
+
+def _contact(axes: Axes, here: ToothPairPose, view: ToothViewport) -> None:
+    """Contact point, normal and instant centre."""
+    (x, y), (cx, cy), (nx, ny) = here.contact, here.centre, here.normal
+    more = 0.12 * (view.top - view.bottom)
+    along = (cx - x) * nx + (cy - y) * ny
+    ends = np.array([min(0.0, along) - more, max(0.0, along) + more])
+    color = PHASES[here.phase]
+    axes.plot(x + ends * nx, y + ends * ny, color=color, linewidth=1.4, gid="normal")
+    axes.plot([x], [y], "o", color=color, markersize=7, zorder=5, gid="contact")
+    axes.plot([cx], [cy], "D", color=PURPLE, markersize=7, markeredgecolor=BLACK, zorder=5, gid="centre")
+    if here.phase == APPROACH:  # each label in the body whose flank is touched
+        _label(axes, "$V_2$", (x, y), (-11, 5 * here.direction), -1)
+    else:
+        _label(axes, "$V_1$", (x, y), (12, -4 * here.direction), 1)
+    _label(axes, "$C$", (cx, cy), (10, 11 * here.direction), 1)
+
+
+def _label(axes: Axes, text: str, at: tuple[float, float], offset: tuple[float, float], aside: int) -> None:
+    axes.annotate(
+        text,
+        at,
+        xytext=offset,
+        textcoords="offset points",
+        ha="left" if aside > 0 else "right",
+        va="center",
+        fontsize=TEXT + 1,
+        path_effects=HALO,
+        zorder=6,
+    )
+
+
+def _moment(here: ToothPairPose) -> str:
+    where = f"$\\alpha_1 = {degrees(here.alpha1):.4g}°$, $\\alpha_2 = {degrees(here.alpha2):.4g}°$"
+    if not here.touching:
+        return f"standstill: {where}; no tooth touches, the driven wheel stands"
+    return f"{here.phase}: {where}, speed ratio {here.tau:.4g}"
+
+
+def _legend(here: ToothPairPose) -> Iterator[Line2D]:
+    if here.touching:
+        color = PHASES[here.phase]
+        point = "driven apex on the driver's flank" if here.phase == APPROACH else "driver's apex on the driven flank"
+        yield Line2D([], [], color=color, marker="o", markersize=7, linestyle="none", label=point)
+        yield Line2D([], [], color=color, linewidth=1.2, label=f"normal $n_{here.phase[0]}$")
+        yield Line2D(
+            [], [], color=PURPLE, marker="D", markeredgecolor=BLACK, linestyle="none", label="instant centre $C$"
+        )
+    yield Line2D([], [], color=GREY, linestyle="--", label="pitch circles")
+    yield Line2D([], [], color=GREY, linewidth=0.7, label="tip circles")
+    yield Line2D([], [], color=GREY, linestyle="-.", linewidth=0.9, label="line of centres")

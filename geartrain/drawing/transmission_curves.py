@@ -1,0 +1,185 @@
+"""The law of a pair over the driver's angle: driven angle, speed ratio, sliding efficiency, ideal and real."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from math import degrees
+from textwrap import fill
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from geartrain.drawing.backend import Axes, Figure, Line2D
+from geartrain.drawing.style import BLACK, GREY, HALO, PHASES, SMALL, TEXT, WIDTH, pair_text, plain, require_contact
+from geartrain.teeth.triangular.real_path import STANDSTILL
+from geartrain.teeth.triangular.tooth_couple import APPROACH, RECESS
+from geartrain.teeth.triangular.triangular_transmission import SpeedJump, TriangularTransmission
+
+if TYPE_CHECKING:
+    from geartrain.numerics.arrays import Floats
+
+_SAMPLES = 401  # of each phase, and of each interval
+_LABELS = ("driven angle\n$\\alpha_2$ (deg)", "speed ratio\n$\\tau$", "sliding efficiency\n$\\eta$")
+_BEYOND = 4.0  # of the real range: how far an axis follows the ideal path beyond it
+
+
+def law_figure(law: TriangularTransmission) -> Figure:
+    """alpha_2 (deg), tau and sliding efficiency over alpha_1 (deg), which falls with time.
+
+    Thin lines are the ideal path of one couple of teeth, thick lines the real path of all of them. Raises
+    `GearTrainError` where no teeth touch.
+    """
+    require_contact(law)
+    figure = Figure(figsize=(WIDTH, 9.0), layout="constrained")
+    panels = figure.subplots(3, 1, sharex=True)
+    for row, axes in enumerate(panels):
+        _panel(axes, law, row)
+    _matching(panels, law)
+    _jumps(panels[1], law)
+    _time(panels[2])
+    panels[0].set_title(_title(law), fontsize=TEXT, loc="left", color=BLACK)
+    figure.legend(handles=list(_legend(law)), loc="outside lower center", ncols=4, fontsize=SMALL, frameon=False)
+    return figure
+
+
+# ------------------------------------------------------------------------------------------------------------- curves
+
+
+def _panel(axes: Axes, law: TriangularTransmission, row: int) -> None:
+    plain(axes)
+    axes.set_ylabel(_LABELS[row], fontsize=TEXT)
+    ideal, real = [], []
+    for phase, low, high in _phases(law):
+        x = np.linspace(low, high, _SAMPLES)
+        y = _values(law, phase, x)[row]
+        axes.plot(np.degrees(x), y, color=PHASES[phase], linewidth=1.2, gid=f"ideal {phase}")
+        ideal.append(y)
+    for interval in law.intervals:
+        x = np.linspace(interval.start, interval.end, _SAMPLES)
+        y = _values(law, interval.phase, x, interval.held)[row]
+        color = PHASES[interval.phase]
+        axes.plot(np.degrees(x), y, color=color, linewidth=4.0, solid_capstyle="butt", gid=f"real {interval.phase}")
+        axes.axvspan(degrees(interval.end), degrees(interval.start), color=color, alpha=0.08, linewidth=0)
+        real.append(y)
+    if row:
+        axes.set_ylim(*_limits(np.concatenate(ideal), np.concatenate(real)))
+
+
+def _phases(law: TriangularTransmission) -> Iterator[tuple[str, float, float]]:
+    """Each phase of the ideal path with its least and greatest alpha_1 (rad)."""
+    for phase in (RECESS, APPROACH):
+        pieces = [piece for piece in law.contact.path.pieces if piece.phase == phase]
+        if pieces:
+            yield phase, min(piece.low for piece in pieces), max(piece.high for piece in pieces)
+
+
+def _values(
+    law: TriangularTransmission, phase: str, x: Floats, held: float | None = None
+) -> tuple[Floats, Floats, Floats]:
+    """alpha_2 (deg), tau and efficiency at alpha_1 = x (rad); NaN where friction locks, and of a standstill."""
+    if held is not None:
+        return np.full_like(x, degrees(held)), np.zeros_like(x), np.full_like(x, np.nan)
+    couple = law.contact.path.couple
+    with np.errstate(all="ignore"):  # beyond the real path a flank may lean past the perpendicular
+        eta = couple.efficiency(phase, x, law.friction, np)
+        eta = np.where((eta >= 0) & (eta <= 1), eta, np.nan)
+        return np.degrees(couple.angle(phase, x, np)), couple.speed(phase, x, np), eta
+
+
+def _limits(ideal: Floats, real: Floats) -> tuple[float, float]:
+    """The real path whole, and the ideal path as far as it stays near."""
+    ideal, real = ideal[np.isfinite(ideal)], real[np.isfinite(real)]
+    if not len(real):
+        return 0.0, 1.0
+    low, high = float(real.min()), float(real.max())
+    more = _BEYOND * max(high - low, 1e-3 * abs(high))
+    bottom, top = max(low - more, min(low, float(ideal.min()))), min(high + more, max(high, float(ideal.max())))
+    rim = 0.07 * (top - bottom) or 0.05
+    return bottom - rim, top + rim
+
+
+# -------------------------------------------------------------------------------------------------------------- marks
+
+
+def _matching(panels: list[Axes], law: TriangularTransmission) -> None:
+    """A line where flank lies on flank, if that happens within reach."""
+    matching = law.sizes.matching
+    if abs(matching) >= law.sizes.reach1:
+        return
+    for axes in panels:
+        axes.axvline(degrees(matching), color=GREY, linewidth=1.0, linestyle="-.", gid="matching")
+    panels[0].annotate(
+        r"matching $\alpha_{1m}$ = " + f"{degrees(matching):.3g}°",
+        (degrees(matching), 0.03),
+        xycoords=("data", "axes fraction"),
+        xytext=(5, 0),
+        textcoords="offset points",
+        fontsize=SMALL,
+        color=GREY,
+    )
+
+
+def _jumps(axes: Axes, law: TriangularTransmission) -> None:
+    """Each collision: tau before it where the last couple let go, tau after it where the next one drives."""
+    turns = zip(law.intervals, (*law.intervals[1:], law.intervals[0]), strict=True)
+    hits = [(last, new) for last, new in turns if new.held is None]
+    for (last, new), jump in zip(hits, law.jumps, strict=True):
+        before, at = degrees(last.end), degrees(new.start)
+        axes.plot([before, at, at], [jump.before, jump.before, jump.after], color=GREY, linewidth=1.0, linestyle=":")
+        axes.plot([before], [jump.before], "o", color=BLACK, markerfacecolor="white", markersize=5, zorder=4)
+        axes.plot([at], [jump.after], "o", color=BLACK, markersize=5, zorder=4)
+        _jump_label(axes, jump)
+
+
+def _jump_label(axes: Axes, jump: SpeedJump) -> None:
+    """The relative jump, above and before its end in a path that rises to it: the free side of the corner."""
+    axes.annotate(
+        f"{'matching' if jump.kind == 'matching' else 'jump'} {jump.value:.4f}",
+        (degrees(jump.alpha1), jump.after),
+        xytext=(-4, 5),
+        textcoords="offset points",
+        ha="right",
+        va="bottom",
+        fontsize=SMALL,
+        color=BLACK,
+        path_effects=HALO,
+        gid="jump",
+    )
+
+
+def _time(axes: Axes) -> None:
+    """The driver's angle falls as time goes on."""
+    axes.set_xlabel(r"driver angle $\alpha_1$ (deg)", fontsize=TEXT)
+    axes.annotate(
+        "time",
+        (0.0, -0.2),
+        xytext=(0.16, -0.2),
+        xycoords="axes fraction",
+        textcoords="axes fraction",
+        va="center",
+        fontsize=TEXT,
+        arrowprops={"arrowstyle": "-|>", "color": BLACK, "linewidth": 1.5},
+    )
+
+
+def _title(law: TriangularTransmission) -> str:
+    low, high = law.speed_range()
+    least, greatest = law.error_range()
+    return "\n".join(
+        (
+            pair_text(law),
+            f"speed ratio {low:.4g} to {high:.4g}, mean efficiency {law.efficiency_mean():.4g}, "
+            f"transmission error {degrees(greatest - least):.4g}° peak to peak",
+            fill(f"{law.verdict.kind}: {law.verdict.text}", 100),
+        )
+    )
+
+
+def _legend(law: TriangularTransmission) -> Iterator[Line2D]:
+    driving = {interval.phase for interval in law.intervals}
+    for phase, _, _ in _phases(law):
+        if phase in driving:
+            yield Line2D([], [], color=PHASES[phase], linewidth=4.0, label=f"{phase}, real path")
+        yield Line2D([], [], color=PHASES[phase], linewidth=1.2, label=f"{phase}, ideal path")
+    if STANDSTILL in driving:
+        yield Line2D([], [], color=PHASES[STANDSTILL], linewidth=4.0, label=STANDSTILL)

@@ -1,0 +1,301 @@
+"""Motion with real teeth and pins: every pair's error carried to every link, and back into the angles of the pairs.
+
+Each error depends on the angle at which its own driver stands, which the errors of other pairs have moved. In the
+solved order those come before it, and one pass composes the laws exactly; where pairs hang on each other their errors
+are found together.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from fractions import Fraction
+from functools import cached_property
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from geartrain.dynamics.motion.coupled_errors import CoupledErrors, solve_coupled_errors
+
+if TYPE_CHECKING:
+    from geartrain.dynamics.motion.error_propagation import ErrorPropagation, PropagationBlock
+    from geartrain.numerics.arrays import Floats
+    from geartrain.teeth.transmission import TransmissionFunction
+
+
+_CHUNK = 32768  # most positions worked on at once
+_NUMBERS = 1 << 23  # most angles kept at once: longer trains take shorter chunks
+_PLAIN = 1  # period up to which a plain product tells where in it the driver stands, to rounding
+_SPLITTER = 134217729.0  # 2^27 + 1: cuts a float in two halves
+
+
+@dataclass(frozen=True)
+class PairErrorSource:
+    """One pair that ripples.
+
+    law            of its driver's forward angle
+    pair           its index in the spread
+    driver_sense   1 or -1 where the driver's axis points against its parallels; `carrier_sense` likewise
+    cycles         periods of the law per turn of the input, on average and exactly; not negative
+    start          the driver's forward angle (rad) where every link reads 0
+    forward        1, or -1 where the driver turns backwards on average
+    sense          of the driven side's mean relative motion, 1 or -1
+    turned         what of the start makes up for the lag of the driver's link, on which it was set (rad)
+    """
+
+    id: str
+    law: TransmissionFunction
+    pair: int
+    driver_sense: int
+    carrier_sense: int
+    cycles: Fraction
+    start: float
+    forward: int
+    sense: int
+    turned: float = 0.0
+
+    @property
+    def mean(self) -> float:
+        """Mean forward speed of the driver over the input's."""
+        return float(self.cycles) * self.law.period / (2 * np.pi)
+
+
+class CompositionStep(NamedTuple):
+    """A part of the spread in which something ripples, over lively links only; `sources` by index."""
+
+    part: PropagationBlock
+    links: tuple[int, ...]
+    known: tuple[int, ...]
+    from_known: Floats
+    sources: tuple[int, ...]
+    from_sources: Floats
+    coupled: bool
+
+
+class ErrorSamples(NamedTuple):
+    """A stretch of positions: turns of the input (n,), and errors (rad) and their rates by output, (outputs, n)."""
+
+    turns: Floats
+    error: Floats
+    rate: Floats
+
+
+@dataclass
+class ErrorComposition:
+    """Sources in a train, and the outputs (link, seen from) that are asked for.
+
+    offsets       what each output is ahead of what its teeth and pins add to it, at every position (rad): teeth that
+                  keep their ratio add their play alone, and pointers are set; none by default
+    turned_back   pairs whose driver was seen turning against its mean: their flanks change there, and the law, which
+                  is that of the flanks in front, does not follow the play
+    """
+
+    spread: ErrorPropagation
+    sources: tuple[PairErrorSource, ...]
+    outputs: tuple[tuple[int, int], ...]
+    offsets: tuple[float, ...] = ()
+    turned_back: set[str] = field(default_factory=set)
+
+    @cached_property
+    def steps(self) -> tuple[CompositionStep, ...]:
+        """The solved order, without the links that no error reaches, and those that no output hangs on."""
+        wanted = {link for ends in self.outputs for link in ends}
+        kept = []
+        for step in reversed(self._lively):
+            if wanted.intersection(step.links):
+                wanted.update(step.known, *(self._ends(source) for source in step.sources))
+                kept.append(step)
+        return tuple(reversed(kept))
+
+    @cached_property
+    def _lively(self) -> tuple[CompositionStep, ...]:
+        """The solved order without the links that no error reaches."""
+        of_pair = {source.pair: at for at, source in enumerate(self.sources)}
+        lively: set[int] = set()
+        steps = []
+        for part in self.spread.parts:
+            pairs = [at for at, pair in enumerate(part.pairs) if pair in of_pair]
+            known = [at for at, link in enumerate(part.known) if link in lively]
+            if not pairs and not known:
+                continue
+            sources = tuple(of_pair[part.pairs[at]] for at in pairs)
+            inside = set(part.links)
+            hangs = any(inside.intersection(self._ends(source)) for source in sources)
+            lively.update(part.links)
+            steps.append(
+                CompositionStep(
+                    part,
+                    part.links,
+                    tuple(part.known[at] for at in known),
+                    part.from_known[:, known],
+                    sources,
+                    part.from_pairs[:, pairs],
+                    hangs,
+                )
+            )
+        return tuple(steps)
+
+    @cached_property
+    def used(self) -> tuple[PairErrorSource, ...]:
+        """The sources that reach an output, or an angle that one hangs on."""
+        return tuple(self.sources[at] for step in self.steps for at in step.sources)
+
+    def driver_shift(self, source: PairErrorSource, error: Floats) -> float:
+        """What errors of links (rad, by index) add to the forward angle of a source's driver."""
+        joint = self.spread.joints[source.pair]
+        own, carried = source.driver_sense * error[joint.driver], source.carrier_sense * error[joint.carrier]
+        return float(source.forward * (own - carried))
+
+    def _ends(self, source: int) -> tuple[int, int]:
+        joint = self.spread.joints[self.sources[source].pair]
+        return joint.driver, joint.carrier
+
+    @cached_property
+    def _place(self) -> dict[int, int]:
+        """The row in which a lively link stands until it is read for the last time; then another takes the row."""
+        last: dict[int, int] = {}
+        for at, step in enumerate(self.steps):
+            last.update(dict.fromkeys((*step.known, *(end for s in step.sources for end in self._ends(s))), at))
+        for ends in self.outputs:
+            last.update(dict.fromkeys(ends, len(self.steps)))
+        place: dict[int, int] = {}
+        free: list[int] = []
+        count = 0
+        for at, step in enumerate(self.steps):
+            for link in step.links:
+                if not free:
+                    free.append(count)
+                    count += 1
+                place[link] = free.pop()
+            read = {*step.links, *step.known, *(end for s in step.sources for end in self._ends(s))}
+            free += [place[link] for link in read if link in place and last.get(link, at) == at]
+        return place
+
+    @cached_property
+    def _rows(self) -> int:
+        """How many links are kept at once."""
+        return max(self._place.values(), default=-1) + 1
+
+    @cached_property
+    def chunk(self) -> int:
+        """Positions worked on at once: memory is bounded however long the train."""
+        widest = max((len(step.sources) ** 2 for step in self.steps if step.coupled), default=0)
+        return max(64, min(_CHUNK, _NUMBERS // (2 * (self._rows + widest) + 1)))
+
+    def at(self, turns: Floats) -> ErrorSamples:
+        """Errors and rates of the outputs where the input has made some turns, at most a chunk of them."""
+        angle = InputPhase(turns)
+        error = np.empty((self._rows, len(turns)))
+        rate = np.empty_like(error)
+        for step in self.steps:
+            self._take(step, angle, error, rate)
+        found = [np.zeros((len(self.outputs), len(turns))) for _ in range(2)]
+        for at, ends in enumerate(self.outputs):
+            for link, sign in zip(ends, (1, -1), strict=True):
+                if link in self._place:
+                    found[0][at] += sign * error[self._place[link]]
+                    found[1][at] += sign * rate[self._place[link]]
+        for at, offset in enumerate(self.offsets):
+            found[0][at] += offset
+        return ErrorSamples(turns, found[0], found[1])
+
+    def _take(self, step: CompositionStep, angle: InputPhase, error: Floats, rate: Floats) -> None:
+        known = [self._place[link] for link in step.known]
+        first = self._place[step.links[0]]
+        own = slice(first, first + 1) if len(step.links) == 1 else [self._place[link] for link in step.links]
+        error[own] = step.from_known @ error[known] if known else 0.0
+        rate[own] = step.from_known @ rate[known] if known else 0.0
+        if not step.sources:
+            return
+        # angles of the drivers and their speeds, without what the step's own pairs add
+        where = [self._driver_angle(source, angle, error, rate) for source in step.sources]
+        sources = [self.sources[source] for source in step.sources]
+        if step.coupled:
+            delta, slope, turning = solve_coupled_errors(
+                self._coupled(step), np.stack([S for S, _ in where]), [w for _, w in where]
+            )
+        else:
+            parts = [source.law.error_and_speed(S) for source, (S, _) in zip(sources, where, strict=True)]
+            turning = [w for _, w in where]
+            delta = np.stack([s.sense * e for s, (e, _) in zip(sources, parts, strict=True)])
+            slope = np.stack(
+                [
+                    s.sense * (tau - float(s.law.ratio)) * w
+                    for s, (_, tau), w in zip(sources, parts, turning, strict=True)
+                ]
+            )
+        self._watch(sources, turning)
+        error[own] += step.from_sources @ delta
+        rate[own] += step.from_sources @ slope
+
+    def _driver_angle(self, at: int, angle: InputPhase, error: Floats, rate: Floats) -> tuple[Floats, Floats | float]:
+        """Forward angle (rad) and speed of a source's driver; links of its own step count as they stand."""
+        source = self.sources[at]
+        S = angle.cycles(source.cycles) * source.law.period
+        if source.start:
+            S += source.start
+        turning: Floats | float = source.mean
+        for link, sense in zip(self._ends(at), (source.driver_sense, -source.carrier_sense), strict=True):
+            place = self._place.get(link)
+            if place is not None:
+                sign = source.forward * sense
+                S += sign * error[place]
+                turning = turning + sign * rate[place]
+        return S, turning
+
+    def _coupled(self, step: CompositionStep) -> CoupledErrors:
+        """What each driver of a step gains from the errors of the step's own pairs."""
+        inside = {link: at for at, link in enumerate(step.links)}
+        gain = np.zeros((len(step.sources), len(step.sources)))
+        for row, at in enumerate(step.sources):
+            source = self.sources[at]
+            for link, sense in zip(self._ends(at), (source.driver_sense, -source.carrier_sense), strict=True):
+                if link in inside:
+                    gain[row] += source.forward * sense * step.from_sources[inside[link]]
+        sources = [self.sources[at] for at in step.sources]
+        return CoupledErrors(
+            tuple(source.id for source in sources),
+            tuple(source.law for source in sources),
+            np.array([float(source.sense) for source in sources]),
+            gain,
+        )
+
+    def _watch(self, sources: Sequence[PairErrorSource], turning: Sequence[Floats | float]) -> None:
+        for source, speed in zip(sources, turning, strict=True):
+            if source.id not in self.turned_back and np.min(speed) < 0:
+                self.turned_back.add(source.id)
+
+
+class InputPhase:
+    """Positions of the input, in turns, and the fraction of a law's period at which they find it."""
+
+    def __init__(self, turns: Floats) -> None:
+        self.turns = turns
+        self.most = float(np.max(np.abs(turns), initial=0.0))
+
+    @cached_property
+    def _halves(self) -> tuple[Floats, Floats]:
+        c = _SPLITTER * self.turns
+        high = c - (c - self.turns)
+        return high, self.turns - high
+
+    def cycles(self, ratio: Fraction) -> Floats:
+        """turns times an exact ratio, whole periods taken off where there are many: right to rounding at any length."""
+        factor = float(ratio)
+        product: Floats = self.turns * factor
+        if factor * self.most <= _PLAIN:
+            return product
+        # Dekker's product: what rounding took from it is found exactly
+        c = _SPLITTER * factor
+        high = c - (c - factor)
+        low = factor - high
+        left, right = self._halves
+        lost = left * high - product
+        lost += left * low
+        lost += right * high
+        lost += right * low
+        if rest := float(ratio - Fraction(factor)):
+            lost += self.turns * rest
+        product -= np.floor(product)
+        product += lost
+        return product

@@ -1,0 +1,135 @@
+"""How the errors of pairs spread to links: the Willis system with its speeds taken out, solved block by block.
+
+What is left of it is linear: a (e_i - e_k) + b (e_j - e_k) = c delta, with e the error of a link's angle and delta that
+of the pair's driven side. Blocks are solved once, exactly; after that every link is a sum over a few links before it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from geartrain.numerics.block_triangular import Block, find_blocks
+from geartrain.numerics.exact import LinearForm, eliminate
+
+if TYPE_CHECKING:
+    from geartrain.kinematics.willis_system import WillisSystem
+    from geartrain.numerics.arrays import Floats
+
+
+class ErrorPath(NamedTuple):
+    """One pair or coupling as a path of error: who drives, and the coefficient of the driven side in its row."""
+
+    driver: int
+    driven: int
+    carrier: int
+    coefficient: int
+
+
+class PropagationBlock(NamedTuple):
+    """Links solved together, from links known before and from the pairs whose rows these are.
+
+    links, known, pairs   indices; `from_known` (links, known) and `from_pairs` (links, pairs) are their coefficients
+    """
+
+    links: tuple[int, ...]
+    known: tuple[int, ...]
+    pairs: tuple[int, ...]
+    from_known: Floats
+    from_pairs: Floats
+
+
+@dataclass(frozen=True)
+class ErrorPropagation:
+    """The solved order of a train: `parts` in order, over `links` and `pairs` by index."""
+
+    links: tuple[str, ...]
+    pairs: tuple[str, ...]
+    joints: tuple[ErrorPath, ...]
+    parts: tuple[PropagationBlock, ...]
+
+    def errors(self, deltas: Floats) -> Floats:
+        """Errors of all links, (links, n), from those of all pairs, (pairs, n): linear, the pairs left as they are."""
+        found = np.zeros((len(self.links), deltas.shape[1]))
+        for part in self.parts:
+            spread = part.from_known @ found[list(part.known)] + part.from_pairs @ deltas[list(part.pairs)]
+            found[list(part.links)] = spread
+        return found
+
+    def sensitivity(self, link: int, base: int) -> Floats:
+        """Radians of a link, seen from another, per radian of each pair's driven error: one walk back, all pairs."""
+        weight = np.zeros(len(self.links))
+        weight[link] += 1.0
+        weight[base] -= 1.0
+        found = np.zeros(len(self.pairs))
+        for part in reversed(self.parts):
+            own = weight[list(part.links)]
+            if own.any():
+                found[list(part.pairs)] = own @ part.from_pairs
+                weight[list(part.known)] += own @ part.from_known
+        return found
+
+
+def find_error_propagation(system: WillisSystem, joints: Mapping[str, ErrorPath]) -> ErrorPropagation | None:
+    """The solved order of a square system; None where its rows do not determine all links.
+
+    joints   by the label of the row; rows without one (inputs, locks, what is held) have no error
+    """
+    at = {link: number for number, link in enumerate(system.links)}
+    rows = [{at[link]: coefficient for link, coefficient in row.terms} for row in system.equations]
+    pair_of = {label: number for number, label in enumerate(joints)}
+    own = [pair_of.get(row.label, -1) for row in system.equations]
+    every = list(joints.values())
+    if len(rows) != len(at):
+        return None
+    # the angle of a pair hangs on its driver and its carrier even where the row does not hold them
+    also = [(every[pair].driver, every[pair].carrier) if pair >= 0 else () for pair in own]
+    blocks = find_blocks([tuple(row) for row in rows], also)
+    if blocks is None:
+        return None
+    parts = []
+    for block in blocks:
+        part = _solve(block, rows, own, every)
+        if part is None:
+            return None
+        parts.append(part)
+    return ErrorPropagation(system.links, tuple(joints), tuple(every), tuple(parts))
+
+
+def _solve(
+    block: Block, rows: Sequence[Mapping[int, int]], own: Sequence[int], joints: Sequence[ErrorPath]
+) -> PropagationBlock | None:
+    """One block, exactly: its links as forms of what is known before it and of its pairs' errors."""
+    inside = {column: number for number, column in enumerate(block.columns)}
+    known = tuple(dict.fromkeys(column for row in block.rows for column in rows[row] if column not in inside))
+    pairs = tuple(own[row] for row in block.rows if own[row] >= 0)
+    symbol = {column: -1 - number for number, column in enumerate(known)}
+    forms: list[LinearForm] = []
+    for row in block.rows:
+        form = {
+            inside[column] if column in inside else symbol[column]: Fraction(coefficient)
+            for column, coefficient in rows[row].items()
+        }
+        if own[row] >= 0:
+            form[-1 - len(known) - pairs.index(own[row])] = Fraction(-joints[own[row]].coefficient)
+        forms.append(form)
+    solved = eliminate(forms)
+    if solved.rank < len(block.columns):
+        return None
+    by_column = solved.forms()
+    wanted = [by_column[number] for number in range(len(block.columns))]
+    return PropagationBlock(
+        block.columns, known, pairs, _matrix(wanted, 0, len(known)), _matrix(wanted, len(known), len(pairs))
+    )
+
+
+def _matrix(forms: Sequence[LinearForm], first: int, count: int) -> Floats:
+    found = np.zeros((len(forms), count))
+    for at, form in enumerate(forms):
+        for number in range(count):
+            found[at, number] = float(form.get(-1 - first - number, 0))
+    return found

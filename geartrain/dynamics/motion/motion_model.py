@@ -1,0 +1,376 @@
+"""From a solved train to its motion: which pairs ripple, who drives, where they start, and how their errors spread."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from functools import cached_property
+from math import gcd, lcm, pi
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from geartrain.dynamics.motion.error_composition import ErrorComposition, ErrorSamples, PairErrorSource
+from geartrain.dynamics.motion.error_propagation import ErrorPath, find_error_propagation
+from geartrain.dynamics.motion.motion_problem import MotionProblem
+from geartrain.dynamics.motion.run_statistics import RunningStatistics, mean_speed
+from geartrain.errors import GearTrainError, Problem, QuestionError
+from geartrain.kinematics.circuits import Circuit
+from geartrain.numerics.exact import log10
+from geartrain.teeth.transmission import ConstantLag
+
+if TYPE_CHECKING:
+    from numpy.random import Generator
+
+    from geartrain.dynamics.motion.error_propagation import ErrorPropagation
+    from geartrain.numerics.arrays import Floats
+    from geartrain.teeth.transmission import TransmissionFunction
+
+
+_FASTEST = 2**90  # periods a turn: a position is a float, and its product with the ratio is kept to 106 bits
+_HALVINGS = 54  # of four pitches: the driver's start is found from its driven wheel's to rounding
+
+
+@dataclass(frozen=True)
+class TransmissionErrorCurve:
+    """What real teeth and pins do to one output over the positions asked for.
+
+    ratio   exact mean speed over the input's
+    error   transmission error (rad): angle less its mean motion; `speed` over the input's, both by position
+    """
+
+    name: str
+    ratio: Fraction
+    error: Floats
+    speed: Floats
+
+    @property
+    def mean(self) -> float:
+        """Mean speed over the input's."""
+        return mean_speed(self.name, self.ratio)
+
+    @cached_property
+    def tally(self) -> RunningStatistics:
+        """Peaks and moments."""
+        tally = RunningStatistics(self.name, self.ratio)
+        tally.add(self.error, self.speed - self.mean)
+        return tally
+
+    @property
+    def peak_to_peak(self) -> float:
+        """Greatest less least error (rad)."""
+        return self.tally.peak_to_peak
+
+    @property
+    def rms(self) -> float:
+        """Root mean square of the error about its mean (rad)."""
+        return self.tally.rms
+
+    def to_dict(self) -> dict[str, Any]:
+        """Plain data for JSON."""
+        return self.tally.to_dict()
+
+
+class Motion:
+    """A train's motion as a function of the turns of its input.
+
+    outputs     name -> the link, and the link it is seen from
+    tolerance   laws are read from tables of this accuracy (in pitches); None asks the laws themselves
+    """
+
+    def __init__(
+        self, train: MotionProblem, outputs: Mapping[str, tuple[str, str]], tolerance: float | None = None
+    ) -> None:
+        self.train, self.outputs, self.tolerance = train, outputs, tolerance
+        self._index = {link: at for at, link in enumerate(train.system.links)}
+        if tolerance is not None and not 0 < tolerance < 1:
+            why = "a table's accuracy is a part of a pitch"
+            fix = "give a part of a pitch such as 1e-9, or none"
+            raise QuestionError(Problem(f"the tolerance is {tolerance!r}", why, fix))
+        self._refuse_loops()
+
+    # ----------------------------------------------------------------------------------------------- what it is made of
+
+    @cached_property
+    def spread(self) -> ErrorPropagation:
+        """The solved order of the train, over all pairs."""
+        joints = {circuit.id: self._joint(circuit) for circuit in self.train.circuits}
+        held = {row.label for row in self.train.system.equations}
+        found = find_error_propagation(
+            self.train.system, {name: joint for name, joint in joints.items() if name in held}
+        )
+        if found is None:
+            raise GearTrainError(
+                Problem(
+                    "the motion of this train has no solved order",
+                    "some of its pairs say what others say already, though they close no loop on one carrier",
+                    "leave out a pair that is redundant (`geartrain check` names the link at which they meet)",
+                )
+            )
+        return found
+
+    def _joint(self, circuit: Circuit) -> ErrorPath:
+        driven = self._driven_side(circuit)
+        ends = (circuit.i, circuit.j)
+        driver, follower, carrier = (self._index[link] for link in (ends[1 - driven], ends[driven], circuit.carrier))
+        return ErrorPath(driver, follower, carrier, (circuit.a, circuit.b)[driven])
+
+    def _driven_side(self, circuit: Circuit) -> int:
+        """0 where the circuit's first link is driven, 1 where its second is.
+
+        A pin's law gives the angle of its slot, whichever of the two drives: there is no play between them.
+        """
+        return int(circuit.kind == "gear" and self.train.drivers[circuit.id].wheel == circuit.wheels[0])
+
+    @cached_property
+    def _stands(self) -> Mapping[str, float]:
+        """Where a tooth of the driven wheel stands when its angle is 0 (pitches past the line of centres), by pair."""
+        return {mesh.name: mesh.stands for mesh in self.train.rippling}
+
+    @cached_property
+    def ahead(self) -> ErrorComposition:
+        """The composition while the input turns as declared."""
+        return self._compose(1)
+
+    @cached_property
+    def hung(self) -> ErrorComposition:
+        """The same with every link as its teeth hold it, no pointer set: what the laws themselves say."""
+        return ErrorComposition(self.spread, self.ahead.sources, self._ends, self._hung(1, self._ends).offsets)
+
+    @cached_property
+    def back(self) -> ErrorComposition:
+        """The composition while the input turns the other way: the other flanks drive."""
+        return self._compose(-1)
+
+    def _compose(self, way: int) -> ErrorComposition:
+        """Every link is set where ideal teeth would have it at turn 0; its pins are counted from there."""
+        found, setting = self._hung(way, self._ends), self._setting
+        if setting is None:
+            return found
+        sources = list(found.sources)
+        for at, source in enumerate(sources):
+            if source.id in self._pins:
+                turned = found.driver_shift(source, setting)
+                sources[at] = replace(source, start=source.start + turned, turned=turned)
+        own = found.offsets or (0.0,) * len(self._ends)
+        offsets = [each + setting[of] - setting[base] for each, (of, base) in zip(own, self._ends, strict=True)]
+        return ErrorComposition(self.spread, tuple(sources), self._ends, tuple(map(float, offsets)))
+
+    @cached_property
+    def _pins(self) -> frozenset[str]:
+        return frozenset(joint.coupling.name for joint in self.train.pins)
+
+    @cached_property
+    def _ends(self) -> tuple[tuple[int, int], ...]:
+        return tuple((self._index[of], self._index[base]) for of, base in self.outputs.values())
+
+    def _hung(self, way: int, outputs: tuple[tuple[int, int], ...]) -> ErrorComposition:
+        """The composition with every link as its teeth hold it: at turn 0 it lags by what they do."""
+        found = ErrorComposition(self.spread, tuple(self._sources(way)), outputs)
+        error = self._play(way)
+        if error is None:
+            return found
+        sources = tuple(replace(each, start=each.start + found.driver_shift(each, error)) for each in found.sources)
+        return ErrorComposition(
+            self.spread, sources, outputs, tuple(float(error[of] - error[base]) for of, base in outputs)
+        )
+
+    @cached_property
+    def setting(self) -> Mapping[str, float]:
+        """By how much each output's pointer is turned on its wheels (rad), so that its teeth do not displace it."""
+        found = self._setting
+        ends = zip(self.outputs, self._ends, strict=True)
+        return {name: 0.0 if found is None else float(found[of] - found[base]) for name, (of, base) in ends}
+
+    @cached_property
+    def _setting(self) -> Floats | None:
+        """By how much links are turned on their wheels (rad), so that none lags at turn 0; None where nothing does.
+
+        Only links that are asked for, or that carry pins, are looked at.
+        """
+        if not self.train.rippling and self._play(1) is None:
+            return None
+        pins = [each for each in self._sources(1) if each.id in self._pins]
+        joints = [self.spread.joints[each.pair] for each in pins]
+        links = sorted({*(link for ends in self._ends for link in ends), *(j.driver for j in joints),
+                        *(j.carrier for j in joints)})  # fmt: skip
+        outputs = tuple((link, self._index[self.train.frame]) for link in links)
+        ideal = np.zeros(len(self.spread.links))
+        ideal[links] = ErrorComposition(self.spread, tuple(pins), outputs).at(np.zeros(1)).error[:, 0]
+        hung = self._hung(1, outputs)
+        # a pin turns with its link, so that at turn 0 it stands as if all teeth were ideal
+        still = {each.pair: ConstantLag.at(each.law, each.start + hung.driver_shift(each, ideal)) for each in pins}
+        sources = tuple(replace(each, law=still.get(each.pair, each.law)) for each in hung.sources)
+        real = ErrorComposition(self.spread, sources, outputs, hung.offsets).at(np.zeros(1)).error[:, 0]
+        setting = np.zeros_like(ideal)
+        setting[links] = ideal[links] - real
+        return setting
+
+    def _play(self, way: int) -> Floats | None:
+        """What the play of teeth that keep their ratio adds to the angle of each link (rad); None where it is nothing.
+
+        It is the same at every position, so that no position is asked for it.
+        """
+        laws = {mesh.name: mesh.law if way > 0 else mesh.law.turned_back() for mesh in self.train.rigid}
+        ahead = {name: law.error_moments()[0] for name, law in laws.items()}
+        if not any(ahead.values()):
+            return None
+        circuits = {circuit.id: circuit for circuit in self.train.circuits}
+        deltas = [ahead[name] * self._sense(circuits[name]) if name in ahead else 0.0 for name in self.spread.pairs]
+        return np.asarray(self.spread.errors(np.array(deltas)[:, None])[:, 0])
+
+    def _sense(self, circuit: Circuit) -> int:
+        """1, or -1 where the driven wheel turns backwards on average, seen from its carrier."""
+        driver = (circuit.i, circuit.j)[1 - self._driven_side(circuit)]
+        forward = -1 if self.train.relative(driver, circuit.carrier) < 0 else 1
+        return forward if circuit.a * circuit.b < 0 else -forward
+
+    def _sources(self, way: int) -> Iterator[PairErrorSource]:
+        laws: dict[str, TransmissionFunction] = {mesh.name: mesh.law for mesh in self.train.rippling}
+        laws |= {joint.coupling.name: joint.law for joint in self.train.pins}
+        circuits = {circuit.id: circuit for circuit in self.train.circuits}
+        for at, name in enumerate(self.spread.pairs):
+            if name in laws:
+                law = laws[name] if way > 0 else laws[name].turned_back()
+                yield self._source(at, circuits[name], laws[name], self._read(law))
+
+    def _read(self, law: TransmissionFunction) -> TransmissionFunction:
+        if self.tolerance is None:
+            return law
+        from geartrain.teeth.transmission_table import TabulatedTransmission
+
+        return TabulatedTransmission(law, self.tolerance)
+
+    def _source(
+        self, at: int, circuit: Circuit, ahead: TransmissionFunction, law: TransmissionFunction
+    ) -> PairErrorSource:
+        driven = self._driven_side(circuit)
+        ends, signs, carrier = (circuit.i, circuit.j), self.train.signs, circuit.carrier
+        driver = self.train.relative(ends[1 - driven], carrier)
+        forward = -1 if driver < 0 else 1
+        sense = self._sense(circuit)
+        teeth = 1
+        if circuit.kind != "gear":  # a pin's error has the sense of the slot's own angle
+            sense = forward
+        else:
+            teeth = abs((circuit.b, circuit.a)[driven])
+        senses = signs.get(ends[1 - driven], 1), signs.get(carrier, 1)
+        angles = [self.train.angles.get(link, 0.0) for link in (ends[1 - driven], carrier)]
+        start = self._phase(circuit, ahead, driven) + forward * (senses[0] * angles[0] - senses[1] * angles[1])
+        cycles = abs(driver) * teeth
+        if cycles > _FASTEST:
+            raise GearTrainError(
+                Problem(
+                    f"pair '{circuit.id}' passes 10^{log10(cycles):.0f} teeth while '{self.train.lead}' turns once",
+                    "no position of the input can be told so finely that it says where these teeth stand",
+                    "drive the train nearer to this pair, or give it ideal teeth",
+                )
+            )
+        return PairErrorSource(circuit.id, law, at, *senses, cycles, start, forward, sense)
+
+    def _phase(self, circuit: Circuit, law: TransmissionFunction, driven: int) -> float:
+        """The driver's forward angle (rad) that puts a tooth of the first wheel at the pair's phase.
+
+        A pin's phase is that of the pin itself. Where the first wheel is the driven one its law is read backwards.
+        """
+        phase = self.train.phases.get(circuit.id, 0.0)
+        if driven == 1 or circuit.kind != "gear":
+            return phase * law.period
+        phase -= self._stands[circuit.id]
+        wanted = phase * float(law.ratio) * law.period
+        low, high = (phase - 2) * law.period, (phase + 2) * law.period
+        for _ in range(_HALVINGS):
+            middle = (low + high) / 2
+            low, high = (middle, high) if float(law.angle(middle)) < wanted else (low, middle)
+        return (low + high) / 2
+
+    def _refuse_loops(self) -> None:
+        for loop, real in self.train.contradictions():
+            path = " - ".join((*loop.links, loop.links[0]))
+            raise GearTrainError(
+                Problem(
+                    f"the pairs {', '.join(loop.pairs)} close a loop, {path}, that real teeth do not let turn",
+                    f"the loop holds in the mean, and the errors of {', '.join(real)} would have to cancel at "
+                    "every instant",
+                    f"leave out one of the loop's pairs: `--without {loop.pairs[-1]}` follows the rest",
+                )
+            )
+
+    def at_random(self, random: Generator) -> Motion:
+        """The same train with a random phase for every pair with real teeth that declares none."""
+        declared = self.train.phases
+        drawn = {mesh.name: float(random.random()) for mesh in self.train.rippling if mesh.name not in declared}
+        return Motion(replace(self.train, phases={**drawn, **declared}), self.outputs, self.tolerance)
+
+    # -------------------------------------------------------------------------------------------------- what it answers
+
+    @cached_property
+    def period(self) -> Fraction | None:
+        """Turns of the input after which every rippling pair stands as at the start; None where nothing ripples."""
+        cycles = [source.cycles for source in self.ahead.used if source.cycles]
+        if not cycles:
+            return None
+        return Fraction(lcm(*(each.denominator for each in cycles)), gcd(*(each.numerator for each in cycles)))
+
+    @cached_property
+    def sensitivity(self) -> Mapping[str, Mapping[str, float]]:
+        """Radians of each output per radian of error of the driven side of each pair, real teeth or not."""
+        found = {}
+        for name, (of, base) in self.outputs.items():
+            row = self.spread.sensitivity(self._index[of], self._index[base])
+            found[name] = dict(zip(self.spread.pairs, row.tolist(), strict=True))
+        return found
+
+    def tallies(self) -> list[RunningStatistics]:
+        """An empty tally for each output."""
+        return [
+            RunningStatistics(name, self._ratio(of) - self._ratio(base)) for name, (of, base) in self.outputs.items()
+        ]
+
+    @property
+    def starts(self) -> list[float]:
+        """Starting angle of each output (rad)."""
+        angles = self.train.angles
+        return [angles.get(of, 0.0) - angles.get(base, 0.0) for of, base in self.outputs.values()]
+
+    def _ratio(self, link: str) -> Fraction:
+        return self.train.ratio(link)
+
+    def passages(self, turns: float, samples: int, first: int = 0) -> Iterator[ErrorSamples]:
+        """The run in stretches that fit in memory: `samples` positions from 0 to `turns` of the input, ends included.
+
+        Negative turns go the other way, on the other flanks. `first` is the position to begin with.
+        """
+        composition = self.ahead if turns >= 0 else self.back
+        chunk = composition.chunk
+        for start in range(first, samples, chunk):
+            at = np.arange(start, min(start + chunk, samples))
+            yield composition.at(turns * (at / (samples - 1)))
+
+    def at(self, turns: Floats) -> ErrorSamples:
+        """Errors and rates at given turns of the input, in any order, turning as declared."""
+        turns = np.asarray(turns, dtype=float)
+        chunk = self.ahead.chunk
+        parts = [self.ahead.at(turns[start : start + chunk]) for start in range(0, len(turns), chunk)]
+        return ErrorSamples(turns, *(np.concatenate([part[column] for part in parts], axis=1) for column in (1, 2)))
+
+    def ripples(
+        self, turns: float, samples: int, on_done: Callable[[int], None] = lambda _: None
+    ) -> tuple[Floats, dict[str, TransmissionErrorCurve]]:
+        """Angles of the input (rad) and the ripple of every output at them; `on_done` is told of each chunk."""
+        error = np.empty((len(self.outputs), samples))
+        rate = np.empty_like(error)
+        angle = np.empty(samples)
+        done = 0
+        for passage in self.passages(turns, samples):
+            part = slice(done, done + len(passage.turns))
+            angle[part], error[:, part], rate[:, part] = passage
+            done = part.stop
+            on_done(len(passage.turns))
+        angle *= 2 * pi
+        found = {
+            tally.name: TransmissionErrorCurve(tally.name, tally.ratio, error[at], tally.mean + rate[at])
+            for at, tally in enumerate(self.tallies())
+        }
+        return angle, found

@@ -1,0 +1,101 @@
+"""What motion needs to know of a train in one case, gathered: rows, mean speeds, laws, who drives, loops."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from fractions import Fraction
+from typing import TYPE_CHECKING
+
+from geartrain.kinematics.circuits import Circuit
+from geartrain.kinematics.components import SolvedPart
+from geartrain.kinematics.verdict import Loop
+from geartrain.kinematics.willis_system import WillisSystem, assemble_willis_system
+
+if TYPE_CHECKING:
+    from geartrain.dynamics.gear_meshes import PinMesh
+    from geartrain.teeth.gear_mesh import GearMesh, MeshDriver
+    from geartrain.train import StateCase, Train
+
+
+@dataclass(frozen=True)
+class MotionProblem:
+    """What motion needs to know of a train in one case.
+
+    system    the labelled rows without redundant circuits
+    speeds    exact mean speeds; `lead` is the input whose angle is given
+    drivers   who drives each pair and coupling, and how that is known
+    angles    starting angles of links (rad); `phases`, of pairs, in pitches of their first wheel
+    loops     loops that are redundant: real teeth in them contradict the rest
+    """
+
+    system: WillisSystem
+    circuits: Sequence[Circuit]
+    signs: Mapping[str, int]
+    speeds: Mapping[str, Fraction]
+    frame: str
+    lead: str
+    teeth: Sequence[GearMesh]
+    pins: Sequence[PinMesh]
+    drivers: Mapping[str, MeshDriver]
+    angles: Mapping[str, float] = field(default_factory=dict)
+    phases: Mapping[str, float] = field(default_factory=dict)
+    loops: Sequence[Loop] = ()
+
+    def ratio(self, link: str) -> Fraction:
+        """Mean speed of a link over the lead's, exactly."""
+        return self.speeds[link] / self.speeds[self.lead]
+
+    def relative(self, link: str, carrier: str) -> Fraction:
+        """Mean speed of a link seen from its carrier, over the lead's, both about the direction of their parallels."""
+        return self.signs.get(link, 1) * self.ratio(link) - self.signs.get(carrier, 1) * self.ratio(carrier)
+
+    @property
+    def rippling(self) -> list[GearMesh]:
+        """The pairs whose teeth do not keep their ratio at every instant."""
+        return [mesh for mesh in self.teeth if not mesh.rigid]
+
+    @property
+    def rigid(self) -> list[GearMesh]:
+        """The pairs with real teeth that do: nothing of them is worked out position by position."""
+        return [mesh for mesh in self.teeth if mesh.rigid]
+
+    def contradictions(self) -> list[tuple[Loop, list[str]]]:
+        """Redundant loops in which something ripples, with what does."""
+        rippling = {mesh.name for mesh in self.rippling} | {joint.coupling.name for joint in self.pins}
+        found = ((loop, [pair for pair in loop.pairs if pair in rippling]) for loop in self.loops)
+        return [(loop, real) for loop, real in found if real]
+
+
+def build_motion_problem(
+    train: Train,
+    case: StateCase,
+    circuits: Sequence[Circuit],
+    signs: Mapping[str, int],
+    speeds: Mapping[str, Fraction],
+    teeth: Sequence[GearMesh],
+    pins: Sequence[PinMesh],
+    drivers: Mapping[str, MeshDriver],
+) -> MotionProblem:
+    """A train in one case, moving along some circuits: those that are left out leave their teeth out too.
+
+    drivers   who drives each pair and coupling
+    """
+    parts = SolvedPart(tuple(train.links), train.frame, circuits, tuple(case.inputs)).reduced.components
+    redundant = {parts.circuits[chord].id for chord in parts.closing}
+    whole = assemble_willis_system(tuple(train.links), train.frame, circuits, case, signs)
+    kept = {circuit.id for circuit in circuits}
+    return MotionProblem(
+        WillisSystem(whole.links, tuple(row for row in whole.equations if row.label not in redundant)),
+        circuits,
+        signs,
+        speeds,
+        train.frame,
+        next(link for link, speed in case.inputs.items() if speed),
+        [mesh.driven_by(drivers[mesh.name]) for mesh in teeth if mesh.name in kept],
+        [joint for joint in pins if joint.coupling.name in kept],
+        drivers,
+        {name: link.angle.si for name, link in train.links.items() if link.angle is not None},
+        {gear.name: float(gear.phase.value) for gear in train.gears if gear.phase is not None},
+        [parts.loop(chord) for chord in parts.closing] if teeth or pins else [],
+    )

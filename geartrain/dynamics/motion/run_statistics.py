@@ -1,0 +1,149 @@
+"""Peaks and moments of an output, gathered stretch by stretch.
+
+Extremes of errors and speeds between the positions of a run: the highest of them, looked at more closely.
+
+Errors of teeth have sharp peaks, which a sample misses by up to half a step on either side. The greatest sampled values
+of a run are kept, and the steps around them are sampled again, twice, ever finer.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+from math import inf, sqrt
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from geartrain.errors import Problem, RangeError
+from geartrain.numerics.exact import as_float, fraction_text, log10
+
+if TYPE_CHECKING:
+    from geartrain.dynamics.motion.error_composition import ErrorComposition, ErrorSamples
+    from geartrain.numerics.arrays import Floats
+
+
+def mean_speed(name: str, ratio: Fraction) -> float:
+    """An exact mean speed as a float, or a `RangeError` where there is none."""
+    found = as_float(ratio)
+    if found is None:
+        what = f"the mean speed of '{name}' is 10^{log10(ratio):.0f} times the input's"
+        why = "motion is followed in float64, which holds 1e-308 to 1e308"
+        raise RangeError(Problem(what, why, "drive the train nearer to this output, or ask `solve`"))
+    return found
+
+
+@dataclass
+class RunningStatistics:
+    """Error (rad) and speed of one output over all positions seen so far.
+
+    ratio                exact mean speed over the input's
+    centre, square       mean of the error, and the sum of its squared differences from it
+    least, most          error; `slow`, `fast`, speed less its mean
+    """
+
+    name: str
+    ratio: Fraction
+    count: int = 0
+    centre: float = 0.0
+    square: float = 0.0
+    least: float = inf
+    most: float = -inf
+    slow: float = inf
+    fast: float = -inf
+
+    def add(self, error: Floats, rate: Floats) -> None:
+        """Count some more positions: errors, and speeds less their mean."""
+        new = len(error)
+        centre = float(error.mean())
+        gap = centre - self.centre
+        total = self.count + new
+        self.square += float(((error - centre) ** 2).sum()) + gap**2 * self.count * new / total
+        self.centre += gap * new / total
+        self.count = total
+        self.reach(error, rate)
+
+    def reach(self, error: Floats, rate: Floats) -> None:
+        """Let extremes count, and nothing else."""
+        self.least, self.most = min(self.least, float(error.min())), max(self.most, float(error.max()))
+        self.slow, self.fast = min(self.slow, float(rate.min())), max(self.fast, float(rate.max()))
+
+    @property
+    def mean(self) -> float:
+        """Mean speed over the input's."""
+        return mean_speed(self.name, self.ratio)
+
+    @property
+    def peak_to_peak(self) -> float:
+        """Greatest less least error (rad)."""
+        return self.most - self.least
+
+    @property
+    def rms(self) -> float:
+        """Root mean square of the error about its mean (rad)."""
+        return sqrt(self.square / self.count)
+
+    @property
+    def speeds(self) -> tuple[float, float]:
+        """Least and greatest speed over the mean, or over the input's where the mean is 0."""
+        scale = self.mean or 1.0
+        low, high = sorted(((self.mean + self.slow) / scale, (self.mean + self.fast) / scale))
+        return low, high
+
+    def to_dict(self) -> dict[str, Any]:
+        """Plain data for JSON."""
+        low, high = self.speeds
+        return {
+            "transmission_error": {"peak_to_peak": self.peak_to_peak, "rms": self.rms},
+            "speed": {"min": low, "max": high, "mean": self.mean},
+            "ratio": fraction_text(self.ratio),
+        }
+
+
+_BIN = 1024  # positions of which the greatest is kept
+_KEPT = 10  # of them, for each output and each extreme
+_FINER = 16  # parts of a step, on either side
+_ROUNDS = 2
+
+
+class PeakRefinement:
+    """The greatest and least errors and speeds of each output, with the turns at which they were seen.
+
+    step   turns between two positions of the run
+    """
+
+    def __init__(self, outputs: int, step: float) -> None:
+        self.step = abs(step)
+        # by output and extreme: values, the greater the better, and turns
+        self.values = np.full((outputs, 4, 0), -np.inf)
+        self.turns = np.zeros((outputs, 4, 0))
+
+    def add(self, passage: ErrorSamples) -> None:
+        """Keep the best of some more positions."""
+        signed = _signed(passage)
+        starts = range(0, signed.shape[2], _BIN)
+        at = np.stack([start + np.argmax(signed[:, :, start : start + _BIN], axis=2) for start in starts], axis=2)
+        values = np.concatenate([self.values, np.take_along_axis(signed, at, axis=2)], axis=2)
+        turns = np.concatenate([self.turns, passage.turns[at]], axis=2)
+        best = np.argsort(-values, axis=2)[:, :, :_KEPT]
+        self.values = np.take_along_axis(values, best, axis=2)
+        self.turns = np.take_along_axis(turns, best, axis=2)
+
+    def sharpen(self, composition: ErrorComposition, turns: float, tallies: list[RunningStatistics]) -> None:
+        """Sample again around the extremes, within the run, and tell the tallies what is found there."""
+        low, high = sorted((0.0, turns))
+        step = self.step
+        for _ in range(_ROUNDS):
+            fine = np.arange(-_FINER, _FINER + 1) * (step / _FINER)
+            for at, tally in enumerate(tallies):
+                around = np.clip(np.unique(self.turns[at, :, :, None] + fine), low, high)
+                for start in range(0, len(around), composition.chunk):
+                    passage = composition.at(around[start : start + composition.chunk])
+                    self.add(passage)
+                    tally.reach(passage.error[at], passage.rate[at])
+            step /= _FINER
+
+
+def _signed(passage: ErrorSamples) -> Floats:
+    """Errors, errors reversed, rates, rates reversed: what is sought is the greatest of each, (outputs, 4, n)."""
+    return np.stack([passage.error, -passage.error, passage.rate, -passage.rate], axis=1)

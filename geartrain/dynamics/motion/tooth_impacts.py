@@ -1,0 +1,57 @@
+"""What the collisions of triangular teeth cost: where tau jumps up, the driven side is struck to its new speed.
+
+The input keeps its speed. A pair whose driven side jumps by one radian a second makes every link l jump by its response
+g_l, so that side strikes with the inertia sum J_l g_l^2; an inelastic blow of a speed difference v takes half of it
+times v^2. In an ordinary train that is the inertia of all that turns with the driven wheel, seen from it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
+
+if TYPE_CHECKING:
+    from geartrain.dynamics.motion.motion_model import Motion
+
+
+@dataclass(frozen=True)
+class ToothImpact:
+    """Collisions of one pair: the inertia struck (kg m2, at the driven wheel), blows a second, and what they cost (W).
+
+    blows   jumps of the driven wheel's speed (rad/s), those of one pitch
+    """
+
+    inertia: float
+    rate: float
+    blows: tuple[float, ...]
+
+    @property
+    def power(self) -> float:
+        """Power dissipated (W)."""
+        return self.rate * sum(self.inertia * blow**2 / 2 for blow in self.blows)
+
+
+def find_impacts(motion: Motion, inertias: Mapping[str, float], speed: float) -> dict[str, ToothImpact]:
+    """The collisions of every pair with triangular teeth, the input turning at `speed` (rad/s).
+
+    inertias   of links about their own axes (kg m2); links without one count as having none
+    """
+    spread = motion.spread
+    weight = np.array([inertias.get(link, 0.0) for link in spread.links])
+    found = {}
+    for source in motion.ahead.sources:
+        law = source.law
+        if not isinstance(law, TriangularTransmission):
+            continue
+        unit = np.zeros((len(spread.pairs), 1))
+        unit[source.pair] = 1.0
+        struck = float(weight @ spread.errors(unit)[:, 0] ** 2)
+        driver = abs(source.mean * speed)
+        blows = tuple((jump.after - jump.before) * driver for jump in law.jumps)
+        found[source.id] = ToothImpact(struck, driver / law.period, blows)
+    return found

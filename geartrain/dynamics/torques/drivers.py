@@ -1,0 +1,240 @@
+"""Who drives each gear pair and coupling: the way power flows through it, seen from its carrier.
+
+Where loads are declared the torques tell. Else every pointer on a dial is taken to resist its motion, with a torque
+that nothing says: without loss the multiplier of a pair is linear in these torques, x = sum c_o T_o with T_o >= 0, so
+if all c_o of a pair have one sign power flows one way whatever the pointers weigh, and else the way is open. Pairs
+through which no pointer takes power are asked again: what if the outputs on shafts resisted, all outputs, all shafts,
+and at last every joint. Nothing here hangs on the order in which things are declared.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
+from dataclasses import replace
+from fractions import Fraction
+from itertools import combinations
+from typing import TYPE_CHECKING, NamedTuple
+
+from geartrain.dynamics.torques.load_influence import NOTHING, LoadGroup, find_load_influence
+from geartrain.dynamics.torques.torque_analysis import build_balance, power_inputs
+from geartrain.teeth.gear_mesh import MeshDriver
+
+if TYPE_CHECKING:
+    from geartrain.dynamics.torques.load_case import LoadCase
+    from geartrain.dynamics.torques.load_influence import UnitLoads
+    from geartrain.dynamics.torques.torque_balance import TorqueBalance
+    from geartrain.dynamics.torques.torque_results import Torques
+    from geartrain.kinematics.circuits import Circuit
+    from geartrain.train import Train
+
+
+class FlowDirections(NamedTuple):
+    """What takes power that flows from a pair's first wheel to its second, and what takes it the other way.
+
+    shared   redundant pairs share the power in no certain way
+    note     what takes no power through this pair
+    """
+
+    ahead: LoadGroup = NOTHING
+    back: LoadGroup = NOTHING
+    shared: bool = False
+    note: str = ""
+
+    def __bool__(self) -> bool:
+        return bool(self.ahead.count or self.back.count or self.shared)
+
+    def joined(self, other: FlowDirections) -> FlowDirections:
+        """What either says."""
+        ahead, back = self.ahead.joined(other.ahead), self.back.joined(other.back)
+        return FlowDirections(ahead, back, self.shared or other.shared, self.note)
+
+
+def find_drivers(setting: LoadCase, loaded: Torques | None = None) -> dict[str, MeshDriver]:
+    """The driver of every pair, and of every coupling: a wheel, or a link.
+
+    loaded   torques under the declared loads, where there are some
+    """
+    found = _declared(setting.train)
+    if loaded is not None and loaded.verdict:
+        found = _under_loads(loaded) | found
+    rest = [circuit for circuit in setting.circuits if circuit.id not in found]
+    ways = _ways(setting, {circuit.id for circuit in rest if setting.turn(circuit)})
+    source = " and ".join(sorted(power_inputs(setting)))
+    found |= {circuit.id: _judged(setting, circuit, ways.get(circuit.id, FlowDirections()), source) for circuit in rest}
+    return {circuit.id: found[circuit.id] for circuit in setting.circuits}
+
+
+def undetermined_drivers(train: Train, circuits: Iterable[Circuit], why: str) -> dict[str, MeshDriver]:
+    """The drivers where no speeds are known: those that are declared, and no others."""
+    declared = _declared(train)
+    text = f"undetermined: {why}"
+    return {each.id: declared.get(each.id) or MeshDriver(_lesser(train, each), text, False) for each in circuits}
+
+
+def _declared(train: Train) -> dict[str, MeshDriver]:
+    return {gear.name: MeshDriver(gear.driver, "declared") for gear in train.gears if gear.driver is not None}
+
+
+def _under_loads(loaded: Torques) -> dict[str, MeshDriver]:
+    why = "power flows so under the loads"
+    if loaded.verdict.kind == "ambiguous":
+        why += ", in the flow that loses least"
+    return {name: MeshDriver(pair.driver, why) for name, pair in loaded.pairs.items() if pair.driver and not pair.loose}
+
+
+# ------------------------------------------------------------------------------------------------------- what resists
+
+
+def _ways(setting: LoadCase, wanted: Collection[str]) -> dict[str, FlowDirections]:
+    """The way of power through pairs that roll: as pointers take it, else outputs, shafts, joints."""
+    found: dict[str, FlowDirections] = {}
+    note = ""
+    for loads, missed in _RESISTING:
+        left = {name for name in wanted if name not in found}
+        if not left or not (resisting := loads(setting)):
+            continue
+        found |= {name: way._replace(note=note) for name, way in _weighed(setting, resisting).items()
+                  if way and name in left}  # fmt: skip
+        note = f"{missed} takes power through it; " if missed else note
+    return found
+
+
+def _pointers(setting: LoadCase) -> UnitLoads:
+    """Every output on a dial, against its own motion."""
+    outputs = setting.case.outputs
+    return {name: drag for name, drag in _outputs(setting).items() if outputs[name].dial is not None}
+
+
+def _outer(setting: LoadCase) -> UnitLoads:
+    """Every output that is a shaft in the frame: what turns on a carrier, or is seen from one, is a reading."""
+    frame = setting.train.frame
+    ends = {name: (out.of or name, out.relative_to or frame) for name, out in setting.case.outputs.items()}
+    outer = {name for name, (of, base) in ends.items() if base == frame == setting.bearer(of)}
+    return {name: drag for name, drag in _outputs(setting).items() if name in outer}
+
+
+def _outputs(setting: LoadCase) -> UnitLoads:
+    """Every output, against its own motion."""
+    frame = setting.train.frame
+    ends = {name: (out.of or name, out.relative_to or frame) for name, out in setting.case.outputs.items()}
+    return {name: drag for name, (of, base) in ends.items() if (drag := _drag(setting, of, base))}
+
+
+def _shafts(setting: LoadCase) -> UnitLoads:
+    """Every link that turns in the frame."""
+    return {link: drag for link, drag in _joints(setting).items() if setting.bearer(link) == setting.train.frame}
+
+
+def _joints(setting: LoadCase) -> UnitLoads:
+    """Every link, against its turning on what bears it."""
+    links = (link for link in setting.train.links if link != setting.train.frame)
+    return {link: drag for link in links if (drag := _drag(setting, link, setting.bearer(link)))}
+
+
+_RESISTING: Sequence[tuple[Callable[[LoadCase], UnitLoads], str]] = (
+    (_pointers, "no dial"),
+    (_outer, "no output shaft"),
+    (_outputs, "no output"),
+    (_shafts, ""),
+    (_joints, ""),
+)
+"""What is asked in turn, and what is said of pairs through which it takes no power."""
+
+
+def _drag(setting: LoadCase, of: str, base: str) -> dict[str, Fraction]:
+    """A unit of torque between two links, against their turning on each other; nothing where they do not."""
+    own, other = setting.sense(of), setting.sense(base)
+    relative = setting.relative(of, base) or Fraction(0)
+    sign = (relative > 0) - (relative < 0)
+    return {of: Fraction(-sign * own), base: Fraction(sign * other)} if sign else {}
+
+
+# ----------------------------------------------------------------------------------------------------- where power goes
+
+
+def _weighed(setting: LoadCase, loads: UnitLoads) -> dict[str, FlowDirections]:
+    """The way of every pair under any mixture of some loads."""
+    found: dict[str, FlowDirections] = {}
+    for asked in _sources(setting) if loads else ():
+        like = _peers(build_balance(setting, {}, asked))
+        spread = {name: _spread(each, like) for name, each in loads.items()}
+        loaded = sorted({like.get(link, (link,))[0] for each in spread.values() for link in each})
+        # equal planets stay equal under equal loads; the numbers only tell apart what is loaded
+        number = {peer: Fraction(at) for at, link in enumerate(loaded, 2) for peer in like.get(link, (link,))}
+        shares = find_load_influence(balance := build_balance(setting, number, asked), spread)
+        for mesh in balance.meshes if shares is not None else ():
+            plus, minus, shared = (shares or {})[mesh.id]
+            way = FlowDirections(minus, plus, shared) if mesh.turn > 0 else FlowDirections(plus, minus, shared)
+            found[mesh.id] = found[mesh.id].joined(way) if mesh.id in found else way
+    return found
+
+
+def _sources(setting: LoadCase) -> Iterator[tuple[str, ...]]:
+    """The links whose torques are unknown, as many as inputs: every choice, where a crank stands beside inputs."""
+    links, inputs = power_inputs(setting), tuple(setting.case.inputs)
+    if len(links) == 1 and not setting.speeds.get(links[0]):
+        links = inputs  # a crank at rest
+    if len(links) == len(inputs):
+        yield links
+    else:
+        yield from ((links[0], *rest) for rest in combinations(links[1:], len(inputs) - 1))
+
+
+def _peers(balance: TorqueBalance) -> dict[str, tuple[str, ...]]:
+    """The equal planets of each, itself among them."""
+    ends = {mesh.id: mesh.links[:2] for mesh in balance.meshes}
+    found: dict[str, tuple[str, ...]] = {}
+    for group in balance.ties:
+        common = set.intersection(*(set(ends[name]) for name in group))
+        planets = tuple(sorted(link for name in group for link in ends[name] if link not in common))
+        found |= dict.fromkeys(planets, planets)
+    return found
+
+
+def _spread(load: Mapping[str, Fraction], like: Mapping[str, tuple[str, ...]]) -> dict[str, Fraction]:
+    """The same load on every planet that is like the one it acts on, and as often on what bears them."""
+    most = max((len(like.get(link, (link,))) for link in load), default=1)
+    return {
+        peer: torque * (1 if link in like else most)
+        for link, torque in load.items()
+        for peer in like.get(link, (link,))
+    }
+
+
+# ------------------------------------------------------------------------------------------------------------- verdicts
+
+
+def _judged(setting: LoadCase, circuit: Circuit, way: FlowDirections, source: str) -> MeshDriver:
+    first, second = circuit.wheels
+    if way.shared:
+        return _open(setting, circuit, "redundant pairs share the load in no certain way; `share` or `loads` decide")
+    if way.ahead.count and way.back.count:
+        # the way that more of them would have it is taken; else nothing speaks for either
+        ways = sorted([(-way.ahead.count, first, second, way.ahead), (-way.back.count, second, first, way.back)])
+        (more, likely, other, most), (less, *_, rest) = ways
+        why = f"{way.note}power flows from {likely} to {other} for {most}, the other way for {rest}; `loads` decide"
+        found = _open(setting, circuit, why)
+        return replace(found, wheel=likely) if more < less else found
+    if way:
+        taker = way.ahead if way.ahead.count else way.back
+        return MeshDriver(first if way.ahead.count else second, f"{way.note}power flows so from {source} to {taker}")
+    turn = setting.turn(circuit)
+    if turn is None:
+        return _open(setting, circuit, "nothing says how fast its two sides turn against each other")
+    if not turn:
+        what = "its wheels do not turn against each other" if circuit.kind == "gear" else "its slot swings and stays"
+        return _open(setting, circuit, f"{what}, so no power flows on average")
+    return _open(setting, circuit, "no power flows through it")
+
+
+def _open(setting: LoadCase, circuit: Circuit, why: str) -> MeshDriver:
+    return MeshDriver(_lesser(setting.train, circuit), f"undetermined: {why}", False)
+
+
+def _lesser(train: Train, circuit: Circuit) -> str:
+    """A wheel to go on with where nothing says which drives: that of fewer teeth, then by name; a pin."""
+    if circuit.kind != "gear":
+        return circuit.j
+    return min(
+        circuit.wheels, key=lambda name: (train.wheels[name][1].internal, train.wheels[name][1].count or 0, name)
+    )

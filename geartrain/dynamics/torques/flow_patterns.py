@@ -1,0 +1,269 @@
+"""Who drives whom: the patterns of power flow that balance with losses, found block by block.
+
+The balance is piecewise linear, one piece a pattern. Where all pieces have one orientation there is exactly one
+solution; else none (self-locking) or several. Most torques follow one after another: in block triangular form an
+ordinary train has one unknown a block, and only the meshes of one block need their patterns tried together. In a
+block with too many the iteration's answer stands, and says that it was not checked.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from itertools import chain, islice, product
+from typing import TYPE_CHECKING
+
+from geartrain.dynamics.torques.torque_balance import DrivingSides, SolvedTorques, TorqueBalance, TorqueUnknown
+from geartrain.numerics.block_triangular import Block
+from geartrain.numerics.exact import Echelon, LinearForm, eliminate, feasible
+
+if TYPE_CHECKING:
+    pass
+
+
+_MOST_TRIED = 14  # lossy torques of a block whose patterns are all tried
+_MOST_OPEN = 10  # the same where torques stay open anyway, and the iteration has found some that balance
+_FEW = 4  # lossy torques whose patterns are not worth a trial in floats
+_CHUNK = 2**21  # numbers in the matrices tried at once
+_MOST_ROUNDS = 50
+_MOST_FLOWS = 256  # kept while blocks are gone through
+_NEAR = 1e-9  # of the greatest torque: a direction this faint may be either
+_KNOWN = -1  # the column in which known torques stand
+
+Sides = Mapping[int, int]
+Values = dict[int, Fraction | None]
+"""Torque by column; None where nothing determines it."""
+
+
+@dataclass(frozen=True)
+class FlowPattern:
+    """One consistent pattern with its torques."""
+
+    pattern: DrivingSides
+    solved: SolvedTorques
+
+
+@dataclass
+class _Partial:
+    """What is found so far: sides and torques by column, and what these add to each row."""
+
+    sides: dict[int, int]
+    values: Values
+    rows: dict[int, Fraction]
+
+    def copy(self) -> _Partial:
+        return _Partial(dict(self.sides), dict(self.values), dict(self.rows))
+
+
+def find_flow_patterns(balance: TorqueBalance) -> tuple[tuple[FlowPattern, ...], bool]:
+    """All consistent flows, and whether all patterns were tried."""
+    found = _through(balance, balance.parts)
+    if found is None:
+        found = _through(balance, [Block(tuple(balance.rows), tuple(range(len(balance.columns))))])
+    partials, complete = found or ([], True)
+    return tuple(_flow(balance, each) for each in partials), complete
+
+
+def _through(balance: TorqueBalance, blocks: Sequence[Block]) -> tuple[list[_Partial], bool] | None:
+    """All ways through the blocks, in their order, and whether all were tried.
+
+    None where a block leaves a torque open that a later one may need or settle.
+    """
+    partials, complete = [_Partial({}, {}, dict(balance.rows))], True
+    for block in blocks:
+        followed: list[_Partial] = []
+        for partial in partials:
+            found, tried = _solutions(balance.columns, block, partial.rows)
+            complete &= tried
+            if block is not blocks[-1] and any(value is None for _, values in found for value in values.values()):
+                return None
+            followed += _branches(balance.columns, partial, found)
+        complete &= len(followed) <= _MOST_FLOWS
+        partials = followed[:_MOST_FLOWS]
+    return partials, complete
+
+
+def _branches(
+    columns: Sequence[TorqueUnknown], partial: _Partial, found: Sequence[tuple[Sides, Values]]
+) -> Iterator[_Partial]:
+    """`partial` with each of the solutions of one block; the last takes its place."""
+    for at, (sides, values) in enumerate(found):
+        branch = partial.copy() if at + 1 < len(found) else partial
+        branch.sides.update(sides)
+        branch.values.update(values)
+        for column, value in values.items():
+            if value:
+                for row, coefficient in columns[column].pieces[sides[column]].items():
+                    if row in branch.rows:
+                        branch.rows[row] += coefficient * value
+        yield branch
+
+
+def _flow(balance: TorqueBalance, partial: _Partial) -> FlowPattern:
+    """Torques by name."""
+    pattern: dict[str, int] = {}
+    found: dict[str, Fraction | None] = {}
+    for at, column in enumerate(balance.columns):
+        for mesh in column.meshes:
+            found[mesh.id] = partial.values[at]
+            if mesh.loses:
+                pattern[mesh.id] = column.side_of(mesh, partial.sides[at])
+    multipliers = {mesh.id: found[mesh.id] for mesh in balance.meshes}
+    plain = [partial.values[at] for at, column in enumerate(balance.columns) if not column.meshes]
+    unknown, held = len(balance.unknown), len(balance.held)
+    external = dict(zip(balance.unknown, plain, strict=False))
+    brakes = dict(zip(balance.held, plain[unknown:], strict=False))
+    return FlowPattern(
+        pattern,
+        SolvedTorques(
+            {name: value or Fraction(0) for name, value in multipliers.items()},
+            {link: value for link, value in external.items() if value is not None},
+            {link: value for link, value in brakes.items() if value is not None},
+            tuple(plain[unknown + held :]),
+            tuple(name for name, value in multipliers.items() if value is None),
+            tuple(link for links in (external, brakes) for link, value in links.items() if value is None),
+        ),
+    )
+
+
+def _solutions(
+    columns: Sequence[TorqueUnknown], block: Block, rows: Mapping[int, Fraction]
+) -> tuple[list[tuple[Sides, Values]], bool]:
+    """All consistent sides and torques of one block, and whether all sides were tried."""
+    known = {row: rows[row] for row in block.rows}
+    lossy = [column for column in block.columns if len(columns[column].sides) > 1]
+    base = {column: columns[column].sides[0] for column in block.columns}
+    if not any(known.values()):
+        # nothing acts: nothing answers, whoever might drive
+        values = _solve(columns, block, base, known)
+        if values is not None and None not in values.values():
+            return [(base, values)], True
+    first = _iterate(columns, block, lossy, base, known) if len(lossy) >= _FEW else None
+    is_open = len(block.columns) > len(block.rows)
+    tried = len(lossy) <= (_MOST_OPEN if is_open and first else _MOST_TRIED)
+    found: list[tuple[Sides, Values]] = []
+    rest = _candidates(columns, block, lossy, base, known) if tried else ()
+    for sides in chain([first] if first else [], rest):
+        values = _solve(columns, block, sides, known)
+        if values is None or not _is_consistent(columns, block, sides, values, known):
+            continue
+        # an idle mesh may be taken either way: the torques are the same
+        if all(values != each for _, each in found):
+            found.append((sides, values))
+    return found, tried
+
+
+def _is_consistent(
+    columns: Sequence[TorqueUnknown], block: Block, sides: Sides, values: Values, known: Mapping[int, Fraction]
+) -> bool:
+    """True if power flows as the sides say, or, where torques are open, if there are some with which it does."""
+    if not all(columns[column].admits(sides[column], value or Fraction(0)) for column, value in values.items()):
+        return False
+    bound = [column for column, value in values.items() if value is None and (sides[column] or columns[column].barred)]
+    if not bound:
+        return True
+    echelon = _echelon(columns, block, sides, known)
+    solved = echelon.forms()
+    demands: list[LinearForm] = []
+    for column in bound:
+        form = solved.get(column, {column: Fraction(1)})
+        way = -sides[column] * columns[column].turn
+        demands.append({at: way * value for at, value in form.items()})
+        if columns[column].barred:
+            demands.append({at: -way * value for at, value in form.items()})
+    return feasible(demands, _KNOWN)
+
+
+def _solve(
+    columns: Sequence[TorqueUnknown], block: Block, sides: Sides, known: Mapping[int, Fraction]
+) -> Values | None:
+    """All torques of a block, or None where none balance the known ones."""
+    if len(block.rows) == len(block.columns) == 1:
+        (row,), (column,) = block.rows, block.columns
+        if coefficient := columns[column].pieces[sides[column]].get(row):
+            return {column: -known[row] / coefficient}
+    echelon = _echelon(columns, block, sides, known)
+    if echelon.conditions:
+        return None
+    forms = echelon.forms()
+    values: Values = dict.fromkeys(block.columns)
+    for column, form in forms.items():
+        if all(other < 0 for other in form):
+            values[column] = form.get(_KNOWN, Fraction(0))
+    return values
+
+
+def _echelon(columns: Sequence[TorqueUnknown], block: Block, sides: Sides, known: Mapping[int, Fraction]) -> Echelon:
+    """The rows of a block, eliminated."""
+    rows: dict[int, LinearForm] = {row: {_KNOWN: value} if value else {} for row, value in known.items()}
+    for column in block.columns:
+        for row, value in columns[column].pieces[sides[column]].items():
+            if row in rows:
+                rows[row][column] = value
+    return eliminate(rows.values())
+
+
+def _candidates(
+    columns: Sequence[TorqueUnknown], block: Block, lossy: Sequence[int], base: Sides, known: Mapping[int, Fraction]
+) -> Iterator[Sides]:
+    """Sides that may be consistent: all of them, or, where a block is large, those that are so in floats."""
+    every = ({**base, **dict(zip(lossy, sides, strict=True))}
+             for sides in product(*(columns[column].sides for column in lossy)))  # fmt: skip
+    if len(lossy) < _FEW or len(block.rows) != len(block.columns):
+        yield from every
+        return
+    floats = _Floats(columns, block, known)
+    while chunk := list(islice(every, max(1, _CHUNK // len(block.rows) ** 2))):
+        yield from floats.likely(chunk)
+
+
+def _iterate(
+    columns: Sequence[TorqueUnknown], block: Block, lossy: Sequence[int], base: Sides, known: Mapping[int, Fraction]
+) -> Sides | None:
+    """Begin without losses, and turn round every mesh through which power flows against its direction."""
+    sides: Sides = {**base, **dict.fromkeys(lossy, 0)}
+    seen: list[Sides] = []
+    for _ in range(_MOST_ROUNDS):
+        values = _solve(columns, block, sides, known)
+        if values is None:
+            return None
+        if seen and _is_consistent(columns, block, sides, values, known):
+            return sides
+        wanted = {column: -1 if (values[column] or 0) * columns[column].turn > 0 else 1 for column in lossy}
+        sides = {**base, **wanted}
+        if sides in seen:
+            return None
+        seen.append(sides)
+    return None
+
+
+class _Floats:
+    """A square block in floats, to sort out the many patterns that contradict themselves."""
+
+    def __init__(self, columns: Sequence[TorqueUnknown], block: Block, known: Mapping[int, Fraction]) -> None:
+        import numpy as np
+
+        self.block = block
+        self.turns = np.array([columns[column].turn for column in block.columns])
+        greatest = max(map(abs, known.values()))
+        self.right = np.array([-float(known[row] / greatest) for row in block.rows])
+        size = len(block.rows)
+        self.pieces = np.zeros((3, size, size))  # by side: 0, 1, and -1 in the last
+        for at, column in enumerate(block.columns):
+            for side, piece in columns[column].pieces.items():
+                self.pieces[side, :, at] = [float(piece.get(row, 0)) for row in block.rows]
+
+    def likely(self, chunk: Sequence[Sides]) -> Iterator[Sides]:
+        """Those whose torques do not contradict them; all of them if one cannot be solved so."""
+        import numpy as np
+
+        sides = np.array([[each[column] for column in self.block.columns] for each in chunk])
+        matrices = self.pieces[sides, :, np.arange(sides.shape[1])].transpose(0, 2, 1)
+        try:
+            found = np.linalg.solve(matrices, self.right[:, None])[:, :, 0]
+        except np.linalg.LinAlgError:
+            yield from chunk
+            return
+        against = np.max(found * self.turns * sides, axis=1) > _NEAR * np.max(np.abs(found), axis=1)
+        yield from (each for each, bad in zip(chunk, against.tolist(), strict=True) if not bad)

@@ -1,0 +1,108 @@
+"""A train in one case, as torques see it: speeds as far as they are determined, real teeth and pins, loads."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from fractions import Fraction
+from functools import cached_property
+
+from geartrain.dynamics.gear_meshes import PinMesh
+from geartrain.dynamics.torques.virtual_work import PRESCRIBED
+from geartrain.kinematics.circuits import Circuit, Tree
+from geartrain.kinematics.willis_system import WillisSystem, assemble_willis_system
+from geartrain.numerics.exact import LinearForm
+from geartrain.teeth.gear_mesh import GearMesh as ToothMesh
+from geartrain.teeth.pin_coupling import Coupling
+from geartrain.train import GearPair, StateCase, Train
+
+
+@dataclass(frozen=True)
+class LoadCase:
+    """A train in one case, solved for its speeds: everything torques need to know of it.
+
+    speeds   of the links whose speed is determined
+    forms    in a train that is free, the speeds of all links in terms of what is free; else empty
+    """
+
+    train: Train
+    tree: Tree
+    circuits: Sequence[Circuit]
+    signs: Mapping[str, int]
+    case: StateCase
+    speeds: Mapping[str, Fraction]
+    teeth: Sequence[ToothMesh] = ()
+    pins: Sequence[PinMesh] = ()
+    forms: Mapping[str, LinearForm] = field(default_factory=dict)
+
+    @cached_property
+    def gears(self) -> Mapping[str, GearPair]:
+        """Gear pairs by name."""
+        return {gear.name: gear for gear in self.train.gears}
+
+    @cached_property
+    def couplings(self) -> Mapping[str, Coupling]:
+        """Pins in slots by name."""
+        return {coupling.name: coupling for coupling in self.train.couplings}
+
+    @cached_property
+    def meshes(self) -> Mapping[str, ToothMesh]:
+        """Pairs with real teeth by name."""
+        return {mesh.name: mesh for mesh in self.teeth}
+
+    @cached_property
+    def joints(self) -> Mapping[str, PinMesh]:
+        """Pins in slots with dimensions, by name."""
+        return {joint.coupling.name: joint for joint in self.pins}
+
+    @cached_property
+    def system(self) -> WillisSystem:
+        """The labelled rows of the case."""
+        return assemble_willis_system(tuple(self.train.links), self.train.frame, self.circuits, self.case, self.signs)
+
+    @property
+    def open(self) -> tuple[str, ...]:
+        """Links whose speed is not determined."""
+        return tuple(link for link in self.train.links if link not in self.speeds)
+
+    def sense(self, link: str) -> int:
+        """1, or -1 where the link's axis points against its parallels."""
+        return self.signs.get(link, 1)
+
+    def relative(self, link: str, carrier: str) -> Fraction | None:
+        """Speed of a link seen from another, both about the direction of their parallels; None where that is free.
+
+        Two links that are free may still have one speed between them.
+        """
+        own, other = self.sense(link), self.sense(carrier)
+        if link in self.speeds and carrier in self.speeds:
+            return own * self.speeds[link] - other * self.speeds[carrier]
+        form = dict(self.forms[link])
+        form = {column: own * value for column, value in form.items()}
+        for column, value in self.forms[carrier].items():
+            form[column] = form.get(column, Fraction(0)) - other * value
+        free = any(value for column, value in form.items() if column != PRESCRIBED)
+        return None if free else form.get(PRESCRIBED, Fraction(0))
+
+    def bearer(self, link: str) -> str:
+        """What bears the axis that a link turns about, however its coaxial joints are declared."""
+        return self.tree.top.get(link, link)
+
+    def turn(self, circuit: Circuit) -> Fraction | None:
+        """Speed of a circuit's first link seen from its carrier: where it is 0 no power flows between the two."""
+        return self.relative(circuit.i, circuit.carrier)
+
+    def bearing(self, link: str) -> Fraction:
+        """Friction torque of a link's bearing, N m or plain."""
+        torque = self.train.links[link].bearing
+        if torque is None or link == self.train.frame:
+            return Fraction(0)
+        return torque.base
+
+
+def declared_loads(train: Train, case: StateCase) -> tuple[dict[str, Fraction], str | None]:
+    """The loads of one case, N m or plain, and the link whose torque is named as unknown."""
+    state = train.states[case.state] if case.state is not None else None
+    loads = train.loads if state is None or state.loads is None else state.loads
+    solve_for = train.solve_for if state is None or state.solve_for is None else state.solve_for
+    return {link: torque.base for link, torque in loads.items()}, solve_for

@@ -1,0 +1,292 @@
+"""Where power flows: absolute powers from shaft to pair to shaft, what each pair sheds, and what runs in circles.
+
+The power that a link gives to a pair is minus its torque there times its absolute speed. A pair takes in what it gives
+on and what it loses; a shaft gives on all it takes in. Links that are locked together are one shaft. A friction of a
+bearing stands between its link and the carrier like a pair that only loses.
+
+Amounts of power for a reader: watts where torques and speeds are real, and shares of the whole.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from fractions import Fraction
+from typing import Any, Literal, NamedTuple
+
+from geartrain.dynamics.torques.torque_results import Torques
+from geartrain.kinematics.circuits import Tree, close_joints
+from geartrain.numerics.exact import as_float
+from geartrain.numerics.quantity import RADIANS_PER_TURN
+from geartrain.train import StateCase, Train
+
+PowerNodeKind = Literal["in", "shaft", "pair", "bearing", "out"]
+
+
+class PowerNode(NamedTuple):
+    """A place that power passes: an `in` or `out` is named by its link, a bearing by the link that turns in it."""
+
+    kind: PowerNodeKind
+    name: str
+
+
+@dataclass(frozen=True)
+class PowerStream:
+    """Power from one node to the next, above 0; `circling` of it runs in closed loops."""
+
+    source: PowerNode
+    target: PowerNode
+    power: Fraction
+    circling: Fraction = Fraction(0)
+
+    def to_dict(self) -> dict[str, Any]:
+        """Plain data for JSON."""
+        return {
+            "from": self.source._asdict(),
+            "to": self.target._asdict(),
+            "power": as_float(self.power),
+            "circling": as_float(self.circling),
+        }
+
+
+@dataclass(frozen=True)
+class RecirculatingPower:
+    """Nodes that feed each other in closed loops, and the power that runs round in them without leaving."""
+
+    nodes: tuple[PowerNode, ...]
+    power: Fraction
+
+    @property
+    def pairs(self) -> tuple[str, ...]:
+        """The pairs of the loop."""
+        return tuple(node.name for node in self.nodes if node.kind == "pair")
+
+    @property
+    def shafts(self) -> tuple[str, ...]:
+        """The shafts of the loop."""
+        return tuple(node.name for node in self.nodes if node.kind == "shaft")
+
+
+@dataclass(frozen=True)
+class PowerFlow:
+    """All streams of a train in one case, in the unit of its powers.
+
+    losses   by pair and bearing, only where there are some
+    loops    circulating power, the greatest first
+    """
+
+    power_in: Fraction = Fraction(0)
+    streams: tuple[PowerStream, ...] = ()
+    losses: Mapping[PowerNode, Fraction] = field(default_factory=dict)
+    loops: tuple[RecirculatingPower, ...] = ()
+
+    @property
+    def nodes(self) -> tuple[PowerNode, ...]:
+        """Every node that power passes."""
+        return tuple(dict.fromkeys(end for stream in self.streams for end in (stream.source, stream.target)))
+
+    @property
+    def loss(self) -> Fraction:
+        """Power lost in all pairs and bearings."""
+        return sum(self.losses.values(), Fraction(0))
+
+    def surplus(self, node: PowerNode) -> Fraction:
+        """What a node takes in and neither gives on nor loses: 0 everywhere but at the ends."""
+        taken = sum((stream.power for stream in self.streams if stream.target == node), Fraction(0))
+        given = sum((stream.power for stream in self.streams if stream.source == node), Fraction(0))
+        return taken - given - self.losses.get(node, Fraction(0))
+
+    def to_dict(self) -> dict[str, Any]:
+        """Plain data for JSON."""
+        return {
+            "streams": [stream.to_dict() for stream in self.streams],
+            "loops": [
+                {
+                    "pairs": list(loop.pairs),
+                    "shafts": list(loop.shafts),
+                    "power": as_float(loop.power),
+                    "of_power_in": as_float(loop.power / self.power_in) if self.power_in else None,
+                }
+                for loop in self.loops
+            ],
+        }
+
+
+def find_power_flow(train: Train, tree: Tree, signs: Mapping[str, int], found: Torques) -> PowerFlow:
+    """The streams of power under some torques; empty where none were found, or some are shared in no certain way.
+
+    signs   -1 for links whose axis points against its parallels
+    """
+    if not found.verdict or found.open_speeds or any(pair.loose or pair.power is None for pair in found.pairs.values()):
+        return PowerFlow()
+    (case,) = close_joints(train, tree, [train.case(found.state)])
+    shafts = _shafts(case.locks)
+    streams: list[PowerStream] = []
+    losses: dict[PowerNode, Fraction] = {}
+    ends = [(shafts.get(link, PowerNode("shaft", link)), link, power) for link, power in found.powers.items()]
+    streams += [PowerStream(PowerNode("in", link), shaft, power) for shaft, link, power in ends if power > 0]
+    for node, given in _takers(train, tree, signs, found):
+        net: dict[PowerNode, Fraction] = {}
+        for link, power in given:
+            shaft = shafts.get(link, PowerNode("shaft", link))
+            net[shaft] = net.get(shaft, Fraction(0)) + power
+        streams += [PowerStream(shaft, node, power) for shaft, power in net.items() if power > 0]
+        streams += [PowerStream(node, shaft, -power) for shaft, power in net.items() if power < 0]
+        if lost := sum(net.values(), Fraction(0)):
+            losses[node] = lost
+    streams += [PowerStream(shaft, PowerNode("out", link), -power) for shaft, link, power in ends if power < 0]
+    streams, loops = _circulation(streams)
+    return PowerFlow(found.power_in, tuple(streams), losses, tuple(loops))
+
+
+def _shafts(locks: Iterable[tuple[str, str]]) -> dict[str, PowerNode]:
+    """The shaft of every link that is locked to another one, named by all its links."""
+    groups: dict[str, tuple[str, ...]] = {}
+    for a, b in locks:
+        joined = tuple(dict.fromkeys((*groups.get(a, (a,)), *groups.get(b, (b,)))))
+        groups |= dict.fromkeys(joined, joined)
+    return {link: PowerNode("shaft", " + ".join(group)) for link, group in groups.items()}
+
+
+def _takers(
+    train: Train, tree: Tree, signs: Mapping[str, int], found: Torques
+) -> Iterator[tuple[PowerNode, Sequence[tuple[str, Fraction]]]]:
+    """Pairs and bearings with the power that each of their links gives them."""
+    speed = found.speeds
+    for pair in found.pairs.values():
+        yield (
+            PowerNode("pair", pair.id),
+            [(link, -torque * speed[link]) for link, torque in zip(pair.links, pair.torques, strict=True)],
+        )
+    if not found.bearing_loss:
+        return
+    for link, part in train.links.items():
+        if part.bearing is None or link == train.frame:
+            continue
+        carrier = tree.parent[link][0]
+        own, other = signs.get(link, 1) * speed[link], signs.get(carrier, 1) * speed.get(carrier, Fraction(0))
+        torque = part.bearing.base * ((own > other) - (own < other))
+        yield PowerNode("bearing", link), [(link, torque * own), (carrier, -torque * other)]
+
+
+# -------------------------------------------------------------------------------------------------------------- loops
+
+
+def _circulation(streams: Sequence[PowerStream]) -> tuple[list[PowerStream], list[RecirculatingPower]]:
+    """Streams with the part that circles, and the loops: closed ways are taken out, the widest first."""
+    left = [stream.power for stream in streams]
+    rounds: list[tuple[PowerNode, Fraction]] = []
+    while way := _widest(streams, left):
+        least = min(left[at] for at in way)
+        for at in way:
+            left[at] -= least
+        rounds.append((streams[way[0]].source, least))
+    marked = [replace(stream, circling=stream.power - rest) for stream, rest in zip(streams, left, strict=True)]
+    loops: dict[frozenset[PowerNode], Fraction] = {}
+    for node, power in rounds:
+        members = _mutual(streams, node)
+        loops[members] = loops.get(members, Fraction(0)) + power
+    order = dict.fromkeys(end for stream in streams for end in (stream.source, stream.target))
+    found = [
+        RecirculatingPower(tuple(node for node in order if node in members), power) for members, power in loops.items()
+    ]
+    return marked, sorted(found, key=lambda loop: -loop.power)
+
+
+def _widest(streams: Sequence[PowerStream], left: Sequence[Fraction]) -> list[int]:
+    """The closed way whose narrowest stream is the widest, as places of its streams; empty where there is none."""
+    best = _closed(streams, [at for at, power in enumerate(left) if power])
+    if not best:
+        return []
+    widths = sorted({power for power in left if power > min(left[at] for at in best)})
+    low, high = 0, len(widths)
+    while low < high:
+        middle = (low + high) // 2
+        way = _closed(streams, [at for at, power in enumerate(left) if power >= widths[middle]])
+        best, low, high = (way, middle + 1, high) if way else (best, low, middle)
+    return best
+
+
+def _closed(streams: Sequence[PowerStream], open_: Iterable[int]) -> list[int]:
+    """One closed way through the streams at these places, or none."""
+    after: dict[PowerNode, list[int]] = {}
+    for at in open_:
+        after.setdefault(streams[at].source, []).append(at)
+    done: set[PowerNode] = set()
+    for start in after:
+        way: list[int] = []
+        ahead = {start: iter(after[start])}  # the nodes of the way with what is still to be tried from each
+        while ahead:
+            for at in ahead[next(reversed(ahead))]:
+                target = streams[at].target
+                if target in ahead:
+                    return [*way, at][list(ahead).index(target) :]
+                if target not in done:
+                    way.append(at)
+                    ahead[target] = iter(after.get(target, ()))
+                    break
+            else:
+                done.add(ahead.popitem()[0])
+                way = way[:-1]
+    return []
+
+
+def _mutual(streams: Sequence[PowerStream], node: PowerNode) -> frozenset[PowerNode]:
+    """All nodes that power from this one reaches and that reach it."""
+    ways: list[set[PowerNode]] = []
+    for pairs in (((s.source, s.target) for s in streams), ((s.target, s.source) for s in streams)):
+        after: dict[PowerNode, list[PowerNode]] = {}
+        for source, target in pairs:
+            after.setdefault(source, []).append(target)
+        seen, todo = {node}, [node]
+        while todo:
+            fresh = [each for each in after.get(todo.pop(), ()) if each not in seen]
+            seen.update(fresh)
+            todo += fresh
+        ways.append(seen)
+    return frozenset(ways[0] & ways[1])
+
+
+_PREFIXES = ((1e6, "M"), (1e3, "k"), (1.0, ""), (1e-3, "m"), (1e-6, "µ"))
+
+
+def has_torque_units(train: Train, state: str | None) -> bool:
+    """True if the loads and bearings of one state are given in units."""
+    own = train.states[state].loads if state is not None else None
+    loads = train.loads if own is None else own
+    bearings = (part.bearing for part in train.links.values() if part.bearing is not None)
+    torques = [torque for torque in (*loads.values(), *bearings) if torque.value]
+    return bool(torques) and all(torque.unit is not None for torque in torques)
+
+
+def watts_per_unit(train: Train, case: StateCase) -> float | None:
+    """Watts in one unit of power: N m times the train's unit of speed; None where torques or speeds are plain numbers.
+
+    Speeds are real where the train has a `rate`, that of the first input that turns, or its inputs have units.
+    """
+    if not has_torque_units(train, case.state):
+        return None
+    lead = next((speed for speed in case.inputs.values() if speed), None)
+    if train.rate is not None and train.rate.unit is not None and lead is not None:
+        return abs(train.rate.si / float(lead))
+    if not train.input_unit or train.unit_speed is None:
+        return None
+    return float(train.unit_speed * RADIANS_PER_TURN)
+
+
+def watts_text(power: float) -> str:
+    """Watts with the prefix that keeps the number short: `2.5 mW`."""
+    for size, prefix in _PREFIXES:
+        if abs(power) >= size:
+            return f"{power / size:.4g} {prefix}W"
+    return f"{power * 1e9:.4g} nW" if power else "0 W"
+
+
+def percent_text(part: Fraction, digits: int = 4) -> str:
+    """A share in percent: `97.87 %`; many times the whole as a multiple."""
+    return f"{float(100 * part):.{digits}g} %" if abs(part) < 10 else f"{float(part):.{digits}g} times"
+
+
+def percent_of_text(part: Fraction, whole: str) -> str:
+    """`51.75 % of the power in`, `258.8 times the power in`."""
+    return f"{percent_text(part)} of {whole}" if abs(part) < 10 else f"{percent_text(part)} {whole}"

@@ -1,0 +1,291 @@
+"""From a declared train in one case to its torques: what is known, what is asked for, and what each pair loses."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from fractions import Fraction
+
+from geartrain.dynamics.torques.flow_patterns import FlowPattern, find_flow_patterns
+from geartrain.dynamics.torques.load_case import LoadCase, declared_loads
+from geartrain.dynamics.torques.load_sharing import find_shares, find_ties
+from geartrain.dynamics.torques.mean_efficiencies import (
+    MeanEfficiencies,
+    find_mean_efficiencies,
+    settle_mean_efficiencies,
+)
+from geartrain.dynamics.torques.neglected_effects import find_neglected_effects
+from geartrain.dynamics.torques.torque_balance import LoadedPair, TorqueBalance
+from geartrain.dynamics.torques.torque_results import HoldingTorque, NeglectedEffect, PairTorque, Torques, TorqueVerdict
+from geartrain.dynamics.torques.torque_verdicts import LoadedBalance, find_imbalance, find_torque_verdict
+from geartrain.kinematics.circuits import Circuit, joint_sum_links
+
+
+@dataclass(frozen=True)
+class UnknownLinks:
+    """The links whose torque is unknown.
+
+    enough     as many as the train has freedoms; with fewer the loads have to balance of themselves
+    undecided  why more are needed than it is plain which, where the loads do not
+    """
+
+    links: tuple[str, ...]
+    enough: bool = True
+    undecided: TorqueVerdict | None = None
+
+
+def find_torques(setting: LoadCase) -> Torques:
+    """Torques under the declared loads, or under the friction of bearings alone."""
+    loads, solve_for = declared_loads(setting.train, setting.case)
+    if not loads and not any(map(setting.bearing, setting.train.links)):
+        text = "no load is declared: give `loads` on links, negative against their turning, or `bearing` friction"
+        return Torques(setting.case.state, TorqueVerdict("unloaded", text))
+    asked = _asked(setting, loads, solve_for)
+    verdict = _summed(setting, (*loads, *asked.links))
+    if verdict is None:
+        verdict = _still(setting, asked.links)
+    return _balanced(setting, loads, asked) if verdict is None else Torques(setting.case.state, verdict)
+
+
+def drive(setting: LoadCase, load: str, source: str) -> Torques:
+    """Torques while a resisting unit of power leaves at `load` and `source` is to drive it; bearings left out."""
+    if (verdict := _summed(setting, (load, source))) is not None:
+        return Torques(setting.case.state, verdict)
+    for link in (load, source):
+        if not setting.speeds.get(link):
+            why = "does not turn" if link in setting.speeds else "turns at a speed that is not determined"
+            return Torques(setting.case.state, TorqueVerdict("still", f"'{link}' {why}"))
+    asked = UnknownLinks((source,), enough=len(setting.case.inputs) == 1 and not setting.forms)
+    return _balanced(setting, {load: -1 / setting.speeds[load]}, asked, bearings=False)
+
+
+def _asked(setting: LoadCase, loads: Mapping[str, Fraction], solve_for: str | None) -> UnknownLinks:
+    """The links whose torque is unknown: as many as there are inputs, or fewer where that is all that is plain."""
+    inputs, enter = setting.case.inputs, power_inputs(setting)
+    free = tuple(link for link in enter if link not in loads)
+    needed = len(inputs)
+    if setting.forms and len(free) <= needed:
+        # what turns freely has no torque but what is declared, unless one is asked for
+        named = (solve_for,) if solve_for is not None and solve_for not in free else ()
+        return UnknownLinks((*free, *named), enough=False)
+    if needed == 1 and solve_for is not None:
+        free = (solve_for,)
+    if len(free) == needed:
+        return UnknownLinks(free)
+    if len(free) > needed:  # the crank, and inputs of which one has no torque
+        certain, candidates = free[:1], free[1:]
+    else:
+        links = dict.fromkeys(output.of or name for name, output in setting.case.outputs.items())
+        certain, candidates = free, tuple(link for link in links if link not in loads and link not in free)
+    candidates = (solve_for,) if solve_for else candidates
+    lacking = needed - len(certain)
+    if len(candidates) == lacking:
+        return UnknownLinks(certain + candidates, enough=not setting.forms)
+    loaded = ", ".join(link for link in enter if link in loads)
+    why = f"{loaded} carries a load" if loaded else f"power enters at {enter[0]}, which is no input"
+    text = (
+        f"{why}, so {lacking} other torque{'s' if lacking > 1 else ''} must be unknown, and "
+        f"{len(candidates)} can be: name one with `solve_for`"
+    )
+    certain += candidates if len(candidates) < lacking else ()
+    return UnknownLinks(certain, False, TorqueVerdict("undecided", text, candidates))
+
+
+def power_inputs(setting: LoadCase) -> tuple[str, ...]:
+    """Where power may enter: the inputs, or, where only their speeds are given, the crank in place of one of them."""
+    inputs, crank = tuple(setting.case.inputs), setting.train.crank
+    if crank is None or crank in inputs:
+        return inputs
+    return (crank,) if len(inputs) == 1 else (crank, *inputs)
+
+
+def _summed(setting: LoadCase, links: Iterable[str]) -> TorqueVerdict | None:
+    """A torque about an axis that moves does no work with a sum of joint speeds, which is no rotation."""
+    sums = joint_sum_links(setting.train, setting.tree)
+    for link in links:
+        if link in sums:
+            why = "the axes between it and the frame are not parallel, and its sum of joint speeds is no rotation"
+            return TorqueVerdict("undecided", f"a torque on '{link}' has no one axis: {why}")
+    return None
+
+
+def _still(setting: LoadCase, asked: tuple[str, ...]) -> TorqueVerdict | None:
+    """A link at rest moves nothing; a single input at rest is a train at rest, which balances."""
+    speeds = setting.speeds
+    if len(asked) == 1 and speeds.get(asked[0]) == 0 and any(speeds[link] for link in setting.case.inputs):
+        return TorqueVerdict("still", f"'{asked[0]}' does not turn, so no torque on it does any work")
+    return None
+
+
+def _balanced(setting: LoadCase, loads: Mapping[str, Fraction], asked: UnknownLinks, bearings: bool = True) -> Torques:
+    rubbing = _bearings(setting) if bearings else {}
+    known = dict(loads)
+    for link, torque in rubbing.items():
+        known[link] = known.get(link, Fraction(0)) + torque
+    state = setting.case.state
+    if not asked.enough and (lacking := find_imbalance(setting, known, asked.links)) is not None:
+        return Torques(state, _with_reason(asked, lacking), asked.links)
+    means = {circuit.id: find_mean_efficiencies(setting, circuit) for circuit in setting.circuits}
+    driving = sum((torque * setting.speeds.get(link, 0) for link, torque in loads.items()), Fraction(0)) > 0
+    balance, neither = settle_mean_efficiencies(build_balance(setting, known, asked.links, means), means, driving)
+    found, complete = find_flow_patterns(balance)
+    question = LoadedBalance(balance, setting.speeds, loads, rubbing, asked.enough, setting.open)
+    # all else being known, the power asked for tells the order of losses
+    flows = sorted(found, key=lambda flow: (len(flow.solved.open), question.power(flow)))
+    idle = [name for name, x in flows[0].solved.multipliers.items() if not x] if flows else []
+    loose = flows[0].solved.loose if flows else ()
+    left_out = find_neglected_effects(setting, means, neither, [name for name in idle if name not in loose], bearings)
+    verdict = find_torque_verdict(question, flows, complete, left_out)
+    if not flows:
+        verdict = _with_reason(asked, verdict)
+        return Torques(state, verdict, asked.links, left_out=left_out)
+    return _torques(setting, balance, flows[0], rubbing, verdict, left_out)
+
+
+def _with_reason(asked: UnknownLinks, lacking: TorqueVerdict) -> TorqueVerdict:
+    """Which torque might be named, before what is lacking without it; the latter alone where naming one is no help."""
+    if asked.undecided is None:
+        return lacking
+    untried = [link for link in asked.undecided.candidates if link not in asked.links]
+    if not untried and not lacking.candidates:
+        return lacking
+    text = f"{asked.undecided.text}; {lacking.text}"
+    return TorqueVerdict("undecided", text, tuple(untried) or lacking.candidates)
+
+
+def build_balance(
+    setting: LoadCase,
+    known: Mapping[str, Fraction],
+    asked: tuple[str, ...],
+    means: Mapping[str, MeanEfficiencies] | None = None,
+) -> TorqueBalance:
+    """The balance of a train with some torques known and some asked for; as if nothing rubbed where no means are."""
+    case, train = setting.case, setting.train
+    meshes = tuple(_mesh(setting, circuit, means[circuit.id] if means else None) for circuit in setting.circuits)
+    locks = _locks(setting)
+    held = {*asked, *case.fixed, *(link for lock in locks for link in lock)}
+    shares = find_shares(train, setting.circuits, {*held, *known})
+    shared = {name for _, parts in shares for name in parts}
+    planets = {link for mesh in meshes if mesh.id in shared for link in mesh.links[:2]}
+    return TorqueBalance(
+        tuple(link for link in train.links if link != train.frame),
+        meshes,
+        known,
+        asked,
+        _brakes(setting),
+        tuple(((a, setting.sense(a)), (b, setting.sense(b))) for a, b in locks),
+        find_ties(setting.circuits, meshes, known, held | planets),
+        shares,
+    )
+
+
+def _brakes(setting: LoadCase) -> tuple[str, ...]:
+    return tuple(link for link in setting.case.fixed if link != setting.train.frame)
+
+
+def _locks(setting: LoadCase) -> tuple[tuple[str, str], ...]:
+    return tuple((a, b) for a, b in setting.case.locks if a != b)
+
+
+def _mesh(setting: LoadCase, circuit: Circuit, means: MeanEfficiencies | None) -> LoadedPair:
+    """A circuit as a path of power, with what its teeth lose; nothing where nobody knows which way it rolls."""
+    i, j, k = circuit.i, circuit.j, circuit.carrier
+    senses = (setting.sense(i), setting.sense(j), setting.sense(k))
+    relative = setting.relative(i, k) or Fraction(0)
+    forward, backward = means.given(0, driving=False) if means else (Fraction(1), Fraction(1))
+    a, b = circuit.a, circuit.b
+    if min(a, b, key=abs) < 0:  # the sign of a row is free: one for both orders of a planet and its ring
+        a, b = -a, -b
+    return LoadedPair(circuit.id, (i, j, k), senses, a, b, a * relative, forward, backward)
+
+
+def _bearings(setting: LoadCase) -> dict[str, Fraction]:
+    """Friction of bearings against the turning of each link in its joint, where that is determined."""
+    found: dict[str, Fraction] = {}
+    for link in setting.train.links:
+        if not (friction := setting.bearing(link)):
+            continue
+        carrier = setting.tree.parent[link][0]
+        own, other = setting.sense(link), setting.sense(carrier)
+        relative = setting.relative(link, carrier) or Fraction(0)
+        torque = friction * ((relative > 0) - (relative < 0))
+        found[link] = found.get(link, Fraction(0)) - own * torque
+        if carrier != setting.train.frame:
+            found[carrier] = found.get(carrier, Fraction(0)) + other * torque
+    return found
+
+
+def _torques(
+    setting: LoadCase,
+    balance: TorqueBalance,
+    flow: FlowPattern,
+    rubbing: Mapping[str, Fraction],
+    verdict: TorqueVerdict,
+    left_out: tuple[NeglectedEffect, ...],
+) -> Torques:
+    solved = flow.solved
+    external = dict(balance.known)
+    for found in (solved.external, solved.brakes):
+        for link, torque in found.items():
+            external[link] = external.get(link, Fraction(0)) + torque
+    # friction of a bearing is no power from outside; what it takes hangs on the speeds in the joints alone
+    for link, torque in rubbing.items():
+        external[link] -= torque
+    return Torques(
+        setting.case.state,
+        verdict,
+        balance.unknown,
+        {link: torque for link, torque in external.items() if torque or link in solved.external},
+        setting.speeds,
+        {
+            mesh.id: _pair(setting, mesh, circuit, flow)
+            for mesh, circuit in zip(balance.meshes, setting.circuits, strict=True)
+        },
+        _bearing_loss(setting) if rubbing else Fraction(0),
+        _held(setting, flow),
+        left_out,
+    )
+
+
+def _pair(setting: LoadCase, mesh: LoadedPair, circuit: Circuit, flow: FlowPattern) -> PairTorque:
+    x = flow.solved.multipliers[mesh.id]
+    first, second, carrier = (x * each for each in mesh.torques(flow.pattern.get(mesh.id, 0)))
+    ahead = ((x < 0) - (x > 0)) * mesh.turn
+    return PairTorque(
+        mesh.id,
+        circuit.wheels[0 if ahead > 0 else 1] if ahead else "",
+        mesh.links,
+        (first, second, carrier),
+        x,
+        mesh.rolling if setting.relative(circuit.i, circuit.carrier) is not None else None,
+        mesh.efficiency(ahead),
+        mesh.id in flow.solved.loose,
+    )
+
+
+def _bearing_loss(setting: LoadCase) -> Fraction:
+    """What bearings take at the speeds of their joints, where these are determined."""
+    found = Fraction(0)
+    for link in setting.train.links:
+        if friction := setting.bearing(link):
+            found += friction * abs(setting.relative(link, setting.tree.parent[link][0]) or Fraction(0))
+    return found
+
+
+def _held(setting: LoadCase, flow: FlowPattern) -> tuple[HoldingTorque, ...]:
+    """Brakes and locks with what they exert: on a link about its own axis, on the second of two the reaction."""
+    solved = flow.solved
+    found = []
+    for link in _brakes(setting):
+        torque = solved.brakes.get(link)
+        found.append(_holding(setting, (link,), None if torque is None else (torque,)))
+    for (a, b), torque in zip(_locks(setting), solved.locks, strict=True):
+        both = None if torque is None else (setting.sense(a) * torque, -setting.sense(b) * torque)
+        found.append(_holding(setting, (a, b), both))
+    return tuple(found)
+
+
+def _holding(setting: LoadCase, links: tuple[str, ...], torques: tuple[Fraction, ...] | None) -> HoldingTorque:
+    case = setting.case
+    cause = case.causes.get(links, links)
+    return HoldingTorque(links, torques, case.clutches.get(cause), cause if cause != links else ())

@@ -1,0 +1,240 @@
+"""Torque balance of every link: the transpose of the Willis system, exact, with losses applied in carriers' frames.
+
+A mesh of links i and j with carrier k and row a (w_i - w_k) + b (w_j - w_k) = 0 carries one multiplier x: without loss
+its torques are a x on i, b x on j, and minus their sum on k. Where i drives in the carrier's frame, j gets the share
+eta of its torque; where j drives, i does. The loss is the driver's power in that frame times 1 - eta: never negative.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cached_property
+
+from geartrain.errors import GearTrainError, Problem
+from geartrain.numerics.block_triangular import Block, dulmage_mendelsohn_blocks
+from geartrain.numerics.exact import LinearForm
+
+DrivingSides = Mapping[str, int]
+"""Mesh id -> 1 where its first link drives in the carrier's frame, -1 where the second does, 0 without loss."""
+
+LoadShares = tuple[str, Mapping[str, Fraction]]
+"""A link, and the meshes on one wheel of it with the parts of a torque that they carry."""
+
+
+@dataclass(frozen=True)
+class LoadedPair:
+    """One gear pair or coupling as a path of power.
+
+    links, senses   i, j, k, and 1 or -1 for the sense of each link's axis
+    a, b            coefficients of its row
+    rolling         a (w_i - w_k), which is -b (w_j - w_k): 0 where the two do not roll on each other
+    forward         efficiency with i driving, `backward` with j driving; 0 or less locks
+    """
+
+    id: str
+    links: tuple[str, str, str]
+    senses: tuple[int, int, int]
+    a: int
+    b: int
+    rolling: Fraction
+    forward: Fraction = Fraction(1)
+    backward: Fraction = Fraction(1)
+
+    def __post_init__(self) -> None:
+        """Raises `GearTrainError` for a pair that would give more than it takes."""
+        if max(self.forward, self.backward) > 1:
+            what = f"pair '{self.id}' has an efficiency of {float(max(self.forward, self.backward)):g}"
+            raise GearTrainError(Problem(what, "above 1 it would create power", "give an efficiency of at most 1"))
+
+    @property
+    def loses(self) -> bool:
+        """True if it matters which of the two drives."""
+        return bool(self.rolling) and (self.forward != 1 or self.backward != 1)
+
+    @property
+    def turn(self) -> int:
+        """Sign of the rolling: power flows from i to j where the multiplier has the other sign."""
+        return (self.rolling > 0) - (self.rolling < 0)
+
+    @property
+    def sides(self) -> tuple[int, ...]:
+        """The ways power may flow: one that locks can only idle, which the other way tells as well."""
+        if not self.loses:
+            return (0,)
+        return tuple(side for side in (1, -1) if self.efficiency(side) > 0) or (1,)
+
+    def efficiency(self, side: int) -> Fraction:
+        """Efficiency with i driving (1) or j (-1)."""
+        return self.forward if side > 0 else self.backward if side < 0 else Fraction(1)
+
+    def torques(self, side: int) -> tuple[Fraction, Fraction, Fraction]:
+        """Torques on i, j, k per unit of the multiplier."""
+        left = self.a * (self.backward if side < 0 else Fraction(1))
+        right = self.b * (self.forward if side > 0 else Fraction(1))
+        return left * self.senses[0], right * self.senses[1], -(left + right) * self.senses[2]
+
+    def power(self, multiplier: Fraction) -> Fraction:
+        """Power that flows from i to j in the carrier's frame, before losses where i drives."""
+        return -multiplier * self.rolling
+
+
+@dataclass(frozen=True)
+class TorqueUnknown:
+    """One unknown torque, the same in all its meshes, and what a unit of it does to each row.
+
+    pieces   side of the first mesh that loses -> row -> coefficient; side 0 is without loss
+    sides    which of them are tried
+    turn     sign of that mesh's rolling
+    barred   no power can pass: the torque must vanish
+    """
+
+    pieces: Mapping[int, LinearForm]
+    meshes: tuple[LoadedPair, ...] = ()
+    sides: tuple[int, ...] = (0,)
+    turn: int = 0
+    barred: bool = False
+
+    def admits(self, side: int, torque: Fraction) -> bool:
+        """True if power flows the way `side` says, or not at all."""
+        if self.barred and torque:
+            return False
+        return side == 0 or ((torque > 0) - (torque < 0)) * side * self.turn <= 0
+
+    def side_of(self, mesh: LoadedPair, side: int) -> int:
+        """The side of one of its meshes: they have one multiplier, but may name their wheels in another order."""
+        return side * mesh.turn * self.turn if mesh.loses else 0
+
+
+@dataclass(frozen=True)
+class TorqueBalance:
+    """What is known and what is not in one case.
+
+    links     all links but the frame
+    known     external torque by link: loads and friction of bearings; links not named have none
+    unknown   links whose external torque is asked for
+    held      links held to the frame; `locks`, pairs of links that turn together, with the senses of both axes
+    ties      groups of meshes with equal multipliers, as of equal planets
+    shares    declared parts of the torque on a wheel
+    """
+
+    links: tuple[str, ...]
+    meshes: tuple[LoadedPair, ...]
+    known: Mapping[str, Fraction]
+    unknown: tuple[str, ...]
+    held: tuple[str, ...] = ()
+    locks: tuple[tuple[tuple[str, int], tuple[str, int]], ...] = ()
+    ties: tuple[tuple[str, ...], ...] = ()
+    shares: tuple[LoadShares, ...] = ()
+
+    @cached_property
+    def columns(self) -> tuple[TorqueUnknown, ...]:
+        """All unknowns: torques of meshes, then external ones, brakes and locks."""
+        tied = {name: group for group in self.ties for name in group}
+        groups: dict[tuple[str, ...], list[LoadedPair]] = {}
+        for mesh in self.meshes:
+            groups.setdefault(tied.get(mesh.id, (mesh.id,)), []).append(mesh)
+        one = Fraction(1)
+        outside: list[Iterable[tuple[str, Fraction]]] = [((link, one),) for link in (*self.unknown, *self.held)]
+        outside += [((a, Fraction(s)), (b, Fraction(-t))) for (a, s), (b, t) in self.locks]
+        plain = [TorqueUnknown({0: _row((self._at[link], value) for link, value in each if link in self._at)})
+                 for each in outside]  # fmt: skip
+        return (*(self._column(tuple(group)) for group in groups.values()), *plain)
+
+    @cached_property
+    def rows(self) -> Mapping[int, Fraction]:
+        """Rows that must vanish, each with its known torque: one a link and one a share.
+
+        Rows of equal planets are proportional: one of them is enough.
+        """
+        links, shared = len(self.links), sum(len(parts) - 1 for _, parts in self.shares)
+        known = {row: self.known.get(link, Fraction(0)) for row, link in enumerate(self.links)}
+        held: dict[int, list[tuple[int, int, Fraction]]] = {row: [] for row in range(links + shared)}
+        for at, column in enumerate(self.columns):
+            for side, piece in column.pieces.items():
+                for row, value in piece.items():
+                    held[row].append((at, side, value))
+        alike: dict[tuple[int, ...], list[int]] = {}
+        for row, entries in held.items():
+            if entries or known.get(row):
+                alike.setdefault(tuple(at for at, _, _ in entries), []).append(row)
+        kept: list[int] = []
+        for group in alike.values():
+            said = {_direction(held[row], known.get(row, Fraction(0))): row for row in reversed(group)}
+            kept += said.values() if len(group) > 1 else group
+        return {row: known.get(row, Fraction(0)) for row in sorted(kept)}
+
+    @cached_property
+    def parts(self) -> Sequence[Block]:
+        """Blocks of rows and columns in the order in which they can be solved, the same for every pattern."""
+        held: dict[int, set[int]] = {row: set() for row in self.rows}
+        for at, column in enumerate(self.columns):
+            for piece in column.pieces.values():
+                for row in held.keys() & piece.keys():
+                    held[row].add(at)
+        return dulmage_mendelsohn_blocks(held, len(self.columns))
+
+    @cached_property
+    def _at(self) -> Mapping[str, int]:
+        return {link: at for at, link in enumerate(self.links)}
+
+    @cached_property
+    def _parts(self) -> Mapping[str, Sequence[tuple[int, str, Fraction]]]:
+        """By mesh, the rows of shares it stands in: its torque on a link, by its share, equals that of the first."""
+        found: dict[str, list[tuple[int, str, Fraction]]] = {}
+        row = len(self.links)
+        for link, shares in self.shares:
+            (first, whole), *others = shares.items()
+            for name, part in others:
+                found.setdefault(first, []).append((row, link, 1 / whole))
+                found.setdefault(name, []).append((row, link, -1 / part))
+                row += 1
+        return found
+
+    def _column(self, meshes: tuple[LoadedPair, ...]) -> TorqueUnknown:
+        lossy = [mesh for mesh in meshes if mesh.loses]
+        turn = lossy[0].turn if lossy else 0
+        sides = lossy[0].sides if lossy else (0,)
+        blank = TorqueUnknown({}, meshes, sides, turn, bool(lossy) and lossy[0].efficiency(sides[0]) <= 0)
+        pieces = {
+            side: _row(entry for mesh in meshes for entry in self._entries(mesh, blank.side_of(mesh, side)))
+            for side in dict.fromkeys((0, *sides))
+        }
+        return TorqueUnknown(pieces, meshes, sides, turn, blank.barred)
+
+    def _entries(self, mesh: LoadedPair, side: int) -> Iterator[tuple[int, Fraction]]:
+        torques = dict(zip(mesh.links, mesh.torques(side), strict=True))
+        yield from ((self._at[link], torque) for link, torque in torques.items() if link in self._at)
+        yield from ((row, torques[link] * factor) for row, link, factor in self._parts.get(mesh.id, ()))
+
+
+def _direction(entries: Sequence[tuple[int, int, Fraction]], known: Fraction) -> tuple[object, ...]:
+    """A row up to a factor."""
+    lead = entries[0][2] if entries else known
+    return (known / lead, *((at, side, value / lead) for at, side, value in entries))
+
+
+def _row(entries: Iterable[tuple[int, Fraction]]) -> LinearForm:
+    """Entries of one row summed up, zeros left out."""
+    row: LinearForm = {}
+    for at, value in entries:
+        row[at] = row.get(at, Fraction(0)) + value
+    return {at: value for at, value in row.items() if value}
+
+
+@dataclass(frozen=True)
+class SolvedTorques:
+    """Torques under one pattern: multipliers by mesh, external torques asked for, and on brakes and locks.
+
+    locks   by lock, the torque it exerts on its first link about the direction of the parallels; None where it is open
+    loose   meshes whose torque is not determined, as between planets; they count 0
+    open    links asked for or held whose external torque is not determined for that; left out
+    """
+
+    multipliers: Mapping[str, Fraction]
+    external: Mapping[str, Fraction]
+    brakes: Mapping[str, Fraction]
+    locks: tuple[Fraction | None, ...]
+    loose: tuple[str, ...]
+    open: tuple[str, ...]

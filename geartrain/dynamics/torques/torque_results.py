@@ -1,0 +1,233 @@
+"""Torques of a train in one case: what acts on each link and pair, where power flows, and what is lost."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from fractions import Fraction
+from functools import cached_property
+from typing import Any, Literal
+
+from geartrain.numerics.containers import FrozenFields
+from geartrain.numerics.exact import as_float
+
+TorqueVerdictKind = Literal[
+    "determined",
+    "incomplete",
+    "self-locking",
+    "stalled",
+    "ambiguous",
+    "indeterminate",
+    "contradictory",
+    "unbalanced",
+    "undecided",
+    "unloaded",
+    "still",
+]
+
+
+@dataclass(frozen=True)
+class TorqueVerdict:
+    """Whether the torques follow from the loads.
+
+    determined      they do, and nothing that is declared is left out
+    incomplete      they do, but for what `left_out` names
+    self-locking    no torques balance the load, however great, while the train turns this way
+    stalled         none balance this load, which is too small to overcome the friction of bearings
+    ambiguous       several patterns of power flow do; the one that loses least is given
+    indeterminate   some tooth torques share a load in proportions that nothing here decides
+    contradictory   declared shares of pairs do not go with the balance
+    unbalanced      the loads set the train moving: no torque of the links asked for can hold them
+    undecided       it is not plain which torque is to be found: `candidates`
+    unloaded        no load and no friction of a bearing is declared
+    still           the train, or the link asked for, does not turn, or at a speed that is not determined
+    """
+
+    kind: TorqueVerdictKind
+    text: str
+    candidates: tuple[str, ...] = ()
+
+    def __bool__(self) -> bool:
+        return self.kind in ("determined", "incomplete", "ambiguous", "indeterminate")
+
+    def to_dict(self) -> dict[str, Any]:
+        """Plain data for JSON."""
+        return {"kind": self.kind, "text": self.text, "candidates": list(self.candidates)}
+
+
+@dataclass(frozen=True)
+class NeglectedEffect:
+    """Something that torques do not count: `what`, the pairs or links `where` it is, and `why`."""
+
+    what: str
+    where: tuple[str, ...]
+    why: str
+
+    @property
+    def counts(self) -> bool:
+        """False for what changes no mean: a swing, and the choice between two means."""
+        return self.what not in ("swing within a turn", "mean efficiency")
+
+    def __str__(self) -> str:
+        return f"{self.what} ({', '.join(self.where)})"
+
+    def to_dict(self) -> dict[str, Any]:
+        """Plain data for JSON."""
+        return {"what": self.what, "where": list(self.where), "why": self.why}
+
+
+@dataclass(frozen=True)
+class HoldingTorque:
+    """A brake on one link, or a lock of two, with the torques it exerts on them; None where these are open.
+
+    clutch   its name, if it has one
+    cause    the links that are declared to be held, where these follow from it: a rigid connection across several axes
+             closes every joint on its way
+    """
+
+    links: tuple[str, ...]
+    torques: tuple[Fraction, ...] | None
+    clutch: str | None = None
+    cause: tuple[str, ...] = ()
+
+    def to_dict(self) -> dict[str, Any]:
+        """Plain data for JSON."""
+        torques = None if self.torques is None else dict(zip(self.links, map(as_float, self.torques), strict=True))
+        cause = list(self.cause) or None
+        return {"links": list(self.links), "clutch": self.clutch, "cause": cause, "torques": torques}
+
+
+@dataclass(frozen=True)
+class PairTorque:
+    """One gear pair or coupling under load.
+
+    driver      the wheel (or link) that drives in the carrier's frame; "" where nothing flows
+    torques     on the first link, the second and the carrier
+    multiplier  of its row, `rolling` of which is the power, and `efficiency` what is left of it; `rolling` is None
+                where the wheels roll on each other at a speed that is not determined
+    loose       the balance does not determine it
+    """
+
+    id: str
+    driver: str
+    links: tuple[str, str, str]
+    torques: tuple[Fraction, Fraction, Fraction]
+    multiplier: Fraction
+    rolling: Fraction | None
+    efficiency: Fraction
+    loose: bool = False
+
+    @cached_property
+    def power(self) -> Fraction | None:
+        """Power that the driver puts in, in the carrier's frame: torque times the train's speeds; None where open."""
+        # worked out when asked for: both factors have many digits in a long train
+        if self.rolling is None:
+            return None if self.multiplier else Fraction(0)
+        return abs(self.multiplier * self.rolling)
+
+    @property
+    def loss(self) -> Fraction:
+        """Power lost; where the speed is open nothing is counted."""
+        return (self.power or Fraction(0)) * (1 - self.efficiency)
+
+    def to_dict(self) -> dict[str, Any]:
+        """Plain data for JSON."""
+        return {
+            "driver": self.driver,
+            "torques": dict(zip(("first", "second", "carrier"), map(as_float, self.torques), strict=True)),
+            "power": None if self.power is None else as_float(self.power),
+            "loss": as_float(self.loss),
+            "shared": self.loose,
+        }
+
+
+@dataclass(frozen=True)
+class Torques(FrozenFields):
+    """External torques by link, torques and powers by pair, and the balance of power, all exact.
+
+    external    on every link that has one: loads, bearings, what was asked for, brakes
+    asked       the links whose torque was found
+    speeds      of the links whose speed is determined
+    held        brakes and locks with the torques they exert
+    left_out    what is not counted
+    """
+
+    state: str | None
+    verdict: TorqueVerdict
+    asked: tuple[str, ...] = ()
+    external: Mapping[str, Fraction] = field(default_factory=dict)
+    speeds: Mapping[str, Fraction] = field(default_factory=dict)
+    pairs: Mapping[str, PairTorque] = field(default_factory=dict)
+    bearing_loss: Fraction = Fraction(0)
+    held: tuple[HoldingTorque, ...] = ()
+    left_out: tuple[NeglectedEffect, ...] = ()
+
+    @property
+    def powers(self) -> Mapping[str, Fraction]:
+        """External power by link, positive into the train; of links whose speed is determined."""
+        return {link: torque * self.speeds[link] for link, torque in self.external.items() if link in self.speeds}
+
+    @property
+    def open_speeds(self) -> tuple[str, ...]:
+        """Links with a torque from outside whose speed, and so whose power, is not determined."""
+        return tuple(link for link, torque in self.external.items() if torque and link not in self.speeds)
+
+    @property
+    def uncounted(self) -> tuple[NeglectedEffect, ...]:
+        """What is left out of the powers and the efficiency; a swing leaves their means as they are."""
+        return tuple(each for each in self.left_out if each.counts)
+
+    @property
+    def power_in(self) -> Fraction:
+        """Power that enters."""
+        return sum((power for power in self.powers.values() if power > 0), Fraction(0))
+
+    @property
+    def loss(self) -> Fraction:
+        """Power lost in pairs and bearings; what goes in and does not come out, where some pairs are open."""
+        if any(pair.loose for pair in self.pairs.values()):
+            return self._missing
+        return sum((pair.loss for pair in self.pairs.values()), self.bearing_loss)
+
+    @property
+    def efficiency(self) -> Fraction | None:
+        """Power out over power in; None where nothing goes in, or an asked torque or a loaded link's speed is open."""
+        if not self.power_in or self.open_speeds or any(link not in self.external for link in self.asked):
+            return None
+        return 1 - self._missing / self.power_in
+
+    @property
+    def _missing(self) -> Fraction:
+        return sum(self.powers.values(), Fraction(0))
+
+    @property
+    def circulating(self) -> Fraction | None:
+        """The greatest power through a pair over the power put in; above 1 power circulates. None where one is open."""
+        powers = [None if pair.loose else pair.power for pair in self.pairs.values()]
+        known = [power for power in powers if power is not None]
+        if not self.power_in or self.open_speeds or len(known) < len(powers):
+            return None
+        return max(known, default=Fraction(0)) / self.power_in
+
+    def to_dict(self) -> dict[str, Any]:
+        """Plain data for JSON."""
+        efficiency, circulating = self.efficiency, self.circulating
+        return {
+            "state": self.state,
+            "verdict": self.verdict.to_dict(),
+            "efficiency": None if efficiency is None else as_float(efficiency),
+            "circulating": None if circulating is None else as_float(circulating),
+            "links": {
+                link: {
+                    "torque": as_float(torque),
+                    "power": as_float(self.powers[link]) if link in self.speeds else None,
+                    "asked": link in self.asked,
+                }
+                for link, torque in self.external.items()
+            },
+            "held": [each.to_dict() for each in self.held],
+            "pairs": {name: pair.to_dict() for name, pair in self.pairs.items()},
+            "power_in": None if self.open_speeds else as_float(self.power_in),
+            "loss": None if self.open_speeds else as_float(self.loss),
+            "left_out": [each.to_dict() for each in self.left_out],
+        }

@@ -1,0 +1,226 @@
+"""Which files an export is made of: one by its suffix, or a whole folder of them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from importlib.util import find_spec
+from math import degrees
+from typing import TYPE_CHECKING
+
+from geartrain.errors import GearTrainError, Problem, QuestionError, printable
+from geartrain.export.csv_tables import to_tables
+from geartrain.export.flat_files import to_dxf, to_svg
+from geartrain.export.rexs import to_rexs
+from geartrain.export.wheel_sheets import WheelSheet, file_names, wheel_sheets
+from geartrain.kinematics import graph
+from geartrain.scene.solids.flat_drawing import FlatDrawing
+from geartrain.train import suggest
+
+if TYPE_CHECKING:
+    from geartrain.scene.solids.solid_assembly import SolidModel
+    from geartrain.scene.train_teeth import PairPlay
+
+KINDS = ("svg", "dxf", "stl", "glb", "step", "graphml", "dot", "rexs", "csv")
+SUFFIXES = {
+    ".glb": "glb",
+    ".stl": "stl",
+    ".step": "step",
+    ".stp": "step",
+    ".graphml": "graphml",
+    ".dot": "dot",
+    ".gv": "dot",
+    ".rexsj": "rexs",
+    ".json": "rexs",
+}
+"""Kinds of the one file that holds a whole train, by suffix."""
+
+WHEEL_SUFFIXES = (".svg", ".dxf", ".stl")
+"""Suffixes of the one file that holds a wheel."""
+
+_NEEDED = {"dxf": ("ezdxf", "dxf"), "glb": ("pygltflib", "model"), "step": ("OCP", "step")}
+
+
+@dataclass(frozen=True, slots=True)
+class ExportFile:
+    """A file to be: its path in the folder, what it shows, and its making."""
+
+    path: str
+    title: str
+    make: Callable[[], bytes]
+
+
+def installed(kinds: Sequence[str]) -> tuple[list[str], list[Problem]]:
+    """Those of some kinds whose libraries are there, and what to install for the others."""
+    found, missing = [], []
+    for kind in kinds:
+        library, extra = _NEEDED.get(kind, ("", ""))
+        if library and not _is_there(library):
+            what = f"no {kind.upper()} is written"
+            missing.append(Problem(what, f"{library} is not installed", f"pip install 'geartrain[{extra}]'"))
+        else:
+            found.append(kind)
+    return found, missing
+
+
+def _is_there(library: str) -> bool:
+    try:
+        return find_spec(library) is not None
+    except ImportError:
+        return False
+
+
+def train_file(work: SolidModel, kind: str, turns: Fraction | None = None) -> bytes:
+    """The one file of some kind that holds the whole train. Raises `GearTrainError`."""
+    if kind == "glb":
+        from geartrain.export.triangle_files import to_glb
+
+        return to_glb(work, turns)
+    if kind == "stl":
+        from geartrain.export.triangle_files import to_stl
+        from geartrain.scene.solids.triangle_solids import joined
+
+        return to_stl(joined(part.placed for part in work.parts), work.train.name)
+    if kind == "step":
+        from geartrain.export.step_file import to_step
+
+        return to_step(work)
+    text = {"graphml": graph.to_graphml, "dot": graph.to_dot}.get(kind)
+    found = to_rexs(work) if text is None else text(work.train.graph) + "\n"
+    return found.encode("utf-8")
+
+
+def wheel_file(work: SolidModel, wheel: str, suffix: str) -> bytes:
+    """One wheel to cut or to print. Raises `QuestionError` for one that is not there, or has no flat shape."""
+    known = work.train.declaration.wheels
+    if wheel not in known:
+        raise QuestionError(Problem(f"there is no wheel '{wheel}'", "it is not declared", suggest(wheel, known)))
+    blank = work.blanks.wheels.get(wheel)
+    if blank is None:
+        raise QuestionError(notice for notice in work.blanks.notices if f"'{wheel}'" in notice.what)
+    if suffix == ".stl":
+        from geartrain.export.triangle_files import to_stl
+        from geartrain.scene.solids.triangle_solids import wheel_solid
+
+        return to_stl(wheel_solid(blank), wheel)
+    return _drawn(wheel_sheets({wheel: blank})[0].drawing, suffix[1:])
+
+
+def export_files(work: SolidModel, kinds: Sequence[str], turns: Fraction | None = None) -> list[ExportFile]:
+    """All files of some kinds, small ones first, a README that lists them last. Raises `GearTrainError`."""
+    unknown = [kind for kind in kinds if kind not in KINDS]
+    if unknown:
+        raise QuestionError(
+            Problem(f"there is no export '{unknown[0]}'", "", f"use some of {', '.join(KINDS)}", "--as")
+        )
+    files = [*_sheets(work, kinds), *_tables(work, kinds)]
+    named = {"graphml": "graph.graphml", "dot": "graph.dot", "rexs": "gear-unit.rexsj"}
+    named |= {kind: f"assembly.{kind}" for kind in ("stl", "glb", "step")}
+    for kind, name in named.items():
+        if kind in kinds:
+            files.append(ExportFile(name, _WHAT[kind], _whole(work, kind, turns)))
+    return [*files, ExportFile("README.md", "what is here", lambda: readme(work, files, kinds).encode("utf-8"))]
+
+
+_WHAT = {
+    "graphml": "links and pairs as a graph",
+    "dot": "the same for Graphviz",
+    "rexs": "the gear unit as REXS 1.4",
+    "stl": "all parts, each a closed surface, mm",
+    "glb": "all parts, turning, m",
+    "step": "all parts with exact arcs, mm",
+}
+
+
+def _whole(work: SolidModel, kind: str, turns: Fraction | None) -> Callable[[], bytes]:
+    return lambda: train_file(work, kind, turns)
+
+
+def _sheets(work: SolidModel, kinds: Sequence[str]) -> Iterator[ExportFile]:
+    flat = [kind for kind in kinds if kind in ("svg", "dxf")]
+    if flat or "stl" in kinds:
+        for sheet in wheel_sheets(work.blanks.wheels):
+            for kind in flat:
+                yield ExportFile(f"wheels/{sheet.file}.{kind}", sheet.drawing.title, _drawing(sheet.drawing, kind))
+            if "stl" in kinds:
+                yield ExportFile(f"wheels/{sheet.file}.stl", sheet.drawing.title, _printed(work, sheet))
+    if flat:
+        plates, _ = work.plates
+        for plate, name in zip(plates, file_names(plate.name for plate in plates), strict=True):
+            for kind in flat:
+                yield ExportFile(f"plates/{name}.{kind}", plate.drawing.title, _drawing(plate.drawing, kind))
+
+
+def _drawing(drawing: FlatDrawing, kind: str) -> Callable[[], bytes]:
+    return lambda: _drawn(drawing, kind)
+
+
+def _drawn(drawing: FlatDrawing, kind: str) -> bytes:
+    return (to_svg(drawing) if kind == "svg" else to_dxf(drawing)).encode("utf-8")
+
+
+def _printed(work: SolidModel, sheet: WheelSheet) -> Callable[[], bytes]:
+    return lambda: wheel_file(work, sheet.parts[0], ".stl")
+
+
+def _tables(work: SolidModel, kinds: Sequence[str]) -> Iterator[ExportFile]:
+    if "csv" in kinds:
+        for name, text in to_tables(work).items():
+            yield ExportFile(f"tables/{name}.csv", f"table of {name}", text.encode)
+
+
+def notices(work: SolidModel, kinds: Sequence[str]) -> list[Problem]:
+    """What the files of some kinds cannot show, each once."""
+    found: list[Problem] = list(work.layout.notices)
+    if {"svg", "dxf", "stl"} & set(kinds):
+        found += work.blanks.notices
+    if {"svg", "dxf"} & set(kinds):
+        found += work.plates[1]
+    if "step" in kinds:
+        from geartrain.export.step_file import left_out
+
+        found += left_out(work)
+    return list(dict.fromkeys(found))
+
+
+def readme(work: SolidModel, files: Sequence[ExportFile], kinds: Sequence[str]) -> str:
+    """What the files are, and what could not be made, as Markdown."""
+    declared = work.train.declaration
+    lines = [f"# {_cell(declared.name)}", "", *([_cell(declared.title), ""] if declared.title else [])]
+    lines += ["Lengths are in mm, drawings 1:1. Of their layers CUT is cut, PITCH guides, ENGRAVE is letters.", ""]
+    lines += ["| file | what it is |", "| --- | --- |"]
+    lines += [f"| {each.path} | {_cell(each.title)} |" for each in files]
+    if {"svg", "dxf", "stl", "glb", "step"} & set(kinds):
+        lines += _plays(work)
+    if found := notices(work, kinds):
+        lines += ["", "## What could not be made", ""]
+        lines += [f"- {_cell(': '.join(part for part in (each.what, each.why) if part))}" for each in found]
+    return "\n".join([*lines, ""])
+
+
+def _plays(work: SolidModel) -> list[str]:
+    """The play of every pair whose wheels are cut, as a list."""
+    found = [f"- {_cell(each.pair)}: {each.length:.4g} mm, {_cell(_angles(each))}" for each in work.blanks.plays]
+    return ["", "## Play of the teeth as cut, along the pitch circles", "", *found] if found else []
+
+
+def _angles(play: PairPlay) -> str:
+    """The play as angles of both wheels; or that they jam where they stand."""
+    turned = ", ".join(
+        f"{degrees(angle):.4g}° of {wheel}" for wheel, angle in zip(play.wheels, play.angles, strict=True)
+    )
+    return f"{turned}; the pair jams" if play.length < 0 else turned
+
+
+def _cell(text: str) -> str:
+    return printable(text.replace("|", "\\|").replace("\n", " ").replace("<", "&lt;"))
+
+
+def kind_of(name: str) -> str:
+    """The kind of a whole train's file by its name. Raises `GearTrainError` for others."""
+    suffix = f".{name.rpartition('.')[2].lower()}" if "." in name else ""
+    if suffix in SUFFIXES:
+        return SUFFIXES[suffix]
+    fix = f"use {', '.join(SUFFIXES)}; wheels, plates and tables are many files: --to FOLDER"
+    raise GearTrainError(Problem(f"no train is written as '{suffix or name}'", "", fix, "-o"))

@@ -1,0 +1,133 @@
+"""Drawings as SVG: a user unit is a millimetre, and y downwards as SVG has it, so that the part looks as it is.
+
+Drawings as DXF: millimetres, a layer for each use, closed polylines with arcs.
+
+Outlines of single wheels as SVG, DXF or CSV, in mm.
+"""
+
+from __future__ import annotations
+
+from html import escape
+from io import StringIO
+from typing import Any
+
+from geartrain.errors import GearTrainError, MissingExtraError, Problem, printable
+from geartrain.numerics.files import csv_text
+from geartrain.scene.solids.flat_drawing import CUT, ENGRAVE, LAYERS, PITCH, EngravedText, FlatDrawing, wheel_drawing
+from geartrain.teeth.outlines.contour import Contour, arc_radius
+from geartrain.teeth.outlines.wheel_outline import WheelOutline
+
+_STRAIGHT = 1e-9  # bulges below this are drawn as lines
+
+
+def to_svg(drawing: FlatDrawing) -> str:
+    """A drawing as SVG: one path to cut, and a group for each layer that is not cut."""
+    (left, low), (right, high) = (corner.tolist() for corner in drawing.box)
+    width, height = right - left, high - low
+    lines = [
+        f'<svg xmlns="http://www.w3.org/2000/svg" width="{width:.4f}mm" height="{height:.4f}mm" '
+        f'viewBox="{left:.4f} {-high:.4f} {width:.4f} {height:.4f}">',
+        f"<title>{escape(drawing.title)}</title>",
+        f'<path id="{CUT}" fill="none" stroke="#000000" stroke-width="0.1" d="{" ".join(map(_path, drawing.cut))}"/>',
+    ]
+    if drawing.pitch:
+        circles = (_circle(contour) for contour in drawing.pitch)
+        style = 'fill="none" stroke="#0060c0" stroke-width="0.05" stroke-dasharray="1 0.5"'
+        lines.append(f'<g id="{PITCH}" {style}>{"".join(circles)}</g>')
+    if drawing.marks:
+        style = 'fill="#c02020" font-family="sans-serif" text-anchor="middle" dominant-baseline="central"'
+        lines.append(f'<g id="{ENGRAVE}" {style}>{"".join(map(_text, drawing.marks))}</g>')
+    return printable("\n".join([*lines, "</svg>", ""]))
+
+
+def _path(contour: Contour) -> str:
+    points = [*contour.points, contour.points[0]]
+    parts = [f"M {points[0][0]:.6f} {-points[0][1]:.6f}"]
+    for start, end, bulge in zip(points, points[1:], contour.bulges.tolist(), strict=False):
+        to = f"{end[0]:.6f} {-end[1]:.6f}"
+        if abs(bulge) < _STRAIGHT:
+            parts.append(f"L {to}")
+        else:
+            radius, large, turn = arc_radius(start, end, bulge), int(abs(bulge) > 1), int(bulge < 0)
+            parts.append(f"A {radius:.6f} {radius:.6f} 0 {large} {turn} {to}")
+    return " ".join([*parts, "Z"])
+
+
+def _circle(contour: Contour) -> str:
+    (x, y), radius = contour.points.mean(axis=0), abs(contour.points[0] - contour.points[1]).max() / 2
+    return f'<circle cx="{x:.6f}" cy="{-y:.6f}" r="{radius:.6f}"/>'
+
+
+def _text(mark: EngravedText) -> str:
+    x, y = mark.at
+    return f'<text x="{x:.4f}" y="{-y:.4f}" font-size="{mark.height:.4g}">{escape(mark.text)}</text>'
+
+
+_COLOURS = dict(zip(LAYERS, (7, 5, 1), strict=True))  # black or white, blue, red
+
+
+def to_dxf(drawing: FlatDrawing) -> str:
+    """A drawing as DXF R2010, its title in the header's comment. Raises `MissingExtraError`."""
+    try:
+        from ezdxf import units
+        from ezdxf.enums import TextEntityAlignment
+        from ezdxf.filemanagement import new
+    except ImportError:
+        raise MissingExtraError("ezdxf", "dxf", "an outline as DXF") from None
+    document = new("R2010", units=units.MM)
+    document.header["$TDCREATE"] = document.header["$TDUPDATE"] = 0  # the same drawing is the same file
+    document.header.custom_vars.append("Title", drawing.title)
+    space = document.modelspace()
+    used: dict[str, int] = {CUT: len(drawing.cut), PITCH: len(drawing.pitch), ENGRAVE: len(drawing.marks)}
+    for name, count in used.items():
+        if count:
+            document.layers.add(name, color=_COLOURS[name])
+    for name, contours in ((CUT, drawing.cut), (PITCH, drawing.pitch)):
+        for contour in contours:
+            _draw(space, contour, name)
+    for mark in drawing.marks:
+        text = space.add_text(mark.text, height=mark.height, dxfattribs={"layer": ENGRAVE})
+        text.set_placement(mark.at, align=TextEntityAlignment.MIDDLE_CENTER)
+    out = StringIO()
+    document.write(out)
+    return out.getvalue()
+
+
+def _draw(space: Any, contour: Contour, layer: str) -> None:
+    attributes = {"layer": layer}
+    if contour.is_circle:
+        centre = contour.points.mean(axis=0)
+        radius = float(abs(contour.points[0] - centre).max())
+        space.add_circle(tuple(centre.tolist()), radius, dxfattribs=attributes)
+        return
+    vertices = [
+        (float(x), float(y), float(bulge)) for (x, y), bulge in zip(contour.points, contour.bulges, strict=True)
+    ]
+    space.add_lwpolyline(vertices, format="xyb", close=True, dxfattribs=attributes)
+
+
+OUTLINES = (".svg", ".dxf", ".csv")
+
+
+def outline_text(wheel: WheelOutline, suffix: str) -> str:
+    """A wheel's outline as the text of a file: `.svg`, `.dxf` (millimetres, closed polylines with arcs), or `.csv`.
+
+    Raises `GearTrainError`, for a format without its library too.
+    """
+    if suffix == ".svg":
+        return to_svg(wheel_drawing(wheel))
+    if suffix == ".dxf":
+        return to_dxf(wheel_drawing(wheel))
+    if suffix == ".csv":
+        return _csv(wheel)
+    what = f"no outline can be written as {suffix or 'a file without suffix'}"
+    raise GearTrainError(Problem(what, "", f"use {', '.join(OUTLINES)}", "--profile"))
+
+
+def _csv(wheel: WheelOutline) -> str:
+    """A point a row; each contour ends where it began, its arcs as chords within the wheel's tolerance."""
+    rows: list[tuple[object, ...]] = []
+    for at, contour in enumerate(wheel.contours):
+        points = contour.flattened(wheel.tolerance)
+        rows += [(at, f"{x:.6f}", f"{y:.6f}") for x, y in [*points, points[0]]]
+    return csv_text(("contour", "x_mm", "y_mm"), rows)

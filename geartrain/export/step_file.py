@@ -1,0 +1,219 @@
+"""The assembly as STEP: wheels and plates raised from their outlines, arcs kept, each with its name and place."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Sequence
+from itertools import pairwise
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from geartrain.errors import MissingExtraError, Problem
+from geartrain.scene.solids.triangle_solids import thinned
+
+if TYPE_CHECKING:
+    from geartrain.numerics.arrays import Floats
+    from geartrain.scene.solids.solid_assembly import SolidModel, SolidPart
+    from geartrain.teeth.outlines.contour import Contour
+
+FINE = 0.005  # mm, how far chords, or the curves through them, may leave a flank
+_CORNER = 0.35  # rad: where a line turns by more it has a corner
+_CURVED = 4  # points from which a run without corners is one curve
+_STRAIGHT = 1e-9
+_DATE = re.compile(rb"'\d{4}-\d\d-\d\dT\d\d:\d\d:\d\d'")  # the same train is the same file
+
+
+def to_step(work: SolidModel) -> bytes:
+    """The assembly in the zero pose, in mm, but for what is `left_out`. Raises `MissingExtraError`."""
+    try:
+        import OCP.STEPCAFControl  # noqa: F401
+    except ImportError:
+        raise MissingExtraError("OCP (cadquery-ocp-novtk)", "step", "a model as STEP") from None
+    return _written(work.train.name, [part for part in work.parts if _is_exact(part)])
+
+
+def left_out(work: SolidModel) -> tuple[Problem, ...]:
+    """The parts without an exact form."""
+    why = "its teeth lie in no plane, and a likeness in triangles is no exact form"
+    return tuple(
+        Problem(f"'{part.name}' is left out of the STEP file", why, "take the GLB or the STL")
+        for part in work.parts
+        if not _is_exact(part)
+    )
+
+
+def _is_exact(part: SolidPart) -> bool:
+    return bool(part.contours) or part.kind == "arbor"
+
+
+def _written(name: str, parts: Sequence[SolidPart]) -> bytes:
+    from OCP.Interface import Interface_Static
+    from OCP.Message import Message, Message_PrinterOStream
+    from OCP.STEPCAFControl import STEPCAFControl_Writer
+    from OCP.STEPControl import STEPControl_StepModelType
+    from OCP.TCollection import TCollection_ExtendedString
+    from OCP.TDocStd import TDocStd_Document
+
+    Message.DefaultMessenger_s().RemovePrinters(Message_PrinterOStream.get_type_descriptor_s())  # it talks
+    document = TDocStd_Document(TCollection_ExtendedString("XmlOcaf"))
+    _assemble(document, name, parts)
+    writer = STEPCAFControl_Writer()
+    Interface_Static.SetCVal_s("write.step.unit", "MM")
+    Interface_Static.SetIVal_s("write.step.assembly", 1)
+    Interface_Static.SetIVal_s("write.surfacecurve.mode", 0)  # edges in space say all: half the file
+    writer.SetNameMode(True)
+    writer.Transfer(document, STEPControl_StepModelType.STEPControl_AsIs)
+    with TemporaryDirectory() as folder:  # the library knows files only
+        path = Path(folder) / "assembly.step"
+        writer.Write(str(path))
+        return _DATE.sub(b"'2000-01-01T00:00:00'", path.read_bytes(), count=1)
+
+
+def _assemble(document: Any, name: str, parts: Sequence[SolidPart]) -> None:
+    """A shape for each part that is unlike the others, and a component for each part."""
+    from OCP.XCAFDoc import XCAFDoc_DocumentTool
+
+    tool = XCAFDoc_DocumentTool.ShapeTool_s(document.Main())
+    whole = tool.NewShape()
+    _name(whole, name)
+    shapes: dict[object, Any] = {}
+    for part in parts:
+        key = _key(part)
+        if key not in shapes:
+            shapes[key] = tool.AddShape(_shape(part), False)
+            _name(shapes[key], part.name)
+        _name(tool.AddComponent(whole, shapes[key], _location(part)), part.name)
+    tool.UpdateAssemblies()
+
+
+def _name(label: Any, name: str) -> None:
+    from OCP.TCollection import TCollection_ExtendedString
+    from OCP.TDataStd import TDataStd_Name
+
+    TDataStd_Name.Set_s(label, TCollection_ExtendedString(name, True))
+
+
+def _key(part: SolidPart) -> object:
+    if not part.contours:
+        return part.name, part.kind
+    return part.height, *(contour.points.round(6).tobytes() for contour in part.contours)
+
+
+def _location(part: SolidPart) -> Any:
+    from OCP.gp import gp_Trsf
+    from OCP.TopLoc import TopLoc_Location
+
+    rows = np.column_stack([part.turn, part.place]).tolist()
+    move = gp_Trsf()
+    move.SetValues(*(each for row in rows for each in row))
+    return TopLoc_Location(move)
+
+
+def _shape(part: SolidPart) -> Any:
+    if not part.contours:
+        return _rod(part)
+    from OCP.BRepBuilderAPI import BRepBuilderAPI_MakeFace
+    from OCP.BRepPrimAPI import BRepPrimAPI_MakePrism
+    from OCP.gp import gp_Dir, gp_Pln, gp_Pnt, gp_Vec
+
+    low = -part.height / 2
+    plane = gp_Pln(gp_Pnt(0, 0, low), gp_Dir(0, 0, 1))
+    outer, *holes = (_wire(contour, low) for contour in part.contours)
+    face = BRepBuilderAPI_MakeFace(plane, outer, True)
+    for hole in holes:
+        hole.Reverse()
+        face.Add(hole)
+    return BRepPrimAPI_MakePrism(face.Face(), gp_Vec(0, 0, part.height)).Shape()
+
+
+def _rod(part: SolidPart) -> Any:
+    from OCP.BRepPrimAPI import BRepPrimAPI_MakeCylinder
+    from OCP.gp import gp_Ax2, gp_Dir, gp_Pnt
+
+    points = part.solid.vertices
+    low, high = float(points[:, 2].min()), float(points[:, 2].max())
+    radius = float(np.hypot(points[:, 0], points[:, 1]).max())
+    return BRepPrimAPI_MakeCylinder(gp_Ax2(gp_Pnt(0, 0, low), gp_Dir(0, 0, 1)), radius, high - low).Shape()
+
+
+def _wire(contour: Contour, height: float) -> Any:
+    """Counter-clockwise, as all contours are; edges share their vertices."""
+    from OCP.BRepBuilderAPI import BRepBuilderAPI_MakeEdge, BRepBuilderAPI_MakeVertex, BRepBuilderAPI_MakeWire
+    from OCP.GC import GC_MakeArcOfCircle
+    from OCP.gp import gp_Pnt
+
+    edges = list(_edges(contour))
+    corners = [BRepBuilderAPI_MakeVertex(gp_Pnt(*edge[0].tolist(), height)).Vertex() for edge in edges]
+    wire = BRepBuilderAPI_MakeWire()
+    for at, line in enumerate(edges):
+        ends = corners[at], corners[(at + 1) % len(corners)]
+        if isinstance(line, _Arc):
+            arc = GC_MakeArcOfCircle(*(gp_Pnt(*point.tolist(), height) for point in line)).Value()
+            edge = BRepBuilderAPI_MakeEdge(arc, *ends)
+        elif len(line) > 2:
+            edge = BRepBuilderAPI_MakeEdge(_curve(line, height), *ends)
+        else:
+            edge = BRepBuilderAPI_MakeEdge(*ends)
+        wire.Add(edge.Edge())
+    return wire.Wire()
+
+
+def _curve(line: Floats, height: float) -> Any:
+    """A curve of few poles that stays near the points of a flank."""
+    from OCP.GeomAbs import GeomAbs_C1
+    from OCP.GeomAPI import GeomAPI_PointsToBSpline
+    from OCP.gp import gp_Pnt
+
+    try:
+        from OCP.collections import Array1_gp_Pnt as Points
+    except ImportError:  # its name before release 8
+        from OCP.TColgp import TColgp_Array1OfPnt as Points
+    points = Points(1, len(line))
+    for at, (x, y) in enumerate(line.tolist(), 1):
+        points.SetValue(at, gp_Pnt(x, y, height))
+    return GeomAPI_PointsToBSpline(points, 3, 5, GeomAbs_C1, FINE / 2).Curve()
+
+
+class _Arc(NamedTuple):
+    """Start, middle and end of an arc."""
+
+    start: Floats
+    middle: Floats
+    end: Floats
+
+
+def _edges(contour: Contour) -> Iterator[Floats | _Arc]:
+    """Arcs, chords (two points), and runs of points (more) that are smooth, one after the other."""
+    count = len(contour.points)
+    straight = abs(contour.bulges) < _STRAIGHT
+    # begin after an arc, so that no run of chords is cut in two
+    first = 0 if straight.all() or not straight.any() else int(np.flatnonzero(~straight)[0]) + 1
+    order = [(first + k) % count for k in range(count)]
+    run: list[int] = []
+    for at in [*order, -1]:
+        if at >= 0 and straight[at]:
+            run.append(at)
+            continue
+        if run:
+            yield from _smooth(contour.points[[*run, (run[-1] + 1) % count]])
+            run = []
+        if at >= 0:
+            start, end, bulge = contour.points[at], contour.points[(at + 1) % count], contour.bulges[at]
+            chord = end - start
+            yield _Arc(start, (start + end) / 2 + np.array([chord[1], -chord[0]]) * bulge / 2, end)
+
+
+def _smooth(line: Floats) -> Iterator[Floats]:
+    """A line parted at its corners; parts that chords would need many points for stay whole."""
+    steps = np.diff(line, axis=0)
+    turn = np.diff(np.unwrap(np.arctan2(steps[:, 1], steps[:, 0])))
+    ends = [0, *(np.flatnonzero(abs(turn) > _CORNER) + 1).tolist(), len(line) - 1]
+    for low, high in pairwise(ends):
+        part = thinned(line[low : high + 1], FINE)
+        if len(part) < _CURVED:
+            yield from (part[at : at + 2] for at in range(len(part) - 1))
+        else:
+            yield thinned(line[low : high + 1], FINE / 4)

@@ -1,0 +1,75 @@
+"""Drawings of all wheels of a train: one sheet for each kind of wheel, however often it is needed."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+
+from geartrain.scene.solids.flat_drawing import EngravedText, FlatDrawing
+from geartrain.scene.solids.wheel_blanks import Blank
+from geartrain.teeth.outlines.contour import Contour
+
+_LETTER = 0.5  # of the free width of the web: height of letters
+_GREATEST = 5.0  # mm
+_RESERVED = re.compile(r"(con|prn|aux|nul|com\d|lpt\d)(\.|$)", re.I)  # names that Windows keeps for itself
+
+
+@dataclass(frozen=True, slots=True)
+class WheelSheet:
+    """A drawing with the name of its file, without suffix, and what it shows."""
+
+    file: str
+    drawing: FlatDrawing
+    parts: tuple[str, ...]
+
+
+def wheel_sheets(blanks: Mapping[str, Blank]) -> tuple[WheelSheet, ...]:
+    """A sheet for each shape among the blanks; wheels of one shape share it."""
+    alike: dict[object, list[Blank]] = {}
+    for blank in blanks.values():
+        alike.setdefault(_shape(blank), []).append(blank)
+    names = file_names(group[0].wheel for group in alike.values())
+    return tuple(
+        WheelSheet(name, _drawing(group), tuple(blank.wheel for blank in group))
+        for name, group in zip(names, alike.values(), strict=True)
+    )
+
+
+def file_names(names: Iterable[str]) -> list[str]:
+    """Names that every file system takes, all different even where letters' case is one."""
+    used: set[str] = set()
+    found = []
+    for name in names:
+        base = re.sub(r"[^\w.+-]+", "-", name).strip("-.")[:80] or "part"
+        stem = base = f"part-{base}" if _RESERVED.match(base) else base
+        count = 1
+        while stem.lower() in used:
+            count += 1
+            stem = f"{base}-{count}"
+        used.add(stem.lower())
+        found.append(stem)
+    return found
+
+
+def _shape(blank: Blank) -> object:
+    outline = tuple(contour.points.round(6).tobytes() for contour in blank.contours)
+    return blank.form, round(blank.thickness, 6), outline
+
+
+def _drawing(group: list[Blank]) -> FlatDrawing:
+    blank = group[0]
+    names = ", ".join(each.wheel for each in group)
+    what = "pins" if blank.kind == "pins" else "teeth"
+    often = f", {len(group)} times" if len(group) > 1 else ""
+    title = (
+        f"{names}{often}: {blank.teeth} {what}{' inside' if blank.kind == 'ring' else ''}, {blank.form}, module "
+        f"{blank.module:.6g} mm, pitch diameter {2 * blank.pitch_radius:.4f} mm, thickness {blank.thickness:.4g} mm"
+        + (f", bore {blank.bore:.4g} mm" if blank.bore else "")
+    )
+    inner, outer = blank.bore / 2, min(blank.root_radius, blank.tip_radius)
+    if blank.kind == "ring":
+        inner, outer = blank.root_radius, float(abs(blank.contours[0].points).max())
+    height = min(_LETTER * (outer - inner), _GREATEST, 1.6 * outer / max(len(names), 1))
+    mark = EngravedText(names, (0.0, (inner + outer) / 2), height)
+    return FlatDrawing(title, blank.contours, (Contour.circle(blank.pitch_radius),), (mark,))

@@ -1,0 +1,158 @@
+"""Directions and positions of axes, and the signs of meshes that follow from them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from fractions import Fraction
+from typing import Any
+
+from geartrain.kinematics.circuits.joint_tree import Tree
+from geartrain.numerics.quantity import Figure
+from geartrain.train import Train, Wheel
+
+Vector = tuple[Fraction, Fraction, Fraction]
+_Z: Vector = (Fraction(0), Fraction(0), Fraction(1))
+
+
+class Axes:
+    """Directions of the axes of a train, and the signs that follow from them.
+
+    Speeds of parallel axes are summed as they are; over non-parallel joints the sum of joint speeds is kept,
+    which the scalar equation needs (Freudenstein, Longman and Chen 1984).
+    """
+
+    def __init__(self, train: Train, tree: Tree) -> None:
+        self.tree = tree
+        self.positions = {label: axis.position for label, axis in train.axes.items() if axis.position}
+        self.directions = {label: _vector(axis.direction) for label, axis in train.axes.items()}
+        self.plain = all(direction == _Z for direction in self.directions.values())
+        self._first: dict[Vector, Vector] = {}
+        for direction in (_Z, *self.directions.values()):
+            self._first.setdefault(_line(direction), direction)
+
+    def direction(self, label: str | None) -> Vector:
+        """Direction of an axis; z where none is declared."""
+        return self.directions.get(label or "", _Z)
+
+    def sign(self, label: str | None) -> int:
+        """-1 if the axis points against the first declared direction parallel to it."""
+        own = self.direction(label)
+        return 1 if _dot(self._first[_line(own)], own) > 0 else -1
+
+    def are_parallel(self, labels: Iterable[str | None]) -> bool:
+        """True if all these axes have one direction, or the opposite, in the pose where all angles are zero."""
+        directions = [self.direction(label) for label in labels]
+        return self.plain or all(_parallel(directions[0], other) for other in directions[1:])
+
+    def are_one_line(self, one: str, other: str) -> bool:
+        """True if both axes have positions, and lie on one line; two labels are else two lines."""
+        here, there = self.positions.get(one), self.positions.get(other)
+        if here is None or there is None or not self.are_parallel((one, other)):
+            return False
+        return _parallel(self.direction(one), _less(_vector(there), _vector(here)))
+
+    def screw(self, label: str) -> dict[int, Fraction] | None:
+        """A rotation about an axis: its direction, and the velocity of the origin; None without a position."""
+        here = self.positions.get(label)
+        if here is None:
+            return None
+        direction = self.direction(label)
+        parts = (*direction, *_cross(_vector(here), direction))
+        return {at: part for at, part in enumerate(parts) if part}
+
+    def labels_at(self, i: str, j: str, carrier: str) -> tuple[str | None, str | None]:
+        """The axis labels on which i and j turn in the carrier."""
+        _, first = self.tree.path(i, carrier)
+        _, last = self.tree.path(carrier, j)
+        return (first[0] if first else None), (last[-1] if last else None)
+
+    def coefficients(self, i: str, j: str, carrier: str, wheel_i: Wheel, wheel_j: Wheel) -> tuple[int, int, str]:
+        """a and b of the circuit, and a note where a sign is a convention."""
+        z_i, z_j = wheel_i.count or 0, wheel_j.count or 0
+        if "worm" in (wheel_i.kind, wheel_j.kind):
+            return self._worm(i, j, carrier, wheel_i, wheel_j)
+        labels = self.labels_at(i, j, carrier)
+        parallel = self.are_parallel(labels)
+        if parallel and not {"bevel", "contrate"} & {wheel_i.kind, wheel_j.kind}:
+            return z_i, -z_j if wheel_i.internal or wheel_j.internal else z_j, ""
+        if not parallel and (wheel_i.internal or wheel_j.internal):
+            raise ValueError("a ring on an axis that is not parallel to its mate's")
+        side_i = wheel_i.facing * self.sign(labels[0])
+        side_j = wheel_j.facing * self.sign(labels[1])
+        if wheel_i.internal or wheel_j.internal:
+            side_j = -side_j
+        return z_i, z_j * side_i * side_j, ""
+
+    def _worm(self, i: str, j: str, carrier: str, wheel_i: Wheel, wheel_j: Wheel) -> tuple[int, int, str]:
+        """Starts of the worm over teeth of the wheel; the sense follows from hand and positions."""
+        z_i, z_j = wheel_i.count or 0, wheel_j.count or 0
+        worm_first = wheel_i.kind == "worm"
+        hand = 1 if (wheel_i if worm_first else wheel_j).hand == "right" else -1
+        label_i, label_j = self.labels_at(i, j, carrier)
+        worm, wheel = (label_i, label_j) if worm_first else (label_j, label_i)
+        here, there = self.positions.get(worm or ""), self.positions.get(wheel or "")
+        turn = Fraction(0)
+        if here is not None and there is not None:
+            arm, centre = _vector(here), _vector(there)
+            reach = _less(arm, centre)
+            # the worm's thread drives the wheel's teeth against the direction in which it would screw itself
+            turn = -hand * _dot(self.direction(worm), _cross(self.direction(wheel), reach))
+        flip = self.sign(worm) * self.sign(wheel)
+        if turn:
+            return z_i, (-1 if turn > 0 else 1) * flip * z_j, ""
+        note = "sense by convention (a right-hand worm reverses): axes and positions of worm and wheel do not fix it"
+        return z_i, hand * flip * z_j, note
+
+
+def link_signs(train: Train, tree: Tree) -> dict[str, int]:
+    """Links whose own axis points against the reference direction of its parallels: their speeds change sign."""
+    axes = Axes(train, tree)
+    if axes.plain:
+        return {}
+    return {link: -1 for link in train.links if axes.sign(tree.axis(link)) < 0}
+
+
+def joint_sum_links(train: Train, tree: Tree) -> frozenset[str]:
+    """Links several non-parallel joints from the frame: their speed is a sum of joint speeds, not a rotation."""
+    axes = Axes(train, tree)
+    if axes.plain:
+        return frozenset()
+    sums: set[str] = set()
+    for link, (up, label) in tree.parent.items():  # from the frame outwards
+        if up in sums or (up in tree.parent and not axes.are_parallel((label, tree.axis(up)))):
+            sums.add(link)
+    return frozenset(sums)
+
+
+def are_parallel(train: Train, tree: Tree, of: str, base: str) -> bool:
+    """True if the axes of all joints between two links are parallel."""
+    return Axes(train, tree).are_parallel(tree.path(of, base)[1])
+
+
+def _vector(figures: Iterable[Any]) -> Vector:
+    """Three figures as numbers, or three lengths in metres."""
+    x, y, z = (figure.value if isinstance(figure, Figure) else figure.base for figure in figures)
+    return x, y, z
+
+
+def _line(direction: Vector) -> Vector:
+    """The same for all directions parallel to one."""
+    scale = next(part for part in direction if part)
+    x, y, z = direction
+    return x / scale, y / scale, z / scale
+
+
+def _less(u: Vector, v: Vector) -> Vector:
+    return u[0] - v[0], u[1] - v[1], u[2] - v[2]
+
+
+def _dot(u: Vector, v: Vector) -> Fraction:
+    return u[0] * v[0] + u[1] * v[1] + u[2] * v[2]
+
+
+def _cross(u: Vector, v: Vector) -> Vector:
+    return u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]
+
+
+def _parallel(u: Vector, v: Vector) -> bool:
+    return not any(_cross(u, v))

@@ -1,0 +1,157 @@
+"""One fundamental circuit per gear pair and coupling: its carrier and its signed exact ratio.
+
+Turning pairs form a tree. A gear pair (i, j) closes one circuit through it, and its carrier k is the link on the
+tree path where the axis label changes (the transfer vertex). Hanging every link of one axis on the link of that
+axis nearest the frame gives the same answer for every equivalent tree of coaxial joints, in constant time a pair.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from fractions import Fraction
+from typing import NamedTuple
+
+from geartrain.errors import DeclarationError, Problem
+from geartrain.kinematics.circuits.axes import Axes
+from geartrain.kinematics.circuits.joint_tree import Tree
+from geartrain.numerics.containers import collector_paused
+from geartrain.teeth.pin_coupling import Coupling, winding_number
+from geartrain.train import Train, Wheel
+
+
+class Circuit(NamedTuple):
+    """A fundamental circuit: `a (w_i - w_k) + b (w_j - w_k) = 0` with integers a and b.
+
+    For an external gear pair a = z_i and b = z_j, for an internal one b = -z_j; for a coupling i is the slot
+    with a = 1 and j the pin with b = -m, m the winding number.
+    """
+
+    id: str
+    kind: str
+    i: str
+    j: str
+    carrier: str
+    a: int
+    b: int
+    wheels: tuple[str, str]
+    note: str = ""
+
+    @property
+    def ratio(self) -> Fraction:
+        """tau = (w_i - w_k) / (w_j - w_k), signed and exact."""
+        return Fraction(-self.b, self.a)
+
+
+@collector_paused()
+def find_circuits(train: Train, tree: Tree) -> tuple[Circuit, ...]:
+    """The circuits of all gear pairs, then of all couplings, in the order declared."""
+    problems: list[Problem] = []
+    axes = Axes(train, tree)
+    circuits = []
+    wheels = train.wheels
+    for at, gear in enumerate(train.gears):
+        (i, wheel_i), (j, wheel_j) = wheels[gear.pair[0]], wheels[gear.pair[1]]
+        carrier = _carrier(tree, i, j)
+        if carrier is None:
+            problems.append(_no_carrier(train, tree, gear.name, i, j, ("gears", at)))
+            continue
+        if wheel_i.count is None or wheel_j.count is None:
+            problems.append(_no_count(train, gear.pair, (wheel_i, wheel_j)))
+            continue
+        if axes.plain and wheel_i.kind == wheel_j.kind == "spur":
+            sign = -1 if wheel_i.internal or wheel_j.internal else 1
+            circuits.append(Circuit(gear.name, "gear", i, j, carrier, wheel_i.count, sign * wheel_j.count, gear.pair))
+            continue
+        try:
+            a, b, note = axes.coefficients(i, j, carrier, wheel_i, wheel_j)
+        except ValueError as error:
+            problems.append(
+                Problem(
+                    f"gear pair '{gear.name}': {error}",
+                    "a ring meshes about a parallel axis",
+                    "use a bevel pair",
+                    train.place("gears", at),
+                )
+            )
+            continue
+        circuits.append(Circuit(gear.name, "gear", i, j, carrier, a, b, gear.pair, note))
+    for at, coupling in enumerate(train.couplings):
+        carrier = _carrier(tree, coupling.slot, coupling.pin)
+        if carrier is None:
+            problems.append(_no_carrier(train, tree, coupling.name, coupling.slot, coupling.pin, ("couplings", at)))
+            continue
+        labels = axes.labels_at(coupling.slot, coupling.pin, carrier)
+        if not axes.are_parallel(labels):
+            problems.append(_oblique_pin(train, coupling, labels, at))
+            continue
+        winding = winding_number(coupling.kind)
+        circuits.append(
+            Circuit(
+                coupling.name,
+                coupling.kind,
+                coupling.slot,
+                coupling.pin,
+                carrier,
+                1,
+                -winding,
+                (coupling.slot, coupling.pin),
+            )
+        )
+    if problems:
+        raise DeclarationError(problems)
+    return tuple(circuits)
+
+
+def _carrier(tree: Tree, i: str, j: str) -> str | None:
+    """The transfer vertex of the path i..j, or None where the axis does not change exactly once.
+
+    With every link hung on the top of its own axis, the path changes axis once in three cases: both tops are the
+    carrier; or the carrier is one link's top and shares the other's axis; or it hangs on the other link.
+    """
+    parent, top = tree.parent, tree.top
+    axis_i = parent[i][1] if i in parent else None
+    axis_j = parent[j][1] if j in parent else None
+    top_i, top_j = top.get(i), top.get(j)
+    if axis_i == axis_j:
+        return None
+    if top_i is not None and top_i == top_j:
+        return top_i
+    for carrier, other, axis_other in ((top_i, j, axis_j), (top_j, i, axis_i)):
+        if carrier is None or carrier == other or carrier not in parent:
+            continue
+        if parent[carrier][1] == axis_other or top[carrier] == other:
+            return carrier
+    return None
+
+
+def _no_carrier(train: Train, tree: Tree, name: str, i: str, j: str, loc: tuple[str | int, ...]) -> Problem:
+    links, labels = tree.path(i, j)
+    steps = links[0] + "".join(f" -({label})- {link}" for label, link in zip(labels, links[1:], strict=True))
+    changes = [links[at + 1] for at in range(len(labels) - 1) if labels[at] != labels[at + 1]]
+    if not changes:
+        why = f"the turning pairs {steps} have one axis label, so '{i}' and '{j}' are coaxial"
+        fix = "a gear pair needs two distinct axes: correct the axis labels or the wheels"
+    else:
+        where = " and at ".join(changes)
+        why = f"on the turning pairs {steps} the axis changes at {where}, so the centre distance is not fixed"
+        fix = f"a gear pair needs exactly one carrier: join '{i}' and '{j}' to one of {', '.join(changes)}"
+    return Problem(f"'{name}' has no carrier", why, fix, train.place(*loc))
+
+
+def _oblique_pin(train: Train, coupling: Coupling, labels: Sequence[str | None], at: int) -> Problem:
+    return Problem(
+        f"coupling '{coupling.name}': the axes '{labels[1]}' of its pin and '{labels[0]}' of its slot are not parallel",
+        "a pin slides along its slot in one plane, and these turn in two",
+        "declare parallel directions in `axes`, or join the links by bevel wheels",
+        train.place("couplings", at),
+    )
+
+
+def _no_count(train: Train, pair: Sequence[str], wheels: Iterable[Wheel]) -> Problem:
+    name = next(name for name, wheel in zip(pair, wheels, strict=True) if wheel.count is None)
+    return Problem(
+        f"wheel '{name}' has no tooth count yet",
+        "it is declared with `search` bounds only, and a train is solved with numbers",
+        "add a `value` beside `search`",
+        train.place("links", train.wheels[name][0], "wheels", name),
+    )

@@ -1,0 +1,110 @@
+"""The turning pairs as a tree rooted at the frame."""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from geartrain.errors import DeclarationError, Problem
+from geartrain.numerics.containers import FrozenFields, collector_paused
+from geartrain.train import Train
+
+
+@dataclass(frozen=True, slots=True)
+class Tree(FrozenFields):
+    """The turning pairs as a tree rooted at the frame.
+
+    parent  link -> (link nearer the frame, axis label), as declared
+    top     link -> the link of the same axis nearest the frame, which bears it
+    """
+
+    frame: str
+    parent: Mapping[str, tuple[str, str]]
+    top: Mapping[str, str]
+
+    def axis(self, link: str) -> str | None:
+        """The label of the joint nearest the frame; None for the frame itself."""
+        return self.parent[link][1] if link in self.parent else None
+
+    def chain(self, link: str) -> list[str]:
+        """The links from `link` to the frame, as declared."""
+        chain = [link]
+        while link in self.parent:
+            link = self.parent[link][0]
+            chain.append(link)
+        return chain
+
+    def path(self, i: str, j: str) -> tuple[list[str], list[str]]:
+        """The tree path from i to j: its links, and the axis labels between them."""
+        up, down = self.chain(i), self.chain(j)
+        while len(up) > 1 and len(down) > 1 and up[-2] == down[-2]:
+            up.pop()
+            down.pop()
+        down.pop()
+        labels = [self.parent[link][1] for link in up[:-1]] + [self.parent[link][1] for link in reversed(down)]
+        return up + down[::-1], labels
+
+
+@collector_paused()
+def find_tree(train: Train) -> Tree:
+    """Root the turning pairs at the frame. Raises `DeclarationError` where they form no tree."""
+    joints: dict[str, list[tuple[str, str, int]]] = {link: [] for link in train.links}
+    for at, joint in enumerate(train.revolutes):
+        first, second = joint.pair
+        joints[first].append((second, joint.axis, at))
+        joints[second].append((first, joint.axis, at))
+    parent: dict[str, tuple[str, str]] = {}
+    top: dict[str, str] = {}
+    bearer: dict[str, tuple[str, int]] = {}
+    used: set[int] = set()
+    problems: list[Problem] = []
+    queue = deque([train.frame])
+    while queue:
+        link = queue.popleft()
+        for other, axis, at in joints[link]:
+            if at in used:
+                continue
+            used.add(at)
+            if other == train.frame or other in parent:
+                problems.append(_cycle(train, Tree(train.frame, parent, top), link, other, at))
+                continue
+            parent[other] = (link, axis)
+            top[other] = top[link] if link in parent and parent[link][1] == axis else link
+            first_top, first_at = bearer.setdefault(axis, (top[other], at))
+            if first_top != top[other]:
+                problems.append(_two_axes(train, axis, first_top, top[other], first_at, at))
+            queue.append(other)
+    problems += [_loose(train, link) for link in train.links if link != train.frame and link not in parent]
+    if problems:
+        raise DeclarationError(problems)
+    return Tree(train.frame, parent, top)
+
+
+def _cycle(train: Train, tree: Tree, link: str, other: str, at: int) -> Problem:
+    links, _ = tree.path(link, other)
+    return Problem(
+        f"the turning pairs form a cycle: {' - '.join([*links, link])}",
+        "turning pairs must form a tree; links on one axis are joined by one pair fewer than there are links",
+        f"remove one of these turning pairs, such as [{link}, {other}]",
+        train.place("revolutes", at),
+    )
+
+
+def _two_axes(train: Train, axis: str, first: str, second: str, first_at: int, at: int) -> Problem:
+    return Problem(
+        f"axis label '{axis}' names two axes",
+        f"one is borne by '{first}' ({train.place('revolutes', first_at)}), one by '{second}'; "
+        "joints of one label are coaxial",
+        "give the second axis a label of its own",
+        train.place("revolutes", at),
+    )
+
+
+def _loose(train: Train, link: str) -> Problem:
+    return Problem(
+        f"link '{link}' is not joined to the frame",
+        f"no chain of turning pairs leads from it to '{train.frame}'",
+        f"add a turning pair for '{link}' to `revolutes`",
+        train.place("links", link),
+    )

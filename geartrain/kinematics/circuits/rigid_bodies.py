@@ -1,0 +1,221 @@
+"""Links held to the frame or locked together, joint by joint: which turning pairs a rigid connection closes.
+
+Two links are one body if the twist of the one against the other vanishes: the sum of joint rates times screws of the
+axes on the way between them. Screws of different lines are independent, two or three of them for good; so every joint
+on the way is closed, and not the sum of their rates alone (docs/theory.md, section 4). Four axes and more may make a
+linkage, whose ratio varies as it turns: it is refused, unless positions are declared and show that it cannot move.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from itertools import combinations
+
+from geartrain.errors import DeclarationError, Loc, Problem
+from geartrain.kinematics.circuits.axes import Axes, joint_sum_links
+from geartrain.kinematics.circuits.joint_tree import Tree
+from geartrain.numerics.exact import eliminate
+from geartrain.train import StateCase, Train
+
+JointOnLine = tuple[str, str, tuple[str, ...]]
+"""Two links that turn about each other, and the axis between them: one label, or several that lie on one line."""
+
+
+@dataclass(frozen=True, slots=True)
+class Rigid:
+    """One prescription that makes two links one body: what it names, and the joints on the way between them.
+
+    links   one link that is fixed, or two that are locked together
+    """
+
+    links: tuple[str, ...]
+    joints: tuple[JointOnLine, ...]
+
+    @property
+    def labels(self) -> list[str]:
+        """The axes on the way."""
+        return [label for _, _, labels in self.joints for label in labels]
+
+
+def close_joints(train: Train, tree: Tree, cases: Sequence[StateCase]) -> list[StateCase]:
+    """The cases with every fixed link on an axis of the frame, and every lock between two coaxial links.
+
+    What was prescribed across several axes stands in them joint by joint, each with its cause in words. Raises
+    `DeclarationError` for all that would be linkages, and for inputs whose link has no one axis in the frame.
+    """
+    lines = _Lines(train, tree)
+    problems = list(_driven_sums(train, cases, joint_sum_links(train, tree)))
+    closed = []
+    for case in cases:
+        across = [rigid for rigid in rigid_connections(lines, case) if len(rigid.joints) > 1]
+        if not across:
+            closed.append(case)
+            continue
+        stops, linkages = _Bodies(lines, case).close(across)
+        problems += [_linkage(train, case, rigid) for rigid in linkages]
+        closed.append(_joint_by_joint(tree.frame, case, across, stops))
+    if problems:
+        raise DeclarationError({str(problem): problem for problem in problems}.values())
+    return closed
+
+
+def lint_rigid_bodies(train: Train, tree: Tree, cases: Sequence[StateCase]) -> Iterator[Problem]:
+    """What else stands still because links are held across several axes, once for each prescription."""
+    lines = _Lines(train, tree)
+    said = set()
+    for case in cases:
+        for rigid in rigid_connections(lines, case):
+            if len(rigid.joints) < 2 or rigid.links in said:
+                continue
+            said.add(rigid.links)
+            closed = ", ".join(f"{start} - {end}" for start, end, _ in rigid.joints)
+            yield Problem(
+                f"{case.says(*rigid.links)}, which closes the joints {closed}",
+                f"the axes {', '.join(rigid.labels)} lie between them, and one body needs all of them closed",
+                "hold or lock links that have their axis in common, if only that one is meant to be closed",
+                train.place(*_place(train, case, rigid.links)),
+            )
+
+
+class _Lines:
+    """The axes of a train as lines: the way between two links, and whether axes lie on one line or may move."""
+
+    def __init__(self, train: Train, tree: Tree) -> None:
+        self.frame, self._tree, self._axes = tree.frame, tree, Axes(train, tree)
+
+    def joints(self, a: str, b: str) -> tuple[JointOnLine, ...]:
+        """The joints between two links, one for each line; each link hung on the one that bears its axis."""
+        up, down = self._chain(a), self._chain(b)
+        while up and down and up[-1] == down[-1]:
+            up.pop()
+            down.pop()
+        steps = up + [(outer, inner, label) for inner, outer, label in reversed(down)]
+        found: list[JointOnLine] = []
+        for start, end, label in steps:
+            if found and self._alike(found[-1][2][-1], label):
+                before = found.pop()
+                labels = before[2] if before[2][-1] == label else (*before[2], label)
+                found.append((before[0], end, labels))
+            else:
+                found.append((start, end, (label,)))
+        return tuple(found)
+
+    def _chain(self, link: str) -> list[tuple[str, str, str]]:
+        """From a link to the frame, one step for each axis."""
+        tree, steps = self._tree, []
+        while link in tree.parent:
+            steps.append((link, tree.top[link], tree.parent[link][1]))
+            link = tree.top[link]
+        return steps
+
+    def _alike(self, one: str, other: str) -> bool:
+        return one == other or self._axes.are_one_line(one, other)
+
+    def rigid(self, labels: Sequence[str]) -> bool:
+        """Whether a chain of these axes that is closed into a ring cannot move."""
+        if len(labels) <= 3 and not any(self._alike(one, other) for one, other in combinations(labels, 2)):
+            return True
+        screws = [screw for label in labels if (screw := self._axes.screw(label)) is not None]
+        return len(screws) == len(labels) and eliminate(screws).rank == len(labels)
+
+
+def rigid_connections(lines: _Lines, case: StateCase) -> Iterator[Rigid]:
+    """Every prescription of a case that makes two links one body."""
+    for link in case.fixed:
+        yield Rigid((link,), lines.joints(link, lines.frame))
+    for a, b in case.locks:
+        yield Rigid((a, b), lines.joints(a, b))
+
+
+class _Bodies:
+    """Which links are one body; grows with every joint that is closed."""
+
+    def __init__(self, lines: _Lines, case: StateCase) -> None:
+        self._lines = lines
+        self._body: dict[str, str] = {}
+        for rigid in rigid_connections(lines, case):
+            if len(rigid.joints) == 1:
+                self._join(*rigid.joints[0][:2])
+
+    def close(self, across: Sequence[Rigid]) -> tuple[list[tuple[Rigid, JointOnLine]], list[Rigid]]:
+        """The joints that must be closed, each with its cause, and the prescriptions that would make linkages."""
+        closed: list[tuple[Rigid, JointOnLine]] = []
+        waiting = list(across)
+        while waiting:
+            able = [rigid for rigid in waiting if self._lines.rigid(self._labels(rigid))]
+            if not able:
+                break
+            rigid = able[0]
+            waiting.remove(rigid)
+            for joint in self._open(rigid):
+                self._join(*joint[:2])
+                closed.append((rigid, joint))
+        return closed, waiting
+
+    def _open(self, rigid: Rigid) -> list[JointOnLine]:
+        return [joint for joint in rigid.joints if self._find(joint[0]) != self._find(joint[1])]
+
+    def _labels(self, rigid: Rigid) -> list[str]:
+        return [labels[0] for _, _, labels in self._open(rigid)]
+
+    def _join(self, a: str, b: str) -> None:
+        self._body[self._find(a)] = self._find(b)
+
+    def _find(self, link: str) -> str:
+        while self._body.get(link, link) != link:
+            link = self._body[link]
+        return link
+
+
+def _joint_by_joint(
+    frame: str, case: StateCase, across: Sequence[Rigid], stops: Sequence[tuple[Rigid, JointOnLine]]
+) -> StateCase:
+    """The case with its prescriptions across several axes replaced by the joints they close."""
+    spread = {rigid.links for rigid in across}
+    fixed = [link for link in case.fixed if (link,) not in spread]
+    locks = [lock for lock in case.locks if lock not in spread]
+    causes: dict[tuple[str, ...], tuple[str, ...]] = {}
+    for rigid, (start, end, _) in stops:
+        if frame in (start, end):
+            link = end if start == frame else start
+            fixed.append(link)
+            causes[(link,)] = rigid.links
+        else:
+            locks.append((start, end))
+            causes[(start, end)] = rigid.links
+    return replace(case, fixed=tuple(dict.fromkeys(fixed)), locks=tuple(locks), causes=causes)
+
+
+def _driven_sums(train: Train, cases: Sequence[StateCase], sums: frozenset[str]) -> Iterator[Problem]:
+    """The inputs that prescribe a sum of joint speeds over axes in several directions."""
+    for link, loc in dict.fromkeys((link, case.loc) for case in cases for link in case.inputs if link in sums):
+        yield Problem(
+            f"the input '{link}' has no speed about one axis",
+            "the axes between it and the frame are not parallel, and the sum of joint speeds over them is no rotation",
+            "drive a link whose axes up to the frame are parallel",
+            train.place(*loc, link),
+        )
+
+
+def _linkage(train: Train, case: StateCase, rigid: Rigid) -> Problem:
+    links = [inner for _, inner, _ in rigid.joints[:-1] if inner != train.frame]
+    return Problem(
+        f"{case.says(*rigid.links)} across the axes {', '.join(rigid.labels)}, which makes a linkage",
+        f"a ring of {len(rigid.joints)} turning pairs may move, with a ratio that varies as it turns; a gear train "
+        "has none such",
+        f"hold or lock a link on the way ({', '.join(links)}), or lock links that have their axis in common",
+        train.place(*_place(train, case, rigid.links)),
+    )
+
+
+def _place(train: Train, case: StateCase, links: tuple[str, ...]) -> Loc:
+    """Where a rigid connection is declared."""
+    if links in case.clutches:
+        return ("clutches", case.clutches[links])
+    key = "fixed" if len(links) == 1 else "locks"
+    state = train.states[case.state] if case.state is not None else None
+    own = getattr(state, key) if state is not None else None
+    listed = list(getattr(train, key) if own is None else own)
+    at = listed.index(links[0] if len(links) == 1 else links)
+    return (key, at) if own is None or case.state is None else ("states", case.state, key, at)

@@ -1,0 +1,139 @@
+"""The train as a networkx graph whose edges carry the declared objects, and its adjacency matrix.
+
+Direction is never read from an undirected edge: teeth, pins and slots are on the object the edge carries.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable
+from typing import TYPE_CHECKING, Any
+
+from geartrain.errors import printable
+from geartrain.train import Train
+
+if TYPE_CHECKING:
+    import networkx as nx
+
+    from geartrain.numerics.labelled_array import LabelledArray
+
+    Graph = nx.MultiGraph[str]
+
+
+def build_graph(train: Train) -> Graph:
+    """Links as vertices; turning pairs, gear pairs and couplings as edges.
+
+    Edge data: `kind` (revolute, gear, pin_and_slot, pin_follower), `label` (the axis or the pair's id) and
+    `declared`, the model object as it stands in the declaration. The edge key is `(kind, label, position)`.
+    """
+    import networkx as nx
+
+    graph: Graph = nx.MultiGraph(name=train.name)
+    for name, link in train.links.items():
+        graph.add_node(name, declared=link, frame=name == train.frame)
+    for at, joint in enumerate(train.revolutes):
+        graph.add_edge(*joint.pair, key=f"revolute {at}", kind="revolute", label=joint.axis, declared=joint)
+    wheels = train.wheels
+    for gear in train.gears:
+        first, second = (wheels[wheel][0] for wheel in gear.pair)
+        graph.add_edge(first, second, key=gear.name, kind="gear", label=gear.name, declared=gear)
+    for coupling in train.couplings:
+        graph.add_edge(
+            coupling.pin,
+            coupling.slot,
+            key=coupling.name,
+            kind=coupling.kind,
+            label=coupling.name,
+            declared=coupling,
+        )
+    return graph
+
+
+MOST_SQUARE = 48
+"""Links up to which an adjacency matrix is shown unasked: its size grows with their square."""
+
+
+def edge_rows(graph: Graph) -> list[tuple[str, str, str, str]]:
+    """The edges in the order declared: two links, what joins them, and the axis or the pair's id."""
+    return [(first, second, data["kind"], str(data["label"])) for first, second, data in graph.edges(data=True)]
+
+
+def adjacency_labels(graph: Graph) -> list[list[str]]:
+    """The adjacency matrix in letters: `R(axis)` for a turning pair, the id for a gear pair or coupling."""
+    at = {link: position for position, link in enumerate(graph)}
+    cells: list[list[list[str]]] = [[[] for _ in at] for _ in at]
+    for first, second, data in graph.edges(data=True):
+        text = f"R({data['label']})" if data["kind"] == "revolute" else str(data["label"])
+        cells[at[first]][at[second]].append(text)
+        cells[at[second]][at[first]].append(text)
+    return [[" ".join(cell) for cell in row] for row in cells]
+
+
+def adjacency_matrix(graph: Graph, kinds: Iterable[str] = ()) -> LabelledArray:
+    """The adjacency matrix in numbers: how many edges (of the given `kinds`, default all) join two links."""
+    import numpy as np
+
+    from geartrain.numerics.labelled_array import labelled_array
+
+    wanted = set(kinds)
+    at = {link: position for position, link in enumerate(graph)}
+    values = np.zeros((len(at), len(at)), dtype=np.int64)
+    for first, second, data in graph.edges(data=True):
+        if not wanted or data["kind"] in wanted:
+            values[at[first], at[second]] += 1
+            values[at[second], at[first]] += 1
+    return labelled_array(values, link=tuple(at), neighbour=tuple(at))
+
+
+def to_dot(graph: Graph) -> str:
+    """Graphviz text: turning edges thin with their axis, gear edges heavy, couplings dashed, the frame boxed."""
+    lines = [f"graph {_quoted(graph.name)} {{", "  node [shape=circle];"]
+    for link, data in graph.nodes(data=True):
+        lines.append(f"  {_quoted(link)}{' [shape=box]' if data['frame'] else ''};")
+    for first, second, data in graph.edges(data=True):
+        style = {"revolute": "penwidth=1", "gear": "penwidth=3"}.get(data["kind"], "style=dashed, penwidth=2")
+        lines.append(f"  {_quoted(first)} -- {_quoted(second)} [label={_quoted(data['label'])}, {style}];")
+    return printable("\n".join([*lines, "}"]))
+
+
+def to_graphml(graph: Graph) -> str:
+    """GraphML with kind, label and, for gear pairs, the two wheels."""
+    import networkx as nx
+
+    return printable("\n".join(nx.generate_graphml(_plain(graph))))  # XML has no control characters at all
+
+
+def to_json(graph: Graph) -> str:
+    """Node-link JSON with kind, label and, for gear pairs, the two wheels."""
+    import networkx as nx
+
+    data = nx.node_link_data(_plain(graph), edges="edges")
+    text = json.dumps(data, indent=1, ensure_ascii=False)
+    return text if printable(text) == text else json.dumps(data, indent=1)
+
+
+def _plain(graph: Graph) -> Graph:
+    """The graph with text in place of the declared objects."""
+    import networkx as nx
+
+    plain: Graph = nx.MultiGraph(name=graph.name)
+    for link, data in graph.nodes(data=True):
+        wheels = " ".join(f"{name}:{wheel.count}" for name, wheel in data["declared"].wheels.items())
+        plain.add_node(link, frame=data["frame"], wheels=wheels)
+    for first, second, key, data in graph.edges(keys=True, data=True):
+        plain.add_edge(first, second, key=key, **_edge_text(data))
+    return plain
+
+
+def _edge_text(data: dict[str, Any]) -> dict[str, str]:
+    text = {"kind": data["kind"], "label": data["label"]}
+    declared = data["declared"]
+    if data["kind"] == "gear":
+        text |= {"first_wheel": declared.pair[0], "second_wheel": declared.pair[1]}
+    elif data["kind"] != "revolute":
+        text |= {"pin": declared.pin, "slot": declared.slot}
+    return text
+
+
+def _quoted(text: str) -> str:
+    return '"' + text.replace("\\", "\\\\").replace('"', '\\"') + '"'

@@ -1,0 +1,8 @@
+"""Why meshes lock a train, and the least set of them to disengage so that it moves."""
+
+from __future__ import annotations
+
+from geartrain.kinematics.gridlock.locked_subgraphs import find_gridlock
+from geartrain.kinematics.gridlock.removal import Gridlock, LockedSubgraph, MeshRemoval, RemovalBound
+
+__all__ = ["Gridlock", "LockedSubgraph", "MeshRemoval", "RemovalBound", "find_gridlock"]

@@ -1,0 +1,299 @@
+"""Links that mesh in one carrier's frame as a plain graph with gains, walked once; it knows no gears.
+
+Speeds are measured in units that make as many meshes as possible say "equal": a mesh then has a gain other than 1
+only where a first walk found its loop open. A loop turns if the product of its gains is 1.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cached_property
+from itertools import pairwise
+from typing import NamedTuple
+
+Gain = Fraction | int
+GainLoop = list[tuple[int, int]]
+"""A closed walk: at each step the node it leaves and the mesh it takes."""
+
+
+def inverse(gain: Gain) -> Gain:
+    """The gain walked backwards; signs stay integers, which are fast."""
+    return gain if gain == 1 or gain == -1 else 1 / Fraction(gain)
+
+
+@dataclass(frozen=True)
+class GainGraph:
+    """Nodes 0..size-1 and meshes between them, by position.
+
+    ends    of each mesh; two meshes may join the same nodes
+    gains   mesh -> speed of its second end over that of its first, where that is not 1
+    firm    what cannot be disengaged (pins in slots)
+    """
+
+    size: int
+    ends: Sequence[tuple[int, int]]
+    gains: Mapping[int, Gain]
+    firm: frozenset[int] = frozenset()
+
+    @cached_property
+    def at(self) -> list[list[int]]:
+        """The meshes of each node."""
+        meshes: list[list[int]] = [[] for _ in range(self.size)]
+        for mesh, (first, second) in enumerate(self.ends):
+            meshes[first].append(mesh)
+            meshes[second].append(mesh)
+        return meshes
+
+    def gain(self, mesh: int, start: int) -> Gain:
+        """Speed gained over a mesh that is left from `start`."""
+        gain = self.gains.get(mesh, 1)
+        return gain if start == self.ends[mesh][0] else inverse(gain)
+
+    def other(self, mesh: int, start: int) -> int:
+        """The far end of a mesh."""
+        first, second = self.ends[mesh]
+        return first + second - start
+
+    def product(self, loop: GainLoop) -> Gain:
+        """Product of the gains round a loop."""
+        total: Gain = 1
+        for node, mesh in loop:
+            total = total * self.gain(mesh, node)
+        return total
+
+    def part(self, meshes: Sequence[int]) -> tuple[GainGraph, list[int]]:
+        """The network of some meshes alone, in the order given, and the nodes it keeps."""
+        nodes = list(dict.fromkeys(node for mesh in meshes for node in self.ends[mesh]))
+        number = {node: at for at, node in enumerate(nodes)}
+        ends = [(number[self.ends[mesh][0]], number[self.ends[mesh][1]]) for mesh in meshes]
+        gains = {at: self.gains[mesh] for at, mesh in enumerate(meshes) if mesh in self.gains}
+        firm = frozenset(at for at, mesh in enumerate(meshes) if mesh in self.firm)
+        return GainGraph(len(nodes), ends, gains, firm), nodes
+
+
+class GainWalk(NamedTuple):
+    """A breadth-first walk: nodes as reached, the mesh and node each was reached by (-1 at a root), and speeds.
+
+    breaking   meshes that contradict the walk -> by how much, from first end to second
+    chords     all other meshes that close a loop
+    """
+
+    order: list[int]
+    parent: list[int]
+    entry: list[int]
+    speed: list[Gain]
+    breaking: dict[int, Gain]
+    chords: list[int]
+
+    def back(self, node: int) -> list[int]:
+        """The nodes from here to the root."""
+        chain = [node]
+        while self.parent[node] >= 0:
+            node = self.parent[node]
+            chain.append(node)
+        return chain
+
+    def loop(self, mesh: int, ends: tuple[int, int]) -> GainLoop:
+        """The loop a chord closes, from where its two ways to the root part; the chord follows its first end."""
+        up, down = self.back(ends[0]), self.back(ends[1])
+        while len(up) > 1 and len(down) > 1 and up[-2] == down[-2]:
+            up.pop()
+            down.pop()
+        there = [(self.parent[node], self.entry[node]) for node in up[-2::-1]]
+        return [*there, (ends[0], mesh), *((node, self.entry[node]) for node in down[:-1])]
+
+
+def walk_gain_graph(network: GainGraph, without: Collection[int] = (), roots: Sequence[int] = ()) -> GainWalk:
+    """Walk all nodes breadth first, from `roots` where possible, leaving some meshes out."""
+    gone = bytearray(len(network.ends))
+    for mesh in without:
+        gone[mesh] = 1
+    size, at, ends, gains = network.size, network.at, network.ends, network.gains
+    parent, entry = [-1] * size, [-1] * size
+    speeds: list[Gain] = [0] * size  # 0: not reached
+    order: list[int] = []
+    done = 0
+    for root in (*roots, *range(size)):
+        if speeds[root]:
+            continue
+        speeds[root] = 1
+        order.append(root)
+        while done < len(order):
+            here = order[done]
+            done += 1
+            for mesh in at[here]:
+                if gone[mesh]:
+                    continue
+                first, second = ends[mesh]
+                there = first + second - here
+                if not speeds[there]:
+                    speeds[there] = speeds[here] * network.gain(mesh, here) if mesh in gains else speeds[here]
+                    parent[there], entry[there] = here, mesh
+                    order.append(there)
+                    gone[mesh] = 1  # in the tree
+    breaking: dict[int, Gain] = {}
+    chords = []
+    for mesh, (first, second) in enumerate(ends):
+        if gone[mesh]:
+            continue
+        gain = gains.get(mesh, 1)
+        if speeds[first] * gain == speeds[second]:
+            chords.append(mesh)
+        else:
+            breaking[mesh] = speeds[first] * gain * inverse(speeds[second])
+    return GainWalk(order, parent, entry, speeds, breaking, chords)
+
+
+def is_balanced(network: GainGraph, without: Collection[int] = ()) -> bool:
+    """True if every loop closes once some meshes are out."""
+    return not walk_gain_graph(network, without).breaking
+
+
+def single_mesh_removals(network: GainGraph, found: GainWalk) -> list[int]:
+    """Every mesh that frees a connected network all by itself, in linear time.
+
+    Such a mesh lies on any loop that does not close, so one such loop is laid out as a path of the walk's tree plus
+    its chord. A chord's way through the tree covers a stretch of that path. A mesh of the path frees the network if
+    every chord that contradicts covers it, all by the same amount, and no chord that agrees does.
+    """
+    if not found.breaking:
+        return []
+    chord = next(iter(found.breaking))
+    path = _path(found, *network.ends[chord])
+    anchors = _anchors(found, path)
+    opened, agreed, amounts = [0] * (len(path) + 1), [0] * (len(path) + 1), set()
+    for mesh, amount in found.breaking.items():
+        low, high = (anchors[end] for end in network.ends[mesh])
+        amounts.add(amount if low < high else inverse(amount))
+        opened[min(low, high)] += 1
+        opened[max(low, high)] -= 1
+    for mesh in found.chords:
+        low, high = sorted(anchors[end] for end in network.ends[mesh])
+        agreed[low] += 1
+        agreed[high] -= 1
+    singles = [chord] if len(found.breaking) == 1 else []
+    open_here = agreed_here = 0
+    for at, (first, second) in enumerate(pairwise(path)):
+        open_here, agreed_here = open_here + opened[at], agreed_here + agreed[at]
+        if open_here == len(found.breaking) and not agreed_here and len(amounts) == 1:
+            singles.append(found.entry[first] if found.parent[first] == second else found.entry[second])
+    return [mesh for mesh in singles if mesh not in network.firm]
+
+
+def _path(found: GainWalk, first: int, second: int) -> list[int]:
+    """The nodes of the tree's path between two nodes."""
+    up, down = found.back(first), found.back(second)
+    while len(up) > 1 and len(down) > 1 and up[-2] == down[-2]:
+        up.pop()
+        down.pop()
+    return up + down[-2::-1]
+
+
+def _anchors(found: GainWalk, path: Sequence[int]) -> list[int]:
+    """Where each node's way through the tree meets a path, as a position on it."""
+    anchors = [-1] * len(found.order)
+    for at, node in enumerate(path):
+        anchors[node] = at
+    top = next(at for at, node in enumerate(path) if found.parent[node] not in path[max(0, at - 1) : at + 2])
+    for node in found.order:
+        if anchors[node] < 0:
+            parent = found.parent[node]
+            anchors[node] = anchors[parent] if parent >= 0 else top
+    return anchors
+
+
+def biconnected_blocks(network: GainGraph) -> list[list[int]]:
+    """The meshes of each part that no single node holds together (Hopcroft and Tarjan 1973), without recursion."""
+    order, low = [0] * network.size, [0] * network.size
+    used = bytearray(len(network.ends))
+    found: list[list[int]] = []
+    pending: list[int] = []
+    count = 0
+    for root in range(network.size):
+        if order[root]:
+            continue
+        count += 1
+        order[root] = low[root] = count
+        stack = [(root, iter(network.at[root]), 0)]
+        while stack:
+            here, meshes, start = stack[-1]
+            for mesh in meshes:
+                if used[mesh]:
+                    continue
+                used[mesh] = 1
+                there = network.other(mesh, here)
+                if order[there]:
+                    pending.append(mesh)
+                    low[here] = min(low[here], order[there])
+                    continue
+                count += 1
+                order[there] = low[there] = count
+                stack.append((there, iter(network.at[there]), len(pending)))
+                pending.append(mesh)
+                break
+            else:
+                stack.pop()
+                if stack:
+                    above = stack[-1][0]
+                    low[above] = min(low[above], low[here])
+                    if low[here] >= order[above]:
+                        found.append(pending[start:])
+                        del pending[start:]
+    return found
+
+
+def shortest_loop(
+    network: GainGraph, without: Collection[int] = (), starts: Sequence[int] | None = None
+) -> GainLoop | None:
+    """A shortest loop that does not close, among those through `starts` (default: any node)."""
+    best: GainLoop | None = None
+    for start in range(network.size) if starts is None else starts:
+        loop = _loop_through(network, without, start, len(best) if best else 2 * network.size + 1)
+        if loop is not None and (best is None or len(loop) < len(best)):
+            best = loop
+            if len(best) == 2:
+                break
+    return best
+
+
+def _loop_through(network: GainGraph, without: Collection[int], start: int, below: int) -> GainLoop | None:
+    """The first loop shorter than `below` that contradicts a walk from `start`."""
+    speed: dict[int, Gain] = {start: 1}
+    came: dict[int, tuple[int, int]] = {}
+    depth = {start: 0}
+    best: tuple[int, int, int] | None = None
+    queue = [start]
+    for here in queue:
+        if 2 * depth[here] + 1 >= below:
+            break
+        for mesh in network.at[here]:
+            if mesh in without or (here in came and mesh == came[here][1]):
+                continue
+            there = network.other(mesh, here)
+            gained = speed[here] * network.gain(mesh, here)
+            if there not in speed:
+                speed[there], came[there], depth[there] = gained, (here, mesh), depth[here] + 1
+                queue.append(there)
+            elif speed[there] != gained and depth[here] + depth[there] + 1 < below:
+                best, below = (here, mesh, there), depth[here] + depth[there] + 1
+    return None if best is None else _closed(came, *best)
+
+
+def _closed(came: Mapping[int, tuple[int, int]], here: int, mesh: int, there: int) -> GainLoop:
+    """The loop of a chord, without the stretch that its two ways back share."""
+    up: GainLoop = []
+    node = here
+    while node in came:
+        up.append(came[node])
+        node = came[node][0]
+    down: GainLoop = []
+    node = there
+    while node in came:
+        down.append((node, came[node][1]))
+        node = came[node][0]
+    while up and down and up[-1][1] == down[-1][1]:
+        up.pop()
+        down.pop()
+    return [*up[::-1], (here, mesh), *down]

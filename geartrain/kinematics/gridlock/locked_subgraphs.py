@@ -1,0 +1,231 @@
+"""From a train's components to its gridlock: one network for each component with a loop that does not close."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterator, Sequence
+from fractions import Fraction
+from itertools import combinations
+from math import comb
+from random import Random
+from typing import NamedTuple
+
+from geartrain.kinematics.components import Components, SolvedPart, relevant_circuits
+from geartrain.kinematics.gridlock.gain_graph import Gain, GainGraph, walk_gain_graph
+from geartrain.kinematics.gridlock.gain_graph import GainLoop as Steps
+from geartrain.kinematics.gridlock.removal import Gridlock, LockedSubgraph, MeshRemoval, RemovalBound, join_removals
+from geartrain.kinematics.gridlock.removal_choice import LoopPacking, RemovalChoice, choose_removal, open_loop
+from geartrain.kinematics.speeds import Mobility, find_mobility
+from geartrain.kinematics.verdict import Loop
+from geartrain.numerics.containers import collector_paused
+
+MOST_COUPLED = 2000
+"""Meshes up to which those about several carriers are tried; each trial solves the train."""
+_ONE_BY_ONE = 200
+_TRIALS = 3000
+
+
+class LockedNetwork(NamedTuple):
+    """A component as a network: its carrier, links by node, and circuits by mesh."""
+
+    carrier: str
+    links: list[str]
+    circuits: list[int]
+    network: GainGraph
+
+
+@collector_paused()
+def find_gridlock(part: SolvedPart, mobility: Mobility) -> Gridlock:
+    """Whether the meshes of a train let it move; brakes, locks and inputs are left aside, and so are followers.
+
+    A follower only swings: that its mean speed is 0 is no fault of a mesh.
+    """
+    parts = part.reduced.components
+    if not parts.breaking and mobility.by_rank and not mobility.still:
+        return Gridlock()
+    jams = tuple(_jam(parts, jammed) for jammed in find_locked_networks(parts))
+    gone = {mesh for jam in jams for mesh in jam.release.meshes}
+    ordinary = all(carrier == parts.frame for carrier in parts.group_carrier)  # nothing then couples components
+    held = () if ordinary else _held(part, gone)
+    if held:
+        return Gridlock(jams, held, _coupled(part, gone, sum(jam.release.at_least for jam in jams)))
+    return Gridlock(jams, (), join_removals(jam.release for jam in jams) if jams else None)
+
+
+def find_locked_networks(parts: Components) -> list[LockedNetwork]:
+    """The networks of all components with a loop that does not close, in units in which all other meshes say equal."""
+    size = len(parts.links)
+    at = {carrier * size + link: node for node, (link, carrier) in enumerate(_nodes(parts))}
+    gains = {chord: _gain(parts, chord) for chord in parts.breaking}
+    groups = dict.fromkeys(parts.group_of(parts.circuits[chord]) for chord in parts.breaking)
+    inside: dict[int, tuple[list[int], list[tuple[int, int]], dict[int, int]]] = {
+        group: ([], [], {}) for group in groups
+    }
+    index, group_of = parts.index, parts.node_group
+    for circuit, (_, _, i, j, k, _, b, _, _) in enumerate(parts.circuits):
+        if not b:
+            continue
+        carrier = index[k] * size
+        node = at[carrier + index[i]]
+        if (here := inside.get(group_of[node])) is not None:
+            circuits, ends, number = here
+            other = at[carrier + index[j]]
+            circuits.append(circuit)
+            ends.append((number.setdefault(node, len(number)), number.setdefault(other, len(number))))
+    return [
+        LockedNetwork(
+            parts.links[parts.group_carrier[group]],
+            [parts.links[parts.node_link[node]] for node in number],
+            circuits,
+            GainGraph(
+                len(number),
+                ends,
+                {mesh: gains[circuit] for mesh, circuit in enumerate(circuits) if circuit in gains},
+                frozenset(mesh for mesh, circuit in enumerate(circuits) if parts.circuits[circuit].kind != "gear"),
+            ),
+        )
+        for group, (circuits, ends, number) in inside.items()
+    ]
+
+
+def _nodes(parts: Components) -> Iterator[tuple[int, int]]:
+    return zip(parts.node_link, parts.node_carrier, strict=True)
+
+
+def _gain(parts: Components, chord: int) -> Gain:
+    """By how much a circuit contradicts the walk through its component, from its first link to its second."""
+    circuit = parts.circuits[chord]
+    carrier = parts.index[circuit.carrier]
+    first, second = (parts.relative(parts.node(parts.index[link], carrier)) for link in (circuit.i, circuit.j))
+    gain = Fraction(-circuit.a, circuit.b) * first / second
+    return -1 if gain == -1 else gain
+
+
+def _jam(parts: Components, jammed: LockedNetwork) -> LockedSubgraph:
+    network = jammed.network
+    found = walk_gain_graph(network)
+    choice = choose_removal(network, found)
+    steps = choice.bounds[0].loops[0] if choice.method == "one" else open_loop(network, found)
+    return LockedSubgraph(
+        jammed.carrier,
+        _loop(parts, jammed, steps),
+        tuple(jammed.links),
+        len(network.ends) - len(network.firm),
+        "sign" if all(gain == -1 for gain in found.breaking.values()) else "ratio",
+        _release(parts, jammed, choice),
+    )
+
+
+def _release(parts: Components, jammed: LockedNetwork, choice: RemovalChoice) -> MeshRemoval:
+    meshes, choices = (
+        tuple(parts.circuits[jammed.circuits[mesh]].id for mesh in some) for some in (choice.meshes, choice.choices)
+    )
+    proofs = tuple(_proof(parts, jammed, bound) for bound in choice.bounds)
+    return MeshRemoval(meshes, choice.method, choice.at_least, choices, proofs)
+
+
+def _proof(parts: Components, jammed: LockedNetwork, bound: LoopPacking) -> RemovalBound:
+    return RemovalBound(tuple(_loop(parts, jammed, steps) for steps in bound.loops), bound.sharing)
+
+
+def _loop(parts: Components, jammed: LockedNetwork, steps: Steps) -> Loop:
+    return Loop(
+        jammed.carrier,
+        tuple(jammed.links[node] for node, _ in steps),
+        tuple(parts.circuits[jammed.circuits[mesh]].id for _, mesh in steps),
+        Fraction(jammed.network.product(steps)),
+    )
+
+
+def _without(part: SolvedPart, gone: Collection[str]) -> SolvedPart:
+    circuits = [circuit for circuit in part.circuits if circuit.b and circuit.id not in gone]
+    return SolvedPart(part.links, part.frame, circuits, part.first)
+
+
+def _held(part: SolvedPart, gone: Collection[str]) -> tuple[str, ...]:
+    """The links that meshes hold still, whatever their teeth, once some meshes are out.
+
+    A ratio can keep a link upright, and all that it drives at rest, while the train moves. Other teeth would move
+    such links, so what counts is to stand still with other ratios too.
+    """
+    less = _without(part, gone)
+    still = _still(less)
+    if not still:
+        return ()
+    always = set(_still(_varied(less)))
+    return tuple(link for link in still if link in always)
+
+
+def _still(part: SolvedPart) -> tuple[str, ...]:
+    mobility = find_mobility(part.reduced, 0)
+    if mobility.by_rank:
+        return mobility.still
+    return tuple(link for link in part.links if link != part.frame)
+
+
+def _varied(part: SolvedPart) -> SolvedPart:
+    """The train with another ratio for every link about every carrier; loops keep their products."""
+
+    def factor(link: str, carrier: str) -> int:
+        return Random(f"{link} {carrier}").randrange(10**6, 10**7)  # by name, so that it stays when meshes go
+
+    circuits = [
+        circuit._replace(
+            a=circuit.a * factor(circuit.j, circuit.carrier), b=circuit.b * factor(circuit.i, circuit.carrier)
+        )
+        for circuit in part.circuits
+    ]
+    return SolvedPart(part.links, part.frame, circuits, part.first)
+
+
+def _frees(part: SolvedPart, gone: Collection[str]) -> bool:
+    """True if every loop closes and every link can move once some meshes are out."""
+    less = _without(part, gone)
+    return not less.reduced.components.breaking and not _held(part, gone)
+
+
+def _coupled(part: SolvedPart, gone: Collection[str], at_least: int) -> MeshRemoval | None:
+    """Meshes about several carriers that free the train: a least set if few are at stake, else none of which can stay.
+
+    None where there are none, or too many to try.
+    """
+    toothed = _without(part, ())
+    bound = {circuit.id for some in (toothed, _varied(toothed)) for circuit in relevant_circuits(some.circuits, ())}
+    gears = [circuit.id for circuit in toothed.circuits if circuit.kind == "gear" and circuit.id in bound]
+    if len(gears) > MOST_COUPLED or not _frees(part, gears):
+        return None
+    least = max(1, at_least)
+    singles = [gear for gear in gears if _frees(part, {gear})] if least == 1 and len(gears) <= _ONE_BY_ONE else []
+    if singles:
+        return MeshRemoval((singles[0],), "one", 1, tuple(singles))
+    needed = _needed(part, sorted(gears, key=lambda name: name not in gone))
+    least = max(least, 2) if len(gears) <= _ONE_BY_ONE else least
+    if sum(comb(len(gears), size) for size in range(least, len(needed))) > _TRIALS:
+        return MeshRemoval(tuple(needed), "greedy", least)
+    return _searched(part, gears, needed, range(least, len(needed)))
+
+
+def _needed(part: SolvedPart, gears: Sequence[str]) -> list[str]:
+    """A set that frees the train and of which no mesh can stay, those early in the list first.
+
+    Taking out more meshes never locks anything, so the shortest part of the list that does is found by halving; its
+    last mesh is needed, and the search goes on among those before it.
+    """
+    needed: list[str] = []
+    left = list(gears)
+    while not _frees(part, needed):
+        low, high = 1, len(left)
+        while low < high:
+            middle = (low + high) // 2
+            low, high = (low, middle) if _frees(part, [*needed, *left[:middle]]) else (middle + 1, high)
+        needed.append(left[low - 1])
+        del left[low - 1 :]
+    return needed
+
+
+def _searched(part: SolvedPart, gears: Sequence[str], kept: Sequence[str], sizes: range) -> MeshRemoval:
+    """All smaller sets tried, the smallest first."""
+    for size in sizes:
+        for some in combinations(gears, size):
+            if _frees(part, some):
+                return MeshRemoval(some, "search", size)
+    return MeshRemoval(tuple(kept), "search", len(kept))

@@ -1,0 +1,219 @@
+"""What a gridlock report says: the loops at fault, and the meshes to disengage."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from typing import Any, Literal
+
+from geartrain.kinematics.verdict import Loop
+from geartrain.numerics.exact import abridged_text
+
+RemovalMethod = Literal["one", "loops", "matching", "search", "greedy"]
+_WEAKER: tuple[RemovalMethod, ...] = ("one", "loops", "matching", "search", "greedy")
+_SHOWN = 12
+
+
+@dataclass(frozen=True, slots=True)
+class RemovalBound:
+    """Loops that do not close, each mesh on at most `sharing` of them: one mesh frees no more than that many."""
+
+    loops: tuple[Loop, ...]
+    sharing: int
+
+    @property
+    def at_least(self) -> int:
+        """How many meshes must go."""
+        return -(-len(self.loops) // self.sharing)
+
+    def __str__(self) -> str:
+        many = len(self.loops)
+        if many == 1:
+            return "a loop that does not close needs one"
+        apart = "share no mesh" if self.sharing == 1 else "have each mesh in at most two of them"
+        return f"{many} loops that do not close {apart}"
+
+
+@dataclass(frozen=True, slots=True)
+class MeshRemoval:
+    """Meshes to disengage so that every loop closes and all links held by them can move; none of them could stay.
+
+    method     one: a single mesh is enough (of each part). loops: as many loops that do not close share no mesh.
+               matching, search: exact, by matching the odd regions of a planar set or by branch and bound. greedy: a
+               good set without a proof that it is the least
+    at_least   a proved lower bound
+    choices    where one mesh is enough: all that would do
+    proofs     loops that prove the bound; it may rest on the method alone
+    """
+
+    meshes: tuple[str, ...]
+    method: RemovalMethod
+    at_least: int
+    choices: tuple[str, ...] = ()
+    proofs: tuple[RemovalBound, ...] = ()
+
+    @property
+    def least(self) -> bool:
+        """True if no smaller set frees the train."""
+        return self.at_least == len(self.meshes)
+
+    def __str__(self) -> str:
+        if len(self.meshes) == 1 and self.choices:
+            one = self.choices[0]
+            return f"disengage {one}" if len(self.choices) == 1 else f"disengage one of {_some(self.choices)}"
+        many = len(self.meshes)
+        text = f"disengage {many} meshes: {_some(self.meshes)}" if many > 1 else f"disengage {self.meshes[0]}"
+        return f"{text}; {self._why()}"
+
+    def _why(self) -> str:
+        proof = ", and ".join(map(str, self.proofs)) if sum(p.at_least for p in self.proofs) == self.at_least else ""
+        if not self.least:
+            because = f", for {proof}" if proof else ""
+            return f"none of them can stay, but a smaller set may do; at least {self.at_least} must go{because}"
+        exact = {
+            "one": "one mesh is the least",
+            "matching": "the shortest way to pair the odd regions of the mesh graph, which is planar",
+            "search": "all smaller sets are ruled out by branch and bound",
+            "loops": "so many loops share no mesh",
+            "greedy": "no smaller set does",
+        }
+        return f"no fewer will do: {proof or exact[self.method]}"
+
+    def to_dict(self) -> dict[str, Any]:
+        """Plain data for JSON."""
+        return {
+            "meshes": list(self.meshes),
+            "method": self.method,
+            "least": self.least,
+            "at_least": self.at_least,
+            "choices": list(self.choices),
+            "proofs": [
+                {"sharing": proof.sharing, "loops": [loop.to_dict() for loop in proof.loops]} for proof in self.proofs
+            ],
+        }
+
+
+@dataclass(frozen=True, slots=True)
+class LockedSubgraph:
+    """One component that its meshes lock to its carrier, and what frees it.
+
+    loop     a loop that does not close
+    links    all links of the component
+    meshes   number of meshes between them
+    by       sign: every loop comes back at the same speed, some reversed. ratio: some at another speed
+    """
+
+    carrier: str
+    loop: Loop
+    links: tuple[str, ...]
+    meshes: int
+    by: Literal["sign", "ratio"]
+    release: MeshRemoval
+
+    def __str__(self) -> str:
+        loop = self.loop
+        if loop.product == -1:
+            why = "its reversing meshes are odd in number, so each wheel would turn against itself"
+        elif loop.product < 0:
+            why = "each wheel would turn against itself, and at another speed"
+        else:
+            why = f"each wheel would turn at two speeds, {abridged_text(loop.product)} of each other"
+        return (
+            f"loop {_some(loop.links, ' - ')} (pairs {_some(loop.pairs)}; ratio product {abridged_text(loop.product)}) "
+            f"does not close: {why}"
+        )
+
+    def to_dict(self) -> dict[str, Any]:
+        """Plain data for JSON."""
+        return {
+            "carrier": self.carrier,
+            "loop": self.loop.to_dict(),
+            "links": list(self.links),
+            "meshes": self.meshes,
+            "by": self.by,
+            "release": self.release.to_dict(),
+        }
+
+
+@dataclass(frozen=True, slots=True)
+class Gridlock:
+    """Whether the meshes of a train let it move, brakes and inputs left aside, and if not, how to free it.
+
+    jams      components with a loop that does not close
+    held      links that meshes about several carriers hold still together, though each loop closes
+    release   what frees the whole train; None if it moves, or if nothing was found
+    """
+
+    jams: tuple[LockedSubgraph, ...] = ()
+    held: tuple[str, ...] = ()
+    release: MeshRemoval | None = None
+
+    @property
+    def moves(self) -> bool:
+        """True if no mesh holds anything still."""
+        return not self.jams and not self.held
+
+    def __str__(self) -> str:
+        return "; ".join(self.lines()) or "moves: every loop of meshes closes"
+
+    def lines(self, most: int = _SHOWN) -> Iterator[str]:
+        """What is wrong and what to do, a sentence each; nothing for a train that moves."""
+        for jam in self.jams[:most]:
+            yield f"gridlock: {jam}"
+            if len(self.jams) > 1 or self.held:
+                yield f"this one turns again: {jam.release}"
+        if len(self.jams) > most:
+            yield f"gridlock: {len(self.jams) - most} more parts of the train are locked by loops of their own"
+        if self.held:
+            yield (
+                f"gridlock: {_some(self.held)} {'stands' if len(self.held) == 1 else 'stand'} still, held by meshes "
+                f"about several carriers together{'' if self.jams else ', each loop of which closes'}"
+            )
+        if self.release is not None:
+            yield f"to free the train, {self.release}"
+        elif not self.moves:
+            yield "no set of meshes is known to free it: pins in slots hold it, or there are too many meshes to try"
+
+    def to_dict(self) -> dict[str, Any]:
+        """Plain data for JSON."""
+        return {
+            "moves": self.moves,
+            "jams": [jam.to_dict() for jam in self.jams],
+            "held": list(self.held),
+            "release": self.release.to_dict() if self.release else None,
+        }
+
+
+def _some(names: Sequence[str], mark: str = ", ") -> str:
+    """The first names, and how many more there are."""
+    if len(names) <= _SHOWN + 1:
+        return mark.join(names)
+    return f"{mark.join(names[:_SHOWN])} and {len(names) - _SHOWN} more"
+
+
+def weakest_method(methods: Iterable[RemovalMethod]) -> RemovalMethod:
+    """The method that proves least: what was found part by part is only as good as that."""
+    return max(methods, key=_WEAKER.index)
+
+
+def join_removals(releases: Iterable[MeshRemoval]) -> MeshRemoval:
+    """Releases of components that have no mesh in common, as one."""
+    parts = tuple(releases)
+    if len(parts) == 1:
+        return parts[0]
+    return MeshRemoval(
+        tuple(mesh for part in parts for mesh in part.meshes),
+        weakest_method(part.method for part in parts),
+        sum(part.at_least for part in parts),
+        (),
+        tuple(merge_bounds(proof for part in parts for proof in part.proofs)),
+    )
+
+
+def merge_bounds(proofs: Iterable[RemovalBound]) -> Iterator[RemovalBound]:
+    """Proofs about meshes that are not in common: loops that share no mesh are counted together."""
+    every = list(proofs)
+    apart = tuple(loop for proof in every if proof.sharing == 1 for loop in proof.loops)
+    if apart:
+        yield RemovalBound(apart, 1)
+    yield from (proof for proof in every if proof.sharing > 1)

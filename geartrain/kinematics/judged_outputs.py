@@ -1,0 +1,338 @@
+"""Each output against what was expected, what a source prints, and what the sky does; and what one tooth changes."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Any, Literal
+
+from geartrain.kinematics.circuits import Circuit
+from geartrain.numerics.exact import as_float, decimal, fraction_text
+from geartrain.numerics.long_float import LongFloat, as_plain
+from geartrain.train import Output, Published, StateCase, Target, Train
+from geartrain.train.periods import period_table
+
+DAYS_PER_CENTURY = 36525
+SpeedValue = Fraction | float | LongFloat
+SpeedOf = Callable[[str], SpeedValue | None]
+Relative = Callable[[str, str], SpeedValue | None]
+"""Speed of a link seen from another, about the first one's axis; None where it is not determined."""
+
+
+@dataclass(frozen=True, slots=True)
+class RatioGoal:
+    """What a target asks of a speed.
+
+    label    the target in words, its sense left out
+    speed    in the train's unit; positive where only the magnitude counts
+    signed   False: only the magnitude counts
+    sense    that of a name or period: "direct", "retrograde" or nothing
+    """
+
+    label: str
+    speed: Fraction
+    signed: bool
+    sense: str = ""
+
+    @property
+    def words(self) -> str:
+        """The target in words, with its sense."""
+        return f"{self.label} {self.sense}".rstrip() if self.signed else f"{self.label} in either sense"
+
+    def error(self, speed: SpeedValue) -> SpeedValue:
+        """Speed / goal - 1, positive is fast; the difference where the goal is 0."""
+        return error_against(speed, self.speed, self.signed)
+
+
+def error_against(speed: SpeedValue, wanted: Fraction, signed: bool) -> SpeedValue:
+    """Relative error of a speed, or of its magnitude; the speed itself where 0 is wanted."""
+    own = speed if signed else magnitude(speed)
+    return own / wanted - 1 if wanted else own
+
+
+@dataclass(frozen=True, slots=True)
+class TargetResult:
+    """An output against one target. A positive error is fast.
+
+    goal                the target's speed in the train's unit, and whether its sense counts
+    error               output / speed - 1, of magnitudes where the sense does not count; the output where 0 is wanted
+    days_per_century    what the pointer gains in time, where the unit is a time and the target turns
+    degrees_per_unit    what the pointer gains in angle while the unit passes once
+                        (both None beyond the range of float64)
+    met                 within the declared tolerance; None without one
+    """
+
+    goal: RatioGoal
+    error: SpeedValue
+    days_per_century: float | None
+    degrees_per_unit: float | None
+    met: bool | None
+
+    @property
+    def label(self) -> str:
+        """The target in words."""
+        return self.goal.label
+
+    @property
+    def speed(self) -> Fraction:
+        """The target's speed in the train's unit; positive where only the magnitude counts."""
+        return self.goal.speed
+
+    @property
+    def compared(self) -> Literal["speed", "magnitude", "difference"]:
+        """How: with its sense, without, or by difference from 0."""
+        return ("speed" if self.goal.signed else "magnitude") if self.speed else "difference"
+
+    @property
+    def ppm(self) -> float | None:
+        """The error in parts per million; None where 0 is wanted, and beyond the range of floats."""
+        return is_near(self.error, 10**6) if self.speed else None
+
+    def to_dict(self) -> dict[str, Any]:
+        """Plain data for JSON."""
+        return {
+            "target": self.label,
+            "speed": as_float(self.speed),
+            "compared": self.compared,
+            "ppm": self.ppm,
+            "days_per_century": self.days_per_century,
+            "degrees_per_unit": self.degrees_per_unit,
+            "met": self.met,
+        }
+
+
+@dataclass(frozen=True, slots=True)
+class OutputResult:
+    """One output: its exact speed and whether its declared expectations hold.
+
+    speed            exact, or a float (`LongFloat` past 1e308) where solved in floats; None where undetermined
+    ratio            output over input, where there is exactly one non-zero input
+    expect_holds     None without an `expect`
+    published_holds  None without a `published`
+    bookkeeping      True for a sum of joint speeds over non-parallel axes, which is no rotation
+    """
+
+    name: str
+    output: Output
+    of: str
+    relative_to: str
+    speed: SpeedValue | None
+    ratio: SpeedValue | None
+    expect_holds: bool | None
+    published_holds: bool | None
+    targets: tuple[TargetResult, ...]
+    bookkeeping: bool
+
+    @property
+    def found(self) -> SpeedValue | None:
+        """What stands against the `published` figure, in its form; None where there is no such number."""
+        published = self.output.published
+        return None if published is None else as_published(published, self.speed, self.ratio)
+
+    @property
+    def holds(self) -> bool:
+        """False if an `expect` or a `published` figure is not met."""
+        return self.expect_holds is not False and self.published_holds is not False
+
+    def to_dict(self) -> dict[str, Any]:
+        """Plain data for JSON."""
+        expect, published = self.output.expect, self.output.published
+        return {
+            **speed_data(self.speed),
+            "of": self.of,
+            "relative_to": self.relative_to,
+            "output/input": _plain(self.ratio),
+            "expect": None if expect is None else {"value": str(expect.value), "holds": self.expect_holds},
+            "published": None
+            if published is None
+            else {
+                "value": str(published.value),
+                "as": published.as_,
+                "place": published.place,
+                "found": _plain(self.found),
+                "holds": self.published_holds,
+            },
+            "targets": [target.to_dict() for target in self.targets],
+        }
+
+
+def is_near(value: SpeedValue, times: int) -> float | None:
+    """A product as a float, or None where float64 has none."""
+    size = as_float(value) if isinstance(value, Fraction) else as_plain(value)
+    return None if size is None else size * times
+
+
+def _plain(value: SpeedValue | None) -> str | float | None:
+    """A number for JSON: a fraction as text, else a float; None beyond the range of float64."""
+    return fraction_text(value) if isinstance(value, Fraction) else as_plain(value)
+
+
+def magnitude(value: SpeedValue) -> SpeedValue:
+    """|value|, of the same kind."""
+    return value if value >= 0 else -value
+
+
+def speed_data(speed: SpeedValue | None) -> dict[str, Any]:
+    """`exact` and `value` of a speed for JSON; beyond the range of float64 `value` is null and `decimal` has it."""
+    if isinstance(speed, LongFloat):
+        return {"exact": None, "value": None, "decimal": f"{speed:.12g}"}
+    if not isinstance(speed, Fraction):
+        return {"exact": None, "value": speed}
+    value = as_float(speed)
+    plain: dict[str, Any] = {"exact": fraction_text(speed), "value": value}
+    if value is None:
+        plain["decimal"] = decimal(speed)
+    return plain
+
+
+def judge_outputs(
+    train: Train, case: StateCase, relative: Relative, is_rotation: Callable[[str, str], bool]
+) -> Iterator[OutputResult]:
+    """Evaluate every output of a case.
+
+    relative      of two links, the speed of the first seen from the second
+    is_rotation   of two links, whether the axes between them are all parallel
+    """
+    moving = [speed for speed in case.inputs.values() if speed]
+    for name, output in case.outputs.items():
+        of, base = output.of or name, output.relative_to or train.frame
+        speed = relative(of, base)
+        ratio = speed / moving[0] if speed is not None and len(moving) == 1 else None
+        yield OutputResult(
+            name,
+            output,
+            of,
+            base,
+            speed,
+            ratio,
+            _expect_holds(output, speed),
+            _published_holds(output, speed, ratio),
+            tuple(_against(train, target, speed) for target in output.targets if speed is not None),
+            not is_rotation(of, base),
+        )
+
+
+def relative_speed(of: str, base: str, speed_of: SpeedOf, signs: Mapping[str, int]) -> SpeedValue | None:
+    """Speed of a link as seen from another, about the first one's axis."""
+    own, other = speed_of(of), speed_of(base)
+    if own is None or other is None:
+        return None
+    return own - other * signs.get(of, 1) * signs.get(base, 1)
+
+
+def _expect_holds(output: Output, speed: SpeedValue | None) -> bool | None:
+    """Whether the expectation holds; a float agrees with a fraction to nine digits."""
+    expect = output.expect
+    if expect is None or speed is None:
+        return None if expect is None else False
+    exact = Fraction(speed)
+    if not isinstance(speed, Fraction) and abs(exact - expect.value.value) <= Fraction(1, 10**9) * max(
+        Fraction(1), abs(exact)
+    ):
+        return True
+    return expect.holds(exact)
+
+
+def _published_holds(output: Output, speed: SpeedValue | None, ratio: SpeedValue | None) -> bool | None:
+    published = output.published
+    if published is None:
+        return None
+    value = as_published(published, speed, ratio)
+    bound = published.tolerance.value if published.tolerance else None
+    return False if value is None else published.value.holds(Fraction(value), bound)
+
+
+def as_published(published: Published, speed: SpeedValue | None, ratio: SpeedValue | None) -> SpeedValue | None:
+    """An output in the form of the figure that a source prints of it."""
+    if published.as_ == "speed":
+        return speed
+    return ratio if published.as_ == "output/input" else 1 / ratio if ratio else None
+
+
+def goal_of(train: Train, target: Target) -> RatioGoal:
+    """A target as a speed in the train's unit."""
+    turns = target.turns.value
+    if target.speed is not None:
+        return RatioGoal(f"speed {target.speed}", target.speed.value * turns, True)
+    if target.period is not None:
+        label, speed = f"period {target.period}", turns * (train.unit_base or Fraction(1)) / target.period.base
+    else:
+        row, days = period_table()[target.name or ""], train.unit_days or Fraction(1)
+        label = row.name if turns == 1 else f"{turns} turns in {row.name}"
+        speed = turns * (days / row.value if row.kind == "period" else abs(row.value))
+    if target.sense is None:
+        return RatioGoal(label, speed, False)
+    return RatioGoal(label, -speed if target.sense == "retrograde" else speed, True, target.sense)
+
+
+def _against(train: Train, target: Target, speed: SpeedValue) -> TargetResult:
+    goal = goal_of(train, target)
+    error = goal.error(speed)
+    tolerance = target.tolerance.base if target.tolerance else None
+    ahead = (speed if goal.signed else magnitude(speed)) - goal.speed
+    return TargetResult(
+        goal,
+        error,
+        is_near(error, DAYS_PER_CENTURY) if train.unit_days is not None and goal.speed else None,
+        is_near(-ahead if goal.speed < 0 else ahead, 360),
+        None if tolerance is None else magnitude(error) <= tolerance,
+    )
+
+
+@dataclass(frozen=True, slots=True)
+class Sensitivity:
+    """What one tooth fewer and one tooth more on an uncertain wheel do to an output, in ppm of its speed.
+
+    None stands for a train that no longer turns, or an output that stands still.
+    """
+
+    wheel: str
+    teeth: int
+    allowed: tuple[int, ...]
+    output: str
+    less: float | None
+    more: float | None
+
+
+def sensitivity(
+    train: Train,
+    outputs: Sequence[OutputResult],
+    solve_with: Callable[[Sequence[Circuit]], Relative],
+    circuits: Sequence[Circuit],
+) -> Iterator[Sensitivity]:
+    """Solve again, exactly, with each uncertain wheel one tooth off.
+
+    solve_with   circuits -> relative speeds, for changed circuits
+    """
+    for name, wheel in train.uncertain_wheels():
+        teeth = wheel.count
+        if teeth is None or not any(name in circuit.wheels for circuit in circuits):
+            continue
+        changed = {step: solve_with(list(_recut(circuits, name, teeth + step))) for step in (-1, 1) if teeth + step > 0}
+        for result in outputs:
+            shift = {step: _shift(result, relative) for step, relative in changed.items()}
+            if any(value != 0 for value in shift.values()):
+                allowed = wheel.doubt.allowed if wheel.doubt else ()
+                yield Sensitivity(name, teeth, allowed, result.name, shift.get(-1), shift.get(1))
+
+
+def _shift(result: OutputResult, relative: Relative) -> float | None:
+    speed = relative(result.of, result.relative_to)
+    if speed is None or result.speed is None:
+        return None
+    if speed == result.speed:
+        return 0.0
+    return is_near(speed / result.speed - 1, 10**6) if result.speed else None
+
+
+def _recut(circuits: Iterable[Circuit], wheel: str, teeth: int) -> Iterator[Circuit]:
+    """The circuits with another tooth count on one wheel."""
+    for circuit in circuits:
+        if circuit.kind == "gear" and wheel in circuit.wheels:
+            if circuit.wheels[0] == wheel:
+                yield circuit._replace(a=teeth if circuit.a > 0 else -teeth)
+            else:
+                yield circuit._replace(b=teeth if circuit.b > 0 else -teeth)
+        else:
+            yield circuit

@@ -1,0 +1,26 @@
+"""Phase closure: whether the teeth of the last mesh of every loop meet, so that a train can be put together."""
+
+from __future__ import annotations
+
+from geartrain.kinematics.phasing.assembly import (
+    SphericalGears,
+    find_phasing,
+    spherical_divisibility_rule,
+    spherical_phasing,
+)
+from geartrain.kinematics.phasing.divisibility import DivisibilityRule, find_divisibility_rule
+from geartrain.kinematics.phasing.loop_phase import LoopPhase
+from geartrain.kinematics.phasing.mesh_phasing import MeshPhasing
+from geartrain.kinematics.phasing.pitch_points import UnplacedPair
+
+__all__ = [
+    "DivisibilityRule",
+    "LoopPhase",
+    "MeshPhasing",
+    "SphericalGears",
+    "UnplacedPair",
+    "find_divisibility_rule",
+    "find_phasing",
+    "spherical_divisibility_rule",
+    "spherical_phasing",
+]

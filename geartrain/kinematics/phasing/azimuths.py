@@ -1,0 +1,290 @@
+"""The contacts of a declared train: axes with positions, axes through one point, and what their digits say."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from geartrain.kinematics.circuits import Circuit, Tree
+from geartrain.kinematics.phasing.pitch_points import EPS, PitchPoints, UnplacedPair
+from geartrain.numerics.containers import collector_paused
+from geartrain.numerics.quantity import UNITS, Figure, Quantity
+from geartrain.numerics.rational_angles import IntegerVector, rational_angle, recognised_angle
+from geartrain.train import Train
+
+if TYPE_CHECKING:
+    from geartrain.numerics.arrays import Floats
+
+MOUNT = "\0"  # stands between the frame's name and that of a wheel mounted on it
+_NUMBER = re.compile(r"\s*[+-]?(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][+-]?\d+)?")
+_DECIMAL = re.compile(r"[.eE]")
+_COMPARED = 8  # families of a wheel that a new contact is compared with
+_Z: IntegerVector = (0, 0, 1)
+
+
+@dataclass(frozen=True, slots=True)
+class _Axis:
+    """An axis in whole numbers.
+
+    way, unsure    its declared direction, and how far off that may be (rad)
+    sense          the way, turned into the direction about which its links count as positive
+    place, error   a point of it, in parts of one length for all, and how far off that may be; None if not declared
+    """
+
+    way: IntegerVector
+    unsure: float
+    sense: IntegerVector
+    place: IntegerVector | None
+    error: Fraction
+
+
+@collector_paused()
+def place_pitch_points(train: Train, tree: Tree, circuits: Sequence[Circuit]) -> PitchPoints:
+    """The contacts of all gear pairs, in the pose in which moving axes are declared."""
+    axes = _axes(train)
+    plain = _Axis(_Z, 0.0, _Z, None, Fraction(0))
+    placed: list[Circuit] = []
+    ways: list[tuple[IntegerVector, IntegerVector]] = []
+    senses: list[tuple[IntegerVector, IntegerVector]] = []
+    rounded: list[float] = []
+    blurred: list[float] = []
+    left_out: list[UnplacedPair] = []
+    for circuit in circuits:
+        if circuit.kind != "gear":
+            left_out.append(UnplacedPair(circuit.id, "a pin in a slot has no teeth"))
+            continue
+        first, second = (axes.get(_label(tree, link, circuit.carrier), plain) for link in (circuit.i, circuit.j))
+        found = _contact(train, circuit, first, second)
+        if isinstance(found, str):
+            left_out.append(UnplacedPair(circuit.id, found))
+            continue
+        placed.append(mount_frame_wheels(circuit, train.frame))
+        ways.append(found[:2])
+        rounded.append(found[2])
+        blurred.append(found[3])
+        senses.append((first.sense, second.sense))
+    azimuth = _azimuths(ways, senses)
+    slack = np.add(rounded, blurred)[:, None] * np.ones(2)
+    family, part, guessed = _families(placed, ways, azimuth, rounded, blurred)
+    return PitchPoints(tuple(placed), azimuth, slack, family, part, guessed, tuple(left_out))
+
+
+def mount_frame_wheels(circuit: Circuit, frame: str) -> Circuit:
+    """The pair with a wheel of the frame on a link of its own: it is mounted as its mates want it."""
+    i, j = circuit.i, circuit.j
+    if frame not in (i, j):
+        return circuit
+    first, second = circuit.wheels
+    return circuit._replace(
+        i=f"{frame}{MOUNT}{first}" if i == frame else i, j=f"{frame}{MOUNT}{second}" if j == frame else j
+    )
+
+
+def _label(tree: Tree, link: str, carrier: str) -> str:
+    """The axis on which a link of a pair turns as seen from the pair's carrier."""
+    own = tree.axis(link)
+    return (own if tree.top.get(link) == carrier else tree.axis(carrier) or own) or ""
+
+
+# ---------------------------------------------------------------------------------------------------------------- axes
+
+
+def _axes(train: Train) -> dict[str, _Axis]:
+    """Declared axes in whole numbers; a point of an axis in parts of one length for the whole train."""
+    points = {label: [part.base for part in axis.position] for label, axis in train.axes.items() if axis.position}
+    unit = math.lcm(*{part.denominator for point in points.values() for part in point})
+    senses: list[IntegerVector] = [_Z]
+    known: dict[tuple[str, ...], tuple[IntegerVector, float, IntegerVector]] = {}
+    found: dict[str, _Axis] = {}
+    for label, axis in train.axes.items():
+        key = tuple(figure.text for figure in axis.direction)
+        if key not in known:
+            known[key] = _direction(axis.direction, senses)
+        way, unsure, sense = known[key]
+        place, error = None, Fraction(0)
+        if axis.position:
+            x, y, z = (part.numerator * (unit // part.denominator) for part in points[label])
+            place, error = (x, y, z), unit * Fraction(math.hypot(*map(_half, axis.position)))
+        found[label] = _Axis(way, unsure, sense, place, error)
+    return found
+
+
+def _direction(figures: Sequence[Figure], senses: list[IntegerVector]) -> tuple[IntegerVector, float, IntegerVector]:
+    """A direction, how far off it may be (rad), and that of its parallels which was met first."""
+    way = _whole([figure.value for figure in figures])
+    rough = math.hypot(*(float(figure.half or 0) for figure in figures))
+    sense = next((known for known in senses if not any(_cross(known, way))), None)
+    if sense is None:
+        senses.append(way)
+    return way, rough / math.hypot(*(float(figure.value) for figure in figures)), sense or way
+
+
+def _whole(parts: Sequence[Fraction]) -> IntegerVector:
+    """The shortest vector of whole numbers with a direction."""
+    unit = math.lcm(*(part.denominator for part in parts))
+    x, y, z = (int(part * unit) for part in parts)
+    common = math.gcd(x, y, z)
+    return x // common, y // common, z // common
+
+
+def _half(length: Quantity) -> float:
+    """Half a unit of the last decimal written (m); 0 for whole numbers and fractions, which are exact."""
+    number = _NUMBER.match(length.text)
+    if number is None or not _DECIMAL.search(number[0]) or "/" in length.text or ":" in length.text:
+        return 0.0
+    scale = UNITS[length.unit][1] if length.unit in UNITS else Fraction(1)
+    return float((Figure.parse(number[0].strip()).half or 0) * scale)
+
+
+# ------------------------------------------------------------------------------------------------------------ contacts
+
+_Contact = tuple[IntegerVector, IntegerVector, float, float]
+"""Vectors from both axes to the pitch point, across the axes; how far off as written, and in floats (turns)."""
+
+
+def _contact(train: Train, circuit: Circuit, first: _Axis, second: _Axis) -> _Contact | str:
+    """The contact of a pair, or why it has none."""
+    wheels = [train.wheels[name][1] for name in circuit.wheels]
+    kinds = {wheel.kind for wheel in wheels}
+    if "worm" in kinds:
+        return "a worm is set by shifting it along its axis"
+    if not any(_cross(first.way, second.way)):
+        if kinds != {"spur"}:
+            return "a bevel pair on parallel axes has no pitch point"
+        return _side_by_side(first, second, [wheel.internal for wheel in wheels])
+    return _through_a_point(first, second, [wheel.facing for wheel in wheels])
+
+
+def _side_by_side(first: _Axis, second: _Axis, internal: Sequence[bool]) -> _Contact | str:
+    """Parallel axes: towards the other axis, but away from it from the axis of a wheel that runs in a ring."""
+    if first.place is None or second.place is None:
+        return "the positions of its axes are not declared"
+    way = _across(_minus(second.place, first.place), first.sense)
+    if not any(way):
+        return "its axes are one"
+    # _across lengthens by the square of the sense
+    length = _norm(way) / _dot(first.sense, first.sense)
+    rounded = _turns(float((first.error + second.error) / length))
+    back = _minus((0, 0, 0), way)
+    return back if internal[1] else way, way if internal[0] else back, rounded, 4 * EPS
+
+
+def _through_a_point(first: _Axis, second: _Axis, facing: Sequence[int]) -> _Contact | str:
+    """Axes through one point: towards the side to which the mate's cone opens."""
+    if first.place is not None and second.place is not None:
+        apart = _dot(_minus(second.place, first.place), _cross(first.way, second.way))
+        reach = _norm(_minus(second.place, first.place))
+        slack = first.error + second.error + reach * Fraction(first.unsure + second.unsure)
+        if abs(apart) > slack * _norm(first.way) * _norm(second.way):
+            return "its axes do not meet"
+    n, m = ((f * a.way[0], f * a.way[1], f * a.way[2]) for a, f in ((first, facing[0]), (second, facing[1])))
+    cross = float(_norm(_cross(n, m)) / (_norm(n) * _norm(m)))
+    rounded = _turns((first.unsure + second.unsure) / cross)
+    return _across(m, first.way), _across(n, second.way), rounded, 16 * EPS / cross
+
+
+def _norm(vector: IntegerVector) -> Fraction:
+    """Length of a vector to 64 bits and more; its numbers may have hundreds of digits."""
+    return Fraction(math.isqrt(_dot(vector, vector) << 128), 1 << 64)
+
+
+def _turns(sine: float) -> float:
+    return math.asin(sine) / math.tau if sine < 1 else 0.5
+
+
+def _azimuths(
+    ways: Sequence[tuple[IntegerVector, IntegerVector]], senses: Sequence[tuple[IntegerVector, IntegerVector]]
+) -> Floats:
+    """Turns counterclockwise about the sense of each axis, from x as seen along it (from y where it is nearly x)."""
+    if not ways:
+        return np.zeros((0, 2))
+    frames: dict[IntegerVector, tuple[list[float], list[float]]] = {}
+    for pair in senses:
+        for sense in pair:
+            if sense not in frames:
+                frames[sense] = _frame(sense)
+    vectors = np.array([[_floats(way) for way in pair] for pair in ways])
+    first = np.array([[frames[sense][0] for sense in pair] for pair in senses])
+    second = np.array([[frames[sense][1] for sense in pair] for pair in senses])
+    angles = np.arctan2((vectors * second).sum(axis=2), (vectors * first).sum(axis=2)) / math.tau
+    turns: Floats = np.mod(angles, 1.0)
+    return turns
+
+
+def _frame(sense: IntegerVector) -> tuple[list[float], list[float]]:
+    n = np.array(_floats(sense))
+    n /= np.linalg.norm(n)
+    start = np.array([1.0, 0.0, 0.0]) if abs(n[0]) < 0.9 else np.array([0.0, 1.0, 0.0])
+    first = start - (start @ n) * n
+    first /= np.linalg.norm(first)
+    return first.tolist(), np.cross(n, first).tolist()
+
+
+def _floats(vector: IntegerVector) -> tuple[float, float, float]:
+    """A direction in floats; numbers of hundreds of digits are divided first."""
+    x, y, z = vector
+    top = max(abs(x), abs(y), abs(z))
+    if top.bit_length() < 300:
+        return float(x), float(y), float(z)
+    return float(Fraction(x, top)), float(Fraction(y, top)), float(Fraction(z, top))
+
+
+# ------------------------------------------------------------------------------------------------------------ families
+
+
+def _families(
+    circuits: Sequence[Circuit],
+    ways: Sequence[tuple[IntegerVector, IntegerVector]],
+    azimuth: Floats,
+    rounded: Sequence[float],
+    blurred: Sequence[float],
+) -> tuple[list[tuple[int, int]], list[tuple[Fraction, Fraction]], frozenset[int]]:
+    """Contacts of one link that stand at known parts of a turn from each other."""
+    heads: dict[tuple[str, str], list[tuple[int, IntegerVector, float, int]]] = {}
+    guessed: set[int] = set()
+    count = 0
+    found: list[list[tuple[int, Fraction]]] = []
+    turns = azimuth.tolist()
+    for at, circuit in enumerate(circuits):
+        found.append([])
+        for link, way, turn in zip((circuit.i, circuit.j), ways[at], turns[at], strict=True):
+            known = heads.setdefault((link, circuit.carrier), [])
+            for number, head, zero, other in known[-_COMPARED:]:
+                part = rational_angle(head, way, (turn - zero) % 1)
+                if part is None and rounded[at] + rounded[other]:
+                    slack = rounded[at] + rounded[other] + blurred[at] + blurred[other]
+                    part = recognised_angle((turn - zero) % 1, slack)
+                    guessed.update([number] if part is not None else [])
+                if part is not None:
+                    found[-1].append((number, part))
+                    break
+            else:
+                known.append((count, way, turn, at))
+                found[-1].append((count, Fraction(0)))
+                count += 1
+    family = [(i, j) for (i, _), (j, _) in found]
+    return family, [(p, q) for (_, p), (_, q) in found], frozenset(guessed)
+
+
+def _dot(u: IntegerVector, v: IntegerVector) -> int:
+    return u[0] * v[0] + u[1] * v[1] + u[2] * v[2]
+
+
+def _cross(u: IntegerVector, v: IntegerVector) -> IntegerVector:
+    return u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]
+
+
+def _minus(u: IntegerVector, v: IntegerVector) -> IntegerVector:
+    return u[0] - v[0], u[1] - v[1], u[2] - v[2]
+
+
+def _across(v: IntegerVector, n: IntegerVector) -> IntegerVector:
+    """The part of v across n, lengthened by the square of n so that it stays whole."""
+    square, along = _dot(n, n), _dot(v, n)
+    return square * v[0] - along * n[0], square * v[1] - along * n[1], square * v[2] - along * n[2]

@@ -1,0 +1,67 @@
+"""Least squares on a matrix with a few entries a row."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from geartrain.numerics.arrays import Floats, Indices
+
+
+_REST = 1e-4  # of the gradient, where conjugate gradients stop
+_STEPS = 1000  # of conjugate gradients
+_DENSE = 250_000  # entries up to which least squares are solved by a dense matrix
+
+
+@dataclass(frozen=True)
+class SparseRows:
+    """A matrix with a few entries a row: their columns and factors."""
+
+    columns: Indices
+    factors: Floats
+    width: int
+
+    def small(self, height: int) -> bool:
+        """True if a matrix of this height is cheap to solve."""
+        return height * self.width <= _DENSE
+
+    def least_squares(self, right: Floats) -> Floats:
+        """x with the least |A x - right|: dense if small, else by conjugate gradients on columns of like size."""
+        size = np.zeros(self.width)
+        np.maximum.at(size, self.columns.ravel(), np.abs(self.factors).ravel())
+        size[size == 0] = 1.0
+        even = SparseRows(self.columns, self.factors / size[self.columns], self.width)
+        return (even._dense(right) if self.small(len(right)) else even._gradients(right)) / size
+
+    def times(self, x: Floats) -> Floats:
+        """The matrix times a vector."""
+        product: Floats = (self.factors * x[self.columns]).sum(axis=1)
+        return product
+
+    def _dense(self, right: Floats) -> Floats:
+        matrix = np.zeros((len(right), self.width))
+        np.add.at(matrix, (np.arange(len(right))[:, None], self.columns), self.factors)
+        return np.asarray(np.linalg.lstsq(matrix, right, rcond=1e-11)[0], float)
+
+    def _gradients(self, right: Floats) -> Floats:
+        x: Floats = np.zeros(self.width)
+        rest, gradient = right.copy(), self._back(right)
+        way, power = gradient.copy(), float(gradient @ gradient)
+        least = _REST**2 * power
+        for _ in range(_STEPS):
+            if power <= least:  # of a start at rest, too
+                break
+            along = self.times(way)
+            step = power / float(along @ along)
+            x += step * way
+            rest -= step * along
+            gradient = self._back(rest)
+            power, last = float(gradient @ gradient), power
+            way = gradient + power / last * way
+        return x
+
+    def _back(self, rows: Floats) -> Floats:
+        return np.bincount(self.columns.ravel(), (self.factors * rows[:, None]).ravel(), self.width).astype(float)

@@ -1,0 +1,256 @@
+"""What closure answers: the verdict, its loops, angles at which to put the wheels in, and errors spread."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from fractions import Fraction
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+from geartrain.kinematics.phasing.azimuths import MOUNT
+from geartrain.kinematics.phasing.divisibility import DivisibilityRule, find_divisibility_rule
+from geartrain.kinematics.phasing.loop_phase import LoopPhase, describe_loop, plain_residue
+from geartrain.kinematics.phasing.phase_system import PhaseKind, PhaseSystem, ResidueKnowledge
+from geartrain.kinematics.phasing.pitch_points import UnplacedPair
+
+if TYPE_CHECKING:
+    from geartrain.numerics.arrays import Floats
+
+_SHOWN = 10  # loops named in a text
+
+
+@dataclass(frozen=True)
+class MeshPhasing:
+    """Whether the teeth of every loop meet, and the angles at which the wheels are put in.
+
+    problem   the phases of all meshes
+    plays     play of pairs whose teeth know it (pitches)
+    alike     gives wheel -> name under which its tooth number stands in the rule
+    unjudged  loops of the train that go through a pair or pin without a known place
+    rigid     loops that cannot turn, for their ratios do not multiply to 1: no phase is asked of them
+    """
+
+    problem: PhaseSystem = field(repr=False)
+    plays: Mapping[str, float] = field(default_factory=dict)
+    alike: Callable[[], Mapping[str, str]] = field(default=dict, repr=False)
+    unjudged: int = 0
+
+    @cached_property
+    def loops(self) -> Sequence[LoopPhase]:
+        """A basis of all loops, as short as they are found; then what loops must only fulfil together."""
+        return _Loops(self.problem)
+
+    @cached_property
+    def missing(self) -> tuple[int, ...]:
+        """Which loops do not close: the worst first."""
+        found = [(-abs(float(one.miss)), at) for at, one in enumerate(self.problem.conditions) if one.kind == "misses"]
+        return tuple(at for _, at in sorted(found))
+
+    @cached_property
+    def kind(self) -> PhaseKind:
+        """closes, misses, unclear (some loop cannot be told), or open: no loop is judged."""
+        if self.missing:
+            return "misses"
+        if not self.problem.conditions:
+            return "open"
+        return "unclear" if any(one.kind == "unclear" for one in self.problem.conditions) else "closes"
+
+    def __bool__(self) -> bool:
+        """True unless some loop misses or cannot be told."""
+        return self.kind in ("closes", "open")
+
+    @property
+    def how(self) -> ResidueKnowledge:
+        """How the loops are known, by the weakest of them."""
+        ways = {one.how for one in self.problem.conditions}
+        return "numeric" if "numeric" in ways else "recognised" if "recognised" in ways else "exact"
+
+    @property
+    def rigid(self) -> int:
+        """Loops whose ratios do not multiply to 1; they cannot turn, and are not asked for phases."""
+        return len(self.problem.parts.breaking)
+
+    @property
+    def left_out(self) -> tuple[UnplacedPair, ...]:
+        """Pairs and couplings without a known place."""
+        return self.problem.contacts.left_out
+
+    @cached_property
+    def worst(self) -> Fraction | float:
+        """The largest miss of a loop (pitches)."""
+        misses = [one.miss for one in self.problem.conditions]
+        worst = max(misses, key=lambda miss: abs(float(miss)), default=Fraction(0))
+        return -worst if worst < 0 else worst
+
+    @cached_property
+    def angles(self) -> Mapping[str, float]:
+        """Angle of every link (rad, from 0 to a turn) at which its zero mark stands for all teeth to mesh.
+
+        Counterclockwise about its positive sense from x, as seen along its axis (from y where the axis is nearly x),
+        with carriers in the pose in which they are declared where they can stand in it. The teeth of all wheels of a
+        link have a tooth at its mark. Where loops miss, errors are spread. A wheel on the frame is named as a link.
+        """
+        turns = self.problem.spread_angles if self.missing else self.problem.tree_angles
+        parts = self.problem.parts
+        return {
+            _name(link): turns[at] % 1.0 * math.tau
+            for at, link in enumerate(parts.links)
+            if at in parts.nodes_of or at in self.problem.carriers
+        }
+
+    @cached_property
+    def wheels(self) -> Mapping[str, float]:
+        """Angle of the first tooth of every wheel from its reference direction (rad, from 0 to its pitch)."""
+        angles, found = self.angles, {}
+        for circuit in self.problem.circuits:
+            teeth = (circuit.a, abs(circuit.b))
+            for wheel, link, z in zip(circuit.wheels, (circuit.i, circuit.j), teeth, strict=True):
+                found[wheel] = angles[_name(link)] % (math.tau / z)
+        return found
+
+    @cached_property
+    def errors(self) -> Mapping[str, float]:
+        """What every pair is off where the loops miss, spread by least squares (pitches)."""
+        return self._errors(self.problem.spread_angles)
+
+    @cached_property
+    def last_errors(self) -> Mapping[str, float]:
+        """What pairs are off if all the error is left to the pairs put in last (pitches)."""
+        return self._errors(self.problem.tree_angles)
+
+    @cached_property
+    def last(self) -> float:
+        """The largest of `last_errors` (pitches): residues of loops add up from one to the next."""
+        return max(map(abs, self.last_errors.values()), default=0.0) if self.missing else 0.0
+
+    @cached_property
+    def spread(self) -> float:
+        """The largest error when it is spread over all meshes (pitches); 0 where all loops close."""
+        return max(map(abs, self.errors.values()), default=0.0) if self.missing else 0.0
+
+    @cached_property
+    def fits(self) -> bool | None:
+        """True if the play of the teeth takes up the errors as spread; None where loops miss and a play is unknown."""
+        if not self.missing:
+            return None if self.kind == "unclear" else True
+        errors = self.errors
+        if any(abs(error) > self.plays[name] / 2 for name, error in errors.items() if name in self.plays):
+            return False
+        off = [name for name, error in errors.items() if abs(error) > 1e-9]
+        return True if all(name in self.plays for name in off) else None
+
+    @cached_property
+    def rule(self) -> DivisibilityRule | None:
+        """What the tooth numbers must be multiples of; None where loops are not exact, or wheels are compound."""
+        forms, kinds = [], self.alike()
+        for loop in self.loops:
+            form = _by_kind(loop.inside, kinds)
+            if form is None or len(loop.meshes) % 2:
+                return None
+            forms.append(form)
+        return find_divisibility_rule(forms)
+
+    @property
+    def text(self) -> str:
+        """The verdict and what follows from it, in lines."""
+        return "\n".join(self._lines())
+
+    def _lines(self) -> Iterator[str]:
+        count = len(self.problem.conditions)
+        loops = f"{count} loop{'s' if count != 1 else ''}"
+        if self.kind == "open":
+            yield "phase closure: no loop whose teeth would have to meet" + (" is judged" if self.unjudged else "")
+        elif self.kind == "misses":
+            yield f"phase closure: {len(self.missing)} of {loops} miss{'es' if len(self.missing) == 1 else ''}"
+        elif self.kind == "closes":
+            near = f"to {max(one.slack for one in self.problem.conditions):.1g} pitch"
+            ways = {"exact": "exactly", "recognised": "exactly, with the angles that rounded positions mean"}
+            yield f"phase closure: {loops} close{'s' if count == 1 else ''}, {ways.get(self.how, near)}"
+        else:
+            yield f"phase closure: not all of {loops} can be told, for positions are too rough"
+        shown = self.missing or [at for at, one in enumerate(self.problem.conditions) if one.kind == "unclear"]
+        yield from (f"  {self.loops[at].text}" for at in shown[:_SHOWN])
+        if len(shown) > _SHOWN:
+            yield f"  and {len(shown) - _SHOWN} more"
+        if self.missing:
+            yield f"  put in one after the other, the last meshes are off by up to {self.last:.6g} pitch"
+            yield f"  spread over all meshes, errors are up to {self.spread:.6g} pitch{self._play}"
+        if self.unjudged:
+            goes = "loop goes" if self.unjudged == 1 else "loops go"
+            yield f"  {self.unjudged} {goes} through pairs without a known place, not judged:"
+            yield from (f"    {one.name}: {one.why}" for one in self.left_out[:_SHOWN])
+        if self.rigid:
+            yield f"  {self.rigid} loop{'s' if self.rigid > 1 else ''} cannot turn, not asked for phases"
+        if not self.problem.complete:
+            yield "  loops were judged one by one: what they must only fulfil together was not looked for"
+
+    @property
+    def _play(self) -> str:
+        if not self.plays:
+            return ""
+        words = {
+            True: "which the play takes up",
+            False: "which the play does not take up",
+            None: "and not all play is known",
+        }
+        return f", {words[self.fits]}"
+
+    def to_dict(self) -> dict[str, Any]:
+        """Plain data for JSON. Angles in degrees, errors in pitches."""
+        rule = self.rule
+        return {
+            "verdict": self.kind,
+            "text": self.text,
+            "how": self.how,
+            "worst": plain_residue(self.worst),
+            "loops": [loop.to_dict() for loop in self.loops],
+            "rule": None if rule is None else {"text": rule.text, "conditions": rule.to_dict()},
+            "angles": {link: math.degrees(angle) for link, angle in self.angles.items()},
+            "wheels": {wheel: math.degrees(angle) for wheel, angle in self.wheels.items()},
+            "errors": dict(self.errors) if self.missing else {},
+            "last": self.last,
+            "spread": self.spread,
+            "fits": self.fits,
+            "unjudged": self.unjudged,
+            "left_out": [{"name": one.name, "why": one.why} for one in self.left_out],
+            "rigid": self.rigid,
+            "complete": self.problem.complete,
+        }
+
+    def _errors(self, angles: Sequence[float] | Floats) -> dict[str, float]:
+        found = self.problem.errors(angles).tolist()
+        return {circuit.id: error for circuit, error in zip(self.problem.circuits, found, strict=True)}
+
+
+class _Loops(Sequence[LoopPhase]):
+    """Conditions made readable one at a time, when they are looked at."""
+
+    def __init__(self, problem: PhaseSystem) -> None:
+        self.problem = problem
+
+    def __len__(self) -> int:
+        return len(self.problem.conditions)
+
+    def __getitem__(self, at: Any) -> Any:
+        if isinstance(at, slice):
+            return [self[one] for one in range(*at.indices(len(self)))]
+        return describe_loop(self.problem, self.problem.conditions[at])
+
+
+def _by_kind(inside: Mapping[str, Fraction | float] | None, kinds: Mapping[str, str]) -> dict[str, Fraction] | None:
+    if inside is None:
+        return None
+    form: dict[str, Fraction] = {}
+    for gear, part in inside.items():
+        if not isinstance(part, Fraction):
+            return None
+        kind = kinds.get(gear, gear)
+        form[kind] = form.get(kind, Fraction(0)) + part
+    return form
+
+
+def _name(link: str) -> str:
+    """A link; a wheel on the frame by the wheel's name."""
+    return link.rpartition(MOUNT)[2]

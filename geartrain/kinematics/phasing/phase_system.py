@@ -1,0 +1,323 @@
+"""The phases of all meshes as one system modulo a pitch: residues of its loops, angles of links, errors spread."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cached_property
+from typing import TYPE_CHECKING, Literal
+
+import numpy as np
+
+from geartrain.kinematics.circuits import Circuit
+from geartrain.kinematics.components import Components
+from geartrain.kinematics.phasing.carrier_coupling import CarrierCoupling, find_carrier_coupling
+from geartrain.kinematics.phasing.cycle_basis import PhaseCycle, find_cycle_basis, node_depths
+from geartrain.kinematics.phasing.least_squares import SparseRows
+from geartrain.kinematics.phasing.pitch_points import PitchPoints, mesh_nodes
+from geartrain.numerics.containers import collector_paused
+from geartrain.numerics.integer_lattice import saturated_lattice
+from geartrain.numerics.rational_angles import centred_residue
+
+if TYPE_CHECKING:
+    from geartrain.numerics.arrays import Floats
+
+Number = Fraction | float
+PhaseKind = Literal["closes", "misses", "unclear", "open"]
+ResidueKnowledge = Literal["exact", "recognised", "numeric"]
+
+_UNCLEAR = 0.05  # pitch: a residue known no better than this, and within it, tells nothing
+_MOST = 20_000  # entries of loops with unequal weights that are still looked at together
+_ROUNDS = 20  # of choosing teeth anew, where a round is cheap
+_FEW = 3
+_SAME = 1e-6  # pitch: errors that are alike, so that every tooth stays in its gap
+
+
+@dataclass(frozen=True)
+class PhaseCondition:
+    """Meshes whose equations add up to 0 on the left: their constants must add up to a whole number of pitches.
+
+    cycle     the loop; None where loops only together fulfil it
+    row       the weight of each mesh
+    residue   the sum less the nearest whole number (pitches): a Fraction where it is exact
+    slack     how far off it may be (pitches)
+    guessed   True if an exact residue rests on angles that were recognised in rounded positions
+    """
+
+    cycle: PhaseCycle | None
+    row: Mapping[int, int]
+    residue: Fraction | float
+    slack: float
+    guessed: bool
+
+    @property
+    def kind(self) -> PhaseKind:
+        """closes, misses, or unclear where positions are too rough to tell."""
+        return judge_residue(self.residue, self.slack)
+
+    @property
+    def how(self) -> ResidueKnowledge:
+        """How the residue is known."""
+        if not isinstance(self.residue, Fraction):
+            return "numeric"
+        return "recognised" if self.guessed else "exact"
+
+    @property
+    def miss(self) -> Fraction | float:
+        """What is left at the last mesh when all others fit (pitches)."""
+        return self.residue / (self.cycle.weights[-1] if self.cycle else list(self.row.values())[-1])
+
+
+def judge_residue(residue: Fraction | float, slack: float) -> PhaseKind:
+    """closes, misses, or unclear where positions are too rough to tell."""
+    if abs(float(residue)) > slack:
+        return "misses"
+    return "unclear" if slack > _UNCLEAR else "closes"
+
+
+@dataclass(frozen=True)
+class PhaseSystem:
+    """a theta_i + b theta_j - (a + b) theta_k = c (mod 1) for every mesh; angles in turns, c in pitches."""
+
+    parts: Components
+    contacts: PitchPoints
+
+    @property
+    def circuits(self) -> Sequence[Circuit]:
+        """The meshes."""
+        return self.contacts.circuits
+
+    @cached_property
+    def ends(self) -> list[tuple[int, int]]:
+        """The two nodes of every mesh."""
+        return mesh_nodes(self.parts, self.circuits)
+
+    @cached_property
+    def cycles(self) -> list[PhaseCycle]:
+        """Short loops that make all loops."""
+        return find_cycle_basis(self.parts, self.circuits, self.ends)
+
+    @cached_property
+    def coupling(self) -> CarrierCoupling:
+        """What links seen from several carriers add."""
+        return find_carrier_coupling(self.parts, self.circuits, self.ends)
+
+    @cached_property
+    def carriers(self) -> frozenset[int]:
+        """Links that carry meshes, but for the frame."""
+        return frozenset(self.parts.group_carrier) - {self.parts.frame}
+
+    # ------------------------------------------------------------------------------------------------------ conditions
+
+    @cached_property
+    def conditions(self) -> list[PhaseCondition]:
+        """One for every loop, then those that loops only fulfil together."""
+        cycles = self.cycles
+        with collector_paused():
+            found = [self._condition(cycle, cycle.row) for cycle in cycles]
+        basis, _, index = self._together
+        if index != 1 or self.coupling.rows:
+            alone = {tuple(sorted(cycle.row.items())) for cycle in self.cycles}
+            found += [self._condition(None, row) for row in basis if tuple(sorted(row.items())) not in alone]
+        return found
+
+    @cached_property
+    def complete(self) -> bool:
+        """False where loops were judged one by one, and what they must fulfil together was not looked for."""
+        return self.coupling.complete and (self._uneven_size <= _MOST)
+
+    @cached_property
+    def _uneven(self) -> list[dict[int, int]]:
+        """Rows that may have multiples in common: all of components in which some loop has unequal weights."""
+        if not self.cycles:
+            return list(self.coupling.rows)
+        group = self.parts.node_group
+        uneven = {group[cycle.nodes[0]] for cycle in self.cycles if any(abs(w) != 1 for w in cycle.weights)}
+        uneven |= {group[self.ends[mesh][0]] for row in self.coupling.rows for mesh in row}
+        return [cycle.row for cycle in self.cycles if group[cycle.nodes[0]] in uneven] + list(self.coupling.rows)
+
+    @cached_property
+    def _uneven_size(self) -> int:
+        return len(self._uneven) * len({mesh for row in self._uneven for mesh in row})
+
+    @cached_property
+    def _together(self) -> tuple[list[dict[int, int]], list[dict[int, int]], int]:
+        return saturated_lattice(self._uneven) if self._uneven_size <= _MOST else ([], [], 1)
+
+    def _condition(self, cycle: PhaseCycle | None, row: Mapping[int, int]) -> PhaseCondition:
+        contacts = self.contacts
+        families = self._families(cycle, row)
+        slack = 0.0
+        for mesh, weight in row.items():
+            slack += abs(weight) * self._doubt[mesh]
+        if families is None:
+            total = math.fsum(self._times(weight, self._constant[mesh]) for mesh, weight in row.items())
+            return PhaseCondition(cycle, row, total - math.ceil(total - 0.5), slack, False)
+        scale, exact = contacts.scale, contacts.exact_constant
+        parts = sum(weight * exact[mesh] for mesh, weight in row.items()) % scale
+        guessed = bool(contacts.guessed) and not contacts.guessed.isdisjoint(families)
+        return PhaseCondition(cycle, row, centred_residue(Fraction(parts, scale)), 0.0, guessed)
+
+    @cached_property
+    def _constant(self) -> list[float]:
+        values: list[float] = self.contacts.constant.tolist()
+        return values
+
+    @cached_property
+    def _doubt(self) -> list[float]:
+        values: list[float] = self.contacts.doubt.tolist()
+        return values
+
+    @staticmethod
+    def _times(weight: int, constant: float) -> float:
+        if abs(weight) == 1:
+            return weight * constant
+        return float(Fraction(weight) * Fraction(constant) % 1)  # a long weight would eat the digits of the fraction
+
+    def _families(self, cycle: PhaseCycle | None, row: Mapping[int, int]) -> list[int] | None:
+        """The families of all contacts, if at every node they cancel; None where a residue is known in floats only."""
+        family = self.contacts.family
+        if cycle is not None:
+            found = []
+            before = cycle.meshes[-1]
+            for node, mesh in zip(cycle.nodes, cycle.meshes, strict=True):
+                came = family[before][self.ends[before][1] == node]
+                if came != family[mesh][self.ends[mesh][1] == node]:
+                    return None
+                found.append(came)
+                before = mesh
+            return found
+        total: dict[int, int] = {}
+        for mesh, weight in row.items():
+            circuit = self.circuits[mesh]
+            for number, factor in zip(family[mesh], (circuit.a, circuit.b), strict=True):
+                total[number] = total.get(number, 0) + weight * factor
+        return None if any(total.values()) else list(total)
+
+    # ---------------------------------------------------------------------------------------------------------- angles
+
+    @cached_property
+    def _engaged(self) -> dict[int, int]:
+        """Whole pitches to add to constants, so that loops with unequal weights close as nearly as they can."""
+        basis, dual, _ = self._together
+        found: dict[int, int] = {}
+        for row, column in zip(basis, dual, strict=True):
+            total = sum((weight * Fraction(self._constant[mesh]) for mesh, weight in row.items()), Fraction(0))
+            residue = self._condition(None, row).residue
+            whole = round(total - Fraction(residue))
+            for mesh, factor in column.items():
+                found[mesh] = found.get(mesh, 0) - whole * factor
+        return found
+
+    @cached_property
+    def _tree_nodes(self) -> list[Number]:
+        """Angles of links as seen from their carriers, with every mesh fulfilled but those that close loops.
+
+        Where wheels are compound, a whole turn of a link is another engagement elsewhere: angles are kept whole, exact.
+        """
+        parts, nodes = self.parts, [0.0 for _ in self.parts.node_parent]
+        found: list[Number] = list(nodes)
+        level = node_depths(parts)
+        for node in sorted(range(len(nodes)), key=level.__getitem__):
+            up = parts.node_parent[node]
+            if up < 0:
+                continue
+            mesh = parts.node_circuit[node]
+            circuit, first = self.circuits[mesh], self.ends[mesh][0] == node
+            own, other = (circuit.a, circuit.b) if first else (circuit.b, circuit.a)
+            if parts.node_group[node] in self._exact_groups:
+                right = Fraction(self._constant[mesh]) + self._engaged.get(mesh, 0)
+                found[node] = (right - other * Fraction(found[up])) / own
+            else:
+                found[node] = ((self._constant[mesh] - other * found[up]) / own) % 1.0
+        return found
+
+    @cached_property
+    def _exact_groups(self) -> frozenset[int]:
+        return frozenset(self.parts.node_group[self.ends[mesh][0]] for row in self._together[0] for mesh in row)
+
+    @cached_property
+    def tree_angles(self) -> list[float]:
+        """Angles of links (turns) with every mesh fulfilled but those that close loops."""
+        return self._of_links(self._tree_nodes)
+
+    def _of_links(self, nodes: Sequence[Number]) -> list[float]:
+        return [float(angle % 1) for angle in self.coupling.angles(nodes, self._left)]
+
+    def _left(self, mesh: int, nodes: Sequence[Number]) -> Number:
+        (i, j), circuit = self.ends[mesh], self.circuits[mesh]
+        return self._constant[mesh] - circuit.a * nodes[i] - circuit.b * nodes[j]
+
+    @cached_property
+    def _by_links(self) -> SparseRows:
+        """Links and coefficients of every mesh: its two links and its carrier."""
+        index = self.parts.index
+        links = np.array([(index[c.i], index[c.j], index[c.carrier]) for c in self.circuits]).reshape(-1, 3)
+        teeth = self.contacts.teeth
+        factors = np.column_stack([teeth, np.where(links[:, 2] == self.parts.frame, 0.0, -teeth.sum(axis=1))])
+        return SparseRows(links, self._asked(factors), len(self.parts.links))
+
+    @cached_property
+    def _by_nodes(self) -> SparseRows:
+        nodes = np.array(self.ends).reshape(-1, 2)
+        return SparseRows(nodes, self._asked(self.contacts.teeth), len(self.parts.node_parent))
+
+    def _asked(self, factors: Floats) -> Floats:
+        """Rows of meshes that let loops stand only somewhere are not asked for anything."""
+        found = factors.copy()
+        found[list(self.parts.breaking)] = 0.0
+        return found
+
+    def errors(self, angles: Sequence[float] | Floats) -> Floats:
+        """By how much of a pitch every mesh is off at given angles of links (turns); 0 where it closes a rigid loop."""
+        return self._errors(self._by_links, np.asarray(angles))
+
+    def _errors(self, rows: SparseRows, angles: Floats) -> Floats:
+        off: Floats = self.contacts.constant - np.mod(rows.factors * angles[rows.columns], 1.0).sum(axis=1)
+        off -= np.ceil(off - 0.5)
+        off[list(self.parts.breaking)] = 0.0
+        return off
+
+    @cached_property
+    def spread_angles(self) -> list[float]:
+        """Angles of links for the least sum of squares of errors that is found.
+
+        Which tooth meets which gap is chosen in two ways to begin with: errors at the pairs that close loops below half
+        a pitch, and residues of short loops below half a pitch. Then errors are spread and teeth chosen anew until
+        nothing changes; each step lessens the sum. No proof that no other choice would be better.
+        """
+        start = self.errors(self.tree_angles)
+        starts = [self._by_loops(start), start][: 2 if self._by_nodes.small(len(start)) else 1]
+        found = [self._spread(start) for start in starts]
+        return min(found, key=lambda angles: float((self.errors(angles) ** 2).sum()))
+
+    def _by_loops(self, errors: Floats) -> Floats:
+        """Errors of the meshes that close loops, whole pitches added so that residues of short loops stay small."""
+        found = errors.tolist()
+        for condition in self.conditions:
+            if condition.cycle is not None:
+                *others, (last, weight) = condition.row.items()
+                left = float(condition.residue) - sum(factor * found[mesh] for mesh, factor in others)
+                found[last] += round(left / weight - found[last])
+        return np.array(found)
+
+    def _spread(self, errors: Floats) -> list[float]:
+        """Unless carriers are geared to each other, links seen from their carriers move and carriers stay."""
+        if self.coupling.rows:
+            together = np.mod(self._settle(self._by_links, np.array(self.tree_angles), errors), 1.0)
+            return [float(angle) for angle in together]
+        start = self._tree_nodes
+        moved = self._settle(self._by_nodes, np.zeros(len(start)), errors, [float(angle % 1) for angle in start])
+        return self._of_links([angle + type(angle)(step) for angle, step in zip(start, moved.tolist(), strict=True)])
+
+    def _settle(self, rows: SparseRows, angles: Floats, errors: Floats, start: Sequence[float] = (0.0,)) -> Floats:
+        """Spread errors and choose teeth anew, in turn."""
+        for _ in range(_ROUNDS if rows.small(len(errors)) else _FEW):
+            step = rows.least_squares(errors)
+            angles = angles + step
+            left, errors = errors - rows.times(step), self._errors(rows, angles + np.asarray(start))
+            if np.abs(left - errors).max() < _SAME:
+                break
+        return angles

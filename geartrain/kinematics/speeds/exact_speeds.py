@@ -1,0 +1,354 @@
+"""Exact speeds: eliminate what couples the components, then read every link off its component."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import suppress
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cached_property
+
+from geartrain.kinematics.components import ReducedSystem, SolvedPart
+from geartrain.kinematics.speeds.diagnosis import (
+    diagnose,
+    free_verdict,
+    held_rows,
+    resolve_form,
+    stationary_verdict,
+    unwitnessed_verdict,
+)
+from geartrain.kinematics.speeds.propagation import propagate
+from geartrain.kinematics.verdict import Loop, Verdict
+from geartrain.numerics.containers import collector_paused
+from geartrain.numerics.exact import PRIME, LinearForm, TooDenseError, add_into, eliminate, rank_modulo, residues
+from geartrain.train import StateCase
+
+_GIVEN = -1  # the column in which prescribed numbers stand
+
+EXACT_BUDGET = 400_000
+"""Coefficient operations after which exact elimination gives way to floats; about a second."""
+
+
+@dataclass(frozen=True, slots=True)
+class Mobility:
+    """Degrees of freedom by count and by exact rank, and what makes them differ.
+
+    by_count    turning pairs less gear pairs and couplings; right only without redundancy
+    by_rank     links less one less the rank of all circuits; always right
+    redundant   circuits that add nothing, and the loops they close
+    locked      loops that do not close, and hold their component on its carrier
+    still       links that stand still whatever drives the train
+    idle        circuits whose wheels never roll on each other
+    certain     False where the rank was taken modulo two primes (exact but for accidents of 1e-36)
+    """
+
+    links: int
+    turning_pairs: int
+    gear_pairs: int
+    couplings: int
+    by_rank: int
+    redundant: int
+    loops: tuple[Loop, ...]
+    shared: tuple[str, ...]
+    locked: tuple[Loop, ...]
+    still: tuple[str, ...]
+    idle: tuple[str, ...]
+    certain: bool = True
+
+    @property
+    def by_count(self) -> int:
+        """j_R - j_G, couplings counted with the gear pairs."""
+        return self.turning_pairs - self.gear_pairs - self.couplings
+
+    @property
+    def rank(self) -> int:
+        """Rank of the circuits' rows."""
+        return self.links - 1 - self.by_rank
+
+
+@dataclass(frozen=True, slots=True)
+class FreeForms:
+    """What is left of a train that is free: forms of its unknowns in those that stayed free."""
+
+    reduced: ReducedSystem
+    forms: Mapping[int, LinearForm]
+
+    def difference(self, of: str, base: str) -> Fraction | None:
+        """The difference of two links' speeds, unsigned; None where free unknowns remain in it."""
+        index = self.reduced.components.index
+        row = dict(self.reduced.form(index[of]))
+        add_into(row, self.reduced.form(index[base]), -1)
+        return _value(resolve_form(row, self.forms))
+
+
+@dataclass(frozen=True, slots=True)
+class Solution:
+    """Exact speeds of a train in one case, and the verdict.
+
+    speeds      link -> speed, in the order declared; only links that are determined
+    ratios      link -> input -> speed over that input, the others at rest
+    signs       -1 for links whose axis points against its parallels
+    loose       every link as a form of what stayed free; None where all is determined, or nothing is
+    """
+
+    verdict: Verdict
+    speeds: Mapping[str, Fraction]
+    ratios: Mapping[str, Mapping[str, Fraction]]
+    signs: Mapping[str, int]
+    loose: FreeForms | None = None
+
+    def relative(self, of: str, base: str) -> Fraction | None:
+        """Speed of a link seen from another, about the first one's axis; None where it is not determined.
+
+        It may be determined though both links are free: it is wherever the difference lies in the space of the rows.
+        """
+        own, other = self.speeds.get(of), self.speeds.get(base)
+        if own is not None and other is not None:
+            return own - other * self.signs.get(of, 1) * self.signs.get(base, 1)
+        if self.loose is None:
+            return None
+        value = self.loose.difference(of, base)
+        return None if value is None else value * self.signs.get(of, 1)
+
+    def __getitem__(self, link: str) -> Fraction:
+        return self.speeds[link]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self.speeds)
+
+
+class _Ratios(Mapping[str, Mapping[str, Fraction]]):
+    """The exact link x input table. It is solved for when first read: a case with one answer does not need it."""
+
+    def __init__(self, part: SolvedPart, case: StateCase, signs: Mapping[str, int]) -> None:
+        self._part, self._case, self._signs = part, case, signs
+
+    @cached_property
+    def _forms(self) -> dict[int, LinearForm]:
+        """Every unknown in terms of the inputs, one symbol each."""
+        reduced = self._part.reduced
+        index = reduced.components.index
+        rows = [*reduced.equations, *held_rows(reduced, self._case)]
+        rows += [{**reduced.form(index[link]), -1 - at: Fraction(-1)} for at, link in enumerate(self._case.inputs)]
+        return eliminate(rows).forms()
+
+    def __getitem__(self, link: str) -> Mapping[str, Fraction]:
+        reduced = self._part.reduced
+        form = resolve_form(reduced.form(reduced.components.index[link]), self._forms)
+        own = self._signs.get(link, 1)
+        return {
+            name: own * form.get(-1 - at, Fraction(0)) * self._signs.get(name, 1)
+            for at, name in enumerate(self._case.inputs)
+        }
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._part.links)
+
+    def __len__(self) -> int:
+        return len(self._part.links)
+
+
+@collector_paused()
+def solve(part: SolvedPart, case: StateCase, signs: Mapping[str, int], budget: int | None = EXACT_BUDGET) -> Solution:
+    """Solve one case exactly: link by link where that reaches every link, else reduced and eliminated.
+
+    signs    -1 for links whose axis points against its parallels: their speeds change sign at this door
+    budget   operations allowed beyond linear work; `TooDenseError` past it, None for no bound
+    """
+    ratios = _Ratios(part, case, signs)
+    walked = propagate(part.links, part.frame, part.circuits, case, signs) if any(case.inputs.values()) else None
+    if walked is not None:
+        return Solution(determined_verdict(case), walked, ratios, signs)
+    reduced = part.reduced
+    budget = elimination_budget(reduced, budget)
+    echelon = eliminate([*reduced.equations, *held_rows(reduced, case), *_driven(reduced, case, signs)], budget)
+    if echelon.conditions:
+        return Solution(diagnose(reduced, case, signs, budget), {}, ratios, signs)
+    if not any(case.inputs.values()) and _all_still(reduced, case, budget):
+        return Solution(stationary_verdict(reduced, case), dict.fromkeys(part.links, Fraction(0)), ratios, signs)
+    forms = echelon.forms(budget)
+    speeds, undetermined = _read_off(reduced, forms, signs)
+    if undetermined:
+        freedom = reduced.unknowns - echelon.rank
+        verdict = free_verdict(reduced, case, forms, undetermined, freedom)
+        return Solution(verdict, speeds, ratios, signs, FreeForms(reduced, forms))
+    return Solution(determined_verdict(case, reduced), speeds, ratios, signs)
+
+
+def elimination_budget(reduced: ReducedSystem, budget: int | None) -> int | None:
+    """The budget for one system: uncoupled equations cost a few operations each, and are always allowed."""
+    return None if budget is None else budget + 30 * len(reduced.equations)
+
+
+def exact_verdict(reduced: ReducedSystem, case: StateCase, signs: Mapping[str, int]) -> Verdict:
+    """The verdict alone, modulo a prime: for coupled systems too dense for rational elimination."""
+    held = [*reduced.equations, *held_rows(reduced, case)]
+    if not any(case.inputs.values()) and rank_modulo(held) == reduced.unknowns:
+        return stationary_verdict(reduced, case)
+    echelon = eliminate(map(residues, [*held, *_driven(reduced, case, signs)]), modulus=PRIME)
+    if echelon.conditions:
+        return unwitnessed_verdict(reduced, case)
+    freedom = reduced.unknowns - echelon.rank
+    if freedom:
+        given_count = len(case.inputs)
+        return Verdict("free", f"{given_count} of {given_count + freedom} degrees of freedom prescribed")
+    return determined_verdict(case, reduced)
+
+
+def determined_verdict(case: StateCase, reduced: ReducedSystem | None = None) -> Verdict:
+    """The good verdict, with a word on a loop that holds part of the train, if there is one."""
+    parts = reduced.components if reduced else None
+    loops = tuple(parts.loop(circuit) for circuit in parts.breaking[:1]) if parts else ()
+    text = f"every speed follows from {', '.join(case.inputs)}"
+    if loops:
+        text += f"; {loops[0]} does not close and holds its links on '{loops[0].carrier}'"
+    return Verdict("determined", text, loops=loops)
+
+
+def _driven(reduced: ReducedSystem, case: StateCase, signs: Mapping[str, int]) -> Iterator[LinearForm]:
+    """One row for each input; what is prescribed stands in the one column -1."""
+    for link, speed in case.inputs.items():
+        row = dict(reduced.form(reduced.components.index[link]))
+        if speed:
+            row[_GIVEN] = -speed * signs.get(link, 1)
+        yield row
+
+
+def _all_still(reduced: ReducedSystem, case: StateCase, budget: int | None) -> bool:
+    """True if nothing can move at all: an input of 0, or none, then hides a locked train."""
+    return eliminate([*reduced.equations, *held_rows(reduced, case)], budget).rank == reduced.unknowns
+
+
+class _ReadOff(Mapping[str, Fraction]):
+    """Speeds by link, put together when read: the carrier's plus the ratio times the component's unknown."""
+
+    def __init__(self, reduced: ReducedSystem, known: Sequence[Fraction | None], signs: Mapping[str, int]) -> None:
+        self._reduced, self._known, self._signs = reduced, known, signs
+        self._cancelled: dict[str, Fraction] = {}
+        self._links: dict[str, None] = {}
+
+    def take(self, link: str, speed: Fraction | None = None) -> None:
+        """Count a link among those that are determined; `speed` where its parts are not, but their sum is."""
+        self._links[link] = None
+        if speed is not None:
+            self._cancelled[link] = speed
+
+    def __getitem__(self, link: str) -> Fraction:
+        if link not in self._links:
+            raise KeyError(link)
+        speed = self._cancelled.get(link)
+        if speed is None:
+            speed = self._composed(self._reduced.components.index[link])
+        return -speed if link in self._signs else speed
+
+    def _composed(self, link: int) -> Fraction:
+        parts, zero = self._reduced.components, Fraction(0)
+        if link == parts.frame:
+            return zero
+        if link in self._reduced.own:
+            return self._known[self._reduced.own[link]] or zero
+        node = parts.nodes_of[link][0]
+        carrier = parts.node_carrier[node]
+        unknown = self._known[parts.node_group[node]] or zero
+        speed = parts.relative(node) if unknown == 1 else parts.relative(node) * unknown if unknown else zero
+        carried = zero if carrier == parts.frame else self._known[self._reduced.own[carrier]]
+        return speed + carried if carried else speed
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._links)
+
+    def __len__(self) -> int:
+        return len(self._links)
+
+    def __contains__(self, link: object) -> bool:
+        return link in self._links
+
+
+def _read_off(
+    reduced: ReducedSystem, forms: Mapping[int, LinearForm], signs: Mapping[str, int]
+) -> tuple[Mapping[str, Fraction], list[str]]:
+    """The speed of every link that has one, and the links that have none."""
+    parts = reduced.components
+    known = [_value(forms.get(unknown)) for unknown in range(reduced.unknowns)]
+    speeds = _ReadOff(reduced, known, signs)
+    undetermined: list[str] = []
+    for at, name in enumerate(parts.links):
+        if at == parts.frame or all(known[unknown] is not None for unknown in reduced.unknowns_of(at)):
+            speeds.take(name)
+            continue
+        speed = _value(resolve_form(reduced.form(at), forms))  # free parts may still cancel
+        if speed is None:
+            undetermined.append(name)
+        else:
+            speeds.take(name, speed)
+    return speeds, undetermined
+
+
+def _value(form: LinearForm | None) -> Fraction | None:
+    """The value of a form, or None where it holds a free unknown."""
+    if form is None or any(column >= 0 for column in form):
+        return None
+    return form.get(_GIVEN, Fraction(0))
+
+
+def _idle(reduced: ReducedSystem, forms: Mapping[int, LinearForm]) -> list[str]:
+    """Circuits of components whose unknown is always 0."""
+    parts = reduced.components
+    null = {column for column, form in forms.items() if not form and column < len(parts.group_carrier)}
+    if not null:
+        return []
+    return [c.id for c in parts.circuits if c.b and parts.group_of(c) in null]
+
+
+def _still(reduced: ReducedSystem, forms: Mapping[int, LinearForm]) -> list[str]:
+    """Links that stand still in every motion: their form vanishes."""
+    parts = reduced.components
+    if not forms:
+        return []
+    null = {column for column, form in forms.items() if not form}
+    found = []
+    for at, name in enumerate(parts.links):
+        moving = [column for column in reduced.unknowns_of(at) if column not in null]
+        if at != parts.frame and (not moving or (len(moving) > 1 and not resolve_form(reduced.form(at), forms))):
+            found.append(name)
+    return found
+
+
+@collector_paused()
+def find_mobility(reduced: ReducedSystem, turning_pairs: int, budget: int | None = EXACT_BUDGET) -> Mobility:
+    """Mobility of the train itself, nothing prescribed, decided exactly."""
+    parts = reduced.components
+    gears = sum(circuit.kind == "gear" for circuit in parts.circuits)
+    shared: list[str] = []
+    still: list[str] = []
+    idle: list[str] = []
+    certain = True
+    try:
+        budget = elimination_budget(reduced, budget)
+        echelon = eliminate(reduced.equations, budget)
+    except TooDenseError:
+        certain = False
+        rank = max(rank_modulo(reduced.equations, PRIME), rank_modulo(reduced.equations, (1 << 61) - 31))
+    else:
+        rank = echelon.rank
+        with suppress(TooDenseError):
+            forms = echelon.forms(budget)
+            still, idle = _still(reduced, forms), _idle(reduced, forms)
+        repeated = (reduced.origin[row] for row in echelon.redundant)
+        shared = [parts.links[link] for kind, link, _ in repeated if kind == "share"]
+    freedom = reduced.unknowns - rank
+    redundant = len(parts.circuits) - (len(parts.links) - 1 - freedom)
+    return Mobility(
+        len(parts.links),
+        turning_pairs,
+        gears,
+        len(parts.circuits) - gears,
+        freedom,
+        redundant,
+        tuple(parts.loop(circuit) for circuit in parts.closing[:1000]),
+        tuple(shared),
+        tuple(parts.loop(circuit) for circuit in parts.breaking[:1000]),
+        tuple(still),
+        tuple(idle),
+        certain,
+    )

@@ -1,0 +1,109 @@
+"""The labelled Willis system: one integer row a circuit, one row for the frame, one a prescription."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Literal, NamedTuple
+
+from geartrain.kinematics.circuits import Circuit
+from geartrain.numerics.exact import decimal, fraction_text
+from geartrain.train import StateCase
+
+RowKind = Literal["frame", "gear", "pin_and_slot", "pin_follower", "input", "fixed", "lock"]
+
+
+class WillisEquation(NamedTuple):
+    """One row: the sum of coefficient times speed over `terms` equals `right`."""
+
+    label: str
+    kind: str
+    terms: tuple[tuple[str, int], ...]
+    right: Fraction = Fraction(0)
+
+
+@dataclass(frozen=True, slots=True)
+class WillisSystem:
+    """The Willis system of a train in one case: columns are links, rows are labelled equations.
+
+    exact   False where inputs are in radians beside others in turns, so that their numbers are shown in decimal
+    """
+
+    links: tuple[str, ...]
+    equations: tuple[WillisEquation, ...]
+    exact: bool = True
+
+    def text(self) -> str:
+        """One line an equation, as a reader would write it."""
+        right = fraction_text if self.exact else decimal
+        width = max((len(equation.label) for equation in self.equations), default=0)
+        return "\n".join(f"{e.label:<{width}}  {_sum(e.terms, 'w[{}]')} = {right(e.right)}" for e in self.equations)
+
+    def latex(self) -> str:
+        """The system as an `align` environment."""
+        symbol = r"\omega_{{\text{{{}}}}}"
+        right = _fraction if self.exact else decimal
+        lines = [
+            f"  {_sum(e.terms, symbol, escape=True)} &= {right(e.right)} && \\text{{{_escape(e.label)}}}"
+            for e in self.equations
+        ]
+        return "\\begin{align}\n" + " \\\\\n".join(lines) + "\n\\end{align}"
+
+
+def assemble_willis_system(
+    links: Sequence[str], frame: str, circuits: Sequence[Circuit], case: StateCase | None, signs: Mapping[str, int]
+) -> WillisSystem:
+    """The rows of all circuits, the frame, and what `case` prescribes (None: nothing).
+
+    signs   -1 for links whose axis points against the reference direction of its parallels
+    """
+    rows = [WillisEquation("frame", "frame", ((frame, 1),))]
+    rows += [WillisEquation(c.id, c.kind, willis_terms(c, signs)) for c in circuits]
+    if case is not None:
+        rows += [WillisEquation(f"fixed {link}", "fixed", ((link, 1),)) for link in case.fixed if link != frame]
+        rows += [
+            WillisEquation(f"lock {a} {b}", "lock", ((a, signs.get(a, 1)), (b, -signs.get(b, 1))))
+            for a, b in case.locks
+            if a != b
+        ]
+        rows += [WillisEquation(f"input {link}", "input", ((link, 1),), speed) for link, speed in case.inputs.items()]
+    return WillisSystem(tuple(links), tuple(rows), case is None or case.exact)
+
+
+def willis_terms(circuit: Circuit, signs: Mapping[str, int]) -> tuple[tuple[str, int], ...]:
+    """The non-zero integer terms a w_i + b w_j - (a + b) w_k of one circuit."""
+    terms = (
+        (circuit.i, circuit.a * signs.get(circuit.i, 1)),
+        (circuit.j, circuit.b * signs.get(circuit.j, 1)),
+        (circuit.carrier, -(circuit.a + circuit.b) * signs.get(circuit.carrier, 1)),
+    )
+    return tuple(term for term in terms if term[1])
+
+
+def _sum(terms: Sequence[tuple[str, int]], symbol: str, escape: bool = False) -> str:
+    parts: list[str] = []
+    for link, coefficient in terms:
+        size = "" if abs(coefficient) == 1 else f"{abs(coefficient)} "
+        sign = "-" if coefficient < 0 else "+" if parts else ""
+        space = " " if parts else ""
+        parts.append(f"{sign}{space}{size}{symbol.format(_escape(link) if escape else link)}")
+    return " ".join(parts)
+
+
+_LATEX = {character: "\\" + character for character in "_&%$#{}"} | {
+    "~": r"\textasciitilde{}",
+    "^": r"\textasciicircum{}",
+    "\\": r"\textbackslash{}",
+}
+
+
+def _escape(text: str) -> str:
+    return "".join(_LATEX.get(character, character) for character in text)
+
+
+def _fraction(value: Fraction) -> str:
+    if value.denominator == 1:
+        return fraction_text(value)
+    sign = "-" if value < 0 else ""
+    return rf"{sign}\frac{{{fraction_text(abs(value.numerator))}}}{{{fraction_text(value.denominator)}}}"

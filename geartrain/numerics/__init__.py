@@ -1,0 +1,12 @@
+"""Numbers, arrays, files and independent work: nothing in this room knows what a gear is.
+
+exact, factored_ratios, long_float   integers and Fractions of any length; floats with an exponent of their own
+integer_lattice, rational_angles     integer rows in a rational span; angles as parts of a turn
+block_triangular                     matching, then strongly connected components (Dulmage and Mendelsohn)
+roots, chandrupatla                  many bracketed roots at once
+chebyshev, polynomial_pieces         functions as series and as pieces of polynomials
+quantity                             values with a unit, and the number as it was written
+arrays, labelled_array, containers   arrays with names on their axes; containers that cannot change
+files                                finished text and tables out, atomically
+work                                 independent tasks, their journal, and what runs them
+"""

@@ -1,0 +1,85 @@
+"""Chebyshev series on an interval: values at nodes, derivative, integral."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.polynomial import chebyshev as cheb
+
+if TYPE_CHECKING:
+    from geartrain.numerics.arrays import Floats
+
+
+@dataclass(frozen=True)
+class ChebyshevSeries:
+    """Chebyshev coefficients on [start, end]."""
+
+    coefficients: Floats
+    start: float
+    end: float
+
+    @classmethod
+    def of(cls, f: Callable[[Floats], Floats], start: float, end: float, nodes: int) -> ChebyshevSeries:
+        """The series through the values of f at `nodes` Chebyshev points."""
+        d = np.asarray(start + (end - start) * (points(nodes)[0] + 1) / 2, dtype=np.float64)
+        return cls.through(f(d), start, end)
+
+    @classmethod
+    def through(cls, values: Floats, start: float, end: float) -> ChebyshevSeries:
+        """The series through values at the points of `points`, ascending."""
+        _, inverse = points(len(values))
+        return cls(np.asarray(inverse @ values, dtype=np.float64), start, end)
+
+    def __call__(self, d: Floats) -> Floats:
+        return np.asarray(cheb.chebval(self._scaled(d), self.coefficients), dtype=np.float64)
+
+    def _scaled(self, d: Floats) -> Floats:
+        width = self.end - self.start
+        if not width:
+            return np.zeros(np.shape(d))
+        found: Floats = (2 * (np.asarray(d) - self.start) - width) / width
+        return found
+
+    def derivative(self) -> ChebyshevSeries:
+        """d/dd of the series."""
+        width = self.end - self.start
+        return ChebyshevSeries(
+            np.asarray(cheb.chebder(self.coefficients) * 2 / width, dtype=np.float64), self.start, self.end
+        )
+
+    def integral(self) -> ChebyshevSeries:
+        """The integral from `start`."""
+        width = self.end - self.start
+        raised = np.asarray(cheb.chebint(self.coefficients, lbnd=-1) * width / 2, dtype=np.float64)
+        return ChebyshevSeries(raised, self.start, self.end)
+
+    @property
+    def tail(self) -> float:
+        """How far the last coefficients have fallen, over the greatest."""
+        size = np.abs(self.coefficients)
+        return float(size[-4:].max() / max(size.max(), 1e-300))
+
+
+@lru_cache(maxsize=32)
+def points(count: int) -> tuple[Floats, Floats]:
+    """Chebyshev points of the second kind on [-1, 1], ascending, and the matrix from values to coefficients."""
+    x = np.asarray(-np.cos(np.pi * np.arange(count) / (count - 1)), dtype=np.float64)
+    return x, np.asarray(np.linalg.inv(cheb.chebvander(x, count - 1)), dtype=np.float64)
+
+
+@lru_cache(maxsize=32)
+def differentiation(count: int) -> Floats:
+    """Matrix from values at `points` to derivatives there (barycentric, its rows summing to 0)."""
+    x, _ = points(count)
+    weights = np.where(np.arange(count) % 2 == 0, 1.0, -1.0)
+    weights[[0, -1]] /= 2
+    gap = x[:, None] - x[None, :]
+    np.fill_diagonal(gap, 1.0)
+    matrix = weights[None, :] / weights[:, None] / gap
+    np.fill_diagonal(matrix, 0.0)
+    np.fill_diagonal(matrix, -matrix.sum(axis=1))
+    return matrix

@@ -1,0 +1,207 @@
+"""Numbers that are each a short ratio times another one, kept so and multiplied out when they are read.
+
+Along a train every speed is its neighbour's times a ratio of teeth. Where the ratio drifts, a speed a thousand links
+on has thousands of digits, and to keep them all costs the square of the train. So a number is held as a short ratio to
+one before it, and the whole of it is made from powers of the primes in all ratios on its way: one balanced product.
+"""
+
+from __future__ import annotations
+
+from collections import OrderedDict
+from collections.abc import Iterable
+from fractions import Fraction
+from functools import lru_cache
+from heapq import heapify, heappop, heapreplace
+from math import gcd
+
+from geartrain.numerics.exact import coprime, times
+
+_SHORT = 256
+"""Bits of numerator and denominator up to which a number is multiplied out at once."""
+
+_HOPS = 64
+"""So many short ratios are multiplied one after the other; of more, the powers of their primes are counted."""
+
+_KEPT = 1 << 29
+"""Bits of long numbers that are remembered, for the next ones to be read are likely to be near: 64 MB."""
+
+_SMALL = 1000  # primes up to here are divided out; what is left of a tooth count below the square is prime
+_MOST_ROUGH = 1000
+
+
+class FactoredRatios:
+    """Numbers by position: roots, which are given, and others, each a ratio times one that is known already.
+
+    parent, a, b     the number it was made from (-1: a root), and its ratio a / b to that
+    anchor           the number to which `top` / `bottom` is the ratio; -1 where that is the number itself
+    top, bottom      in lowest terms, bottom > 0; bottom 0: not known yet
+    """
+
+    __slots__ = ("_bits", "_recent", "a", "anchor", "b", "bottom", "parent", "top")
+
+    def __init__(self, count: int) -> None:
+        self.parent, self.anchor = [-1] * count, [-1] * count
+        self.a, self.b = [1] * count, [1] * count
+        self.top, self.bottom = [0] * count, [0] * count
+        self._recent: OrderedDict[int, Fraction] = OrderedDict()
+        self._bits = 0
+
+    def set_root(self, at: int, top: int, bottom: int = 1) -> None:
+        """Give a number, in lowest terms."""
+        self.top[at], self.bottom[at] = top, bottom
+
+    def follow(self, at: int, parent: int, a: int, b: int) -> None:
+        """Make a number a / b times a known one; a and b are short."""
+        n, d = times(self.top[parent], self.bottom[parent], a, b)
+        self.parent[at], self.a[at], self.b[at] = parent, a, b
+        if n.bit_length() <= _SHORT and d.bit_length() <= _SHORT:
+            self.anchor[at], self.top[at], self.bottom[at] = self.anchor[parent], n, d
+        else:
+            self.anchor[at] = parent
+            self.top[at], self.bottom[at] = times(1, 1, a, b)
+
+    def vanishes(self, terms: Iterable[tuple[int, int]]) -> bool:
+        """Whether a sum of numbers times coefficients is 0."""
+        terms = list(terms)
+        common = len({self.anchor[at] for at, _ in terms}) == 1  # all to one scale, which is not 0
+        n, d = 0, 1
+        for at, coefficient in terms:
+            value = coprime(self.top[at], self.bottom[at]) if common else self.value(at)
+            n = n * value.denominator + coefficient * value.numerator * d
+            d *= value.denominator
+        return n == 0
+
+    def value(self, at: int) -> Fraction:
+        """A number multiplied out."""
+        if self.anchor[at] < 0:
+            return coprime(self.top[at], self.bottom[at])
+        return coprime(*self._times(self._anchored(self.anchor[at]), at))
+
+    def _anchored(self, at: int) -> Fraction:
+        """The value of an anchor, which others near it will want too."""
+        hops = []
+        here = at
+        while self.anchor[here] >= 0 and here not in self._recent:
+            hops.append(here)
+            here = self.anchor[here]
+        if not hops:
+            return self._remembered(here)
+        if len(hops) > _HOPS:
+            value = self._counted(at)
+        else:
+            value = self._remembered(here)
+            for hop in reversed(hops):
+                value = coprime(*self._times(value, hop))
+        self._remember(at, value)
+        return value
+
+    def _times(self, value: Fraction, at: int) -> tuple[int, int]:
+        return times(value.numerator, value.denominator, self.top[at], self.bottom[at])
+
+    def _remembered(self, at: int) -> Fraction:
+        if at not in self._recent:
+            return coprime(self.top[at], self.bottom[at])
+        self._recent.move_to_end(at)
+        return self._recent[at]
+
+    def _remember(self, at: int, value: Fraction) -> None:
+        self._recent[at] = value
+        self._bits += _bits(value)
+        while self._bits > _KEPT and len(self._recent) > 1:
+            _, forgotten = self._recent.popitem(last=False)
+            self._bits -= _bits(forgotten)
+
+    def _counted(self, at: int) -> Fraction:
+        """A number from the root's and the ratios on the way from there, each factor counted once for all."""
+        counts: dict[int, int] = {}
+        while (parent := self.parent[at]) >= 0:
+            a, b = self.a[at], self.b[at]
+            counts[a] = counts.get(a, 0) + 1
+            counts[b] = counts.get(b, 0) - 1
+            at = parent
+        root = coprime(self.top[at], self.bottom[at])
+        return root * product_of_powers(counts)
+
+
+def _bits(value: Fraction) -> int:
+    return value.numerator.bit_length() + value.denominator.bit_length()
+
+
+def product_of_powers(powers: dict[int, int]) -> Fraction:
+    """The product of integers to whole powers, reduced without a gcd of long numbers.
+
+    >>> product_of_powers({6: 2, -4: -1, 15: -3})
+    Fraction(-1, 375)
+    """
+    sign = -1 if sum(power for factor, power in powers.items() if factor < 0) % 2 else 1
+    primes: dict[int, int] = {}
+    rough: dict[int, int] = {}
+    for factor, power in powers.items():
+        if power:
+            found, left = _small_primes(abs(factor))
+            for prime, times_over in found:
+                primes[prime] = primes.get(prime, 0) + power * times_over
+            if left > 1:
+                into = primes if left < _SMALL**2 else rough
+                into[left] = into.get(left, 0) + power
+    for factor, power in _parted(rough).items():
+        primes[factor] = primes.get(factor, 0) + power
+    top = _balanced([factor**power for factor, power in primes.items() if power > 0])
+    bottom = _balanced([factor**-power for factor, power in primes.items() if power < 0])
+    if len(rough) > _MOST_ROUGH:
+        return Fraction(sign * top, bottom)
+    return coprime(sign * top, bottom)
+
+
+@lru_cache(maxsize=1 << 16)
+def _small_primes(number: int) -> tuple[tuple[tuple[int, int], ...], int]:
+    """The primes below a thousand in a number with their powers, and what is left."""
+    found = []
+    for prime in _PRIMES:
+        if prime * prime > number:
+            break
+        power = 0
+        while number % prime == 0:
+            number //= prime
+            power += 1
+        if power:
+            found.append((prime, power))
+    return tuple(found), number
+
+
+_PRIMES = [n for n in range(2, _SMALL) if all(n % k for k in range(2, int(n**0.5) + 1))]
+
+
+def _parted(powers: dict[int, int]) -> dict[int, int]:
+    """Powers of large numbers as powers of numbers that share no factor; too many stay as they are."""
+    if len(powers) > _MOST_ROUGH:
+        return powers
+    base: list[int] = []
+    left = list(powers)
+    while left:
+        number = left.pop()
+        for at, other in enumerate(base):
+            if (common := gcd(number, other)) > 1:
+                del base[at]
+                left += [part for part in (common, number // common, other // common) if part > 1]
+                break
+        else:
+            base.append(number)
+    found: dict[int, int] = {}
+    for number, power in powers.items():
+        for factor in base:
+            while number % factor == 0:
+                number //= factor
+                found[factor] = found.get(factor, 0) + power
+    return found
+
+
+def _balanced(factors: list[int]) -> int:
+    """The product of long numbers, the shortest first."""
+    if not factors:
+        return 1
+    heapify(factors)
+    while len(factors) > 1:
+        least = heappop(factors)
+        heapreplace(factors, least * factors[0])
+    return factors[0]

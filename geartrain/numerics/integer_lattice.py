@@ -1,0 +1,64 @@
+"""Whole-number rows: all whole rows in their span, and whole columns that answer each of them with 1."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+Row = dict[int, int]
+
+
+def saturated_lattice(rows: Sequence[Mapping[int, int]]) -> tuple[list[Row], list[Row], int]:
+    """A basis of all whole rows in the rational span of some rows, columns dual to it, and the index of the rows in it.
+
+    Whole operations on columns bring the rows to a triangle H: Y V = [H 0]. The basis is H^-1 Y, and the first columns
+    of V are dual to it. The index is det H: 1 where the rows are a basis already. Rows that hang on others drop out.
+    """
+    columns: dict[int, Row] = {}
+    for at, row in enumerate(rows):
+        for key, value in row.items():
+            columns.setdefault(key, {})[at] = value
+    moves: dict[int, Row] = {key: {key: 1} for key in columns}
+    basis: list[Row] = []
+    dual: list[Row] = []
+    pivots: list[Row] = []
+    index = 1
+    for at, row in enumerate(rows):
+        pivot = _reduce(columns, moves, at)
+        if pivot is None:
+            continue
+        column, move = columns.pop(pivot), moves.pop(pivot)
+        rest = dict(row)
+        for known, before in zip(basis, pivots, strict=True):
+            _add(rest, known, -before.get(at, 0))
+        basis.append({key: value // column[at] for key, value in rest.items()})
+        pivots.append(column)
+        dual.append(move)
+        index *= abs(column[at])
+    return basis, dual, index
+
+
+def _reduce(columns: dict[int, Row], moves: dict[int, Row], at: int) -> int | None:
+    """Euclid's algorithm on the entries of one row, until one column has all of it."""
+    live = [key for key, column in columns.items() if at in column]
+    while len(live) > 1:
+        least = min(live, key=lambda key: abs(columns[key][at]))
+        size = columns[least][at]
+        for key in live:
+            if key != least:
+                times = columns[key][at] // size
+                _add(columns[key], columns[least], -times)
+                _add(moves[key], moves[least], -times)
+        live = [key for key in live if at in columns[key]]
+    return live[0] if live else None
+
+
+def _add(row: Row, other: Mapping[int, int], factor: int) -> None:
+    """row += factor * other."""
+    if not factor:
+        return
+    for key, value in other.items():
+        total = row.get(key, 0) + factor * value
+        if total:
+            row[key] = total
+        else:
+            row.pop(key, None)

@@ -1,0 +1,62 @@
+"""Read-only arrays with names on their axes."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from numpy.typing import NDArray
+
+
+@dataclass(frozen=True, slots=True)
+class LabelledArray:
+    """A read-only array whose every axis has a name and a label for each position.
+
+    values  array of any shape
+    axes    one name an axis, such as ("link", "case")
+    labels  one tuple of labels an axis
+    """
+
+    values: NDArray[Any]
+    axes: tuple[str, ...]
+    labels: tuple[tuple[str, ...], ...]
+
+    def __post_init__(self) -> None:
+        if self.values.shape != tuple(len(names) for names in self.labels):
+            raise ValueError(f"shape {self.values.shape} does not fit the labels of {self.axes}")
+        self.values.flags.writeable = False
+
+    def __getitem__(self, key: str | tuple[str, ...]) -> Any:
+        """The value (or sub-array) at the given labels, one an axis, in order."""
+        keys = (key,) if isinstance(key, str) else key
+        return self.values[tuple(self._position(axis, label) for axis, label in enumerate(keys))]
+
+    def _position(self, axis: int, label: str) -> int:
+        try:
+            return self.labels[axis].index(label)
+        except ValueError:
+            raise KeyError(f"no {self.axes[axis]} '{label}'") from None
+
+    def to_dict(self) -> dict[str, Any]:
+        """Plain data for JSON."""
+        return {
+            "axes": list(self.axes),
+            "labels": [list(names) for names in self.labels],
+            "values": self.values.tolist(),
+        }
+
+    def _repr_html_(self) -> str:
+        if len(self.axes) != 2:
+            return f"<pre>{self.values!r}</pre>"
+        head = "".join(f"<th>{name}</th>" for name in self.labels[1])
+        rows = "".join(
+            f"<tr><th>{name}</th>" + "".join(f"<td>{cell}</td>" for cell in row) + "</tr>"
+            for name, row in zip(self.labels[0], self.values, strict=True)
+        )
+        return f"<table><tr><th></th>{head}</tr>{rows}</table>"
+
+
+def labelled_array(values: NDArray[Any], **axes: Sequence[str]) -> LabelledArray:
+    """A `LabelledArray` with one keyword an axis: `labelled(speeds, link=names, case=cases)`."""
+    return LabelledArray(values, tuple(axes), tuple(tuple(names) for names in axes.values()))

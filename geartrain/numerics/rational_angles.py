@@ -1,0 +1,52 @@
+"""Angles as parts of a turn: which are rational for certain, and which their digits allow to be taken for rational."""
+
+from __future__ import annotations
+
+import math
+from fractions import Fraction
+
+IntegerVector = tuple[int, int, int]
+
+_CHANCE = 1e-3  # an angle drawn at random is taken for a fraction at most this often
+_DENSITY = 3 / math.pi**2  # reduced fractions below 1 with a denominator up to q number some q squared times this
+
+
+def rational_angle(u: IntegerVector, v: IntegerVector, turn: float) -> Fraction | None:
+    """The angle from u to v as a part of a turn, if it is a rational one; certain, for vectors of whole numbers.
+
+    The square of the cosine, (u.v)^2 / (u.u v.v), is rational. By Niven's theorem (cos 2x rational and x a rational
+    part of a turn only for cos 2x = 0, +-1/2, +-1) it must then be 0, 1/4, 1/2, 3/4 or 1: the angle is a multiple
+    of a 24-th of a turn or no rational part of one. `turn` is the angle in floats, good to 1/48.
+    """
+    dot = u[0] * v[0] + u[1] * v[1] + u[2] * v[2]
+    square = (u[0] * u[0] + u[1] * u[1] + u[2] * u[2]) * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2])
+    if 4 * dot * dot % square:
+        return None
+    return Fraction(round(24 * turn) % 24, 24)
+
+
+def recognised_angle(turn: float, slack: float) -> Fraction | None:
+    """The fraction within `slack` of an angle (both in turns), if it is too simple to be an accident.
+
+    Fractions with denominators up to q leave room for an accident with probability 0.6 q^2 slack, which bounds q. There
+    is one such fraction at most, and by Legendre's theorem it is a convergent of the continued fraction of the angle.
+
+    >>> recognised_angle(0.3333, 1e-4), recognised_angle(0.3679, 1e-4)
+    (Fraction(1, 3), None)
+    """
+    most = math.sqrt(_CHANCE / (2 * _DENSITY * slack))
+    before, last = (0, 1), (1, 0)
+    rest = turn
+    while True:
+        whole = math.floor(rest)
+        before, last = last, (whole * last[0] + before[0], whole * last[1] + before[1])
+        if last[1] > most:
+            return None
+        if abs(turn - last[0] / last[1]) <= slack:
+            return Fraction(last[0] % last[1], last[1])
+        rest = 1 / (rest - whole)
+
+
+def centred_residue(value: Fraction) -> Fraction:
+    """A number less the whole number nearest to it: above -1/2, up to 1/2."""
+    return value - math.ceil(value - Fraction(1, 2))

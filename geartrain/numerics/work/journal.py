@@ -1,0 +1,240 @@
+"""Finished results of a long run on disk, so that a run killed at any moment is taken up again and ends the same.
+
+A journal is a text of JSON lines that only grows. The first line is the question, as plain data that a reader can
+read; each further line is one finished task, in the order in which they were finished:
+
+    {"geartrain journal":1,"question":{...}}
+    {"crc":"1c291ca3","task":3,"mark":"d202ef8d","result":[1,2]}
+
+`crc` is the CRC-32 of the rest of its line, `mark` tells the task (`carrying.mark_of`). What is not whole at the end, a
+line torn by a kill or lost with the power, is cut off when the journal is taken up. `parallel` writes journals itself:
+`files` is the door for what users read and write, and a checkpoint is neither.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+from array import array
+from collections.abc import Mapping
+from contextlib import suppress
+from pathlib import Path
+from time import monotonic
+from types import TracebackType
+from typing import Any
+from zlib import crc32
+
+from geartrain.errors import GearTrainError, Problem, QuestionError
+from geartrain.numerics.work.file_lock import lock
+
+_START = b'{"geartrain journal":1,'
+_LINE = re.compile(rb'\{"crc":"([0-9a-f]{8})",("task":(\d{1,12}),"mark":"([0-9a-f]*)","result":(.*)\})\n')
+_LONGEST = 10**7  # bytes of a first line: what is longer is no journal
+_BREATH = 1.0  # s: what a power failure may cost; a kill costs no finished result
+
+
+class Journal:
+    """Results by number of task, kept in a file until the run is whole.
+
+    path      the file; it is made, or taken up if it holds the same question
+    question  plain data that tells this run from every other: all on which tasks and results depend
+    resume    False: begin again, even if the file holds results (of any question)
+
+    Raises `QuestionError` if the file is of another question, is no journal, or is in use by another run;
+    `GearTrainError` if it cannot be read or written. `len()` is the number of results kept. It costs 8 bytes of memory
+    a task.
+    """
+
+    def __init__(self, path: Path | str, question: Mapping[str, Any], *, resume: bool = True) -> None:
+        self.path = Path(path)
+        plain = json.loads(json.dumps(question))
+        header = _START + f'"question":{json.dumps(plain, ensure_ascii=False)}}}\n'.encode()
+        if len(header) >= _LONGEST:
+            raise _refused("the question is too long for a journal", "10 MB and more", "say it shorter", self.path)
+        self._at = array("q")  # where the line of a task begins; -1: not kept
+        self._count, self._synced, self._dirty = 0, monotonic(), False
+        if self.path.exists() and not self.path.is_file():
+            raise _refused("the file is no journal", "it is no regular file", "remove it, or name another", self.path)
+        try:
+            self._file = self.path.open("a+b", buffering=0)  # whatever was read last, what is written goes to the end
+            try:
+                self._reader = self.path.open("rb")
+                self._open(header, plain, resume)
+            except BaseException:
+                self._shut()
+                raise
+        except OSError as error:
+            raise _trouble(self.path, error) from None
+
+    def _open(self, header: bytes, question: Any, resume: bool) -> None:
+        if not lock(self._file.fileno()):
+            raise _refused("another run is writing this journal", "two at once would mix", "wait for it", self.path)
+        end = self._whole(question, resume)
+        self._file.truncate(end)
+        if not end:
+            self._write(header)
+
+    def _whole(self, question: Any, resume: bool) -> int:
+        """Where the part ends that can be taken up: 0 for none of it."""
+        first = self._reader.readline(_LONGEST)
+        torn = not first.endswith(b"\n")
+        begun = first.startswith(_START) or (torn and _START.startswith(first))
+        if not begun or len(first) == _LONGEST:
+            why = "it does not begin like one"
+            raise _refused("the file is no journal", why, "name another file", self.path)
+        if torn or not resume:
+            return 0
+        try:
+            theirs = json.loads(first)["question"]
+        except (ValueError, KeyError):
+            why = "its first line, the question, is damaged"
+            raise _refused("the journal cannot be taken up", why, "remove it to begin again", self.path) from None
+        self._compare(theirs, question)
+        end = len(first)
+        for line in self._reader:
+            found = _sound(line)
+            if found is None:
+                break
+            self._enter(int(found[3]), end)
+            end += len(line)
+        return end
+
+    def _compare(self, theirs: Any, ours: Any) -> None:
+        difference = first_difference(theirs, ours)
+        if difference:
+            raise QuestionError(_another(difference, self.path))
+
+    def _enter(self, task: int, at: int) -> None:
+        if task >= len(self._at):
+            self._at.extend([-1] * (task + 1 - len(self._at)))
+        self._count += self._at[task] < 0
+        self._at[task] = at
+
+    def __len__(self) -> int:
+        return self._count
+
+    def recall(self, task: int, mark: str = "") -> str | None:
+        """The result of a task as JSON, None if it is not kept. Raises `QuestionError` if the mark is another one."""
+        if task >= len(self._at) or self._at[task] < 0:
+            return None
+        try:
+            self._reader.seek(self._at[task])
+            found = _sound(self._reader.readline())
+        except OSError as error:
+            raise _trouble(self.path, error) from None
+        if found is None:
+            raise _refused(f"task {task} cannot be read back", "the journal was changed", "begin again", self.path)
+        if found[4].decode() != mark:
+            why = "the work was cut into other pieces when this journal was begun"
+            raise _refused(f"task {task} of the journal is another task now", why, "begin again", self.path)
+        return found[5].decode()
+
+    def keep(self, task: int, mark: str, text: str) -> None:
+        """Write down a result, one line of JSON. Raises `GearTrainError`."""
+        rest = f'"task":{task},"mark":"{mark}","result":{text}}}'.encode()
+        self._enter(task, self._write(b'{"crc":"%08x",' % crc32(rest) + rest + b"\n"))
+
+    def _write(self, line: bytes) -> int:
+        """Append a line and say where it begins, as the file has it: interrupts come between a write and its note."""
+        try:
+            at = self._file.seek(0, os.SEEK_END)
+            left = memoryview(line)
+            while left:
+                left = left[self._file.write(left) or 0 :]
+            self._dirty = True
+            if monotonic() - self._synced > _BREATH:
+                self._sync()
+        except OSError as error:
+            raise _trouble(self.path, error) from None
+        return at
+
+    def _sync(self) -> None:
+        if self._dirty:
+            os.fsync(self._file.fileno())
+        self._synced, self._dirty = monotonic(), False
+
+    @property
+    def closed(self) -> bool:
+        """True when nothing can be written any more."""
+        return self._file.closed
+
+    def close(self) -> None:
+        """Leave the file as it stands, safe on the disk, to be taken up later."""
+        if not self.closed:
+            with suppress(OSError):  # a full disk was reported by the write that met it
+                self._sync()
+            self._shut()
+
+    def _shut(self) -> None:
+        self._file.close()
+        if hasattr(self, "_reader"):
+            self._reader.close()
+
+    def finish(self) -> None:
+        """The run is whole and its result is safe: remove the file. Raises `GearTrainError`."""
+        self.close()
+        try:
+            self.path.unlink(missing_ok=True)
+        except OSError as error:
+            raise _trouble(self.path, error) from None
+
+    def __enter__(self) -> Journal:
+        return self
+
+    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, _: TracebackType | None) -> None:
+        self.close()
+
+
+def another_question(path: Path, question: Mapping[str, Any]) -> Problem:
+    """What is said of a journal that was found beside where that of this question would be."""
+    try:
+        with path.open("rb") as file:
+            theirs = json.loads(file.readline(_LONGEST))["question"]
+    except (OSError, ValueError, KeyError, TypeError):
+        return _another("its first line, the question, cannot be read", path)
+    return _another(first_difference(theirs, json.loads(json.dumps(question))), path)
+
+
+def _another(difference: str, path: Path) -> Problem:
+    fix = "ask the same question to resume; leave --resume out, or remove the file, to begin again"
+    return Problem("the journal is of another question", difference, fix, str(path))
+
+
+def first_difference(theirs: Any, ours: Any, place: str = "") -> str:
+    """Where two plain data differ first, in words; empty where they are equal.
+
+    >>> first_difference({"wheels": [30, 36]}, {"wheels": [30, 48]})
+    'wheels[1] is 36 there and 48 here'
+    """
+    if isinstance(theirs, dict) and isinstance(ours, dict):
+        for key in [*theirs, *(key for key in ours if key not in theirs)]:
+            step = f"{place}.{key}" if place else key
+            if key not in ours or key not in theirs:
+                return f"{step} is only {'there' if key in theirs else 'here'}"
+            if said := first_difference(theirs[key], ours[key], step):
+                return said
+        return ""
+    if isinstance(theirs, list) and isinstance(ours, list):
+        for number, (left, right) in enumerate(zip(theirs, ours, strict=False)):
+            if said := first_difference(left, right, f"{place}[{number}]"):
+                return said
+        return "" if len(theirs) == len(ours) else f"{place} has {len(theirs)} entries there and {len(ours)} here"
+    if type(theirs) is type(ours) and theirs == ours:
+        return ""
+    return f"{place or 'it'} is {json.dumps(theirs)} there and {json.dumps(ours)} here"
+
+
+def _sound(line: bytes) -> re.Match[bytes] | None:
+    """A line that is whole and as it was written."""
+    found = _LINE.fullmatch(line)
+    return found if found is not None and int(found[1], 16) == crc32(found[2]) else None
+
+
+def _refused(what: str, why: str, fix: str, path: Path) -> QuestionError:
+    return QuestionError(Problem(what, why, fix, str(path)))
+
+
+def _trouble(path: Path, error: OSError) -> GearTrainError:
+    why = error.strerror or str(error)
+    return GearTrainError(Problem("the journal cannot be kept", why, "check the folder and its permissions", str(path)))

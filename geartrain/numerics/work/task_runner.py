@@ -1,0 +1,254 @@
+"""Tasks in, results out, in the order of the tasks: the same whoever does the work, and whoever dies doing it."""
+
+from __future__ import annotations
+
+import json
+from collections import deque
+from collections.abc import Callable, Iterable, Iterator, Sized
+from concurrent.futures import BrokenExecutor, CancelledError, Executor, Future
+from contextlib import suppress
+from dataclasses import dataclass
+from queue import Empty, SimpleQueue
+from time import monotonic
+from typing import Any
+
+from geartrain.errors import GearTrainError, Problem
+from geartrain.numerics.work.executors import cores
+from geartrain.numerics.work.journal import Journal
+from geartrain.numerics.work.messages import RemoteFailure, as_text, carry, mark_of
+from geartrain.numerics.work.worker_pool import WorkerPool
+
+TaskFunction = Callable[[Any], Any]
+ProgressReport = Callable[[int, int], None]
+
+_ALONE = 2  # deaths of workers after which a task runs with no other beside it, so that none is blamed for another
+_ENOUGH = 4  # deaths after which it is given up
+_IN_FLIGHT = 4  # tasks handed over for each one that runs, so that no worker waits for this process
+_AHEAD = 64  # how far, for each worker, results may be ahead of the first one that is missing
+_BETWEEN_WORDS = 0.1  # s between two calls of `tell`
+_BETWEEN_LOOKS = 2.0  # s between two looks at how the executor is
+
+
+def run(
+    work: TaskFunction,
+    tasks: Iterable[Any],
+    executor: Executor | None = None,
+    journal: Journal | None = None,
+    tell: ProgressReport | None = None,
+) -> Iterator[Any]:
+    """Yield `work(task)` for each task, in their order.
+
+    work      a function at the top of a module, so that other processes find it; its results are plain JSON data and
+              depend on the task alone. Results come back as JSON gives them: tuples are lists, keys are texts
+    tasks     any number of them; they are taken as they are needed, and only as many results are held as are ahead of
+              one that is missing (at most 64 for each worker)
+    executor  None: in this process. Any `Executor` will do; one from `open_executor` outlives its workers
+    journal   results it has are not worked out again; others are written to it as they come
+    tell      called with (tasks done, tasks in all, 0 if `tasks` has no length), at most ten times a second and at
+              the end
+
+    A worker that dies costs only what it was doing: that is done again, and a task with which workers keep dying is
+    run alone before it is blamed. Raises `GearTrainError` if a task kills its workers, or if nobody is left to work;
+    whatever `work` raises goes up at once. Tasks in flight are cancelled however the iterator ends.
+    """
+    pace = _Pace(tell, len(tasks) if isinstance(tasks, Sized) else 0)
+    if executor is None:
+        return _here(work, tasks, journal, pace)
+    return _Run(work, tasks, executor, journal, pace).results()
+
+
+def _here(work: TaskFunction, tasks: Iterable[Any], journal: Journal | None, pace: _Pace) -> Iterator[Any]:
+    """All in this process, one after the other."""
+    pace.step(0)
+    for index, task in enumerate(tasks):
+        mark = mark_of(task) if journal is not None else ""
+        text = journal.recall(index, mark) if journal is not None else None
+        if text is None:
+            text = as_text(work(task))
+            if journal is not None:
+                journal.keep(index, mark, text)
+        pace.step()
+        yield json.loads(text)
+    pace.end()
+
+
+class _Pace:
+    """Counts what is done, and tells it neither too often nor too seldom."""
+
+    def __init__(self, tell: ProgressReport | None, total: int) -> None:
+        self.tell, self.total, self.done = tell, total, 0
+        self._said = -1
+        self._at = -_BETWEEN_WORDS
+
+    def step(self, count: int = 1) -> None:
+        """So many more are done."""
+        self.done += count
+        if self.tell and (monotonic() - self._at >= _BETWEEN_WORDS or self.done == self.total):
+            self._say(self.tell)
+
+    def end(self) -> None:
+        """All are done: the last word gives the whole number."""
+        if self.tell and self._said != self.done:
+            self._say(self.tell)
+
+    def _say(self, tell: ProgressReport) -> None:
+        self._said, self._at = self.done, monotonic()
+        tell(self.done, self.total)
+
+
+@dataclass(slots=True)
+class _Flight:
+    """A task on its way: `deaths` counts the workers that died while it was with them, or waited for them."""
+
+    index: int
+    task: Any
+    mark: str
+    deaths: int = 0
+
+
+class _Run:
+    """Work by an executor. Futures report to a queue when they end; this thread alone decides what follows."""
+
+    def __init__(
+        self, work: TaskFunction, tasks: Iterable[Any], executor: Executor, journal: Journal | None, pace: _Pace
+    ) -> None:
+        self.work, self.executor, self.journal, self.pace = work, executor, journal, pace
+        self.tasks = iter(enumerate(tasks))
+        self.ended: SimpleQueue[Future[Any]] = SimpleQueue()
+        self.flying: dict[Future[Any], _Flight] = {}
+        self.again: deque[_Flight] = deque()
+        self.ready: dict[int, str] = {}
+        self.next = self.issued = 0
+        self.hurt = 0  # flights on their way that saw a worker die
+        self.exhausted = False
+        self.looked = monotonic()
+
+    def results(self) -> Iterator[Any]:
+        """The results in the order of the tasks."""
+        try:
+            self.pace.step(0)
+            while True:
+                self._fill()
+                while self.next in self.ready:
+                    text = self.ready.pop(self.next)
+                    self.next += 1
+                    yield json.loads(text)
+                    self._fill()
+                if not self.flying and not self.again and self.exhausted:
+                    break
+                self._land(self._wait())
+            self.pace.end()
+        finally:
+            self._cancel()
+
+    @property
+    def _width(self) -> int:
+        return self.executor.width if isinstance(self.executor, WorkerPool) else cores()
+
+    def _fill(self) -> None:
+        """Hand over as many tasks as there is room for; those with which workers died first, and few at a time."""
+        width = self._width
+        while self.again:
+            careful = self.again[0].deaths >= _ALONE
+            if len(self.flying) >= (1 if careful else width):
+                return
+            self._launch(self.again.popleft())
+        while not self.hurt and len(self.flying) < _IN_FLIGHT * width and self.issued < self.next + _AHEAD * width:
+            flight = self._take()
+            if flight is None:
+                return
+            self._launch(flight)
+
+    def _take(self) -> _Flight | None:
+        """The next task that the journal does not have; None for the time being or for good."""
+        for index, task in self.tasks:
+            self.issued = index + 1
+            mark = mark_of(task) if self.journal is not None else ""
+            text = self.journal.recall(index, mark) if self.journal is not None else None
+            if text is None:
+                return _Flight(index, task, mark)
+            self.ready[index] = text
+            self.pace.step()
+            if self.issued >= self.next + _AHEAD * self._width:
+                return None
+        self.exhausted = True
+        return None
+
+    def _launch(self, flight: _Flight) -> None:
+        try:
+            future = self.executor.submit(carry, self.work, flight.task)
+        except BrokenExecutor:
+            raise GearTrainError(
+                Problem(
+                    "the executor is broken",
+                    "one of its workers died, and it makes no new ones",
+                    "use the executor that open_executor gives: it outlives its workers",
+                )
+            ) from None
+        self.flying[future] = flight
+        self.hurt += bool(flight.deaths)
+        future.add_done_callback(self.ended.put)
+
+    def _wait(self) -> Future[Any]:
+        """The next future that ends, whichever it is."""
+        while True:
+            if isinstance(self.executor, WorkerPool) and monotonic() - self.looked > _BETWEEN_LOOKS:
+                self.executor.check()
+                self.looked = monotonic()
+            with suppress(Empty):
+                return self.ended.get(timeout=_BETWEEN_LOOKS)
+
+    def _land(self, future: Future[Any]) -> None:
+        """Take what a task came back with."""
+        flight = self.flying.pop(future)
+        self.hurt -= bool(flight.deaths)
+        try:
+            outcome = future.result()
+        except BrokenExecutor as error:
+            self._died(flight, getattr(error, "times", 1))
+        except CancelledError:
+            why = "its executor was shut down, or lost its cluster, before the work was done"
+            raise GearTrainError(Problem("the work was cut off", why, "run it again")) from None
+        else:
+            if isinstance(outcome, RemoteFailure):
+                raise outcome.error()
+            self._keep(flight, outcome)
+            self.ready[flight.index] = outcome
+            self.pace.step()
+
+    def _keep(self, flight: _Flight, text: str) -> None:
+        if self.journal is not None:
+            self.journal.keep(flight.index, flight.mark, text)
+
+    def _died(self, flight: _Flight, times: int) -> None:
+        """A worker died with this task, or with one beside it: once more, and alone if it happens again."""
+        flight.deaths += times
+        if flight.deaths >= _ENOUGH:
+            raise _deadly(flight)
+        self.again = deque(sorted([*self.again, flight], key=lambda each: (each.deaths, each.index)))
+
+    def _cancel(self) -> None:
+        """However it ends: nothing more is begun, and what was finished in the meantime is kept."""
+        for future in self.flying:
+            future.cancel()
+        for future, flight in self.flying.items():
+            if future.done() and not future.cancelled() and not future.exception():
+                outcome = future.result()
+                if isinstance(outcome, str) and self.journal is not None and not self.journal.closed:
+                    with suppress(GearTrainError):  # it would hide what ends the run
+                        self._keep(flight, outcome)
+        self.flying.clear()
+
+
+def _deadly(flight: _Flight) -> GearTrainError:
+    said = repr(flight.task)
+    said = said if len(said) <= 200 else f"{said[:200]}..."
+    return GearTrainError(
+        Problem(
+            f"task {flight.index} kills the worker that does it: {said}",
+            f"{flight.deaths} worker processes ended with it, the last with no other task beside it: out of memory, "
+            "killed from outside, or they could not start",
+            "give it more memory or smaller pieces, or fewer workers; a script that starts workers needs the line "
+            'if __name__ == "__main__": before what it does',
+        )
+    )

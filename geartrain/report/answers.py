@@ -1,0 +1,212 @@
+"""What a report says of a train's answers: states, speeds, outputs, targets, doubts."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from itertools import islice
+
+from geartrain.analysis.gear_train import GearTrain
+from geartrain.kinematics.answer import Answer
+from geartrain.kinematics.judged_outputs import OutputResult, Sensitivity, magnitude
+from geartrain.report.document import MOST_ROWS, Section, Table, cut, exact, figure, one_to, ppm
+from geartrain.train import Train
+
+
+def shift_table(train: GearTrain, answers: Sequence[Answer]) -> Section:
+    """States by rows: what is engaged, and the outputs' ratios."""
+    declared = train.declaration
+    clutches = list(declared.clutches)
+    names = list(dict.fromkeys(name for answer in answers for name in answer.outputs))
+    rows = []
+    for answer in answers:
+        engaged = declared.states[answer.state or ""].engaged
+        marks = ["x" if clutch in engaged else "" for clutch in clutches]
+        cells = [_speed_and_ratio(answer, name) for name in names]
+        rows.append((str(answer.state), *marks, answer.verdict.kind, *cells))
+    header = ("state", *clutches, "verdict", *names)
+    return Section(
+        "States",
+        (f"x marks an engaged clutch or brake; {', '.join(names)} as speed and input/output.",),
+        (Table(header, rows),),
+    )
+
+
+def _speed_and_ratio(answer: Answer, name: str) -> str:
+    result = answer.outputs.get(name)
+    if result is None or result.speed is None:
+        return "-"
+    inverse = f" (in/out {figure(1 / result.ratio, 6)})" if result.ratio else ""
+    return f"{exact(result.speed)}{inverse}"
+
+
+def answer_sections(train: GearTrain, answer: Answer) -> Iterator[Section]:
+    """Speeds, outputs and targets of one state."""
+    head = f"State {answer.state}: " if answer.state is not None else ""
+    case = train.declaration.case(answer.state)
+    given = [*map(case.given, case.inputs)]
+    given += [f"{link} fixed" for link in case.fixed] + [f"{a} and {b} locked together" for a, b in case.locks]
+    lines = [f"Prescribed: {', '.join(given) or 'nothing'}.", f"Verdict: {answer.verdict}."]
+    if answer.method == "floats":
+        why = "the coupled system is too dense for exact elimination" if case.exact else "radians stand beside turns"
+        lines.append(f"Solved in floats: {why}.")
+    yield Section(_title(head, "speeds"), lines, tuple(_speeds(train, answer)))
+    if answer.outputs:
+        yield _outputs(train, answer, head)
+    targets = [
+        (
+            name,
+            target.label,
+            figure(target.speed, 10),
+            _COMPARED[target.compared],
+            ppm(target.ppm),
+            _signed(target.days_per_century),
+            _signed(target.degrees_per_unit),
+            _met(target.met),
+        )
+        for name, result in answer.outputs.items()
+        for target in result.targets
+    ]
+    if targets:
+        header = ("output", "target", "target speed", "by", "error ppm", "days a century", "degrees a unit", "within")
+        used = len(header) if any(row[-1] for row in targets) else -1
+        table = Table(header[:used], [row[:used] for row in targets])
+        said = ["A positive error is fast."]
+        if any(row[3] == "magnitude" for row in targets):
+            said.append("By magnitude: the target has no `sense`, so that either sense of rotation meets it.")
+        yield Section(_title(head, "against the targets"), tuple(said), (table,))
+
+
+_COMPARED = {"speed": "sense too", "magnitude": "magnitude", "difference": "difference"}
+
+
+def _title(head: str, words: str) -> str:
+    return head + words if head else words[0].upper() + words[1:]
+
+
+def _signed(value: float | None) -> str:
+    return "-" if value is None else f"{value:+.5g}"
+
+
+def _met(met: bool | None) -> str:
+    return "" if met is None else "yes" if met else "NO"
+
+
+def _speeds(train: GearTrain, answer: Answer) -> Iterator[Table]:
+    if not answer.speeds:
+        return
+    moving = [speed for speed in train.declaration.case(answer.state).inputs.values() if speed]
+    rows = []
+    for link, speed in islice(answer.speeds.items(), MOST_ROWS):  # a long train's speeds are long
+        mark = " (sum of joint speeds)" if link in train.bookkeeping else ""
+        ratio = speed / moving[0] if len(moving) == 1 else None
+        rows.append((link + mark, exact(speed), figure(speed), one_to(ratio)))
+    yield Table(("link", "speed", "decimal", "output : input"), cut(rows, len(answer.speeds)))
+
+
+def _outputs(train: GearTrain, answer: Answer, head: str) -> Section:
+    rows = [_output(train, result) for result in answer.outputs.values()]
+    header = ("output", "of", "speed", "decimal", "output/input", "expect", "published", "as read")
+    used = [at for at in range(len(header)) if at < 4 or any(row[at] for row in rows)]
+    marks = [result.output.note for result in answer.outputs.values() if result.output.note]
+    notes = (
+        [f"{name}: {result.output.note}." for name, result in answer.outputs.items() if result.output.note]
+        if marks
+        else []
+    )
+    return Section(
+        _title(head, "outputs"),
+        notes,
+        (Table([header[at] for at in used], [[row[at] for at in used] for row in rows]),),
+    )
+
+
+def _output(train: GearTrain, result: OutputResult) -> tuple[str, ...]:
+    declared = train.declaration
+    of = result.of if result.relative_to == declared.frame else f"{result.of} seen from {result.relative_to}"
+    expect, published = result.output.expect, result.output.published
+    return (
+        result.name,
+        of + (" (sum of joint speeds)" if result.bookkeeping else ""),
+        exact(result.speed),
+        figure(result.speed),
+        exact(result.ratio) if result.ratio is not None and result.ratio != result.speed else "",
+        "" if expect is None else "holds" if result.expect_holds else f"FAILS: {expect.value} expected",
+        ""
+        if published is None
+        else f"{published.value} {published.as_}"
+        + ("" if result.published_holds else f" FAILS: {result_words(result)}"),
+        _as_read(declared, result),
+    )
+
+
+def result_words(result: OutputResult) -> str:
+    """What stands against a published figure, in its form: exact and, where that is not one number, in decimals."""
+    if result.found is None:
+        ratio = result.output.published is not None and result.output.published.as_ != "speed"
+        open_ = result.speed is None or not ratio
+        return "undetermined" if open_ else "no such ratio, which needs one input that turns, and an output that does"
+    text, near = exact(result.found), figure(result.found)
+    return f"found {text}" + (f" = {near}" if near != text else "")
+
+
+def expectations_met(answers: Iterable[Answer]) -> str:
+    """`all 3 expectations and 2 published figures hold`, or how many fail; empty where no figure is declared."""
+    results = [result for answer in answers for result in answer.outputs.values()]
+    kinds = {
+        "expectation": [each.expect_holds for each in results if each.expect_holds is not None],
+        "published figure": [each.published_holds for each in results if each.published_holds is not None],
+    }
+    named = [f"{len(held)} {kind}" + "s" * (len(held) > 1) for kind, held in kinds.items() if held]
+    total = sum(map(len, kinds.values()))
+    if failed := sum(held.count(False) for held in kinds.values()):
+        return f"{failed} of {' and '.join(named)} FAIL"
+    return f"{named[0]} holds" if total == 1 else f"all {' and '.join(named)} hold" if named else ""
+
+
+def _as_read(declared: Train, result: OutputResult) -> str:
+    """The sense a reader of the dial sees: it flips on a face that looks the other way."""
+    dial = declared.dials.get(result.output.dial or "")
+    if dial is None or not result.speed:
+        return ""
+    flipped = dial.face is not None and declared.view.from_ is not None and dial.face != declared.view.from_
+    clockwise = ((declared.view.positive == "clockwise") == (result.speed > 0)) != flipped
+    turn = 1 / magnitude(result.speed)
+    words = ["clockwise" if clockwise else "counter-clockwise", f"a turn in {figure(turn, 7)}"]
+    if dial.turns > 1:
+        words.append(f"{dial.turns} turns in {figure(turn * dial.turns, 7)}")
+    if dial.divisions > 1:
+        words.append(f"a division in {figure(turn * dial.turns / dial.divisions, 7)}")
+    return ", ".join(words)
+
+
+def doubtful_wheels(train: GearTrain, answers: Sequence[Answer]) -> Iterator[Section]:
+    """Wheels in doubt, and what one tooth on each of them does to the pointers."""
+    for answer in answers:
+        found = list(train.sensitivity(answer)) if answer.verdict else []
+        pointers = {name for name, result in answer.outputs.items() if result.output.dial or result.targets}
+        if pointers:
+            found = [item for item in found if item.output in pointers]
+        if not found:
+            continue
+        head = f"State {answer.state}: " if answer.state is not None else ""
+        text = "Change of speed in ppm, solved again exactly; outputs that move alike stand together."
+        table = Table(("wheel", "teeth", "allowed", "one fewer", "one more", "outputs"), list(_grouped(found)))
+        yield Section(_title(head, "wheels in doubt"), (text,), (table,))
+
+
+def _grouped(found: Sequence[Sensitivity]) -> Iterator[tuple[str, ...]]:
+    groups: dict[tuple[str, str, str], list[Sensitivity]] = {}
+    for item in found:
+        groups.setdefault((item.wheel, _shift(item.less), _shift(item.more)), []).append(item)
+    for (wheel, less, more), items in groups.items():
+        allowed = items[0].allowed
+        span = (
+            f"{allowed[0]}-{allowed[-1]}"
+            if allowed == tuple(range(allowed[0], allowed[-1] + 1))
+            else ", ".join(map(str, allowed))
+        )
+        yield wheel, str(items[0].teeth), span, less, more, ", ".join(item.output for item in items)
+
+
+def _shift(value: float | None) -> str:
+    return "locks or stands" if value is None else f"{value:+.6g}"

@@ -1,0 +1,124 @@
+"""Documents as one HTML page that stands alone: it asks the network for nothing, and nothing a user wrote can run."""
+
+from __future__ import annotations
+
+import re
+from base64 import b64encode
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from hashlib import sha256
+from importlib import resources
+from itertools import count
+from urllib.parse import urlsplit
+
+from geartrain.errors import MissingExtraError
+from geartrain.report.document import CitedText, Document
+
+WORDS = {"viewer": "The train turning", "pictures": "Pictures", "sources": "Sources"}
+_LONG = re.compile(r"(\.\d\d)\d+")
+_POLICY = "default-src 'none'; style-src 'unsafe-inline'; img-src data: blob:; script-src "
+_INTO_FRAMES = "'unsafe-inline' blob: data:; worker-src blob:; connect-src data: blob:"
+"""A viewer in a frame obeys the page's own policy too, and its scripts are not known here."""
+
+
+@dataclass(frozen=True, slots=True)
+class _Anchors:
+    """Names of places in one document of a page; `contents` are those of its headings, with their titles."""
+
+    contents: Sequence[tuple[str, str]]
+    sections: Sequence[str]
+    references: Mapping[str, str]
+    viewer: str
+    pictures: str
+    sources: str
+
+
+def to_html(documents: Sequence[Document]) -> str:
+    """The documents as one self-contained page. Needs the `report` extra.
+
+    Texts are escaped; pictures stand in the page as SVG, a viewer in a frame of its own that cannot reach the page.
+    """
+    try:
+        from jinja2 import Environment
+        from markupsafe import Markup
+    except ImportError:
+        raise MissingExtraError("jinja2", "report", "a report in HTML") from None
+    environment = Environment(autoescape=True, trim_blocks=True, lstrip_blocks=True)
+    environment.filters |= {"is_web": is_web, "is_cited": lambda cell: isinstance(cell, CitedText)}
+    script, numbers = _shipped("page.js"), count(1)
+    return environment.from_string(_shipped("page.html")).render(
+        documents=documents,
+        anchors=[_anchors(document, f"{at}-" if at else "") for at, document in enumerate(documents)],
+        drawings=[
+            [{"caption": each.caption, "svg": Markup(inline(each.svg, next(numbers)))} for each in page.aside.pictures]
+            for page in documents
+        ],
+        words=WORDS,
+        style=Markup(_shipped("page.css")),
+        script=Markup(script),
+        policy=_policy(script, framed=any(document.aside.viewer for document in documents)),
+    )
+
+
+def is_web(url: str) -> bool:
+    """Whether an address may become a link: of http or https, with a host."""
+    try:
+        parts = urlsplit(url)
+    except ValueError:
+        return False
+    return parts.scheme in ("http", "https") and bool(parts.netloc)
+
+
+def inline(svg: str, number: int) -> str:
+    """An SVG document as an element of a page, its names made its own by `number`; sizes are left to the page.
+
+    Lengths in paths keep two decimals: a hundredth of a point is finer than any screen or printer.
+    """
+    element = re.sub(r'(?<=\sd=")[^"]*', lambda path: _LONG.sub(r"\1", path[0]), svg[svg.index("<svg") :])
+    names = set(re.findall(r'\bid="([^"]+)"', element))
+
+    def own(found: re.Match[str]) -> str:
+        return f"{found[1]}p{number}-{found[2]}{found[3]}" if found[2] in names else found[0]
+
+    for pattern in (r'(\bid=")([^"]+)(")', r'(href="#)([^"]+)(")', r"(url\(#)([^)]+)(\))"):
+        element = re.sub(pattern, own, element)
+    head, rest = element.split(">", 1)
+    head = re.sub(r'\s(width|height)="[^"]*"', "", head)
+    return f'{head} role="img">{rest}'.strip()
+
+
+def _anchors(document: Document, prefix: str) -> _Anchors:
+    aside = document.aside
+    sections = [section.title for section in (*document.sections, *aside.sections)]
+    first = [WORDS[key] for key in ("viewer", "pictures") if getattr(aside, key)]
+    titles = [*first, *sections, *([WORDS["sources"]] if aside.references else [])]
+    marks = list(_marks(titles, prefix))
+    where = dict(zip(first, marks, strict=False))
+    return _Anchors(
+        contents=list(zip(marks, titles, strict=True)),
+        sections=marks[len(first) : len(first) + len(sections)],
+        references={key: f"{prefix}source-{at}" for at, key in enumerate(aside.references, start=1)},
+        viewer=where.get(WORDS["viewer"], ""),
+        pictures=where.get(WORDS["pictures"], ""),
+        sources=marks[-1] if marks else "",
+    )
+
+
+def _marks(titles: Sequence[str], prefix: str) -> Iterator[str]:
+    """A name for each title: its words with hyphens, numbered where they come again."""
+    seen: dict[str, int] = {}
+    for title in titles:
+        name = re.sub(r"[^a-z0-9]+", "-", title.lower()).strip("-") or "section"
+        seen[name] = seen.get(name, 0) + 1
+        yield f"{prefix}{name}" + (f"-{seen[name]}" if seen[name] > 1 else "")
+
+
+def _policy(script: str, framed: bool) -> str:
+    """What the page may load: nothing; and run: the one script it carries, known by its hash."""
+    if framed:
+        return _POLICY + _INTO_FRAMES
+    return f"{_POLICY}'sha256-{b64encode(sha256(script.encode()).digest()).decode()}'"
+
+
+def _shipped(name: str) -> str:
+    return resources.files(__package__).joinpath(name).read_text(encoding="utf-8")

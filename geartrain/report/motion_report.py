@@ -1,0 +1,252 @@
+"""What real teeth and pins do to outputs, as a page and as plain data."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from math import degrees
+from typing import TYPE_CHECKING, Any
+
+from geartrain.errors import GearTrainError
+from geartrain.numerics.exact import abridged_text, fraction_text
+from geartrain.report.document import Document, Section, Table, figure
+
+if TYPE_CHECKING:
+    from geartrain.analysis.gear_train import GearTrain
+    from geartrain.dynamics.motion import ErrorEstimates, MotionRun, RunningStatistics, SpectrumLine
+    from geartrain.teeth.gear_mesh import GearMesh
+
+
+_ABREAST = 8  # outputs side by side
+_TURNS, _POSITIONS = 20.0, 20_001  # of the run in a report
+
+
+def motion_document(run: MotionRun) -> Document:
+    """Error and speed of each output of a run, and what else was asked of it."""
+    train, period = run.motion.train, run.motion.period
+    lead = [
+        f"While '{train.lead}' makes {run.turns:g} turns, in {run.done} positions. Speeds are over that of "
+        f"'{train.lead}'; the error is the angle less its mean motion."
+    ]
+    if run.done < run.samples:
+        lead.append(f"PARTIAL: stopped after {run.done} of {run.samples} positions.")
+    if period is not None:
+        lead.append(f"Everything repeats after {abridged_text(period)} turns of '{train.lead}'.")
+    return Document("Motion with real teeth and pins", lead, list(motion_sections(run)))
+
+
+def motion_sections(run: MotionRun) -> Iterator[Section]:
+    """Outputs, the pairs that make their errors, and whatever else was asked for."""
+    yield Section("Outputs", tuple(_remarks(run)), (_outputs(run.tallies),))
+    if run.motion.ahead.used:
+        yield _pairs(run)
+    if rigid := _rigid(run.motion.train.rigid):
+        yield Section("Pairs that keep their ratio", (rigid,))
+    if run.phased:
+        yield _phased(run)
+    if run.estimates:
+        yield _estimates(run.estimates)
+    for name, lines in run.spectra.items():
+        if lines:
+            yield _spectrum(name, lines)
+
+
+def moving_sections(train: GearTrain) -> Iterator[Section]:
+    """Motion in every state of a train with real teeth or pins; nothing, and no computation, for others."""
+    for state, run in _runs(train):
+        head = "Motion" if state is None else f"State {state}: motion"
+        if isinstance(run, GearTrainError):
+            yield Section(head, [f"{problem.what}: {problem.why}." for problem in run.problems])
+            continue
+        text = f"While '{run.motion.train.lead}' makes {run.turns:g} turns; `geartrain motion` has more."
+        yield Section(head, (text, *_remarks(run)), (_outputs(_rippling(run)),))
+    if train.meshes and not _ripples(train):
+        yield Section("Motion", (_rigid(train.meshes),))
+
+
+def moving_data(train: GearTrain) -> list[dict[str, Any]]:
+    """Motion in every state as plain data; empty for a train of ideal teeth and pins without sizes."""
+    found = []
+    for state, run in _runs(train):
+        if isinstance(run, GearTrainError):
+            found.append({"name": train.name, "state": state, "error": str(run)})
+        else:
+            found.append(motion_data(run, train.name, state))
+    return found
+
+
+def _runs(train: GearTrain) -> Iterator[tuple[str | None, MotionRun | GearTrainError]]:
+    if not _ripples(train):
+        return
+    from geartrain.dynamics.motion import MotionRun
+
+    for state in train.states or (None,):
+        try:
+            run = MotionRun(train.motion(state), _TURNS, _POSITIONS)
+            run.go()
+        except GearTrainError as error:
+            yield state, error
+        else:
+            yield state, run
+
+
+def _ripples(train: GearTrain) -> bool:
+    return bool(train.pins) or any(not mesh.rigid for mesh in train.meshes)
+
+
+def _rigid(meshes: Iterable[GearMesh]) -> str:
+    """Which pairs add nothing to any motion, by form."""
+    forms: dict[str, list[str]] = {}
+    for mesh in meshes:
+        if mesh.rigid:
+            forms.setdefault(mesh.form.replace("_", " "), []).append(mesh.name)
+    if not forms:
+        return ""
+    words = "; ".join(f"{', '.join(names)} ({form})" for form, names in forms.items())
+    return f"Keep their ratio at every instant and add nothing to any motion: {words}."
+
+
+def _rippling(run: MotionRun) -> list[RunningStatistics]:
+    return [tally for tally in run.tallies if tally.peak_to_peak] or run.tallies
+
+
+def _outputs(tallies: list[RunningStatistics]) -> Table:
+    rows = []
+    for tally in tallies:
+        low, high = tally.speeds
+        rows.append(
+            (
+                tally.name,
+                figure(tally.ratio, 9),
+                f"{degrees(tally.peak_to_peak):.6g}",
+                f"{degrees(tally.rms):.6g}",
+                f"{low:.5f}..{high:.5f}" + ("" if tally.ratio else " (over the input's)"),
+            )
+        )
+    return Table(("output", "mean speed", "error p-p (deg)", "error rms (deg)", "speed over its mean"), rows)
+
+
+def _remarks(run: MotionRun) -> Iterator[str]:
+    composition = run.motion.ahead if run.turns >= 0 else run.motion.back
+    if composition.turned_back:
+        names = ", ".join(source.id for source in composition.used if source.id in composition.turned_back)
+        yield (
+            f"At times the driver of {names} turns back: there the other flanks take over, and the play between them "
+            "is not followed."
+        )
+
+
+def _pairs(run: MotionRun) -> Section:
+    motion = run.motion
+    outputs = list(motion.outputs)[:_ABREAST]
+    rows = []
+    for source in motion.ahead.used:
+        driver = motion.train.drivers[source.id]
+        low, high = source.law.error_range()
+        shares = [f"{degrees(abs(motion.sensitivity[name][source.id]) * (high - low)):.4g}" for name in outputs]
+        rows.append((source.id, driver.wheel, driver.why, str(source.cycles), *shares))
+    header = ("pair", "driver", "how that is known", "periods a turn", *(f"{name} (deg)" for name in outputs))
+    text = "What each pair gives to an output: the range of its own error times the output's sensitivity to it."
+    return Section("Pairs", (text,), (Table(header, rows, wide=True),))
+
+
+def _phased(run: MotionRun) -> Section:
+    rows = []
+    for at, tally in enumerate(run.tallies):
+        sets = [tallies[at] for tallies in run.phased]
+        peaks, rms = ([degrees(value) for value in values] for values in zip(*_sizes(sets), strict=True))
+        speeds = [each.speeds for each in sets]
+        rows.append(
+            (
+                tally.name,
+                f"{min(peaks):.5g}..{max(peaks):.5g}",
+                f"{min(rms):.5g}..{max(rms):.5g}",
+                f"{min(low for low, _ in speeds):.5f}..{max(high for _, high in speeds):.5f}",
+            )
+        )
+    header = ("output", "error p-p (deg)", "error rms (deg)", "speed over its mean")
+    text = f"{len(run.phased)} sets of random phases of the teeth, seed {run.seed}."
+    return Section("Random phases", (text,), (Table(header, rows),))
+
+
+def _sizes(sets: list[RunningStatistics]) -> list[tuple[float, float]]:
+    return [(tally.peak_to_peak, tally.rms) for tally in sets]
+
+
+def _estimates(found: dict[str, ErrorEstimates]) -> Section:
+    rows = []
+    for name, each in found.items():
+        true = each.true
+        rows += [
+            (name, "composed", *_degrees(true.peak_to_peak, true.rms), "0", "0"),
+            ("", "bound by the sum", *_degrees(each.bound), "-", "-", "-"),
+            ("", "independent phases", "-", *_degrees(each.independent), "-", "-"),
+        ]
+        for how, superposed in (("superposed", each.nominal), ("superposed with lag", each.lagged)):
+            data = superposed.to_dict()
+            off = data["difference"]
+            rows.append(("", how, *_degrees(data["peak_to_peak"], data["rms"]), *_degrees(off["greatest"], off["rms"])))
+    header = ("output", "method", "error p-p (deg)", "rms (deg)", "greatest difference (deg)", "rms of it (deg)")
+    text = "Cheap estimates beside the composed motion; the difference is pointwise, each about its own mean."
+    return Section("Estimates", (text,), (Table(header, rows),))
+
+
+def _degrees(*values: float) -> tuple[str, ...]:
+    return tuple(f"{degrees(value):.6g}" for value in values)
+
+
+def _spectrum(name: str, lines: list[SpectrumLine]) -> Section:
+    rows = [
+        (
+            str(line.order),
+            figure(float(line.order), 8),
+            ", ".join(f"{pair} x{harmonic}" for pair, harmonic, _ in line.shares),
+            *_degrees(line.expected, line.measured),
+        )
+        for line in lines
+    ]
+    header = ("order", "per turn of the input", "pair and harmonic", "expected (deg)", "measured (deg)")
+    text = "Amplitudes by exact order: expected to first order, and measured in the composed motion."
+    return Section(f"Spectrum of {name}", (text,), (Table(header, rows),))
+
+
+def motion_data(run: MotionRun, name: str, state: str | None) -> dict[str, Any]:
+    """A run of a train, by name, in a state as plain data with stable keys; angles in rad.
+
+    What was not asked for is None.
+    """
+    motion, period = run.motion, run.motion.period
+    used = {source.id for source in motion.ahead.used}
+    drivers = {name: driver.to_dict() for name, driver in motion.train.drivers.items() if name in used}
+    composition = motion.ahead if run.turns >= 0 else motion.back
+    outputs: dict[str, Any] = {}
+    for at, tally in enumerate(run.tallies):
+        lines, estimates = run.spectra.get(tally.name), run.estimates.get(tally.name)
+        outputs[tally.name] = tally.to_dict() | {
+            "setting": motion.setting[tally.name],
+            "sensitivity": dict(motion.sensitivity[tally.name]),
+            "phases": _phases_data([tallies[at] for tallies in run.phased]),
+            "estimates": None if estimates is None else estimates.to_dict(),
+            "spectrum": None if lines is None else [line.to_dict() for line in lines],
+        }
+    return {
+        "name": name,
+        "state": state,
+        "input": motion.train.lead,
+        "turns": run.turns,
+        "positions": run.done,
+        "period": None if period is None else fraction_text(period),
+        "drivers": drivers,
+        "turned_back": sorted(composition.turned_back),
+        "rigid": [mesh.name for mesh in motion.train.rigid],
+        "outputs": outputs,
+        "phases": {"sets": len(run.phased), "seed": run.seed} if run.phased else None,
+        "partial": {"done": run.done, "of": run.samples} if run.done < run.samples else None,
+    }
+
+
+def _phases_data(tallies: list[RunningStatistics]) -> dict[str, Any] | None:
+    """Least and greatest of one output over runs with other phases."""
+    if not tallies:
+        return None
+    peaks, rms = zip(*_sizes(tallies), strict=True)
+    return {"peak_to_peak": [min(peaks), max(peaks)], "rms": [min(rms), max(rms)]}

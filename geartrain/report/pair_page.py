@@ -1,0 +1,267 @@
+"""A page on one pair of wheels with triangular teeth.
+
+A page on one pin in a slot.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from math import degrees, isfinite, isnan, pi, sqrt
+from typing import TYPE_CHECKING, Any
+
+from geartrain.report.document import Document, Section, Table, figure
+from geartrain.teeth.triangular.triangular_mesh import explain_clearance, explain_friction_lock
+
+if TYPE_CHECKING:
+    from geartrain.teeth.pin_transmission import PinTransmission
+    from geartrain.teeth.triangular.clearance_window import ClearanceWindow
+    from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
+
+
+@dataclass(frozen=True)
+class Running:
+    """How a pair is run, as far as it is known: SI units, `rate` of the driver in turns per second."""
+
+    inertia: float | None = None
+    rate: float | None = None
+    load: float | None = None
+
+    @property
+    def omega1(self) -> float | None:
+        """Speed of the driver (rad/s)."""
+        return None if self.rate is None else 2 * pi * self.rate
+
+
+@dataclass(frozen=True)
+class PairImpacts:
+    """What collisions of one pair cost, and where its law is void, as far as `Running` tells.
+
+    inertia      kg m2, of all that turns with the driven wheel
+    energies     of one pitch (J): handed to the driven side, dissipated, and their sum
+    least_load   load torque (N m) that keeps the teeth in contact at this rate
+    void         driver's speed (turns per second) above which they part under the declared load
+    """
+
+    inertia: float
+    energies: tuple[float, float, float] | None = None
+    least_load: float | None = None
+    void: float | None = None
+
+
+def find_impacts(law: TriangularTransmission, running: Running) -> PairImpacts | None:
+    """The figures that page and data give; None where no inertia is known."""
+    if running.inertia is None:
+        return None
+    steepest, omega1 = law.steepest_fall(), running.omega1
+    void = None
+    if running.load is not None and steepest > 0:
+        void = sqrt(running.load / (running.inertia * steepest)) / (2 * pi)
+    if omega1 is None:
+        return PairImpacts(running.inertia, void=void)
+    return PairImpacts(
+        running.inertia, law.impact(running.inertia, omega1), running.inertia * omega1**2 * steepest, void
+    )
+
+
+def mesh_document(
+    law: TriangularTransmission, window: ClearanceWindow | None, running: Running, notes: tuple[str, ...] = ()
+) -> Document:
+    """Sizes, clearance, path, law, collisions and losses of one pair."""
+    sizes = law.sizes
+    lead = [f"The wheel of {sizes.z1} drives the wheel of {sizes.z2}.", _verdict(law, window), *notes]
+    sections = [_sizes(law)]
+    if window is not None:
+        sections.append(_clearance(law, window))
+    if law.intervals:
+        sections += [_path(law), _law(law), _collisions(law), _losses(law), *_impacts(law, running)]
+    return Document(f"Triangular teeth {sizes.z1}/{sizes.z2}", lead, sections)
+
+
+def _verdict(law: TriangularTransmission, window: ClearanceWindow | None) -> str:
+    found = law.verdict
+    words = [f"Verdict: {found.kind}: {found.text}."]
+    if not found:
+        why, fix = explain_clearance(law, window)
+        words += [f"Why: {why}." if why else "", f"What to do: {fix}."]
+    elif law.friction >= law.locking_friction:
+        what, why, fix = explain_friction_lock(law)
+        words = [f"Verdict: friction locks: {what}.", f"Why: {why}.", f"What to do: {fix}."]
+    return " ".join(word for word in words if word)
+
+
+def _sizes(law: TriangularTransmission) -> Section:
+    sizes = law.sizes
+    wheels = (
+        ("driver", sizes.z1, sizes.beta1, sizes.R1, sizes.depths[0], sizes.flanks[0], sizes.p1),
+        ("driven", sizes.z2, sizes.beta2, sizes.R2, sizes.depths[1], sizes.flanks[1], sizes.p2),
+    )
+    rows = [
+        (name, str(z), _deg(beta), figure(R), figure(h), figure(e), _deg(pitch))
+        for name, z, beta, R, h, e, pitch in wheels
+    ]
+    header = ("wheel", "teeth", "half angle", "outer radius", "depth", "flank", "pitch")
+    text = f"Centre distance {figure(sizes.D)}, in the unit of radii, depths and flanks (Eqs. 1 to 3). Angles in deg."
+    return Section("Sizes", (text,), (Table(header, rows),))
+
+
+def _clearance(law: TriangularTransmission, window: ClearanceWindow) -> Section:
+    sizes = law.sizes
+    turns = (
+        f"These teeth turn from {1 + window.jam:.6f} ({window.jam_kind}) to {1 + window.run:.6f} ({window.run_kind})"
+        if window
+        else f"No clearance works: {window.jam_kind} up to {1 + window.jam:.6f}, {window.run_kind} from "
+        f"{1 + window.run:.6f}"
+    )
+    lines = [f"Clearance factor {1 + sizes.excess:.9g}. {turns}; beyond {1 + window.reach:.6f} tips never touch."]
+    if law.intervals:
+        play = law.verdict.play
+        arc = play * sizes.D * sizes.z2 / (sizes.z1 + sizes.z2)
+        lines.append(
+            f"Least play of the back flanks over a pitch: {degrees(play):.6g} deg of the driven wheel, an arc of "
+            f"{arc:.6g} on its pitch circle."
+        )
+    return Section("Clearance", lines)
+
+
+def _path(law: TriangularTransmission) -> Section:
+    sizes = law.sizes
+    ideal = (
+        f"Ideally a couple of teeth meets from alpha_1 = {_deg(sizes.reach1)} to {_deg(-sizes.reach1)} deg (Eq. 4), "
+        f"its flanks matching at {_deg(sizes.matching)} deg (Eq. 10): approach before, recess after. The real path is "
+        f"one pitch, {_deg(sizes.p1)} deg; alpha_1 decreases with time."
+    )
+    rows = []
+    for interval in law.intervals:
+        first, last = law.contact.speed(interval, interval.start), law.contact.speed(interval, interval.end)
+        share = interval.width / sizes.p1
+        rows.append(
+            (interval.phase, _deg(interval.start), _deg(interval.end), f"{share:.4f}", figure(first), figure(last))
+        )
+    header = ("phase", "from alpha_1", "to alpha_1", "pitches", "tau at first", "tau at last")
+    return Section("Path of contact", (ideal,), (Table(header, rows),))
+
+
+def _law(law: TriangularTransmission) -> Section:
+    least, most = law.speed_range()
+    low, high = law.error_range()
+    lag, rms = law.error_moments()
+    mean = float(law.ratio)
+    rows = [
+        ("speed ratio, mean", f"{law.ratio} = {figure(law.ratio)}", ""),
+        ("speed ratio, least", figure(least), f"{(least / mean - 1) * 100:+.3f} %"),
+        ("speed ratio, greatest", figure(most), f"{(most / mean - 1) * 100:+.3f} %"),
+        ("transmission error, peak to peak", f"{high - low:.9g} rad", f"{degrees(high - low):.9g} deg"),
+        ("transmission error, rms", f"{rms:.9g} rad", f"{degrees(rms):.9g} deg"),
+        ("transmission error, mean", f"{lag:.9g} rad", f"{degrees(lag):.9g} deg"),
+    ]
+    text = (
+        "Transmission error: driven angle less its mean motion, positive where the driven wheel is ahead; counted from "
+        "the driver's tooth on the line of centres."
+    )
+    return Section("Law of motion", (text,), (Table(("quantity", "value", ""), rows),))
+
+
+def _collisions(law: TriangularTransmission) -> Section:
+    rows = [
+        (jump.kind, _deg(jump.alpha1), figure(jump.before), figure(jump.after), f"{jump.value:.5f}")
+        for jump in law.jumps
+    ]
+    header = ("begins", "at alpha_1", "tau before", "tau after", "jump")
+    text = "Jump: 1 - before/after, the leap of normal velocity over the driver's (Eqs. 22, 25, 26, 27)."
+    return Section("Collisions", (text,), (Table(header, rows),))
+
+
+def _losses(law: TriangularTransmission) -> Section:
+    if not law.friction:
+        return Section("Friction", ("No friction is given: nothing is lost by sliding.",))
+    if law.friction >= law.locking_friction:
+        what, why, _ = explain_friction_lock(law)
+        return Section("Friction", (f"{what}: {why}.",))
+    lines = [
+        f"Coefficient of friction {law.friction:g}. Sliding efficiency: mean {law.efficiency_mean():.9f} at constant "
+        f"driver torque (Eq. 34), {law.efficiency_at_constant_load():.9f} at constant load torque, least "
+        f"{law.efficiency_least():.6f}.",
+    ]
+    if isfinite(law.locking_friction):
+        lines.append(f"From a friction of {law.locking_friction:.6g} on these teeth lock.")
+    return Section("Friction", lines)
+
+
+def _impacts(law: TriangularTransmission, running: Running) -> Iterator[Section]:
+    found = find_impacts(law, running)
+    if found is None:
+        return
+    lines = []
+    if found.energies is not None:
+        handed, dissipated, work = found.energies
+        lines.append(
+            f"At {running.rate:g} turns of the driver a second the collisions of one pitch hand {handed:.6g} J to the "
+            f"driven side, dissipate {dissipated:.6g} J, and cost the driver their sum, {work:.6g} J, or "
+            f"{work * (running.rate or 0) * law.sizes.z1:.6g} W. The source counts the first as lost; inelastic teeth "
+            "lose the second."
+        )
+        lines.append(
+            f"The driven inertia stays in contact as tau falls if the load torque is at least {found.least_load:.6g} "
+            "N m."
+        )
+    if found.void is not None:
+        lines.append(
+            f"With a load torque of {running.load:g} N m the quasi-static law is void above {found.void:.6g} "
+            f"turns of the driver a second ({2 * pi * found.void:.6g} rad/s)."
+        )
+    if not lines:
+        lines.append(
+            "Give a rate for the impacts, or a load torque for the speed above which the quasi-static law is void."
+        )
+    yield Section("Impacts", lines)
+
+
+def _deg(angle: float) -> str:
+    return f"{degrees(angle):.6g}" if isfinite(angle) else "none"
+
+
+def pin_document(law: PinTransmission, drives: str) -> Document:
+    """Mean ratio, amplitude, extreme speeds and friction of one coupling."""
+    least, most = law.speed_range()
+    kind = "encloses" if law.ratio else "leaves out"
+    lead = [
+        f"The {drives} drives. The pin's circle, of radius {figure(law.r)}, {kind} the slot's axis at {figure(law.e)}: "
+        f"the mean ratio is {law.ratio}.",
+    ]
+    rows = [
+        ("amplitude", f"{law.amplitude:.9g} rad", f"{degrees(law.amplitude):.9g} deg"),
+        ("error, rms", f"{law.error_moments()[1]:.9g} rad", f"{degrees(law.error_moments()[1]):.9g} deg"),
+        ("speed ratio, least", figure(least), ""),
+        ("speed ratio, greatest", figure(most), ""),
+    ]
+    if law.friction:
+        driver, load = law.efficiency_mean(), law.efficiency_at_constant_load()
+        rows.append((f"efficiency at friction {law.friction:g}, mean", _share(driver), "at constant driver torque"))
+        rows.append(("", _share(load), "at constant load torque"))
+    table = Table(("quantity", "value", ""), rows)
+    return Document("Pin in a slot", lead, [Section("Law of motion", (), (table,))])
+
+
+def _share(efficiency: float) -> str:
+    """An efficiency; `-` where friction locks, or no work is done on a constant load."""
+    return "-" if isnan(efficiency) else f"{efficiency:.9f}"
+
+
+def pin_data(law: PinTransmission) -> dict[str, Any]:
+    """One coupling as plain data with stable keys; angles in rad."""
+    least, most = law.speed_range()
+    low, high = law.error_range()
+    mean, at_load = law.efficiency_mean(), law.efficiency_at_constant_load()
+    return {
+        "pin_radius": law.r,
+        "offset": law.e,
+        "speed_ratio": {"mean": float(law.ratio), "exact": str(law.ratio), "min": least, "max": most},
+        "amplitude": law.amplitude,
+        "transmission_error": {"peak_to_peak": high - low, "rms": law.error_moments()[1], "mean": 0.0},
+        "efficiency": {
+            "friction": law.friction,
+            "mean": None if isnan(mean) else mean,
+            "at_constant_load": None if isnan(at_load) else at_load,
+        },
+    }

@@ -1,0 +1,69 @@
+"""A report as a page to share: with its verdict as a badge, pictures, wheels with their sources, and the train itself
+turning."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+
+from geartrain.analysis.gear_train import GearTrain
+from geartrain.report.document import CitedText, Document, PageExtras, Picture, Section, SourceReference, Table, cut
+from geartrain.report.train_report import report_train, source_line
+from geartrain.train import Train
+
+
+def shared_document(
+    train: GearTrain, pictures: Sequence[Picture] = (), viewer: str = "", notes: Sequence[str] = ()
+) -> Document:
+    """The report on `train` with all that a page has room for; sources stand at its end instead of its lead.
+
+    `viewer` is a whole HTML page, embedded as it is; `notes` are remarks on the page, below the lead.
+    """
+    document, declared = report_train(train), train.declaration
+    cited = {source_line(key, source) for key, source in declared.sources.items()}
+    badge, sound = _badge(train)
+    aside = PageExtras(
+        badge=badge,
+        sound=sound,
+        notes=tuple(notes),
+        pictures=tuple(pictures),
+        viewer=viewer,
+        sections=tuple(_wheels(declared)),
+        references={
+            key: SourceReference(source.cite, source.url or "", source.note or "")
+            for key, source in declared.sources.items()
+        },
+    )
+    return replace(document, lead=[line for line in document.lead if line not in cited], aside=aside)
+
+
+def _badge(train: GearTrain) -> tuple[str, bool]:
+    """The worst that is to be said of a train, in few words; and whether it is no complaint."""
+    answers = tuple(train.answers())
+    wrong = [answer for answer in answers if not answer.verdict]
+    if wrong:
+        kind = wrong[0].verdict.kind
+        return (f"{kind} in {len(wrong)} of {len(answers)} states" if train.states else kind), False
+    if train.faults:
+        return "its teeth cannot turn", False
+    failed = sum(len(answer.failures) for answer in answers)
+    if failed:
+        return f"{failed} expectation{'' if failed == 1 else 's'} failed", False
+    return "determined", True
+
+
+def _wheels(declared: Train) -> Iterator[Section]:
+    """Every wheel with what is said of it; nothing where only teeth are."""
+    rows = []
+    for name, (link, wheel) in declared.wheels.items():
+        doubt = wheel.teeth if not isinstance(wheel.teeth, int) else None
+        source = wheel.source or (doubt.source if doubt else None) or ""
+        counts = doubt.allowed if doubt else ()
+        allowed = "" if not counts else f"{min(counts)}-{max(counts)}"
+        note = "; ".join(filter(None, (wheel.note, doubt.note if doubt else None)))
+        rows.append((name, link, str(wheel.count), allowed, wheel.status or "", CitedText(source), note))
+    header = ("wheel", "link", "teeth", "allowed", "status", "source", "note")
+    used = [at for at in range(len(header)) if at < 3 or any(row[at] for row in rows)]
+    if len(used) > 3:
+        table = Table([header[at] for at in used], cut([[row[at] for at in used] for row in rows]))
+        yield Section("Wheels and their sources", (), (table,))

@@ -1,0 +1,276 @@
+"""Whether the teeth of all loops meet when a train is put together, and the angles at which its wheels go in.
+
+What a report on one train says, section by section.
+
+The report as plain data, with stable keys (docs/json.md).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from math import degrees
+from typing import Any
+
+from geartrain.analysis.gear_train import GearTrain
+from geartrain.kinematics.answer import Answer
+from geartrain.kinematics.circuits import Circuit
+from geartrain.kinematics.speeds import Mobility
+from geartrain.kinematics.verdict import Loop
+from geartrain.numerics.exact import abridged_text
+from geartrain.report.answers import answer_sections, doubtful_wheels, expectations_met, shift_table
+from geartrain.report.document import MOST_ROWS, Document, ExactText, Section, Table, cut
+from geartrain.report.gear_pairs import teeth_data, teeth_sections
+from geartrain.report.motion_report import moving_data, moving_sections
+from geartrain.report.power_report import loaded_data, loaded_sections
+from geartrain.train import Source, Train, Wheel
+
+
+def closure_sections(train: GearTrain) -> Iterator[Section]:
+    """Phase closure of a train whose axes have positions and whose pairs form loops; nothing for others."""
+    if not train.is_placed or train.closure.kind == "open":
+        return
+    closure = train.closure
+    rows = [(link, f"{degrees(angle):.6f}") for link, angle in closure.angles.items()]
+    text = "Zero marks of links at these angles put every tooth before a gap; wheels have a tooth at their link's mark."
+    lines = [line.strip() for line in closure.text.splitlines()]
+    yield Section("Putting it together", (*lines, text), (Table(("link", "angle (deg)"), cut(rows)),))
+
+
+def closure_data(train: GearTrain) -> dict[str, Any] | None:
+    """The same as plain data; None where positions are not declared."""
+    return train.closure.to_dict() if train.is_placed else None
+
+
+_CIRCUITS_ABREAST = 6
+
+
+def report_train(train: GearTrain) -> Document:
+    """Structure, circuits, mobility, speeds, outputs, doubts and errata of one train."""
+    declared = train.declaration
+    answers = tuple(train.answers())
+    sections = [*_structure(train), _circuits(train), _mobility(train)]
+    sections += closure_sections(train)
+    if train.remarks:
+        notes = [f"{remark.what}" + (f": {remark.why}" if remark.why else "") + "." for remark in train.remarks]
+        sections.append(Section("Remarks", notes))
+    if train.states:
+        sections.append(shift_table(train, answers))
+    for answer in answers:
+        sections += answer_sections(train, answer)
+    sections += teeth_sections(train)
+    sections += loaded_sections(train)
+    sections += moving_sections(train)
+    sections += doubtful_wheels(train, answers)
+    if declared.errata:
+        rows = [(e.place, e.printed, e.right, e.why) for e in declared.errata]
+        sections.append(Section("Errata of the sources", (), (Table(("place", "printed", "right", "why"), rows),)))
+    return Document(declared.title or declared.name, tuple(_lead(train, answers)), tuple(sections))
+
+
+def _lead(train: GearTrain, answers: Sequence[Answer]) -> Iterator[str]:
+    declared = train.declaration
+    yield f"Train '{declared.name}'" + (f", a change of '{declared.extends}'." if declared.extends else ".")
+    if declared.note:
+        yield declared.note
+    for key, source in declared.sources.items():
+        yield source_line(key, source)
+    for answer in answers:
+        if not answer.verdict:
+            state = f"State {answer.state}: " if answer.state is not None else ""
+            yield f"{state}Verdict: {answer.verdict} ({answer.place})."
+    if all(answer.verdict for answer in answers):
+        held = expectations_met(answers)
+        yield f"Verdict: determined; {held}." if held else "Verdict: determined."
+    unit = declared.unit_name
+    clock = f"; positive is {declared.view.positive} seen from the {declared.view.from_}" if declared.view.from_ else ""
+    yield (
+        f"Speeds are in {unit}" if unit else "Speeds are plain numbers"
+    ) + f", absolute, about each link's own axis{clock}."
+
+
+def source_line(key: str, source: Source) -> str:
+    """A source as the lead tells it."""
+    return f"Source {key}: {source.cite}" + (f" ({source.note})" if source.note else "") + "."
+
+
+def _structure(train: GearTrain) -> Iterator[Section]:
+    declared = train.declaration
+    wheels = sum(len(link.wheels) for link in declared.links.values())
+    couplings = f"{len(declared.couplings)} coupling{'' if len(declared.couplings) == 1 else 's'}"
+    counts = (
+        f"{len(declared.links)} links (the frame is '{declared.frame}'), {len(declared.revolutes)} turning pairs, "
+        f"{len(declared.gears)} gear pairs, {couplings}, "
+        f"{wheels} wheels."
+    )
+    rows = [(name, _wheels(link.wheels), _joint(train, name), link.note or "") for name, link in declared.links.items()]
+    notes = any(row[3] for row in rows)
+    header = ("link", "wheels and teeth", "turns in (axis)", "note")
+    table = Table(header if notes else header[:3], cut([row if notes else row[:3] for row in rows]))
+    yield Section("Structure", (counts,), (table,))
+    from geartrain.kinematics.graph import MOST_SQUARE, adjacency_labels
+
+    if len(declared.links) <= MOST_SQUARE:
+        cells = adjacency_labels(train.graph)
+        names = list(train.graph)
+        matrix = Table(("", *names), [(name, *row) for name, row in zip(names, cells, strict=True)], wide=True)
+        yield Section(
+            "Adjacency matrix",
+            ("R(axis) is a turning pair, the others are gear pairs and couplings by id.",),
+            (matrix,),
+        )
+
+
+def _wheels(wheels: dict[str, Wheel]) -> str:
+    return ", ".join(f"{name} {wheel.count}{_mark(wheel)}" for name, wheel in wheels.items()) or "-"
+
+
+def _mark(wheel: Wheel) -> str:
+    words: list[str] = [] if wheel.kind == "spur" else [wheel.kind]
+    if wheel.internal:
+        words.append("ring")
+    if wheel.doubt:
+        words.append(f"{min(wheel.doubt.allowed)}-{max(wheel.doubt.allowed)}")
+    if wheel.status in ("reconstructed", "hypothetical"):
+        words.append(wheel.status)
+    return f" ({', '.join(words)})" if words else ""
+
+
+def _joint(train: GearTrain, link: str) -> str:
+    parent = train.tree.parent.get(link)
+    return f"{train.tree.top[link]} ({parent[1]})" if parent else "the frame"
+
+
+def _circuits(train: GearTrain) -> Section:
+    shown = train.circuits[:MOST_ROWS]
+    tables = [
+        _abreast(train.declaration, shown[at : at + _CIRCUITS_ABREAST])
+        for at in range(0, len(shown), _CIRCUITS_ABREAST)
+    ]
+    text = "One circuit for each gear pair and coupling, k its carrier: tau = (w_i - w_k)/(w_j - w_k)."
+    more = (
+        (f"{len(train.circuits) - MOST_ROWS} more circuits are not shown.",) if len(train.circuits) > MOST_ROWS else ()
+    )
+    return Section("Fundamental circuits", (text, *more), tables)
+
+
+def _abreast(declared: Train, circuits: Sequence[Circuit]) -> Table:
+    """Circuits side by side, one row each for bodies, carrier, teeth and ratio."""
+    wheels = declared.wheels
+
+    def teeth(circuit: Circuit, side: int) -> str:
+        name = circuit.wheels[side]
+        if circuit.kind != "gear":
+            return ("slot", "pin")[side]
+        return f"{name} {wheels[name][1].count}"
+
+    rows = [
+        ("body i", *(circuit.i for circuit in circuits)),
+        ("body j", *(circuit.j for circuit in circuits)),
+        ("body k", *(circuit.carrier for circuit in circuits)),
+        ("Z_i", *(teeth(circuit, 0) for circuit in circuits)),
+        ("Z_j", *(teeth(circuit, 1) for circuit in circuits)),
+        ("tau", *(ExactText(str(circuit.ratio)) for circuit in circuits)),
+    ]
+    return Table(("", *(circuit.id for circuit in circuits)), rows)
+
+
+def _mobility(train: GearTrain) -> Section:
+    found = train.mobility
+    minus = f" - {found.couplings}" if found.couplings else ""
+    lines = [
+        f"By count: j_R - j_G = {found.turning_pairs} - {found.gear_pairs}{minus} = {found.by_count}.",
+        f"By rank: {found.links} links - 1 - rank {found.rank} = {found.by_rank}"
+        + (" (exact)." if found.certain else " (rank modulo two primes)."),
+    ]
+    if found.redundant:
+        many = "circuit" if found.redundant == 1 else "circuits"
+        lines.append(f"{found.redundant} redundant {many}: what the others say already.")
+    lines += [f"Redundant: {_loop(loop)}." for loop in found.loops[:12]]
+    if len(found.loops) > 12:
+        lines.append(f"... and {len(found.loops) - 12} more redundant loops.")
+    lines += [f"Redundant: the circuits that meet at link '{link}' repeat each other." for link in found.shared[:12]]
+    lines += [f"{line[0].upper()}{line[1:]}." for line in train.gridlock.lines()]
+    if found.idle:
+        lines.append(f"Never rolling: {', '.join(found.idle[:20])}.")
+    if found.still and found.by_rank:
+        lines.append(f"Standing still in every motion: {', '.join(found.still[:20])}.")
+    return Section("Mobility", lines)
+
+
+def _loop(loop: Loop) -> str:
+    return f"loop {' - '.join(loop.links)} by {', '.join(loop.pairs)}, ratio product {abridged_text(loop.product)}"
+
+
+def mobility_data(found: Mobility) -> dict[str, Any]:
+    """Mobility as plain data."""
+    return {
+        "by_count": found.by_count,
+        "by_rank": found.by_rank,
+        "rank": found.rank,
+        "redundant": found.redundant,
+        "redundant_loops": [loop.to_dict() for loop in found.loops],
+        "locked_loops": [loop.to_dict() for loop in found.locked],
+        "still": list(found.still),
+        "never_rolling": list(found.idle),
+    }
+
+
+def answers_data(train: GearTrain, answers: Iterable[Answer], whole: bool = True) -> dict[str, Any]:
+    """Name, unit, mobility, and `states`, a list of answers: one for each state that was asked for.
+
+    A train without states has one answer, whose `state` is None. `whole` False has None for the mobility: it takes all
+    circuits, where one output takes only those that drive it.
+    """
+    return {
+        "name": train.name,
+        "title": train.declaration.title,
+        "unit": train.declaration.unit_name,
+        "mobility": mobility_data(train.mobility) if whole else None,
+        "states": [answer.to_dict() for answer in answers],
+    }
+
+
+def train_data(train: GearTrain) -> dict[str, Any]:
+    """Everything a report holds: sources, circuits, adjacency, answers, sensitivities and errata."""
+    from geartrain.kinematics.graph import adjacency_labels
+
+    declared = train.declaration
+    answers = list(train.answers())
+    data = answers_data(train, answers)
+    data["gridlock"] = train.gridlock.to_dict()
+    data["closure"] = closure_data(train)
+    data["sources"] = {key: source.cite for key, source in declared.sources.items()}
+    data["circuits"] = [
+        {
+            "id": c.id,
+            "kind": c.kind,
+            "i": c.i,
+            "j": c.j,
+            "carrier": c.carrier,
+            "wheels": list(c.wheels),
+            "ratio": str(c.ratio),
+            "note": c.note,
+        }
+        for c in train.circuits
+    ]
+    small = len(declared.links) <= 500
+    data["adjacency"] = {"links": list(train.graph), "cells": adjacency_labels(train.graph)} if small else None
+    data["remarks"] = [{"place": r.place, "what": r.what, "why": r.why} for r in train.remarks]
+    data["sensitivity"] = [
+        {
+            "state": answer.state,
+            "wheel": s.wheel,
+            "teeth": s.teeth,
+            "output": s.output,
+            "one_fewer_ppm": s.less,
+            "one_more_ppm": s.more,
+        }
+        for answer in answers
+        if answer.verdict
+        for s in train.sensitivity(answer)
+    ]
+    data |= teeth_data(train)
+    data["torques"] = loaded_data(train)
+    data["motion"] = moving_data(train)
+    data["errata"] = [erratum.model_dump() for erratum in declared.errata]
+    return data

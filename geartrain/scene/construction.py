@@ -1,0 +1,69 @@
+"""From a train to its scene: where all stands, what it looks like, how it moves."""
+
+from __future__ import annotations
+
+from geartrain.analysis.gear_train import GearTrain
+from geartrain.errors import Problem
+from geartrain.numerics.exact import fraction_text
+from geartrain.scene.bodies import find_bodies, find_profiles, find_wheels
+from geartrain.scene.context import SceneContext, exact
+from geartrain.scene.dial_pointers import find_dials, find_pointers
+from geartrain.scene.elements import Scene
+from geartrain.scene.joints import find_couplings, find_pairs, find_verdict
+from geartrain.scene.layout import Layout, lay_out
+from geartrain.scene.movement import find_movement
+from geartrain.scene.wheel_phases import phase_wheels
+
+
+def make_scene(train: GearTrain, state: str | None = None, layout: Layout | None = None) -> Scene:
+    """The scene of a train in one state (by default its first), where a layout (by default its own) has it.
+
+    Raises `GearTrainError` for a train that cannot be read; one that cannot turn has a scene, with the verdict.
+    """
+    declared = train.declaration
+    if state is None and train.states:
+        state = train.states[0]
+    stage = SceneContext(train, train.solve(state, method="exact"), layout or lay_out(train))
+    verdict, faults = find_verdict(stage)
+    moved = find_movement(stage)
+    drawn = find_profiles(stage)
+    mounted = phase_wheels(stage, moved)
+    wheels, profiles = find_wheels(stage, drawn.profiles, mounted.turns)
+    dials = find_dials(stage)
+    notices = (*stage.layout.notices, *moved.notices, *drawn.notices, *mounted.notices)
+    return Scene(
+        name=train.name,
+        title=declared.title,
+        note=declared.note or "",
+        state=state,
+        unit=declared.unit_name,
+        positive=declared.view.positive,
+        front=stage.layout.front,
+        lead=None if stage.lead is None else stage.body[stage.lead],
+        crank=None if stage.crank is None else stage.body[stage.crank],
+        step=fraction_text(stage.step),
+        verdict=verdict,
+        bodies=find_bodies(stage),
+        wheels=wheels,
+        profiles=profiles,
+        pairs=find_pairs(stage, drawn.forms, faults),
+        couplings=find_couplings(stage, moved),
+        dials=tuple(dials.values()),
+        pointers=find_pointers(stage, tuple(dials)),
+        movement=moved.movement,
+        sources=_sources(train),
+        notices=tuple(_plain(notice) for notice in notices),
+        back=moved.back,
+        unit_days=exact(declared.unit_days),
+    )
+
+
+def _sources(train: GearTrain) -> dict[str, dict[str, str]]:
+    return {
+        key: {"cite": source.cite, "url": source.url or "", "note": source.note or ""}
+        for key, source in train.declaration.sources.items()
+    }
+
+
+def _plain(notice: Problem) -> dict[str, str]:
+    return {"what": notice.what, "why": notice.why, "fix": notice.fix, "place": notice.place}

@@ -1,0 +1,142 @@
+"""What every part of a scene asks for: the train in one state, where it stands, and its bodies by number."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+from geartrain.errors import GearTrainError, Problem
+from geartrain.numerics.exact import decimal, fraction_text
+from geartrain.numerics.quantity import turns_in
+from geartrain.scene.layout.axis_places import Vector
+from geartrain.scene.layout.vectors import dot, unit_or_z
+
+if TYPE_CHECKING:
+    from geartrain.analysis.gear_train import GearTrain
+    from geartrain.kinematics.answer import Answer
+    from geartrain.scene.layout import Layout
+    from geartrain.teeth.gear_mesh import GearMesh
+    from geartrain.train import StateCase
+
+_Z: Vector = (0.0, 0.0, 1.0)
+
+
+@dataclass(frozen=True)
+class SceneContext:
+    """A train in one state, and its layout."""
+
+    train: GearTrain
+    answer: Answer
+    layout: Layout
+
+    @cached_property
+    def case(self) -> StateCase:
+        """What is prescribed in this state."""
+        return self.train.declaration.case(self.answer.state)
+
+    @cached_property
+    def body(self) -> Mapping[str, int]:
+        """Number of the body of each link."""
+        return {link: at for at, link in enumerate(self.train.declaration.links)}
+
+    @cached_property
+    def wheel(self) -> Mapping[str, int]:
+        """Number of each wheel."""
+        return {wheel: at for at, wheel in enumerate(self.train.declaration.wheels)}
+
+    @cached_property
+    def lead(self) -> str | None:
+        """The input whose turns are given; None where nothing is driven."""
+        return next((link for link, speed in self.case.inputs.items() if speed), None)
+
+    @cached_property
+    def crank(self) -> str | None:
+        """The link at which a hand would turn the train."""
+        return self.train.declaration.crank or self.lead
+
+    def speed(self, link: str) -> Fraction | None:
+        """Exact speed at the declared inputs; None where it is not determined."""
+        found = self.answer.speeds.get(link)
+        return None if found is None else Fraction(found)
+
+    def ratio(self, link: str) -> Fraction | None:
+        """Exact speed over the lead's; None where it is not determined, or nothing is driven."""
+        found = self.speed(link)
+        if found is None or self.lead is None:
+            return None
+        return found / self.case.inputs[self.lead]
+
+    def shown(self, speed: Fraction | None) -> str | None:
+        """A speed as text: exact where the case is."""
+        return None if speed is None else self.case.shown(speed)
+
+    def sense(self, link: str) -> int:
+        """-1 where a link's axis points against the reference direction of its parallels."""
+        return self.train.signs.get(link, 1)
+
+    def start(self, link: str) -> float:
+        """Declared starting angle (rad)."""
+        angle = self.train.declaration.links[link].angle
+        return 0.0 if angle is None else angle.si
+
+    def declared(self, link: str) -> Vector:
+        """Unit vector about which a link's declared speed is positive."""
+        return self.along(self.train.tree.axis(link))
+
+    def along(self, axis: str | None) -> Vector:
+        """Direction of an axis as declared; z of the frame."""
+        place = self.layout.axes.get(axis or "")
+        return _Z if place is None else unit_or_z(place.direction)
+
+    def reference(self, axis: str | None) -> Vector:
+        """Direction of an axis, turned round where it points against the first declared one parallel to it."""
+        own = self.along(axis)
+        for label in (None, *self.train.declaration.axes):
+            first = self.along(label)
+            if abs(dot(first, own)) > 1 - 1e-9:
+                return own if dot(first, own) > 0 else (-own[0], -own[1], -own[2])
+        return own
+
+    @cached_property
+    def step(self) -> Fraction:
+        """Turns of the lead in one unit of time of the input: of `100 rpm`, in a minute. 1 where nothing is driven."""
+        if self.lead is None:
+            return Fraction(1)
+        declared = self.train.declaration
+        turns = Fraction(1) if declared.unit is not None else turns_in(declared.input_unit)
+        return self.case.inputs[self.lead] * turns
+
+    @cached_property
+    def meshes(self) -> tuple[GearMesh, ...]:
+        """The pairs with real teeth; none where they cannot be built (`unbuilt` says why)."""
+        return self._built[0]
+
+    @property
+    def unbuilt(self) -> tuple[Problem, ...]:
+        """Why real teeth cannot be built."""
+        return self._built[1]
+
+    @cached_property
+    def _built(self) -> tuple[tuple[GearMesh, ...], tuple[Problem, ...]]:
+        try:
+            return self.train.meshes_in(self.answer.state), ()
+        except GearTrainError as error:
+            return (), error.problems
+
+    @cached_property
+    def near(self) -> Vector:
+        """Unit vector towards the reader."""
+        return (0.0, 0.0, float(self.layout.front))
+
+
+def exact(value: Fraction | None) -> str | None:
+    """A ratio as text."""
+    return None if value is None else fraction_text(value)
+
+
+def rounded(value: Fraction | None) -> str:
+    """A ratio in decimal; nothing where there is none."""
+    return "" if value is None else decimal(value)

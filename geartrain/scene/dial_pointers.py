@@ -1,0 +1,168 @@
+"""Dials: on which body a scale stands, how high, how large, which way it looks.
+
+Outputs as pointers: what they show, on which dial, and what they hang on.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from fractions import Fraction
+
+from geartrain.kinematics.judged_outputs import SpeedValue, relative_speed
+from geartrain.scene.context import SceneContext, exact, rounded
+from geartrain.scene.elements import DialFace, Pointer
+from geartrain.scene.layout.axis_places import Vector
+from geartrain.scene.layout.vectors import beside, dot, minus, plus, scaled, size
+from geartrain.scene.output_dependence import find_dependence
+
+Key = tuple[str, str, str]
+"""A dial, the link it stands on, the axis of the pointer that is read on it."""
+
+_BEHIND = ("back", "rear", "behind")  # words for the far side; a dial that looks elsewhere looks to the front
+_APART = 0.96  # of the distance of two neighbours: what their radii may fill together
+_NESTED = 0.74  # radius over that of the dial around it
+_INNER = 0.55  # innermost turn of a spiral over the outermost
+_GAP = 0.04  # of the train's width, from the wheels to the nearest dial, and from dial to dial
+
+
+def find_dials(stage: SceneContext) -> Mapping[Key, DialFace]:
+    """Every declared dial on which an output is read, once for each body and axis."""
+    declared = stage.train.declaration
+    faces: dict[Key, DialFace] = {}
+    width = _width(stage)
+    for name, output in stage.case.outputs.items():
+        dial = declared.dials.get(output.dial or "")
+        key = dial_key(stage, name)
+        if dial is None or key is None or key in faces:
+            continue
+        normal = facing(stage, name)
+        zero = beside(stage.reference(key[2]))
+        faces[key] = DialFace(
+            id=key[0],
+            body=stage.body[key[1]],
+            face=dial.face or "",
+            centre=_beyond(stage, key[2], normal, _GAP * width),
+            normal=normal,
+            zero=zero,
+            radius=0.4 * width,
+            inner=0.0,
+            turns=dial.turns,
+            divisions=dial.divisions,
+            note=dial.note or "",
+        )
+    return _fitted(faces, _GAP * width)
+
+
+def dial_key(stage: SceneContext, name: str) -> Key | None:
+    """The dial of an output; None where it names none."""
+    output = stage.case.outputs[name]
+    if output.dial is None:
+        return None
+    base = output.relative_to or stage.train.declaration.frame
+    return output.dial, base, stage.train.tree.axis(output.of or name) or ""
+
+
+def facing(stage: SceneContext, name: str) -> Vector:
+    """Unit vector towards one who reads an output: along its axis, on the side its dial looks to."""
+    declared = stage.train.declaration
+    output = stage.case.outputs[name]
+    along = stage.along(stage.train.tree.axis(output.of or name))
+    side = dot(along, stage.near)
+    normal = along if side > 0 or abs(side) < 1e-9 else scaled(along, -1.0)
+    dial = declared.dials.get(output.dial or "")
+    looks = dial.face if dial is not None else None
+    if looks is not None and (looks in _BEHIND) != (declared.view.from_ in _BEHIND):
+        return scaled(normal, -1.0)
+    return normal
+
+
+def _width(stage: SceneContext) -> float:
+    """How far the train reaches across, mm."""
+    places = stage.layout.wheels.values()
+    if not places:
+        return 1.0
+    low = min(place.centre[at] - place.radius for place in places for at in (0, 1))
+    high = max(place.centre[at] + place.radius for place in places for at in (0, 1))
+    return max(high - low, 1e-6)
+
+
+def _beyond(stage: SceneContext, axis: str, normal: Vector, gap: float) -> Vector:
+    """The point of an axis that lies beyond all wheels on one side."""
+    place = stage.layout.axes.get(axis)
+    point = (0.0, 0.0, 0.0) if place is None else place.point
+    top = max(
+        (dot(minus(wheel.centre, point), normal) + wheel.thickness / 2 for wheel in stage.layout.wheels.values()),
+        default=0.0,
+    )
+    return plus(point, normal, top + gap)
+
+
+def _fitted(faces: dict[Key, DialFace], gap: float) -> dict[Key, DialFace]:
+    """The dials made small enough to cover none of their neighbours; those about one axis stand in each other."""
+    about: dict[tuple[Vector, Vector], list[Key]] = {}
+    for key, face in faces.items():
+        about.setdefault((_rounded(face.centre), _rounded(face.normal)), []).append(key)
+    found = {}
+    for (centre, normal), keys in about.items():
+        radius = faces[keys[0]].radius
+        for other, way in about:
+            apart = size(minus(other, centre))
+            if way == normal and apart > 0:
+                radius = min(radius, _APART * apart / 2)
+        for depth, key in enumerate(keys):
+            face, own = faces[key], radius * _NESTED**depth
+            inner = own * (_INNER if face.turns > 1 else 1.0)
+            high = plus(face.centre, face.normal, gap * 0.25 * depth)
+            found[key] = replace(face, radius=own, inner=inner, centre=high)
+    return {key: found[key] for key in faces}
+
+
+def _rounded(u: Vector) -> Vector:
+    return round(u[0], 6), round(u[1], 6), round(u[2], 6)
+
+
+def find_pointers(stage: SceneContext, dials: Sequence[Key]) -> tuple[Pointer, ...]:
+    """A pointer for every output of the state, in the order declared."""
+    paths = find_dependence(stage)
+    return tuple(_pointer(stage, name, dials, paths.get(name, ())) for name in stage.case.outputs)
+
+
+def _pointer(stage: SceneContext, name: str, dials: Sequence[Key], pairs: Sequence[str]) -> Pointer:
+    output = stage.case.outputs[name]
+    of, base = output.of or name, output.relative_to or stage.train.declaration.frame
+    signs = stage.train.signs
+    speed, ratio = (_exact(relative_speed(of, base, each, signs)) for each in (stage.speed, stage.ratio))
+    # seen from the side to which its axis points, a positive angle is counter-clockwise
+    sense = -1 if dot(stage.declared(of), facing(stage, name)) > 0 else 1
+    key = dial_key(stage, name)
+    circuits = [circuit for circuit in stage.train.circuits if circuit.id in set(pairs)]
+    order = {pair: at for at, pair in enumerate(pairs)}
+    circuits.sort(key=lambda circuit: order[circuit.id])
+    bodies = dict.fromkeys(stage.body[link] for c in circuits for link in (c.j, c.i, c.carrier))
+    wheels = dict.fromkeys(stage.wheel[wheel] for c in circuits if c.kind == "gear" for wheel in c.wheels)
+    return Pointer(
+        output=name,
+        body=stage.body[of],
+        base=stage.body[base],
+        dial=dials.index(key) if key in dials else None,
+        speed=exact(ratio),
+        shown=stage.shown(speed),
+        decimal=rounded(speed),
+        sense=sense,
+        text=_as_read(sense, speed),
+        pairs=tuple(pairs),
+        bodies=tuple(bodies),
+        wheels=tuple(wheels),
+        note=output.note or "",
+    )
+
+
+def _exact(speed: SpeedValue | None) -> Fraction | None:
+    return None if speed is None else Fraction(speed)
+
+
+def _as_read(sense: int, speed: Fraction | None) -> str:
+    if not speed:
+        return "stands still" if speed is not None else ""
+    return f"{'clockwise' if (speed > 0) == (sense > 0) else 'counter-clockwise'} as read"

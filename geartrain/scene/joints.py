@@ -1,0 +1,173 @@
+"""Gear pairs in words, and which of them keep the train from turning.
+
+Pins in slots: where the pin stands, so that it moves as its law says.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import TYPE_CHECKING, Any
+
+from geartrain.scene.context import SceneContext
+from geartrain.scene.elements import SceneCoupling, ScenePair
+from geartrain.scene.layout.axis_places import Vector
+from geartrain.scene.layout.vectors import across, beside, dot, minus, plus, size, unit_or_z
+from geartrain.scene.movement import MovementStart
+
+if TYPE_CHECKING:
+    from geartrain.kinematics.circuits import Circuit
+    from geartrain.kinematics.verdict import Loop
+    from geartrain.teeth.pin_coupling import Coupling as Declared
+
+
+def find_pairs(stage: SceneContext, forms: Mapping[str, str], faults: Mapping[str, str]) -> tuple[ScenePair, ...]:
+    """All gear pairs in the order declared.
+
+    forms    name of the drawn tooth form by pair; faults, what is wrong, by pair
+    """
+    return tuple(
+        ScenePair(
+            id=circuit.id,
+            wheels=(stage.wheel[circuit.wheels[0]], stage.wheel[circuit.wheels[1]]),
+            carrier=stage.body[circuit.carrier],
+            ratio=str(circuit.ratio),
+            form=forms.get(circuit.id, ""),
+            text=in_words(circuit, stage.train.signs),
+            broken=circuit.id in faults,
+            fault=faults.get(circuit.id, ""),
+        )
+        for circuit in stage.train.circuits
+        if circuit.kind == "gear"
+    )
+
+
+def in_words(circuit: Circuit, signs: Mapping[str, int]) -> str:
+    """A circuit as one reads it: `64 (b - frame) + 38 (c - frame) = 0`; names stand for declared speeds."""
+    i, j, k = (f"-{link}" if signs.get(link, 1) < 0 else link for link in (circuit.i, circuit.j, circuit.carrier))
+    minus = "+" if k.startswith("-") and signs.get(circuit.carrier, 1) < 0 else "-"
+    k = k.removeprefix("-") if minus == "+" else k
+    first = _term(circuit.a, f"({i} {minus} {k})", "")
+    if not circuit.b:
+        return f"{first} = 0"
+    return f"{first} {'-' if circuit.b < 0 else '+'} {_term(abs(circuit.b), f'({j} {minus} {k})', '')} = 0"
+
+
+def _term(factor: int, what: str, sign: str) -> str:
+    return f"{sign}{what}" if factor == 1 else f"{sign}{factor} {what}"
+
+
+def find_verdict(stage: SceneContext) -> tuple[dict[str, Any], dict[str, str]]:
+    """The verdict as plain data with its loops, and what is wrong with each pair, by name."""
+    verdict = stage.answer.verdict
+    faults: dict[str, str] = {}
+    loops = {loop.pairs: _said(loop) for loop in verdict.loops}
+    if verdict.kind != "determined" or stage.train.mobility.locked:
+        for jam in stage.train.gridlock.jams:
+            loops.setdefault(jam.loop.pairs, {**_said(jam.loop), "text": str(jam)})
+    for loop in (*loops.values(), *_unfit(stage)):
+        loops.setdefault(tuple(loop["pairs"]), loop)
+        for pair in loop["pairs"]:
+            faults.setdefault(pair, loop["text"])
+    fixes = [] if stage.train.gridlock.moves else list(stage.train.gridlock.lines())
+    return {
+        "kind": verdict.kind,
+        "text": verdict.text,
+        "links": list(verdict.links),
+        "loops": list(loops.values()),
+        "advice": fixes,
+    }, faults
+
+
+def _said(loop: Loop) -> dict[str, Any]:
+    return {"pairs": list(loop.pairs), "links": list(loop.links), "text": f"{loop} does not close"}
+
+
+def _unfit(stage: SceneContext) -> Iterator[dict[str, Any]]:
+    """Pairs whose real teeth cannot run, each named like a loop, with why and what would mend it."""
+    for mesh in stage.meshes:
+        if (fault := mesh.fault) is not None:
+            links = [stage.train.declaration.wheels[wheel][0] for wheel in mesh.gear.pair]
+            said = "; ".join(filter(None, (fault.what, fault.why, fault.fix)))
+            yield {"pairs": [mesh.name], "links": links, "text": said}
+
+
+_LIKE = {"pin_and_slot": 0.15, "pin_follower": 3.0}  # offset over pin radius, where none is declared
+_REACH = 10.0  # mm, of a pin where neither sizes nor places give one
+_NONE = 1e-9  # mm
+
+
+def find_couplings(stage: SceneContext, moved: MovementStart) -> tuple[SceneCoupling, ...]:
+    """All couplings in the order declared."""
+    circuits = {circuit.id: circuit for circuit in stage.train.circuits}
+    return tuple(_coupling(stage, moved, circuits[each.name], each) for each in stage.train.declaration.couplings)
+
+
+def _coupling(stage: SceneContext, moved: MovementStart, circuit: Circuit, declared: Declared) -> SceneCoupling:
+    tree = stage.train.tree
+    axis = stage.reference(tree.axis(declared.pin))
+    pin_axis, slot_axis = (_point(stage, tree.axis(link)) for link in (declared.pin, declared.slot))
+    between = across(minus(slot_axis, pin_axis), axis)
+    radius, offset = _sizes(declared, size(between))
+    towards = unit_or_z(between) if size(between) > _NONE else beside(axis)
+    pin_axis, slot_axis = (_at_height(point, axis, _height(stage, declared, axis)) for point in (pin_axis, slot_axis))
+    return SceneCoupling(
+        id=circuit.id,
+        kind=declared.kind,
+        pin=stage.body[declared.pin],
+        slot=stage.body[declared.slot],
+        carrier=stage.body[circuit.carrier],
+        pin_at=plus(pin_axis, towards, radius),
+        slot_at=slot_axis,
+        pin_radius=radius,
+        offset=offset,
+        drawn=declared.pin_radius is not None and declared.offset is not None,
+        text=in_words(circuit, stage.train.signs),
+        slot_turn=_aside(stage, moved, circuit),
+    )
+
+
+def _aside(stage: SceneContext, moved: MovementStart, circuit: Circuit) -> float:
+    """How far (rad) the slot in the zero pose is turned aside from its pin.
+
+    With both at their zero a law has slot and pin in line; declared starting angles may be any others.
+    """
+    setting = moved.driving.get(circuit.id)
+    if setting is None:
+        return 0.0
+    followed = float(circuit.ratio) * setting.S + setting.error
+    return setting.forward * followed - (moved.rest[circuit.i] - moved.rest[circuit.carrier])
+
+
+def _sizes(declared: Declared, apart: float) -> tuple[float, float]:
+    """Pin radius and offset (mm): as declared; else by the axes as placed; else a likeness."""
+    if declared.pin_radius is not None and declared.offset is not None:
+        radius, offset = declared.pin_radius.si * 1000, declared.offset.si * 1000
+        if declared.pin_radius.unit is None:
+            radius, offset = radius / 1000, offset / 1000
+            if apart > _NONE and offset > 0:
+                radius, offset = radius * apart / offset, apart
+        return radius, offset
+    if apart > _NONE:
+        return apart / _LIKE[declared.kind], apart
+    return _REACH, _REACH * _LIKE[declared.kind]
+
+
+def _point(stage: SceneContext, label: str | None) -> Vector:
+    place = stage.layout.axes.get(label or "")
+    return (0.0, 0.0, 0.0) if place is None else place.point
+
+
+def _height(stage: SceneContext, declared: Declared, axis: Vector) -> float:
+    """Along the axis, midway between the nearest wheels of the two links; that of the axis where they have none."""
+    levels = [
+        [dot(stage.layout.wheels[wheel].centre, axis) for wheel in stage.train.declaration.links[link].wheels]
+        for link in (declared.pin, declared.slot)
+    ]
+    if all(levels):
+        near = min(((a, b) for a in levels[0] for b in levels[1]), key=lambda both: abs(both[0] - both[1]))
+        return sum(near) / 2
+    return next((level[0] for level in levels if level), dot(_point(stage, stage.train.tree.axis(declared.pin)), axis))
+
+
+def _at_height(point: Vector, axis: Vector, height: float) -> Vector:
+    return plus(point, axis, height - dot(point, axis))

@@ -1,0 +1,190 @@
+"""The order of levels: which stacks stand over which, so that few arbors go through wheels and all are short."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from geartrain.scene.layout.plan_overlap import PlanOverlap
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from geartrain.numerics.arrays import Floats, Indices
+
+
+_PIERCED = 1.0  # cost of an arbor that goes through a wheel
+_LONG = 0.02  # of a level that an arbor spans
+_LEVEL = 0.005  # of a level used
+_PASSES = 8
+_LENGTHS = (1, 2, 3, 4, 6, 8, 12, 16)  # of runs of levels that are moved together
+_AT_ONCE = 500  # orders of which costs are worked out together
+_SEARCHED = 80  # stacks up to which every place is tried
+
+
+class StackOrder:
+    """Order of stacks. Keys grow upwards; stacks with one key share a level."""
+
+    def __init__(self, crowd: PlanOverlap, count: int) -> None:
+        self.crowd, self.count = crowd, count
+        self.stacks = np.array([block.stack for block in crowd.blocks])
+        rows, columns = np.nonzero(crowd.clash)
+        clash = np.unique(np.stack([self.stacks[rows], self.stacks[columns]]), axis=1)
+        ends = np.searchsorted(clash[0], np.arange(count + 1))
+        self.clash = [clash[1, low:high] for low, high in zip(ends[:-1].tolist(), ends[1:].tolist(), strict=True)]
+        number = {link: at for at, link in enumerate(crowd.links)}
+        carried: list[dict[int, None]] = [{} for _ in crowd.links]
+        for block in crowd.blocks:
+            if block.link in number:
+                carried[number[block.link]][block.stack] = None
+        at_wheel = {block.wheel: block.stack for block in crowd.blocks if not block.mate}
+        for link, plate in crowd.plates.items():
+            carried[number[link]][at_wheel[plate]] = None
+        self.carried = [tuple(stacks) for stacks in carried]
+        self.bearing: list[list[int]] = [[] for _ in range(count)]
+        for arbor, stacks in enumerate(self.carried):
+            for stack in stacks:
+                self.bearing[stack].append(arbor)
+
+    def found(self) -> Floats:
+        """A key for each stack."""
+        keys = np.full(self.count, np.nan)
+        order = self._order()
+        if self.count > _SEARCHED:
+            return self._first_fit(order)
+        for at in order:
+            self._settle(keys, at)
+        for _ in range(_PASSES):
+            before = keys.copy()
+            for at in order:
+                self._settle(keys, at)
+            keys, better = self._shifted(keys)
+            if not better and np.array_equal(before, keys):
+                break
+        return keys
+
+    def _mates(self, at: int) -> Iterator[int]:
+        """Stacks that share an arbor with a stack, as often as they do, itself among them."""
+        return (stack for arbor in self.bearing[at] for stack in self.carried[arbor])
+
+    def _order(self) -> list[int]:
+        """From the stack with most arbors on, always one that shares an arbor with those before."""
+        score = np.array([len(arbors) for arbors in self.bearing], float)
+        weight = float(score.sum()) + 1
+        order: list[int] = []
+        for _ in range(self.count):
+            at = int(np.argmax(score))
+            order.append(at)
+            for mate in self._mates(at):
+                score[mate] += weight
+            score[at] = -np.inf
+        return order
+
+    # ------------------------------------------------------------------------------------------------ every place tried
+
+    def _shifted(self, keys: Floats) -> tuple[Floats, bool]:
+        """Some levels together moved past others, or turned over, where that costs less."""
+        level = np.searchsorted(np.unique(keys), keys)
+        ranks = np.concatenate(list(_shifts(int(level.max()) + 1)))[:, level].astype(float)
+        costs = np.concatenate([self._costs(ranks[at : at + _AT_ONCE]) for at in range(0, len(ranks), _AT_ONCE)])
+        best = int(np.argmin(costs.round(9)))
+        return ranks[best], bool(costs[best].round(9) < costs[0].round(9))
+
+    def _settle(self, keys: Floats, at: int) -> None:
+        """Put one stack where it costs least: in a level, or between two."""
+        keys[at] = np.nan
+        known = np.unique(keys[~np.isnan(keys)])
+        if not len(known):
+            keys[at] = 0.0
+            return
+        keys[:] = np.searchsorted(known, keys) + np.where(np.isnan(keys), np.nan, 0.0)
+        free = np.ones(2 * len(known) + 1, bool)
+        blocked = keys[self.clash[at]]
+        free[2 * blocked[~np.isnan(blocked)].astype(np.intp) + 1] = False
+        tries = (np.nonzero(free)[0] - 1) / 2
+        every = np.repeat(keys[None, :], len(tries), axis=0)
+        every[:, at] = tries
+        keys[at] = tries[int(np.argmin(np.round(self._costs(every), 9)))]
+
+    def _costs(self, every: Floats) -> Floats:
+        """Costs of several orders of the same stacks, a row each; stacks not yet put in are nan."""
+        keys = np.ascontiguousarray(every.T, np.float32)  # halves of small numbers: exact, and soon compared
+        low = high = keys[self._borne[0]]
+        for stacks in self._borne[1:]:
+            low, high = np.fmin(low, keys[stacks]), np.fmax(high, keys[stacks])
+        span = np.nansum(high - low, axis=0)
+        low[self._down] -= np.inf
+        high[self._up] += np.inf
+        through, wheel, times = self._pierced
+        pierced = times @ ((keys[wheel] > low[through]) & (keys[wheel] < high[through]))
+        levels = (np.diff(np.sort(keys, axis=0), axis=0) > 0).sum(axis=0)
+        return np.asarray(_PIERCED * pierced + _LONG * span.astype(float) + _LEVEL * levels, float)
+
+    @cached_property
+    def _borne(self) -> Indices:
+        """The first stack of every arbor, the second, and so on; the first again where it has no more."""
+        most = max(map(len, self.carried), default=1)
+        return (
+            np.array([[*stacks, *stacks[:1] * (most - len(stacks))] for stacks in self.carried], np.intp)
+            .reshape(-1, most)
+            .T
+        )
+
+    @cached_property
+    def _pierced(self) -> tuple[Indices, Indices, NDArray[np.float32]]:
+        """Arbors, stacks they go through at their height, and how many wheels of each."""
+        times = np.zeros((len(self.carried), self.count), np.float32)
+        rows, blocks = np.nonzero(self.crowd.pierce)
+        np.add.at(times, (rows, self.stacks[blocks]), 1.0)
+        times[np.arange(len(self.carried)), self._borne] = 0
+        arbor, stack = np.nonzero(times)
+        return arbor, stack, times[arbor, stack]
+
+    @cached_property
+    def _down(self) -> Indices:
+        return self._running(0)
+
+    @cached_property
+    def _up(self) -> Indices:
+        return self._running(1)
+
+    def _running(self, end: int) -> Indices:
+        """Arbors that run out of the stack at one end."""
+        ends = [self.crowd.ends.get(link, (False, False))[end] for link in self.crowd.links]
+        return np.nonzero(np.array(ends, bool))[0]
+
+    # ------------------------------------------------------------------------------------------------ too many for that
+
+    def _first_fit(self, order: Sequence[int]) -> Floats:
+        """Each stack in the level nearest to those it shares arbors with that is free; else in a new one on top."""
+        keys = np.full(self.count, np.nan)
+        levels = 0
+        for at in order:
+            mates = keys[sorted(set(self._mates(at)))]
+            mates = mates[~np.isnan(mates)]
+            middle = float(mates.mean()) if len(mates) else 0.0
+            free = np.ones(levels + 1, bool)
+            blocked = keys[self.clash[at]]
+            free[blocked[~np.isnan(blocked)].astype(np.intp)] = False
+            open_ = np.nonzero(free[:levels])[0]
+            keys[at] = open_[int(np.argmin(abs(open_ - middle)))] if len(open_) else levels
+            levels = max(levels, int(keys[at]) + 1)
+        return keys
+
+
+def _shifts(count: int) -> Iterator[Indices]:
+    """Ranks of `count` levels, (orders, count): as they are, then with a run of them moved, or turned over in place."""
+    rank = np.arange(count)
+    yield rank[None, :]
+    for length in (each for each in _LENGTHS if each < count):
+        start, at = np.indices((count - length + 1,) * 2)[..., None]
+        rest = np.where(rank < start, rank, rank - length)
+        run = (rank >= start) & (rank < start + length)
+        moved = np.where(run, rank - start + at, np.where(rest < at, rest, rest + length)).reshape(-1, count)
+        turned = np.where(run, 2 * start + length - 1 - rank, rank)[:, 0]
+        # each turned run follows the same run left where it is
+        stay = np.arange(len(turned)) * (count - length + 2) + 1
+        yield np.insert(moved, stay, turned, axis=0)

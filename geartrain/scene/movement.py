@@ -1,0 +1,219 @@
+"""Error laws of teeth and pins as tables that a page can carry.
+
+How a scene moves: exact speeds, and the errors of teeth and pins as tables and steps.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from fractions import Fraction
+from math import gcd, lcm
+from typing import TYPE_CHECKING
+
+from geartrain.errors import GearTrainError, Problem
+from geartrain.numerics.exact import fraction_text
+from geartrain.scene.context import SceneContext
+from geartrain.scene.elements import ErrorLawTable, ErrorSource, ErrorStep, Movement, plain
+
+if TYPE_CHECKING:
+    from geartrain.dynamics.motion import ErrorComposition, Motion
+    from geartrain.dynamics.motion.error_composition import CompositionStep as Composed
+    from geartrain.numerics.arrays import Floats
+    from geartrain.teeth.transmission import TransmissionFunction as ToothLaw
+
+
+TOLERANCE = 1e-11  # of a driven pitch
+_DEGREES = (7, 9, 11, 14)  # tried in turn: the smallest table wins
+
+
+def step_of(step: Composed) -> ErrorStep:
+    """A step of a composition in plain numbers."""
+    return ErrorStep(
+        bodies=step.links,
+        known=step.known,
+        from_known=step.from_known.tolist(),
+        sources=step.sources,
+        from_sources=step.from_sources.tolist(),
+        coupled=step.coupled,
+    )
+
+
+def laws_and_sources(composition: ErrorComposition) -> tuple[tuple[ErrorLawTable, ...], tuple[ErrorSource, ...]]:
+    """Every source with its law; pairs alike share one."""
+    laws: dict[tuple[float, bytes, bytes], ErrorLawTable] = {}
+    numbers: dict[tuple[float, bytes, bytes], int] = {}
+    sources = []
+    for source in composition.sources:
+        law = tabulated(source.id, source.law)
+        key = law.period, law.breaks.tobytes(), law.coefficients.tobytes()
+        laws.setdefault(key, law)
+        joint = composition.spread.joints[source.pair]
+        sources.append(
+            ErrorSource(
+                pair=source.id,
+                law=numbers.setdefault(key, len(numbers)),
+                driver=joint.driver,
+                carrier=joint.carrier,
+                driver_sense=source.driver_sense,
+                carrier_sense=source.carrier_sense,
+                cycles=fraction_text(source.cycles),
+                start=source.start,
+                forward=source.forward,
+                sense=source.sense,
+            )
+        )
+    return tuple(laws.values()), tuple(sources)
+
+
+def tabulated(pair: str, law: ToothLaw) -> ErrorLawTable:
+    """The error of a law as polynomials within `TOLERANCE` of a driven pitch, in the fewest numbers."""
+    import numpy as np
+
+    from geartrain.teeth.transmission_table import TabulatedTransmission
+
+    tables = (TabulatedTransmission(law, TOLERANCE, degree).error_table for degree in _DEGREES)
+    pitch = (float(law.ratio) or 1.0) * law.period
+    # where rounding keeps all tables from the tolerance, the nearest one
+    table = min(tables, key=lambda each: (max(each.uncertainty / pitch, TOLERANCE), each.coefficients.size))
+    breaks = np.sort(np.concatenate((np.arange(table.cells + 1) * (law.period / table.cells), table.corners)))
+    breaks[-1] = law.period
+    wide = np.diff(breaks) > 0
+    return ErrorLawTable(
+        pair,
+        law.period,
+        np.append(breaks[:-1][wide], law.period),
+        np.ascontiguousarray(table.coefficients.T[wide]),
+        table.uncertainty,
+    )
+
+
+_TRIED = 257  # positions at which pairs that hang on each other are tried
+
+
+@dataclass(frozen=True, slots=True)
+class InitialPosition:
+    """How a pair that ripples stands at the beginning.
+
+    driver    its link; `forward` 1, or -1 where it turns against its body's direction
+    S, error  its forward angle, and the error of the driven side there (rad)
+    """
+
+    driver: str
+    forward: int
+    S: float
+    error: float
+
+
+@dataclass(frozen=True, slots=True)
+class MovementStart:
+    """The movement, and the pose at its beginning.
+
+    back     the movement for negative turns, on the other flanks; None where it is the same
+    rest     angle A of each link about its body's direction after no turn (rad)
+    driving  by pair or coupling that ripples
+    """
+
+    movement: Movement
+    rest: Mapping[str, float]
+    driving: Mapping[str, InitialPosition] = field(default_factory=dict)
+    motion: Motion | None = None
+    notices: tuple[Problem, ...] = ()
+    back: Movement | None = None
+
+
+def find_movement(stage: SceneContext) -> MovementStart:
+    """The movement of a train in its state; never an error: what cannot be followed moves in the mean, and says why."""
+    if not stage.answer.verdict or stage.lead is None:
+        why = stage.answer.verdict.text if not stage.answer.verdict else "nothing drives it"
+        return MovementStart(Movement("still", why, period=None), _started(stage))
+    if stage.unbuilt:
+        return _in_the_mean(stage, stage.unbuilt)
+    if not stage.meshes and not stage.train.pins:
+        return MovementStart(Movement("exact", period=_text(_period(stage, ()))), _started(stage))
+    try:
+        motion = stage.train.motion(stage.answer.state, tuple(stage.train.declaration.links))
+        return _followed(stage, motion)
+    except GearTrainError as error:
+        return _in_the_mean(stage, error.problems)
+
+
+def _started(stage: SceneContext) -> dict[str, float]:
+    return {link: stage.sense(link) * stage.start(link) for link in stage.train.declaration.links}
+
+
+def _in_the_mean(stage: SceneContext, problems: Sequence[Problem]) -> MovementStart:
+    first = problems[0]
+    movement = Movement("mean", f"{first.what}: {first.why}" if first.why else first.what, _text(_period(stage, ())))
+    return MovementStart(movement, _started(stage), notices=tuple(problems))
+
+
+def _followed(stage: SceneContext, motion: Motion) -> MovementStart:
+    import numpy as np
+
+    composition = motion.ahead
+    _try(composition, float(motion.period or 1))
+    error = composition.at(np.zeros(1)).error[:, 0]
+    links = tuple(stage.train.declaration.links)
+    rest = {
+        link: stage.sense(link) * (stage.start(link) + float(each)) for link, each in zip(links, error, strict=True)
+    }
+    own = error - np.array(composition.offsets) if composition.offsets else error
+    driving = dict(_settings(composition, own))
+    movement = _written(stage, composition)
+    back, notices = _backward(stage, motion, movement)
+    return MovementStart(movement, rest, driving, motion, notices, back)
+
+
+def _try(composition: ErrorComposition, turns: float) -> None:
+    """Raises `GearTrainError` where pairs that hang on each other have no common position."""
+    import numpy as np
+
+    if any(step.coupled for step in composition.steps):
+        composition.at(np.linspace(0, turns, _TRIED))  # past a dead centre this raises
+
+
+def _backward(stage: SceneContext, motion: Motion, ahead: Movement) -> tuple[Movement | None, tuple[Problem, ...]]:
+    """How errors follow from negative turns, if otherwise than from positive ones; and why they cannot be followed."""
+    try:
+        composition = motion.back
+        _try(composition, -float(motion.period or 1))
+        back = _written(stage, composition)
+    except GearTrainError as error:
+        mean = _in_the_mean(stage, error.problems)
+        return mean.movement, mean.notices
+    return (None if plain(back) == plain(ahead) else back), ()
+
+
+def _written(stage: SceneContext, composition: ErrorComposition) -> Movement:
+    """Exact where nothing ripples: teeth that keep their ratio may still have play, and then their offsets stand."""
+    laws, sources = laws_and_sources(composition)
+    links = tuple(stage.train.declaration.links)
+    return Movement(
+        "real" if sources else "exact",
+        period=_text(_period(stage, [source.cycles for source in composition.sources])),
+        laws=laws,
+        sources=sources,
+        steps=tuple(step_of(step) for step in composition.steps),
+        offsets={link: each for link, each in zip(links, composition.offsets, strict=False) if each},
+    )
+
+
+def _settings(composition: ErrorComposition, error: Floats) -> Iterator[tuple[str, InitialPosition]]:
+    for source in composition.sources:
+        S = source.start + composition.driver_shift(source, error)
+        driver = composition.spread.links[composition.spread.joints[source.pair].driver]
+        yield source.id, InitialPosition(driver, source.forward, S, float(source.law.error(S)))
+
+
+def _period(stage: SceneContext, cycles: Iterable[Fraction]) -> Fraction | None:
+    """Turns of the lead after which all bodies and laws stand as before; None where nothing moves."""
+    ratios = [ratio for link in stage.train.declaration.links if (ratio := stage.ratio(link))]
+    rates = [abs(rate) for rate in (*ratios, *cycles) if rate]
+    if not rates:
+        return None
+    return Fraction(lcm(*(rate.denominator for rate in rates)), gcd(*(rate.numerator for rate in rates)))
+
+
+def _text(value: Fraction | None) -> str | None:
+    return None if value is None else fraction_text(value)

@@ -1,0 +1,150 @@
+"""Where the bodies of a scene stand after some turns of the lead."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+from math import pi
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from geartrain.errors import Problem, RangeError
+from geartrain.numerics.exact import read_fraction
+from geartrain.scene.elements import ErrorLawTable, ErrorSource, ErrorStep, Scene
+
+if TYPE_CHECKING:
+    from geartrain.numerics.arrays import Floats
+
+
+_ROUNDS, _SETTLED = 500, 1e-14  # of pairs that hang on each other; rad
+
+
+@dataclass(frozen=True, slots=True)
+class ScenePose:
+    """Angles A of all bodies about their directions (rad, whole turns left out), and where that brings them.
+
+    turned   (bodies, 3, 3) rotations; moved (bodies, 3), mm: a point p of the zero pose goes to turned p + moved
+    """
+
+    angles: Floats
+    turned: Floats
+    moved: Floats
+
+    def point(self, body: int, point: object) -> Floats:
+        """Points (..., 3) of a body, given in the zero pose."""
+        return np.asarray(np.asarray(point, dtype=float) @ self.turned[body].T + self.moved[body])
+
+    def way(self, body: int, way: object) -> Floats:
+        """Directions (..., 3) of a body, given in the zero pose."""
+        return np.asarray(np.asarray(way, dtype=float) @ self.turned[body].T)
+
+
+def turns_of(speed: str | None, turns: Fraction) -> Fraction:
+    """What a speed over the lead's makes of `turns` of the lead, exact; 0 where it is not determined."""
+    return read_fraction(speed) * turns if speed is not None else Fraction(0)
+
+
+def scene_pose(scene: Scene, turns: Fraction = Fraction(0)) -> ScenePose:
+    """The pose after `turns` of the lead: mean angles exact, errors of teeth and pins from the scene's tables.
+
+    Raises `RangeError` where pairs that hang on each other do not settle.
+    """
+    error = body_errors(scene, turns)
+    angles = np.array(
+        [
+            body.sense * (body.start + 2 * pi * float(turns_of(body.speed, turns) % 1) + error[at])
+            for at, body in enumerate(scene.bodies)
+        ]
+    )
+    count = len(scene.bodies)
+    turned, moved = np.zeros((count, 3, 3)), np.zeros((count, 3))
+    done: set[int] = set()
+    for at in range(count):
+        _place(scene, angles, turned, moved, done, at)
+    return ScenePose(angles, turned, moved)
+
+
+def _place(scene: Scene, angles: Floats, turned: Floats, moved: Floats, done: set[int], at: int) -> None:
+    """A body after its parents: each turns in its parent about its own axis, which the parent carries along."""
+    line, here = [], at
+    while here not in done:
+        line.append(here)
+        done.add(here)
+        above = scene.bodies[here].parent
+        if above is None:
+            break
+        here = above
+    for each in reversed(line):
+        body = scene.bodies[each]
+        if body.parent is None:
+            turned[each] = np.eye(3)
+            continue
+        about = _rotation(body.direction, angles[each] - angles[body.parent])
+        point = np.array(body.point)
+        turned[each] = turned[body.parent] @ about
+        moved[each] = turned[body.parent] @ (point - about @ point) + moved[body.parent]
+
+
+def _rotation(axis: tuple[float, float, float], angle: float) -> Floats:
+    """Right-handed about a unit vector (Rodrigues)."""
+    x, y, z = axis
+    skew = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
+    return np.asarray(np.eye(3) + np.sin(angle) * skew + (1 - np.cos(angle)) * skew @ skew)
+
+
+# --------------------------------------------------------------------------------------------------------------- errors
+
+
+def body_errors(scene: Scene, turns: Fraction) -> Floats:
+    """Error of each body (rad) against its mean motion; zero where nothing ripples."""
+    movement = scene.movement
+    error = np.zeros(len(scene.bodies))
+    deltas: dict[int, float] = {}
+    for step in movement.steps:
+        _take(scene, step, turns, error, deltas)
+    index = {body.id: at for at, body in enumerate(scene.bodies)}
+    for link, offset in movement.offsets.items():
+        error[index[link]] += offset
+    return error
+
+
+def _take(scene: Scene, step: ErrorStep, turns: Fraction, error: Floats, deltas: dict[int, float]) -> None:
+    """One step: at once where all sources are driven by what is known, else repeated until nothing moves."""
+    bodies, known = list(step.bodies), list(step.known)
+    base = _matrix(step.from_known, len(bodies), len(known)) @ error[known]
+    gains = _matrix(step.from_sources, len(bodies), len(step.sources))
+    for _ in range(_ROUNDS):
+        for source in step.sources:
+            deltas[source] = _delta(scene, scene.movement.sources[source], turns, error)
+        before = error[bodies]
+        error[bodies] = base + gains @ np.array([deltas[source] for source in step.sources])
+        if not step.coupled or np.abs(error[bodies] - before).max(initial=0.0) < _SETTLED:
+            return
+    raise RangeError(
+        Problem(
+            f"'{scene.name}' has pairs that hang on each other and do not settle",
+            "repeated substitution runs away from a pose",
+            "ask for the motion in place of the picture, or for another number of turns",
+        )
+    )
+
+
+def _matrix(rows: object, height: int, width: int) -> Floats:
+    return np.asarray(rows, dtype=float).reshape(height, width)
+
+
+def _delta(scene: Scene, source: ErrorSource, turns: Fraction, error: Floats) -> float:
+    """What a pair that ripples adds to the body it drives."""
+    law = scene.movement.laws[source.law]
+    swing = source.driver_sense * error[source.driver] - source.carrier_sense * error[source.carrier]
+    mean = law.period * float(read_fraction(source.cycles) * turns % 1)
+    return source.sense * _value(law, source.start + mean + source.forward * float(swing))
+
+
+def _value(law: ErrorLawTable, S: float) -> float:
+    """The error law at a driver's angle."""
+    s = S % law.period
+    cell = min(max(int(np.searchsorted(law.breaks, s, side="right")) - 1, 0), len(law.breaks) - 2)
+    x = s - (law.breaks[cell] + law.breaks[cell + 1]) / 2
+    return float(np.polynomial.polynomial.polyval(x, law.coefficients[cell]))

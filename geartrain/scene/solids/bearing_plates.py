@@ -1,0 +1,210 @@
+"""Plates that bear the arbors, one for the frame and for every carrier, and the discs of pins and slots."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from math import atan2, cos, dist, hypot, pi, sin, tan
+from typing import TYPE_CHECKING
+
+from geartrain.errors import Problem
+from geartrain.scene.solids.flat_drawing import EngravedText, FlatDrawing
+from geartrain.scene.solids.manufacturing_sizes import ManufacturingSizes, bores
+from geartrain.teeth.outlines.contour import Contour
+
+if TYPE_CHECKING:
+    from geartrain.analysis.gear_train import GearTrain
+    from geartrain.scene.layout import AxisPlace, Layout
+    from geartrain.teeth.pin_coupling import Coupling
+
+Point = tuple[float, float]
+
+_LAND = 3.0  # mm of plate round a hole
+_PARALLEL = 1e-9
+_PIN = 0.25  # of the pin's distance from its axis: its diameter, 2 mm at most
+
+
+@dataclass(frozen=True, slots=True)
+class Plate:
+    """A flat part of a link.
+
+    point    of the plate's plane that the drawing's origin stands on (mm)
+    normal   unit vector towards which the drawing looks
+    holes    centre (mm, in the drawing) and diameter by name of the axis
+    """
+
+    link: str
+    name: str
+    drawing: FlatDrawing
+    point: tuple[float, float, float]
+    normal: tuple[float, float, float]
+    holes: Mapping[str, tuple[Point, float]]
+
+
+def find_plates(
+    train: GearTrain, layout: Layout, making: ManufacturingSizes
+) -> tuple[tuple[Plate, ...], tuple[Problem, ...]]:
+    """All plates of a train as placed, and what could not be drawn."""
+    diameters = bores(layout, making)
+    notices: list[Problem] = []
+    plates = [*_bearing(train, layout, diameters, notices), *_discs(train, diameters, notices)]
+    return tuple(plates), tuple(notices)
+
+
+# ---------------------------------------------------------------------------------------------------- plates of arbors
+
+
+def _bearing(
+    train: GearTrain, layout: Layout, diameters: Mapping[str, float], notices: list[Problem]
+) -> Iterator[Plate]:
+    for link in dict.fromkeys(axis.carrier for axis in layout.axes.values()):
+        own = train.tree.axis(link)
+        base = layout.axes.get(own) if own else None
+        normal = base.direction if base else (0.0, 0.0, 1.0)
+        borne = {label: axis for label, axis in layout.axes.items() if axis.carrier == link}
+        if base:
+            borne = {base.label: base, **borne}
+        flat = {label: axis for label, axis in borne.items() if _parallel(axis.direction, normal)}
+        for label in borne.keys() - flat.keys():
+            why = "the axis does not stand at right angles to the plate"
+            notices.append(Problem(f"the plate of '{link}' has no hole for axis '{label}'", why, "drill it by hand"))
+        if len(flat) > bool(base):
+            yield _plate(train, link, normal, flat, diameters, notices)
+
+
+def _plate(
+    train: GearTrain,
+    link: str,
+    normal: tuple[float, float, float],
+    axes: Mapping[str, AxisPlace],
+    diameters: Mapping[str, float],
+    notices: list[Problem],
+) -> Plate:
+    origin = (0.0, 0.0, 0.0) if link == train.declaration.frame else next(iter(axes.values())).point
+    right, up = basis(normal)
+    holes: dict[str, tuple[Point, float]] = {}
+    for label, axis in axes.items():
+        away = tuple(a - b for a, b in zip(axis.point, origin, strict=True))
+        hole = (_dot(away, right), _dot(away, up)), diameters[label]
+        if (other := _in_the_way(hole, holes)) is None:
+            holes[label] = hole
+        elif dist(hole[0], holes[other][0]) > _PARALLEL:
+            why = f"that of axis '{other}' takes its place: one stud with a step bears both"
+            notices.append(
+                Problem(f"the plate of '{link}' has no hole for axis '{label}'", why, "give a smaller --bore")
+            )
+    land = _LAND + max(diameter for _, diameter in holes.values()) / 2
+    rim = around([place for place, _ in holes.values()], land)
+    cut = [rim, *(Contour.circle(diameter / 2, place) for place, diameter in holes.values() if diameter)]
+    marks = [
+        EngravedText(label, (x, y - diameter / 2 - 0.6 * _LAND), 0.6 * _LAND)
+        for label, ((x, y), diameter) in holes.items()
+    ]
+    what = "frame plate" if link == train.declaration.frame else "carrier plate"
+    title = f"{link}: {what} with {len(holes)} axes, scale 1:1"
+    return Plate(link, f"plate-{link}", FlatDrawing(title, tuple(cut), marks=tuple(marks)), origin, normal, holes)
+
+
+def _in_the_way(hole: tuple[Point, float], holes: Mapping[str, tuple[Point, float]]) -> str | None:
+    """The first hole that one more would run into."""
+    place, diameter = hole
+    meets = (label for label, (other, own) in holes.items() if dist(place, other) <= (diameter + own) / 2 + _PARALLEL)
+    return next(meets, None)
+
+
+def around(points: Sequence[Point], radius: float) -> Contour:
+    """The convex curve that keeps `radius` from the outermost of the points: straight edges and arcs about them."""
+    corners = _hull(points)
+    if len(corners) == 1:
+        return Contour.circle(radius, corners[0])
+    vertices = []
+    for at, (x, y) in enumerate(corners):
+        before, after = corners[at - 1], corners[(at + 1) % len(corners)]
+        first = atan2(y - before[1], x - before[0]) - pi / 2
+        last = atan2(after[1] - y, after[0] - x) - pi / 2
+        sweep = (last - first) % (2 * pi)
+        vertices.append((x + radius * cos(first), y + radius * sin(first), tan(sweep / 4)))
+        vertices.append((x + radius * cos(last), y + radius * sin(last), 0.0))
+    return Contour.of(vertices)
+
+
+def _hull(points: Sequence[Point]) -> list[Point]:
+    """Corners of the convex hull, counter-clockwise (Andrew's monotone chain)."""
+    ordered = sorted({(round(x, 9), round(y, 9)) for x, y in points})
+    if len(ordered) < 3:
+        return ordered
+
+    def chain(row: Sequence[Point]) -> list[Point]:
+        kept: list[Point] = []
+        for x, y in row:
+            while len(kept) > 1:
+                (ax, ay), (bx, by) = kept[-2:]
+                if (bx - ax) * (y - ay) - (by - ay) * (x - ax) > 1e-9:
+                    break
+                kept.pop()
+            kept.append((x, y))
+        return kept[:-1]
+
+    return chain(ordered) + chain(ordered[::-1])
+
+
+def basis(normal: Sequence[float]) -> tuple[tuple[float, ...], tuple[float, ...]]:
+    """Two unit vectors across the normal, right and up for one who looks against it; x and y for plus z."""
+    nx, ny, nz = normal
+    if hypot(nx, ny) < _PARALLEL:
+        return (1.0, 0.0, 0.0), (0.0, 1.0 if nz > 0 else -1.0, 0.0)
+    length = hypot(nx, ny)
+    right = (-ny / length, nx / length, 0.0)
+    return right, (-nz * right[1], nz * right[0], nx * right[1] - ny * right[0])
+
+
+def _dot(a: Sequence[float], b: Sequence[float]) -> float:
+    return sum(x * y for x, y in zip(a, b, strict=True))
+
+
+def _parallel(a: Sequence[float], b: Sequence[float]) -> bool:
+    return abs(abs(_dot(a, b)) - 1) < _PARALLEL
+
+
+# ------------------------------------------------------------------------------------------------------ pins and slots
+
+
+def _discs(train: GearTrain, diameters: Mapping[str, float], notices: list[Problem]) -> Iterator[Plate]:
+    for coupling in train.declaration.couplings:
+        if coupling.pin_radius is None or coupling.offset is None:
+            what = f"'{coupling.name}' has no drawing of pin and slot"
+            notices.append(Problem(what, "its dimensions are not declared", "give pin_radius and offset"))
+            continue
+        yield _disc(train, coupling, coupling.pin, diameters, slotted=False)
+        yield _disc(train, coupling, coupling.slot, diameters, slotted=True)
+
+
+def pin_diameter(radius: float) -> float:
+    """Diameter (mm) of a pin so far from its axis."""
+    return min(2.0, _PIN * radius)
+
+
+def slotted_bar(r: float, e: float, pin: float) -> tuple[Contour, ...]:
+    """A bar from its axis at the origin along x, with a slot for a pin that wanders from |r - e| to r + e (mm)."""
+    low, high = abs(r - e), r + e
+    return around([(0.0, 0.0), (high, 0.0)], 1.2 * pin), around([(low, 0.0), (high, 0.0)], 0.55 * pin)
+
+
+def _disc(train: GearTrain, coupling: Coupling, link: str, diameters: Mapping[str, float], slotted: bool) -> Plate:
+    """The disc of a pin, or of its slot: the pin comes as near its axis as |r - e|, and as far as r + e."""
+    assert coupling.pin_radius is not None
+    assert coupling.offset is not None
+    r, e = coupling.pin_radius.si * 1000, coupling.offset.si * 1000
+    pin = pin_diameter(r)
+    low, high = (abs(r - e), r + e) if slotted else (r, r)
+    label = train.tree.axis(link) or ""
+    own = min(diameters.get(label, 0.0), max(2 * (low - pin), 0.0))
+    cut = [Contour.circle(high + pin / 2 + _LAND), around([(low, 0.0), (high, 0.0)], pin / 2)]
+    if own:
+        cut.append(Contour.circle(own / 2))
+    what = "slot" if slotted else "pin"
+    title = f"{link}: {what} of {coupling.name}, pin {pin:.4g} mm at {r:.6g} mm, axes {e:.6g} mm apart, scale 1:1"
+    marks = (EngravedText(link, (-(high + pin) / 2, 0.0), 0.6 * _LAND),)
+    drawing = FlatDrawing(title, tuple(cut), marks=marks)
+    name = f"{what}-{coupling.name}-{link}"
+    return Plate(link, name, drawing, (0.0, 0.0, 0.0), (0.0, 0.0, 1.0), {label: ((0.0, 0.0), own)})

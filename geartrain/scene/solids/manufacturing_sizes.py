@@ -1,0 +1,144 @@
+"""What a maker says beside the declaration, and the train at the sizes asked for."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, fields, replace
+from fractions import Fraction
+from math import isfinite
+
+from geartrain.analysis.gear_train import GearTrain
+from geartrain.errors import Problem, QuestionError
+from geartrain.numerics.containers import FrozenDict
+from geartrain.numerics.quantity import Quantity
+from geartrain.scene.layout import Layout
+from geartrain.teeth import Triangular
+from geartrain.teeth.conjugate.conjugate_form import ConjugateToothForm
+from geartrain.teeth.standard_teeth import DEDENDUM
+from geartrain.train import GearPair, Train
+
+
+@dataclass(frozen=True, slots=True)
+class ManufacturingSizes:
+    """Sizes in mm; None leaves them to the layout.
+
+    module      pitch diameter over teeth, where the declaration gives no sizes
+    thickness   of wheels and plates
+    bore        diameter of the arbors, and so of the holes in wheels and plates; 0: no holes
+    backlash    play on the pitch circle of every pair that does not declare its own
+    """
+
+    module: float | None = None
+    thickness: float | None = None
+    bore: float | None = None
+    backlash: float | None = None
+
+    def __post_init__(self) -> None:
+        """Raise `QuestionError` for what is no size."""
+        problems = []
+        for name in (each.name for each in fields(self)):
+            value = getattr(self, name)
+            zero = name in ("bore", "backlash")
+            if value is not None and not (isfinite(value) and (value >= 0 if zero else value > 0)):
+                fix = f"give a {name} of 0 or more" if zero else f"give a {name} above 0"
+                problems.append(Problem(f"a {name} of {value:g} mm is no size", "", fix, f"--{name}"))
+        if problems:
+            raise QuestionError(problems)
+
+
+def sized(train: GearTrain, layout: Layout, making: ManufacturingSizes) -> GearTrain:
+    """The train with the modules and the play asked for, as if it declared them; itself where none are.
+
+    layout   of the train as it is declared
+    Raises `QuestionError` where the declaration gives sizes, which always win, and where teeth cannot have the play.
+    """
+    declared, factor = train.declaration, scale_of(layout, making)
+    modules = {name: Fraction(place.module) * Fraction(factor) for name, place in layout.wheels.items()}
+    if making.module is not None:
+        declared = _with_modules(declared, modules)
+    if making.backlash is not None:
+        declared = _with_backlash(declared, modules, Fraction(making.backlash))
+    return train if declared is train.declaration else GearTrain(declared)
+
+
+def scale_of(layout: Layout, making: ManufacturingSizes) -> float:
+    """How many times larger everything is to be for the module asked for.
+
+    Raises `QuestionError` where the declaration gives sizes, which always win.
+    """
+    if making.module is None or not layout.wheels:
+        return 1.0
+    given = [name for name, place in layout.wheels.items() if place.given]
+    placed = [label for label, axis in layout.axes.items() if axis.how == "given"]
+    if given or placed:
+        named = f"the module of '{given[0]}'" if given else f"the position of axis '{placed[0]}'"
+        why = f"it gives {named}, and what is declared wins"
+        fix = "leave --module out, or take the sizes out of the file"
+        raise QuestionError(Problem("the declaration has sizes of its own", why, fix, "--module"))
+    usual, _ = Counter(round(place.module, 9) for place in layout.wheels.values()).most_common(1)[0]
+    return making.module / usual
+
+
+def _with_modules(declared: Train, modules: Mapping[str, Fraction]) -> Train:
+    links = {
+        name: link.changed(
+            wheels=FrozenDict(
+                {
+                    id_: wheel.changed(module=Quantity(modules[id_], "mm", f"{float(modules[id_]):.9g} mm"))
+                    for id_, wheel in link.wheels.items()
+                }
+            )
+        )
+        for name, link in declared.links.items()
+    }
+    return declared.changed(links=FrozenDict(links))
+
+
+def _with_backlash(declared: Train, modules: Mapping[str, Fraction], backlash: Fraction) -> Train:
+    if problems := list(_own_play(declared)):
+        raise QuestionError(problems)
+    return declared.changed(gears=tuple(_thinned(declared, gear, modules, backlash) for gear in declared.gears))
+
+
+def _thinned(declared: Train, gear: GearPair, modules: Mapping[str, Fraction], backlash: Fraction) -> GearPair:
+    form = gear.tooth_form or declared.tooth_form
+    if not isinstance(form, ConjugateToothForm):
+        return gear
+    play = backlash / modules[gear.pair[0]]
+    quantity = Quantity(play, None, f"{float(play):.9g}")
+    return gear.changed(tooth_form=form.model_copy(update={"backlash": quantity}))
+
+
+def _own_play(declared: Train) -> Iterator[Problem]:
+    """Pairs whose play is not for a maker to say."""
+    for at, gear in enumerate(declared.gears):
+        form, place = gear.tooth_form or declared.tooth_form, declared.place("gears", at)
+        if isinstance(form, Triangular):
+            what = f"--backlash cannot thin the triangular teeth of pair '{gear.name}'"
+            why = "their play follows from their clearance, and thinner teeth would have another motion"
+            yield Problem(what, why, "leave --backlash out, or declare more `clearance`", place)
+        elif isinstance(form, ConjugateToothForm) and "backlash" in form.model_fields_set:
+            what = f"pair '{gear.name}' has a backlash of its own"
+            why = f"it declares {form.backlash.text}, and what is declared wins"
+            yield Problem(what, why, "leave --backlash out, or take the `backlash` out of the file", place)
+
+
+def thick(layout: Layout, making: ManufacturingSizes) -> Layout:
+    """The layout with wheels of the thickness asked for."""
+    if making.thickness is None:
+        return layout
+    wheels = {name: replace(place, thickness=making.thickness) for name, place in layout.wheels.items()}
+    return replace(layout, wheels=wheels)
+
+
+def bores(layout: Layout, making: ManufacturingSizes) -> dict[str, float]:
+    """Diameter (mm) of the arbor on each axis: the one asked for, or a third of the smallest wheel's, 6 at most."""
+    if making.bore is not None:
+        return dict.fromkeys(layout.axes, making.bore)
+    found = {}
+    for label in layout.axes:
+        radii = [place.radius - DEDENDUM * place.module for place in layout.wheels.values() if place.axis == label]
+        smallest = min((radius for radius in radii if radius > 0), default=3.0)
+        found[label] = round(min(6.0, 2 * smallest / 3), 2)
+    return found

@@ -1,0 +1,95 @@
+"""The flat shape of every wheel: its teeth as they are cut for all its mates, and the hole for its arbor."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+from geartrain.errors import Problem
+from geartrain.scene.solids.manufacturing_sizes import ManufacturingSizes, bores
+from geartrain.scene.train_teeth import PairPlay, WheelTeeth, find_train_teeth
+from geartrain.teeth.outlines.contour import Contour
+
+if TYPE_CHECKING:
+    from geartrain.analysis.gear_train import GearTrain
+    from geartrain.scene.layout import Layout, WheelPlace
+
+_LAND = 0.8  # of the root circle: the widest bore
+
+
+@dataclass(frozen=True, slots=True)
+class Blank:
+    """A wheel to cut: its axle at the origin, its first tooth on the x axis; lengths in mm.
+
+    kind       external, ring or pins
+    form       of its teeth, in words
+    contours   the outer one first, then holes
+    """
+
+    wheel: str
+    link: str
+    teeth: int
+    kind: str
+    form: str
+    contours: tuple[Contour, ...]
+    module: float
+    pitch_radius: float
+    tip_radius: float
+    root_radius: float
+    thickness: float
+    bore: float
+
+
+@dataclass(frozen=True, slots=True)
+class Blanks:
+    """Every wheel that can be cut flat, by id, why the others cannot, and the play of every pair that is cut."""
+
+    wheels: Mapping[str, Blank]
+    notices: tuple[Problem, ...]
+    plays: tuple[PairPlay, ...]
+
+
+def find_blanks(train: GearTrain, layout: Layout, making: ManufacturingSizes) -> Blanks:
+    """The flat shapes of all wheels of a train, at the sizes of a layout."""
+    toothed = find_train_teeth(train, layout.wheels, making.backlash, layout.apart)
+    diameters = bores(layout, making)
+    wheels, notices = {}, []
+    for name, problems in toothed.problems.items():
+        notices += [replace(each, what=f"wheel '{name}': {each.what}", place="") for each in problems]
+    for name, toothing in toothed.wheels.items():
+        place = layout.wheels[name]
+        blank, told = _bored(_blank(toothing, place), diameters.get(place.axis, 0.0))
+        wheels[name] = blank
+        notices += told
+    return Blanks(wheels, tuple(notices), toothed.plays)
+
+
+def _blank(toothing: WheelTeeth, place: WheelPlace) -> Blank:
+    module = place.module
+    return Blank(
+        toothing.wheel,
+        place.link,
+        toothing.z,
+        toothing.kind,
+        toothing.words,
+        toothing.contours(module),
+        module,
+        place.radius,
+        toothing.tip * module,
+        toothing.root * module,
+        place.thickness,
+        0.0,
+    )
+
+
+def _bored(blank: Blank, bore: float) -> tuple[Blank, list[Problem]]:
+    """With the hole for its arbor, if it has the room."""
+    inner = min(blank.root_radius, blank.tip_radius)
+    if not bore or blank.kind == "ring":
+        return blank, []
+    if bore / 2 >= _LAND * inner:
+        what = f"wheel '{blank.wheel}': a bore of {bore:g} mm does not fit"
+        why = f"its root circle has a diameter of {2 * inner:.4g} mm, so it is cut without a hole"
+        return blank, [Problem(what, why, f"give less than {2 * _LAND * inner:.4g} mm", "--bore")]
+    return replace(blank, contours=(*blank.contours, Contour.circle(bore / 2)), bore=bore), []

@@ -1,0 +1,407 @@
+"""The teeth of every wheel of a train, each cut once for all its mates: what is drawn, what turns and what is made.
+
+A wheel has the teeth its pairs declare, else standard ones. Of several pairs the deepest roots count and the fillets
+that let all mates pass; pairs that ask for different teeth of one wheel leave it without.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import lru_cache
+from math import atan2, cos, hypot, pi, sin
+from typing import TYPE_CHECKING, Protocol
+
+from geartrain.dynamics.gear_meshes import find_sizes
+from geartrain.errors import GearTrainError, Problem
+from geartrain.numerics.containers import FrozenDict
+from geartrain.teeth.conjugate.conjugate_form import WheelPair, conjugate_pair_of
+from geartrain.teeth.conjugate.conjugate_mesh import ConjugateMesh
+from geartrain.teeth.involute import Involute
+from geartrain.teeth.lantern import Lantern
+from geartrain.teeth.outlines.contour import Contour
+from geartrain.teeth.outlines.tooth_outline import Vertex, repeated
+from geartrain.teeth.outlines.tooth_requirement import CLEARANCE, LanternPins, ToothRequirement, alike, cut_tooth
+from geartrain.teeth.outlines.wheel_outline import check_flat, lantern
+from geartrain.teeth.standard_teeth import PLAY, UndeclaredWheel, check_size, lone_mate, standard_form, standard_teeth
+from geartrain.teeth.triangular.pair_geometry import depth
+from geartrain.teeth.triangular.triangular_mesh import TriangularMesh
+
+if TYPE_CHECKING:
+    from geartrain.analysis.gear_train import GearTrain
+    from geartrain.teeth.conjugate.conjugate_transmission import ConjugatePair
+    from geartrain.teeth.gear_mesh import DeclaredPair, GearMesh
+    from geartrain.teeth.standard_teeth import StandardTeeth
+    from geartrain.train import GearPair, Wheel
+
+STANDARD = "standard"
+_CHORD = 1e-3  # modules: how far a chord may leave a flank or a round
+_RIM = 2.0  # modules round the roots of a ring
+_PIN = 48  # points round a pin
+_SAME = 1e-9  # modules, or rad
+
+
+class ToothingPlace(Protocol):
+    """What matters here of where a wheel stands: its module (mm), and half the angle of its cone (rad)."""
+
+    @property
+    def module(self) -> float:
+        """Pitch diameter over tooth count (mm)."""
+
+    @property
+    def cone(self) -> float:
+        """0 of a cylinder."""
+
+
+@dataclass(frozen=True, slots=True)
+class WheelTeeth:
+    """The teeth of one wheel, lengths in modules.
+
+    kind    external, ring or pins
+    form    name of the declared form, or `standard`; `words`, what a maker is told
+    tooth   the first of them, about the x axis, from root to root; empty for pins
+    tip, root   radii
+    """
+
+    wheel: str
+    z: int
+    kind: str
+    form: str
+    words: str
+    tip: float
+    root: float
+    tooth: tuple[Vertex, ...] = ()
+    pins: LanternPins | None = None
+
+    def contours(self, module: float) -> tuple[Contour, ...]:
+        """All of the wheel (mm), the outer contour first, then holes; the axle at (0, 0)."""
+        if self.pins is not None:
+            return tuple(lantern(self.pins, self.z, module))
+        teeth = Contour.of(repeated(self.tooth, self.z)).scaled(module)
+        return (teeth,) if self.kind == "external" else (Contour.circle((self.root + _RIM) * module), teeth)
+
+    def section(self) -> tuple[tuple[float, float], ...]:
+        """Radius (over the pitch radius) and angle of one tooth, from mid-space to mid-space, or round a pin.
+
+        Arcs are chords.
+        """
+        R = self.z / 2
+        if self.pins is not None:
+            turns = [2 * pi * at / _PIN for at in range(_PIN)]
+            round_ = [(self.pins.circle + self.pins.radius * cos(t), self.pins.radius * sin(t)) for t in turns]
+            return tuple((hypot(x, y) / R, atan2(y, x)) for x, y in round_)
+        points = Contour.of((*self.tooth[:-1], (*self.tooth[-1][:2], 0.0))).flattened(_CHORD).tolist()
+        half = pi / self.z
+        inside = [(hypot(x, y) / R, atan2(y, x)) for x, y in points if abs(atan2(y, x)) < half - _SAME]
+        return ((self.root / R, -half), *inside, (self.root / R, half))
+
+
+@dataclass(frozen=True, slots=True)
+class PairPlay:
+    """The play of a pair as its wheels are cut: mm at the pitch line, and as angles (rad) of both wheels."""
+
+    pair: str
+    wheels: tuple[str, str]
+    length: float
+    angles: tuple[float, float]
+
+
+@dataclass(frozen=True, slots=True)
+class TrainTeeth:
+    """The teeth of a train.
+
+    wheels      teeth by wheel; `problems`, why the others have none
+    likenesses  of those, teeth that the first of their pairs asks for
+    flat        wheels whose teeth stand straight in a plane
+    plays       of all pairs of which both wheels have teeth
+    """
+
+    wheels: Mapping[str, WheelTeeth]
+    problems: Mapping[str, tuple[Problem, ...]]
+    likenesses: Mapping[str, WheelTeeth]
+    flat: frozenset[str]
+    plays: tuple[PairPlay, ...]
+
+
+def find_train_teeth(
+    train: GearTrain,
+    places: Mapping[str, ToothingPlace],
+    play: float | None = None,
+    apart: Mapping[str, float] = FrozenDict(),
+) -> TrainTeeth:
+    """The teeth of all wheels that lie in a plane.
+
+    play    of pairs whose form is not declared (mm); default a twentieth of the module
+    apart   of pairs whose wheels do not stand where they mesh: by how much (mm) they stand too far from each other
+    """
+    return _Toothing(train, places, play, apart).all()
+
+
+@dataclass(frozen=True)
+class _Asked:
+    """What a pair asks of a wheel: the demand of conjugate teeth, or tip radius (modules) and half angle (rad)."""
+
+    pair: str
+    form: str
+    words: str
+    demand: ToothRequirement | None = None
+    blade: tuple[float, float] = (0.0, 0.0)
+
+    def agrees(self, other: _Asked) -> bool:
+        """True if one wheel does for both."""
+        if self.demand is None or other.demand is None:
+            near = all(abs(a - b) <= _SAME * max(a, 1.0) for a, b in zip(self.blade, other.blade, strict=True))
+            return self.demand is other.demand and near
+        if _is_pins(self.demand) or _is_pins(other.demand):
+            return self.demand.pins == other.demand.pins
+        return alike(self.demand, other.demand)
+
+
+def _is_pins(demand: ToothRequirement) -> bool:
+    return demand.pins is not None and demand.pins.gear == demand.gear
+
+
+class _Toothing:
+    def __init__(
+        self, train: GearTrain, places: Mapping[str, ToothingPlace], play: float | None, apart: Mapping[str, float]
+    ) -> None:
+        self.declared, self.places, self.play, self.apart = train.declaration, places, play, apart
+        self.unbuilt: tuple[Problem, ...] = ()
+        try:
+            meshes = train.meshes
+        except GearTrainError as error:
+            meshes, self.unbuilt = (), error.problems
+        self.meshes = {mesh.name: mesh for mesh in meshes}
+        self.sizes = find_sizes(self.declared, meshes)
+        self.pairs: dict[str, list[GearPair]] = {name: [] for name in self.declared.wheels}
+        for gear in self.declared.gears:
+            for wheel in gear.pair:
+                self.pairs[wheel].append(gear)
+        self.shaped = {name for name in self.pairs if any(self._mesh(gear) is not None for gear in self.pairs[name])}
+        self.standard = self._standard()
+
+    def _wheel(self, name: str) -> Wheel:
+        return self.declared.wheels[name][1]
+
+    def _mesh(self, gear: GearPair) -> GearMesh | None:
+        return self.meshes.get(gear.name)
+
+    def _is_flat(self, name: str) -> bool:
+        kinds = {self._wheel(mate).kind for gear in self.pairs[name] for mate in gear.pair}
+        return self._wheel(name).kind == "spur" and not self.places[name].cone and "worm" not in kinds
+
+    # -------------------------------------------------------------------------------------------- teeth nobody declares
+
+    def _standard(self) -> dict[str, StandardTeeth]:
+        gears = {name: self._gear(name) for name in self.pairs if name not in self.shaped and self._is_flat(name)}
+        pairs = [gear.pair for gear in self.declared.gears if set(gear.pair) <= set(gears)]
+        return standard_teeth(gears, pairs)
+
+    def _gear(self, name: str) -> UndeclaredWheel:
+        wheel = self._wheel(name)
+        return UndeclaredWheel(wheel.count or 1, wheel.internal)
+
+    def _standard_asked(self, name: str) -> Iterator[_Asked]:
+        own, teeth = self._gear(name), self.standard[name]
+        mates = [(gear, self._mate(gear, name)) for gear in self.pairs[name]]
+        if shaped := next(((gear, mate) for gear, mate in mates if mate in self.shaped and self._is_flat(mate)), None):
+            raise _half_declared(name, *shaped, next(g.name for g in self.pairs[shaped[1]] if self._mesh(g)))
+        flat = [(gear.name, self._gear(mate), self.standard[mate]) for gear, mate in mates if mate in self.standard]
+        for pair, mate, its in flat or [("", lone_mate(own), teeth)]:
+            form, wheels, at = self._standard_pair((own, teeth), (mate, its), name)
+            yield _Asked(
+                pair, STANDARD, teeth.words, _demand(conjugate_pair_of(form, wheels), at, _free(form, wheels, at))
+            )
+
+    def _standard_pair(
+        self, first: tuple[UndeclaredWheel, StandardTeeth], second: tuple[UndeclaredWheel, StandardTeeth], name: str
+    ) -> tuple[Involute, WheelPair, int]:
+        """The form of two standard wheels, a ring second, and which of them the first is."""
+        (one, teeth), (other, its) = (second, first) if first[0].internal else (first, second)
+        form = standard_form(teeth, its, self._standard_play(name))
+        return form, WheelPair(one.z, other.z, other.internal), 2 if first[0].internal else 1
+
+    def _standard_play(self, name: str) -> float:
+        return PLAY if self.play is None else self.play / self.places[name].module
+
+    # ------------------------------------------------------------------------------------------------ declared forms
+
+    def _declared_asked(self, name: str) -> Iterator[_Asked]:
+        """Pairs in one plane; a crown wheel is taken for a spur wheel only where nothing better is to be had."""
+        meshes = [mesh for gear in self.pairs[name] if (mesh := self._mesh(gear)) is not None]
+        flat = [mesh for mesh in meshes if self._wheel(self._mate(mesh.gear, name)).kind == "spur"]
+        for mesh in flat or meshes:
+            words = mesh.form.replace("_", " ")
+            if isinstance(mesh, TriangularMesh):
+                sizes = mesh.law.sizes
+                R, beta = (sizes.R1, sizes.beta1) if name == mesh.driver else (sizes.R2, sizes.beta2)
+                yield _Asked(mesh.name, mesh.form, words, None, (R * self.sizes[mesh.name].scale, beta))
+            elif isinstance(mesh, ConjugateMesh):
+                gear, form = mesh.wheels.index(name) + 1, mesh.gear.tooth_form or self.declared.tooth_form
+                wheels = self._wheels_of(mesh)
+                demand = _demand(mesh.law.pair, gear, _free(form, wheels, gear), _pins(form, wheels))
+                yield _Asked(mesh.name, mesh.form, words, demand)
+
+    def _wheels_of(self, mesh: ConjugateMesh) -> WheelPair:
+        pitch = mesh.law.path.pitch
+        wheels = [self._wheel(name) for name in mesh.wheels]
+        sizes = [wheel.module.si * (wheel.count or 0) for wheel in wheels if wheel.module and wheel.module.unit]
+        module = sum(sizes) / (pitch.z1 + pitch.z2) if len(sizes) == 2 else None
+        return WheelPair(pitch.z1, pitch.z2, any(wheel.internal for wheel in wheels), module=module)
+
+    @staticmethod
+    def _mate(gear: DeclaredPair, name: str) -> str:
+        first, second = gear.pair
+        return second if first == name else first
+
+    # ----------------------------------------------------------------------------------------------------------- wheels
+
+    def all(self) -> TrainTeeth:
+        """All wheels."""
+        found: dict[str, WheelTeeth] = {}
+        problems: dict[str, tuple[Problem, ...]] = {}
+        likenesses: dict[str, WheelTeeth] = {}
+        for name in self.pairs:
+            try:
+                asked = self._asked(name)
+                try:
+                    found[name] = self._one(name, asked)
+                except GearTrainError as error:
+                    problems[name] = error.problems
+                    likenesses[name] = self._cut(name, asked[:1])
+            except GearTrainError as error:
+                problems.setdefault(name, error.problems)
+        flat = frozenset(name for name in self.pairs if self._is_flat(name))
+        return TrainTeeth(found, problems, likenesses, flat, tuple(self._plays(found)))
+
+    def _asked(self, name: str) -> list[_Asked]:
+        wheel, place = self._wheel(name), self.places[name]
+        if not self._is_flat(name):
+            kind = wheel.kind if wheel.kind != "spur" else "bevel" if place.cone else "worm's wheel"
+            why = "its teeth do not stand straight in a plane"
+            raise GearTrainError(Problem(f"a {kind} has no flat outline", why, "take the solid for a likeness"))
+        for each in (name, *(self._mate(gear, name) for gear in self.pairs[name])):
+            check_size(self._wheel(each).count or 1)
+        if self.unbuilt and any(gear.tooth_form or self.declared.tooth_form for gear in self.pairs[name]):
+            raise GearTrainError(self.unbuilt)
+        return list(self._declared_asked(name) if name in self.shaped else self._standard_asked(name))
+
+    def _one(self, name: str, asked: Sequence[_Asked]) -> WheelTeeth:
+        for other in asked[1:]:
+            if not asked[0].agrees(other):
+                raise _at_odds(asked[0], other)
+        return self._cut(name, asked)
+
+    def _cut(self, name: str, asked: Sequence[_Asked]) -> WheelTeeth:
+        z, first = self._wheel(name).count or 1, asked[0]
+        demands = tuple(dict.fromkeys(each.demand for each in asked if each.demand is not None))
+        if not demands:
+            (tip, beta), half = first.blade, pi / z
+            root = tip * (1 - depth(z, beta))
+            tooth = tuple((r * cos(turn), r * sin(turn), 0.0) for r, turn in ((root, -half), (tip, 0.0), (root, half)))
+            return WheelTeeth(name, z, "external", first.form, first.words, tip, root, tooth)
+        for demand in demands:
+            check_flat(demand.pair)
+        if _is_pins(demands[0]):
+            pins = demands[0].pins
+            assert pins is not None
+            radii = pins.circle + pins.radius, pins.circle - pins.radius
+            return WheelTeeth(name, z, "pins", first.form, first.words, *radii, pins=pins)
+        tooth, tip, root, kind = _tooth(demands)
+        return WheelTeeth(name, z, kind, first.form, first.words, tip, root, tooth)
+
+    def _plays(self, found: Mapping[str, WheelTeeth]) -> Iterator[PairPlay]:
+        """Of all pairs of which both wheels are cut."""
+        for gear in self.declared.gears:
+            if not set(gear.pair) <= set(found):
+                continue
+            arc = self._play(gear)
+            if arc is not None:
+                radii = [(self._wheel(name).count or 0) / 2 for name in gear.pair]
+                angles = arc / radii[0], arc / radii[1]
+                yield PairPlay(gear.name, gear.pair, arc * self.places[gear.pair[0]].module, angles)
+
+    def _play(self, gear: GearPair) -> float | None:
+        """Of a pair as it stands, along the pitch circles (modules); None where it does not stand as its law has it."""
+        mesh, gap = self._mesh(gear), self.apart.get(gear.name)
+        if gap is not None:
+            return self._misplaced_play(gear, mesh, gap / self.places[gear.pair[0]].module)
+        if mesh is None:
+            return self._standard_play(gear.pair[0])
+        return mesh.verdict.play * (self._wheel(mesh.driven).count or 0) / 2
+
+    def _misplaced_play(self, gear: GearPair, mesh: GearMesh | None, gap: float) -> float | None:
+        """Involutes run at any distance, with other play; negative where they would jam."""
+        if isinstance(mesh, ConjugateMesh):
+            form, wheels = mesh.gear.tooth_form or self.declared.tooth_form, self._wheels_of(mesh)
+        else:
+            first, second = ((self._gear(name), self.standard[name]) for name in gear.pair)
+            form, wheels, _ = self._standard_pair(first, second, gear.pair[0])
+        if not isinstance(form, Involute) or isinstance(mesh, TriangularMesh):
+            return None
+        found = form.involutes(wheels)
+        moved = replace(found, distance=found.distance + (-gap if wheels.internal else gap))
+        try:
+            return moved.play * moved.pitch.z1 / 2 / moved.pitch.R1
+        except ValueError:
+            return None  # nearer than the base circles touch
+
+
+def _demand(
+    pair: ConjugatePair, gear: int, clearance: float | None, pins: LanternPins | None = None
+) -> ToothRequirement:
+    return ToothRequirement(pair, gear, _CHORD, CLEARANCE if clearance is None else clearance, pins)
+
+
+@lru_cache(maxsize=4096)
+def _tooth(demands: tuple[ToothRequirement, ...]) -> tuple[tuple[Vertex, ...], float, float, str]:
+    """The tooth for all demands, its tip and root radius, and the kind of its wheel."""
+    made, _ = cut_tooth(demands)
+    return tuple(made.vertices()), made.tip, made.root, "ring" if made.flank.outward < 0 else "external"
+
+
+def _at_odds(first: _Asked, other: _Asked) -> GearTrainError:
+    tips = [each.blade[0] if each.demand is None else float(each.demand.flank.r[-1]) for each in (first, other)]
+    if first.words != other.words:
+        how = f"{first.words} teeth and {other.words} teeth"
+    elif abs(tips[0] - tips[1]) > _SAME * tips[0]:
+        how = f"tips {tips[0]:.6g} and {tips[1]:.6g} modules from the axis"
+    else:
+        how = f"{first.words} flanks of two shapes"
+    return GearTrainError(
+        Problem(
+            f"its pairs '{first.pair}' and '{other.pair}' ask for different teeth",
+            f"they want {how}, and a wheel is cut once",
+            "declare teeth that run with both mates, or give each of them a wheel of its own",
+        )
+    )
+
+
+def _half_declared(name: str, gear: GearPair, mate: str, other: str) -> GearTrainError:
+    return GearTrainError(
+        Problem(
+            f"nothing says what teeth run with '{mate}'",
+            f"pair '{gear.name}' declares no form, and '{mate}' has the teeth of pair '{other}'",
+            f"declare a `tooth_form` for pair '{gear.name}' too",
+        )
+    )
+
+
+def _free(form: object, wheels: WheelPair, gear: int) -> float | None:
+    """What an involute's dedendum leaves under the mate's tip (modules); None, the usual, for other forms."""
+    if not isinstance(form, Involute):
+        return None
+    found = form.involutes(wheels)
+    own, mate = (found.first, found.second) if gear == 1 else (found.second, found.first)
+    if not found.second.ring:
+        return max(found.distance - mate.tip - own.root, 0.0)
+    free = own.root - mate.tip if gear == 2 else mate.tip - own.root
+    return max(free - found.distance, 0.0)
+
+
+def _pins(form: object, wheels: WheelPair) -> LanternPins | None:
+    if not isinstance(form, Lantern):
+        return None
+    z = wheels.z1 if form.pins == 1 else wheels.z2
+    radius = z / 2 if form.pin_radius is None else wheels.modules(form.pin_radius, "pin_radius")
+    return LanternPins(form.pins, radius, wheels.modules(form.pin_diameter, "pin_diameter") / 2)

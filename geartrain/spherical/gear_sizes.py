@@ -1,0 +1,314 @@
+"""Sets on fixed axes of which it is proved that no tooth numbers give one pitch.
+
+How large the gears of a set on a sphere come out: cones, pitches, pressure angles, windows, tips that collide.
+
+All angles in radians, all lengths in radii of the sphere on which the teeth are measured, axes outwards.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from math import atan, degrees, inf, log, pi, sqrt
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from geartrain.errors import Problem, QuestionError, RangeError
+from geartrain.spherical.configuration import (
+    Configuration,
+    MeshKind,
+    kinds_in_order,
+    mesh_kinds,
+    nearest_unmeshed,
+    unmeshed_angles,
+)
+from geartrain.spherical.pitch_cones import (
+    MEAN_PRESSURE,
+    base_pitch,
+    mesh_angles,
+    operating_pitch,
+    overlap_limit,
+    pitch_cone,
+    pressure_angle,
+    separations,
+    sphere_radius,
+    undercut_limit,
+    virtual_teeth,
+    wheel_radius,
+)
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from geartrain.numerics.arrays import Floats
+
+
+_THEOREMS = {
+    "rhombicosidodecahedron": (
+        "equal pitch asks 2 (z5/z4) sin 72 - (z3/z4) sqrt3 phi = 1. A rational z5/z4 other than 0 would put "
+        "2 sin 72, which generates a cyclic quartic field, into the biquadratic field Q(sqrt3, sqrt5); "
+        "z5 = 0 makes z3 negative. No tooth numbers satisfy it"
+    ),
+    "rhombicuboctahedron": (
+        "equal pitch asks sqrt2 (z4a/z4b - 1) + 1 = sqrt3 z3/z4b. Squaring leaves a rational multiple of sqrt2, so "
+        "z4a = z4b and 3 (z3/z4b)^2 = 1. No tooth numbers satisfy it"
+    ),
+    "pseudo-rhombicuboctahedron": (
+        "the ring of eight equal squares has pitch cones of 22.5 deg, which asks sqrt3 z3/z4 = 1 of each triangle "
+        "beside it. No tooth numbers satisfy it"
+    ),
+}
+
+
+def impossibility_theorem(configuration: Configuration) -> str:
+    """Why no tooth numbers at all give one pitch on these fixed axes; "" where no such proof is known."""
+    name = _proven(configuration)
+    return f"{name}: {_THEOREMS[name]}" if name else ""
+
+
+def _proven(configuration: Configuration) -> str:
+    """The solid whose faces the gears stand on, among those with a proof: by its counts and mesh angles."""
+    counts = len(configuration.axes), len(configuration.meshes)
+    phi = (1 + sqrt(5)) / 2
+    angles = {(62, 120): (atan(1 / phi), atan(phi**-2)), (26, 48): (pi / 4, atan(sqrt(0.5)))}.get(counts, ())
+    if not angles:
+        return ""
+    seen = mesh_angles(configuration.axes, configuration.meshes)
+    near = [np.abs(seen - angle) < 1e-9 for angle in angles]
+    if sum(int(hit.sum()) for hit in near) < len(seen) or not all(int(hit.sum()) == len(seen) // 2 for hit in near):
+        return ""
+    if counts == (62, 120):
+        return "rhombicosidodecahedron"
+    # the twisted cap leaves one ring of squares of the three
+    across = np.abs(separations(configuration.axes) - pi) < 1e-9
+    return "rhombicuboctahedron" if across.any(axis=1).all() else "pseudo-rhombicuboctahedron"
+
+
+__all__ = [
+    "MeshKind",
+    "NeighbourRatioWindow",
+    "SphereSizing",
+    "TipCollision",
+    "impossibility_theorem",
+    "mesh_kinds",
+    "one_pitch",
+    "ratio_windows",
+    "size_gears",
+    "sphere_radius",
+    "teeth_of",
+    "wheel_radius",
+]
+
+
+TIP_ROOM = 2.0
+"""Modules between the pitch circles of gears that do not mesh: an addendum of one module each."""
+_SAME = 1e-11
+"""Pitches closer than this, relatively, are one pitch: it is the rounding of axes in floats."""
+
+
+def teeth_of(configuration: Configuration) -> NDArray[np.int64]:
+    """Teeth of every gear. `QuestionError` names the kinds whose teeth are not chosen."""
+    missing = [kind for kind in kinds_in_order(configuration) if kind not in configuration.teeth]
+    if missing:
+        raise QuestionError(
+            Problem(
+                f"no tooth number for {', '.join(missing)}",
+                "sizes follow from the teeth of every kind of gear",
+                f"give teeth={{{missing[0]!r}: 20, ...}}, or ask suggest() for good ones",
+            )
+        )
+    return np.array([configuration.teeth[kind] for kind in configuration.kinds], dtype=np.int64)
+
+
+def ratio_windows(configuration: Configuration) -> tuple[NeighbourRatioWindow, ...]:
+    """For each kind of mesh between unlike gears, the tooth ratios at which equal neighbours do not overlap.
+
+    With several kinds of mesh each window holds for the operating cones of its own mesh.
+    """
+    nearest = nearest_unmeshed(configuration)
+    found = []
+    for mesh in mesh_kinds(configuration):
+        if mesh.a == mesh.b:
+            continue
+        own, other = (nearest.get((kind, kind), pi) for kind in (mesh.a, mesh.b))
+        lift = overlap_limit(mesh.angle, own)
+        found.append(NeighbourRatioWindow(mesh.a, mesh.b, overlap_limit(mesh.angle, other), 1 / lift if lift else inf))
+    return tuple(found)
+
+
+def one_pitch(configuration: Configuration) -> float:
+    """The pitch lambda that all meshes share (radii of the sphere), for the teeth chosen.
+
+    Refused with `RangeError` where the meshes ask for different pitches, with the theorem where no teeth can help.
+    """
+    sizing = size_gears(configuration)
+    if sizing.exact:
+        return sizing.pitch
+    least, most = int(np.argmin(sizing.pitches)), int(np.argmax(sizing.pitches))
+    raise RangeError(
+        Problem(
+            f"no single pitch: {sizing.label(most)} asks for {sizing.pitches[most]:.12g} and {sizing.label(least)} "
+            f"for {sizing.pitches[least]:.12g}, a mismatch of {100 * sizing.mismatch:.4g} %",
+            impossibility_theorem(configuration) or "each kind of mesh fixes the pitch by its own axes and teeth",
+            "size() gives operating cones and pressure angles of involutes on one base pitch; suggest() seeks better "
+            "teeth; from_graph() or idlers on the edges give an exact pitch with other axes",
+        )
+    )
+
+
+def size_gears(configuration: Configuration, mean_pressure: float = MEAN_PRESSURE) -> SphereSizing:
+    """Operating cones, pitches and pressure angles of every mesh, for the teeth chosen; see `SphereSizing`."""
+    z = teeth_of(configuration)
+    if not configuration.meshes:
+        raise QuestionError(Problem("no gears mesh", "sizes follow from meshes", "declare at least one mesh"))
+    i, j = np.array(configuration.meshes).T
+    S = mesh_angles(configuration.axes, configuration.meshes)
+    pitches = operating_pitch(S, z[i], z[j])
+    if len(mesh_kinds(configuration)) == 1:
+        pitches[:] = pitches[0]
+    cones = np.stack([pitch_cone(S, z[i], z[j]), pitch_cone(S, z[j], z[i])], axis=1)
+    c = base_pitch(pitches, mean_pressure)
+    return SphereSizing(configuration, z, cones, pitches, c, pressure_angle(c, pitches))
+
+
+@dataclass(frozen=True)
+class NeighbourRatioWindow:
+    """Range of the ratio z_a/z_b in which equal neighbours do not overlap (tips not counted)."""
+
+    a: str
+    b: str
+    low: float
+    high: float
+
+    def __str__(self) -> str:
+        return f"{self.low:.9f} < z({self.a})/z({self.b}) < {self.high:.9f}"
+
+
+@dataclass(frozen=True)
+class TipCollision:
+    """Two gears that do not mesh and come too close: `room` between their pitch circles and how much it is `short`.
+
+    Both in modules; below 0 the pitch circles themselves overlap.
+    """
+
+    gears: tuple[str, str]
+    room: float
+    short: float
+
+    def __str__(self) -> str:
+        return f"{self.gears[0]} and {self.gears[1]}: {self.room:.2f} modules apart, {self.short:.2f} too few"
+
+
+@dataclass(frozen=True)
+class SphereSizing:
+    """Sizes of a set with teeth. Rows run over the meshes.
+
+    teeth      of each gear
+    cones      operating pitch cones of the first and second gear of each mesh (rad), (meshes, 2)
+    pitches    operating pitch lambda of each mesh, in radii of the sphere
+    base       base pitch c that all gears share: base cones sin g = c z
+    pressure   operating pressure angle of each mesh (rad); nan where involutes on one base pitch cannot mesh
+    """
+
+    configuration: Configuration
+    teeth: NDArray[np.int64]
+    cones: Floats
+    pitches: Floats
+    base: float
+    pressure: Floats
+
+    @property
+    def exact(self) -> bool:
+        """True if all meshes share one pitch, to the rounding of the axes."""
+        return self.mismatch <= _SAME
+
+    @cached_property
+    def mismatch(self) -> float:
+        """ln(greatest pitch / least pitch)."""
+        return log(float(self.pitches.max()) / float(self.pitches.min()))
+
+    @cached_property
+    def pitch(self) -> float:
+        """Geometric mean of the operating pitches, in radii of the sphere."""
+        return float(np.exp(np.log(self.pitches).mean())) if self.mismatch else float(self.pitches[0])
+
+    @property
+    def module(self) -> float:
+        """Module in radii of the sphere: 2 lambda."""
+        return 2 * self.pitch
+
+    @cached_property
+    def outer(self) -> Floats:
+        """The largest operating cone of each gear (rad): what its neighbours must stay clear of."""
+        alone = np.arcsin(np.minimum(self.teeth * self.pitch, 1))
+        largest = np.zeros(len(self.teeth))
+        for side in (0, 1):
+            np.maximum.at(largest, [mesh[side] for mesh in self.configuration.meshes], self.cones[:, side])
+        return np.where(largest > 0, largest, alone)
+
+    @cached_property
+    def collisions(self) -> tuple[TipCollision, ...]:
+        """Gears that do not mesh and have less than two modules between their pitch circles, worst first."""
+        room = (unmeshed_angles(self.configuration) - self.outer[:, None] - self.outer[None]) / self.module
+        rows, columns = np.nonzero(np.triu(room < TIP_ROOM - 1e-9, 1))
+        names = self.configuration.names
+        found = [
+            TipCollision((names[i], names[j]), float(room[i, j]), TIP_ROOM - float(room[i, j]))
+            for i, j in zip(rows, columns, strict=True)
+        ]
+        return tuple(sorted(found, key=lambda collision: collision.room))
+
+    @property
+    def virtual(self) -> Floats:
+        """Virtual teeth of each gear."""
+        return virtual_teeth(self.teeth, self.outer)
+
+    @property
+    def undercut(self) -> dict[str, float]:
+        """Kinds whose virtual teeth are fewer than a rack of the mean pressure angle can cut whole, and how many."""
+        limit = undercut_limit(float(np.arccos(self.base / self.pitch)))
+        pairs = zip(self.configuration.kinds, self.virtual, strict=True)
+        return {kind: float(count) for kind, count in pairs if count < limit}
+
+    def label(self, mesh: int) -> str:
+        """A mesh by the names of its gears."""
+        i, j = self.configuration.meshes[mesh]
+        return f"{self.configuration.names[i]}-{self.configuration.names[j]}"
+
+    def __str__(self) -> str:
+        head = "one pitch" if self.exact else f"pitches differ by {100 * self.mismatch:.4g} %"
+        lines = [f"{self.configuration.title or 'set'}: {head}, module {self.module:.9g} of the sphere's radius"]
+        for kind in mesh_kinds(self.configuration):
+            mesh = kind.meshes[0]
+            first, second = (degrees(cone) for cone in self.cones[mesh])
+            lines.append(
+                f"  {kind}: cones {first:.6f} and {second:.6f} deg ({self.label(mesh)}), "
+                f"pressure angle {degrees(self.pressure[mesh]):.4f} deg"
+            )
+        if self.collisions:
+            lines.append(f"  {len(self.collisions)} pairs collide, worst {self.collisions[0]}")
+        lines += [f"  {kind} is undercut: {count:.1f} virtual teeth" for kind, count in self.undercut.items()]
+        return "\n".join(lines)
+
+    def to_dict(self) -> dict[str, Any]:
+        """Plain data for JSON: angles in degrees."""
+        return {
+            "teeth": dict(zip(self.configuration.names, self.teeth.tolist(), strict=True)),
+            "module": self.module,
+            "exact": self.exact,
+            "mismatch": self.mismatch,
+            "meshes": [
+                {
+                    "gears": [self.configuration.names[i], self.configuration.names[j]],
+                    "cones": np.degrees(self.cones[at]).tolist(),
+                    "pitch": float(self.pitches[at]),
+                    "pressure_angle": None if np.isnan(self.pressure[at]) else degrees(self.pressure[at]),
+                }
+                for at, (i, j) in enumerate(self.configuration.meshes)
+            ],
+            "collisions": [
+                {"gears": list(found.gears), "room": found.room, "short": found.short} for found in self.collisions
+            ],
+            "undercut": self.undercut,
+        }

@@ -1,0 +1,185 @@
+"""Cones of gears on a sphere, one pair at a time: pitch and base cones, pressure angles, and limits of shape.
+
+All angles in radians, all lengths in radii of the sphere on which the teeth are measured, axes outwards.
+
+How angles between axes, and azimuths about them, change as axes move: sparse rows for Newton's method.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from math import cos, radians, sin, sqrt, tan
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
+    from scipy.sparse import csr_array
+
+    from geartrain.numerics.arrays import Floats, Ints
+
+
+MEAN_PRESSURE = radians(20)
+
+
+def pitch_cone(S: ArrayLike, z_i: ArrayLike, z_j: ArrayLike) -> Floats:
+    """Half-angle of gear i's pitch cone (rad): rho_i = atan2(sin S, cos S + z_j/z_i).
+
+    S is the angle between outward axes (rad, 0 < S < pi), z the teeth. From w_i sin rho_i = -w_j sin rho_j,
+    w_i/w_j = -z_j/z_i and rho_i + rho_j = S: Willis with the frame as carrier. pi/2 is a crown gear, more an
+    internal gear.
+    """
+    return np.asarray(np.arctan2(np.sin(S), np.cos(S) + np.divide(z_j, z_i)), dtype=float)
+
+
+def operating_pitch(S: ArrayLike, z_i: ArrayLike, z_j: ArrayLike) -> Floats:
+    """lambda = sin rho_i / z_i = sin rho_j / z_j of one pair: sin S / sqrt(z_i^2 + z_j^2 + 2 z_i z_j cos S).
+
+    In radii of the sphere; the module is 2 lambda, the circular pitch 2 pi lambda. Arguments as in `pitch_cone`.
+    """
+    z_i, z_j = np.asarray(z_i, dtype=float), np.asarray(z_j, dtype=float)
+    return np.asarray(np.sin(S) / np.sqrt(z_i**2 + z_j**2 + 2 * z_i * z_j * np.cos(S)), dtype=float)
+
+
+def base_pitch(pitches: ArrayLike, mean: float = MEAN_PRESSURE) -> float:
+    """c of the base cones sin g_i = c z_i that all gears share: cos(mean) times the geometric mean of the pitches.
+
+    With two pitches the cosines of their pressure angles then lie about cos(mean), geometrically.
+    """
+    return cos(mean) * float(np.exp(np.mean(np.log(pitches))))
+
+
+def pressure_angle(c: float, pitch: ArrayLike) -> Floats:
+    """Operating pressure angle of spherical involutes (rad): cos alpha_ij = c / lambda_ij.
+
+    nan where the operating pitch is less than the base pitch: there the base cones overlap, and no involute meshes.
+    """
+    share = c / np.asarray(pitch, dtype=float)
+    return np.asarray(np.where(share <= 1, np.arccos(np.minimum(share, 1)), np.nan), dtype=float)
+
+
+def line_of_action(n_1: Floats, n_2: Floats, g_1: float, g_2: float) -> Floats:
+    """Pole q of the great circle that touches both base cones: q.n_1 = sin g_1, q.n_2 = -sin g_2, |q| = 1.
+
+    A point X on it has the normal speed (n_1 x X).(q x X) = n_1.q = sin g_1 per turn speed of gear 1, wherever X
+    is: spherical involutes turn in the ratio of their teeth at every angle between the axes.
+    `ValueError` where the base cones overlap.
+    """
+    C = float(n_1 @ n_2)
+    across = np.cross(n_1, n_2)
+    square = float(across @ across)
+    s_1, s_2 = sin(g_1), -sin(g_2)
+    a, b = (s_1 - C * s_2) / square, (s_2 - C * s_1) / square
+    rest = 1 - (a * s_1 + b * s_2)
+    if rest < 0:
+        raise ValueError("the base cones overlap")
+    return np.asarray(a * n_1 + b * n_2 + sqrt(rest / square) * across, dtype=float)
+
+
+def sphere_radius(wheel: float, rho: float) -> float:
+    """Radius of the sphere that carries the pitch circle of radius `wheel`, same unit: R = r / sin rho."""
+    return wheel / sin(rho)
+
+
+def wheel_radius(sphere: float, rho: float) -> float:
+    """Radius of the pitch circle on a sphere of radius `sphere`, same unit: r = R sin rho."""
+    return sphere * sin(rho)
+
+
+def virtual_teeth(z: ArrayLike, rho: ArrayLike) -> Floats:
+    """Teeth of the spur gear on the back cone, z / cos rho (Tredgold): what undercut is judged by.
+
+    inf for crown and internal gears.
+    """
+    share = np.cos(rho)
+    flat = share < 1e-15
+    return np.asarray(np.where(flat, np.inf, np.divide(z, np.where(flat, 1, share))), dtype=float)
+
+
+def undercut_limit(pressure: float = MEAN_PRESSURE) -> float:
+    """Least teeth of a spur gear that a rack with an addendum of one module does not undercut: 2 / sin^2 alpha."""
+    return 2 / sin(pressure) ** 2
+
+
+def overlap_limit(S: float, between: float) -> float:
+    """The ratio z_other/z_own at which equal neighbours `between` apart touch: sin S cot(between/2) - cos S.
+
+    From rho_own = between/2 in `pitch_cone`; z_other/z_own must be greater. 0 if every ratio is.
+    """
+    limit = sin(S) / tan(between / 2) - cos(S)
+    # rounding of axes that touch only with a crown gear must not make a bound of 1e-16
+    return limit if limit > 1e-12 else 0.0
+
+
+def separations(axes: Floats) -> Floats:
+    """Angles between all axes, (gears, gears), rad: 2 atan2(|a - b|, |a + b|), right near 0 and pi (W. Kahan)."""
+    apart = np.linalg.norm(axes[:, None] - axes[None], axis=-1)
+    along = np.linalg.norm(axes[:, None] + axes[None], axis=-1)
+    return np.asarray(2 * np.arctan2(apart, along), dtype=float)
+
+
+def mesh_angles(axes: Floats, meshes: Sequence[tuple[int, int]]) -> Floats:
+    """Angle between the axes of each mesh (rad), as in `separations`."""
+    i, j = np.array(meshes, dtype=int).reshape(-1, 2).T
+    return np.asarray(
+        2 * np.arctan2(np.linalg.norm(axes[i] - axes[j], axis=1), np.linalg.norm(axes[i] + axes[j], axis=1))
+    )
+
+
+def frames(axes: Floats) -> Floats:
+    """Two directions across each axis that make a right-handed frame with it, (gears, 2, 3)."""
+    least = np.eye(3)[np.argmin(np.abs(axes), axis=1)]
+    first = np.cross(axes, least)
+    first /= np.linalg.norm(first, axis=1)[:, None]
+    return np.stack([first, np.cross(axes, first)], axis=1)
+
+
+def moved(axes: Floats, steps: Floats) -> Floats:
+    """Axes after steps along the great circles of their `frames`; steps in rad, (gears, 2)."""
+    along = np.einsum("gk,gkx->gx", steps, frames(axes))
+    length = np.linalg.norm(along, axis=1)[:, None]
+    turned = np.cos(length) * axes + np.sinc(length / np.pi) * along
+    return np.asarray(turned / np.linalg.norm(turned, axis=1)[:, None], dtype=float)
+
+
+def angle_rows(axes: Floats, pairs: Sequence[tuple[int, int]]) -> tuple[Floats, csr_array]:
+    """Angle S between the axes of each pair (rad), and its derivative by the steps of `moved`.
+
+    dS = -tau_ij . dn_i - tau_ji . dn_j, tau_ij the unit tangent at i towards j. Columns: 2 i and 2 i + 1 of axis i.
+    """
+    i, j = np.array(pairs, dtype=int).reshape(-1, 2).T
+    a, b = axes[i], axes[j]
+    S = 2 * np.arctan2(np.linalg.norm(a - b, axis=1), np.linalg.norm(a + b, axis=1))
+    towards = [(q - p * np.cos(S)[:, None]) / np.sin(S)[:, None] for p, q in ((a, b), (b, a))]
+    return S, vector_rows(axes, (i, j), (-towards[0], -towards[1]))
+
+
+def azimuth_rows(axes: Floats, at: Ints, to: Ints) -> csr_array:
+    """Derivative of the azimuth psi of axis `to` about axis `at`, by the steps of `moved`.
+
+    d psi = (dn_j / sin S - dn_i cot S) . t, t = n_i x n_j / sin S; the frame at i is carried along in parallel, so
+    that only differences of azimuths about one axis have a meaning.
+    """
+    a, b = axes[at], axes[to]
+    t = np.cross(a, b)
+    sine = np.linalg.norm(t, axis=1)[:, None]
+    cosine = np.einsum("px,px->p", a, b)[:, None]
+    t = t / sine
+    return vector_rows(axes, (at, to), (-t * cosine / sine, t / sine))
+
+
+def vector_rows(axes: Floats, gears: tuple[Ints, Ints], vectors: tuple[Floats, Floats]) -> csr_array:
+    """Rows of a sparse Jacobian: the sum over two gears of vector . dn, in the steps of `moved`."""
+    from scipy.sparse import coo_array
+
+    across = frames(axes)
+    count = len(gears[0])
+    rows, columns, values = [], [], []
+    for gear, vector in zip(gears, vectors, strict=True):
+        for k in (0, 1):
+            rows.append(np.arange(count))
+            columns.append(2 * gear + k)
+            values.append(np.einsum("px,px->p", vector, across[gear, k]))
+    at = (np.concatenate(rows), np.concatenate(columns))
+    return coo_array((np.concatenate(values), at), shape=(count, 2 * len(axes))).tocsr()

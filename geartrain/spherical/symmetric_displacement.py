@@ -1,0 +1,144 @@
+"""Where axes may stand while a set keeps its symmetries, and the places where all its meshes have one pitch."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from geartrain.errors import GearTrainError, Problem
+
+if TYPE_CHECKING:
+    from geartrain.numerics.arrays import Floats, Ints
+
+
+_SOLVED = 1e-13
+_MOST_STEPS = 60
+_LONGEST = 0.2  # rad, of one step
+
+
+@dataclass(frozen=True, eq=False)
+class SymmetricFreedom:
+    """The symmetries of a set of axes, and what they leave free.
+
+    matrices  (order, 3, 3)
+    images    where each symmetry takes each gear, by index, (order, gears)
+    """
+
+    matrices: Floats
+    images: Ints
+
+    def orbits(self) -> Ints:
+        """For each gear the first gear of its orbit."""
+        first: Ints = self.images.min(axis=0)
+        return first
+
+    def mesh_orbits(self, meshes: Sequence[tuple[int, int]]) -> Ints:
+        """A number for each mesh, the same for meshes that the symmetries take to each other."""
+        pairs = np.sort(self.images[:, np.array(meshes, dtype=np.int64).reshape(-1, 2)], axis=2)
+        code: Ints = (pairs[..., 0] * self.images.shape[1] + pairs[..., 1]).min(axis=0)
+        return code
+
+    def freedom(self, gear: int, axis: Floats) -> Floats:
+        """Directions across its axis in which a gear may move with all its images: (0, 1 or 2, 3), orthonormal.
+
+        They are what all symmetries that keep the gear keep: none on an axis of rotation, one on a mirror.
+        """
+        kept = self.matrices[self.images[:, gear] == gear].mean(axis=0) - np.outer(axis, axis)
+        values, vectors = np.linalg.eigh((kept + kept.T) / 2)
+        free: Floats = vectors[:, values > 0.5].T
+        return free
+
+
+def equal_pitch(
+    movement: SymmetricFreedom,
+    axes: Floats,
+    meshes: Sequence[tuple[int, int]],
+    teeth: Sequence[int],
+    movable: Collection[int],
+) -> Floats:
+    """The axes (gears, 3) moved, with all symmetries kept, so that every mesh has the same circular pitch.
+
+    `movable` are the gears that may move, whole orbits. A pair at an angle S has the operating pitch
+    lambda = sin S / sqrt(z_i^2 + z_j^2 + 2 z_i z_j cos S); Newton's method on log lambda and the positions, pitches
+    equal within 1e-13. Raises `GearTrainError` where none is found near the given axes.
+    """
+    places = _Places(movement, axes, movable)
+    _, kept = np.unique(movement.mesh_orbits(meshes), return_index=True)
+    pairs = np.array(meshes, dtype=np.int64)[kept]
+    z = np.array(teeth, dtype=np.float64)[pairs]
+
+    def wrong(unknown: Floats) -> Floats:
+        """By how much each kind of mesh misses the common pitch, as logarithms."""
+        missed: Floats = _log_pitch(places.moved(unknown[:-1])[pairs], z) - unknown[-1]
+        return missed
+
+    start = np.zeros(places.free + 1)
+    start[-1] = wrong(start).mean()
+    unknown, left = _newton(wrong, start)
+    if left > _SOLVED:
+        raise _refused(len(pairs), places.free, left)
+    return places.moved(unknown[:-1])
+
+
+class _Places:
+    """Axes as a function of their free positions: the first gear of each orbit moves, the others follow."""
+
+    def __init__(self, movement: SymmetricFreedom, axes: Floats, movable: Collection[int]) -> None:
+        self.axes = axes
+        self.orbits = movement.orbits()
+        first = [int(gear) for gear in np.unique(self.orbits) if int(gear) in movable]
+        self.ways = {gear: movement.freedom(gear, axes[gear]) for gear in first}
+        self.free = sum(map(len, self.ways.values()))
+        bringing = [int(np.argmax(movement.images[:, head] == gear)) for gear, head in enumerate(self.orbits)]
+        self.carry = movement.matrices[bringing]
+
+    def moved(self, positions: Floats) -> Floats:
+        base, at = self.axes.copy(), 0
+        for gear, ways in self.ways.items():
+            base[gear] += positions[at : at + len(ways)] @ ways
+            base[gear] /= np.linalg.norm(base[gear])
+            at += len(ways)
+        result: Floats = np.einsum("gij,gj->gi", self.carry, base[self.orbits])
+        return result
+
+
+def _log_pitch(n: Floats, z: Floats) -> Floats:
+    """Logarithm of the operating pitch of pairs of axes (pairs, 2, 3) with tooth numbers (pairs, 2)."""
+    sine = np.linalg.norm(np.cross(n[:, 0], n[:, 1]), axis=1)
+    cosine = (n[:, 0] * n[:, 1]).sum(axis=1)
+    pitch: Floats = np.log(sine) - np.log((z**2).sum(axis=1) + 2 * z.prod(axis=1) * cosine) / 2
+    return pitch
+
+
+def _newton(wrong: Callable[[Floats], Floats], unknown: Floats) -> tuple[Floats, float]:
+    """Least-norm Newton steps, each short and never uphill; the unknowns and the largest residual left."""
+    residual = wrong(unknown)
+    for _ in range(_MOST_STEPS):
+        step = -np.linalg.lstsq(_slopes(wrong, unknown), residual, rcond=1e-9)[0]
+        step *= min(1.0, _LONGEST / max(float(np.abs(step[:-1]).max(initial=0.0)), 1e-300))
+        while np.abs(step).max() > 1e-16 and not np.linalg.norm(wrong(unknown + step)) < np.linalg.norm(residual):
+            step = step / 2
+        if np.abs(step).max() <= 1e-16:
+            break
+        unknown = unknown + step
+        residual = wrong(unknown)
+    return unknown, float(np.abs(residual).max(initial=0.0))
+
+
+def _slopes(wrong: Callable[[Floats], Floats], unknown: Floats) -> Floats:
+    apart = 1e-5 * np.eye(len(unknown))
+    return np.array([(wrong(unknown + d) - wrong(unknown - d)) / 2e-5 for d in apart]).T
+
+
+def _refused(kinds: int, free: int, left: float) -> GearTrainError:
+    why = f"{kinds} kinds of mesh ask for one pitch, and the symmetries leave {free} positions free"
+    return GearTrainError(
+        Problem(
+            "no place with one pitch for all meshes was found near the solid's own axes",
+            f"{why}; at the best place found they miss it by up to {100 * left:.3g} %",
+            "change the tooth numbers; without exact=True faces and vertices keep their axes",
+        )
+    )

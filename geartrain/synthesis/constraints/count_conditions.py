@@ -1,0 +1,265 @@
+"""What a rule may say of tooth counts: an equation that they meet, or a condition that refuses them.
+
+Sums of tooth counts with weights: centre distances, and what follows from them.
+
+Limits on the counts of one wheel, and of two: least and most teeth, common divisors, repeats.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import reduce
+from math import gcd, lcm
+from typing import TYPE_CHECKING, Protocol
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from geartrain.numerics.arrays import Bools, Ints
+
+
+CandidateColumns = Mapping[str, "Ints"]
+"""Wheel -> tooth counts of many candidates, int64 arrays of one length."""
+
+CountRef = str | int
+"""A tooth count in a rule: that of a free wheel, by id, or a fixed one."""
+
+
+class CandidateTest(Protocol):
+    """A predicate on candidates: a frozen object that can be pickled."""
+
+    def __call__(self, columns: CandidateColumns, /) -> Bools:
+        """True for the candidates that pass, (candidates,)."""
+
+
+@dataclass(frozen=True, slots=True)
+class CountEquation:
+    """A rule that counts meet exactly: sum of coefficient times count, plus a constant, is 0.
+
+    name          the reason, for a reader
+    coefficients  free wheel -> whole number, none of them 0; at least one wheel
+    constant      what the wheels with fixed counts add
+    """
+
+    name: str
+    coefficients: Mapping[str, int]
+    constant: int
+
+    @property
+    def wheels(self) -> tuple[str, ...]:
+        """The free wheels it is about."""
+        return tuple(self.coefficients)
+
+    def left(self, columns: CandidateColumns) -> Ints:
+        """The sum of the equation, (candidates,); 0 where it holds. Sums above 2^63 overflow."""
+        terms = [factor * columns[wheel] for wheel, factor in self.coefficients.items()]
+        return np.asarray(reduce(np.add, terms) + self.constant, dtype=np.int64)
+
+    def holds(self, columns: CandidateColumns) -> Bools:
+        """True for the candidates that meet it, (candidates,)."""
+        return np.asarray(self.left(columns) == 0)
+
+    def solve_for(self, wheel: str, columns: CandidateColumns) -> tuple[Ints, Bools]:
+        """The count of one wheel from those of the others, and where it is whole; both (candidates,).
+
+        Columns need not hold `wheel`. The count may be 0 or less, and is rounded down where it is not whole. Of an
+        equation on one wheel alone both arrays have one entry.
+        """
+        others = [factor * columns[name] for name, factor in self.coefficients.items() if name != wheel]
+        total = reduce(np.add, others, np.array(self.constant, dtype=np.int64))
+        count, rest = np.divmod(np.atleast_1d(-total), self.coefficients[wheel])
+        return np.asarray(count, dtype=np.int64), np.asarray(rest == 0)
+
+    @property
+    def possible(self) -> bool:
+        """False where no whole numbers meet it: the greatest common divisor of the factors leaves a rest."""
+        return self.constant % gcd(*self.coefficients.values()) == 0
+
+
+@dataclass(frozen=True, slots=True)
+class Condition:
+    """A rule that refuses candidates.
+
+    name    the reason, for a reader; several conditions may share one
+    wheels  the free wheels it is about, at least one
+    test    what decides
+    """
+
+    name: str
+    wheels: tuple[str, ...]
+    test: CandidateTest
+
+    def holds(self, columns: CandidateColumns) -> Bools:
+        """True for the candidates that pass, (candidates,), read-only. Columns of other wheels are not looked at."""
+        return np.broadcast_to(self.test(columns), columns[self.wheels[0]].shape)
+
+
+CountConstraint = CountEquation | Condition
+"""A fitter's rule: `.name`, `.wheels`, `.holds(columns)`."""
+
+
+def counts_of(columns: CandidateColumns, part: CountRef) -> Ints:
+    """The counts of a part: those of a free wheel, or one number, which numpy spreads over all candidates."""
+    return columns[part] if isinstance(part, str) else np.asarray(part, dtype=np.int64)
+
+
+def free_of(*parts: CountRef) -> tuple[str, ...]:
+    """The free wheels among parts, each once, in order."""
+    return tuple(dict.fromkeys(part for part in parts if isinstance(part, str)))
+
+
+@dataclass(frozen=True, slots=True)
+class LinearSum:
+    """A sum of weight times count over free wheels, and a constant; weights are never 0."""
+
+    terms: Mapping[str, Fraction]
+    constant: Fraction = Fraction(0)
+
+    @classmethod
+    def of(cls, parts: Iterable[tuple[Fraction | int, CountRef]]) -> LinearSum:
+        """Weights times parts: of a free wheel by id, or of a fixed count."""
+        total = cls({})
+        for weight, part in parts:
+            total = total + (
+                cls({part: Fraction(weight)}) if isinstance(part, str) else cls({}, Fraction(weight * part))
+            )
+        return total
+
+    def __add__(self, other: LinearSum) -> LinearSum:
+        terms = dict(self.terms)
+        for wheel, weight in other.terms.items():
+            terms[wheel] = terms.get(wheel, Fraction(0)) + weight
+        return LinearSum({wheel: weight for wheel, weight in terms.items() if weight}, self.constant + other.constant)
+
+    def __sub__(self, other: LinearSum) -> LinearSum:
+        return self + other.times(-1)
+
+    def times(self, factor: Fraction | int) -> LinearSum:
+        """The sum with all weights multiplied."""
+        if not factor:
+            return LinearSum({})
+        return LinearSum({wheel: weight * factor for wheel, weight in self.terms.items()}, self.constant * factor)
+
+    def plus(self, number: Fraction | int) -> LinearSum:
+        """The sum with a larger constant."""
+        return LinearSum(self.terms, self.constant + number)
+
+
+@dataclass(frozen=True, slots=True)
+class WholeSum:
+    """A sum of whole weights times counts, and a whole constant."""
+
+    terms: tuple[tuple[str, int], ...]
+    constant: int
+
+    @property
+    def wheels(self) -> tuple[str, ...]:
+        """The free wheels in it."""
+        return tuple(wheel for wheel, _ in self.terms)
+
+    def of(self, columns: CandidateColumns) -> Ints:
+        """Its values, (candidates,); one number where there is no free wheel in it. Sums above 2^63 overflow."""
+        total = np.asarray(self.constant, dtype=np.int64)
+        for wheel, weight in self.terms:
+            total = total + weight * columns[wheel]
+        return np.asarray(total)
+
+
+def whole(*sums: LinearSum) -> tuple[WholeSum, ...]:
+    """Sums times the least positive number that makes all their weights whole, the same for all."""
+    scale = lcm(*(number.denominator for one in sums for number in (*one.terms.values(), one.constant)))
+    return tuple(
+        WholeSum(tuple((wheel, int(weight * scale)) for wheel, weight in one.terms.items()), int(one.constant * scale))
+        for one in sums
+    )
+
+
+def plainest(one: LinearSum) -> WholeSum:
+    """A sum in the smallest whole numbers, its first weight positive: what is 0 stays 0, and nothing else becomes 0."""
+    (found,) = whole(one)
+    common = gcd(*(weight for _, weight in found.terms), found.constant) or 1
+    if found.terms and found.terms[0][1] < 0:
+        common = -common
+    return WholeSum(tuple((wheel, weight // common) for wheel, weight in found.terms), found.constant // common)
+
+
+def equality(one: WholeSum) -> str:
+    """A sum that is 0, in words, with plus signs only: `s + 2 p = r`."""
+    pieces = [(one.constant, str(abs(one.constant)))] if one.constant else []
+    pieces += [(weight, f"{abs(weight)} {wheel}" if abs(weight) != 1 else wheel) for wheel, weight in one.terms]
+    left, right = ([text for weight, text in pieces if weight * side > 0] for side in (1, -1))
+    return f"{' + '.join(left) or '0'} = {' + '.join(right) or '0'}"
+
+
+@dataclass(frozen=True, slots=True)
+class CountBounds:
+    """A count of a wheel within bounds, inclusive; None for no bound."""
+
+    wheel: str
+    least: int | None = None
+    most: int | None = None
+
+    def __call__(self, columns: CandidateColumns) -> Bools:
+        """True where it is, (candidates,)."""
+        counts = columns[self.wheel]
+        found = np.ones(counts.shape, dtype=bool)
+        if self.least is not None:
+            found &= counts >= self.least
+        if self.most is not None:
+            found &= counts <= self.most
+        return found
+
+
+@dataclass(frozen=True, slots=True)
+class Coprime:
+    """Two counts without a common divisor: every tooth meets every tooth of its mate (hunting tooth)."""
+
+    first: CountRef
+    second: CountRef
+
+    def __call__(self, columns: CandidateColumns) -> Bools:
+        """True where the greatest common divisor is 1, (candidates,)."""
+        return np.asarray(np.gcd(counts_of(columns, self.first), counts_of(columns, self.second)) == 1)
+
+
+@dataclass(frozen=True, slots=True)
+class DifferentCount:
+    """A count that differs from others."""
+
+    wheel: str
+    others: tuple[CountRef, ...]
+
+    def __call__(self, columns: CandidateColumns) -> Bools:
+        """True where it does, (candidates,)."""
+        found = np.ones(columns[self.wheel].shape, dtype=bool)
+        for other in self.others:
+            found &= columns[self.wheel] != counts_of(columns, other)
+        return found
+
+
+@dataclass(frozen=True, slots=True)
+class NearZero:
+    """A sum no farther from 0 than a whole number."""
+
+    total: WholeSum
+    most: int
+
+    def __call__(self, columns: CandidateColumns) -> Bools:
+        """True where it is, (candidates,)."""
+        return np.asarray(np.abs(self.total.of(columns)) <= self.most)
+
+
+@dataclass(frozen=True, slots=True)
+class Divisible:
+    """Sums that are multiples of a number each: (modulus, sum)."""
+
+    sums: tuple[tuple[int, WholeSum], ...]
+
+    def __call__(self, columns: CandidateColumns) -> Bools:
+        """True where all are, (candidates,)."""
+        found = np.asarray(True)
+        for modulus, total in self.sums:
+            found = found & (total.of(columns) % modulus == 0)
+        return np.asarray(found)

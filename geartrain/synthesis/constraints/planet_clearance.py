@@ -1,0 +1,200 @@
+"""Room between planets: neighbours on a carrier, and planets that mesh with each other and their neighbours."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from geartrain.errors import Problem, QuestionError
+from geartrain.synthesis.constraints.count_conditions import Condition, LinearSum, whole
+from geartrain.synthesis.constraints.decimal_sines import cosine, is_positive, sine
+
+if TYPE_CHECKING:
+    from geartrain.numerics.arrays import Bools
+    from geartrain.synthesis.constraints.count_conditions import CandidateColumns, WholeSum
+    from geartrain.synthesis.constraints.train_assembly import AssemblyMesh, Planet, PlanetSet, TrainAssembly
+
+
+def neighbour_terms(root: Any, reach: Any, tips: Any, chord: Any) -> tuple[Any, ...]:
+    """Terms of the room between neighbouring equal planets: 2 a sin(pi/n) less their tips and what is to be left.
+
+    reach   2 a, with a from the central axis to a planet's: m (z_s + z_p), or m (z_r - z_p)
+    tips    m (z_p + 2 h) + clearance
+    chord   sin(pi/n)
+    """
+    return reach * chord, -tips
+
+
+def passing_terms(root: Any, A: Any, B: Any, D: Any, tips: Any, c: Any, s: Any) -> tuple[Any, ...]:
+    """Terms of the room between a planet and the one that meshes with its neighbour: (2 distance)^2 less (2 reach)^2.
+
+    A, B   twice the distances of the two planets' axes from the central axis
+    D      twice their centre distance where they mesh, D^2 = A^2 + B^2 - 2 A B cos(delta)
+    tips   tip diameters, summed, and twice what is to be left
+    c, s   cosine and sine of the turn psi to the neighbour: the distance is that at the angle psi - delta,
+           (2 distance)^2 = A^2 + B^2 - 2 A B (c cos(delta) + s sin(delta))
+    """
+    Q = A * A + B * B - D * D
+    sines = root(4 * A * A * B * B - Q * Q)
+    return A * A, B * B, -c * Q, -s * sines, -tips * tips
+
+
+@dataclass(frozen=True, slots=True)
+class NeighbourClearance:
+    """Tip circles of neighbouring planets with more room than is asked, exactly; arguments as in `neighbour_terms`."""
+
+    number: int
+    reach: WholeSum
+    tips: WholeSum
+
+    def __call__(self, columns: CandidateColumns) -> Bools:
+        """True where they have, (candidates,)."""
+        chord = sine(Fraction(1, 2 * self.number))
+        return is_positive(neighbour_terms, [self.reach.of(columns), self.tips.of(columns)], [chord], True)
+
+
+@dataclass(frozen=True, slots=True)
+class PassingClearance:
+    """Two planets that mesh can stand on their circles, and each clears those that mesh with its neighbours."""
+
+    number: int
+    A: WholeSum
+    B: WholeSum
+    D: WholeSum
+    tips: WholeSum
+
+    def __call__(self, columns: CandidateColumns) -> Bools:
+        """True where they can and do, (candidates,); arguments as in `passing_terms`."""
+        A, B, D, tips = (one.of(columns) for one in (self.A, self.B, self.D, self.tips))
+        found = np.asarray((np.abs(A - B) <= D) & (D <= A + B))
+        for step in range(1, self.number):
+            turn = Fraction(step, self.number)
+            found = found & is_positive(passing_terms, [A, B, D, tips], [cosine(turn), sine(turn)], True)
+        return found
+
+
+@dataclass(frozen=True, slots=True)
+class PositiveRoom:
+    """A sum above 0."""
+
+    room: WholeSum
+
+    def __call__(self, columns: CandidateColumns) -> Bools:
+        """True where it is, (candidates,)."""
+        return np.asarray(self.room.of(columns) > 0)
+
+
+@dataclass(frozen=True, slots=True)
+class PlanetRoom:
+    """What is asked of the room between planets: addenda of wheels and rings, and what is to be left (modules)."""
+
+    number: int
+    addendum: Fraction
+    ring_addendum: Fraction
+    clearance: Fraction
+
+    def conditions(self, found: PlanetSet, fitting: TrainAssembly) -> Iterator[Condition]:
+        """Of one set of planets: tips of wheels that neighbours have in common, then of those that mesh.
+
+        Wheels of planets are as wide apart as their axes; central wheels of a set of two planets, one meeting only
+        external wheels and the other only rings, are taken to stand in one plane with both.
+        """
+        assert found.planets is not None
+        _check(found)
+        for planet in found.planets.walk():
+            yield from self._alone(planet)
+            for mesh, other in planet.outward:
+                yield from self._both(mesh, planet, other)
+
+    def _alone(self, planet: Planet) -> Iterator[Condition]:
+        for mesh in _once(planet):
+            wheel, part, reach = planet.own(mesh), mesh.parts[planet.side(mesh)], _reach(planet, planet.own(mesh))
+            if reach is None:
+                continue
+            assert mesh.module is not None
+            tips = LinearSum.of([(1, part)]).plus(2 * self.addendum + self.clearance).times(mesh.module)
+            name = f"neighbours: tips of {self.number} planets '{wheel}' keep {_shown(self.clearance)} apart"
+            yield from _condition(name, NeighbourClearance(self.number, *whole(reach, tips)))
+
+    def _both(self, mesh: AssemblyMesh, planet: Planet, other: Planet) -> Iterator[Condition]:
+        A, B = _reach(planet), _reach(other)
+        if A is None or B is None or mesh.ring is not None:
+            return
+        assert mesh.module is not None
+        tips = mesh.teeth.plus(4 * self.addendum + 2 * self.clearance).times(mesh.module)
+        pair = f"'{planet.own(mesh)}' and '{other.own(mesh)}'"
+        name = f"neighbours: {pair} of {self.number} planets reach each other and keep {_shown(self.clearance)} apart"
+        yield from _condition(name, PassingClearance(self.number, *whole(A, B, mesh.distance, tips)))
+        for inner, outer in ((planet, other), (other, planet)):
+            if _is_plain(inner, True) and _is_plain(outer, False):
+                yield from self._between(inner, outer)
+
+    def _between(self, inner: Planet, outer: Planet) -> Iterator[Condition]:
+        """The outer planet clears the inner one's central wheels, and the inner one the outer one's rings."""
+        for planet, other in ((outer, inner), (inner, outer)):
+            for mesh in other.central:
+                name = f"neighbours: '{planet.wheels[0]}' clears '{other.mate(mesh)}'"
+                yield from _condition(name, PositiveRoom(*whole(self._gap(planet, other, mesh))))
+
+    def _gap(self, planet: Planet, other: Planet, mesh: AssemblyMesh) -> LinearSum:
+        """Twice the room between a planet and the central wheel of another one, less what is to be left."""
+        reach, own = _reach(planet), planet.central[0]
+        assert reach is not None
+        assert mesh.module is not None
+        sign, addendum = (1, self.addendum) if mesh.ring is None else (-1, self.ring_addendum)
+        tips = LinearSum.of([(sign, mesh.parts[1 - other.side(mesh)]), (1, own.parts[planet.side(own)])])
+        tips = tips.plus(2 * (self.addendum + addendum + self.clearance)).times(mesh.module)
+        return reach.times(sign) - tips
+
+
+def _is_plain(planet: Planet, external: bool) -> bool:
+    """True if a planet is one wheel among external central wheels only, or among rings only; at the end of its set."""
+    alone = len(planet.wheels) == 1 and len(planet.outward) + (planet.inward is not None) == 1
+    return alone and bool(planet.central) and all((mesh.ring is None) == external for mesh in planet.central)
+
+
+def _reach(planet: Planet, wheel: str = "") -> LinearSum | None:
+    """Twice the distance of a planet's axis from the central one: by a mesh of a wheel, else by an external one."""
+    meshes = sorted(planet.central, key=lambda mesh: (planet.own(mesh) != wheel, mesh.ring is not None))
+    return meshes[0].distance if meshes else None
+
+
+def _once(planet: Planet) -> list[AssemblyMesh]:
+    """A mesh for each of its wheels."""
+    inward = [planet.inward] if planet.inward else []
+    meshes = [*inward, *planet.central, *(mesh for mesh, _ in planet.outward)]
+    return list({planet.own(mesh): mesh for mesh in meshes}.values())
+
+
+def _meshes(found: PlanetSet) -> list[AssemblyMesh]:
+    assert found.planets is not None
+    return [mesh for planet in found.planets.walk() for mesh in _once(planet)]
+
+
+def _condition(name: str, test: NeighbourClearance | PassingClearance | PositiveRoom) -> Iterator[Condition]:
+    sums = [one for one in (getattr(test, field) for field in test.__slots__) if not isinstance(one, int)]
+    wheels = tuple(dict.fromkeys(wheel for one in sums for wheel in one.wheels))
+    if wheels:
+        yield Condition(name, wheels, test)
+
+
+def _shown(number: Fraction) -> str:
+    return f"{float(number):g} modules" if number != 1 else "1 module"
+
+
+def _check(found: PlanetSet) -> None:
+    """Refuse sets whose room is not known."""
+    meshes = _meshes(found)
+    if not all(mesh.spur for mesh in meshes):
+        why, fix = "the tips of bevel wheels are not on circles about parallel axes", "leave the clearance out"
+    elif any(mesh.module is None for mesh in meshes):
+        why, fix = "two of their wheels mesh and have different modules", "correct a module"
+    elif len({mesh.measure for mesh in meshes}) > 1:
+        why, fix = "some wheels have a declared module, others none", "declare the module of all of them, or of none"
+    else:
+        return
+    raise QuestionError(Problem(f"the room between planets {found.title} is not known", why, fix))

@@ -1,0 +1,217 @@
+"""What a search for epicyclic sets found.
+
+An epicyclic set as a declaration: with its counts, or with wheels still to be found.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Any, Literal
+
+from geartrain.errors import Problem, QuestionError
+from geartrain.numerics.exact import abridged_text, as_float, decimal, fraction_text
+from geartrain.synthesis.epicyclic.set_kinds import CARRIER, EpicyclicKind, EpicyclicMode, epicyclic_kind
+from geartrain.synthesis.search_outcome import Shortfall
+
+RatioIs = Literal["input/output", "output/input"]
+SetOrder = Literal["error", "total", "largest"]
+
+
+@dataclass(frozen=True, slots=True)
+class EpicyclicSet:
+    """Tooth counts of a set in one mode.
+
+    teeth    by wheel
+    ratio    speed of the input over that of the output, exact; negative where they turn against each other
+    error    magnitude of the ratio, as it was asked for, over the wanted one, less 1; exact
+    planets  the number asked for
+    places   at how many equally spaced places identical planets can stand; 0 for anywhere
+    room     between the tips of neighbouring planets, equally spaced (modules); negative where they overlap
+    """
+
+    kind: str
+    mode: EpicyclicMode
+    teeth: Mapping[str, int]
+    ratio: Fraction
+    error: Fraction
+    planets: int
+    places: int
+    room: float
+
+    @property
+    def inverse(self) -> Fraction:
+        """Speed of the output over that of the input."""
+        return 1 / self.ratio
+
+    @property
+    def equally_spaced(self) -> bool:
+        """True if the planets can be put in at equal distances."""
+        return self.places % self.planets == 0
+
+    @property
+    def clears(self) -> bool:
+        """True if neighbouring planets do not touch."""
+        return self.room >= -1e-9
+
+    def __str__(self) -> str:
+        teeth = ", ".join(f"{wheel} = {count}" for wheel, count in self.teeth.items())
+        return f"{teeth}: {abridged_text(self.ratio)} = {decimal(self.ratio, 7)} ({self.mode})"
+
+    def to_dict(self) -> dict[str, Any]:
+        """Plain data for JSON."""
+        return {
+            "kind": self.kind,
+            "mode": {"input": self.mode.input, "output": self.mode.output, "held": self.mode.held},
+            "teeth": dict(self.teeth),
+            "input/output": fraction_text(self.ratio),
+            "output/input": fraction_text(self.inverse),
+            "value": as_float(self.ratio),
+            "error": float(self.error),
+            "exact_error": fraction_text(self.error),
+            "planets": self.planets,
+            "places": self.places,
+            "equally_spaced": self.equally_spaced,
+            "room": None if self.room in (float("inf"), float("-inf")) else self.room,
+            "total": sum(self.teeth.values()),
+            "largest": max(self.teeth.values()),
+        }
+
+
+@dataclass(frozen=True, slots=True)
+class SetFindings:
+    """The best sets of a kind, best first.
+
+    complete   True: all sets within the bounds were looked at
+    count      sets within the tolerance, over all modes; all that run where no tolerance was asked
+    solutions  the best of them
+    shortfall  what became of the others; a set in each mode counts as one candidate
+    """
+
+    kind: str
+    wanted: Fraction
+    ratio_is: RatioIs
+    modes: tuple[EpicyclicMode, ...]
+    tolerance: Fraction | None
+    complete: bool
+    count: int
+    solutions: tuple[EpicyclicSet, ...]
+    shortfall: Shortfall
+
+    def __bool__(self) -> bool:
+        return bool(self.solutions)
+
+    def to_dict(self) -> dict[str, Any]:
+        """Plain data for JSON."""
+        return {
+            "kind": self.kind,
+            "wanted": str(self.wanted),
+            "ratio_is": self.ratio_is,
+            "modes": [mode.key for mode in self.modes],
+            "tolerance": None if self.tolerance is None else float(self.tolerance),
+            "complete": self.complete,
+            "count": self.count,
+            "solutions": [found.to_dict() for found in self.solutions],
+            **self.shortfall.to_dict(),
+        }
+
+
+def set_rank(found: EpicyclicSet, by: SetOrder, mode: int) -> tuple[Any, ...]:
+    """The exact key of an order: its own measure first, then error, total, largest wheel, mode, counts."""
+    counts = tuple(found.teeth.values())
+    measures: dict[SetOrder, Any] = {"error": abs(found.error), "total": sum(counts), "largest": max(counts)}
+    return (measures[by], *measures.values(), mode, counts)
+
+
+Teeth = Mapping[str, int | tuple[int, int]]
+
+
+def declare(
+    kind: str | EpicyclicKind,
+    mode: str | EpicyclicMode,
+    teeth: Teeth,
+    wanted: Fraction | None = None,
+    tolerance: Fraction | None = None,
+    ratio_is: RatioIs = "input/output",
+) -> dict[str, Any]:
+    """A train as plain data, with one planet (or one pair in mesh), driven at 1.
+
+    teeth   of every wheel: a count, or the bounds (lowest, highest) within which it is to be found
+    wanted  the ratio, negative for an output that turns against the input, which the output gets as its target;
+            `tolerance` relative
+
+    Raises `QuestionError` for wheels it does not have or lacks.
+    """
+    kind = epicyclic_kind(kind) if isinstance(kind, str) else kind
+    (mode,) = kind.chosen([mode])
+    _check(kind, teeth)
+    output: dict[str, Any] = {}
+    if wanted is not None:
+        speed = Fraction(wanted) if ratio_is == "output/input" else 1 / Fraction(wanted)
+        target = {"speed": fraction_text(speed)}
+        if tolerance is not None:
+            target["tolerance"] = str(float(tolerance))
+        output = {"targets": [target]}
+    return {
+        "name": f"{kind.name}-{mode.key.replace(':', '-')}",
+        "title": f"{kind.title}: {mode}",
+        "links": _links(kind, teeth),
+        **({"axes": _AXES} if kind.bevel else {}),
+        "revolutes": list(_revolutes(kind)),
+        "gears": [{"pair": [member.wheel, member.mesh]} for member in kind.members]
+        + [{"pair": list(pair)} for pair in kind.between],
+        "inputs": {mode.input: 1},
+        "fixed": [mode.held],
+        "outputs": {mode.output: output},
+    }
+
+
+def declaration_of(found: EpicyclicSet) -> dict[str, Any]:
+    """A set that was found, as a train that expects its ratio."""
+    data = declare(found.kind, found.mode, found.teeth)
+    data["outputs"] = {found.mode.output: {"expect": str(found.inverse)}}
+    return data
+
+
+_AXES = {"main": {"direction": [1, 0, 0]}, "planet": {"direction": [0, 1, 0]}}
+
+
+def _check(kind: EpicyclicKind, teeth: Teeth) -> None:
+    unknown = [wheel for wheel in teeth if wheel not in kind.wheels]
+    missing = [wheel for wheel in kind.wheels if wheel not in teeth]
+    if unknown or missing:
+        what = f"'{unknown[0]}' is no wheel of" if unknown else f"wheel '{missing[0]}' is missing from"
+        why = f"its wheels are {', '.join(kind.wheels)}"
+        raise QuestionError(Problem(f"{what} the kind '{kind.name}'", why, "give a count or bounds for each of them"))
+
+
+def _links(kind: EpicyclicKind, teeth: Teeth) -> dict[str, Any]:
+    links: dict[str, Any] = {"frame": {}}
+    for at, member in enumerate(kind.members):
+        facing = {"facing": -1} if kind.bevel and at else {}
+        links[member.link] = {"wheels": {member.wheel: _wheel(kind, teeth[member.wheel], member.internal) | facing}}
+    links[CARRIER] = {}
+    for name, wheels in zip(_planet_links(kind), kind.planets, strict=True):
+        links[name] = {"wheels": {wheel: _wheel(kind, teeth[wheel], False) for wheel in wheels}}
+    return links
+
+
+def _wheel(kind: EpicyclicKind, teeth: int | tuple[int, int], internal: bool) -> dict[str, Any]:
+    wheel: dict[str, Any] = {"teeth": teeth if isinstance(teeth, int) else {"search": list(teeth)}}
+    if internal:
+        wheel["internal"] = True
+    if kind.bevel:
+        wheel["kind"] = "bevel"
+    return wheel
+
+
+def _planet_links(kind: EpicyclicKind) -> Sequence[str]:
+    return ["planet"] if len(kind.planets) == 1 else [f"planet{at}" for at in range(1, len(kind.planets) + 1)]
+
+
+def _revolutes(kind: EpicyclicKind) -> Iterator[dict[str, Any]]:
+    for link in kind.links:
+        yield {"pair": ["frame", link], "axis": "main"}
+    for name in _planet_links(kind):
+        yield {"pair": [CARRIER, name], "axis": name}

@@ -1,0 +1,232 @@
+"""What every output of a declared train is, as an exact rational function of the tooth counts that are free."""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from geartrain.errors import Problem, QuestionError
+from geartrain.kinematics.circuits import Circuit, Tree, close_joints, find_circuits, find_tree, link_signs
+from geartrain.kinematics.components import relevant_circuits
+from geartrain.synthesis.formulas.laurent import Laurent, TooLongError
+from geartrain.synthesis.formulas.laurent import Term as Term
+from geartrain.synthesis.formulas.monomial_groups import MonomialGroup as MonomialGroup
+from geartrain.synthesis.formulas.rational_functions import Formula as Formula
+from geartrain.synthesis.formulas.rational_functions import make_formula
+from geartrain.synthesis.formulas.symbolic_elimination import SymbolicSolution, solve_rows
+from geartrain.synthesis.formulas.symbolic_equations import SymbolicEquations
+from geartrain.train import StateCase, Teeth, Train, Wheel, suggest
+from geartrain.train.fields import MOST_TEETH
+
+Counts = tuple[int, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Formulas(Mapping[str, Formula]):
+    """The outputs of a train in one state, as functions of its free wheels. As a mapping it is `outputs`.
+
+    outputs        output name -> its speed in the train's unit (or the difference, for `relative_to`), exactly
+    conditions     functions that must all be 0 for the train to turn: loops that close, links driven or held in more
+                   ways than one. `label` says what each comes from. A constant other than 0 says that the train never
+                   turns. The outputs hold where all conditions do.
+    exclusions     functions that must not be 0: where one is, the train is locked or free though the outputs have
+                   values, because the factor is cancelled in them
+    undetermined   outputs that the inputs do not determine, whatever the counts
+
+    A loop closes or holds its wheels still. Only the first is followed here, so a train that is to run with a loop of
+    free wheels that does not close has no formulas; a loop of fixed counts is followed either way.
+    """
+
+    outputs: Mapping[str, Formula]
+    conditions: tuple[Formula, ...]
+    exclusions: tuple[Formula, ...]
+    undetermined: tuple[str, ...]
+
+    def __getitem__(self, name: str) -> Formula:
+        return self.outputs[name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self.outputs)
+
+    def __len__(self) -> int:
+        return len(self.outputs)
+
+    def turns(self, counts: Mapping[str, int]) -> bool:
+        """True if every condition holds at these counts, and no exclusion strikes."""
+        met = all(condition.value(counts) == 0 for condition in self.conditions)
+        return met and all(exclusion.value(counts) != 0 for exclusion in self.exclusions)
+
+    def to_dict(self) -> dict[str, Any]:
+        """Plain data for JSON."""
+        return {
+            "outputs": {name: formula.to_dict() for name, formula in self.outputs.items()},
+            "conditions": [formula.to_dict() for formula in self.conditions],
+            "exclusions": [formula.to_dict() for formula in self.exclusions],
+            "undetermined": list(self.undetermined),
+        }
+
+
+def find_formulas(train: Train, state: str | None, free: Mapping[str, Counts]) -> Formulas:
+    """Every output of one state as a function of the counts of the free wheels.
+
+    state   a declared state, or None for what is declared outside of states
+    free    wheel id -> its allowed counts; all other wheels keep their declared count
+
+    Raises `QuestionError` for wheels or states the train does not have, and for trains whose coupled part is too
+    large; `DeclarationError` where a wheel that is not free has no count.
+    """
+    _check(train, state, free)
+    tree = find_tree(train)
+    (case,) = close_joints(train, tree, [train.case(state)])
+    wheels = tuple(name for name in train.wheels if name in free)
+    equations = _equations(train, tree, case, wheels, free)
+    try:
+        return _read_off(train, case, equations, wheels)
+    except TooLongError:
+        raise QuestionError(_too_coupled(train)) from None
+
+
+def with_counts(train: Train, counts: Mapping[str, int]) -> Train:
+    """The same declaration, checked already, with other tooth counts on some wheels; marks and doubts are kept.
+
+    counts   wheel id -> tooth count, from 1 to 10^12
+
+    Cost is linear in the number of links. Raises `QuestionError` for wheels the train does not have, and for what is
+    no tooth count.
+    """
+    _check_wheels(train, counts)
+    _check_counts(train, counts)
+    links = dict(train.links)
+    for name, count in counts.items():
+        link, wheel = train.wheels[name]
+        changed = wheel.model_copy(update={"teeth": _with_value(wheel, int(count))})
+        links[link] = links[link].model_copy(update={"wheels": {**links[link].wheels, name: changed}})
+    copied = train.model_copy(update={"links": links})
+    copied.__dict__.pop("wheels", None)  # a copy takes along what was found on the first one
+    return copied
+
+
+def _with_value(wheel: Wheel, count: int) -> int | Teeth:
+    """The count with the wheel's doubt, where the doubt allows it."""
+    teeth = wheel.teeth
+    if isinstance(teeth, int):
+        return count
+    bounds = teeth.range or (count, count)
+    likely = count in teeth.choices if teeth.choices is not None else bounds[0] <= count <= bounds[1]
+    return teeth.model_copy(update={"value": count}) if likely else count
+
+
+def _equations(
+    train: Train, tree: Tree, case: StateCase, wheels: Sequence[str], free: Mapping[str, Counts]
+) -> SymbolicEquations:
+    """The rows of what matters to the outputs. Free wheels stand in with large random counts, so none are alike."""
+    stand_in = with_counts(train, {name: free[name][0] for name in wheels})
+    draw = random.Random(0)
+    sizes = {name: draw.randrange(10**6, 10**9) for name in wheels}
+    circuits = [_resized(circuit, sizes) for circuit in find_circuits(stand_in, tree)]
+    asked = {link for name, output in case.outputs.items() for link in (output.of or name, output.relative_to)}
+    kept = {train.frame, *asked, *case.inputs, *case.fixed, *(link for lock in case.locks for link in lock)} - {None}
+    circuits = relevant_circuits(circuits, (link for link in kept if link))
+    kept |= {link for circuit in circuits for link in (circuit.i, circuit.j, circuit.carrier)}
+    links = [link for link in train.links if link in kept]
+    variables = {name: at for at, name in enumerate(wheels)}
+    return SymbolicEquations(links, train.frame, circuits, case, link_signs(train, tree), variables)
+
+
+def _resized(circuit: Circuit, sizes: Mapping[str, int]) -> Circuit:
+    if circuit.kind != "gear":
+        return circuit
+    a, b = (
+        (sizes[wheel] if old > 0 else -sizes[wheel]) if wheel in sizes else old
+        for wheel, old in zip(circuit.wheels, (circuit.a, circuit.b), strict=True)
+    )
+    return circuit._replace(a=a, b=b)
+
+
+def _read_off(train: Train, case: StateCase, equations: SymbolicEquations, wheels: Sequence[str]) -> Formulas:
+    """Outputs, and what must and must not vanish, from the solved equations."""
+    solution = solve_rows(equations.rows, equations.width, _declared(train, wheels))
+    outputs: dict[str, Formula] = {}
+    undetermined: list[str] = []
+    cancelled: dict[str, Laurent] = {}
+    for name, output in case.outputs.items():
+        value = solution.value(equations.relative(output.of or name, output.relative_to or train.frame))
+        if value is None:
+            undetermined.append(name)
+            continue
+        denominator = solution.denominator(value)
+        outputs[name], common = make_formula(name, wheels, value.numerator, denominator)
+        if not common.is_definite:
+            cancelled[name] = common
+    stated = [(equations.origin[row], left) for row, left in solution.conditions]
+    stated += _loops(equations, solution)
+    excluded = [(f"the motion of '{name}' is determined", common) for name, common in cancelled.items()]
+    return Formulas(outputs, _zeros(stated, wheels), _zeros(excluded, wheels), tuple(undetermined))
+
+
+def _loops(equations: SymbolicEquations, solution: SymbolicSolution) -> Iterator[tuple[str, Laurent]]:
+    """What closes the loops of free wheels: their product is 1, or the wheels of the loop do not roll."""
+    one = Laurent.constant(1, equations.width)
+    for chord in equations.chords:
+        rolls = solution.value(equations.unknown(chord.group))
+        if rolls is not None and not rolls.numerator:
+            continue
+        loop = equations.parts.loop(chord.circuit)
+        left = chord.product - one
+        if rolls is not None and not rolls.numerator.is_definite:
+            left = left * rolls.numerator
+        yield f"loop {' - '.join(loop.links)} closes", left
+
+
+def _zeros(stated: Sequence[tuple[str, Laurent]], wheels: Sequence[str]) -> tuple[Formula, ...]:
+    """Functions of which only the zeros count, over one of their own monomials; each once."""
+    found: dict[tuple[Term, ...], Formula] = {}
+    for label, left in stated:
+        _, powers = max((value < 0, exponents) for exponents, value in left.terms.items())
+        unit = Laurent(left.width, {powers: abs(left.terms[powers])})
+        formula, _ = make_formula(label, wheels, left, unit)
+        found.setdefault(formula.numerator, formula)
+    return tuple(found.values())
+
+
+def _declared(train: Train, wheels: Sequence[str]) -> list[int] | None:
+    """The declared counts of the free wheels, if all have one."""
+    counts = [train.wheels[name][1].count for name in wheels]
+    return [count for count in counts if count is not None] if all(counts) else None
+
+
+def _check(train: Train, state: str | None, free: Mapping[str, Counts]) -> None:
+    _check_wheels(train, free)
+    if state is not None and state not in train.states:
+        known = suggest(state, train.states) if train.states else "leave the state out"
+        raise QuestionError(Problem(f"'{train.name}' has no state '{state}'", "it is not declared", known))
+    for name, counts in free.items():
+        if not counts:
+            place = train.place("links", train.wheels[name][0], "wheels", name)
+            raise QuestionError(
+                Problem(f"wheel '{name}' has no counts to choose from", "its list is empty", "widen its range", place)
+            )
+
+
+def _check_wheels(train: Train, wheels: Mapping[str, object]) -> None:
+    for name in wheels:
+        if name not in train.wheels:
+            fix = suggest(name, train.wheels)
+            raise QuestionError(Problem(f"'{train.name}' has no wheel '{name}'", "it is not declared", fix))
+
+
+def _check_counts(train: Train, counts: Mapping[str, int]) -> None:
+    for name, count in counts.items():
+        if not 0 < count <= MOST_TEETH or count != int(count):
+            fix = "a tooth count is a whole number from 1 to 10^12"
+            raise QuestionError(Problem(f"{count} is not a tooth count", f"wheel '{name}' is to have it", fix))
+
+
+def _too_coupled(train: Train) -> Problem:
+    return Problem(
+        f"'{train.name}' is too coupled for formulas",
+        "so many speeds hang on each other that, written out, they would have millions of terms",
+        "free fewer wheels, or ask for fewer outputs",
+    )

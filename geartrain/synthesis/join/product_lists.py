@@ -1,0 +1,295 @@
+"""What a join runs over: the distinct products of some wheels' counts, sorted, with the number of ways to each.
+
+An output sees most wheels through one monomial only, such as a c / (b d). So not wheels are joined but items: a list of
+products of counts, or of quotients of two such products. A wheel that a fitter's rule looks at is an item by itself.
+
+Partial assignments of a join: for some items, which of their values each row has.
+"""
+
+from __future__ import annotations
+
+from collections import OrderedDict
+from collections.abc import Callable, Hashable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from functools import lru_cache, reduce
+from math import prod
+from typing import Any, Generic, TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+Ints = NDArray[np.int64]
+Floats = NDArray[np.float64]
+Tallies = NDArray[Any]
+"""Numbers of assignments: int64 where all of them fit, Python integers otherwise."""
+
+_LONGEST = 1 << 23
+_TRIED = 4_000_000
+_REMEMBERED = 20_000_000
+
+
+@dataclass(frozen=True, slots=True)
+class ItemRecipe:
+    """What an item is made of, in plain data.
+
+    top, bottom   wheels whose counts are multiplied above and below, each with its power (1 or more)
+    """
+
+    top: tuple[tuple[str, int], ...]
+    bottom: tuple[tuple[str, int], ...] = ()
+
+    @property
+    def wheels(self) -> tuple[str, ...]:
+        """All its wheels."""
+        return tuple(wheel for wheel, _ in self.top + self.bottom)
+
+
+def forecast(wheels: Sequence[tuple[str, int]], domains: Mapping[str, Sequence[int]]) -> tuple[int, int]:
+    """How many distinct products there are, and how many are looked at to list them; guessed where that is long."""
+    return _forecast(tuple(tuple(count**power for count in domains[wheel]) for wheel, power in wheels))
+
+
+@lru_cache(maxsize=256)
+def _forecast(factors: tuple[tuple[int, ...], ...]) -> tuple[int, int]:
+    values, sizes, cost = np.ones(1, dtype=np.int64), [1], 0
+    for at, some in enumerate(factors):
+        looked = sizes[-1] * len(some)
+        cost += looked
+        if cost <= _TRIED and len(values) == sizes[-1] and greatest(factors[: at + 1]) < 1 << 62:
+            values = np.unique(np.multiply.outer(values, np.array(some, dtype=np.int64)))
+            sizes.append(len(values))
+        else:
+            # every further wheel finds more of its products known: the growth falls, by a fifth at least
+            growth = 0.8 * sizes[-1] / sizes[-2] * len(some) / len(factors[at - 1]) if at else len(some)
+            sizes.append(max(sizes[-1], int(sizes[-1] * min(growth, len(some)))))
+    return sizes[-1], cost
+
+
+def greatest(factors: Sequence[Sequence[int]]) -> int:
+    """The largest product of one number of each list."""
+    return prod(max(some) for some in factors)
+
+
+class ProductLists:
+    """Distinct products of one number of each of some lists, ascending, with the number of ways to each.
+
+    levels   products of the first so many lists, int64
+    times    ways to the products of all, of the given dtype
+    """
+
+    def __init__(self, factors: Sequence[tuple[int, ...]], dtype: Any) -> None:
+        self.factors = [np.array(some, dtype=np.int64) for some in factors]
+        self.levels = [np.ones(1, dtype=np.int64)]
+        self.times: Tallies = np.ones(1, dtype=dtype)
+        for some in self.factors:
+            values, self.times = _times(self.levels[-1], self.times, some)
+            self.levels.append(values)
+
+
+Made = TypeVar("Made", "ProductLists", "Item")
+
+
+class ListCache(Generic[Made]):
+    """What was made lately: one search asks for the same lists again and again. Bounded by their lengths."""
+
+    def __init__(self) -> None:
+        self._kept: OrderedDict[Hashable, Made] = OrderedDict()
+
+    def get(self, key: Hashable, make: Callable[[], Made]) -> Made:
+        """What was made under a key, or made now."""
+        if key not in self._kept:
+            self._kept[key] = make()
+        self._kept.move_to_end(key)
+        while len(self._kept) > 1 and sum(len(one.times) for one in self._kept.values()) > _REMEMBERED:
+            self._kept.popitem(last=False)
+        return self._kept[key]
+
+
+class CountProducts:
+    """Distinct products of one count of each wheel (to its power).
+
+    values   (m,) int64, ascending
+    times    (m,) ways to each, of the given dtype
+    """
+
+    def __init__(self, wheels: Sequence[tuple[str, int]], domains: Mapping[str, Sequence[int]], dtype: Any) -> None:
+        self.wheels = tuple(wheels)
+        factors = tuple(tuple(count**power for count in domains[wheel]) for wheel, power in wheels)
+        lists = _LISTS.get((factors, dtype is object), lambda: ProductLists(factors, dtype))
+        self.powers, self.levels, self.times = lists.factors, lists.levels, lists.times
+        self.counts = [np.array(domains[wheel], dtype=np.int64) for wheel, _ in wheels]
+        self.values = self.levels[-1]
+
+    def ways(self, indices: Ints) -> tuple[Ints, dict[str, Ints]]:
+        """Every way to some products: (owner, wheel -> count), owner an index into `indices`, ascending."""
+        owner, rest = np.arange(len(indices)), self.values[indices]
+        found: dict[str, Ints] = {}
+        for level in range(len(self.wheels) - 1, -1, -1):
+            kept, factor, rest = _divided(rest, self.powers[level], self.levels[level])
+            owner = owner[kept]
+            found = {wheel: column[kept] for wheel, column in found.items()}
+            found[self.wheels[level][0]] = self.counts[level][factor]
+        return owner, found
+
+
+def _times(values: Ints, times: Tallies, factors: Ints) -> tuple[Ints, Tallies]:
+    """Distinct products of two lists; in blocks, so that the whole table is never held."""
+    step = max(1, _LONGEST // len(values))
+    found: list[tuple[Ints, Tallies]] = []
+    for at in range(0, len(factors), step):
+        block = factors[at : at + step]
+        products = np.multiply.outer(block, values).ravel()
+        found.append(_distinct(products, np.tile(times, len(block))))
+        last = at + step >= len(factors)
+        while len(found) > 1 and (last or len(found[-2][0]) <= 2 * len(found[-1][0])):
+            (left, p), (right, q) = found.pop(), found.pop()
+            found.append(_distinct(np.concatenate([left, right]), np.concatenate([p, q])))
+    return found[0]
+
+
+def _distinct(values: Ints, times: Tallies) -> tuple[Ints, Tallies]:
+    order = np.argsort(values, kind="stable")
+    values = values[order]
+    first = np.flatnonzero(np.concatenate([[True], values[1:] != values[:-1]]))
+    return values[first], np.add.reduceat(times[order], first)
+
+
+def _divided(rest: Ints, factors: Ints, shorter: Ints) -> tuple[Ints, Ints, Ints]:
+    """All ways to take one factor out of products: (index into rest, index of the factor, quotient)."""
+    found = []
+    step = max(1, _LONGEST // len(factors))
+    for at in range(0, max(len(rest), 1), step):
+        quotient, left = np.divmod(rest[at : at + step, None], factors[None, :])
+        place = np.minimum(np.searchsorted(shorter, quotient), len(shorter) - 1)
+        rows, columns = np.nonzero((left == 0) & (shorter[place] == quotient))
+        found.append((rows + at, columns, quotient[rows, columns]))
+    rows, columns, quotients = (np.concatenate(parts) for parts in zip(*found, strict=True))
+    return rows, columns, quotients
+
+
+class Item:
+    """The values of a recipe: top over bottom, ascending, with the ways to each.
+
+    x               (m,) float64, ascending; a few roundings off
+    tops, bottoms   (m,) int64, x exactly; `bottoms` is None where all are 1. Equal quotients may stand several times
+    times           (m,) ways
+    sums            (m + 1,) ways to the first so many
+    """
+
+    def __init__(self, recipe: ItemRecipe, domains: Mapping[str, Sequence[int]], dtype: Any) -> None:
+        self.recipe = recipe
+        self._top = CountProducts(recipe.top, domains, dtype)
+        self._bottom = CountProducts(recipe.bottom, domains, dtype) if recipe.bottom else None
+        self.tops, self.times = self._top.values, self._top.times
+        self.bottoms: Ints | None = None
+        self._at: tuple[Ints, Ints] | None = None
+        if self._bottom is not None:
+            self._divide(self._bottom)
+        self.x = self.tops / (1.0 if self.bottoms is None else self.bottoms)
+        self.sums = np.concatenate([np.zeros(1, dtype=dtype), np.cumsum(self.times, dtype=dtype)])
+        self._rooms: dict[int, Floats] = {}
+
+    def __len__(self) -> int:
+        return len(self.x)
+
+    def _divide(self, bottom: CountProducts) -> None:
+        above = np.repeat(np.arange(len(self._top.values)), len(bottom.values))
+        below = np.tile(np.arange(len(bottom.values)), len(self._top.values))
+        tops, bottoms = self._top.values[above], bottom.values[below]
+        order = np.argsort(tops / bottoms, kind="stable")
+        self._at = above[order], below[order]
+        self.tops, self.bottoms = tops[order], bottoms[order]
+        self.times = self._top.times[self._at[0]] * bottom.times[self._at[1]]
+
+    def powers(self, power: int) -> Floats:
+        """x to a power, ascending."""
+        if power not in self._rooms:
+            self._rooms[power] = reduce(np.multiply, [self.x] * power)
+        return self._rooms[power]
+
+    def ways(self, indices: Ints) -> tuple[Ints, dict[str, Ints]]:
+        """Every way to some of the values: (owner, wheel -> count), owner an index into `indices`, ascending."""
+        if self._bottom is None or self._at is None:
+            return self._top.ways(indices)
+        owner, found = self._top.ways(self._at[0][indices])
+        further, more = self._bottom.ways(self._at[1][indices[owner]])
+        return owner[further], {wheel: column[further] for wheel, column in found.items()} | more
+
+
+_LISTS: ListCache[ProductLists] = ListCache()
+_ITEMS: ListCache[Item] = ListCache()
+
+
+def find_item(recipe: ItemRecipe, domains: Mapping[str, tuple[int, ...]], dtype: Any) -> Item:
+    """An item, made or remembered."""
+    key = recipe, tuple(domains[wheel] for wheel in recipe.wheels), dtype is object
+    return _ITEMS.get(key, lambda: Item(recipe, domains, dtype))
+
+
+BLOCK = 1 << 18
+"""Rows worked on at a time: bounds the memory of a join to some tens of megabytes, beside its lists."""
+
+
+class PartialAssignments:
+    """Rows over some items.
+
+    columns   item -> index of its value, (size,)
+    """
+
+    __slots__ = ("_x", "columns", "items", "size")
+
+    def __init__(self, items: Sequence[Item], columns: Mapping[int, Ints], size: int) -> None:
+        self.items, self.columns, self.size = items, columns, size
+        self._x: dict[int, Floats] = {}
+
+    def x(self, item: int) -> Floats:
+        """Values of an item, float64."""
+        if item not in self._x:
+            self._x[item] = self.items[item].x[self.columns[item]]
+        return self._x[item]
+
+    def top(self, item: int) -> Ints:
+        """Numerators of an item's values."""
+        return self.items[item].tops[self.columns[item]]
+
+    def bottom(self, item: int) -> Ints | None:
+        """Denominators of an item's values; None for 1."""
+        bottoms = self.items[item].bottoms
+        return None if bottoms is None else bottoms[self.columns[item]]
+
+    def pick(self, where: NDArray[Any]) -> PartialAssignments:
+        """Some rows, by mask or by index."""
+        columns = {item: column[where] for item, column in self.columns.items()}
+        size = int(where.sum()) if where.dtype == np.bool_ else len(where)
+        return PartialAssignments(self.items, columns, size)
+
+    def plus(self, parents: Ints, item: int, indices: Ints) -> PartialAssignments:
+        """Rows grown out of these: `parents` says which, `indices` the value of one more item."""
+        columns = {known: column[parents] for known, column in self.columns.items()}
+        return PartialAssignments(self.items, {**columns, item: indices}, len(parents))
+
+    def only(self, items: Sequence[int]) -> tuple[PartialAssignments, Ints | None]:
+        """The distinct rows on some items, and for each row which of them it is; None for itself."""
+        if len(items) == len(self.columns):
+            return self, None
+        if not items:
+            return PartialAssignments(self.items, {}, min(self.size, 1)), np.zeros(self.size, dtype=np.int64)
+        key, most = np.zeros(self.size, dtype=np.int64), 1
+        for item in items:
+            if most * len(self.items[item]) >= 1 << 62:  # renumbered, so that it never overflows
+                _, key = np.unique(key, return_inverse=True)
+                most = self.size
+            key = key * len(self.items[item]) + self.columns[item]
+            most *= len(self.items[item])
+        _, first, inverse = np.unique(key, return_index=True, return_inverse=True)
+        return PartialAssignments(self.items, {item: self.columns[item][first] for item in items}, len(first)), inverse
+
+    def blocks(self, sizes: Tallies) -> Iterator[tuple[int, int]]:
+        """Runs of rows whose `sizes` add up to about `BLOCK`; a row of more stands alone."""
+        ends = np.cumsum(sizes)
+        at = 0
+        while at < self.size:
+            done = ends[at - 1] if at else 0
+            upto = max(int(np.searchsorted(ends, done + BLOCK, side="right")), at + 1)
+            yield at, upto
+            at = upto

@@ -1,0 +1,158 @@
+"""An orrery: several periods from one arbor through a tree of gear pairs, with its wheels and its exact errors."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Any
+
+from geartrain.numerics.exact import as_float, fraction_text
+
+
+@dataclass(frozen=True, slots=True)
+class OrreryArbor:
+    """One arbor.
+
+    name    the period it shows, or `arbor 1`, `arbor 2`...; the first is named by who asks
+    period  turns of the first arbor in one of its own, exact and positive
+    sense   1 with the first arbor, -1 against it: every pair is external and reverses
+    wheels  tooth counts of its wheels, ascending, all different
+    shows   True if a period was asked of it
+    """
+
+    name: str
+    period: Fraction
+    sense: int
+    wheels: tuple[int, ...]
+    shows: bool
+
+    def to_dict(self) -> dict[str, Any]:
+        """Plain data for JSON."""
+        return {
+            "name": self.name,
+            "period": fraction_text(self.period),
+            "value": as_float(self.period),
+            "sense": self.sense,
+            "wheels": list(self.wheels),
+            "shows": self.shows,
+        }
+
+
+@dataclass(frozen=True, slots=True)
+class OrreryPair:
+    """One gear pair: teeth of the driver on arbor `parent`, and of the driven wheel on arbor `child`."""
+
+    driver: int
+    driven: int
+    parent: str
+    child: str
+
+    def to_dict(self) -> dict[str, Any]:
+        """Plain data for JSON."""
+        return {"driver": self.driver, "driven": self.driven, "parent": self.parent, "child": self.child}
+
+
+@dataclass(frozen=True, slots=True)
+class Orrery:
+    """A tree of gear pairs that shows every period asked for.
+
+    periods      name -> period asked for, in turns of the first arbor
+    tolerances   name -> greatest relative error asked for
+    arbors       the first arbor first, every other after the one that drives it
+    pairs        in the order of the driven arbors
+    errors       name -> speed over wanted speed, less 1, exact; positive is fast
+    least_pairs  no tree of pairs with fewer than this many shows all the periods: proved by walking all of them
+    least_wheels fewer wheels than this are impossible: proved
+    complete     True if no orrery has fewer wheels: `wheels` equals `least_wheels`
+    ended        why the search ended: "proved", "effort", "time" or "interrupt"
+    """
+
+    periods: Mapping[str, Fraction]
+    tolerances: Mapping[str, Fraction]
+    arbors: tuple[OrreryArbor, ...]
+    pairs: tuple[OrreryPair, ...]
+    errors: Mapping[str, Fraction]
+    least_pairs: int
+    least_wheels: int
+    ended: str
+
+    @property
+    def wheels(self) -> int:
+        """Number of wheels; one that meshes with several counts once."""
+        return sum(len(arbor.wheels) for arbor in self.arbors)
+
+    @property
+    def complete(self) -> bool:
+        """True if it is proved that no orrery has fewer wheels."""
+        return self.wheels <= self.least_wheels
+
+    @property
+    def worst(self) -> Fraction:
+        """Greatest relative error in magnitude."""
+        return max(map(abs, self.errors.values()))
+
+    def to_dict(self) -> dict[str, Any]:
+        """Plain data for JSON."""
+        return {
+            "wheels": self.wheels,
+            "pairs": [pair.to_dict() for pair in self.pairs],
+            "arbors": [arbor.to_dict() for arbor in self.arbors],
+            "errors": {name: {"value": float(error), "exact": str(error)} for name, error in self.errors.items()},
+            "least_pairs": self.least_pairs,
+            "least_wheels": self.least_wheels,
+            "complete": self.complete,
+            "ended": self.ended,
+        }
+
+    def to_train(self, name: str = "orrery", unit: str = "d") -> dict[str, Any]:
+        """A declaration as plain data: the first arbor turns once a `unit`, every output expects its exact speed.
+
+        A shared wheel is one wheel in several gear pairs. All arbors stand in one frame on axes of their own.
+        """
+        places = {arbor.name: at for at, arbor in enumerate(self.arbors)}
+        links: dict[str, Any] = {"frame": {}}
+        for at, arbor in enumerate(self.arbors):
+            links[arbor.name] = {"wheels": {_wheel(at, count): count for count in arbor.wheels}}
+        gears = [
+            {"pair": [_wheel(places[pair.parent], pair.driver), _wheel(places[pair.child], pair.driven)]}
+            for pair in self.pairs
+        ]
+        outputs = {
+            arbor.name: {
+                "expect": str(Fraction(arbor.sense) / arbor.period),
+                "targets": [
+                    {
+                        "period": f"{_plain(self.periods[arbor.name])} {unit}",
+                        "tolerance": _plain(self.tolerances[arbor.name]),
+                    }
+                ],
+            }
+            for arbor in self.arbors
+            if arbor.shows
+        }
+        return {
+            "name": name,
+            "frame": "frame",
+            "unit": {"per": f"1 {unit}"},
+            "links": links,
+            "revolutes": [{"pair": ["frame", arbor.name], "axis": arbor.name} for arbor in self.arbors],
+            "gears": gears,
+            "inputs": {self.arbors[0].name: 1},
+            "outputs": outputs,
+        }
+
+
+def _wheel(arbor: int, count: int) -> str:
+    """Name of a wheel: `a3-120` has 120 teeth and sits on arbor 3."""
+    return f"a{arbor}-{count}"
+
+
+def _plain(value: Fraction) -> str:
+    """Exact text: a decimal where it ends soon, else a fraction."""
+    for digits in range(19):
+        scaled = value * 10**digits
+        if scaled.denominator == 1:
+            whole = str(scaled.numerator).rjust(digits + 1, "0")
+            return f"{whole[:-digits]}.{whole[-digits:]}" if digits else whole
+    return fraction_text(value)

@@ -1,0 +1,254 @@
+"""What the search for stages found.
+
+One ratio by one to five stages of gear pairs: every solution within a tolerance, or the best, proved.
+
+A train of k stages has the ratio P / Q, P and Q products of k counts each. For every product Q beneath, those P on top
+that are within the tolerance are a window of a sorted list: sorted products answer what trying all pairs would, at the
+cost of sorting. Where a window ends is decided in integers. Products are made in segments of value, which bounds the
+memory and makes independent pieces of work: four stages of 200 counts (69 million sets a side) stay below 0.2 GB, five
+(2800 million) below 0.4 GB; conditions and other orders stay below 0.5 GB.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from concurrent.futures import Executor
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Any
+
+from geartrain.errors import Problem, QuestionError, RangeError
+from geartrain.numerics.exact import decimal
+from geartrain.numerics.work import Journal
+from geartrain.synthesis.ratio.product_windows import MOST_STAGES, check_memory, multisets
+from geartrain.synthesis.ratio.segment_sweep import StageExecution, SweepOutcome, nearest, within
+from geartrain.synthesis.ratio.stage_infeasibility import SENSE, explain
+from geartrain.synthesis.ratio.stage_pairing import best_pairing
+from geartrain.synthesis.ratio.stage_problem import StageConstraints, StageProblem
+from geartrain.synthesis.ratio.stage_ranking import Key, check_order
+from geartrain.synthesis.search_outcome import GearStages, Shortfall
+from geartrain.synthesis.target_ratio import TargetRatio
+from geartrain.synthesis.tooth_count_ranges import CountRuns, Counts
+
+
+@dataclass(frozen=True, slots=True)
+class StageFindings:
+    """Solutions of one ratio by stages: pairs of unordered sets of counts.
+
+    wanted      the ratio
+    stages      number of stages
+    top         admissible counts on top, ascending
+    beneath     admissible counts beneath, ascending
+    fit         conditions on the counts
+    by          the order of `solutions`
+    tolerance   the greatest |error|, as a fraction of the ratio: the one asked for, or one that proves the list
+    complete    True if everything within the tolerance was looked at; False if the search was interrupted
+    count       number of solutions within the tolerance, exact if `complete`
+    solutions   the best of them
+    shortfall   where the other pairs of sets went
+    note        what was assumed, in words; empty if nothing
+    """
+
+    wanted: TargetRatio
+    stages: int
+    top: tuple[int, ...]
+    beneath: tuple[int, ...]
+    fit: StageConstraints
+    by: str
+    tolerance: Fraction
+    complete: bool
+    count: int
+    solutions: tuple[GearStages, ...]
+    shortfall: Shortfall
+    note: str = ""
+
+    @property
+    def considered(self) -> int:
+        """Number of pairs of unordered sets that the admissible counts make."""
+        return self.shortfall.considered
+
+    def __len__(self) -> int:
+        return len(self.solutions)
+
+    def __iter__(self) -> Iterator[GearStages]:
+        return iter(self.solutions)
+
+    def __getitem__(self, at: int) -> GearStages:
+        return self.solutions[at]
+
+    def to_dict(self) -> dict[str, Any]:
+        """Plain data for JSON."""
+        return {
+            "wanted": self.wanted.to_dict(),
+            "stages": self.stages,
+            "top": str(CountRuns.of(self.top)) if self.top else "",
+            "beneath": str(CountRuns.of(self.beneath)) if self.beneath else "",
+            "fit": self.fit.to_dict(),
+            "order": self.by,
+            "tolerance": float(self.tolerance),
+            "complete": self.complete,
+            "count": self.count,
+            "considered": self.considered,
+            "solutions": [solution.to_dict() for solution in self.solutions],
+            "shortfall": self.shortfall.to_dict(),
+            "note": self.note,
+        }
+
+
+__all__ = ["StageConstraints", "StageFindings", "find_stages"]
+
+_FAR = 10**12
+DEFAULT_TOLERANCE = Fraction(1, 10**6)
+
+
+def find_stages(
+    wanted: TargetRatio,
+    stages: int,
+    wheels: Counts,
+    pinions: Counts,
+    *,
+    tolerance: Fraction | None = None,
+    best: int = 20,
+    by: str = "error",
+    fit: StageConstraints | None = None,
+    executor: Executor | None = None,
+    journal: Journal | None = None,
+    tell: Callable[[int, int], None] | None = None,
+) -> StageFindings:
+    """All solutions of a ratio within a tolerance, counted, and the best of them; complete.
+
+    wanted      the ratio; its sense, if asked for, must be that of so many external and internal meshes
+    stages      1 to 5
+    wheels      counts on top if the ratio is 1 or more, beneath if it is less
+    pinions     counts on the other side
+    tolerance   greatest |error| as a fraction of the ratio. None: for the order by error the best are found and proved,
+                within a tolerance that holds enough of them; for other orders 1e-6, and `note` says so
+    best        how many to list
+    by          error, total, largest, distinct, hunting or centres: see `ranking.Order`
+    fit         conditions on the counts
+    executor    where independent pieces of a large search run; None: here
+    journal     where finished pieces are kept
+    tell        called with (pieces done, pieces in all)
+
+    An interrupt from the keyboard ends the search early: `complete` is then False and what was found is returned.
+    Raises `QuestionError` for a question that makes no sense, `RangeError` for counts whose tables would not fit in
+    memory (more than some 400 counts for four stages and more).
+    """
+    fit = fit or StageConstraints()
+    question, considered, note = _question(wanted, stages, (wheels, pinions), tolerance, best, by, fit)
+    if wanted.sense and wanted.sense != fit.sense(stages):
+        return _findings(wanted, question, SweepOutcome(question.tolerance), _wrong_sense(question, considered), note)
+    if not (question.top and question.beneath):
+        return _findings(wanted, question, SweepOutcome(question.tolerance), _too_large(question, considered), note)
+    _check_reach(question)
+    means = StageExecution(executor, journal, tell)
+    open_ended = tolerance is None and by == "error"
+    try:
+        outcome = nearest(question, means) if open_ended else within(question, means)
+    except KeyboardInterrupt:
+        outcome = SweepOutcome(question.tolerance, complete=False)
+    shortfall = explain(question, considered, outcome, wanted.sense, means)
+    return _findings(wanted, question, outcome, shortfall, note or outcome.note)
+
+
+def _question(
+    wanted: TargetRatio,
+    stages: int,
+    counts: tuple[Counts, Counts],
+    tolerance: Fraction | None,
+    best: int,
+    by: str,
+    fit: StageConstraints,
+) -> tuple[StageProblem, int, str]:
+    """The question in plain data, the number of pairs of sets, and what is assumed."""
+    check_order(by)
+    if not 1 <= stages <= MOST_STAGES:
+        raise _refused(f"{stages} stages are asked for", f"1 to {MOST_STAGES} can be searched", "take fewer stages")
+    if best < 1:
+        raise _refused(f"the best {best} are asked for", "that is no list", "ask for 1 or more")
+    if tolerance is not None and tolerance < 0:
+        raise _refused(f"the tolerance is {tolerance}", "no error is less than 0", "give 0 or more, such as 1e-6")
+    fit.check(stages)
+    given = [tuple(CountRuns.of(each).as_array().tolist()) for each in counts]
+    top, beneath = given if wanted.value >= 1 else given[::-1]
+    considered = multisets(len(top), stages) * multisets(len(beneath), stages)
+    if fit.largest is not None:
+        top, beneath = (tuple(count for count in each if count <= fit.largest) for each in (top, beneath))
+    note = ""
+    if tolerance is None and by != "error":
+        note = f"no tolerance was given, and the order by {by} needs one: it is 1e-6"
+    used = DEFAULT_TOLERANCE if tolerance is None else Fraction(tolerance)
+    return StageProblem(wanted.value, stages, top, beneath, fit, by, best, used), considered, note
+
+
+def _findings(
+    wanted: TargetRatio, question: StageProblem, outcome: SweepOutcome, shortfall: Shortfall, note: str
+) -> StageFindings:
+    return StageFindings(
+        wanted,
+        question.stages,
+        question.top,
+        question.beneath,
+        question.fit,
+        question.by,
+        outcome.tolerance,
+        outcome.complete,
+        outcome.count,
+        tuple(_stages(key, question) for key in outcome.keys),
+        shortfall,
+        note,
+    )
+
+
+def _stages(key: Key, question: StageProblem) -> GearStages:
+    """One solution, paired."""
+    _, _, _, _, top, beneath = key
+    ratio = Fraction(1)
+    for a, b in zip(top, beneath, strict=True):
+        ratio *= Fraction(a, b)
+    pairs = best_pairing(top, beneath, question.fit, centres=question.by == "centres")
+    assert pairs is not None  # the search lists only what can be paired
+    return GearStages(top, beneath, ratio, ratio / question.value - 1, pairs)
+
+
+def _wrong_sense(question: StageProblem, considered: int) -> Shortfall:
+    """No train of so many external meshes turns that way."""
+    stages, internal = question.stages, question.fit.internal
+    rings = internal + 1 if internal < stages else internal - 1
+    has = "the same sense as" if question.fit.sense(stages) > 0 else "the opposite sense to"
+    return Shortfall(
+        considered,
+        {SENSE: considered},
+        f"{_plural(stages)}, {internal} with a ring: the output has {has} the input, whatever the counts",
+        f"add an idler, or a stage (stages={stages + 1}), or make a mesh internal (internal={rings})",
+    )
+
+
+def _plural(stages: int) -> str:
+    return f"{stages} stage{'' if stages == 1 else 's'}"
+
+
+def _too_large(question: StageProblem, considered: int) -> Shortfall:
+    largest = question.fit.largest
+    reason = f"a count above {largest}"
+    return Shortfall(considered, {reason: considered}, "no count is left", f"let largest be more than {largest}")
+
+
+def _check_reach(question: StageProblem) -> None:
+    """`RangeError` for products that would not fit in memory, or a ratio that is far beyond all of them."""
+    for counts in (question.top, question.beneath):
+        check_memory(counts, question.stages, question.plain_integers)
+    low, high = question.reach
+    if not low / _FAR < question.value < high * _FAR:
+        made = f"{question.stages} stages of these counts make {decimal(low, 3)} to {decimal(high, 3)}"
+        raise RangeError(
+            Problem(
+                f"a ratio of {decimal(question.value, 3)} is far out of reach",
+                made,
+                "take more stages, or a wider range of counts",
+            )
+        )
+
+
+def _refused(what: str, why: str, fix: str) -> QuestionError:
+    return QuestionError(Problem(what, why, fix))

@@ -1,0 +1,272 @@
+"""What ratio is wanted: from a number, a fraction, a pair of counts, a quotient of periods or a name of the table."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Any, Literal
+
+from pydantic_core import PydanticCustomError
+
+from geartrain.errors import Problem, QuestionError
+from geartrain.numerics.exact import as_float, decimal, fraction_text
+from geartrain.numerics.quantity import UNITS, Figure, Quantity
+from geartrain.train.periods import period_table, suggested_period
+
+TargetKind = Literal["number", "things", "time", "speed", "count"]
+
+_MOST_CHARACTERS = 2000
+_SHOWN = 60
+_NUMBER = r"(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][+-]?\d{1,3})?"
+_WITH_WORD = re.compile(rf"({_NUMBER}(?:\s*[/:]\s*{_NUMBER})?)\s*(?![eE][+-]?\d)([^\W\d_].*)")
+_DIVISION = re.compile(r"[/:]")
+_WIDE_DIVISION = re.compile(r"\s[/:]\s")
+# words for times beyond the units that quantities are written in
+_TIMES = {
+    **dict.fromkeys(("hour", "hours", "hr", "hrs"), "h"),
+    **dict.fromkeys(("minute", "minutes", "mins"), "min"),
+    **dict.fromkeys(("second", "seconds", "sec", "secs"), "s"),
+}
+_COUNTED_TIMES = ("day", "days", "hour", "hours", "minute", "minutes", "second", "seconds")
+_TURNS = ("turn", "turns", "rev")
+_WAYS = "235/19, 13.368267, 1:30, '235 months / 19 years', '365.2422 d / 29.53059 d' or a name of `geartrain periods`"
+
+
+@dataclass(frozen=True, slots=True)
+class TargetRatio:
+    """A ratio that tooth numbers shall make.
+
+    value  its magnitude, exact, above 0
+    sense  1 same sense, -1 opposite sense, 0 not asked
+    label  the ratio as it was asked for
+    note   where the number comes from, with its source
+    """
+
+    value: Fraction
+    sense: Literal[-1, 0, 1] = 0
+    label: str = ""
+    note: str = ""
+
+    def __post_init__(self) -> None:
+        if self.value <= 0:
+            raise _problem(
+                f"a ratio of {_short(fraction_text(self.value))} is wanted",
+                "tooth counts make the magnitude, which is above 0; the sense is told apart",
+                "give a number above 0",
+            )
+
+    def to_dict(self) -> dict[str, Any]:
+        """Plain data for JSON."""
+        return {
+            "label": self.label,
+            "ratio": fraction_text(self.value),
+            "value": as_float(self.value),
+            "sense": self.sense,
+            "note": self.note,
+        }
+
+
+@dataclass(frozen=True, slots=True)
+class _Term:
+    """One side of a quotient, or all there is: its kind, its exact value (times in days), its unit's word, its note."""
+
+    kind: TargetKind
+    value: Fraction
+    word: str
+    note: str
+
+
+def read_ratio(text: str, per: str | None = None) -> TargetRatio:
+    """The wanted ratio that a text tells.
+
+    "13.368267", "235/19", "1:30"      the number, exactly as written
+    "235 months / 19 years"            a pair of counts: in the time of 19 turns of the one (years) the other (months)
+                                       makes 235, so its pointer turns 235/19 times as fast
+    "365.2422 d / 29.53059 d"          a quotient of two periods: how often the second turns in one turn of the first,
+    "year_julian / month_metonic"      so the ratio is the speed of what has the second period over the speed of what
+                                       has the first; any time or name of the table of periods may stand on each side
+    "metonic_months_per_year"          a name of that table: a speed (turns per year) or a count is its own value
+    "month_synodic_J2000" and `per`    a lone period, where `per` is a period too: how often it turns in one of `per`
+
+    Times are d, h, min, s and such; any other words are counted things. A sign in front asks for a sense: + the same, -
+    the opposite; without one the sense is free. Speeds of the table that are retrograde count by magnitude.
+    `QuestionError` for what has no meaning or more than one.
+
+    >>> read_ratio("-235 months / 19 years")
+    Wanted(value=Fraction(235, 19), sense=-1, label='-235 months / 19 years', note='235 months in the time of 19 years')
+    """
+    if len(text) > _MOST_CHARACTERS:
+        raise _problem(f"a ratio of {len(text)} characters", "a number has at most 400", f"write {_WAYS}")
+    label = " ".join(text.replace("−", "-").split())
+    sense: Literal[-1, 0, 1] = -1 if label.startswith("-") else 1 if label.startswith("+") else 0
+    terms = [_term(part, label) for part in _parts(label[abs(sense) :].strip(), label)]
+    if len(terms) == 1:
+        value, note = _alone(terms[0], label, per)
+    elif per is None:
+        value, note = _quotient(terms[0], terms[1], label)
+    else:
+        raise _ratio_already(label, per)
+    return TargetRatio(value, sense, label if per is None else f"{label} per {per}", note)
+
+
+def _parts(text: str, label: str) -> list[str]:
+    """The one or two sides of a division; with blanks round one sign, that one divides."""
+    for division in (_WIDE_DIVISION, _DIVISION):
+        parts = division.split(text)
+        if len(parts) == 2:
+            return [part.strip() for part in parts]
+    if len(parts) > 2:
+        raise _problem(f"'{_short(label)}' divides more than once", "a ratio is one quotient", f"write {_WAYS}")
+    return parts
+
+
+def _term(text: str, label: str) -> _Term:
+    if not text:
+        raise _problem(f"'{_short(label)}' lacks a number", "a ratio is one number or two sides", f"write {_WAYS}")
+    if re.match(r"[+-]\s*[\d.]", text):
+        raise _problem(
+            f"'{_short(text)}' has a sign of its own",
+            "a ratio has one sign, which tells its sense",
+            "write the sign in front of the ratio, such as -235/19",
+        )
+    match = _WITH_WORD.fullmatch(text)
+    if match is not None:
+        term = _with_word(match[1], match[2].strip())
+    elif text in period_table():
+        term = _of_table(text)
+    else:
+        term = _Term("number", _figure(text), "", "")
+    if not term.value:
+        why = "a ratio of 0 or one that divides by 0 is no motion to gear"
+        raise _problem(f"'{_short(label)}' has a zero in it", why, f"write {_WAYS}")
+    return term
+
+
+def _with_word(number: str, word: str) -> _Term:
+    """A time, or a count of things."""
+    shown = f"{number} {word}"
+    if word in period_table():
+        raise _problem(
+            f"'{_short(shown)}' can be read in two ways",
+            f"as {number} turns in counting, and as {number} times the period",
+            f"for counts use plain words, such as '{number} months'; for times write the days, such as '29.53 d'",
+        )
+    unit = _TIMES.get(word, word)
+    try:
+        quantity = Quantity.parse(f"{number} {unit}", " or ".join({kind for kind, _ in UNITS.values()}), plain=False)
+    except PydanticCustomError:
+        return _Term("things", _figure(number), word, shown)
+    if quantity.dimension == "time":
+        return _Term("time", quantity.base / 86400, word, shown)
+    if word in _TURNS:
+        return _Term("things", quantity.value, word, shown)
+    raise _problem(
+        f"'{_short(shown)}' is a {quantity.dimension}",
+        "a ratio comes from numbers, counts or periods",
+        "write its number alone, or a time such as '29.53059 d'",
+    )
+
+
+def _of_table(name: str) -> _Term:
+    row = period_table()[name]
+    kind: TargetKind = "time" if row.kind == "period" else row.kind
+    unit = {"period": " d", "speed": f" {row.what} per year".replace("  ", " "), "count": f" {row.what}"}[row.kind]
+    return _Term(kind, abs(row.value), name, f"{name} = {decimal(row.value, 12)}{unit.rstrip()} ({row.source})")
+
+
+def _figure(text: str) -> Fraction:
+    try:
+        return Figure.parse(text).value
+    except PydanticCustomError as error:
+        what, why = f"'{_short(text)}' is no number", error.message()
+        if text[:1].isalpha():
+            raise _problem(what, "no period of the table has this name either", suggested_period(text)) from None
+        if text[:1].isdigit() and "zero" not in why:
+            why = "a number has at most 400 characters, and an exponent three digits"
+        raise _problem(what, why, f"write {_WAYS}") from None
+
+
+def _alone(term: _Term, label: str, per: str | None) -> tuple[Fraction, str]:
+    if term.kind == "time":
+        if per is None:
+            period = label.lstrip("+- ")
+            year = period.startswith("year")
+            pair = f"{period} / month_synodic_J2000" if year else f"year_tropical_J2000 / {period}"
+            raise _problem(
+                f"'{_short(label)}' is a period, not a ratio",
+                "a ratio needs a second period, which turns once while this one is counted",
+                f"write for example '{pair}'",
+            )
+        return _in_one(per, term)
+    if term.kind == "things":
+        raise _problem(
+            f"'{_short(label)}' is half a pair of counts",
+            "a ratio needs the count of something else in the same time",
+            f"write for example '{'235 months' if term.word.startswith('year') else term.note} / 19 years'",
+        )
+    if per is not None and not (term.kind == "speed" and per.startswith("year") and per in period_table()):
+        raise _ratio_already(label, per)
+    return term.value, term.note or "as given"
+
+
+def _in_one(per: str, term: _Term) -> tuple[Fraction, str]:
+    """How often a period fits into one of `per`."""
+    whole = _term(" ".join(per.split()), per)
+    if whole.kind != "time":
+        raise _problem(
+            f"`per` is '{_short(per)}'", "it must be a period", "give a time or a name, such as year_tropical_J2000"
+        )
+    return whole.value / term.value, f"{whole.note} over {term.note}"
+
+
+def _quotient(first: _Term, second: _Term, label: str) -> tuple[Fraction, str]:
+    kinds = {first.kind, second.kind}
+    if kinds == {"number"}:
+        return first.value / second.value, "as given"
+    if kinds == {"things"} or (kinds == {"things", "time"} and _counted(first) and _counted(second)):
+        return _figure_of(first) / _figure_of(second), f"{first.note} in the time of {second.note}"
+    if len(kinds) == 1:
+        same = first.kind == "time" and first.value == second.value and first.word != second.word
+        if same and not {first.word, second.word} & set(period_table()):
+            raise _problem(
+                f"'{_short(label)}' has the same time on both sides",
+                "as a quotient of periods it is 1, as a pair of counts it is not",
+                f"write '{first.note.split()[0]}/{second.note.split()[0]}' for counts",
+            )
+        return first.value / second.value, f"{first.note} over {second.note}"
+    raise _problem(
+        f"'{_short(label)}' divides unlike things",
+        f"{_said(first)} over {_said(second)} is no ratio of speeds",
+        "write two numbers, two counts of things, two times (d, h, min, s), or two names of one kind",
+    )
+
+
+def _counted(term: _Term) -> bool:
+    """True if the words may count turns: '27759 days / 940 months'."""
+    return term.kind == "things" or term.word in _COUNTED_TIMES
+
+
+def _figure_of(term: _Term) -> Fraction:
+    return _figure(term.note.removesuffix(term.word)) if term.kind == "time" else term.value
+
+
+def _said(term: _Term) -> str:
+    words = {"number": "a plain number", "things": "a count", "time": "a period"}
+    return words.get(term.kind, f"a {term.kind}") + (f" ({_short(term.note)})" if term.note else "")
+
+
+def _ratio_already(label: str, per: str) -> QuestionError:
+    return _problem(
+        f"'{_short(label)}' is a ratio already",
+        f"`per` ('{_short(per)}') belongs to a lone period",
+        "leave `per` out, or give one period",
+    )
+
+
+def _short(text: str) -> str:
+    return text if len(text) <= _SHOWN else f"{text[: _SHOWN - 3]}..."
+
+
+def _problem(what: str, why: str, fix: str) -> QuestionError:
+    return QuestionError(Problem(what, why, fix))

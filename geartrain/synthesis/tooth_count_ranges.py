@@ -1,0 +1,177 @@
+"""Which tooth counts a wheel may have: "15:120", "30,36,48" or "12:40,48,60", of any length, kept as runs."""
+
+from __future__ import annotations
+
+import re
+from bisect import bisect_left, bisect_right
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, field
+from itertools import accumulate, chain
+from numbers import Integral
+from typing import TYPE_CHECKING, Any, overload
+
+from geartrain.errors import Problem, QuestionError, RangeError
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+Counts = Sequence[int]
+"""Admissible tooth counts, ascending and distinct, each from 1 to 10^12: a tuple, a range or `Runs`."""
+
+MOST_TEETH = 10**12
+_MOST_LISTED = 10**6
+_PART = re.compile(r"\s*(\d+)\s*(?::\s*(\d+)\s*)?", re.ASCII)
+
+
+@dataclass(frozen=True, slots=True)
+class CountRuns(Sequence[int]):
+    """Tooth counts as runs of consecutive ones: a range of 10^9 costs as little as one of ten.
+
+    spans   (first, last) of each run, both included; ascending, and no two of them touch
+
+    A sequence of integers in every respect: it iterates in ascending order, has a length, and can be indexed.
+    """
+
+    spans: tuple[tuple[int, int], ...]
+    _before: tuple[int, ...] = field(init=False, repr=False, compare=False)
+
+    def __post_init__(self) -> None:
+        sizes = (last - first + 1 for first, last in self.spans)
+        object.__setattr__(self, "_before", tuple(accumulate(sizes, initial=0)))
+
+    @classmethod
+    def of(cls, counts: Iterable[int]) -> CountRuns:
+        """The runs of any counts, in any order; `QuestionError` for none, or for one outside 1 to 10^12."""
+        if isinstance(counts, CountRuns):
+            return counts
+        if isinstance(counts, range) and counts.step == 1:
+            return cls.joined([(counts.start, counts.stop - 1)] if counts else [])
+        return cls.joined((count, count) for count in counts)
+
+    @classmethod
+    def joined(cls, spans: Iterable[tuple[int, int]]) -> CountRuns:
+        """The runs that (first, last) spans make together: in any order, overlapping or not."""
+        found: list[tuple[int, int]] = []
+        for first, last in sorted(spans):
+            if found and first <= found[-1][1] + 1:
+                found[-1] = (found[-1][0], max(found[-1][1], last))
+            else:
+                found.append((first, last))
+        if not found:
+            raise _problem("no tooth counts are given", "a wheel needs at least one count it may have")
+        for first, last in found:
+            if first < 1 or last > MOST_TEETH:
+                raise _problem(f"no wheel has {first if first < 1 else last} teeth", "counts run from 1 to 10^12")
+        return cls(tuple(found))
+
+    @property
+    def least(self) -> int:
+        """The smallest count."""
+        return self.spans[0][0]
+
+    @property
+    def most(self) -> int:
+        """The largest count."""
+        return self.spans[-1][1]
+
+    @property
+    def contiguous(self) -> bool:
+        """True if no count is left out between the least and the most."""
+        return len(self.spans) == 1
+
+    def upto(self, count: int) -> int:
+        """How many of the counts are `count` or less."""
+        at = bisect_right(self.spans, count, key=_first)
+        return min(self._before[at], self._before[at - 1] + count - self.spans[at - 1][0] + 1) if at else 0
+
+    def between(self, low: int, high: int) -> Iterator[int]:
+        """The counts from `low` to `high`, both included, ascending."""
+        at = bisect_left(self.spans, low, key=_last)
+        while at < len(self.spans) and self.spans[at][0] <= high:
+            first, last = self.spans[at]
+            yield from range(max(first, low), min(last, high) + 1)
+            at += 1
+
+    def as_array(self) -> NDArray[np.int64]:
+        """The counts, ascending; `RangeError` for more than a million of them."""
+        return as_array(self)
+
+    def __len__(self) -> int:
+        return self._before[-1]
+
+    def __iter__(self) -> Iterator[int]:
+        return chain.from_iterable(range(first, last + 1) for first, last in self.spans)
+
+    def __contains__(self, count: object) -> bool:
+        return isinstance(count, Integral) and self.upto(int(count)) > self.upto(int(count) - 1)
+
+    @overload
+    def __getitem__(self, at: int) -> int: ...
+    @overload
+    def __getitem__(self, at: slice) -> tuple[int, ...]: ...
+    def __getitem__(self, at: int | slice) -> int | tuple[int, ...]:
+        places = range(len(self))[at]
+        if not isinstance(places, int):
+            return tuple(self._at(place) for place in places)
+        return self._at(places)
+
+    def _at(self, place: int) -> int:
+        run = bisect_right(self._before, place) - 1
+        return self.spans[run][0] + place - self._before[run]
+
+    def __str__(self) -> str:
+        return ",".join(f"{first}:{last}" if last > first else f"{first}" for first, last in self.spans)
+
+    def to_dict(self) -> dict[str, Any]:
+        """Plain data for JSON."""
+        return {"counts": str(self), "least": self.least, "most": self.most, "number": len(self)}
+
+
+def read_counts(text: str) -> CountRuns:
+    """Tooth counts from text: ranges `first:last` (both included) and single counts, with commas between.
+
+    >>> tuple(read_counts("12:15,48,60")), len(read_counts("12:1000000000"))
+    ((12, 13, 14, 15, 48, 60), 999999989)
+    """
+    if not text.strip():
+        raise _problem("no tooth counts are given", "a wheel needs at least one count it may have")
+    return CountRuns.joined(_span(part) for part in text.split(","))
+
+
+def as_array(counts: Counts) -> NDArray[np.int64]:
+    """The counts as int64, ascending; `RangeError` for more than a million: those stay runs."""
+    import numpy as np
+
+    if len(counts) > _MOST_LISTED:
+        raise RangeError(
+            Problem(
+                f"{len(counts)} tooth counts to list",
+                "this search takes counts one by one; only a single pair of wheels is found in a range of any length",
+                "give a shorter range, such as 15:120",
+            )
+        )
+    return np.array(tuple(counts), dtype=np.int64)
+
+
+def _span(part: str) -> tuple[int, int]:
+    shown = part.strip() if len(part) <= 40 else f"{part.strip()[:37]}..."
+    match = _PART.fullmatch(part) if len(part) <= 100 else None
+    if match is None:
+        raise _problem(f"'{shown}' is no tooth count", "a count is a whole number, a range is first:last")
+    first, last = int(match[1]), int(match[2] or match[1])
+    if first > last:
+        raise _problem(f"the range {shown} runs backwards", "its first count is above its last", f"{last}:{first}")
+    return first, last
+
+
+def _first(span: tuple[int, int]) -> int:
+    return span[0]
+
+
+def _last(span: tuple[int, int]) -> int:
+    return span[1]
+
+
+def _problem(what: str, why: str, better: str = "15:120, 30,36,48 or 12:40,48,60") -> QuestionError:
+    return QuestionError(Problem(what, why, f"write for example {better}"))

@@ -1,0 +1,226 @@
+"""The best of very many assignments: bounds in floats drop what cannot be among them, exact errors order the rest."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from math import inf, prod
+from typing import Any
+
+import numpy as np
+
+from geartrain.numerics.exact import as_float
+from geartrain.synthesis.join.exact_join import AssignmentColumns
+from geartrain.synthesis.join.polynomial_signs import ROUNDING
+from geartrain.synthesis.join.product_lists import Floats, Ints, Tallies
+from geartrain.synthesis.join.solution_windows import Bools
+from geartrain.synthesis.join.wheel_monomials import WheelTerm
+from geartrain.synthesis.train.output_requirements import OutputRequirement, value_of
+from geartrain.synthesis.train.train_findings import Assignment, By
+
+_POOL = 20_000
+"""Assignments that a pool holds before it is sorted out."""
+
+
+@dataclass(frozen=True, slots=True)
+class AssignmentOrder:
+    """What makes an assignment better than another.
+
+    by        what comes first; then error, total, largest, and the counts in the order of the wheels
+    best      how many are wanted
+    askings   the outputs their errors are of
+    declared  wheel -> declared count, where it has one
+    """
+
+    by: By
+    best: int
+    askings: tuple[OutputRequirement, ...]
+    declared: Mapping[str, int]
+
+    @property
+    def level(self) -> bool:
+        """True if all solutions have one error, because every output is asked for one exact speed."""
+        return all(asking.exact for asking in self.askings)
+
+    def assignment(self, teeth: Mapping[str, int]) -> Assignment | None:
+        """What the outputs do with some counts; None where one has no speed."""
+        outputs = {}
+        for asking in self.askings:
+            speed = value_of(asking.function, teeth)
+            if speed is None:
+                return None
+            outputs[asking.name] = asking.reached(speed)
+        changed = tuple(wheel for wheel, count in teeth.items() if self.declared.get(wheel, count) != count)
+        return Assignment(dict(teeth), outputs, changed)
+
+    def first(self, columns: AssignmentColumns) -> Ints:
+        """What comes first, of many assignments; 0 for the error, which `errors` bounds."""
+        table = np.stack(list(columns.values()))
+        if self.by == "total":
+            return np.asarray(table.sum(axis=0))
+        if self.by == "largest":
+            return np.asarray(table.max(axis=0))
+        if self.by == "distinct":
+            steps = np.diff(np.sort(table, axis=0), axis=0)
+            return np.asarray(1 + (steps != 0).sum(axis=0))
+        if self.by == "change":
+            changes = [column != self.declared[wheel] for wheel, column in columns.items() if wheel in self.declared]
+            return np.asarray(sum(changes, np.zeros(table.shape[1], dtype=np.int64)))
+        return np.zeros(table.shape[1], dtype=np.int64)
+
+    def errors(self, columns: AssignmentColumns) -> tuple[Floats, Floats]:
+        """Bounds on the largest |error|, least and greatest."""
+        size = len(next(iter(columns.values())))
+        least, greatest = np.zeros(size), np.zeros(size)
+        if not self.level:
+            for asking in self.askings:
+                low, high = _errors(asking, columns)
+                least, greatest = np.maximum(least, low), np.maximum(greatest, high)
+        return least, greatest
+
+    def ranks(self, columns: AssignmentColumns) -> Ints:
+        """Whole numbers in the order of the largest |error|, exactly; equal errors have equal numbers."""
+        found = np.zeros(len(next(iter(columns.values()))), dtype=np.int64)
+        if self.level:
+            return found
+        exact = [_exact_errors(asking, columns) for asking in self.askings]
+        rank = {error: at for at, error in enumerate(sorted({error for errors, _ in exact for error in errors}))}
+        for errors, which in exact:
+            found = np.maximum(found, np.array([rank[error] for error in errors], dtype=np.int64)[which])
+        return found
+
+
+def _errors(asking: OutputRequirement, columns: AssignmentColumns) -> tuple[Floats, Floats]:
+    """Bounds on the largest |error| of one output."""
+    function = asking.function
+    scale = max(abs(term[0]) for term in (*function.numerator, *function.denominator))
+    above, size_above = _values(function.wheels, function.numerator, columns, scale)
+    below, size_below = _values(function.wheels, function.denominator, columns, scale)
+    with np.errstate(all="ignore"):
+        speed = above / below
+        off = (size_above + np.abs(speed) * size_below) / np.abs(below) + 4 * ROUNDING * np.abs(speed)
+        off = np.where(np.isfinite(off), off, inf)
+    least, greatest = np.zeros(len(speed)), np.zeros(len(speed))
+    for demand in (demand for demand in asking.demands if demand.graded):
+        wanted = as_float(demand.wanted)
+        if wanted is None:
+            return np.zeros(len(speed)), np.full(len(speed), inf)
+        if wanted:
+            error = np.abs((speed if demand.signed else np.abs(speed)) / wanted - 1)
+            slack = off / abs(wanted) + 4 * ROUNDING * (1 + error)
+        else:
+            error, slack = np.abs(speed), off
+        slack = np.where(np.isfinite(error), slack, inf)
+        error = np.where(np.isfinite(error), error, 0.0)
+        least, greatest = np.maximum(least, error - slack), np.maximum(greatest, error + slack)
+    return least, greatest
+
+
+def _values(
+    wheels: Sequence[str], terms: Sequence[WheelTerm], columns: AssignmentColumns, scale: int
+) -> tuple[Floats, Floats]:
+    """Sum of some terms over `scale`, and a bound on its rounding."""
+    value = np.zeros(len(next(iter(columns.values()))))
+    size, steps = value.copy(), 0
+    for coefficient, powers in terms:
+        term = np.full(len(value), float(Fraction(coefficient, scale)))
+        for wheel, power in zip(wheels, powers, strict=True):
+            for _ in range(power):
+                term *= columns[wheel]
+        value += term
+        size += np.abs(term)
+        steps = max(steps, sum(powers))
+    return value, size * ((2 * steps + len(terms) + 8) * ROUNDING)
+
+
+def _exact_errors(asking: OutputRequirement, columns: AssignmentColumns) -> tuple[list[Fraction], Ints]:
+    """The exact |error| of each distinct speed of an output, and for each assignment which of them is its own."""
+    function = asking.function
+    above, below = (_whole(function.wheels, terms, columns) for terms in (function.numerator, function.denominator))
+    if above.dtype != below.dtype:
+        above, below = above.astype(object), below.astype(object)
+    common = np.gcd(above, below) * np.where(below < 0, -1, 1)
+    above, below = above // common, below // common
+    order = np.lexsort((below, above)) if above.dtype != object else np.array(_ordered(above, below), dtype=np.int64)
+    above, below = above[order], below[order]
+    new = np.concatenate([[True], (above[1:] != above[:-1]) | (below[1:] != below[:-1])])
+    which = np.empty(len(order), dtype=np.int64)
+    which[order] = np.cumsum(new) - 1
+    speeds = (Fraction(int(n), int(d)) for n, d in zip(above[new], below[new], strict=True))
+    return [abs(asking.reached(speed).error) for speed in speeds], which
+
+
+def _ordered(above: Tallies, below: Tallies) -> list[int]:
+    pairs = list(zip(above.tolist(), below.tolist(), strict=True))
+    return sorted(range(len(pairs)), key=pairs.__getitem__)
+
+
+def _whole(wheels: Sequence[str], terms: Sequence[WheelTerm], columns: AssignmentColumns) -> Tallies:
+    """The sum of some terms, exact: int64 where it fits, Python integers otherwise."""
+    most = {wheel: int(columns[wheel].max()) for wheel in wheels}
+    bound = sum(
+        abs(coefficient) * prod(most[wheel] ** power for wheel, power in zip(wheels, powers, strict=True))
+        for coefficient, powers in terms
+    )
+    dtype: Any = np.int64 if bound < 1 << 62 else object
+    total = np.zeros(len(next(iter(columns.values()))), dtype=dtype)
+    for coefficient, powers in terms:
+        term = np.full(len(total), coefficient, dtype=dtype)
+        for wheel, power in zip(wheels, powers, strict=True):
+            for _ in range(power):
+                term = term * columns[wheel].astype(dtype)
+        total = total + term
+    return total
+
+
+class BestAssignments:
+    """Keeps the best of all assignments it is given, a bounded number at a time."""
+
+    def __init__(self, order: AssignmentOrder, wheels: Sequence[str]) -> None:
+        self.order, self.wheels = order, tuple(wheels)
+        self._table: Ints = np.zeros((len(wheels), 0), dtype=np.int64)
+        self._new: list[Ints] = []
+
+    def add(self, columns: AssignmentColumns) -> None:
+        """Offer some assignments."""
+        self._new.append(np.stack([columns[wheel] for wheel in self.wheels]))
+        if sum(table.shape[1] for table in self._new) > _POOL:
+            self._gather()
+            self._drop()
+            if self._table.shape[1] > max(4 * self.order.best, _POOL // 4):
+                self._sort()
+
+    def best(self) -> list[list[int]]:
+        """The counts of the best, best first."""
+        self._gather()
+        self._drop()
+        self._sort()
+        found: list[list[int]] = self._table.T.tolist()
+        return found
+
+    def _gather(self) -> None:
+        self._table = np.concatenate([self._table, *self._new], axis=1)
+        self._new = []
+
+    def _columns(self) -> AssignmentColumns:
+        return dict(zip(self.wheels, self._table, strict=True))
+
+    def _drop(self) -> None:
+        """Drop what bounds on the errors show to be none of the best."""
+        best = self.order.best
+        if self._table.shape[1] <= best or self.order.level:
+            return
+        first = self.order.first(self._columns())
+        least, greatest = self.order.errors(self._columns())
+        last = np.lexsort((greatest, first))[best - 1]
+        kept: Bools = (first < first[last]) | ((first == first[last]) & (least <= greatest[last]))
+        self._table = self._table[:, kept]
+
+    def _sort(self) -> None:
+        """Sort exactly, and keep the best."""
+        if self._table.shape[1]:
+            columns = self._columns()
+            sizes = self._table.max(axis=0), self._table.sum(axis=0)
+            keys = (*self._table[::-1], *sizes, self.order.ranks(columns), self.order.first(columns))
+            self._table = self._table[:, np.lexsort(keys)[: self.order.best]]

@@ -1,0 +1,170 @@
+"""The free wheels of a train and what is asked of them, in parts that have nothing to do with each other."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from itertools import chain
+from math import prod
+
+from geartrain.errors import Problem, QuestionError, RangeError
+from geartrain.numerics.exact import decimal
+from geartrain.synthesis.constraints.count_conditions import CountConstraint
+from geartrain.synthesis.formulas.output_formulas import find_formulas
+from geartrain.synthesis.formulas.rational_functions import Formula
+from geartrain.synthesis.join.wheel_monomials import Domains, IntervalConstraint
+from geartrain.synthesis.train.output_requirements import OutputRequirement, find_output_requirements, value_of
+from geartrain.train import Teeth, Train, suggest
+
+_MOST_COUNTS = 10**6
+_ANYTHING_ELSE = (None, Fraction(0)), (Fraction(0), None)
+
+
+@dataclass(frozen=True, slots=True)
+class SearchPart:
+    """Wheels that outputs or rules join, and what is asked of them.
+
+    domains      wheel -> its counts, ascending, in the order declared
+    askings      outputs that they move
+    conditions   loops and locks that must close for the train to turn
+    rules        of the fitter
+    """
+
+    domains: Domains
+    askings: tuple[OutputRequirement, ...]
+    conditions: tuple[IntervalConstraint, ...]
+    rules: tuple[CountConstraint, ...]
+
+    @property
+    def considered(self) -> int:
+        """Assignments there are."""
+        return prod(len(counts) for counts in self.domains.values())
+
+
+@dataclass(frozen=True, slots=True)
+class TrainRequirements:
+    """What is asked of a train in one or several states.
+
+    remarks   outputs that no free wheel moves and that are not as asked, and outputs that nothing determines
+    """
+
+    askings: tuple[OutputRequirement, ...]
+    conditions: tuple[IntervalConstraint, ...]
+    remarks: tuple[str, ...]
+
+
+def find_domains(train: Train, free: str | Sequence[str]) -> dict[str, tuple[int, ...]]:
+    """The counts of each free wheel, ascending, in the order declared; see `searching.search` for `free`.
+
+    Raises `QuestionError` where there is none, or where one has no counts to choose from.
+    """
+    if isinstance(free, str) and free not in ("search", "uncertain"):
+        free = [free]
+    if not isinstance(free, str):
+        unknown = [name for name in free if name not in train.wheels]
+        if unknown:
+            fix = suggest(unknown[0], train.wheels)
+            raise QuestionError(Problem(f"'{train.name}' has no wheel '{unknown[0]}'", "it is not declared", fix))
+    found = {}
+    for wheel, (link, declared) in train.wheels.items():
+        teeth = declared.teeth if isinstance(declared.teeth, Teeth) else Teeth(value=declared.teeth)
+        chosen = wheel in free if not isinstance(free, str) else teeth.search is not None or free == "uncertain"
+        counts = tuple(_counts(train, wheel, link, teeth)) if chosen or teeth.value is None else ()
+        if counts:
+            found[wheel] = counts
+        elif chosen and not isinstance(free, str):
+            why = f"its count is {teeth.value}, with no search, range or choices"
+            fix = "declare it as {search: [15, 80]}"
+            raise QuestionError(
+                Problem(f"wheel '{wheel}' is not free", why, fix, train.place("links", link, "wheels", wheel))
+            )
+    if not found:
+        fix = "write `teeth: {search: [15, 80]}` at the wheels to be found"
+        if free == "search" and any(train.uncertain_wheels()):
+            fix += ", or ask for the uncertain ones"
+        raise QuestionError(Problem(f"'{train.name}' has no wheel to be found", "none has `search`", fix))
+    return found
+
+
+def _counts(train: Train, wheel: str, link: str, teeth: Teeth) -> Iterable[int]:
+    """The counts a wheel may have: its search bounds, else what its evidence allows."""
+    bounds = teeth.search or teeth.range
+    if teeth.choices is not None and teeth.search is None:
+        return sorted(set(teeth.choices))
+    if bounds is None:
+        return ()
+    if bounds[1] - bounds[0] >= _MOST_COUNTS:
+        why = f"{bounds[0]} to {bounds[1]} are more than {_MOST_COUNTS} counts"
+        place = train.place("links", link, "wheels", wheel)
+        raise RangeError(Problem(f"the range of wheel '{wheel}' is too wide", why, "narrow it", place))
+    return range(bounds[0], bounds[1] + 1)
+
+
+def find_requirements(
+    train: Train, state: str | None, domains: Domains, tolerance: Fraction | None
+) -> TrainRequirements:
+    """All that is asked of the outputs, in one state or in all of them."""
+    if state is not None and state not in train.states:
+        fix = suggest(state, train.states) if train.states else "leave the state out"
+        raise QuestionError(Problem(f"'{train.name}' has no state '{state}'", "it is not declared", fix))
+    states: Sequence[str | None] = tuple(train.states) or (None,) if state is None else (state,)
+    askings: list[OutputRequirement] = []
+    conditions: dict[IntervalConstraint, None] = {}
+    remarks: list[str] = []
+    for one in states:
+        prefix = f"{one}: " if len(states) > 1 else ""
+        case, formulas = train.case(one), find_formulas(train, one, domains)
+        for condition in formulas.conditions:
+            conditions[_vanishing(train, condition)] = None
+        for exclusion in formulas.exclusions:
+            conditions[IntervalConstraint(exclusion.label, exclusion, _ANYTHING_ELSE, strict=True)] = None
+        for asking in find_output_requirements(train, case, formulas.outputs, tolerance):
+            asking = OutputRequirement(prefix + asking.name, asking.function, asking.demands)
+            if asking.function.wheels:
+                askings.append(asking)
+            else:
+                remarks.extend(_idle(asking))
+        remarks.extend(f"the inputs do not determine '{prefix}{name}'" for name in formulas.undetermined)
+    return TrainRequirements(tuple(askings), tuple(conditions), tuple(remarks))
+
+
+def _vanishing(train: Train, condition: Formula) -> IntervalConstraint:
+    """A demand that a function is 0."""
+    if not condition.wheels:
+        what = f"'{train.name}' does not turn, whatever counts the free wheels have"
+        raise QuestionError(Problem(what, condition.label, "`geartrain solve` shows what holds it"))
+    zero = Fraction(0)
+    return IntervalConstraint(condition.label, condition, ((zero, zero),))
+
+
+def _idle(asking: OutputRequirement) -> Iterator[str]:
+    """A remark on an output that no free wheel moves, if it is not as it should be."""
+    speed = value_of(asking.function, {})
+    if speed is not None:
+        reached = asking.reached(speed)
+        if not reached.met:
+            said = f"its speed is {speed}, {decimal(reached.error, 3)} off ({reached.label})"
+            yield f"no free wheel moves '{asking.name}', which is not as asked: {said}"
+
+
+def find_parts(demands: TrainRequirements, domains: Domains, rules: Sequence[CountConstraint]) -> Iterator[SearchPart]:
+    """The wheels parted by what joins them, in the order declared; idle wheels are parts by themselves."""
+    groups: list[set[str]] = [{wheel} for wheel in domains]
+    scopes = chain(
+        (asking.function.wheels for asking in demands.askings),
+        (condition.function.wheels for condition in demands.conditions),
+        (rule.wheels for rule in rules),
+    )
+    for scope in scopes:
+        joined = [group for group in groups if not group.isdisjoint(scope)]
+        groups = [group for group in groups if group not in joined]
+        groups.append(set().union(*joined))
+    order = {wheel: at for at, wheel in enumerate(domains)}
+    for group in sorted(groups, key=lambda group: min(order[wheel] for wheel in group)):
+        yield SearchPart(
+            {wheel: counts for wheel, counts in domains.items() if wheel in group},
+            tuple(asking for asking in demands.askings if not group.isdisjoint(asking.function.wheels)),
+            tuple(one for one in demands.conditions if not group.isdisjoint(one.function.wheels)),
+            tuple(rule for rule in rules if not group.isdisjoint(rule.wheels)),
+        )

@@ -1,0 +1,306 @@
+"""Tooth counts of the free wheels, what the outputs do with them, and by what they are put in order.
+
+What a search for the tooth numbers of a train found: part by part, with where any other assignment stands.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from fractions import Fraction
+from heapq import heappop, heappush
+from math import prod
+from typing import Any, Literal
+
+from geartrain.errors import Problem, QuestionError
+from geartrain.numerics.exact import as_float, fraction_text
+from geartrain.synthesis.search_outcome import Shortfall
+
+By = Literal["error", "total", "largest", "distinct", "change"]
+ORDERS: tuple[By, ...] = ("error", "total", "largest", "distinct", "change")
+
+
+@dataclass(frozen=True, slots=True)
+class ReachedSpeed:
+    """What an output does under an assignment.
+
+    speed   exact, in the train's unit
+    label   the demand it misses by most, such as "period 583.92 d"
+    error   its relative error: |speed| / wanted - 1 against a target, speed / expected - 1 against an `expect` (the
+            speed itself where 0 is expected)
+    met     True if the output meets all that is demanded of it
+    """
+
+    speed: Fraction
+    label: str
+    error: Fraction
+    met: bool
+
+    def to_dict(self) -> dict[str, Any]:
+        """Plain data for JSON."""
+        return {
+            "speed": fraction_text(self.speed),
+            "value": as_float(self.speed),
+            "target": self.label,
+            "error": float(self.error),
+            "exact_error": fraction_text(self.error),
+            "met": self.met,
+        }
+
+
+@dataclass(frozen=True, slots=True)
+class Assignment:
+    """Tooth counts of the free wheels, and what the outputs do with them.
+
+    teeth     wheel -> count, in the order declared
+    outputs   output -> what it reaches; in a train with states the outputs are named "state: output"
+    changed   wheels whose count is not the declared value
+    """
+
+    teeth: Mapping[str, int]
+    outputs: Mapping[str, ReachedSpeed]
+    changed: tuple[str, ...] = ()
+
+    @property
+    def error(self) -> Fraction:
+        """The largest |error| over the outputs; 0 without any."""
+        return max((abs(reached.error) for reached in self.outputs.values()), default=Fraction(0))
+
+    def measure(self, by: By) -> tuple[Fraction | int, ...]:
+        """What it is ordered by: the order asked for, then error, total and largest; least is best."""
+        sizes = tuple(self.teeth.values())
+        total, largest = sum(sizes), max(sizes, default=0)
+        first: dict[By, Fraction | int] = {
+            "error": self.error,
+            "total": total,
+            "largest": largest,
+            "distinct": len(set(sizes)),
+            "change": len(self.changed),
+        }
+        return first[by], self.error, total, largest
+
+    def to_dict(self) -> dict[str, Any]:
+        """Plain data for JSON."""
+        sizes = tuple(self.teeth.values())
+        return {
+            "teeth": dict(self.teeth),
+            "outputs": {name: reached.to_dict() for name, reached in self.outputs.items()},
+            "error": float(self.error),
+            "total": sum(sizes),
+            "largest": max(sizes, default=0),
+            "distinct": len(set(sizes)),
+            "changed": list(self.changed),
+        }
+
+
+@dataclass(frozen=True, slots=True)
+class PartFindings:
+    """Free wheels that belong together, because outputs or rules join them, and all that meets their demands.
+
+    wheels       in the order declared; parts share none
+    outputs      the outputs they move; none for wheels that no output and no rule asks for
+    demands      what is demanded, in words, in the order asked
+    rules        names of the fitter's rules
+    considered   assignments there are
+    count        assignments that meet every demand and rule; where `tolerance` is not None, those within it
+    tolerance    for outputs without a tolerance of their own: the one that was found to hold enough
+    complete     True if every assignment was considered, so that `count` is exact
+    ranked       True if no assignment that is not in `solutions` comes before one that is
+    reason       why it is not complete, or not ranked
+    solutions    the best, best first
+    shortfall    where the others went: each is charged to the rule or demand at which the search gave it up, and these
+                 stand in the order in which they are decided
+    """
+
+    wheels: tuple[str, ...]
+    outputs: tuple[str, ...]
+    demands: tuple[str, ...]
+    rules: tuple[str, ...]
+    considered: int
+    count: int
+    tolerance: Fraction | None
+    complete: bool
+    ranked: bool
+    reason: str
+    solutions: tuple[Assignment, ...]
+    shortfall: Shortfall
+
+    def to_dict(self) -> dict[str, Any]:
+        """Plain data for JSON."""
+        return {
+            "wheels": list(self.wheels),
+            "outputs": list(self.outputs),
+            "demands": list(self.demands),
+            "rules": list(self.rules),
+            "complete": self.complete,
+            "ranked": self.ranked,
+            "reason": self.reason,
+            "considered": self.considered,
+            "count": self.count,
+            "tolerance": None if self.tolerance is None else float(self.tolerance),
+            "solutions": [solution.to_dict() for solution in self.solutions],
+            "shortfall": self.shortfall.to_dict(),
+        }
+
+
+@dataclass(frozen=True, slots=True)
+class Standing:
+    """Where one assignment of a part's wheels stands.
+
+    wheels       the part's wheels
+    assignment   its counts, outputs and errors; None where a wheel's count makes the train stand still or free
+    rank         1 for the best: one more than the number of assignments before it in error; None where it is refused
+                 or where counting would take too long
+    refused      what refuses it, each in words; empty for a solution
+    """
+
+    wheels: tuple[str, ...]
+    assignment: Assignment | None
+    rank: int | None
+    refused: tuple[str, ...]
+
+    @property
+    def is_solution(self) -> bool:
+        """True if it meets every demand and rule."""
+        return not self.refused
+
+    def to_dict(self) -> dict[str, Any]:
+        """Plain data for JSON."""
+        return {
+            "wheels": list(self.wheels),
+            "assignment": None if self.assignment is None else self.assignment.to_dict(),
+            "rank": self.rank,
+            "refused": list(self.refused),
+        }
+
+
+@dataclass(frozen=True, slots=True)
+class TrainFindings:
+    """All that a search in a train found.
+
+    name      of the train
+    by        the order of the solutions
+    best      how many were asked for
+    parts     independent parts; any solution of one goes with any solution of another
+    links     free wheel -> its link
+    remarks   what the reader should know: outputs that no free wheel moves, and whether they are right
+    """
+
+    name: str
+    by: By
+    best: int
+    parts: tuple[PartFindings, ...]
+    links: Mapping[str, str]
+    remarks: tuple[str, ...] = ()
+    _stand: Callable[[int, Mapping[str, int]], Standing] | None = field(default=None, repr=False, compare=False)
+
+    @property
+    def wheels(self) -> tuple[str, ...]:
+        """All free wheels, part by part."""
+        return tuple(wheel for part in self.parts for wheel in part.wheels)
+
+    @property
+    def complete(self) -> bool:
+        """True if every part is complete."""
+        return all(part.complete for part in self.parts)
+
+    @property
+    def ranked(self) -> bool:
+        """True if the solutions of every part are shown to be its best."""
+        return all(part.ranked for part in self.parts)
+
+    @property
+    def count(self) -> int:
+        """Assignments of all free wheels that meet everything: the product over the parts."""
+        return prod(part.count for part in self.parts)
+
+    @property
+    def considered(self) -> int:
+        """Assignments of all free wheels that there are."""
+        return prod(part.considered for part in self.parts)
+
+    @property
+    def solutions(self) -> tuple[Assignment, ...]:
+        """The best assignments of all free wheels, made of the solutions of the parts, in the order asked for."""
+        return tuple(_together([part.solutions for part in self.parts], self.by, self.best))
+
+    def standing(self, teeth: Mapping[str, int]) -> tuple[Standing, ...]:
+        """Where an assignment stands in each part all of whose wheels it names: its errors, its rank or what refuses
+        it.
+
+        Raises `QuestionError` for wheels that are not free, and if it names no part as a whole.
+        """
+        self._check(teeth)
+        whole = [at for at, part in enumerate(self.parts) if all(wheel in teeth for wheel in part.wheels)]
+        if not whole or self._stand is None:
+            why = f"its parts are {'; '.join(', '.join(part.wheels) for part in self.parts)}"
+            raise QuestionError(Problem("the assignment names no part as a whole", why, "give the missing counts"))
+        return tuple(self._stand(at, teeth) for at in whole)
+
+    def declaration(self, solution: Assignment | Mapping[str, int], parent: str, name: str = "") -> dict[str, Any]:
+        """The plain declaration that writes a solution down, as a change of the train it was found for.
+
+        solution   of the whole or of one part
+        parent     what it extends: a shipped train, or a path relative to where it will be written
+        name       of the new train; default that of the train with "-found"
+
+        Raises `QuestionError` for wheels that are not free.
+        """
+        teeth = solution.teeth if isinstance(solution, Assignment) else solution
+        self._check(teeth)
+        links: dict[str, Any] = {}
+        for wheel, count in teeth.items():
+            links.setdefault(self.links[wheel], {"wheels": {}})["wheels"][wheel] = {"teeth": count}
+        return {"name": name or f"{self.name}-found", "extends": parent, "links": links}
+
+    def _check(self, teeth: Mapping[str, int]) -> None:
+        for wheel in teeth:
+            if wheel not in self.links:
+                fix = f"the free wheels are {', '.join(self.links)}"
+                raise QuestionError(Problem(f"wheel '{wheel}' is not free", "the search did not look for it", fix))
+
+    def to_dict(self) -> dict[str, Any]:
+        """Plain data for JSON."""
+        return {
+            "train": self.name,
+            "by": self.by,
+            "complete": self.complete,
+            "ranked": self.ranked,
+            "considered": self.considered,
+            "count": self.count,
+            "remarks": list(self.remarks),
+            "parts": [part.to_dict() for part in self.parts],
+            "solutions": [solution.to_dict() for solution in self.solutions],
+        }
+
+
+def _together(parts: Sequence[Sequence[Assignment]], by: By, best: int) -> Iterator[Assignment]:
+    """The best combinations of one solution of each part, best first.
+
+    Every part's solutions are in order, so the next best combination is one step further in one part than one that has
+    come already. (Distinct counts do not add up over parts; there the order is as good as the steps.)
+    """
+    if not parts or not all(parts):
+        return
+    start = (0,) * len(parts)
+    heap = [(_joined(parts, start).measure(by), start)]
+    seen = {start}
+    for _ in range(best):
+        if not heap:
+            return
+        _, at = heappop(heap)
+        yield _joined(parts, at)
+        for part in range(len(parts)):
+            step = (*at[:part], at[part] + 1, *at[part + 1 :])
+            if step[part] < len(parts[part]) and step not in seen:
+                seen.add(step)
+                heappush(heap, (_joined(parts, step).measure(by), step))
+
+
+def _joined(parts: Sequence[Sequence[Assignment]], at: Sequence[int]) -> Assignment:
+    chosen = [solutions[number] for solutions, number in zip(parts, at, strict=True)]
+    return Assignment(
+        {wheel: count for one in chosen for wheel, count in one.teeth.items()},
+        {name: reached for one in chosen for name, reached in one.outputs.items()},
+        tuple(wheel for one in chosen for wheel in one.changed),
+    )

@@ -1,0 +1,177 @@
+"""Tooth numbers in a train: every assignment of its free wheels with which all outputs do what is asked of them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from concurrent.futures import Executor
+from dataclasses import dataclass
+from fractions import Fraction
+
+from geartrain.errors import Problem, QuestionError
+from geartrain.numerics.exact import decimal
+from geartrain.numerics.work import Journal
+from geartrain.synthesis.constraints.assembly_constraints import find_constraints
+from geartrain.synthesis.constraints.constraint_options import ConstraintOptions
+from geartrain.synthesis.constraints.count_conditions import CountConstraint
+from geartrain.synthesis.search_outcome import Shortfall
+from geartrain.synthesis.train.best_assignments import AssignmentOrder
+from geartrain.synthesis.train.independent_parts import SearchPart, find_domains, find_parts, find_requirements
+from geartrain.synthesis.train.output_requirements import value_of
+from geartrain.synthesis.train.search_passes import NOT_BEGUN, PartSearch, PassResult, PassRunner
+from geartrain.synthesis.train.tolerance_expansion import solve
+from geartrain.synthesis.train.train_findings import ORDERS, Assignment, By, PartFindings, Standing, TrainFindings
+from geartrain.synthesis.train.train_infeasibility import find_shortfall, tallied
+from geartrain.train import Train, suggest
+
+LIMIT = 10**9
+"""Steps (partial assignments looked at) that a pass may take by default: a few minutes."""
+
+
+def search(
+    train: Train,
+    state: str | None = None,
+    *,
+    free: str | Sequence[str] = "search",
+    rules: ConstraintOptions | Sequence[CountConstraint] | None = None,
+    tolerance: Fraction | None = None,
+    best: int = 20,
+    by: By = "error",
+    limit: int = LIMIT,
+    executor: Executor | None = None,
+    journal: Journal | None = None,
+    tell: Callable[[int, int], None] | None = None,
+) -> TrainFindings:
+    """All tooth counts of a train's free wheels that meet every demand on its outputs, counted; the best listed.
+
+    state       in which state of a train with states; None: in all of them at once
+    free        "search": wheels with `teeth: {search: [15, 80]}`; "uncertain": those and all wheels whose count has
+                a `range` or `choices`; or wheels by name, which must have one of the three. Wheels without any count
+                are free in any case
+    rules       the fitter's rules; None: those that hold without being asked for (`Rules()`)
+    tolerance   relative, for targets that have none: the first target of an output none of whose targets has one
+    best        how many solutions to list
+    by          their order: largest error of an output, total teeth, largest wheel, distinct counts, or wheels changed
+                from their declared count; ties by error, total, largest, and the counts
+    limit       steps that a pass may take; beyond them a sample is searched and `complete` is False
+    executor    None: in this process; see `geartrain.numerics.work.open_executor`. The answer does not depend on it
+    journal     where finished work is kept, for a run that may be cut
+    tell        called with (tasks done, tasks in all)
+
+    What is demanded of an output: its `expect` and `published`, at their digits and in their sense; every target that
+    has a tolerance; with `tolerance`, the first target where none has. An output with targets and none of all these
+    is approached: the best `best` by error are found, proved by widening a common tolerance.
+
+    Interrupted, it returns what is known, with `complete` False. Raises `QuestionError` if no wheel is free, or
+    nothing is asked of them.
+    """
+    if by not in ORDERS:
+        raise QuestionError(Problem(f"there is no order '{by}'", "solutions have others", suggest(by, ORDERS)))
+    domains = find_domains(train, free)
+    demands = find_requirements(train, state, domains, tolerance)
+    if rules is None or isinstance(rules, ConstraintOptions):
+        rules = find_constraints(train, domains, rules or ConstraintOptions())
+    if not demands.askings and not rules:
+        fix = "declare `targets`, or an `expect`, at an output that the wheels move"
+        raise QuestionError(Problem("nothing is asked of the free wheels", "no output hangs on them", fix))
+    declared = {wheel: count for wheel in domains if (count := train.wheels[wheel][1].count) is not None}
+    runner = PassRunner(executor, journal, tell)
+    searches = [
+        PartSearch(part, AssignmentOrder(by, max(best, 1), part.askings, declared), runner, float(limit))
+        for part in find_parts(demands, domains, rules)
+    ]
+    parts = tuple(_found(one) for one in searches)
+    runner.release()
+    links = {wheel: train.wheels[wheel][0] for wheel in domains}
+    return TrainFindings(train.name, by, best, parts, links, demands.remarks, _Standings(tuple(searches)).find)
+
+
+def _found(search: PartSearch) -> PartFindings:
+    """All that is said of a part."""
+    try:
+        passed, solutions, ranked = solve(search)
+    except KeyboardInterrupt:
+        search.runner.stopped = True
+        passed, solutions, ranked = NOT_BEGUN, (), False
+    part = search.part
+    return PartFindings(
+        tuple(part.domains),
+        tuple(asking.name for asking in part.askings),
+        tuple(asking.text for asking in part.askings),
+        tuple(dict.fromkeys(rule.name for rule in part.rules)),
+        part.considered,
+        passed.tally.count,
+        passed.share,
+        passed.complete,
+        ranked,
+        _reason(search, passed, ranked),
+        solutions,
+        _shortfall(search, passed),
+    )
+
+
+def _shortfall(search: PartSearch, passed: PassResult) -> Shortfall:
+    try:
+        return find_shortfall(search, passed)
+    except KeyboardInterrupt:
+        search.runner.stopped = True
+        return tallied(search, passed)
+
+
+def _reason(search: PartSearch, passed: PassResult, ranked: bool) -> str:
+    """Why a part is not complete or not ranked, in words."""
+    if passed.tally.stopped:
+        return "interrupted: the count is of what had been searched"
+    if passed.searched < 1:
+        share = decimal(Fraction(passed.searched), 2)
+        return f"about {passed.steps:.1e} steps and a limit of {search.limit:.1e}: a random part, {share}, was searched"
+    if passed.tally.cut:
+        return f"the limit of {search.limit:.1e} steps was reached"
+    if not ranked and search.runner.stopped:
+        return "interrupted: all are counted, the best are not listed"
+    return "" if ranked else f"too many to bring them all out within {search.limit:.1e} steps"
+
+
+@dataclass(frozen=True, slots=True)
+class _Standings:
+    """Answers where an assignment stands, by counting what comes before it."""
+
+    searches: tuple[PartSearch, ...]
+
+    def find(self, part: int, teeth: Mapping[str, int]) -> Standing:
+        """For one part, all of whose wheels are in `teeth`."""
+        search = self.searches[part]
+        own = {wheel: teeth[wheel] for wheel in search.part.domains}
+        assignment = search.order.assignment(own)
+        refused = tuple(_refusals(search.part, own, assignment))
+        rank = None if refused or assignment is None else _rank(search, assignment)
+        return Standing(tuple(own), assignment, rank, refused)
+
+
+def _refusals(part: SearchPart, teeth: Mapping[str, int], assignment: Assignment | None) -> list[str]:
+    """All that refuses an assignment, in words."""
+    import numpy as np
+
+    columns = {wheel: np.array([count], dtype=np.int64) for wheel, count in teeth.items()}
+    found = [
+        f"'{wheel}' is not to have {count} teeth" for wheel, count in teeth.items() if count not in part.domains[wheel]
+    ]
+    found += [rule.name for rule in part.rules if not rule.holds(columns).all()]
+    for asked in part.conditions:
+        value = value_of(asked.function, teeth)
+        if value is None or (value != 0) != asked.strict:
+            found.append(asked.name)
+    if assignment is None:
+        return [*found, "the train is locked or free"]
+    askings = {asking.name: asking for asking in part.askings}
+    for name, reached in assignment.outputs.items():
+        if not reached.met:
+            found.append(f"{askings[name].text}: {decimal(reached.error, 3)} off")
+    return found
+
+
+def _rank(search: PartSearch, assignment: Assignment) -> int | None:
+    """One more than the number of assignments with a smaller error."""
+    if not assignment.error or not search.part.askings:
+        return 1
+    passed = search.run(assignment.error, 0, strict=True)
+    return passed.tally.count + 1 if passed.complete else None

@@ -1,0 +1,154 @@
+"""Whether teeth with a path of contact can be made and can drive: undercut, pointed tips, contact ratio."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from math import cos, degrees, sin
+from typing import TYPE_CHECKING, Literal
+
+import numpy as np
+
+from geartrain.numerics.roots import root
+from geartrain.teeth.conjugate.path_of_contact import PathOfContact
+
+if TYPE_CHECKING:
+    from geartrain.numerics.arrays import Floats
+
+FaultKind = Literal["undercut", "pointed", "contact ratio", "jam", "clearance", "interference"]
+Halves = tuple[float, float]
+"""Half the thickness of a tooth of each gear on its pitch surface, as X; infinite for pins, which have no point."""
+
+_SCAN = 257
+
+
+@dataclass(frozen=True, slots=True)
+class ToothFault:
+    """One reason why teeth cannot run.
+
+    gear    1 or 2; 0 for the pair
+    X       pitch-line displacement at which it begins; NaN for the pair
+    what, why, fix   in words
+    """
+
+    kind: FaultKind
+    gear: int
+    X: float
+    what: str
+    why: str
+    fix: str
+
+
+def faults(path: PathOfContact, halves: Halves | None = None) -> tuple[ToothFault, ...]:
+    """All reasons why teeth with this path cannot run; empty if they can. `halves` default to a quarter pitch."""
+    return (*_undercuts(path), *_pointed(path, halves), *_broken(path))
+
+
+def _undercuts(path: PathOfContact) -> Iterator[ToothFault]:
+    """Where the contact would stand still on a profile: U = 0, a cusp, and undercut beyond it."""
+    for recess in (False, True):
+        if not (span := path.span(recess)):
+            continue
+        d = span[0] + (span[1] - span[0]) * np.linspace(0, 1, _SCAN)[1:]
+        contact = path.along(d, recess)
+        for gear, U in ((1, contact.U1), (2, contact.U2)):
+            if (U <= 0).any():
+                X = _standstill(path, d, U, gear, recess)
+                angle = degrees(X / (path.pitch.reach if gear == 1 else abs(path.pitch.reach2)))
+                where = "recess" if recess else "approach"
+                yield ToothFault(
+                    "undercut",
+                    gear,
+                    X,
+                    f"gear {gear} is undercut",
+                    f"in {where} the contact stands still on its dedendum {abs(angle):.6g} deg from the pitch point",
+                    f"end the {where} before {abs(X) / path.pitch.p:.6g} pitches, or take more teeth or a larger "
+                    "pressure angle",
+                )
+
+
+def _standstill(path: PathOfContact, d: Floats, U: Floats, gear: int, recess: bool) -> float:
+    """X at the first distance where U of one gear is 0."""
+    at = int(np.argmax(U <= 0))
+    if at == 0:
+        return 0.0
+
+    def speed(x: float) -> float:
+        contact = path.along(np.array([x]), recess)
+        return float((contact.U1 if gear == 1 else contact.U2)[0])
+
+    low, high = float(d[at - 1]), float(d[at])
+    found = root(speed, low, high, float(U[at - 1]), float(U[at])) if U[at] < 0 else high
+    return float(path.along(np.array([found]), recess).X[0])
+
+
+def _pointed(path: PathOfContact, halves: Halves | None) -> Iterator[ToothFault]:
+    """Where the two flanks of a tooth would meet before its tip."""
+    for gear, X in ((1, path.arcs[1]), (2, -path.arcs[0])):
+        if X and (room := tip_thickness(path, gear, halves)) < 0:
+            z = path.pitch.z1 if gear == 1 else path.pitch.z2
+            name = "recess" if X > 0 else "approach"
+            point = _point(path, gear, X, halves)
+            end = "end" if (X > 0) == (gear == 1) else "begin"
+            shorter = (
+                f"{end} the {name} before {abs(point) / path.pitch.p:.6g} pitches, or take a smaller pressure angle"
+            )
+            yield ToothFault(
+                "pointed",
+                gear,
+                X,
+                f"the teeth of gear {gear} come to a point before their tips",
+                f"their flanks would cross by {-degrees(room):.4g} deg of its {360 / z:.4g} deg pitch",
+                shorter if point else "leave its teeth some thickness: give less backlash, or shift it outwards",
+            )
+
+
+def _point(path: PathOfContact, gear: int, X: float, halves: Halves | None) -> float:
+    """X of the contact at which the flanks of a tooth cross; 0 where they do from the first."""
+
+    def room(x: float) -> float:
+        return _thickness(path, gear, x, halves)
+
+    foot = -path.arcs[0] if gear == 1 else path.arcs[1]
+    foot = foot if foot * X > 0 else 0.0  # contact on one side of the pitch point keeps off it
+    at_foot, at_tip = room(foot), room(X)
+    return root(room, foot, X, at_foot, at_tip) if at_foot > 0 else 0.0
+
+
+def tip_thickness(path: PathOfContact, gear: int, halves: Halves | None = None) -> float:
+    """Angle (rad) of the top land of a gear's tooth; negative where its flanks cross. `halves` as in `faults`."""
+    return _thickness(path, gear, path.arcs[1] if gear == 1 else -path.arcs[0], halves)
+
+
+def _thickness(path: PathOfContact, gear: int, X: float, halves: Halves | None) -> float:
+    """Angle (rad) between the flanks of a tooth where they touch at X."""
+    reach = path.pitch.reach if gear == 1 else abs(path.pitch.reach2)
+    half = (halves[gear - 1] if halves else path.pitch.p / 4) / reach
+    points = (path.flank1 if gear == 1 else path.flank2)(np.array([X]))[0]
+    return float(2 * (half - _azimuth(path, gear, points)))
+
+
+def _azimuth(path: PathOfContact, gear: int, point: Floats) -> float:
+    """How far (rad) a body point is from the direction of the pitch point, towards the middle of its flank's tooth."""
+    pitch = path.pitch
+    R = -pitch.R1 if gear == 1 else pitch.R2
+    if not pitch.bevel:
+        forwards = float(np.arctan2(point[0], (point[1] - R) * np.sign(-R)))
+        return -forwards if gear == 1 else forwards  # a driver's tooth is behind its flank
+    axis = np.array([0.0, sin(R), cos(R)])
+    start = np.array([0.0, 0.0, 1.0]) - cos(R) * axis
+    across = point - (point @ axis) * axis
+    return float(np.arctan2(np.cross(start, across) @ axis, start @ across))
+
+
+def _broken(path: PathOfContact) -> Iterator[ToothFault]:
+    ratio = path.contact_ratio
+    if ratio < 1 - 1e-12:
+        yield ToothFault(
+            "contact ratio",
+            0,
+            float("nan"),
+            f"the contact ratio is {ratio:.6g}",
+            "one pair of teeth parts before the next one meets",
+            "lengthen approach or recess until they are a pitch together",
+        )

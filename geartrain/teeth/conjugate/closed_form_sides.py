@@ -1,0 +1,219 @@
+"""Cycloids: sides whose path of contact is the rolling circle itself, in the plane and on the sphere.
+
+Lantern wheels: round pins on one gear, and the teeth that mate with them, in closed form; spur only.
+
+The path of contact is the pin's centre's own, shortened by the pin's radius towards the pitch point. In letters of the
+source, W. D. Smith (1993), equations (12) to (16): pins of radius B at distance A from the axle, R the pitch radius,
+L = d + B the distance of the pin's centre from the pitch point.
+
+The source's own shape of least friction, an extremal that keeps off the pitch point.
+
+Of all paths between two given contacts it rubs least: S dX/dd = D. In the plane it is a circle of diameter D centred on
+the pitch line. Its flanks are regular for pressure angles above 45 degrees only, and it never reaches the pitch point.
+"""
+
+from __future__ import annotations
+
+from math import asin, atan, cos, degrees, inf, log, pi, sin, sqrt, tan
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from geartrain.errors import Problem, RangeError
+from geartrain.numerics.roots import root
+from geartrain.teeth.conjugate.path_side import CirclePiece, PathPiece, PathSide, circle_end
+
+if TYPE_CHECKING:
+    from geartrain.numerics.arrays import Floats
+    from geartrain.teeth.conjugate.pitch_surfaces import PitchSurfaces
+
+
+class ConeCirclePiece(PathPiece):
+    """A small circle through the pitch point, centred over it: the path of a rolling cone of half-angle `rho` (rad).
+
+    In the triangle of its pole, the pitch point and the contact tan(d/2) = tan(rho) sin(psi), and the cone has turned
+    by X / sin(rho) where sin(d/2) = sin(rho) sin(X / (2 sin rho)).
+    """
+
+    def __init__(self, rho: float, end: float) -> None:
+        self.rho, self.start, self.end = rho, 0.0, end
+
+    def sin_psi(self, d: Floats) -> Floats:
+        """tan(d/2) / tan(rho)."""
+        return np.tan(np.asarray(d) / 2) / tan(self.rho)
+
+    def slope(self, d: Floats) -> Floats:
+        """1 / (2 tan(rho) cos^2(d/2))."""
+        return 1 / (2 * tan(self.rho) * np.cos(np.asarray(d) / 2) ** 2)
+
+    def travel(self, d: Floats) -> Floats:
+        """2 sin(rho) arcsin(sin(d/2) / sin(rho))."""
+        return 2 * sin(self.rho) * np.arcsin(np.sin(np.asarray(d) / 2) / sin(self.rho))
+
+
+def cycloid(pitch: PitchSurfaces, X: float, rho: float) -> PathSide:
+    """The side of a rolling circle (modules) or cone (rad) over an arc X.
+
+    Raises `RangeError` where the arc is longer than half the rolling circle.
+    """
+    longest = pi * sin(rho) if pitch.bevel else pi * rho
+    if longest * (1 - 1e-9) <= X:
+        raise RangeError(
+            Problem(
+                f"an arc of {X / pitch.p:.6g} pitches is longer than half the rolling circle",
+                f"half of it is {longest / pitch.p:.6g} pitches, where the pressure angle is a right angle",
+                "ask for a shorter arc or a larger rolling circle",
+            )
+        )
+    return PathSide((ConeCirclePiece(rho, cone_end(rho, X)) if pitch.bevel else CirclePiece(rho, circle_end(rho, X)),))
+
+
+def cone_end(rho: float, X: float) -> float:
+    """Distance d at which a small circle has travelled X."""
+    return 2 * asin(sin(rho) * sin(X / (2 * sin(rho))))
+
+
+def circle_reach(R: float, rho: float, tip: float) -> float:
+    """Distance d at which the addendum of a gear of pitch radius R ends at its `tip` radius; a ring's R is negative.
+
+    On the circle |P - O|^2 = R^2 + d^2 (1 + R / rho).
+    """
+    return sqrt((tip * tip - R * R) / (1 + R / rho))
+
+
+def cone_reach(R: float, rho: float, tip: float) -> float:
+    """The same on the sphere, in polar angles: cos tip = cos d cos R - sin d sin psi sin R, sin psi = tan(d/2)/tan rho.
+
+    With 2 sin^2(d/2) = v it is linear: cos tip = cos R - v (cos R + sin R / tan rho).
+    """
+    v = (cos(R) - cos(tip)) / (cos(R) + sin(R) / tan(rho))
+    return 2 * atan(sqrt(v / 2) / sqrt(1 - v / 2))
+
+
+class PinPiece(PathPiece):
+    """Contact of a round pin: sin psi = (L^2 + R^2 - A^2) / (2 R L), with L = B + d outside and B - d `inside`.
+
+    Outside, beyond the pitch point, the mate's addendum works; inside, its dedendum, up to its undercut.
+    """
+
+    def __init__(self, R: float, A: float, B: float, end: float, inside: bool = False) -> None:
+        self.R, self.A, self.B, self.start, self.end = R, A, B, 0.0, end
+        self.sign = -1.0 if inside else 1.0
+
+    def _length(self, d: Floats) -> Floats:
+        return self.B + self.sign * np.asarray(d, dtype=float)
+
+    def sin_psi(self, d: Floats) -> Floats:
+        """(L^2 + R^2 - A^2) / (2 R L), which is L / 2R for pins on the pitch circle."""
+        L = self._length(d)
+        found: Floats = (L + (self.R - self.A) * (self.R + self.A) / L) / (2 * self.R)
+        return found
+
+    def slope(self, d: Floats) -> Floats:
+        """(1 - (R^2 - A^2) / L^2) / 2R, its sign turned inside."""
+        L = self._length(d)
+        found: Floats = self.sign * (1 - (self.R - self.A) * (self.R + self.A) / L**2) / (2 * self.R)
+        return found
+
+    def travel(self, d: Floats) -> Floats:
+        """R (beta - beta at the pitch point), beta the angle of the pin's centre from the line of centres."""
+        half = np.sqrt(np.maximum(self._length(d) ** 2 - (self.A - self.R) ** 2, 0) / (4 * self.A * self.R))
+        found: Floats = self.sign * self.R * (2 * np.arcsin(half) - pin_angle(self.R, self.A, self.B))
+        return found
+
+
+def pin_angle(R: float, A: float, B: float) -> float:
+    """Angle (rad) of a pin's centre from the line of centres while the pin touches the pitch point."""
+    return 2 * asin(sqrt((B - A + R) * (B + A - R) / (4 * A * R)))
+
+
+def lantern(R: float, A: float, B: float, X: float, inside: bool = False) -> PathSide:
+    """One side of a lantern's path over an arc X; `inside` is the side on which the mate's dedendum works.
+
+    Raises `RangeError` where the arc passes the line of centres (inside) or half a turn of the lantern.
+    """
+    first = pin_angle(R, A, B)
+    beta = first - X / R if inside else first + X / R
+    most = first if inside else 3.14 - first
+    if not 0 <= beta <= 3.14:
+        side, fix = ("dedendum", "its undercut") if inside else ("addendum", "half a turn of the lantern")
+        raise RangeError(
+            Problem(
+                f"an arc of {degrees(X / R):.6g} deg of the lantern on the mate's {side} is too long",
+                f"it ends at {fix}, before {degrees(most):.6g} deg",
+                "ask for a shorter arc",
+            )
+        )
+    L = sqrt((A - R) ** 2 + 4 * A * R * sin(beta / 2) ** 2)
+    return PathSide((PinPiece(R, A, B, B - L if inside else L - B, inside),))
+
+
+def pin_reach(R: float, A: float, B: float, mate: float, tip: float) -> float:
+    """Distance d at which the mate's addendum ends at its `tip` radius; `mate` its pitch radius, negative for a ring.
+
+    |P - O|^2 = mate^2 + d^2 + 2 mate d sin psi, and d sin psi = d (L^2 + R^2 - A^2) / (2 R L) is monotone in d.
+    """
+
+    def off(d: float) -> float:
+        L = d + B
+        sine = (L * L + (R - A) * (R + A)) / (2 * R * L)
+        return d * (d + 2 * mate * sine) - (tip - abs(mate)) * (tip + abs(mate))
+
+    most = A + R - B
+    at_pitch, at_most = off(0.0), off(most)
+    if (at_pitch > 0) == (at_most > 0):
+        raise RangeError(
+            Problem(
+                f"no contact of these pins reaches the tip radius {tip:.6g}",
+                "the pins are past the far side of the lantern before",
+                "give the mate a shorter addendum",
+            )
+        )
+    return root(off, 0.0, most, at_pitch, at_most)
+
+
+def pin_arc(R: float, A: float, B: float, d: float) -> float:
+    """Arc (X) from the pitch point to the distance d, on the mate's addendum."""
+    return float(PinPiece(R, A, B, d).travel(np.array(d)))
+
+
+class ExtremalPiece(PathPiece):
+    """S = D cos psi; X = D ln d, or D ln tan(d/2), from the first contact."""
+
+    def __init__(self, pitch: PitchSurfaces, D: float, start: float, end: float) -> None:
+        self.pitch, self.D, self.start, self.end = pitch, D, start, end
+
+    def sin_psi(self, d: Floats) -> Floats:
+        """sqrt(1 - (S / D)^2)."""
+        S = self.pitch.S(d) / self.D
+        return np.sqrt((1 - S) * (1 + S))
+
+    def slope(self, d: Floats) -> Floats:
+        """-S S' / (D^2 sin psi)."""
+        found: Floats = -self.pitch.S(d) * self.pitch.S_slope(d) / (self.D**2 * self.sin_psi(d))
+        return found
+
+    def travel(self, d: Floats) -> Floats:
+        """D ln(d / start), or D ln(tan(d/2) / tan(start/2))."""
+        d = np.asarray(d, dtype=float)
+        if self.pitch.bevel:
+            return self.D * np.log(np.tan(d / 2) / tan(self.start / 2))
+        return self.D * np.log(d / self.start)
+
+
+def extremal(pitch: PitchSurfaces, X: float, first: float, last: float) -> PathSide:
+    """The side of arc X whose pressure angle falls from `first` to `last` (rad)."""
+    if not pitch.bevel:
+        D = X / log(cos(last) / cos(first))
+        return PathSide((ExtremalPiece(pitch, D, D * cos(first), D * cos(last)),))
+
+    def ends(D: float) -> tuple[float, float]:
+        return asin(D * cos(first)), asin(D * cos(last))
+
+    def off(D: float) -> float:
+        start, end = ends(D)
+        return D * log(tan(end / 2) / tan(start / 2)) - X
+
+    high = (1 - 1e-12) / cos(last)
+    D = root(off, 1e-9 * X, high, -inf, off(high))
+    return PathSide((ExtremalPiece(pitch, D, *ends(D)),))

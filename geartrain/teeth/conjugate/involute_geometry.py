@@ -1,0 +1,193 @@
+"""Involute wheels as a rack cuts them: sizes, thickness, the angle at which a pair works, its arcs. Lengths in modules.
+
+The rack is shifted out by `shift` modules. A ring is the space of an outer wheel of its tooth number; its shift counts
+outwards too, so that it widens the ring's spaces.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import acos, asin, atan, atan2, cos, pi, sin, sqrt, tan
+
+from geartrain.errors import GearTrainError, Problem, RangeError
+from geartrain.numerics.roots import root
+from geartrain.teeth.conjugate.pitch_surfaces import PitchSurfaces
+
+_ROUNDING = 1e-12  # modules
+
+
+def inv(angle: float) -> float:
+    """The involute function tan x - x, x in rad."""
+    return tan(angle) - angle
+
+
+def inv_angle(value: float) -> float:
+    """The angle (rad) whose involute function is `value`, 0 or more."""
+    high = pi / 2 - 1e-9
+    return root(lambda x: inv(x) - value, 0.0, high, -value, inv(high) - value) if value else 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class InvoluteWheel:
+    """One wheel: teeth, shift, addendum and dedendum of the rack (modules), pressure angle of the rack (rad).
+
+    cut   depth to which the rack's flank is straight: undercut begins where that is too deep
+    """
+
+    z: int
+    psi: float
+    shift: float
+    addendum: float
+    dedendum: float
+    cut: float
+    ring: bool = False
+
+    @property
+    def r(self) -> float:
+        """Radius of the reference circle."""
+        return self.z / 2
+
+    @property
+    def base(self) -> float:
+        """Radius of the base circle."""
+        return self.r * cos(self.psi)
+
+    @property
+    def tip(self) -> float:
+        """Radius of the tip circle."""
+        return self.r + self.shift + (-self.addendum if self.ring else self.addendum)
+
+    @property
+    def root(self) -> float:
+        """Radius of the root circle."""
+        return self.r + self.shift + (self.dedendum if self.ring else -self.dedendum)
+
+    def half(self, psi: float) -> float:
+        """Half the thickness of a tooth (rad) on the circle where the pressure angle is `psi`."""
+        sign = -1 if self.ring else 1
+        return (pi / 2 + sign * 2 * self.shift * tan(self.psi)) / self.z + sign * (inv(self.psi) - inv(psi))
+
+    def undercut(self) -> float:
+        """Radius up to which the rack's corner cuts the involute away; 0 where it does not, and for a ring."""
+        u = self.cut - self.shift
+        if self.ring or u <= self.r * sin(self.psi) ** 2:
+            return 0.0
+        low = max(self.base, self.r - u) * (1 + 1e-12)
+        at_low, at_high = self._left(low), self._left(self.r)
+        return root(self._left, low, self.r, at_low, at_high) if at_low < 0 < at_high else 0.0
+
+    def _left(self, radius: float) -> float:
+        """Azimuth of the corner's trochoid over that of the involute at a radius: below 0 the corner cuts it."""
+        r, psi, u = self.r, self.psi, self.cut - self.shift
+        below = r - u
+        X = -u * tan(psi) - sqrt(radius**2 - below**2)
+        corner = atan2(u * tan(psi) + X, below) - X / r
+        roll = (sqrt(radius**2 - self.base**2) - r * sin(psi)) / cos(psi)
+        P = roll * cos(psi)
+        return corner - (atan2(P * cos(psi), r + P * sin(psi)) - roll / r)
+
+
+@dataclass(frozen=True, slots=True)
+class InvolutePair:
+    """Two wheels at a centre distance, the first driving; the second may be a ring.
+
+    thinned   how much thinner than a rack without play cuts them the teeth of both wheels are, summed, as X
+    """
+
+    first: InvoluteWheel
+    second: InvoluteWheel
+    distance: float
+    thinned: float = 0.0
+
+    @property
+    def psi(self) -> float:
+        """Operating pressure angle (rad): cos psi_w = (base radii summed, or their difference) / distance."""
+        bases = self.second.base - self.first.base if self.second.ring else self.second.base + self.first.base
+        return acos(bases / self.distance)
+
+    @property
+    def pitch(self) -> PitchSurfaces:
+        """The operating pitch circles."""
+        z1, z2 = self.first.z, self.second.z
+        scale = self.distance / (z2 - z1 if self.second.ring else z1 + z2)
+        return PitchSurfaces(z1, z2, z1 * scale, (-z2 if self.second.ring else z2) * scale)
+
+    @property
+    def halves(self) -> tuple[float, float]:
+        """Half the thickness of a tooth of each wheel on the operating pitch circles, as X."""
+        pitch, psi = self.pitch, self.psi
+        first, second = self.first.half(psi) * pitch.R1, self.second.half(psi) * abs(pitch.R2)
+        return first - self.thinned / 4, second - self.thinned / 4
+
+    @property
+    def play(self) -> float:
+        """Play of the teeth, as X; negative where they jam."""
+        return self.pitch.p - 2 * sum(self.halves)
+
+    @property
+    def arcs(self) -> tuple[float, float]:
+        """Arcs of approach and recess (X), from the tip circles.
+
+        One is negative where the tips of a wheel keep off the operating pitch circle: contact is on one side of the
+        pitch point only. Raises `RangeError` where the tips do not reach each other at all.
+        """
+        pitch, psi = self.pitch, self.psi
+        found = []
+        for wheel, R in ((self.second, pitch.R2), (self.first, pitch.R1)):
+            sign = -1 if wheel.ring else 1
+            over = sign * (sqrt(max(wheel.tip**2 - wheel.base**2, 0.0)) - abs(R) * sin(psi))
+            found.append(0.0 if -_ROUNDING < over < 0 else over / cos(psi))
+        if sum(found) <= 0:
+            raise _apart(self.first, self.second, self.distance)
+        return found[0], found[1]
+
+
+def free_distance(first: InvoluteWheel, second: InvoluteWheel) -> float:
+    """The centre distance without play: inv psi_w = inv psi + 2 tan psi (x1 + x2) / (z1 + z2).
+
+    In a ring the pinion's z1 and x1 count negative.
+    Raises `GearTrainError` where the shifts are too far inwards for any.
+    """
+    psi, sign = first.psi, -1 if second.ring else 1
+    teeth, shifts = second.z + sign * first.z, second.shift + sign * first.shift
+    value = inv(psi) + 2 * tan(psi) * shifts / teeth
+    if value < 0:
+        raise GearTrainError(
+            Problem(
+                f"no centre distance lets wheels of {first.z} and {second.z} teeth mesh without play",
+                f"with their shifts {first.shift:g} and {second.shift:g} the involute function of the operating angle "
+                f"would be {value:.4g}, and it is 0 or more",
+                "shift the wheels less, or give a centre_distance",
+            )
+        )
+    return teeth * cos(psi) / (2 * cos(inv_angle(value)))
+
+
+def _apart(first: InvoluteWheel, second: InvoluteWheel, distance: float) -> RangeError:
+    return RangeError(
+        Problem(
+            "the teeth do not reach each other",
+            f"at a centre distance of {distance:.6g} modules the tips, at {first.tip:.6g} and {second.tip:.6g}, part "
+            "before they meet on the line of action",
+            "give greater addenda, move the axles together, or shift the wheels less far apart",
+        )
+    )
+
+
+def base_cone(R: float, psi: float) -> float:
+    """Half-angle (rad) of the base cone of a spherical involute of pitch cone R: sin base = sin R cos psi."""
+    return asin(sin(R) * cos(psi))
+
+
+def spherical_arc(R: float, psi: float, tip: float) -> float:
+    """Arc (X) over which a spherical involute of pitch cone R reaches its `tip` cone (rad); negative inside the pitch.
+
+    cos tip = cos d cos R - sin d sin psi sin R, with cos(base cone) = sqrt(cos^2 R + sin^2 psi sin^2 R).
+    """
+    base = sqrt(cos(R) ** 2 + (sin(psi) * sin(R)) ** 2)
+    return (acos(min(cos(tip) / base, 1.0)) - atan2(sin(psi) * sin(R), cos(R))) / cos(psi)
+
+
+def cone_height(R: float, z: int, height: float) -> float:
+    """Angle (rad) by which a height in modules of the large end stands over a pitch cone R."""
+    return atan(height * 2 * sin(R) / z)

@@ -1,0 +1,308 @@
+"""The sides of each optimal shape: uniform stress, uniform temperature, least friction; and involute and cycloid.
+
+A side is described with the coefficient `a` of the gear whose addendum works and `b` of the one whose dedendum does:
+a = A, b = B in recess, exchanged in approach.
+"""
+
+from __future__ import annotations
+
+from functools import partial
+from math import atan, cos, degrees, inf, sin, sqrt
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from geartrain.errors import Problem, RangeError
+from geartrain.numerics.roots import root
+from geartrain.teeth.conjugate.path_side import (
+    CirclePiece,
+    PathPiece,
+    PathSide,
+    RayPiece,
+    SampledPiece,
+    SteadySpeedPiece,
+    circle_end,
+    ray_end,
+)
+from geartrain.teeth.conjugate.singular_collocation import FALLEN, ValueAndSlope, lost, solved
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from geartrain.numerics.arrays import Floats
+    from geartrain.numerics.chebyshev import ChebyshevSeries
+    from geartrain.teeth.conjugate.pitch_surfaces import PitchSurfaces
+
+    Made = Callable[[PitchSurfaces, ValueAndSlope, ChebyshevSeries, float], PathPiece]
+
+_NEAR = 0.05  # of a side: nearer to the pitch point slopes are those of the series
+_GAUSS = np.polynomial.legendre.leggauss(64)
+_TRIES, _CUTS = 20, 4
+_BEYOND = 1e-7  # of a series' length: so far past its end it is as good as inside
+_SETTLED = 1e-9  # of the end: so near, one more Newton step on the piece's own series is exact
+_FARTHER, _REACH = 0.1, 8.0  # so far past its end a series still tells where to solve next: this, or (8 / nodes)^2
+_GIVEN_UP = 1e-4  # of the end: what cannot be reached nearer than this cannot be reached
+
+
+def involute(X: float, psi: float) -> PathSide:
+    """A constant pressure angle."""
+    return PathSide((RayPiece(psi, ray_end(psi, X)),))
+
+
+def cycloid(X: float, rho: float) -> PathSide:
+    """The epicycloid and hypocycloid of a rolling circle of radius `rho`; spur only."""
+    return PathSide((CirclePiece(rho, circle_end(rho, X)),))
+
+
+def uniform_stress(pitch: PitchSurfaces, a: float, b: float, X: float, psi: float) -> PathSide:
+    """kr / cos psi constant: w = ((b - a) S + sqrt((a + b)^2 S^2 + 4 k tan psi)) / 2, k = sin psi0 cos psi0."""
+    return PathSide((_reached(pitch, stress_law(pitch, a, b, psi), sin(psi), ray_end(psi, X), X),))
+
+
+def stress_law(pitch: PitchSurfaces, a: float, b: float, psi: float) -> ValueAndSlope:
+    """The equation of uniform stress for v = sin psi: S v' + f(d, v) = 0, `psi` the pressure angle at the pitch."""
+    k = sin(psi) * cos(psi)
+
+    def f(d: Floats, v: Floats) -> tuple[Floats, Floats]:
+        S = pitch.S(d)
+        with np.errstate(invalid="ignore", divide="ignore"):
+            cosine = np.sqrt(1 - v * v)
+            under = np.sqrt(((a + b) * S) ** 2 + 4 * k * v / cosine)
+            w = ((b - a) * S + under) / 2
+            return pitch.S_slope(d) * v - w, pitch.S_slope(d) - k / (under * cosine**3)
+
+    return f
+
+
+def _reached(
+    pitch: PitchSurfaces,
+    f: ValueAndSlope,
+    first: float,
+    guess: float,
+    X: float,
+    start: float = 0.0,
+    made: Made | None = None,
+) -> PathPiece:
+    """The piece that has travelled X at its end, where S v' + f = 0.
+
+    The solution is one function whatever its end. So it is solved up to a guessed end, and again only where the true
+    end lies beyond; a guess that it cannot reach is drawn in.
+    """
+    made = made or _plain
+    v: ChebyshevSeries | None = None
+    low, end = start, guess
+    for _ in range(_TRIES):
+        try:
+            v = solved(pitch, f, first, end, start, v)
+        except RangeError:
+            if end - low < _GIVEN_UP * end:
+                raise
+            end = (low + end) / 2
+            continue
+        low, end, piece = end, *_cut(partial(made, pitch, f, v), X, v)
+        if piece is not None:
+            return piece
+    raise lost(end)
+
+
+def _cut(made: Callable[[float], PathPiece], X: float, v: ChebyshevSeries) -> tuple[float, PathPiece | None]:
+    """Where X is reached, and the piece up to there; None where the series must first be solved up to there."""
+    end = v.end
+    for _ in range(_CUTS):
+        piece = made(end)
+        found = _end(piece, X, v)
+        if found > v.end + _BEYOND * (v.end - v.start) or (v.tail > FALLEN and found < v.end * (1 - _BEYOND)):
+            return found, None
+        if abs(found - end) <= _SETTLED * end:
+            return found, piece if found == end else made(found)
+        end = found
+    return end, made(end)
+
+
+def _end(piece: PathPiece, X: float, v: ChebyshevSeries) -> float:
+    """Where the piece has travelled X: Newton on its own series, or one step where that would lead out of it."""
+    most = piece.end + min(_FARTHER, (_REACH / len(v.coefficients)) ** 2) * (piece.end - v.start)
+    end, last, first = piece.end, inf, 0.0
+    for _ in range(30):
+        sine = float(piece.sin_psi(np.array(end)))
+        if abs(sine) >= 1:
+            return (piece.end + end) / 2
+        step = (float(piece.travel(np.array(end))) - X) * sqrt(1 - sine * sine)
+        first = first or step
+        if not v.start < end - step <= most:
+            return piece.end - first
+        end -= step
+        if abs(step) <= 4e-16 * end or (abs(step) < 1e-12 * end and abs(step) >= last):
+            break
+        last = abs(step)
+    return end
+
+
+def _plain(pitch: PitchSurfaces, f: ValueAndSlope, v: ChebyshevSeries, end: float) -> PathPiece:
+    """sin psi is the solution itself."""
+    return SampledPiece(v, _slope(pitch, f, v), v.start, end, max(len(v.coefficients), 64))
+
+
+def _slope(pitch: PitchSurfaces, f: ValueAndSlope, v: ChebyshevSeries) -> Callable[[Floats], Floats]:
+    """v' from the equation itself, but for the neighbourhood of the pitch point, where that would be 0/0."""
+    steep = v.derivative()
+
+    def slope(d: Floats) -> Floats:
+        S = pitch.S(d)
+        with np.errstate(invalid="ignore", divide="ignore"):
+            return np.where(d > _NEAR * v.end, -f(d, v(d))[0] / S, steep(d))
+
+    return slope
+
+
+def _to_arc(made: Callable[[float], PathPiece], guess: float, X: float) -> PathPiece:
+    """The piece whose end has travelled X: Newton on the end, its slope being 1 / cos psi there."""
+    end, last = guess, inf
+    piece = made(end)
+    for _ in range(30):
+        at = np.array(end)
+        step = (float(piece.travel(at)) - X) * sqrt(1 - float(piece.sin_psi(at)) ** 2)
+        if abs(step) <= 4e-16 * end or (abs(step) < 1e-12 * end and abs(step) >= last):
+            break
+        end, last = end - step, abs(step)
+        piece = made(end)
+    return piece
+
+
+def uniform_heat(pitch: PitchSurfaces, beta: float, gamma: float, X: float) -> PathSide:
+    """w = beta S + gamma S / cos psi with psi = 0 at the pitch point; beta = b of the hotter surface (reading b)."""
+    f, first = heat_law(pitch, beta, gamma), (beta + gamma) / 2
+    return PathSide((_reached(pitch, f, first, _short(beta, gamma, X), X, made=_raised),))
+
+
+def heat_law(pitch: PitchSurfaces, beta: float, gamma: float) -> ValueAndSlope:
+    """The equation of uniform heat for g = sin psi / S: S g' + f(d, g) = 0."""
+
+    def f(d: Floats, g: Floats) -> tuple[Floats, Floats]:
+        S = pitch.S(d)
+        with np.errstate(invalid="ignore"):
+            cosine = np.sqrt(1 - (S * g) ** 2)
+            slope = 2 * pitch.S_slope(d) - gamma * S**2 * g / cosine**3
+            return 2 * pitch.S_slope(d) * g - beta - gamma / cosine, slope
+
+    return f
+
+
+def _short(beta: float, gamma: float, X: float) -> float:
+    """A first guess of the end: the cycloid that touches the path at the pitch point."""
+    rho = 1 / (beta + gamma)
+    return circle_end(rho, min(X, 2 * rho))
+
+
+def _raised(pitch: PitchSurfaces, f: ValueAndSlope, g: ChebyshevSeries, end: float) -> PathPiece:
+    """The solution is g = sin psi / S, of 2 S' g + S g' = beta + gamma / cos psi."""
+    steep = _slope(pitch, f, g)
+    return SampledPiece(
+        lambda d: pitch.S(d) * g(d),
+        lambda d: pitch.S_slope(d) * g(d) + pitch.S(d) * steep(d),
+        0.0,
+        end,
+        max(len(g.coefficients), 64),
+    )
+
+
+def bounded_heat(pitch: PitchSurfaces, b: float, gamma: float, X: float, psi: float) -> PathSide:
+    """A ray of pressure angle `psi` until the dedendum is as hot as allowed, then uniform heat; finite stress.
+
+    The ray ends where S / S' = sin psi / (b + gamma / cos psi). A ray that never gets so hot is the whole side.
+    """
+    tangent = sin(psi) / (b + gamma / cos(psi))
+    first = atan(tangent) if pitch.bevel else tangent
+    if first >= ray_end(psi, X):
+        return involute(X, psi)
+
+    def f(d: Floats, v: Floats) -> tuple[Floats, Floats]:
+        S = pitch.S(d)
+        with np.errstate(invalid="ignore"):
+            cosine = np.sqrt(1 - v * v)
+            return pitch.S_slope(d) * v - b * S - gamma * S / cosine, pitch.S_slope(d) - gamma * S * v / cosine**3
+
+    rest = X - first / cos(psi)
+    return PathSide((RayPiece(psi, first), _reached(pitch, f, sin(psi), first + rest * cos(psi), rest, first)))
+
+
+def least_friction(pitch: PitchSurfaces, b: float, X: float, psi: float, u: float) -> PathSide:
+    """A ray of the greatest pressure angle, then the least speed `u` along the dedendum, so that the loss is least.
+
+    The length of the ray makes the pooled first variation vanish; see the theory page, "Least friction". Raises
+    `RangeError` where the arc is longer than teeth within both bounds reach.
+    """
+    longest = ray_end(psi, X)
+
+    def lifted(first: float) -> tuple[Callable[[Floats], Floats], float]:
+        sine = _lifted(pitch, b, u, first, psi)
+        return sine, _lifted_end(sine, first, X - first / cos(psi), psi)
+
+    def variation(first: float) -> float:
+        sine, end = lifted(first)
+        return _variation(pitch, sine, first, end)
+
+    def above(first: float) -> float:
+        sine, end = lifted(first)
+        return float(sine(np.array(end))) - sin(psi)
+
+    # a path below psi ends no nearer than a ray, where even the lowest, of eta = u d + b (integral of S), must be below
+    if u * longest + b * float(pitch.S_integral(longest)) > float(pitch.S(longest)) * sin(psi):
+        raise _too_long(pitch, X, psi, u)
+    least, most = 1e-3 * longest, longest * (1 - 1e-6)
+    first = root(variation, least, most, variation(least), variation(most))
+    if above(first) > 0:  # back at the greatest pressure angle before the end: a shorter ray gets there at the end
+        if above(least) > 0:
+            raise _too_long(pitch, X, psi, u)
+        first = root(above, least, first, above(least), above(first))
+    rest = X - first / cos(psi)
+    piece = _to_arc(lambda end: SteadySpeedPiece(pitch, b, u, first, sin(psi), end), lifted(first)[1], rest)
+    return PathSide((RayPiece(psi, first), piece))
+
+
+def _too_long(pitch: PitchSurfaces, X: float, psi: float, u: float) -> RangeError:
+    return RangeError(
+        Problem(
+            f"an arc of {X / pitch.p:.6g} pitches is too long for a margin of {u:g} at {degrees(psi):.6g} deg",
+            "before its end, even contact as slow as that rises above the greatest pressure angle",
+            "ask for a shorter arc, more teeth, a smaller margin or a larger pressure angle",
+        )
+    )
+
+
+def _lifted(pitch: PitchSurfaces, b: float, u: float, first: float, psi: float) -> Callable[[Floats], Floats]:
+    """sin psi of the second piece by itself, the same as `SteadySpeedPiece`'s without its series of travel."""
+    eta, below = float(pitch.S(first)) * sin(psi), float(pitch.S_integral(first))
+
+    def sine(d: Floats) -> Floats:
+        found: Floats = (eta + u * (d - first) + b * (pitch.S_integral(d) - below)) / pitch.S(d)
+        return found
+
+    return sine
+
+
+def _lifted_end(sine: Callable[[Floats], Floats], first: float, rest: float, psi: float) -> float:
+    """Where the second piece has travelled `rest`: Newton's method, travel by Gauss's rule."""
+    x, weights = _GAUSS
+    end, last = first + rest * cos(psi), inf
+    for _ in range(30):
+        travelled = (
+            float(weights @ (1 / np.sqrt(1 - sine(first + (end - first) * (x + 1) / 2) ** 2))) * (end - first) / 2
+        )
+        step = (travelled - rest) * sqrt(1 - float(sine(np.array(end))) ** 2)
+        end -= step
+        if abs(step) <= 4e-16 * end or (abs(step) < 1e-12 * end and abs(step) >= last):
+            break
+        last = abs(step)
+    return end
+
+
+def _variation(pitch: PitchSurfaces, sine_of: Callable[[Floats], Floats], first: float, end: float) -> float:
+    """The integral of eta / (S^2 cos psi) (2 S / cos^3 psi - lambda / cos^2 psi) over the lifted piece."""
+    x, weights = _GAUSS
+    d = first + (end - first) * (x + 1) / 2
+    S, sine = pitch.S(d), sine_of(d)
+    cosine = np.sqrt(1 - sine**2)
+    last = np.array(end)
+    pull = float(pitch.S(last)) / sqrt(1 - float(sine_of(last)) ** 2)
+    return float(weights @ (sine / (S * cosine) * (2 * S / cosine**3 - pull / cosine**2)))

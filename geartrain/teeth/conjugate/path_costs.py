@@ -1,0 +1,318 @@
+"""What a path of contact costs: loss, greatest stress, heat and flash, depth; and how it compares with another.
+
+A force is known only with an assumption on how pairs of teeth that touch at once share the load. Two are made here:
+one pair bears all of it along its whole path, as if it were alone, and those in contact bear equal parts at every
+instant. They are the same where the contact ratio is 1.
+
+Friction of one contact, exact in its coefficient, spur and bevel, rings too.
+
+The contact pushes with N along the normal n and rubs with mu N across it, against the sliding, whose sense turns at the
+pitch point. Over N and the pitch-line speed, the power that enters at gear i, or leaves there, is the force times the
+speed of that gear's body at the contact:
+
+    gear 1: cos psi + s mu (S' sin psi + A S),   gear 2: cos psi + s mu (S' sin psi - B S),
+
+s = sign d where gear 1 drives and -sign d where gear 2 does. The difference is mu (A + B) |S|, friction times sliding.
+A contact line of a bevel pair has these ratios at every distance from the apex, so they are exact there as well.
+
+The heat that gives teeth of uniform temperature a wanted working depth.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+from math import floor, inf, nan
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from geartrain.errors import GearTrainError, Problem
+from geartrain.numerics.roots import root
+from geartrain.teeth.conjugate.path_of_contact import PathContact, PathOfContact
+from geartrain.teeth.conjugate.path_side import PathSide
+
+if TYPE_CHECKING:
+    from geartrain.numerics.arrays import Floats
+    from geartrain.teeth.conjugate.pitch_surfaces import PitchSurfaces
+
+
+_GAUSS = np.polynomial.legendre.leggauss(48)
+_SCAN = 257  # points of one piece among which an extreme is looked for
+_NARROWED, _ACROSS = 5, 33  # times the bracket around it is scanned again, and by how many points
+_ROUNDING = 1e-12  # of a pitch: a stretch so short is none
+
+ONE_PAIR = "one pair of teeth bears the whole load along its whole path"
+SHARED = "pairs of teeth in contact share the load equally at every instant"
+
+
+@dataclass(frozen=True, slots=True)
+class PathCosts:
+    """What a path costs under one assumption on the load, friction and load taken out; lengths in modules or radians.
+
+    loss        mean loss over friction, first order. One pair: (A + B) (J_a + J_r) / (X_a + X_r), the mean along its
+                path (Buckingham); shared: the mean over a pitch (Ohlendorf)
+    stress      greatest Hertz pressure over sqrt(tangential force): sqrt(max H); infinite where psi is 0
+    off_pitch   the same where |X| is more than a tenth of a pitch
+    heat        greatest heat per area of either profile, over friction times tangential force: max Q
+    flash       greatest flash proxy
+    """
+
+    loss: float
+    stress: float
+    off_pitch: float
+    heat: float
+    flash: float
+
+    def over(self, other: PathCosts) -> dict[str, float]:
+        """Each of the quantities as a ratio to another path's."""
+        return {name: getattr(self, name) / getattr(other, name) for name in self.__slots__}
+
+
+@dataclass(frozen=True, slots=True)
+class PathMeasures:
+    """What one path costs, and its geometry; lengths in modules or radians.
+
+    one_pair, shared   costs where one pair bears the load, and where pairs in contact share it equally
+    depth           working depth |eta_a| + eta_r
+    slowest         least speed of the contact along a dedendum, over the pitch-line speed
+    contact_ratio   pitches of displacement while one pair touches
+    """
+
+    one_pair: PathCosts
+    shared: PathCosts
+    depth: float
+    slowest: float
+    contact_ratio: float
+
+    def over(self, other: PathMeasures) -> dict[str, float | dict[str, float]]:
+        """Each of the quantities as a ratio to another path's; those of the costs by their assumption."""
+        return {
+            "one_pair": self.one_pair.over(other.one_pair),
+            "shared": self.shared.over(other.shared),
+            **{name: getattr(self, name) / getattr(other, name) for name in ("depth", "slowest", "contact_ratio")},
+        }
+
+
+def measure(path: PathOfContact) -> PathMeasures:
+    """All measures of a path."""
+    alone = [(-path.arcs[0], path.arcs[1], 1)]
+    slowest = -greatest(path, lambda c: -np.minimum(c.U1, c.U2))
+    if min(path.arcs) >= 0:
+        slowest = min(slowest, float(path.at(0.0).sin_psi))
+    return PathMeasures(
+        one_pair=_costs(path, alone),
+        shared=_costs(path, sharing(path)),
+        depth=depth(path),
+        slowest=slowest,
+        contact_ratio=path.contact_ratio,
+    )
+
+
+Stretch = tuple[float, float, int]
+"""From one X to another, and how many pairs of teeth touch there."""
+
+
+def sharing(path: PathOfContact) -> list[Stretch]:
+    """The path in stretches of X on which as many pairs of teeth are in contact at once."""
+    p, (approach, recess) = path.pitch.p, path.arcs
+    whole = floor(path.contact_ratio)
+    cuts = sorted(
+        {-approach, recess}
+        | {end for k in range(1, whole + 1) for end in (recess - k * p, -approach + k * p) if -approach < end < recess}
+    )
+    found = []
+    for low, high in pairwise(cuts):
+        if high - low > _ROUNDING * p:
+            middle = (low + high) / 2
+            found.append((low, high, floor((recess - middle) / p) + floor((approach + middle) / p) + 1))
+    return found
+
+
+def _costs(path: PathOfContact, stretches: list[Stretch]) -> PathCosts:
+    """The costs where as many pairs as the stretches say share the load."""
+    pitch = path.pitch
+    bound = 0.1 * pitch.p
+
+    def most(what: Callable[[PathContact], Floats], power: float, beyond: float = 0.0) -> float:
+        return max(float(greatest(path, what, beyond, low, high) / count**power) for low, high, count in stretches)
+
+    rubbed = sum(_rubbed(path, low, high) / count for low, high, count in stretches)
+    return PathCosts(
+        loss=(pitch.A + pitch.B) * rubbed / sum((high - low) / count for low, high, count in stretches),
+        stress=most(lambda c: c.H, 1.0) ** 0.5,
+        off_pitch=_root(most(lambda c: c.H, 1.0, bound)),
+        heat=most(lambda c: np.maximum(c.Q1, c.Q2), 1.0),
+        flash=most(lambda c: c.flash, 0.75),
+    )
+
+
+def _root(value: float) -> float:
+    """Square root; 0 where there is nothing to be the greatest of."""
+    return float(max(value, 0.0) ** 0.5)
+
+
+def _rubbed(path: PathOfContact, low: float, high: float) -> float:
+    """J of the contacts between two X, both sides."""
+    total = 0.0
+    for recess in (False, True):
+        if span := path.span(recess, low, high):
+            total += sliding_integral(path.pitch, path.recess if recess else path.approach, *span)
+    return total
+
+
+def sliding_integral(pitch: PitchSurfaces, side: PathSide, start: float = 0.0, end: float = inf) -> float:
+    """J of one side: the integral of S / cos^2 psi over d, from `start` to `end`."""
+    x, weights = _GAUSS
+    total = 0.0
+    for piece in side.pieces:
+        first, last = max(piece.start, start), min(piece.end, end)
+        if last > first:
+            d = first + (last - first) * (x + 1) / 2
+            total += float(weights @ (pitch.S(d) / (1 - piece.sin_psi(d) ** 2))) * (last - first) / 2
+    return total
+
+
+def depth(path: PathOfContact) -> float:
+    """The working depth: height of the last contact over the first, both sides."""
+    spans = ((side, path.span(recess)) for recess, side in ((False, path.approach), (True, path.recess)))
+    return sum(height(path.pitch, side, *span) for side, span in spans if span)
+
+
+def height(pitch: PitchSurfaces, side: PathSide, start: float | None = None, end: float | None = None) -> float:
+    """Height of the last contact over the first, |eta|; over the pitch line but for paths that keep off it."""
+    ends = np.array([side.start if start is None else start, side.end if end is None else end])
+    low, high = pitch.S(ends) * side.sin_psi(ends)
+    return float(high - low)
+
+
+def greatest(
+    path: PathOfContact,
+    what: Callable[[PathContact], Floats],
+    beyond: float = 0.0,
+    low: float = -inf,
+    high: float = inf,
+) -> float:
+    """The greatest value of a quantity where |X| >= `beyond`, X from `low` to `high`; -inf where there is no contact.
+
+    Scanned piece by piece, then narrowed.
+    """
+    best = -inf
+    for recess, side in ((False, path.approach), (True, path.recess)):
+        for first, last in _reaches(path, recess, beyond, low, high):
+            best = max(best, _peak(lambda d, recess=recess: what(path.along(d, recess)), first, last, side.end))  # type: ignore[misc]
+    return best
+
+
+def _reaches(
+    path: PathOfContact, recess: bool, beyond: float, low: float, high: float
+) -> Iterator[tuple[float, float]]:
+    """The distances of one side between which a greatest value is looked for, piece by piece."""
+    if beyond:
+        low, high = (max(low, beyond), high) if recess else (low, min(high, -beyond))
+    if not (span := path.span(recess, low, high)):
+        return
+    for piece in (path.recess if recess else path.approach).pieces:
+        first, last = max(piece.start, span[0]), min(float(np.nextafter(piece.end, 0.0)), span[1])
+        if last > first:
+            yield first, last
+
+
+def _peak(f: Callable[[Floats], Floats], first: float, last: float, scale: float) -> float:
+    """Greatest value of f on [first, last]; what is 0/0 at the pitch point itself is asked beside it."""
+    d = np.linspace(first, last, _SCAN)
+    if first == 0.0:
+        d[0] = min(1e-7 * scale, float(d[1]))
+        at_pitch = f(np.zeros(1))[0]
+        if np.isposinf(at_pitch):
+            return inf
+    values = np.where(np.isnan(found := f(d)), -inf, found)
+    best = float(values.max())
+    for _ in range(_NARROWED):
+        at = int(np.argmax(values))
+        d = np.linspace(d[max(at - 1, 0)], d[min(at + 1, len(d) - 1)], _ACROSS)
+        values = f(d)
+        best = max(best, float(values.max()))
+    return best
+
+
+def powers(pitch: PitchSurfaces, contact: PathContact, friction: float, driver: int = 1) -> tuple[Floats, Floats]:
+    """Power in and power out of a contact over normal force and pitch-line speed; `driver` 1 or 2."""
+    rising, S = pitch.S_slope(contact.d) * contact.sin_psi, pitch.S(contact.d)
+    rub = np.sign(contact.d) * (friction if driver == 1 else -friction)
+    first = contact.cos_psi + rub * (rising + pitch.A * S)
+    second = contact.cos_psi + rub * (rising - pitch.B * S)
+    return (first, second) if driver == 1 else (second, first)
+
+
+def efficiency(pitch: PitchSurfaces, contact: PathContact, friction: float, driver: int = 1) -> Floats:
+    """Power out over power in; NaN where friction lets nothing out: the contact locks."""
+    into, out = powers(pitch, contact, friction, driver)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        return np.where(out > 0, out / into, np.nan)
+
+
+def locking_friction(path: PathOfContact, driver: int = 1) -> float:
+    """The least friction at which some contact of the path locks; infinite where none does.
+
+    Contacts lock in the driver's approach only, where the driven side's tooth is rubbed towards the line of centres.
+    """
+    pitch = path.pitch
+
+    def lean(contact: PathContact) -> Floats:
+        power = powers(pitch, contact, 1.0, driver)[1] - contact.cos_psi
+        found: Floats = -power / contact.cos_psi
+        return found
+
+    steepest = greatest(path, lean)
+    return 1 / steepest if steepest > 0 else inf
+
+
+_STEP, _STEPS = 1.25, 40
+
+
+def working_depth(pitch: PitchSurfaces, sides: Sequence[PathSide]) -> float:
+    """Heights of the last contacts over the pitch line, summed (modules; rad)."""
+    return sum(height(pitch, side) for side in sides)
+
+
+def to_depth(depth: Callable[[float], float], wanted: float, start: float, most: float) -> float:
+    """The gamma = (A + B) / heat whose `depth`, which grows with it, is as wanted; looked for around `start`.
+
+    most   a depth that no heat gives, such as the arcs summed: a contact rises by less than it travels
+
+    Raises `GearTrainError` where no heat gives that depth.
+    """
+
+    def off(gamma: float) -> float:
+        try:
+            return depth(gamma) - wanted
+        except GearTrainError:
+            return nan  # too steep to be reached, or too hot for the contact to move
+
+    low = high = start
+    at_low = at_high = off(start) if wanted < most else nan
+    for _ in range(_STEPS if wanted < most else 0):
+        if at_low < 0 < at_high or at_low == 0:
+            break
+        if not at_high >= 0 and at_high == at_high:
+            low, at_low, high = high, at_high, high * _STEP
+            at_high = off(high)
+        else:
+            high, at_high, low = low, at_low, low / _STEP
+            at_low = off(low)
+    if not (at_low <= 0 <= at_high):
+        what = f"no heat gives these teeth a working depth of {wanted:.6g}"
+        if at_low > 0:
+            raise GearTrainError(
+                Problem(what, "even the hottest are deeper", "ask for more depth or shorter arcs, or give the heat")
+            )
+        raise GearTrainError(
+            Problem(
+                what,
+                "their pressure angle would reach a right angle, or their contact stand still, before",
+                "ask for another depth, shorter arcs or more teeth, or give the heat",
+            )
+        )
+    return root(off, low, high, at_low, at_high)

@@ -1,0 +1,252 @@
+"""Where teeth of two wheels can touch: the driver's sides cut so that no end of the driven sides is met within.
+
+First touch of teeth of two wheels: the driven angle that the furthest point of the driver's side asks for.
+
+A point P of the driver's side, seen from the second axle at radius r and azimuth a, holds a driven tooth whose own
+azimuth at that radius is A(r) at least at the angle G(P) = a - A(r); the tooth stands at the greatest of them. The side
+is cut where a piece of either outline begins and where its distance from the second axle turns, so that on each
+segment G is smooth; its ends are taken as they are, and within, the slope of G changes its sign.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from geartrain.numerics.polynomial_pieces import joined, roots, some, value
+from geartrain.teeth.contact.driven_frame import DrivenFrame
+
+if TYPE_CHECKING:
+    from geartrain.numerics.arrays import Floats, Indices
+    from geartrain.numerics.polynomial_pieces import Flags
+    from geartrain.teeth.contact.driven_frame import AxlePlacement
+    from geartrain.teeth.contact.flank_table import FlankTable
+
+
+class CandidatePairs(NamedTuple):
+    """Pairs of teeth to look at: driver's angle, its tooth's shape, driven tooth's shape, its place, position."""
+
+    x: Floats
+    tooth1: Indices
+    tooth2: Indices
+    place: Floats
+    position: Indices
+
+
+class FlankSegments(NamedTuple):
+    """Parts of the driver's side on which G is smooth; n of them.
+
+    couple, piece1, piece2   where
+    u      (2, n): from, to, on piece1
+    seen   (4, 2, n): radius and azimuth about the second axle at both ends, and their slopes by u
+    v      (2, n): the end of piece2 that is met at either end, -1 or 1; NaN where it is not an end
+    """
+
+    couple: Indices
+    piece1: Indices
+    piece2: Indices
+    u: Floats
+    seen: Floats
+    v: Floats
+
+
+@dataclass(frozen=True)
+class FlankSegmentation:
+    """Two wheels, one side each, and the place of their axles."""
+
+    first: FlankTable
+    second: FlankTable
+    sight: AxlePlacement
+
+    def segments(self, couples: CandidatePairs) -> FlankSegments:
+        """All segments at which the couples can touch."""
+        cells = self._unturned(couples, self._cells(couples))
+        low, high = cells.seen[0].min(axis=0), cells.seen[0].max(axis=0)
+        tooth = couples.tooth2[cells.couple]
+        start, end = self.second.first[tooth], self.second.first[tooth + 1]
+        found = []
+        for local in range(int(np.diff(self.second.first).max())):
+            piece2 = np.minimum(start + local, end - 1)
+            within = (low <= self.second.ends[1, piece2]) & (high >= self.second.ends[0, piece2])
+            which = np.flatnonzero(within & (start + local < end) & ~self.second.flat[piece2])
+            found.append(self._clipped(couples, some(cells, which)._replace(piece2=piece2[which])))
+        return joined(found)
+
+    def _cells(self, couples: CandidatePairs) -> FlankSegments:
+        """Stretches between nodes that may be seen at radii of the driven side, which piece of it being open."""
+        nodes = self.first.nodes
+        pieces, us, begins = nodes[0][couples.tooth1], nodes[1][couples.tooth1], nodes[2][couples.tooth1, :-1]
+        r, dr, a, da = (each[couples.tooth1] for each in self.first.node_values)
+        view = self.sight.look(r, a + couples.x[:, None])
+        change, swing = view.moved(dr, da)
+        turning = np.sign(change[:, :-1]) * np.sign(change[:, 1:]) < 0
+        slack = np.where(turning, (np.abs(change[:, :-1]) + np.abs(change[:, 1:])) * np.diff(us, axis=1), 0.0)
+        least, most = (each[couples.tooth2][:, None] for each in self.second.span)
+        here, there = view.radius[:, :-1], view.radius[:, 1:]
+        low, high = np.minimum(here, there), np.maximum(here, there)
+        couple, at = np.nonzero(begins & (low - slack <= most) & (high + slack >= least))
+        ends = couple, np.stack([at, at + 1])
+        seen = np.stack([each[ends] for each in (view.radius, view.azimuth, change, swing)])
+        piece = pieces[couple, at]
+        return FlankSegments(couple, piece, np.zeros_like(piece), us[ends], seen, np.full(seen.shape[1:], np.nan))
+
+    def _unturned(self, couples: CandidatePairs, cells: FlankSegments) -> FlankSegments:
+        """Cells, those in which the distance from the second axle turns cut in two."""
+        which = np.flatnonzero(np.sign(cells.seen[2, 0]) * np.sign(cells.seen[2, 1]) < 0)
+        if not len(which):
+            return cells
+        turning = some(cells, which)
+        x = couples.x[turning.couple]
+
+        def slope(u: Floats, these: Indices) -> Floats:
+            found: Floats = self._seen(x[these], turning.piece1[these], u)[2]
+            return found
+
+        middle = roots(slope, *turning.u, *turning.seen[2])
+        seen = self._seen(x, turning.piece1, middle)
+        cells.u[1, which], cells.seen[:, 1, which] = middle, seen
+        turning.u[0], turning.seen[:, 0] = middle, seen
+        return joined([cells, turning])
+
+    def _clipped(self, couples: CandidatePairs, cells: FlankSegments) -> FlankSegments:
+        """Cells cut to the radii of their driven piece."""
+        low, high = self.second.ends[:, cells.piece2]
+        u, seen = cells.u.copy(), cells.seen.copy()
+        for side in (0, 1):
+            which = np.flatnonzero((cells.seen[0, side] < low) | (cells.seen[0, side] > high))
+            above = cells.seen[0, side, which] > high[which]
+            goal = np.where(above, high[which], low[which])
+            x, piece = couples.x[cells.couple[which]], cells.piece1[which]
+
+            def off(at: Floats, these: Indices, x: Floats = x, piece: Indices = piece, goal: Floats = goal) -> Floats:
+                r, _ = value(self.first.radius, piece[these], at)
+                a, _ = value(self.first.azimuth, piece[these], at)
+                return self.sight.look(r, a + x[these]).radius - goal[these]
+
+            u[side, which] = roots(off, *cells.u[:, which], *(cells.seen[0][:, which] - goal))
+            seen[:, side, which] = self._seen(x, piece, u[side, which])
+            cells.v[side, which] = np.where(above, 1.0, -1.0)
+        return cells._replace(u=u, seen=seen)
+
+    def _seen(self, x: Floats, piece: Indices, u: Floats) -> Floats:
+        """Points of the driver's pieces seen from the second axle: radius, azimuth, their slopes by u; (4, n)."""
+        view, dr, da = self.view(x, piece, u)
+        return np.stack([view.radius, view.azimuth, *view.moved(dr, da)])
+
+    def view(self, x: Floats, piece: Indices, u: Floats) -> tuple[DrivenFrame, Floats, Floats]:
+        """The same points as a view; slopes of their radius and azimuth about the first axle by u."""
+        r, dr = value(self.first.radius, piece, u)
+        a, da = value(self.first.azimuth, piece, u)
+        return self.sight.look(r, a + x), dr, da
+
+
+_ASIDE = 1e-5  # of a segment: where a slope is asked for if the end has none
+_FINE = 1e-14
+_WIDE = 2.0  # bounds from tangents are doubled
+
+
+class FirstTouches(NamedTuple):
+    """Touches, one for each of some segments: driven angle, speed ratio, where, radii about their own axles."""
+
+    angle: Floats
+    speed: Floats
+    piece1: Indices
+    u: Floats
+    piece2: Indices
+    v: Floats
+    radius1: Floats
+    radius2: Floats
+    couple: Indices
+
+
+class FirstTouchSearch(FlankSegmentation):
+    """Which points of the cut sides are the furthest."""
+
+    # -------------------------------------------------------------------------------------------------- which matter
+
+    def furthest(self, couples: CandidatePairs, segments: FlankSegments, margin: float) -> FlankSegments:
+        """The segments that can hold, within `margin` (rad), the furthest point of their position."""
+        ends, slopes = self._rough(segments)
+        with np.errstate(invalid="ignore", divide="ignore"):
+            width = segments.u[1] - segments.u[0]
+            meets = (ends[1] - ends[0] - slopes[1] * width) / (slopes[0] - slopes[1])
+            rise = np.where((slopes[0] > 0) & (slopes[1] < 0), ends[0] + slopes[0] * meets - ends.max(axis=0), 0.0)
+        unknown = ~np.isfinite(slopes).all(axis=0) | self._stalled(segments).any(axis=0)
+        rise = np.where(unknown, np.inf, np.maximum(rise, 0.0))
+        place = couples.place[segments.couple]
+        position = couples.position[segments.couple]
+        best = np.full(int(couples.position.max()) + 1 if len(couples.position) else 0, -np.inf)
+        np.maximum.at(best, position, ends.max(axis=0) - place)
+        return some(segments, ends.max(axis=0) + _WIDE * rise - place >= best[position] - margin)
+
+    def _stalled(self, segments: FlankSegments) -> Flags:
+        """(2, n): ends of segments at which one of the two curves stands still, so that slopes there tell nothing."""
+        first, second = self.first.stalls[:, segments.piece1], self.second.stalls[:, segments.piece2]
+        at_end = (segments.u == np.array([[-1.0], [1.0]])) & first
+        found: Flags = at_end | ((segments.v == -1) & second[0]) | ((segments.v == 1) & second[1])
+        return found
+
+    def _rough(self, segments: FlankSegments) -> tuple[Floats, Floats]:
+        """G and its slope at both ends, (2, n) each, without the refining steps of the inversion."""
+        piece = np.broadcast_to(segments.piece2, segments.u.shape)
+        low, high = self.second.ends[:, segments.piece2]
+        r = np.clip(segments.seen[0], low, high)
+        v = np.where(np.isnan(segments.v), self.second.guess(piece, r)[0], segments.v)
+        radius, rise = value(self.second.radius, piece, v)
+        azimuth, turn = value(self.second.azimuth, piece, v)
+        with np.errstate(invalid="ignore", divide="ignore"):
+            slant = turn / rise
+            correction = np.nan_to_num(slant * (r - radius), nan=0.0, posinf=0.0, neginf=0.0)
+            return segments.seen[1] - azimuth - correction, segments.seen[3] - slant * segments.seen[2]
+
+    # ------------------------------------------------------------------------------------------------------ exactly
+
+    def touch(self, couples: CandidatePairs, segments: FlankSegments) -> FirstTouches:
+        """The furthest point of each segment, to rounding."""
+        x = couples.x[segments.couple]
+        low, high = self.second.ends[:, segments.piece2]
+
+        def rising(u: Floats, which: Indices) -> Floats:
+            """The slope of G times a positive number."""
+            view, dr, da = self.view(x[which], segments.piece1[which], u)
+            piece = segments.piece2[which]
+            v = self.second.inverse(piece, np.clip(view.radius, low[which], high[which]))
+            change, swing = view.moved(dr, da)
+            return swing * value(self.second.radius, piece, v)[1] - value(self.second.azimuth, piece, v)[1] * change
+
+        everything = np.arange(len(x))
+        ends_u, slopes = segments.u.copy(), np.stack([rising(u, everything) for u in segments.u])
+        step = _ASIDE * (ends_u[1] - ends_u[0])
+        stalled = self._stalled(segments)
+        for side, way in ((0, 1), (1, -1)):
+            # where a curve stands still at its end the slope there is 0, give or take its rounding
+            which = np.flatnonzero(stalled[side] | ~(way * slopes[side] > 0))
+            ends_u[side, which] += way * step[which]
+            slopes[side, which] = rising(ends_u[side, which], which)
+        inner = np.flatnonzero((slopes[0] > 0) & (slopes[1] < 0))
+        (low_u, high_u), (at_low, at_high) = ends_u[:, inner], slopes[:, inner]
+        middle = roots(lambda u, these: rising(u, inner[these]), low_u, high_u, at_low, at_high, _FINE)
+        ends = [self._found(couples, segments, segments.u[side], segments.v[side]) for side in (0, 1)]
+        within = self._found(couples, some(segments, inner), middle, np.full(len(inner), np.nan))
+        return joined([*ends, within])
+
+    def _found(self, couples: CandidatePairs, segments: FlankSegments, u: Floats, v: Floats) -> FirstTouches:
+        """The touch at u; v where an end of the driven piece is met there."""
+        piece1, piece2 = segments.piece1, segments.piece2
+        view, dr, da = self.view(couples.x[segments.couple], piece1, u)
+        corner = ~np.isnan(v)
+        low, high = self.second.ends[:, piece2]
+        v = np.where(corner, v, self.second.inverse(piece2, np.clip(view.radius, low, high)))
+        r, rise = value(self.second.radius, piece2, v)
+        a, turn = value(self.second.azimuth, piece2, v)
+        change, swing = view.moved(dr, da)
+        drift, ahead = view.moved(0.0, 1.0)
+        with np.errstate(invalid="ignore", divide="ignore"):
+            slant = np.where(corner, swing / change, turn / rise)  # of azimuth by radius, on the side that is smooth
+            correction = np.nan_to_num(slant * (view.radius - r), nan=0.0, posinf=0.0, neginf=0.0)
+            speed = ahead - slant * drift
+        angle = view.azimuth - a - correction - couples.place[segments.couple]
+        radius1, _ = value(self.first.radius, piece1, u)
+        return FirstTouches(angle, speed, piece1, u, piece2, v, radius1, r, segments.couple)

@@ -1,0 +1,169 @@
+"""The sides of the teeth of one wheel as pieces with rising radius: nodes to look from, and azimuth by radius."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from geartrain.numerics.polynomial_pieces import COUNT, value
+
+if TYPE_CHECKING:
+    from geartrain.numerics.arrays import Floats, Indices
+    from geartrain.numerics.polynomial_pieces import Flags
+
+_CELLS = 8  # of a side, at least: the furthest point is looked for in each
+_CLOSER, _CLOSE = 0.75, 30  # steps towards an end that stands still: what happens there has no size of its own
+_BINS = 64  # of a piece: radius is inverted from the nearest
+_STALLED = 1e-3  # of its mean slope: where a piece stands still, as a cycloid does on its pitch circle
+_MOST = 80  # steps of an inversion
+_NEAR = 1e-10  # a step of Newton as short as this ends on the root
+
+
+@dataclass(frozen=True)
+class FlankTable:
+    """Pieces of the sides of all teeth, each with u from -1 to 1 and radius rising.
+
+    radius, azimuth   coefficients (COUNT, pieces)
+    corners           (2, pieces): whether a piece begins, ends, in a corner of the outline
+    flat              (pieces,): arcs about the axle
+    first             (teeth + 1,): where the pieces of a tooth begin
+    curve             (pieces,): number of the curve a piece is of, counted through all teeth
+    error             greatest difference found between pieces and curves: radius, azimuth (rad)
+    """
+
+    radius: Floats
+    azimuth: Floats
+    corners: Flags
+    flat: Flags
+    first: Indices
+    curve: Indices
+    error: tuple[float, float]
+
+    @cached_property
+    def mirrored(self) -> FlankTable:
+        """The same with azimuths reversed."""
+        return replace(self, azimuth=-self.azimuth)
+
+    @cached_property
+    def ends(self) -> Floats:
+        """Radii at the ends of the pieces, (2, pieces)."""
+        signs = np.where(np.arange(COUNT) % 2, -1.0, 1.0)
+        return np.stack([signs @ self.radius, self.radius.sum(axis=0)])
+
+    @cached_property
+    def stalls(self) -> Flags:
+        """(2, pieces): whether a piece begins, ends, with hardly any radius gained by u."""
+        powers = np.arange(COUNT)
+        slopes = np.stack([np.where(powers % 2, powers, -powers) @ self.radius, powers @ self.radius])
+        found: Flags = slopes < _STALLED * (self.ends[1] - self.ends[0])
+        return found
+
+    @cached_property
+    def reach(self) -> tuple[float, float, float, float]:
+        """Least and greatest radius, least and greatest azimuth of all teeth."""
+        u = np.linspace(-1, 1, 33)
+        azimuth = np.polynomial.polynomial.polyval(u, self.azimuth)
+        slack = float(np.ptp(azimuth)) / 64
+        return (
+            float(self.ends.min()),
+            float(self.ends.max()),
+            float(azimuth.min()) - slack,
+            float(azimuth.max()) + slack,
+        )
+
+    @cached_property
+    def span(self) -> tuple[Floats, Floats]:
+        """Least and greatest radius of each tooth."""
+        low, high = (
+            np.minimum.reduceat(self.ends[0], self.first[:-1]),
+            np.maximum.reduceat(self.ends[1], self.first[:-1]),
+        )
+        return low, high
+
+    # ------------------------------------------------------------------------------------------------- as the driver
+
+    @cached_property
+    def nodes(self) -> tuple[Indices, Floats, Flags]:
+        """Of each tooth, (teeth, nodes): piece and u of its nodes, and whether a cell begins at a node."""
+        cells = np.repeat(np.maximum(1, -(-_CELLS // np.diff(self.first))), np.diff(self.first))
+        each = [self._marks(piece, int(number)) for piece, number in enumerate(cells)]
+        piece, u = np.repeat(np.arange(len(each)), [len(marks) for marks in each]), np.concatenate(each)
+        begins = np.append(piece[1:] == piece[:-1], False)
+        start = np.searchsorted(piece, self.first)
+        most = int(np.diff(start).max())
+        at = np.minimum(start[:-1, None] + np.arange(most), start[1:, None] - 1)
+        return piece[at], u[at], begins[at]
+
+    def _marks(self, piece: int, cells: int) -> Floats:
+        """u at which to look at a piece: evenly, and ever closer to an end where it stands still."""
+        marks: list[Floats] = [np.linspace(-1, 1, cells + 1)]
+        for end, stalls in zip((-1, 1), self.stalls[:, piece], strict=True):
+            if stalls:
+                marks.append(np.asarray(end * (1 - 2 * _CLOSER ** np.arange(1, _CLOSE + 1)), dtype=np.float64))
+        return np.unique(np.concatenate(marks))
+
+    @cached_property
+    def node_values(self) -> tuple[Floats, Floats, Floats, Floats]:
+        """Radius, its slope, azimuth, its slope at the nodes."""
+        piece, u, _ = self.nodes
+        r, dr = value(self.radius, piece, u)
+        a, da = value(self.azimuth, piece, u)
+        return r, dr, a, da
+
+    # ------------------------------------------------------------------------------------------------- as the driven
+
+    @cached_property
+    def _bins(self) -> tuple[Floats, Floats]:
+        """Radii at even u, (pieces, bins + 1), and the same as one rising row to look up in."""
+        pieces = np.broadcast_to(np.arange(self.radius.shape[1])[:, None], (self.radius.shape[1], _BINS + 1))
+        radii, _ = value(self.radius, pieces, np.broadcast_to(np.linspace(-1, 1, _BINS + 1), pieces.shape))
+        low, high = self.ends[:, :, None]
+        share = np.maximum.accumulate(np.clip((radii - low) / np.where(high > low, high - low, 1.0), 0, 1), axis=1)
+        share[:, -1] = 1.0
+        return radii, (share + 2.0 * pieces).ravel().astype(np.float64)
+
+    def guess(self, piece: Indices, r: Floats) -> tuple[Floats, Floats, Floats]:
+        """u at which pieces have about radius r, and a bracket of it; r within their ends."""
+        radii, row = self._bins
+        low, high = self.ends[0].take(piece), self.ends[1].take(piece)
+        key = 2.0 * piece + np.clip((r - low) / (high - low), 0, 1)
+        at = np.clip(np.searchsorted(row, key, side="right") - 1 - piece * (_BINS + 1), 0, _BINS - 1)
+        below, above = radii[piece, at], radii[piece, at + 1]
+        left = at * (2 / _BINS) - 1
+        with np.errstate(invalid="ignore", divide="ignore"):
+            share = np.where(above > below, np.clip((r - below) / (above - below), 0, 1), 0.5)
+        return left + share * (2 / _BINS), left, left + 2 / _BINS
+
+    def inverse(self, piece: Indices, r: Floats) -> Floats:
+        """u at which pieces have radius r, by Newton's method kept inside a bracket; r within their ends."""
+        u, low, high = self.guess(piece, r)
+        return self._newton(piece, r, u, low, high)
+
+    def _newton(self, piece: Indices, r: Floats, u: Floats, low: Floats, high: Floats) -> Floats:
+        found = u
+        which: Indices | None = None
+        for _ in range(_MOST):
+            here, slope = value(self.radius, piece, u)
+            off = here - r
+            low, high = np.where(off < 0, u, low), np.where(off > 0, u, high)
+            with np.errstate(invalid="ignore", divide="ignore"):
+                step = u - off / slope
+            step = np.where((step >= low) & (step <= high), step, (low + high) / 2)
+            left = np.abs(step - u) > _NEAR
+            u = step
+            if which is None:
+                found = u
+            else:
+                found[which] = u
+            if not left.any():
+                break
+            if which is None:
+                which = np.flatnonzero(left)
+                found = found.copy()
+            else:
+                which = which[left]
+            piece, r, low, high, u = piece[left], r[left], low[left], high[left], u[left]
+        return found

@@ -1,0 +1,208 @@
+"""The law of two outlines over its whole period: polynomials between the driver's angles at which it has a corner."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from itertools import pairwise
+from typing import TYPE_CHECKING, Literal, NamedTuple
+
+import numpy as np
+from numpy.polynomial import chebyshev as cheb
+
+from geartrain.errors import Problem, RangeError
+from geartrain.numerics.polynomial_pieces import COUNT, POWERS, joined, some
+from geartrain.teeth.contact.outline_contact import OutlinePair
+from geartrain.teeth.contact.piecewise_transmission import PiecewiseTransmission, ends
+
+if TYPE_CHECKING:
+    from geartrain.numerics.arrays import Floats, Indices
+    from geartrain.numerics.polynomial_pieces import Flags
+    from geartrain.teeth.contact.outline_curves import GearOutline
+
+_NODES = -np.cos(np.pi * (np.arange(COUNT) + 0.5) / COUNT)  # inside, so that a stretch never asks beyond its corners
+_CHECKS = np.concatenate([[-0.999], -np.cos(np.pi * np.arange(1, COUNT) / COUNT), [0.999]])
+_ALL = np.sort(np.concatenate([_NODES, _CHECKS]))
+_SERIES = np.linalg.inv(cheb.chebvander(_NODES, COUNT - 1))
+_PARTS = 4  # stretches of a pitch to begin with
+_OFFSET = 0.1180339887498949  # of a stretch: no corner is likely to be exactly where one begins
+_THIN = 1e-9  # of a pitch: a stretch is not cut again, as where a tip grazes a side and the speed is infinite
+_CUTS = 17  # parts of a gap that holds a corner
+_SAFETY = 2.0  # stated error over the greatest found
+_FLAT = 1e-7  # of the ratio: corners that change the speed by less stay where they were found
+_LEAP = 1e-9  # rad
+_MOST = 100_000  # stretches
+
+
+# ------------------------------------------------------------------------------------------------------------- making
+
+
+class _Stretches(NamedTuple):
+    """Fitted stretches: ends (2, n), coefficients (COUNT, n), who touches, worst differences."""
+
+    ends: Floats
+    errors: Floats
+    speeds: Floats
+    pair: Indices
+    kind: Indices
+    off: Floats
+    speed_off: Floats
+
+
+def tabulate(
+    first: GearOutline,
+    second: GearOutline,
+    distance: float,
+    tolerance: float = 1e-12,
+    side: Literal["front", "back"] = "front",
+) -> PiecewiseTransmission:
+    """The law of one side of two wheels, the first driving, within `tolerance` (rad of the driven wheel).
+
+    The period is a pitch of the driver where all teeth are equal, else all its pitches until the same teeth meet again.
+    Where rounding keeps the law from the tolerance, the stated uncertainty is greater. Raises as `solve` does, and
+    `RangeError` where no tooth is ever in reach.
+    """
+    meeting = OutlinePair(first, second, distance, side)
+    maker = _Maker(meeting, tolerance)
+    done, breaks, corners = maker.made()
+    if (done.kind < 0).all():
+        raise RangeError(
+            Problem(
+                "the two wheels never touch",
+                f"at a distance of {distance:.9g} no tooth of one is in reach of the other",
+                "bring the axles nearer, or check that both outlines have one unit",
+            )
+        )
+    return PiecewiseTransmission(
+        maker.ratio,
+        maker.period,
+        breaks,
+        done.ends.mean(axis=0),
+        np.diff(done.ends, axis=0)[0] / 2,
+        done.errors,
+        done.speeds,
+        done.pair,
+        done.kind,
+        corners,
+        _SAFETY * float(np.nanmax(done.off)),
+        _SAFETY * float(np.nanmax(done.speed_off)),
+    )
+
+
+class _Maker:
+    def __init__(self, meeting: OutlinePair, tolerance: float) -> None:
+        self.meeting, self.tolerance = meeting, tolerance
+        self.ratio = Fraction(meeting.first.z, meeting.second.z)
+        self.pitch = meeting.first.pitch
+        self.period = meeting.cycle * self.pitch
+
+    def made(self) -> tuple[_Stretches, Floats, Floats]:
+        """All stretches in order, their ends, and which of these are corners."""
+        count = _PARTS * self.meeting.cycle
+        edges = (np.arange(count + 1) + _OFFSET) * (self.period / count)
+        pending, before = np.stack([edges[:-1], edges[1:]]), np.full(count, np.inf)
+        done, corners = [], [np.empty(0)]
+        while pending.shape[1]:
+            stretches, labels = self._fitted(pending)
+            good = self._good(stretches, before)
+            done.append(some(stretches, good))
+            cuts = self._corners(pending[:, ~good], labels[:, ~good])
+            corners += cuts
+            pending, before = _cut(pending[:, ~good], cuts, stretches.off[~good])
+            if sum(each.ends.shape[1] for each in done) + pending.shape[1] > _MOST * self.meeting.cycle:
+                raise _endless(self.tolerance)
+        return self._ordered(done, np.concatenate(corners))
+
+    def _good(self, stretches: _Stretches, before: Floats) -> Flags:
+        """Within tolerance, thin, or as good as rounding lets it be."""
+        thin = np.diff(stretches.ends, axis=0)[0] < _THIN * self.pitch
+        stuck = (stretches.off > before / 4) & (before < 1e-10)
+        good: Flags = (_SAFETY * stretches.off <= self.tolerance) | thin | stuck
+        return good
+
+    def _fitted(self, ends: Floats) -> tuple[_Stretches, Indices]:
+        """Polynomials on stretches, and what touches at their nodes: (5, n, nodes)."""
+        half, middle = np.diff(ends, axis=0)[0] / 2, ends.mean(axis=0)
+        phi1 = middle[:, None] + half[:, None] * _ALL
+        angle, speed, labels = self._asked(phi1)
+        error = angle - float(self.ratio) * phi1
+        inside = np.isin(_ALL, _NODES)
+        fits = [POWERS.T @ (_SERIES @ each[:, inside].T) for each in (error, speed)]
+        off = [
+            np.abs(np.polynomial.polynomial.polyval(_ALL, fit) - each).max(axis=1)
+            for fit, each in zip(fits, (error, speed), strict=True)
+        ]
+        nowhere = labels[1].max(axis=1) < 0
+        off = [np.where(nowhere, 0.0, np.where(np.isnan(each), np.inf, each)) for each in off]
+        pair, kind = labels[:2, :, COUNT]
+        return _Stretches(ends, fits[0], fits[1], pair, kind, off[0], off[1]), labels
+
+    def _asked(self, phi1: Floats) -> tuple[Floats, Floats, Indices]:
+        """Driven angle, speed, and labels that tell what touches."""
+        angle, speed, pair, kind, _, _, _, curves = self.meeting.at(phi1.ravel(), 0.0)
+        labels = np.stack([pair, kind, *curves]).reshape(4, *phi1.shape)
+        return angle.reshape(phi1.shape), speed.reshape(phi1.shape), labels
+
+    def _corners(self, ends: Floats, labels: Indices) -> list[Floats]:
+        """For each stretch the driver's angles at which something else begins to touch, to rounding."""
+        changed = (labels[:, :, 1:] != labels[:, :, :-1]).any(axis=0)
+        stretch, at = np.nonzero(changed)
+        half, middle = np.diff(ends, axis=0)[0] / 2, ends.mean(axis=0)
+        low, high = (middle[stretch] + half[stretch] * _ALL[at + side] for side in (0, 1))
+        left = labels[:, stretch, at]
+        found = self._narrowed(low, high, left) if len(stretch) else low
+        return [np.unique(found[stretch == one]) for one in range(ends.shape[1])]
+
+    def _narrowed(self, low: Floats, high: Floats, left: Indices) -> Floats:
+        """Where the labels cease to be `left`, from low to high; the gaps shrink to rounding."""
+        share = np.arange(1, _CUTS) / _CUTS
+        for _ in range(20):
+            inner = low[:, None] + (high - low)[:, None] * share
+            inner = np.clip(inner, low[:, None], high[:, None])
+            _, _, labels = self._asked(inner)
+            other = (labels != left[:, :, None]).any(axis=0)
+            points = np.concatenate([low[:, None], inner, high[:, None]], axis=1)
+            first = np.where(other.any(axis=1), other.argmax(axis=1), _CUTS - 1)
+            rows = np.arange(len(low))
+            new_low, new_high = points[rows, first], points[rows, first + 1]
+            if ((new_high - new_low) >= (high - low)).all() or (new_high - new_low <= 2 * np.spacing(new_high)).all():
+                break
+            low, high = new_low, new_high
+        return low + (high - low) / 2
+
+    def _ordered(self, done: list[_Stretches], corners: Floats) -> tuple[_Stretches, Floats, Floats]:
+        """Stretches by driver's angle, each corner moved to where the stretches on its sides cross."""
+        everything = joined(done)
+        everything = some(everything, np.argsort(everything.ends[0]))
+        breaks = np.append(everything.ends[0], everything.ends[1, -1])
+        which = np.flatnonzero(np.isin(breaks[1:-1], corners)) + 1
+        breaks[which] = [self._crossing(everything, int(at), float(breaks[at])) for at in which]
+        return everything, breaks, breaks[which]
+
+    def _crossing(self, stretches: _Stretches, at: int, corner: float) -> float:
+        errors, speeds = ends(stretches.errors[:, at - 1 : at + 1]), ends(stretches.speeds[:, at - 1 : at + 1])
+        step, change = float(errors[1, 0] - errors[0, 1]), float(speeds[1, 0] - speeds[0, 1])
+        if not abs(change) > _FLAT * float(self.ratio) or not abs(step) < _LEAP:
+            return corner
+        return corner - step / change
+
+
+def _cut(ends: Floats, cuts: list[Floats], off: Floats) -> tuple[Floats, Floats]:
+    """Stretches cut at their corners, or halved where they have none; and how far each was off before."""
+    found, before = [], []
+    for (low, high), inner, last in zip(ends.T, cuts, off, strict=True):
+        within = inner[(inner > low) & (inner < high)]
+        points = within if len(within) else np.array([low + (high - low) / 2])
+        parts = list(pairwise([low, *points.tolist(), high]))
+        found += parts
+        before += [np.inf if len(within) else last] * len(parts)
+    return np.array(found).reshape(-1, 2).T, np.array(before)
+
+
+def _endless(tolerance: float) -> RangeError:
+    return RangeError(
+        Problem(
+            f"no table comes within {tolerance:.3g} rad of the law of these outlines",
+            "it has too many corners",
+            "ask for a greater tolerance, or give measured teeth by fewer points",
+        )
+    )

@@ -1,0 +1,285 @@
+"""Whether a mate's teeth pass through a wheel's spaces: its teeth set against the outline in every position.
+
+What a pair asks of the teeth of one of its wheels, and the one tooth that does for all pairs of a wheel.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property, lru_cache
+from math import acos, inf, pi, radians
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from geartrain.errors import Problem, QuestionError
+from geartrain.teeth.outlines.flank_curve import FlankCurve, flank
+from geartrain.teeth.outlines.tooth_outline import ToothOutline, fillet, pin_span
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+
+    from geartrain.numerics.arrays import Floats
+    from geartrain.teeth.conjugate.conjugate_transmission import ConjugatePair
+
+
+_STEPS = 120  # positions in a pitch
+_MARGIN = 1e-3  # modules: least room at the round, which is more than a tip moves between two positions
+
+
+@dataclass(frozen=True, slots=True)
+class MateTooth:
+    """One tooth or pin of another wheel.
+
+    span       radius and signed angle of its points (2, n), where one of its flanks touches: half the play turned on
+    z          its tooth number
+    distance   of the two axles, negative for a wheel in a ring
+    internal   one of the two wheels is a ring; `ring`: this one
+    """
+
+    span: Floats
+    z: int
+    distance: float
+    internal: bool
+    ring: bool
+
+
+@dataclass(frozen=True, slots=True)
+class MatePassage:
+    """Where a mate's tooth comes within the tip circle of a wheel, as that wheel sees it.
+
+    radius     about the wheel's axle; aside, angle (rad) from the axis of its nearest tooth
+    """
+
+    radius: Floats
+    aside: Floats
+
+
+def passage(z: int, tip: float, outward: int, mate: MateTooth) -> MatePassage:
+    """The way of a mate's tooth through the spaces of a wheel of z teeth; lengths in modules."""
+    turn = _positions(tip, outward, mate)[:, None]
+    r, angle = mate.span
+    place = mate.distance + r * np.exp(1j * (angle + turn + (0 if mate.internal else pi)))
+    radius = np.abs(place)
+    inside = (radius - tip) * outward <= 0
+    own = turn * mate.z / z * (1 if mate.internal else -1)
+    pitch = 2 * pi / z
+    aside = np.abs((np.angle(place) - own) % pitch - pitch / 2)  # a space of the wheel meets the mate's tooth
+    return MatePassage(radius[inside], aside[inside])
+
+
+def bite(tooth: ToothOutline, mate: MatePassage) -> float:
+    """How deep (modules) the mate's tooth cuts into the wheel's while it passes through the space; negative: play.
+
+    Along the circle where it cuts flank or round, along the radius where it cuts the root circle. A round has to keep
+    some room more.
+    """
+    if not mate.radius.size:
+        return -inf
+    s = tooth.flank.outward
+    deep = (tooth.half_at(mate.radius) - mate.aside) * mate.radius
+    below = (tooth.root - mate.radius) * s
+    on_round = (mate.radius - np.hypot(*tooth.fillet.start)) * s < 0
+    return float(np.where(below > 0, below, deep + np.where(on_round, _MARGIN, 0.0)).max())
+
+
+def _positions(tip: float, outward: int, mate: MateTooth) -> Floats:
+    """Angles of the mate at which its tooth may be within the wheel's tip circle."""
+    distance = mate.distance
+    far = float(mate.span[0].min() if mate.ring else mate.span[0].max())
+    if not distance:
+        reach = pi
+    else:
+        cosine = (tip**2 - distance**2 - far**2) / (2 * distance * far)
+        cosine = cosine if outward < 0 else -cosine
+        if mate.ring:
+            cosine = (distance**2 + far**2 - tip**2) / (2 * abs(distance) * far)
+        reach = acos(min(max(cosine, -1.0), 1.0))
+    reach = min(reach + 1.5 * pi / mate.z, pi)
+    return np.linspace(-reach, reach, 2 * int(reach * mate.z * _STEPS / (2 * pi)) + 1)
+
+
+CLEARANCE = 0.25  # modules
+_FILLET = 0.38  # modules
+_BITES = (1e-9, 1e-6)  # modules: deeper is interference; flanks found by numbers are not nearer to their true ones
+_RELIEFS = (0.0, 0.5, 1.0, 2.0, 3.0, 5.0, 8.0, 12.0, 18.0)  # deg; a root so much steeper than the flank it goes on from
+_LEAST_FILLET = 1e-3
+_HALVINGS = 18
+_ALIKE = 1e-5  # modules: flanks that differ by less are one
+
+
+@dataclass(frozen=True, slots=True)
+class LanternPins:
+    """Round pins instead of teeth: which gear has them, the radius of their circle, their own; modules."""
+
+    gear: int
+    circle: float
+    radius: float
+
+
+@dataclass(frozen=True)
+class ToothRequirement:
+    """The teeth of gear 1 or 2 of a pair, lengths in modules.
+
+    tolerance   how far a chord may leave a flank
+    clearance   between the mate's tips and the root
+    pins        where one of the two is a lantern
+    """
+
+    pair: ConjugatePair
+    gear: int
+    tolerance: float
+    clearance: float = CLEARANCE
+    pins: LanternPins | None = None
+
+    @property
+    def internal(self) -> bool:
+        """True if one of the two wheels is a ring."""
+        return self.pair.path.pitch.R2 < 0
+
+    @property
+    def z(self) -> int:
+        """Tooth number."""
+        return self.pair.path.pitch.z1 if self.gear == 1 else self.pair.path.pitch.z2
+
+    @property
+    def distance(self) -> float:
+        """Of the two axles."""
+        return abs(self.pair.path.pitch.R1 + self.pair.path.pitch.R2)
+
+    @property
+    def flank(self) -> FlankCurve:
+        """The working flank."""
+        return _flank(self.pair, self.gear, self.tolerance)
+
+    @property
+    def widening(self) -> float:
+        """Half angle of the tooth at its pitch circle (rad)."""
+        return float(self.pair.halves[self.gear - 1] / self.flank.R)
+
+    @cached_property
+    def other(self) -> ToothRequirement:
+        """What the pair asks of the mate."""
+        return ToothRequirement(self.pair, 3 - self.gear, self.tolerance, self.clearance, self.pins)
+
+    @property
+    def root(self) -> float:
+        """Radius of the root circle: as deep under the pitch circle as the mate's tip stands over its own, and more.
+
+        A tip that keeps off its pitch circle stands over it by less than nothing.
+        """
+        own, mate = self.flank, self.other.flank
+        tip = float(mate.r[-1]) if self.pins is None else self.pins.circle + self.pins.radius
+        return own.R - own.outward * (mate.outward * (tip - mate.R) + self.clearance)
+
+    @cached_property
+    def passage(self) -> MatePassage:
+        """The way of the mate's tooth or pin through the spaces."""
+        own, other = self.flank, self.other
+        found = other.flank
+        if self.pins is not None and other.gear == self.pins.gear:
+            span = pin_span(self.pins.circle, self.pins.radius)
+        else:
+            half = other.widening + found.angle
+            flanks = np.stack([np.tile(found.r, 2), np.concatenate((half, -half))])
+            land = np.stack([np.full(9, found.r[-1]), np.linspace(-half[-1], half[-1], 9)])
+            span = np.concatenate((flanks, land), axis=1)
+        # both wheels being symmetric, what passes on this side of its play passes on the other
+        touching = span + np.array([[0.0], [self.pair.play / 2 / found.R]])
+        distance = own.R - found.R if self.internal else own.R + found.R
+        mate = MateTooth(touching, other.z, distance, self.internal, found.outward < 0)
+        return passage(self.z, float(own.r[-1]), own.outward, mate)
+
+
+@lru_cache(maxsize=4096)
+def _flank(pair: ConjugatePair, gear: int, tolerance: float) -> FlankCurve:
+    # pins are round whatever part of them works
+    whole = pair.path.approach.arc, pair.path.recess.arc
+    return flank(pair.path, gear, pair.arcs if pair.solid[gear - 1] else whole, tolerance)
+
+
+def alike(one: ToothRequirement, other: ToothRequirement) -> bool:
+    """True if one tooth does for both: their flanks are one curve, as far as both work, up to the same tips."""
+    first, second = one.flank, other.flank
+    if first.outward != second.outward or abs(first.r[-1] - second.r[-1]) > _ALIKE:
+        return False
+    (r1, a1), (r2, a2) = (_rising(each) for each in (first.curve, second.curve))
+    low, high = max(r1[0], r2[0]), min(r1[-1], r2[-1])
+    r = np.linspace(low, high, 65)
+    off = np.interp(r, r1, a1) + one.widening - np.interp(r, r2, a2) - other.widening
+    return bool(np.abs(off * r).max() <= _ALIKE)
+
+
+def _rising(curve: Floats) -> Floats:
+    return curve if curve[0, 0] < curve[0, -1] else curve[:, ::-1]
+
+
+def cut_tooth(demands: Sequence[ToothRequirement], wanted: float | None = None) -> tuple[ToothOutline, float]:
+    """The tooth for all pairs of a wheel, and by how much (rad) its root is turned off the flank's tangent.
+
+    Its flank reaches as deep as any mate's tips work, its root circle clears them all, and its fillet, `wanted` or the
+    largest up to 0.38 modules, lets each of them pass. All lengths in modules; flanks that are not alike are not for
+    here. Raises `QuestionError` where there is no such tooth.
+    """
+    s = demands[0].flank.outward
+    deepest = min(demands, key=lambda each: float(each.flank.r[0]) * s)
+    root = min((each.root for each in demands), key=lambda radius: radius * s)
+    own = deepest.flank
+    if fillet(own, deepest.widening, root, _LEAST_FILLET, deepest.z) is None:
+        raise _no_root(deepest)
+    passages = [each.passage for each in demands]
+    for most, degree in ((most, degree) for most in _BITES for degree in _RELIEFS):
+        made = _maker(deepest, root, passages, radians(degree), most)
+        found = made(_FILLET if wanted is None else wanted) or _largest(made, _FILLET if wanted is None else wanted)
+        if found is not None:
+            return found, radians(degree)
+    raise QuestionError(
+        Problem(
+            f"no root of gear {deepest.gear} lets the mate's tips pass",
+            "they would cut the flanks below where these work, or teeth outside the path of contact",
+            "shorten the arcs, take more teeth, or more backlash or clearance",
+            "--profile",
+        )
+    )
+
+
+def _no_root(demand: ToothRequirement) -> QuestionError:
+    return QuestionError(
+        Problem(
+            f"there is no root circle for gear {demand.gear}",
+            f"with a clearance of {demand.clearance:.4g} modules neighbouring teeth meet above it",
+            "give less clearance, or thinner teeth by more backlash",
+            "--clearance",
+        )
+    )
+
+
+def _maker(
+    own: ToothRequirement, root: float, mates: Sequence[MatePassage], relief: float, most: float
+) -> Callable[[float], ToothOutline | None]:
+    """From a fillet's radius to a tooth that the mates pass without a bite of more than `most`, or None."""
+    flank, widening, z = own.flank, own.widening, own.z
+
+    def made(radius: float) -> ToothOutline | None:
+        round_ = fillet(flank, widening, root, radius, z, relief)
+        if round_ is None:
+            return None
+        tooth = ToothOutline(z, flank, round_, widening, root)
+        return tooth if all(bite(tooth, mate) <= most for mate in mates) else None
+
+    return made
+
+
+def _largest(made: Callable[[float], ToothOutline | None], wanted: float) -> ToothOutline | None:
+    """The tooth with the largest fillet below `wanted`; None where not even a small one fits."""
+    found = made(_LEAST_FILLET)
+    low, high = _LEAST_FILLET, wanted
+    if found is None or wanted <= low:
+        return found
+    for _ in range(_HALVINGS):
+        middle = (low + high) / 2
+        if (better := made(middle)) is None:
+            high = middle
+        else:
+            low, found = middle, better
+    return found

@@ -1,0 +1,234 @@
+"""What a maker says of a wheel beside its teeth: scale, root, bore, rim.
+
+A whole wheel, fit to be cut: teeth, roots the mate's tips do not touch, bore or rim.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import cos, isfinite, pi, sin
+from typing import TYPE_CHECKING, Any
+
+from geartrain.errors import Problem, QuestionError
+from geartrain.teeth.outlines.contour import Contour
+from geartrain.teeth.outlines.tooth_outline import ToothOutline
+from geartrain.teeth.outlines.tooth_requirement import CLEARANCE, LanternPins, ToothRequirement, cut_tooth
+
+if TYPE_CHECKING:
+    from geartrain.teeth.conjugate.conjugate_transmission import ConjugatePair
+
+
+@dataclass(frozen=True, slots=True)
+class BlankSizes:
+    """Sizes in mm.
+
+    module      pitch diameter over teeth
+    clearance   between a tip and the mate's root; None: a quarter of a module
+    fillet      radius of the round at the root; None: 0.38 modules, or what fits
+    bore        diameter of the hole in the middle; None: no hole
+    rim         what stands round the roots of a ring, or the pins of a lantern; None: two modules, or a pin
+    tolerance   how far a chord may leave a flank
+    """
+
+    module: float = 1.0
+    clearance: float | None = None
+    fillet: float | None = None
+    bore: float | None = None
+    rim: float | None = None
+    tolerance: float = 0.001
+
+    def __post_init__(self) -> None:
+        """Raise `QuestionError` for what is no size."""
+        above = {"module": self.module, "bore": self.bore, "rim": self.rim, "tolerance": self.tolerance}
+        least = {"fillet": self.fillet, "clearance": self.clearance}
+        problems = [
+            Problem(f"a {name} of {value:g} mm is no size", "", f"give a {name} above 0", f"--{name}")
+            for name, value in above.items()
+            if value is not None and not (isfinite(value) and value > 0)
+        ]
+        problems += [
+            Problem(f"a {name} of {value:g} mm is no size", "", f"give a {name} of 0 or more", f"--{name}")
+            for name, value in least.items()
+            if value is not None and not (isfinite(value) and value >= 0)
+        ]
+        if problems:
+            raise QuestionError(problems)
+
+
+_THIN = 0.1  # modules: least land of a wheel about its bore
+
+OutlineSizes = tuple[float, float, float, float, float]
+"""Radii of pitch, tip and root circle, thickness, radius of the round; modules."""
+
+
+@dataclass(frozen=True, slots=True)
+class WheelOutline:
+    """A wheel's outline and sizes, mm.
+
+    gear, z     which of the pair (1 drives), and its teeth or pins
+    contours    the outer one first, then holes; the axle at (0, 0), a tooth, or a pin, on the x axis
+    thickness   of a tooth along the pitch circle
+    fillet      radius of the round at the root; 0 where there is none (pins)
+    relief      how far (rad) the root is turned off the flank's tangent, so that the mate's tip passes
+    kind        external, ring or pins
+    """
+
+    gear: int
+    z: int
+    kind: str
+    contours: tuple[Contour, ...]
+    module: float
+    pitch_radius: float
+    tip_radius: float
+    root_radius: float
+    thickness: float
+    fillet: float
+    relief: float
+    clearance: float
+    backlash: float
+    centre_distance: float
+    tolerance: float
+
+    def to_dict(self) -> dict[str, Any]:
+        """The sizes as plain data; lengths in mm, angles in rad."""
+        names = ("gear", "z", "kind", "module", "thickness", "fillet", "relief", "clearance", "backlash")
+        return {name: getattr(self, name) for name in names} | {
+            "pitch_diameter": 2 * self.pitch_radius,
+            "tip_diameter": 2 * self.tip_radius,
+            "root_diameter": 2 * self.root_radius,
+            "centre_distance": self.centre_distance,
+            "tolerance": self.tolerance,
+        }
+
+
+def outline(pair: ConjugatePair, gear: int, cut: BlankSizes, pins: LanternPins | None = None) -> WheelOutline:
+    """The outline of gear 1 or 2 of a pair; `pins` where one of them is a lantern.
+
+    Turned about by its own angle so that a space of gear 2 faces a tooth of gear 1, the two wheels mesh at
+    `centre_distance` with half the backlash on either side. Raises `QuestionError` where no such wheel can be cut.
+    """
+    check_flat(pair)
+    both = _Both(pair, cut, pins)
+    if pins is not None and gear == pins.gear:
+        return both.lantern(pins)
+    return both.toothed(gear)
+
+
+def check_flat(pair: ConjugatePair) -> None:
+    """Raise `QuestionError` for a pair that no flat wheels can be cut for."""
+    path = pair.path
+    if path.pitch.bevel:
+        virtual = [path.pitch.z1 / cos(path.pitch.R1), path.pitch.z2 / max(cos(path.pitch.R2), 1e-9)]
+        raise QuestionError(
+            Problem(
+                "a bevel wheel has no flat outline",
+                "its teeth lie on a sphere and taper to the point where the axes meet",
+                "leave --profile out, or as a likeness draw the spur pair its back cones develop into, of "
+                f"{virtual[0]:.4g} and {virtual[1]:.4g} teeth",
+                "--profile",
+            )
+        )
+    if pair.faults:
+        raise QuestionError(Problem(fault.what, fault.why, fault.fix, "--profile") for fault in pair.faults)
+    if path.approach.start or path.recess.start:
+        why = "where the flanks end there is nothing to say how thick the teeth are"
+        raise QuestionError(Problem("this path of contact keeps off the pitch point", why, "take another form"))
+
+
+class _Both:
+    """Both wheels of a pair."""
+
+    def __init__(self, pair: ConjugatePair, cut: BlankSizes, pins: LanternPins | None) -> None:
+        self.pair, self.cut = pair, cut
+        clearance = CLEARANCE if cut.clearance is None else cut.clearance / cut.module
+        self.demand = ToothRequirement(pair, 1, cut.tolerance / cut.module, clearance, pins)
+
+    def toothed(self, gear: int) -> WheelOutline:
+        """A wheel with teeth, or a ring."""
+        wanted = None if self.cut.fillet is None else self.cut.fillet / self.cut.module
+        tooth, relief = cut_tooth([self._of(gear)], wanted)
+        if self.cut.fillet is not None and wanted is not None and tooth.fillet.radius < wanted:
+            raise _too_round(gear, self.cut.fillet, tooth.fillet.radius * self.cut.module)
+        sizes = (tooth.flank.R, tooth.tip, tooth.root, 2 * self.pair.halves[gear - 1], tooth.fillet.radius)
+        kind = "ring" if tooth.flank.outward < 0 else "external"
+        return self._wheel(gear, kind, _contours(tooth, self.cut), sizes, relief)
+
+    def lantern(self, pins: LanternPins) -> WheelOutline:
+        """A disc with a hole for each pin."""
+        scale = self.cut.module
+        inner, outer = pins.circle - pins.radius, pins.circle + pins.radius
+        rim = 2 * pins.radius * scale if self.cut.rim is None else self.cut.rim
+        contours = [*lantern(pins, self._of(pins.gear).z, scale, rim), *_bore(self.cut, inner * scale)]
+        sizes = (self._of(pins.gear).flank.R, outer, inner, 2 * self.pair.halves[pins.gear - 1], 0.0)
+        return self._wheel(pins.gear, "pins", contours, sizes, 0.0)
+
+    def _of(self, gear: int) -> ToothRequirement:
+        return self.demand if gear == 1 else self.demand.other
+
+    def _wheel(self, gear: int, kind: str, contours: list[Contour], sizes: OutlineSizes, relief: float) -> WheelOutline:
+        scale = self.cut.module
+        pitch, tip, root, thickness, round_ = (size * scale for size in sizes)
+        return WheelOutline(
+            gear=gear,
+            z=self._of(gear).z,
+            kind=kind,
+            contours=tuple(contours),
+            module=scale,
+            pitch_radius=pitch,
+            tip_radius=tip,
+            root_radius=root,
+            thickness=thickness,
+            fillet=round_,
+            relief=relief,
+            clearance=self.demand.clearance * scale,
+            backlash=self.pair.play * scale,
+            centre_distance=self.demand.distance * scale,
+            tolerance=self.cut.tolerance,
+        )
+
+
+def lantern(pins: LanternPins, z: int, module: float, rim: float | None = None) -> list[Contour]:
+    """A disc with a hole for each pin (mm); about the pins a rim, by default a pin's diameter."""
+    R, radius = pins.circle * module, pins.radius * module
+    turns = [2 * pi * k / z for k in range(z)]
+    holes = (Contour.circle(radius, (R * cos(t), R * sin(t))) for t in turns)
+    return [Contour.circle(R + radius + (2 * radius if rim is None else rim)), *holes]
+
+
+def _too_round(gear: int, asked: float, fits: float) -> QuestionError:
+    return QuestionError(
+        Problem(
+            f"a fillet of {asked:g} mm does not fit the root of gear {gear}",
+            "there it would stand in the way of the mate's tips, or of the next tooth",
+            f"give at most {fits:.4g} mm, or more clearance",
+            "--fillet",
+        )
+    )
+
+
+def _contours(tooth: ToothOutline, cut: BlankSizes) -> list[Contour]:
+    """Teeth and bore, or rim and teeth, in mm."""
+    teeth = tooth.whole().scaled(cut.module)
+    if tooth.flank.outward > 0:
+        if cut.rim is not None:
+            raise QuestionError(Problem("only a ring or a lantern has a rim", "", "leave --rim out", "--rim"))
+        return [teeth, *_bore(cut, tooth.root * cut.module)]
+    if cut.bore is not None:
+        raise QuestionError(Problem("a ring has no bore", "its middle is open", "leave --bore out", "--bore"))
+    return [Contour.circle(tooth.root * cut.module + (2 * cut.module if cut.rim is None else cut.rim)), teeth]
+
+
+def _bore(cut: BlankSizes, root: float) -> list[Contour]:
+    if cut.bore is None:
+        return []
+    most = 2 * (root - _THIN * cut.module)
+    if cut.bore >= most:
+        raise QuestionError(
+            Problem(
+                f"a bore of {cut.bore:g} mm does not fit",
+                f"the wheel's root circle has a diameter of {2 * root:.4g} mm",
+                f"give less than {most:.4g} mm",
+                "--bore",
+            )
+        )
+    return [Contour.circle(cut.bore / 2)]

@@ -1,0 +1,123 @@
+"""Pin-and-slot and pin-and-follower as a train declares them: couplings whose mean motion is a winding number.
+
+A pin on one link works in a slot of another whose axis lies `offset` away. In the frame of their carrier the
+slot's angle is phi + atan2(e sin phi, r - e cos phi) for pin angle phi, pin radius r and offset e: over one turn
+of the pin the slot turns m times, m = 1 where the pin's circle encloses the slot's axis (r > e), else m = 0.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Annotated, Literal
+
+from pydantic import BaseModel, ConfigDict, Field, model_validator
+from pydantic_core import PydanticCustomError
+
+from geartrain.numerics.quantity import Friction, Length
+
+if TYPE_CHECKING:
+    from geartrain.teeth.pin_transmission import PinToSlotTransmission
+
+
+class _Coupling(BaseModel):
+    """A coupling of two links by a pin in a slot."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid", coerce_numbers_to_str=True, defer_build=True)
+
+    id: str = Field("", description="Name of the coupling; default pin~slot")
+    pin: str = Field(description="The link that carries the pin")
+    slot: str = Field(description="The link that has the slot")
+    pin_radius: Length | None = Field(None, description="Distance of the pin from its own link's axis")
+    offset: Length | None = Field(None, description="Distance of the two links' axes")
+    friction: Friction | None = Field(None, description="Coefficient of friction of the pin along its slot")
+    source: str | None = Field(None, description="Key of the source of the dimensions")
+    status: Literal["surviving", "reconstructed", "hypothetical"] | None = Field(
+        None, description="Whether the device survives, is forced by surviving parts, or is a proposal"
+    )
+    note: str | None = Field(None, description="A remark for the reader")
+
+    @property
+    def name(self) -> str:
+        """The declared id, or pin~slot."""
+        return self.id or f"{self.pin}~{self.slot}"
+
+    @property
+    def law(self) -> PinToSlotTransmission | None:
+        """The law of motion with the pin driving; None where the dimensions are not declared."""
+        if self.pin_radius is None or self.offset is None:
+            return None
+        from geartrain.teeth.pin_transmission import PinToSlotTransmission
+
+        friction = float(self.friction.value) if self.friction else 0.0
+        return PinToSlotTransmission(self.pin_radius.si, self.offset.si, friction)
+
+
+class PinAndSlot(_Coupling):
+    """A pin in a slot whose axis lies inside the pin's circle: the slot turns with the pin on average."""
+
+    kind: Literal["pin_and_slot"] = Field(description="The pin's circle encloses the slot's axis: mean ratio 1")
+
+    @model_validator(mode="after")
+    def _encloses(self) -> PinAndSlot:
+        _refuse_unless_winding(self, 1)
+        return self
+
+
+class PinFollower(_Coupling):
+    """A pin in a slotted follower whose axis lies outside the pin's circle: the follower swings about its carrier."""
+
+    kind: Literal["pin_follower"] = Field(description="The pin's circle leaves the slot's axis out: mean ratio 0")
+
+    @model_validator(mode="after")
+    def _leaves_out(self) -> PinFollower:
+        _refuse_unless_winding(self, 0)
+        return self
+
+
+Coupling = Annotated[PinAndSlot | PinFollower, Field(discriminator="kind")]
+
+
+def winding_number(kind: str) -> int:
+    """Mean ratio slot over pin in the carrier's frame: 1 for a pin and slot, 0 for a pin and follower."""
+    return 1 if kind == "pin_and_slot" else 0
+
+
+def _refuse_unless_winding(coupling: PinAndSlot | PinFollower, winding: int) -> None:
+    radius, offset = coupling.pin_radius, coupling.offset
+    if radius is None or offset is None:
+        return
+    if radius.value <= 0 or offset.value < 0:
+        raise PydanticCustomError(
+            "pin",
+            "pin_radius {radius} or offset {offset} is not a distance",
+            {
+                "radius": radius.text,
+                "offset": offset.text,
+                "fix": "give a pin_radius above 0 and an offset of 0 or more",
+            },
+        )
+    if offset.value and (radius.unit is None) != (offset.unit is None):
+        raise PydanticCustomError(
+            "pin",
+            "pin_radius {radius} and offset {offset} mix a plain number and a length with a unit",
+            {"radius": radius.text, "offset": offset.text, "fix": "give both with a unit, or both without"},
+        )
+    r, e = radius.base, offset.base
+    if r == e:
+        raise PydanticCustomError(
+            "pin",
+            "pin_radius {radius} equals the offset: the pin would pass through the slot's axis",
+            {"radius": radius.text, "fix": "make them differ: the mean motion is 1 above and 0 below"},
+        )
+    if (r > e) != bool(winding):
+        other = "pin_follower" if winding else "pin_and_slot"
+        raise PydanticCustomError(
+            "pin",
+            "a {kind} with pin_radius {radius} and offset {offset} is a {other}",
+            {
+                "kind": coupling.kind,
+                "radius": radius.text,
+                "offset": offset.text,
+                "other": other,
+                "fix": f"write kind: {other}, or correct the dimensions",
+            },
+        )

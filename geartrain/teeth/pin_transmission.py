@@ -1,0 +1,203 @@
+"""Laws of a pin in a slot. Only angles at the two axes count: a pin at radius r, the axes e apart.
+
+The driver's angle S is counted from the direction that points from the pin's axis to the slot's.
+"""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from math import acos, acosh, asin, log, nan, pi, sqrt
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from geartrain.errors import Problem, RangeError
+from geartrain.teeth.transmission import TransmissionFunction, check_friction
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
+
+    from geartrain.numerics.arrays import Floats
+
+
+_LEAST = 1e-40  # of any unit: the fourth power of a distance is a float
+_SAMPLES = 4096  # of a smooth periodic function: its mean by equal samples is exact to rounding unless r is close to e
+
+
+def log_share(r: float, e: float) -> float:
+    """ln((r + e)/(r - e))/pi, r > e: what a unit of friction adds to 1 in the mean of 1/eta over the *slot's* turn.
+
+    There eta = 1/(1 + f |tan d|), sin d = (e/r) sin psi, d the angle between pin radius and slot.
+    """
+    return log((r + e) / (r - e)) / pi
+
+
+def mean_over_the_pin(r: float, e: float, f: float) -> float:
+    """Mean of 1/(1 + f |tan d|) over the *pin's* turn, r > e; with -f that of 1/(1 - f |tan d|), c > -1.
+
+    With c = f e/sqrt(r^2 - e^2) and tan(S/2) = sqrt((r - e)/(r + e)) tan(u/2) it is the integral over 0 <= u <= pi of
+    sqrt(r^2 - e^2)/(pi (r + e cos u)(1 + c sin u)), which partial fractions turn into logarithm and arc cosine.
+    """
+    width = sqrt((r - e) * (r + e))
+    c = f * e / width
+    inner = 2 * (acos(c) / sqrt(1 - c * c) if c < 1 else 1 if c == 1 else acosh(c) / sqrt(c * c - 1))
+    return (1 - f * log_share(r, e) + f * f * r * inner / (pi * width)) / (1 + f * f)
+
+
+class PinTransmission(TransmissionFunction):
+    """What a pin in a slot and a pin in a follower share. `friction` is that of the pin along the slot."""
+
+    period = 2 * pi
+
+    def __init__(self, pin_radius: float, offset: float, friction: float = 0.0) -> None:
+        self.r, self.e, self.friction = pin_radius, offset, friction
+        _check(pin_radius, offset, friction)
+
+    @property
+    def amplitude(self) -> float:
+        """Greatest transmission error (rad), the same on both sides: asin of the lesser over the greater distance."""
+        return asin(min(self.r, self.e) / max(self.r, self.e))
+
+    def error_range(self) -> tuple[float, float]:
+        """Minus and plus the amplitude."""
+        return -self.amplitude, self.amplitude
+
+    def error_moments(self) -> tuple[float, float]:
+        """0, and the rms of the error (rad)."""
+        error = self.error(self._turn())
+        return 0.0, sqrt(float(np.mean(error**2)))
+
+    def _turn(self) -> Floats:
+        return np.arange(_SAMPLES, dtype=np.float64) * (self.period / _SAMPLES)
+
+
+def _check(pin_radius: float, offset: float, friction: float) -> None:
+    """Raises `RangeError` for distances that are none, and where the pin passes through the slot's axis."""
+    if not (_LEAST < pin_radius < 1 / _LEAST and (offset == 0 or _LEAST < offset < 1 / _LEAST)):
+        raise RangeError(
+            Problem(
+                f"a pin radius of {pin_radius:g} and an offset of {offset:g}",
+                f"distances of a pin lie between {_LEAST:g} and {1 / _LEAST:g}",
+                "give a pin radius above 0 and an offset of 0 or more",
+            )
+        )
+    if pin_radius == offset:
+        raise RangeError(
+            Problem(
+                f"a pin radius of {pin_radius:g} equals the offset: the pin would pass through the slot's axis",
+                "there the slot's direction is undetermined; the mean ratio is 1 above and 0 below",
+                "make them differ",
+            )
+        )
+    check_friction(friction)
+
+
+class PinToSlotTransmission(PinTransmission):
+    """A pin drives a slot: slot angle = S + atan2(e sin S, r - e cos S) for r > e, else -atan2(r sin S, e - r cos S).
+
+    The mean ratio is 1 where the pin's circle encloses the slot's axis (r > e), else 0: then the follower's angle is
+    counted from the direction that points from its axis to the pin's. Friction leaves 1/(1 + f |tan d|) of the power,
+    d the angle between pin radius and slot, on a follower's way back too.
+    """
+
+    def __init__(self, pin_radius: float, offset: float, friction: float = 0.0) -> None:
+        super().__init__(pin_radius, offset, friction)
+        self.ratio = Fraction(1 if pin_radius > offset else 0)
+
+    def error(self, S: ArrayLike) -> Floats:
+        """Slot angle less its mean motion (rad)."""
+        S = np.asarray(S, dtype=float)
+        less, more = min(self.r, self.e), max(self.r, self.e)
+        # more - less cos S, as a sum: near r = e the difference would cancel
+        along = (more - less) + 2 * less * np.sin(S / 2) ** 2
+        error = np.asarray(np.arctan2(less * np.sin(S), along))
+        return error if self.r > self.e else -error
+
+    def speed(self, S: ArrayLike) -> Floats:
+        """r (r - e cos S)/(r^2 + e^2 - 2 r e cos S)."""
+        along, square = self._reach(S)
+        return np.asarray(self.r * along / square)
+
+    def _reach(self, S: ArrayLike) -> tuple[Floats, Floats]:
+        """r - e cos S, and the square of the pin's distance from the slot's axis, as a sum of squares."""
+        half = np.sin(np.asarray(S, dtype=float) / 2)
+        along = (self.r - self.e) + 2 * self.e * half**2
+        return along, (self.r - self.e) ** 2 + 4 * self.r * self.e * half**2
+
+    def speed_range(self) -> tuple[float, float]:
+        """1/(1 + e/r) where the pin is farthest from the slot's axis, 1/(1 - e/r) where it is nearest."""
+        far, near = self.r / (self.r + self.e), self.r / (self.r - self.e)
+        return min(far, near), max(far, near)
+
+    def efficiency(self, S: ArrayLike) -> Floats:
+        """cos d/(cos d + f sin d), by magnitude; 0 at a follower's dead points if there is friction."""
+        along, _ = self._reach(S)
+        across = self.friction * np.abs(self.e * np.sin(np.asarray(S, dtype=float)))
+        along = np.abs(along)
+        whole = along + across
+        return np.asarray(np.divide(along, whole, out=np.ones_like(whole), where=whole > 0))
+
+    def efficiency_mean(self) -> float:
+        """Mean over a turn of the pin, at constant torque on it."""
+        if self.r > self.e:
+            return mean_over_the_pin(self.r, self.e, self.friction)
+        return float(np.mean(self.efficiency(self._turn())))
+
+    def efficiency_at_constant_load(self) -> float:
+        """1/(1 + (f/pi) ln((r + e)/(r - e))) for a constant torque on the slot; NaN for a follower.
+
+        Without friction a constant torque on a follower gives back on one half of its swing what it took on the other.
+        """
+        return 1 / (1 + self.friction * log_share(self.r, self.e)) if self.r > self.e else nan
+
+
+class SlotToPinTransmission(PinTransmission):
+    """A slot drives its pin: pin angle = S - asin((e/r) sin S). Only where the pin's circle encloses its axis."""
+
+    ratio = Fraction(1)
+
+    def __init__(self, pin_radius: float, offset: float, friction: float = 0.0) -> None:
+        super().__init__(pin_radius, offset, friction)
+        if pin_radius < offset:
+            raise RangeError(
+                Problem(
+                    f"a follower cannot drive a pin of radius {pin_radius:g} at an offset of {offset:g}",
+                    "it swings, and stands at its dead points while the pin goes on",
+                    "let the pin drive",
+                )
+            )
+
+    def error(self, S: ArrayLike) -> Floats:
+        """Pin angle less its mean motion (rad)."""
+        return np.asarray(-np.arcsin(self.e / self.r * np.sin(np.asarray(S, dtype=float))))
+
+    def speed(self, S: ArrayLike) -> Floats:
+        """1 - e cos S/sqrt(r^2 - e^2 sin^2 S)."""
+        S = np.asarray(S, dtype=float)
+        return np.asarray(1 - self.e * np.cos(S) / np.sqrt(self.r**2 - (self.e * np.sin(S)) ** 2))
+
+    def speed_range(self) -> tuple[float, float]:
+        """1 - e/r and 1 + e/r."""
+        return 1 - self.e / self.r, 1 + self.e / self.r
+
+    def efficiency(self, S: ArrayLike) -> Floats:
+        """1 - f |tan d|, d the angle between pin radius and slot; 0 where friction locks."""
+        d = np.arcsin(self.e / self.r * np.sin(np.asarray(S, dtype=float)))
+        return np.asarray(np.maximum(1 - self.friction * np.abs(np.tan(d)), 0.0))
+
+    def efficiency_mean(self) -> float:
+        """1 - (f/pi) ln((r + e)/(r - e)), over a turn of the slot at constant torque on it; NaN where it locks."""
+        return nan if self._locks else 1 - self.friction * log_share(self.r, self.e)
+
+    def efficiency_at_constant_load(self) -> float:
+        """Work done on a constant torque on the pin over the work put in; NaN where friction locks."""
+        return nan if self._locks else 1 / mean_over_the_pin(self.r, self.e, -self.friction)
+
+    @property
+    def _locks(self) -> bool:
+        return self.friction >= self.locking_friction
+
+    @property
+    def locking_friction(self) -> float:
+        """The friction at which the pin locks somewhere: sqrt(r^2 - e^2)/e."""
+        return sqrt(self.r**2 - self.e**2) / self.e if self.e else float("inf")

@@ -1,0 +1,139 @@
+"""Standard teeth where none are declared: involutes without shift, as tall as run with every mate.
+
+What is drawn, what turns on the screen, what is kept free in a layout and what is cut all come from here.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from functools import lru_cache
+
+from geartrain.errors import GearTrainError, Problem
+from geartrain.teeth.conjugate.conjugate_form import WheelPair, conjugate_pair_of
+from geartrain.teeth.involute import Involute
+
+ADDENDUM, DEDENDUM = 1.0, 1.25  # modules: those of the tallest, and the depth of all
+PLAY = 0.05  # modules, of a pair of such wheels as they are cut where nothing else is said
+_ANGLES = (20, 25, 30, 32)  # deg: the flattest at which all wheels that hang together run is taken
+_ADDENDA = (ADDENDUM, 0.9, 0.8, 0.7, 0.6, 0.5, 0.4, 0.3)  # modules: the tallest that run are taken
+MOST_TEETH = 10_000
+
+
+@dataclass(frozen=True, slots=True)
+class UndeclaredWheel:
+    """A wheel that declares no teeth: its tooth number, and whether it is a ring."""
+
+    z: int
+    internal: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class StandardTeeth:
+    """Standard teeth of a wheel: pressure angle (deg) and addendum (modules)."""
+
+    angle: int
+    addendum: float
+
+    @property
+    def words(self) -> str:
+        """What they are."""
+        return f"involute, {self.angle} degrees (no form is declared)"
+
+
+def standard_teeth(gears: Mapping[str, UndeclaredWheel], pairs: Iterable[tuple[str, str]]) -> dict[str, StandardTeeth]:
+    """The teeth of all wheels: of those that hang together by `pairs` the same pressure angle, of each its addendum.
+
+    A wheel is as tall as it runs with the worst of its mates. Where no pressure angle lets all run, 20 degrees is kept,
+    and the pair that does not run says why.
+    """
+    mates: dict[str, list[str]] = {name: [] for name in gears}
+    for first, second in pairs:
+        mates[first].append(second)
+        mates[second].append(first)
+    found: dict[str, StandardTeeth] = {}
+    for name in gears:
+        if name not in found:
+            group = _hanging_together(name, mates)
+            designs = (_design(group, gears, mates, angle) for angle in _ANGLES)
+            runs = next((design for design in designs if design is not None), None)
+            found |= runs or {each: StandardTeeth(_ANGLES[0], ADDENDUM) for each in group}
+    return found
+
+
+def _hanging_together(first: str, mates: Mapping[str, list[str]]) -> list[str]:
+    known, waiting = {first: None}, [first]
+    while waiting:
+        for mate in mates[waiting.pop()]:
+            if mate not in known:
+                known[mate] = None
+                waiting.append(mate)
+    return list(known)
+
+
+def _design(
+    group: Iterable[str], gears: Mapping[str, UndeclaredWheel], mates: Mapping[str, list[str]], angle: int
+) -> dict[str, StandardTeeth] | None:
+    """The teeth of wheels that hang together; None if at this pressure angle some pair of them does not run."""
+    addenda: dict[str, float] = {}
+    edges = {(name, mate) for name in group for mate in mates[name] if name <= mate}
+    for name in group:
+        heights = [_tallest(*_turned(gears[name], gears[mate]), angle) for mate in mates[name]]
+        if None in heights:
+            return None
+        addenda[name] = min((height for height in heights if height is not None), default=ADDENDUM)
+    for first, second in edges:
+        own, mate = (first, second) if not gears[first].internal else (second, first)
+        if not _runs(gears[own], gears[mate], angle, addenda[own], addenda[mate]):
+            return None
+    return {name: StandardTeeth(angle, addendum) for name, addendum in addenda.items()}
+
+
+def _turned(first: UndeclaredWheel, second: UndeclaredWheel) -> tuple[UndeclaredWheel, UndeclaredWheel]:
+    """The two wheels of a pair, a ring last."""
+    return (second, first) if first.internal else (first, second)
+
+
+def _tallest(first: UndeclaredWheel, second: UndeclaredWheel, angle: int) -> float | None:
+    """The tallest teeth with which a pair runs."""
+    return next((height for height in _ADDENDA if _runs(first, second, angle, height, height)), None)
+
+
+@lru_cache(maxsize=65536)
+def _runs(first: UndeclaredWheel, second: UndeclaredWheel, angle: int, *addenda: float) -> bool:
+    try:
+        check_size(max(first.z, second.z))
+        form = _form(angle, addenda[0], addenda[1], 0.0)
+        return not conjugate_pair_of(form, WheelPair(first.z, second.z, second.internal)).faults
+    except GearTrainError:
+        return False
+
+
+def lone_mate(gear: UndeclaredWheel) -> UndeclaredWheel:
+    """A wheel for one that meshes with none: its like, or a pinion half as large as a ring."""
+    return UndeclaredWheel(max(gear.z // 2, 1)) if gear.internal else gear
+
+
+def standard_form(first: StandardTeeth, second: StandardTeeth, play: float) -> Involute:
+    """The form of a pair of standard wheels with some play (modules); both have one pressure angle."""
+    return _form(first.angle, first.addendum, second.addendum, play)
+
+
+def check_size(z: int) -> None:
+    """Raise `GearTrainError` for a wheel of more teeth than are ever cut."""
+    if z > MOST_TEETH:
+        what, why = f"a wheel of {z} teeth is not cut tooth by tooth", f"a wheel has {MOST_TEETH} at most"
+        raise GearTrainError(Problem(what, why, "take a disc for a likeness"))
+
+
+@lru_cache(maxsize=4096)
+def _form(angle: int, first: float, second: float, play: float) -> Involute:
+    return Involute.model_validate(
+        {
+            "form": "involute",
+            "pressure_angle": f"{angle} deg",
+            "addendum": [f"{first:g}", f"{second:g}"],
+            "dedendum": f"{DEDENDUM:g}",
+            "backlash": f"{play:.12f}",
+        }
+    )

@@ -1,0 +1,184 @@
+"""The transmission law of a pair: what every tooth form and every pin answers, so that the rest need not know which.
+
+Angles are forward angles: S of the driver and q of the driven side both grow as the pair turns forward, and S = 0 has a
+driver's tooth on the line of centres (a pin: pointing at the other axis). The sign an external mesh gives to the driven
+speed is the train's business, not the law's.
+"""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from fractions import Fraction
+from math import inf
+from typing import TYPE_CHECKING
+
+from geartrain.errors import Problem, RangeError
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import ArrayLike, NDArray
+
+    from geartrain.numerics.arrays import Floats
+
+
+def check_friction(friction: float) -> float:
+    """A coefficient of friction. Raises `RangeError` for what is none."""
+    if not 0 <= friction < inf:
+        raise RangeError(Problem(f"a friction of {friction:g}", "it would push", "give 0 or more, such as 0.1"))
+    return friction
+
+
+class TransmissionFunction(ABC):
+    """Driven angle, speed ratio and efficiency of one pair as functions of the driver's forward angle.
+
+    `ratio` is the exact mean of the speed ratio, driven over driver, without sign; `period` the driver's angle (rad)
+    after which the law repeats. The transmission error is q - ratio S, in radians of the driven side: positive where
+    the driven side is ahead of uniform motion. Its mean, a lag that depends on where angles are counted from, is left
+    in the error and out of its rms.
+    """
+
+    ratio: Fraction
+    period: float
+
+    @abstractmethod
+    def error(self, S: ArrayLike) -> Floats:
+        """Transmission error (rad of the driven side) at driver angles S (rad), any shape."""
+
+    @abstractmethod
+    def speed(self, S: ArrayLike) -> Floats:
+        """Instantaneous speed ratio dq/dS at driver angles S (rad)."""
+
+    @abstractmethod
+    def efficiency(self, S: ArrayLike) -> Floats:
+        """Power out over power in at driver angles S (rad); NaN where nothing is in contact."""
+
+    @abstractmethod
+    def speed_range(self) -> tuple[float, float]:
+        """Least and greatest speed ratio."""
+
+    @abstractmethod
+    def error_range(self) -> tuple[float, float]:
+        """Least and greatest transmission error (rad of the driven side)."""
+
+    @abstractmethod
+    def error_moments(self) -> tuple[float, float]:
+        """Mean of the transmission error, and its rms about that mean (rad of the driven side)."""
+
+    @abstractmethod
+    def efficiency_mean(self) -> float:
+        """Mean efficiency over the driver's angle, at constant driver torque."""
+
+    @abstractmethod
+    def efficiency_at_constant_load(self) -> float:
+        """Work done on a constant torque of the driven side over the work put in; NaN where friction locks."""
+
+    def corners(self) -> list[float]:
+        """Driver angles (rad) where the law or a slope of it is not smooth; none by default."""
+        return []
+
+    def error_and_speed(self, S: ArrayLike) -> tuple[Floats, Floats]:
+        """Both at driver angles S (rad), for less than the two apart where a law can."""
+        return self.error(S), self.speed(S)
+
+    def turned_back(self) -> TransmissionFunction:
+        """The law while the driver's angle decreases: the same, but for teeth with play."""
+        return self
+
+    def picked(self, columns: NDArray[np.int64]) -> TransmissionFunction:
+        """The law for some of the angles it was asked at, by number: the same, but where each angle has its own."""
+        del columns
+        return self
+
+    def angle(self, S: ArrayLike) -> Floats:
+        """Driven angle q (rad) at driver angles S (rad)."""
+        import numpy as np
+
+        S = np.asarray(S, dtype=float)
+        angle: Floats = float(self.ratio) * S + self.error(S)
+        return angle
+
+
+def behind(S: Floats, period: float, out: Floats, scratch: Floats) -> None:
+    """`out` = S less whole periods, in half the time of numpy.mod.
+
+    The period is taken in two parts, so that the first product is exact up to some 10^8 periods.
+    """
+    import numpy as np
+
+    coarse = float(np.float32(period))
+    np.multiply(S, 1 / period, out=scratch)
+    np.floor(scratch, out=scratch)
+    np.multiply(scratch, coarse, out=out)
+    np.subtract(S, out, out=out)
+    np.multiply(scratch, period - coarse, out=scratch)
+    np.subtract(out, scratch, out=out)
+
+
+class ExactRatio(TransmissionFunction):
+    """A law without error or loss: the ratio of tooth counts at every instant."""
+
+    def __init__(self, ratio: Fraction, period: float) -> None:
+        self.ratio, self.period = ratio, period
+
+    def error(self, S: ArrayLike) -> Floats:
+        """0 everywhere."""
+        return self._constant(S, 0.0)
+
+    def speed(self, S: ArrayLike) -> Floats:
+        """The mean ratio everywhere."""
+        return self._constant(S, float(self.ratio))
+
+    def efficiency(self, S: ArrayLike) -> Floats:
+        """1 everywhere."""
+        return self._constant(S, 1.0)
+
+    def speed_range(self) -> tuple[float, float]:
+        """The mean ratio twice."""
+        return float(self.ratio), float(self.ratio)
+
+    def error_range(self) -> tuple[float, float]:
+        """0 twice."""
+        return 0.0, 0.0
+
+    def error_moments(self) -> tuple[float, float]:
+        """0 twice."""
+        return 0.0, 0.0
+
+    def efficiency_mean(self) -> float:
+        """1."""
+        return 1.0
+
+    def efficiency_at_constant_load(self) -> float:
+        """1."""
+        return 1.0
+
+    @staticmethod
+    def _constant(S: ArrayLike, value: float) -> Floats:
+        import numpy as np
+
+        return np.full(np.shape(S), value)
+
+
+class ConstantLag(ExactRatio):
+    """A law that keeps its ratio, its driven side always by `mean` (rad) ahead of uniform motion."""
+
+    def __init__(self, ratio: Fraction, period: float, mean: float) -> None:
+        super().__init__(ratio, period)
+        self.mean = mean
+
+    @classmethod
+    def at(cls, law: TransmissionFunction, S: float) -> ConstantLag:
+        """What another law does where its driver stands at S (rad), whatever S is."""
+        return cls(law.ratio, law.period, float(law.error(S)))
+
+    def error(self, S: ArrayLike) -> Floats:
+        """The same everywhere."""
+        return self._constant(S, self.mean)
+
+    def error_range(self) -> tuple[float, float]:
+        """The same twice."""
+        return self.mean, self.mean
+
+    def error_moments(self) -> tuple[float, float]:
+        """The mean, and 0."""
+        return self.mean, 0.0

@@ -1,0 +1,307 @@
+"""Can a pair of wheels turn? The verdict, the play of the back flanks, and the window of clearance."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from functools import cached_property, lru_cache
+from itertools import pairwise
+from math import degrees, inf, pi
+from typing import Literal
+
+from geartrain.numerics.roots import bracketed_root, root
+from geartrain.teeth.triangular.pair_geometry import TriangularSizes
+from geartrain.teeth.triangular.real_path import STANDSTILL, DriveInterval, RealPath
+from geartrain.teeth.triangular.standstill import DraggedPath, drag
+from geartrain.teeth.triangular.tooth_couple import APPROACH
+
+MeshingKind = Literal["runs", "no valley", "overhang", "jam", "clash", "standstill", "apart"]
+_ROUNDING = 1e-11  # of a driven pitch: play that is less below 0 is none
+_NEARLY_0 = 1e-9  # of the reach
+
+
+@dataclass(frozen=True, slots=True)
+class TriangularVerdict:
+    """Whether a pair can turn, and why not; true if it can. A standstill turns, with the angle `lost` at each pitch.
+
+    `play` is the least play of the back flanks, `clash` the overlap of entering tips, both rad of the driven wheel;
+    `lost` is the step of the driven wheel's law at each standstill, and `idle` the driver's angle in it.
+    """
+
+    kind: MeshingKind
+    text: str
+    play: float
+    clash: float
+    lost: float
+    idle: float
+
+    def __bool__(self) -> bool:
+        return self.kind == "runs"
+
+
+class TriangularContact:
+    """A pair in contact: sizes, real path with its standstills, play, verdict."""
+
+    def __init__(self, sizes: TriangularSizes) -> None:
+        self.sizes = sizes
+        self.path = RealPath(sizes)
+
+    @cached_property
+    def dragged(self) -> DraggedPath:
+        """The real path, the driven wheel standing where nothing pushes it."""
+        return drag(self.path)
+
+    @property
+    def intervals(self) -> tuple[DriveInterval, ...]:
+        """What drives, in order of time."""
+        return self.dragged.intervals
+
+    def lag(self, t: float) -> float:
+        """y(t) - (z1/z2) t: how far the dragged wheel lags, in its own angle, at the driver's position t."""
+        return self._height(*self.locate(t))
+
+    def locate(self, t: float) -> tuple[DriveInterval, float]:
+        """The interval that holds position t, and alpha_1 there."""
+        return _locate(self.intervals, t, self.sizes.p1)
+
+    def _height(self, interval: DriveInterval, x: float) -> float:
+        if interval.held is None:
+            return self.path.g(interval.phase, x)
+        return interval.held - self.sizes.ratio * x
+
+    def speed(self, interval: DriveInterval, x: float) -> float:
+        """tau, 0 in a standstill."""
+        return 0.0 if interval.held is not None else float(self.path.couple.speed(interval.phase, x))
+
+    @cached_property
+    def _bounds(self) -> list[DriveInterval]:
+        """Who bounds the driven wheel, pushing or not; where nobody does there is a gap."""
+        sizes = self.sizes
+        return RealPath(sizes, slips=True).envelope if any(sizes.lean) else self.path.envelope
+
+    @cached_property
+    def play(self) -> float:
+        """The least play of the back flanks over a pitch (rad of the driven wheel); below 0 they jam.
+
+        The sum of the law and the mirror image of the bounds is smooth between their corners, where tau differs or
+        turns; within, it is least where both have the same tau.
+        """
+        pitch = self.sizes.p1
+        corners = {corner % pitch for interval in self.intervals for corner in self._corners(interval)}
+        corners |= {-corner % pitch for interval in self._bounds for corner in self._corners(interval)}
+        marks = sorted(corners)
+        cells = pairwise([*marks, marks[0] + pitch])
+        return min(self._least_within(low, high) for low, high in cells) + self.sizes.p2
+
+    def _corners(self, interval: DriveInterval) -> Iterator[float]:
+        yield from (interval.start, interval.end)
+        yield from (piece.low for piece in self.path.pieces if interval.end < piece.low < interval.start)
+
+    def _least_within(self, low: float, high: float) -> float:
+        """The least play between two corners: at one of them, or where both sides have one tau."""
+        pitch, middle = self.sizes.p1, (low + high) / 2
+        ours, start = self.locate(middle)
+        theirs, back = _locate(self._bounds, -middle, pitch)
+        half = (high - low) / 2
+        if back < theirs.end - _ROUNDING * pitch:
+            return inf  # a gap: nothing is in reach of the back flanks
+        start, back = start - half, back + half
+
+        def play(step: float) -> float:
+            return self._height(ours, start + step) + self.path.g(theirs.phase, back - step)
+
+        def slope(step: float) -> float:
+            return self.speed(ours, start + step) - self.speed(theirs, back - step)
+
+        ends = min(play(0.0), play(2 * half))
+        if not slope(0.0) < 0 < slope(2 * half):
+            return ends
+        step = bracketed_root(slope, lambda _: 0.0, 0.0, 2 * half)
+        return min(ends, play(step))
+
+    @cached_property
+    def verdict(self) -> TriangularVerdict:
+        """The first of the checks that fails: valley, reach, overhang, back flanks, entry, exit."""
+        sizes = self.sizes
+        if not sizes.has_valleys:
+            return self._failed("no valley", _no_valley(sizes))
+        if not self.intervals:
+            return self._failed("apart", "the tips never touch: the wheels are too far apart")
+        idle = sum(each.width for each in self.intervals if each.phase == STANDSTILL)
+        found = TriangularVerdict("runs", "the wheels turn", self.play, self.dragged.clash, self.dragged.lost, idle)
+        kind, text = self._fault(found)
+        return TriangularVerdict(kind, text, found.play, found.clash, found.lost, found.idle)
+
+    def _failed(self, kind: MeshingKind, text: str) -> TriangularVerdict:
+        return TriangularVerdict(kind, text, -inf, 0.0, 0.0, 0.0)
+
+    def _fault(self, found: TriangularVerdict) -> tuple[MeshingKind, str]:
+        if self.overhang:
+            return "overhang", self.overhang
+        if found.play < -_ROUNDING * self.sizes.p2:
+            return "jam", (
+                f"the back flanks jam: the teeth are {degrees(-found.play):.4g} deg of the driven wheel too thick for "
+                "the spaces at this clearance"
+            )
+        if found.clash > 0:
+            return "clash", (
+                f"an entering tooth meets a tip: the two overlap by {degrees(found.clash):.4g} deg of the driven wheel"
+            )
+        if self.dragged.arrested:
+            return "standstill", (
+                "the driven wheel is left standing for good: no tooth is in reach for a while, and the next one goes by"
+            )
+        if found.idle > 0:
+            return "standstill", (
+                f"the driven wheel stands still for {degrees(found.idle):.4g} deg of the driver at each pitch, and is "
+                f"{degrees(found.lost):.4g} deg behind when the next tooth comes"
+            )
+        return "runs", "the wheels turn"
+
+    @cached_property
+    def overhang(self) -> str:
+        """The path must not reach a flank that leans beyond the perpendicular, nor turn the driven wheel back."""
+        sizes, small = self.sizes, 1e-9 * self.sizes.p1
+        for interval in self.intervals:
+            if interval.held is not None:
+                continue
+            lean = (sizes.lean[0] and interval.start > sizes.entry - small) or (
+                sizes.lean[1] and interval.end < sizes.exit + small
+            )
+            back = next((x for x in (interval.start, interval.end) if not self.speed(interval, x) > 0), None)
+            if lean or back is not None:
+                x = interval.start if interval.phase == APPROACH else interval.end
+                return (
+                    f"a flank leans beyond the perpendicular at alpha_1 = {degrees(x):.4g} deg ({interval.phase}), and "
+                    "cannot push there"
+                )
+        return ""
+
+
+def _locate(intervals: Sequence[DriveInterval], t: float, pitch: float) -> tuple[DriveInterval, float]:
+    """The interval that holds position t, and alpha_1 there; in a gap the nearest one, and alpha_1 outside it."""
+    for interval in intervals:
+        gone = (interval.start - t) % pitch
+        if gone <= interval.width:
+            return interval, interval.start - gone
+    nearest = min(intervals, key=lambda each: (each.start - t) % pitch - each.width)
+    return nearest, nearest.start - (nearest.start - t) % pitch
+
+
+def _no_valley(sizes: TriangularSizes) -> str:
+    for z, beta, name in ((sizes.z1, sizes.beta1, "driver"), (sizes.z2, sizes.beta2, "driven wheel")):
+        if beta + pi / z >= pi / 2:
+            return (
+                f"{z} teeth of half angle {degrees(beta):.6g} deg do not exist: on the {name} half angle + 180/z is "
+                f"{degrees(beta) + 180 / z:.6g} deg, and must be below 90 deg for flanks to meet in a valley"
+            )
+    raise AssertionError
+
+
+# ------------------------------------------------------------------------------------------------------------ windows
+
+
+@dataclass(frozen=True, slots=True)
+class ClearanceWindow:
+    """Clearance factors between which a pair turns: above `jam`, up to `run`; beyond `reach` no tip touches.
+
+    Each as excess, the factor less 1. `jam_kind` says what happens up to `jam`, `run_kind` beyond `run`. Empty where
+    run is below jam: no clearance works. Where a pair runs in several stretches of clearance this is the first.
+    """
+
+    jam: float
+    run: float
+    run_kind: Literal["clash", "standstill"]
+    reach: float
+    jam_kind: Literal["jam", "overhang", "clash", "standstill"] = "jam"
+
+    def __bool__(self) -> bool:
+        return self.jam < self.run
+
+    def at(self, fraction: float) -> float:
+        """The excess at a fraction of the window, 0 at the jam and 1 where contact is lost."""
+        return self.jam + fraction * (self.run - self.jam)
+
+
+def find_window(sizes: TriangularSizes) -> ClearanceWindow:
+    """The window of clearance of a pair, whatever its own clearance. Needs valleys."""
+    return _window(sizes.at(0.0))
+
+
+@lru_cache(maxsize=8192)
+def _window(sizes: TriangularSizes) -> ClearanceWindow:
+    reach = sizes.greatest_excess
+    jam = _least_excess(sizes)
+    leaning = _leaning_excess(sizes, jam)
+    low = max(jam, leaning)
+    clash = _stretch(lambda excess: _entry(RealPath(sizes.at(excess))), low, reach)
+    still = _stretch(lambda excess: _exit(RealPath(sizes.at(excess))), low, reach)
+    # equal wheels do both at once, and the driven wheel that stands lets the next tooth in
+    run_kind: Literal["clash", "standstill"] = "clash" if clash[1] < still[1] * (1 - 1e-9) else "standstill"
+    starts: dict[Literal["jam", "overhang", "clash", "standstill"], float]
+    starts = {"jam": jam, "overhang": leaning, "clash": clash[0], "standstill": still[0]}
+    jam_kind = max(starts, key=lambda kind: starts[kind])
+    return ClearanceWindow(starts[jam_kind], min(clash[1], still[1]), run_kind, reach, jam_kind)
+
+
+def _least_excess(sizes: TriangularSizes) -> float:
+    """The excess from which back flanks have play: 0 where they always have, the reach where they never do."""
+    reach = sizes.greatest_excess
+
+    def play(excess: float) -> float:
+        return TriangularContact(sizes.at(excess)).play
+
+    if play(reach * _NEARLY_0) > 0:
+        return 0.0
+    return _first_sign_change(play, reach * _NEARLY_0, reach)
+
+
+def _leaning_excess(sizes: TriangularSizes, jam: float) -> float:
+    """The excess up to which the path reaches a leaning flank; 0 if it does not where the pair ceases to jam."""
+    reach = sizes.greatest_excess
+    low = max(jam * (1 + 1e-9), reach * _NEARLY_0)
+
+    def stands(excess: float) -> float:
+        return -1.0 if TriangularContact(sizes.at(excess)).overhang else 1.0
+
+    if low >= reach or not any(sizes.at(low).lean) or stands(low) > 0:
+        return 0.0
+    return _first_sign_change(stands, low, reach)
+
+
+def _stretch(margin: Callable[[float], float], low: float, reach: float) -> tuple[float, float]:
+    """Where a margin first holds: from 0 or `low` if it does there, else from where it begins to; 0, 0 if never."""
+    for start in (reach * _NEARLY_0, low * (1 + 1e-9)):
+        if start < reach and margin(start) > 0:
+            return 0.0, _first_sign_change(margin, start, reach)
+    if low >= reach:
+        return 0.0, 0.0
+    start = _first_sign_change(margin, max(low * (1 + 1e-9), reach * _NEARLY_0), reach)
+    if start >= reach * (1 - 1e-6):
+        return 0.0, 0.0
+    return start, _first_sign_change(margin, start + 1e-9 * reach, reach)
+
+
+def _entry(path: RealPath) -> float:
+    """Below 0 where a couple comes in below the others."""
+    last = path.pieces[-1]
+    return path.g(last.phase, last.high) - path.lowest(last.high, besides=0)
+
+
+def _exit(path: RealPath) -> float:
+    """Below 0 where a couple leaves before another one can drive."""
+    first = path.pieces[0]
+    return path.g(first.phase, first.low) - path.lowest(first.low, besides=0)
+
+
+def _first_sign_change(value: Callable[[float], float], low: float, reach: float) -> float:
+    """The least excess from `low` at which `value` changes its sign; `reach` if it never does."""
+    steps, start = 16, low
+    at_low = value(low)
+    for step in range(1, steps + 1):
+        high = start + (reach * (1 - _NEARLY_0) - start) * step / steps
+        at_high = value(high)
+        if (at_high > 0) != (at_low > 0):
+            return root(value, low, high, at_low, at_high)
+        low, at_low = high, at_high
+    return reach

@@ -1,0 +1,184 @@
+"""How a pair changes with one or two of its parameters."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from itertools import product
+from math import degrees, nan
+
+import numpy as np
+from numpy.typing import NDArray
+
+from geartrain.errors import GearTrainError
+from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission, matches
+
+TransmissionFactory = Callable[..., TriangularTransmission]
+"""A law from the values of the varied parameters, by name."""
+
+ASTRIDE = "astride"
+_MOST_CHANGES = 100
+COLUMNS = (
+    "tau_min",
+    "tau_max",
+    "error_pp_deg",
+    "error_rms_deg",
+    "efficiency_mean",
+    "efficiency_min",
+    "greatest_jump",
+    "play_deg",
+    "lost_deg",
+)
+
+
+@dataclass(frozen=True)
+class ParameterSweep:
+    """Values of the parameters (one array each, all of one shape), what follows from them, and the verdicts.
+
+    `phases` names the phases of the real path in order of time, such as "approach+recess".
+    """
+
+    parameters: dict[str, NDArray[np.float64]]
+    columns: dict[str, NDArray[np.float64]]
+    verdicts: NDArray[np.str_]
+    phases: NDArray[np.str_]
+
+    @property
+    def header(self) -> tuple[str, ...]:
+        """Names of the columns of `rows`."""
+        return (*self.parameters, "verdict", "phases", *self.columns)
+
+    @property
+    def labels(self) -> NDArray[np.str_]:
+        """The phases of pairs that run, the verdict of others."""
+        return np.where(self.verdicts == "runs", self.phases, self.verdicts)
+
+    def rows(self) -> Iterator[tuple[object, ...]]:
+        """One row for each point, the first parameter slowest."""
+        arrays = (*self.parameters.values(), self.verdicts, self.phases, *self.columns.values())
+        return zip(*(array.ravel().tolist() for array in arrays), strict=True)
+
+
+def sweep(
+    make: TransmissionFactory, ranges: Mapping[str, Sequence[float]], on_point: Callable[[], None] = lambda: None
+) -> ParameterSweep:
+    """The law at every combination of one or two ranges. What cannot be built gets the verdict "none" and NaN."""
+    shape = tuple(len(values) for values in ranges.values())
+    grids = np.meshgrid(*(np.asarray(values, dtype=float) for values in ranges.values()), indexing="ij")
+    numbers = np.full((len(COLUMNS), int(np.prod(shape))), nan)
+    verdicts, phases = [], []
+    for at, point in enumerate(product(*ranges.values())):
+        verdict, phase, found = _point(make, dict(zip(ranges, point, strict=True)))
+        verdicts.append(verdict)
+        phases.append(phase)
+        numbers[:, at] = found
+        on_point()
+    return ParameterSweep(
+        dict(zip(ranges, grids, strict=True)),
+        {name: row.reshape(shape) for name, row in zip(COLUMNS, numbers, strict=True)},
+        np.array(verdicts).reshape(shape),
+        np.array(phases).reshape(shape),
+    )
+
+
+def _point(make: TransmissionFactory, values: dict[str, float]) -> tuple[str, str, Sequence[float]]:
+    try:
+        law = make(**values)
+    except GearTrainError:
+        return "none", "", [nan] * len(COLUMNS)
+    verdict = law.verdict
+    if not law.intervals:
+        return verdict.kind, "", [nan] * len(COLUMNS)
+    least, most = law.speed_range()
+    low, high = law.error_range()
+    row = [
+        least,
+        most,
+        degrees(high - low),
+        degrees(law.error_moments()[1]),
+        law.efficiency_mean(),
+        law.efficiency_least(),
+        max((jump.value for jump in law.jumps), default=0.0),
+        degrees(verdict.play),
+        degrees(verdict.lost),
+    ]
+    return verdict.kind, phases_of(law), row
+
+
+def phases_of(law: TriangularTransmission) -> str:
+    """The phases of the real path from its entry on, such as "approach+recess"; one through matching is "astride"."""
+    path = law.intervals
+    through = [matches(path[at - 1], path[at], law.period) for at in range(len(path))]
+    entries = [at for at, matched in enumerate(through) if not matched and path[at].held is None]
+    first = max(entries, key=lambda at: path[at].start, default=0)
+    names: list[str] = []
+    for at in (*range(first, len(path)), *range(first)):
+        if through[at] and names:
+            names[-1] = ASTRIDE
+        else:
+            names.append(path[at].phase)
+    return "+".join(names)
+
+
+@dataclass(frozen=True)
+class VerdictChange:
+    """Where verdict or phases change: between `before` below `value` and `after` above it."""
+
+    value: float
+    before: str
+    after: str
+
+
+def changes(make: TransmissionFactory, name: str, found: ParameterSweep) -> list[VerdictChange]:
+    """Every change seen along a sweep of one parameter, halved down to rounding, at most a hundred."""
+    values = found.parameters[name].tolist()
+    labels = [_label(v, p) for v, p in zip(found.verdicts.tolist(), found.phases.tolist(), strict=True)]
+    seen: list[VerdictChange] = []
+    for at in range(1, len(values)):
+        low, before = values[at - 1], labels[at - 1]
+        while before != labels[at] and len(seen) < _MOST_CHANGES:
+            low, after = _locate(make, name, low, values[at], before, labels[at])
+            seen.append(VerdictChange(low, before, after))
+            before = after
+    return seen
+
+
+def _locate(
+    make: TransmissionFactory, name: str, low: float, high: float, before: str, after: str
+) -> tuple[float, str]:
+    for _ in range(60):
+        middle = low + (high - low) / 2
+        if not low < middle < high or high - low < 1e-13 * abs(high):
+            break
+        verdict, phases, _row = _point(make, {name: middle})
+        label = _label(verdict, phases)
+        low, high, after = (middle, high, after) if label == before else (low, middle, label)
+    return high, after
+
+
+def _label(verdict: str, phases: str) -> str:
+    return f"{verdict} ({phases})" if phases else verdict
+
+
+def best(make: TransmissionFactory, name: str, found: ParameterSweep) -> tuple[float, float] | None:
+    """The value of the parameter at which a pair that runs is most efficient, and that efficiency.
+
+    Looked for among the points of the sweep, then between the neighbours of the best by golden section.
+    """
+    values = found.parameters[name].tolist()
+    efficiency = np.where(found.verdicts == "runs", found.columns["efficiency_mean"], nan)
+    if np.isnan(efficiency).all():
+        return None
+    at = int(np.nanargmax(efficiency))
+
+    def value(x: float) -> float:
+        verdict, _phases, row = _point(make, {name: x})
+        return row[COLUMNS.index("efficiency_mean")] if verdict == "runs" else -1.0
+
+    low, high = values[max(at - 1, 0)], values[min(at + 1, len(values) - 1)]
+    golden = (5**0.5 - 1) / 2
+    for _ in range(40):
+        a, b = high - golden * (high - low), low + golden * (high - low)
+        low, high = (low, b) if value(a) >= value(b) else (a, high)
+    x = low + (high - low) / 2
+    return (x, value(x)) if value(x) >= float(efficiency[at]) else (values[at], float(efficiency[at]))

@@ -1,0 +1,274 @@
+"""The real path of contact: which couple of teeth drives where, and whether it can.
+
+Every couple k of teeth forbids the driven wheel to lag behind f(t + k p1) - k p2 (`contact`), so that it follows
+U(t) = min over k, and, dragged, y <- min(y, U(t)) as t decreases. Less the mean motion this is the least of
+g(x) = f(x) - (z1/z2) x over the lattice x = t + k p1. Between matching and the ends of reach g is convex, or concave
+and then convex (few teeth), so that on each such piece only its ends, or the two couples about its minimum, can
+drive: the cost does not grow with the number of couples in reach.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import pairwise
+from math import ceil, floor, inf, ulp
+
+from geartrain.numerics.roots import bracketed_root, sign_changes
+from geartrain.teeth.triangular.pair_geometry import TriangularSizes
+from geartrain.teeth.triangular.tooth_couple import APPROACH, RECESS, RETURN, SLIP, ToothCouple
+
+STANDSTILL = "standstill"
+_ROUNDING = 1e-11  # of a pitch: what is shorter is no interval
+
+
+@dataclass(frozen=True, slots=True)
+class MonotonePiece:
+    """A stretch of alpha_1 in one phase where tau only rises (convex) or only falls."""
+
+    phase: str
+    low: float
+    high: float
+    convex: bool
+
+
+@dataclass(frozen=True, slots=True)
+class DriveInterval:
+    """A stretch of alpha_1 from `start` down to `end` in which one couple drives, or none does (standstill).
+
+    `couple` counts teeth: alpha_1 = t + couple p1 for a position t common to all intervals of a path. In a standstill
+    it is the couple that has just let go, and `held` the angle alpha_2 at which it left the driven wheel standing.
+    """
+
+    phase: str
+    start: float
+    end: float
+    couple: int
+    held: float | None = None
+
+    @property
+    def width(self) -> float:
+        """Driver angle from start to end (rad)."""
+        return self.start - self.end
+
+
+class RealPath:
+    """Contact of all couples of teeth over one pitch of the driver."""
+
+    def __init__(self, sizes: TriangularSizes, slips: bool = False) -> None:
+        """`slips` adds contact that bounds the driven wheel but cannot push it."""
+        self.sizes, self.slips = sizes, slips
+        self.couple = ToothCouple(sizes)
+        self.pitch, self.ratio = sizes.p1, sizes.ratio
+
+    # ---------------------------------------------------------------------------------------------------- one couple
+
+    def g(self, phase: str, x: float) -> float:
+        """f(x) less the mean motion: what the driven wheel lags behind it, in its own angle."""
+        return float(self.couple.angle(phase, x)) - self.ratio * x
+
+    def slope(self, phase: str, x: float) -> float:
+        """d g / d x: tau less its mean."""
+        return float(self.couple.speed(phase, x)) - self.ratio
+
+    @cached_property
+    def pieces(self) -> list[MonotonePiece]:
+        """Recess, then approach, each cut where the curvature of f changes its sign; none where there are no teeth."""
+        if not self.sizes.has_valleys:
+            return []
+        first, last = self.sizes.entry, self.sizes.exit
+        matching = min(max(self.sizes.matching, last), first)
+        found: list[MonotonePiece] = []
+        for phase, low, high in ((RECESS, last, matching), (APPROACH, matching, first)):
+            if high > low:
+                found += self._cut(phase, low, high)
+        return [*self._slips(), *found] if self.slips else found
+
+    def _slips(self) -> Iterator[MonotonePiece]:
+        """Contact with leaning flanks on the exit side."""
+        sizes = self.sizes
+        for phase, low, high in ((RETURN, -sizes.entry, -sizes.reach1), (SLIP, -sizes.reach1, sizes.exit)):
+            if high > low:
+                yield from self._cut(phase, low, high)
+
+    def _cut(self, phase: str, low: float, high: float) -> list[MonotonePiece]:
+        def slope(x: float) -> float:
+            return float(self.couple.slope(phase, x))
+
+        first, last = slope(low) > 0, slope(high) > 0
+        if first == last:
+            return [MonotonePiece(phase, low, high, first)]
+        a, b = low, high
+        while a < (middle := a + (b - a) / 2) < b:
+            a, b = (middle, b) if (slope(middle) > 0) == first else (a, middle)
+        return [MonotonePiece(phase, low, a, first), MonotonePiece(phase, a, high, last)]
+
+    def extremes(self, phase: str, low: float, high: float) -> list[float]:
+        """g where tau passes through its mean between `low` and `high`, where tau is monotone."""
+        if (self.slope(phase, low) < 0) == (self.slope(phase, high) < 0):
+            return []
+        x = bracketed_root(lambda x: self.slope(phase, x), lambda x: self.couple.slope(phase, x), low, high)
+        return [self.g(phase, x)]
+
+    # ------------------------------------------------------------------------------------------------- all couples
+
+    @cached_property
+    def branches(self) -> list[MonotonePiece]:
+        """The parts of the pieces, none longer than a pitch, on which a couple can be the lowest of its piece."""
+        return [branch for piece in self.pieces for branch in self._lowest(piece)]
+
+    def _lowest(self, piece: MonotonePiece) -> list[MonotonePiece]:
+        low, high, pitch = piece.low, piece.high, self.pitch
+        if high - low <= pitch:
+            return [piece]
+        left = MonotonePiece(piece.phase, low, low + pitch, piece.convex)
+        right = MonotonePiece(piece.phase, high - pitch, high, piece.convex)
+        if not piece.convex:
+            return [left, right]
+        if self._rise(piece.phase, low) >= 0:
+            return [left]
+        if self._rise(piece.phase, high - pitch) <= 0:
+            return [right]
+        start = bracketed_root(
+            lambda x: self._rise(piece.phase, x),
+            lambda x: self.couple.speed(piece.phase, x + pitch) - self.couple.speed(piece.phase, x),
+            low,
+            high - pitch,
+        )
+        return [MonotonePiece(piece.phase, start, start + pitch, True)]
+
+    def _rise(self, phase: str, x: float) -> float:
+        """g(x + p1) - g(x)."""
+        return float(self.couple.angle(phase, x + self.pitch) - self.couple.angle(phase, x)) - self.sizes.p2
+
+    def lowest(self, t: float, besides: int | None = None) -> float:
+        """The least g over the couples at position t, `besides` one of them; infinite where none is in reach."""
+        least = inf
+        for piece in self.pieces:
+            first, last = ceil((piece.low - t) / self.pitch), floor((piece.high - t) / self.pitch)
+            for k in self._candidates(piece, t, first, last):
+                if k != besides:
+                    least = min(least, self.g(piece.phase, t + k * self.pitch))
+        return least
+
+    def _candidates(self, piece: MonotonePiece, t: float, first: int, last: int) -> set[int]:
+        if last - first < 4 or not piece.convex:
+            return {k for k in (first, first + 1, last - 1, last) if first <= k <= last}
+        bottom = round((self._bottom(piece) - t) / self.pitch)
+        return {k for k in range(bottom - 2, bottom + 3) if first <= k <= last} | {first, last}
+
+    def _bottom(self, piece: MonotonePiece) -> float:
+        """Where g is least in a convex piece."""
+        low, high = piece.low, piece.high
+        if self.slope(piece.phase, low) >= 0:
+            return low
+        if self.slope(piece.phase, high) <= 0:
+            return high
+        return bracketed_root(
+            lambda x: self.slope(piece.phase, x), lambda x: self.couple.slope(piece.phase, x), low, high
+        )
+
+    # ------------------------------------------------------------------------------------------------- the envelope
+
+    @cached_property
+    def envelope(self) -> list[DriveInterval]:
+        """Who drives over one pitch as t decreases, before the driven wheel is let stand; gaps are left out."""
+        base = max((branch.high for branch in self.branches), default=0.0)
+        cuts = {0.0, self.pitch}
+        for branch in self.branches:
+            cuts |= {(base - end) % self.pitch for end in (branch.low, branch.high)}
+        found: list[DriveInterval] = []
+        for early, late in pairwise(sorted(cuts)):
+            if late - early > _ROUNDING * self.pitch:
+                found += self._cell(base - early, base - late)
+        return self._closed(_joined(found))
+
+    def _closed(self, found: list[DriveInterval]) -> list[DriveInterval]:
+        """The period begun where an interval begins, not in the midst of one."""
+        if not found:
+            return found
+        first, last = found[0], found[-1]
+        same = first.phase == last.phase and first.couple + 1 == last.couple
+        if len(found) < 2 or not same or abs(last.end - first.start) > _ROUNDING * self.pitch:
+            return found
+        return [*found[1:-1], DriveInterval(last.phase, last.start, first.end, last.couple)]
+
+    def _cell(self, high: float, low: float) -> Iterator[DriveInterval]:
+        """One stretch of t in which no branch begins or ends."""
+        middle = low + (high - low) / 2
+        found = {}  # the two ends of a concave piece may be one stretch of one couple
+        for branch in self.branches:
+            k = floor((branch.high - middle) / self.pitch)
+            if middle + k * self.pitch >= branch.low:
+                found[branch.phase, k] = branch
+        active = [(branch, k) for (_, k), branch in found.items()]
+        if not active:
+            return
+        marks = {high, low}
+        for at, one in enumerate(active):
+            for other in active[at + 1 :]:
+                marks |= set(self._crossings(one, other, low, high))
+        chosen = None
+        for upper, lower in pairwise(sorted(marks, reverse=True)):
+            chosen = self._lowest_at(lower + (upper - lower) / 2, active, chosen)
+            branch, k = chosen
+            yield DriveInterval(branch.phase, upper + k * self.pitch, lower + k * self.pitch, k)
+
+    def _lowest_at(
+        self, t: float, active: list[tuple[MonotonePiece, int]], last: tuple[MonotonePiece, int] | None
+    ) -> tuple[MonotonePiece, int]:
+        """The lowest branch at t, the last one where it is as low to rounding: branches may coincide for a while."""
+        heights = [self.g(branch.phase, t + k * self.pitch) for branch, k in active]
+        least = min(heights)
+        if last is not None and heights[active.index(last)] <= least + self._noise:
+            return last
+        return active[heights.index(least)]
+
+    @cached_property
+    def _noise(self) -> float:
+        """The rounding of g."""
+        return 4 * ulp(self.sizes.reach2 + self.ratio * self.sizes.reach1)
+
+    def _crossings(
+        self, one: tuple[MonotonePiece, int], other: tuple[MonotonePiece, int], low: float, high: float
+    ) -> Iterator[float]:
+        """Where two branches are equally low."""
+        (a, i), (b, j) = one, other
+        shift, turned = (j - i) * self.pitch, (j - i) * self.sizes.p2
+        low, high = low + i * self.pitch, high + i * self.pitch
+        first, second = self.couple.angle, self.couple.speed
+
+        def difference(x: float) -> float:
+            return float(first(a.phase, x) - first(b.phase, x + shift)) + turned
+
+        def slope(x: float) -> float:
+            return float(second(a.phase, x) - second(b.phase, x + shift))
+
+        def bend(x: float) -> float:
+            return float(self.couple.slope(a.phase, x) - self.couple.slope(b.phase, x + shift))
+
+        def bounds(c: float, d: float) -> tuple[float, float]:
+            # where the difference bends one way its slope is bounded by the ends; three points speak for the stretch
+            bends = (bend(c), bend((c + d) / 2), bend(d))
+            if min(bends) > 0 or max(bends) < 0:
+                ends = sorted((slope(c), slope(d)))
+                return ends[0], ends[1]
+            ours = sorted((second(a.phase, c), second(a.phase, d)))
+            theirs = sorted((second(b.phase, c + shift), second(b.phase, d + shift)))
+            return ours[0] - theirs[1], ours[1] - theirs[0]
+
+        for c, d in sign_changes(difference, bounds, low, high):
+            yield bracketed_root(difference, slope, c, d) - i * self.pitch
+
+
+def _joined(cells: list[DriveInterval]) -> list[DriveInterval]:
+    """Neighbours of one couple in one phase as one interval."""
+    found: list[DriveInterval] = []
+    for cell in cells:
+        last = found[-1] if found else None
+        if last and last.phase == cell.phase and last.couple == cell.couple:
+            found[-1] = DriveInterval(last.phase, last.start, cell.end, last.couple)
+        else:
+            found.append(cell)
+    return found

@@ -1,0 +1,175 @@
+"""One couple of teeth in contact: driven angle, speed ratio, its slope, and friction, in approach and in recess.
+
+alpha_1 = x and alpha_2 = y are the angles of the two apices from the line of centres, positive on the entry side, and
+decrease as the driver pushes. In approach the driven apex slides on the driver's flank, in recess the driver's apex on
+the driven flank. Equations are numbered as in F. Sorge, "A note on the mechanics of ancient gear systems"; they are
+written so that nothing cancels at large tooth numbers. Each function takes numbers with `m = math`, or arrays with
+`m = numpy` (2.0 or later).
+"""
+
+from __future__ import annotations
+
+import math
+from types import ModuleType
+from typing import Any
+
+from geartrain.teeth.triangular.pair_geometry import TriangularSizes
+
+APPROACH, RECESS = "approach", "recess"
+SLIP, RETURN = "slip", "return"
+"""Contact that cannot push: the driver's apex on a driven flank that leans, an apex on the far side of a leaning flank.
+
+They occur with leaning flanks only, and bound the play; the driven wheel would turn back, so it stands instead."""
+
+
+class ToothCouple:
+    """The constants of one couple of teeth, and what follows from them at any position."""
+
+    __slots__ = ("D", "R1", "R2", "cos1", "cos2", "delta", "entry", "leans", "sin1", "sin2")
+
+    def __init__(self, sizes: TriangularSizes) -> None:
+        self.R1, self.R2, self.D, self.delta = sizes.R1, sizes.R2, sizes.D, sizes.delta
+        self.sin1, self.cos1 = math.sin(sizes.beta1), math.cos(sizes.beta1)
+        self.sin2, self.cos2 = math.sin(sizes.beta2), math.cos(sizes.beta2)
+        self.entry, self.leans = math.sin(sizes.reach1 / 2), sizes.lean[0]
+
+    # ------------------------------------------------------------------------------------------------------- approach
+
+    def _line(self, x: Any, m: ModuleType) -> tuple[Any, Any, Any, Any, Any, Any]:
+        """u, sin psi, cos psi, c, s, q: psi = x + beta1 the driver's flank, s and q sine and cosine of psi + y."""
+        u, w = m.sin(x / 2), m.cos(x / 2)
+        sine, cosine = 2 * u * w, 1 - 2 * u * u
+        sin_psi = self.sin1 * cosine + self.cos1 * sine
+        cos_psi = self.cos1 * cosine - self.sin1 * sine
+        c = (2 * self.R1 * u * (self.cos1 * w - self.sin1 * u) - self.delta * sin_psi) / self.R2
+        s = sin_psi + c
+        # a flank that grazes the tip circle has s = 1, give or take its rounding
+        return u, sin_psi, cos_psi, c, s, m.sqrt(abs((1 - s) * (1 + s)))
+
+    def approach_angle(self, x: Any, m: ModuleType = math) -> Any:
+        """alpha_2 in approach, Eq. (7)."""
+        _, sin_psi, cos_psi, c, s, q = self._line(x, m)
+        return m.asin(c * (cos_psi + sin_psi * (sin_psi + s) / (cos_psi + q)))
+
+    def _driver_arm(self, u: Any, cos_psi: Any, q: Any) -> Any:
+        """R1 cos(beta1) - v, with v of Eq. (9): from the contact to the foot of O1 on the flank's line."""
+        if self.leans:  # W and its divisor vanish together; so few teeth lose nothing by the plain difference
+            return self.D * cos_psi - self.R2 * q
+        W = 4 * self.D * self.R1 * (self.entry - u) * (self.entry + u)
+        return self.R1 * self.cos1 - W / (self.D * cos_psi - self.R1 * self.cos1 + self.R2 * q)
+
+    def approach_speed(self, x: Any, m: ModuleType = math) -> Any:
+        """tau in approach, Eq. (12)."""
+        u, _, cos_psi, _, _, q = self._line(x, m)
+        return self._driver_arm(u, cos_psi, q) / (self.R2 * q)
+
+    def approach_slope(self, x: Any, m: ModuleType = math) -> Any:
+        """d tau / d alpha_1 in approach: (1 + tau) [(1 + tau) tan(psi + alpha_2) - tan psi]."""
+        u, sin_psi, cos_psi, _, s, q = self._line(x, m)
+        more = 1 + self._driver_arm(u, cos_psi, q) / (self.R2 * q)
+        return more * (more * s / q - sin_psi / cos_psi)
+
+    def approach_friction(self, x: Any, m: ModuleType = math) -> tuple[Any, Any, Any]:
+        """Side of the line of centres (sign of alpha_2), and the tangents tan2, tan1 of Eq. (32).
+
+        The driver turning wheel 2 loses eta = (1 - f side tan2) / (1 - f side tan1).
+        """
+        u, sin_psi, cos_psi, c, s, q = self._line(x, m)
+        side = m.copysign(1.0, c * (cos_psi + sin_psi * (sin_psi + s) / (cos_psi + q)))
+        return side, s / q, self.R1 * self.sin1 / self._driver_arm(u, cos_psi, q)
+
+    # --------------------------------------------------------------------------------------------------------- recess
+
+    def _apex(self, x: Any, m: ModuleType) -> tuple[Any, Any, Any, Any, Any]:
+        """sin x, cos x, arm R2 cos(beta2) - v with v of Eq. (16, lesser root), and sine and cosine of alpha_2."""
+        u = m.sin(x / 2)
+        sine, cosine = 2 * u * m.cos(x / 2), 1 - 2 * u * u
+        W = 4 * self.D * self.R1 * (self.entry - u) * (self.entry + u)
+        foot = self.R2 * self.cos2
+        arm = m.sqrt(foot * foot - W)
+        v = W / (foot + arm)
+        across, along = self.R1 * sine, self.R2 - self.delta + 2 * self.R1 * u * u
+        inner, outer = self.R2 - v * self.cos2, v * self.sin2
+        square = self.R2 * self.R2 - W
+        return sine, cosine, arm, (across * inner - along * outer) / square, (along * inner + across * outer) / square
+
+    def recess_angle(self, x: Any, m: ModuleType = math) -> Any:
+        """alpha_2 in recess, Eq. (17) with its quadrants."""
+        *_, sin_y, cos_y = self._apex(x, m)
+        return m.atan2(sin_y, cos_y)
+
+    def _turned(self, x: Any, m: ModuleType) -> tuple[Any, Any, Any, Any, Any, Any]:
+        """arm, cosine and sine of beta2 - x - y, sine and cosine of psi2 = beta2 - y, sine of x."""
+        sine, cosine, arm, sin_y, cos_y = self._apex(x, m)
+        sin_psi, cos_psi = self.sin2 * cos_y - self.cos2 * sin_y, self.cos2 * cos_y + self.sin2 * sin_y
+        return arm, cos_psi * cosine + sin_psi * sine, sin_psi * cosine - cos_psi * sine, sin_psi, cos_psi, sine
+
+    def recess_speed(self, x: Any, m: ModuleType = math) -> Any:
+        """tau in recess, Eq. (19)."""
+        arm, q, *_ = self._turned(x, m)
+        return self.R1 * q / arm
+
+    def recess_slope(self, x: Any, m: ModuleType = math) -> Any:
+        """d tau / d alpha_1 in recess: tau (1 + tau) [(1 + tau) tan(beta2 - x - y) - tau tan(beta2 - y)].
+
+        Turned back, the driven wheel meets the driver in approach at the ratio 1/tau: that slope, times tau cubed.
+        """
+        arm, q, s, sin_psi, cos_psi, _ = self._turned(x, m)
+        tau = self.R1 * q / arm
+        return tau * (1 + tau) * ((1 + tau) * s / q - tau * sin_psi / cos_psi)
+
+    def recess_friction(self, x: Any, m: ModuleType = math) -> tuple[Any, Any, Any]:
+        """Side of the line of centres (sign of alpha_1), and the tangents tan2, tan1 of Eq. (33)."""
+        arm, q, s, _, _, sine = self._turned(x, m)
+        return m.copysign(1.0, sine), self.R2 * self.sin2 / arm, s / q
+
+    # ------------------------------------------------------------------------------------------------------- returning
+
+    def return_angle(self, x: Any, m: ModuleType = math) -> Any:
+        """alpha_2 of the driven apex where, past the exit, it leaves the driver's leaning flank: the far root."""
+        _, sin_psi, cos_psi, _, s, _ = self._line(-x, m)
+        return m.asin(s) + m.atan2(sin_psi, cos_psi) - math.pi
+
+    def return_speed(self, x: Any, m: ModuleType = math) -> Any:
+        """Its derivative, below 0."""
+        _, _, cos_psi, _, _, q = self._line(-x, m)
+        return -1 - self.D * cos_psi / (self.R2 * q)
+
+    def return_slope(self, x: Any, m: ModuleType = math) -> Any:
+        """Its second derivative."""
+        _, sin_psi, cos_psi, _, s, q = self._line(-x, m)
+        more = self.D * cos_psi / (self.R2 * q)
+        return more * (more * s / q - sin_psi / cos_psi)
+
+    # ----------------------------------------------------------------------------------------------------------- both
+
+    def angle(self, phase: str, x: Any, m: ModuleType = math) -> Any:
+        """alpha_2 (rad) at alpha_1 = x (rad)."""
+        if phase == RETURN:
+            return self.return_angle(x, m)
+        return self.approach_angle(x, m) if phase == APPROACH else self.recess_angle(x, m)
+
+    def speed(self, phase: str, x: Any, m: ModuleType = math) -> Any:
+        """tau = d alpha_2 / d alpha_1."""
+        if phase == RETURN:
+            return self.return_speed(x, m)
+        return self.approach_speed(x, m) if phase == APPROACH else self.recess_speed(x, m)
+
+    def slope(self, phase: str, x: Any, m: ModuleType = math) -> Any:
+        """d tau / d alpha_1 (1/rad)."""
+        if phase == RETURN:
+            return self.return_slope(x, m)
+        return self.approach_slope(x, m) if phase == APPROACH else self.recess_slope(x, m)
+
+    def friction(self, phase: str, x: Any, m: ModuleType = math) -> tuple[Any, Any, Any]:
+        """Side and tangents: eta = (1 - f side tan2) / (1 - f side tan1)."""
+        return self.approach_friction(x, m) if phase == APPROACH else self.recess_friction(x, m)
+
+    def efficiency(self, phase: str, x: Any, f: float, m: ModuleType = math) -> Any:
+        """Sliding efficiency at friction f, Eqs. (32) and (33) corrected."""
+        side, tan2, tan1 = self.friction(phase, x, m)
+        return (1 - f * side * tan2) / (1 - f * side * tan1)
+
+    def contact(self, x: float) -> float:
+        """f(x) = min(approach, recess) for |x| up to alpha_1max: alpha_2 at first contact, whatever the phase."""
+        return float(min(self.approach_angle(x), self.recess_angle(x)))

@@ -1,0 +1,229 @@
+"""Triangular teeth as a pair declares them, and the sizes that follow from the declaration."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Annotated, Literal
+
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, WithJsonSchema, model_validator
+from pydantic_core import PydanticCustomError
+
+from geartrain.errors import GearTrainError, Problem
+from geartrain.numerics.quantity import RADIANS_PER_TURN, Angle, Figure, Length
+
+if TYPE_CHECKING:
+    from geartrain.teeth.triangular.clearance_window import ClearanceWindow
+    from geartrain.teeth.triangular.pair_geometry import TriangularSizes
+    from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
+
+_CLEARANCES = ("clearance", "excess", "backlash", "centre_distance", "window")
+_ONE_OR_TWO = {
+    "anyOf": [{"type": "string"}, {"type": "array", "items": {"type": "string"}, "minItems": 2, "maxItems": 2}]
+}
+FEWEST = 3
+_THINNEST = 0.001 / 360  # turn: thinner teeth are lines, whose valleys are lost in rounding
+TRIANGULAR_SCOPE = (
+    "the model covers external pairs of spur wheels, no rings, racks or bevels; a contrate is taken for a spur wheel"
+)
+
+
+def _one_per_wheel(raw: object) -> object:
+    return raw if isinstance(raw, list | tuple) else (raw, raw)
+
+
+class Triangular(BaseModel):
+    """Triangular teeth: straight flanks that meet in a point."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
+
+    form: Literal["triangular"] = Field(description="The name of this form")
+    half_angle: Annotated[tuple[Angle, Angle], BeforeValidator(_one_per_wheel), WithJsonSchema(_ONE_OR_TWO)] = Field(
+        description="Half the aperture of a tooth, between 0 and 90 deg; a list of two gives one for each wheel"
+    )
+    clearance: Figure | None = Field(
+        None, description="Centre distance over its least, where a tip would touch the bottom of a space; above 1"
+    )
+    excess: Figure | None = Field(None, description="Clearance factor less 1, above 0")
+    backlash: Length | None = Field(
+        None, description="Least play over a pitch, as an arc of the second wheel's pitch circle"
+    )
+    centre_distance: Length | None = Field(None, description="Distance of the two axes")
+    window: Figure | None = Field(
+        None, description="Where between jamming (0) and losing contact (1) the clearance lies"
+    )
+    radii: Literal["equal_depth", "pitch_true"] | tuple[Length, Length] = Field(
+        "equal_depth",
+        description="How the outer radii follow from the tooth numbers, or the two radii themselves",
+    )
+
+    @model_validator(mode="after")
+    def _parameters_make_sense(self) -> Triangular:
+        for angle in self.half_angle:
+            turns = angle.si / RADIANS_PER_TURN
+            if not _THINNEST <= turns < 0.25:
+                within = "outside 0 to 90 deg" if not 0 < turns < 0.25 else "thinner than any tooth can be cut"
+                raise PydanticCustomError(
+                    "half_angle",
+                    "half_angle {angle} is {within}",
+                    {
+                        "angle": angle.text,
+                        "within": within,
+                        "fix": "a triangular tooth has a half aperture between 0 and 90 deg, and 0.001 deg at least",
+                    },
+                )
+        given = [name for name in _CLEARANCES if getattr(self, name) is not None]
+        if len(given) != 1:
+            raise PydanticCustomError(
+                "clearance",
+                "the clearance is given {count} times",
+                {"count": len(given), "fix": f"give exactly one of: {', '.join(_CLEARANCES)}"},
+            )
+        self._check_clearance()
+        self._check_lengths()
+        return self
+
+    def _check_clearance(self) -> None:
+        bounds = (
+            (self.clearance, 1, None, "a clearance factor is above 1: at 1 a tip touches the bottom of a space"),
+            (self.excess, 0, None, "an excess is above 0: at 0 a tip touches the bottom of a space"),
+            (self.window, 0, 1, "a window's fraction lies between 0, jamming, and 1, losing contact"),
+        )
+        for figure, low, high, fix in bounds:
+            if figure is None:
+                continue
+            inside = figure.value > low if high is None else low <= figure.value <= high
+            if not inside:
+                name = next(name for name in _CLEARANCES if getattr(self, name) is figure)
+                raise PydanticCustomError(
+                    "clearance", "{name} {text} is out of range", {"name": name, "text": figure.text, "fix": fix}
+                )
+
+    def _check_lengths(self) -> None:
+        lengths = {"backlash": self.backlash, "centre_distance": self.centre_distance}
+        if not isinstance(self.radii, str):
+            lengths |= {"first radius": self.radii[0], "second radius": self.radii[1]}
+        given = {name: length for name, length in lengths.items() if length is not None}
+        for name, length in given.items():
+            if length.value < 0 or (name != "backlash" and length.value == 0):
+                raise PydanticCustomError(
+                    "length",
+                    "{name} {text} is no length",
+                    {"name": name, "text": length.text, "fix": "write it above 0"},
+                )
+        if len({length.unit is None for length in given.values()}) > 1:
+            raise PydanticCustomError(
+                "length",
+                "{names} mix plain numbers and lengths with a unit",
+                {"names": ", ".join(given), "fix": "give all with a unit, or all without"},
+            )
+
+    # ------------------------------------------------------------------------------------------------------- a pair
+
+    def sizes(self, z1: int, z2: int, pitch_distance: float | None = None) -> TriangularSizes:
+        """The sizes of a pair in m, or in the unit of plain radii, or with R1 = 1 where nothing gives a length.
+
+        pitch_distance   m: half the module of each wheel times its teeth, summed; the least centre distance
+        Raises `GearTrainError` where the declaration does not give a pair that can be built.
+        """
+        from geartrain.teeth.triangular.pair_geometry import TriangularSizes, equal_depth, pitch_true
+
+        for z in (z1, z2):
+            if z < FEWEST:
+                what = f"a wheel of {z} {'tooth' if z == 1 else 'teeth'} has no triangular teeth"
+                raise _error(what, TRIANGULAR_SCOPE, f"give at least {FEWEST} teeth, or another tooth_form")
+        beta1, beta2 = (angle.si for angle in self.half_angle)
+        if self.radii == "pitch_true":
+            R1, R2 = pitch_true(z1, z2)
+        elif self.radii == "equal_depth":
+            R1, R2 = equal_depth(z1, z2, beta1, beta2)
+        else:
+            R1, R2 = (radius.si for radius in self.radii)
+        sizes = TriangularSizes(z1, z2, R1, R2, beta1, beta2, 0.0)
+        if not sizes.has_valleys:
+            return sizes.at(self._factor())
+        if isinstance(self.radii, str) and pitch_distance is not None:
+            scale = pitch_distance / sizes.least_distance
+            sizes = TriangularSizes(z1, z2, R1 * scale, R2 * scale, beta1, beta2, 0.0)
+        if self.clearance is not None or self.excess is not None:
+            return sizes.at(self._factor())
+        if self.window is not None:
+            window = sizes_window(sizes)
+            return sizes.at(window.at(float(self.window.value)))
+        length = self.centre_distance or self.backlash
+        assert length is not None
+        if isinstance(self.radii, str) and (pitch_distance is None or length.unit is None):
+            raise _error(
+                f"the length {length.text} has nothing to be compared with",
+                "neither radii nor modules with a unit give these wheels a size",
+                "give `radii: [first, second]` or the `module` of both wheels, or the clearance as a factor",
+            )
+        if self.centre_distance is not None:
+            return sizes.at(self.centre_distance.si / sizes.least_distance - 1)
+        return sizes.at(_excess_of_backlash(sizes, length.si, length.text))
+
+    def _factor(self) -> float:
+        """The declared excess, taken exactly before it is rounded."""
+        if self.excess is not None:
+            return float(self.excess.value)
+        return float(self.clearance.value - 1) if self.clearance is not None else 0.0
+
+    def law(
+        self,
+        z1: int,
+        z2: int,
+        friction: float = 0.0,
+        driver: int = 1,
+        direction: int = 1,
+        pitch_distance: float | None = None,
+    ) -> TriangularTransmission:
+        """The transmission law of a pair. `driver` 2 lets the second wheel drive, `direction` -1 turns backwards."""
+        from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
+
+        sizes = self.sizes(z1, z2, pitch_distance)
+        return TriangularTransmission(sizes if driver == 1 else sizes.swapped(), friction, direction)
+
+
+def refusal(kinds: tuple[str, str], internal: bool) -> str:
+    """Why a pair cannot have triangular teeth; empty if it can."""
+    if internal:
+        return "a ring has its teeth inside"
+    odd = [kind for kind in kinds if kind not in ("spur", "contrate")]
+    return f"a {odd[0]} wheel does not mesh as two spur wheels do" if odd else ""
+
+
+def sizes_window(sizes: TriangularSizes) -> ClearanceWindow:
+    """The window of a pair. Raises `GearTrainError` where no clearance works."""
+    from geartrain.teeth.triangular.clearance_window import find_window
+
+    window = find_window(sizes)
+    if not window:
+        raise _error(
+            f"no clearance lets {sizes.z1} and {sizes.z2} triangular teeth turn",
+            f"up to a factor of {1 + window.jam:.6g} there is {window.jam_kind}, and from {1 + window.run:.6g} on "
+            f"{window.run_kind}",
+            "use more teeth, a ratio nearer to 1, or another half_angle",
+        )
+    return window
+
+
+def _excess_of_backlash(sizes: TriangularSizes, backlash: float, text: str) -> float:
+    """The excess whose least play, on the second wheel's pitch circle, is `backlash`; play only grows with excess."""
+    from geartrain.numerics.roots import root
+    from geartrain.teeth.triangular.clearance_window import TriangularContact
+
+    def play(excess: float) -> float:
+        D = (1 + excess) * sizes.least_distance
+        return TriangularContact(sizes.at(excess)).play * D * sizes.z2 / (sizes.z1 + sizes.z2)
+
+    low, high = 0.0, sizes.greatest_excess * (1 - 1e-9)
+    least, most = play(low), play(high)
+    if not least <= backlash <= most:
+        raise _error(
+            f"no clearance gives a backlash of {text}",
+            f"these teeth have from {max(least, 0):.6g} to {most:.6g} (in m, or the plain unit)",
+            "give a backlash between the two",
+        )
+    return root(lambda excess: play(excess) - backlash, low, high, least - backlash, most - backlash)
+
+
+def _error(what: str, why: str, fix: str) -> GearTrainError:
+    return GearTrainError(Problem(what, why, fix))

@@ -1,0 +1,344 @@
+"""The transmission law of triangular teeth, vectorised over driver angles."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cached_property, lru_cache
+from itertools import pairwise
+from math import inf, nan, sqrt
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from geartrain.errors import Problem, RangeError
+from geartrain.numerics.roots import bracketed_root
+from geartrain.teeth.transmission import TransmissionFunction, behind, check_friction
+from geartrain.teeth.triangular.clearance_window import TriangularContact, TriangularVerdict
+from geartrain.teeth.triangular.pair_geometry import TriangularSizes
+from geartrain.teeth.triangular.real_path import DriveInterval
+from geartrain.teeth.triangular.tooth_couple import APPROACH
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
+
+    from geartrain.numerics.arrays import Floats
+
+
+_BLOCK = 16384  # samples worked on at once: their intermediate arrays stay in a cache
+_GAUSS = np.polynomial.legendre.leggauss(20)  # nodes and weights on each smooth stretch
+_ROUNDING = 1e-14  # of the mean of tau: what a stretch may be off by
+_DEEPEST = 40  # halvings of a stretch
+
+
+@dataclass(frozen=True, slots=True)
+class SpeedJump:
+    """A collision: tau before and after, and the relative jump 1 - before/after of Eqs. (22), (25), (26), (27).
+
+    `kind` is the phase that begins, or "matching" where the flank of one couple falls on the other's.
+    """
+
+    kind: str
+    alpha1: float
+    before: float
+    after: float
+
+    @property
+    def value(self) -> float:
+        """Relative jump of the normal velocity."""
+        return 1 - self.before / self.after
+
+
+def matches(last: DriveInterval, new: DriveInterval, pitch: float) -> bool:
+    """True if one couple goes on from flank to flank, through the position where they match."""
+    faces = last.held is None and new.held is None and last.phase != new.phase
+    return faces and abs(last.end - new.start) < 1e-9 * pitch
+
+
+@lru_cache(maxsize=4096)
+def _contact(sizes: TriangularSizes) -> TriangularContact:
+    """Equal pairs of a long train share one contact."""
+    return TriangularContact(sizes)
+
+
+class TriangularTransmission(TransmissionFunction):
+    """The law of a pair of wheels, the first of `sizes` driving.
+
+    `direction` -1 turns backwards: angles S and q keep their sense and decrease, and the back flanks drive. The law of
+    a pair that stands still at each pitch has those standstills; that of a pair that jams or clashes is what its front
+    flanks alone would do.
+    """
+
+    def __init__(self, sizes: TriangularSizes, friction: float = 0.0, direction: int = 1) -> None:
+        self.sizes, self.friction, self.direction = sizes, check_friction(friction), direction
+        self.ratio, self.period = Fraction(sizes.z1, sizes.z2), sizes.p1
+        self.contact = _contact(sizes)
+
+    @property
+    def intervals(self) -> tuple[DriveInterval, ...]:
+        """The real path: what drives, in order of time, one pitch of the driver in all."""
+        return self.contact.intervals
+
+    @property
+    def verdict(self) -> TriangularVerdict:
+        """Whether the pair can turn."""
+        return self.contact.verdict
+
+    # ---------------------------------------------------------------------------------------------------- over samples
+
+    def error(self, S: ArrayLike) -> Floats:
+        """Transmission error (rad of the driven wheel) at driver angles S (rad)."""
+        lag = self._map(S, self._lag)
+        return -lag if self.direction > 0 else self.sizes.p2 + lag
+
+    def speed(self, S: ArrayLike) -> Floats:
+        """tau at driver angles S (rad)."""
+        return self._map(S, self._tau)
+
+    def efficiency(self, S: ArrayLike) -> Floats:
+        """Sliding efficiency at driver angles S (rad); NaN in a standstill."""
+        return self._map(S, self._eta)
+
+    def error_and_speed(self, S: ArrayLike) -> tuple[Floats, Floats]:
+        """Transmission error (rad of the driven wheel) and tau; where in the path an angle falls is found once."""
+        lag, tau = self._map_all(S, (self._lag, self._tau))
+        return (-lag if self.direction > 0 else self.sizes.p2 + lag), tau
+
+    def turned_back(self) -> TriangularTransmission:
+        """The law of the other flanks; angles keep their sense and decrease."""
+        return TriangularTransmission(self.sizes, self.friction, -self.direction)
+
+    def alpha1(self, S: ArrayLike) -> Floats:
+        """alpha_1 (rad) of the couple that drives at driver angles S (rad)."""
+        return self._map(S, lambda interval, x: x)
+
+    def _map(self, S: ArrayLike, what: Callable[[DriveInterval, Floats], Any]) -> Floats:
+        return self._map_all(S, (what,))[0]
+
+    def _map_all(self, S: ArrayLike, what: Sequence[Callable[[DriveInterval, Floats], Any]]) -> list[Floats]:
+        S = np.asarray(S, dtype=float)
+        flat = S.ravel()
+        found = [np.empty_like(flat) for _ in what]
+        for start in range(0, len(flat), _BLOCK):
+            part = slice(start, start + _BLOCK)
+            self._block(flat[part], what, [each[part] for each in found])
+        return [each.reshape(S.shape) for each in found]
+
+    def _block(
+        self, S: Floats, what: Sequence[Callable[[DriveInterval, Floats], Any]], found: Sequence[Floats]
+    ) -> None:
+        edges, gone = self._edges, np.empty_like(S)
+        behind(S if self.direction > 0 else -S, self.period, gone, np.empty_like(S))
+        gone += self._start
+        gone -= np.where(gone < self.period, 0.0, self.period)
+        if len(self.intervals) == 1:
+            for each, function in zip(found, what, strict=True):
+                each[:] = function(self.intervals[0], self.intervals[0].start - gone)
+            return
+        which = np.searchsorted(edges[1:-1], gone, side="right")
+        for at, interval in enumerate(self.intervals):
+            chosen = np.flatnonzero(which == at)
+            x = interval.start - (gone[chosen] - edges[at])
+            for each, function in zip(found, what, strict=True):
+                each[chosen] = function(interval, x)
+
+    @cached_property
+    def _driven(self) -> tuple[DriveInterval, ...]:
+        """The real path. Raises `RangeError` for a pair that has none: it has no law."""
+        if not self.intervals:
+            what = "give a clearance within the window of the pair, or teeth that exist"
+            raise RangeError(Problem(self.verdict.text, "these teeth have no law", what))
+        return self.intervals
+
+    @cached_property
+    def _start(self) -> float:
+        """Where the first interval starts, as a position within the pitch of the line of centres."""
+        first = self._driven[0]
+        return (first.start - first.couple * self.period) % self.period
+
+    @cached_property
+    def _edges(self) -> Floats:
+        """The driver's angle from the start of the first interval to the edges of all."""
+        return np.concatenate(([0.0], np.cumsum([interval.width for interval in self._driven])))
+
+    def corners(self) -> list[float]:
+        """Driver angles (rad) at the ends of all stretches."""
+        edges = dict(zip(self.intervals, self._edges.tolist(), strict=False))
+        angles = [edges[interval] + interval.start - high - self._start for interval, high, _ in self.stretches]
+        return [self.direction * angle for angle in angles]
+
+    def _lag(self, interval: DriveInterval, x: Any) -> Any:
+        if interval.held is not None:
+            return interval.held - self.sizes.ratio * x
+        return self.contact.path.couple.angle(interval.phase, x, np) - self.sizes.ratio * x
+
+    def _tau(self, interval: DriveInterval, x: Any) -> Any:
+        return 0.0 if interval.held is not None else self.contact.path.couple.speed(interval.phase, x, np)
+
+    def _eta(self, interval: DriveInterval, x: Any) -> Any:
+        if interval.held is not None:
+            return nan
+        return self.contact.path.couple.efficiency(interval.phase, x, self.friction, np)
+
+    # ------------------------------------------------------------------------------------------------ over the pitch
+
+    @cached_property
+    def stretches(self) -> list[tuple[DriveInterval, float, float]]:
+        """The intervals cut where something has a corner: where tau turns, and at the line of centres."""
+        return [
+            (interval, high, low)
+            for interval in self._driven
+            for high, low in pairwise(sorted({interval.start, interval.end, *self._corners(interval)}, reverse=True))
+        ]
+
+    def _corners(self, interval: DriveInterval) -> Iterator[float]:
+        if interval.held is not None:
+            return
+        low, high = interval.end, interval.start
+        yield from (piece.low for piece in self.contact.path.pieces if low < piece.low < high)
+        centre = self._line_of_centres(interval.phase)
+        if low < centre < high:
+            yield centre
+
+    def _line_of_centres(self, phase: str) -> float:
+        """alpha_1 where the contact is on the line of centres: there sliding turns round."""
+        if phase != APPROACH:
+            return 0.0
+        couple = self.contact.path.couple
+        low, high = max(self.sizes.matching, -self.sizes.reach1), self.sizes.reach1
+        if not couple.approach_angle(low) < 0 < couple.approach_angle(high):
+            return inf
+        return bracketed_root(couple.approach_angle, couple.approach_speed, low, high)
+
+    @cached_property
+    def nodes(self) -> list[tuple[DriveInterval, Floats, Floats]]:
+        """Each stretch with nodes in alpha_1 and weights whose sum over all stretches is 1."""
+        return [node for stretch in self.stretches for node in self._graded(self._tau, *stretch)]
+
+    def _graded(
+        self,
+        what: Callable[[DriveInterval, Floats], Any],
+        interval: DriveInterval,
+        high: float,
+        low: float,
+        depth: int = 0,
+    ) -> list[tuple[DriveInterval, Floats, Floats]]:
+        """Nodes on one stretch, halved until `what` is integrated to rounding: near a grazing flank tau is steep."""
+        x, weights = self._gauss(high, low)
+        middle = (high + low) / 2
+        halves = [self._gauss(high, middle), self._gauss(middle, low)]
+        whole = float(weights @ np.broadcast_to(what(interval, x), x.shape))
+        finer = sum(float(w @ np.broadcast_to(what(interval, y), y.shape)) for y, w in halves)
+        if abs(finer - whole) <= _ROUNDING * max(self.sizes.ratio, abs(finer)) or depth == _DEEPEST:
+            return [(interval, x, weights)]
+        ends = ((high, middle), (middle, low))
+        return [node for pair in ends for node in self._graded(what, interval, *pair, depth + 1)]
+
+    def _gauss(self, high: float, low: float) -> tuple[Floats, Floats]:
+        points, weights = _GAUSS
+        return (high + low) / 2 + (high - low) / 2 * points, (high - low) / 2 / self.period * weights
+
+    def _ends(self, what: Callable[[DriveInterval, Any], Any]) -> list[float]:
+        return [float(what(interval, x)) for interval, high, low in self.stretches for x in (high, low)]
+
+    def speed_range(self) -> tuple[float, float]:
+        """Least and greatest tau; it is monotone between corners."""
+        ends = self._ends(self._tau)
+        return min(ends), max(ends)
+
+    def error_range(self) -> tuple[float, float]:
+        """Least and greatest transmission error (rad of the driven wheel)."""
+        lags = self._ends(self._lag)
+        for interval, high, low in self.stretches:
+            if interval.held is None:
+                lags += self.contact.path.extremes(interval.phase, low, high)
+        if self.direction > 0:
+            return -max(lags), -min(lags)
+        return self.sizes.p2 + min(lags), self.sizes.p2 + max(lags)
+
+    def error_moments(self) -> tuple[float, float]:
+        """Mean and rms of the transmission error (rad of the driven wheel)."""
+        lags = [(self._lag(interval, x), weights) for interval, x, weights in self.nodes]
+        mean = sum(float(weights @ lag) for lag, weights in lags)
+        square = sum(float(weights @ (lag - mean) ** 2) for lag, weights in lags)
+        return (-mean if self.direction > 0 else self.sizes.p2 + mean), sqrt(square)
+
+    def efficiency_mean(self) -> float:
+        """Mean over the driver's angle in contact at constant driver torque, Eq. (34); NaN where friction locks."""
+        if self.friction >= self.locking_friction:
+            return nan
+        return self._contact_mean(lambda interval, x: self._eta(interval, x))
+
+    def efficiency_at_constant_load(self) -> float:
+        """Work done on a constant load torque over the work put in, per pitch; NaN where friction locks."""
+        if self.friction >= self.locking_friction:
+            return nan
+        turned = self._contact_mean(self._tau)
+        return turned / self._contact_mean(lambda interval, x: self._tau(interval, x) / self._eta(interval, x))
+
+    def _contact_mean(self, what: Callable[[DriveInterval, Any], Any]) -> float:
+        """Mean over the driver's angle in contact; near the locking friction 1/eta is steeper than tau."""
+        stretches = [stretch for stretch in self.stretches if stretch[0].held is None]
+        held = [node for stretch in stretches for node in self._graded(what, *stretch)]
+        whole = sum(float(weights.sum()) for _, _, weights in held)
+        return sum(float(weights @ what(interval, x)) for interval, x, weights in held) / whole
+
+    def efficiency_least(self) -> float:
+        """Least sliding efficiency: at an end of a stretch, or within, looked for with a thousand samples each."""
+        least = inf
+        for interval, high, low in self.stretches:
+            if interval.held is None:
+                # the line of centres itself belongs to both sides, where nothing is lost
+                x = np.linspace(high, low, 1001)
+                x[[0, -1]] = high - 1e-12 * (high - low), low + 1e-12 * (high - low)
+                least = min(least, float(self._eta(interval, x).min()))
+        return least
+
+    @cached_property
+    def locking_friction(self) -> float:
+        """The friction at which some point of the real path locks, f tan = 1 before the line of centres; else inf."""
+        steepest = 0.0
+        for interval, high, low in self.stretches:
+            if interval.held is None:
+                x = np.linspace(high, low, 101)
+                side, tan2, tan1 = self.contact.path.couple.friction(interval.phase, x, np)
+                inner = side[50] > 0
+                steepest = max(steepest, float(np.maximum(tan2, tan1).max()) if inner else 0.0)
+        return 1 / steepest if steepest else inf
+
+    def steepest_fall(self) -> float:
+        """Greatest d tau / d alpha_1 (1/rad): as tau falls, the driven inertia J runs ahead of a slack drive.
+
+        The quasi-static law holds while the load torque is at least J omega_1^2 times this.
+        """
+        couple = self.contact.path.couple
+        steepest = 0.0
+        for interval, high, low in self.stretches:
+            if interval.held is None:
+                steepest = max(steepest, float(couple.slope(interval.phase, np.linspace(high, low, 101), np).max()))
+        return steepest
+
+    @cached_property
+    def jumps(self) -> list[SpeedJump]:
+        """Every collision of a pitch, in order of time."""
+        found = []
+        for last, new in zip(self._driven, (*self._driven[1:], self._driven[0]), strict=True):
+            if new.held is not None:
+                continue
+            before, after = self.contact.speed(last, last.end), self.contact.speed(new, new.start)
+            found.append(
+                SpeedJump("matching" if matches(last, new, self.period) else new.phase, new.start, before, after)
+            )
+        return found
+
+    def impact(self, inertia: float, omega1: float) -> tuple[float, float, float]:
+        """Energies of one pitch's collisions (J): handed to the driven side, dissipated, and their sum.
+
+        Inelastic, the driver at constant speed omega1 (rad/s), `inertia` (kg m2) all that turns with the driven wheel.
+        The source counts the first as lost; what is lost is the second, and the driver's work is their sum.
+        """
+        scale = inertia * omega1**2
+        handed = sum((jump.after**2 - jump.before**2) / 2 for jump in self.jumps) * scale
+        dissipated = sum((jump.after - jump.before) ** 2 / 2 for jump in self.jumps) * scale
+        return handed, dissipated, handed + dissipated

@@ -1,0 +1,91 @@
+"""What the declared parts share: strictness, names, short forms."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, Literal, Self, TypeVar
+
+from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, WithJsonSchema
+from pydantic_core import PydanticCustomError
+
+from geartrain.numerics.containers import FrozenDict
+
+MOST_TEETH = 10**12
+
+Status = Literal["surviving", "reconstructed", "hypothetical"]
+
+
+class Declared(BaseModel):
+    """What all declared parts share: frozen, no unknown keys, numbers welcome as names."""
+
+    model_config = ConfigDict(
+        frozen=True, extra="forbid", coerce_numbers_to_str=True, populate_by_name=True, defer_build=True
+    )
+
+    def changed(self, **update: Any) -> Self:
+        """A copy with other fields, which remembers nothing that was derived from the old ones."""
+        copy = self.model_copy(update=update)
+        for name in [name for name in copy.__dict__ if name not in type(self).model_fields]:
+            del copy.__dict__[name]
+        return copy
+
+
+def _count(raw: object) -> int:
+    """A tooth count: a positive integer up to 10^12."""
+    try:
+        number = raw if type(raw) is int else int(raw) if isinstance(raw, str) and len(raw) <= 30 else None
+    except ValueError:
+        number = None
+    if number is not None and 0 < number <= MOST_TEETH and str(raw).isascii():
+        return number
+    shown = str(raw) if len(str(raw)) <= 30 else str(raw)[:27] + "..."
+    raise PydanticCustomError(
+        "teeth",
+        "{shown} is not a tooth count",
+        {"shown": shown, "fix": "a tooth count is a whole number from 1 to 10^12"},
+    )
+
+
+def _boolean(raw: object) -> bool:
+    """true or false, as YAML 1.2 writes them; `yes` and `no` are names there."""
+    if isinstance(raw, bool):
+        return raw
+    if isinstance(raw, str) and raw.lower() in ("true", "false"):
+        return raw.lower() == "true"
+    raise PydanticCustomError(
+        "boolean", "'{raw}' is neither true nor false", {"raw": str(raw), "fix": "write true or false"}
+    )
+
+
+def side(raw: object) -> object:
+    """1 or -1, also from text."""
+    return int(raw) if raw in ("1", "+1", "-1") else raw
+
+
+def short_for(key: str) -> BeforeValidator:
+    """A bare value stands for `{key: value}`; nothing stands for `{}`."""
+
+    def expand(raw: object) -> object:
+        if raw is None:
+            return {}
+        return raw if isinstance(raw, dict | BaseModel) else {key: raw}
+
+    return BeforeValidator(expand)
+
+
+def _empty_for_nothing(raw: object) -> object:
+    return {} if raw is None else raw
+
+
+def also(kind: Any, schema: dict[str, Any]) -> dict[str, Any]:
+    """A JSON schema that accepts a short form too."""
+    return {"anyOf": [kind, schema]}
+
+
+Id = Annotated[str, WithJsonSchema({"type": ["string", "number"]})]
+"""A name, as written: numbers are names too."""
+Part = TypeVar("Part")
+ByName = Annotated[dict[Id, Part], AfterValidator(FrozenDict)]
+"""Parts by name, frozen."""
+Count = Annotated[int, BeforeValidator(_count)]
+Boolean = Annotated[bool, BeforeValidator(_boolean)]
+Nothing = BeforeValidator(_empty_for_nothing)

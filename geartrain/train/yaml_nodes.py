@@ -1,0 +1,291 @@
+"""YAML by the 1.2 core rules, as nodes that know where they were written.
+
+Every scalar stays the text it was: `1:30`, `010`, `no` and `1.0000` reach the models unharmed. Only a plain
+null is nothing. Nesting, values and the expansion of aliases are bounded, keys are unique, tags are refused. Plain
+data of Python become nodes too, so that what is done with a file can be done with them.
+
+Plain data of a declaration as the text of a YAML file.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+import yaml
+
+from geartrain.errors import MOST_TOLD, DeclarationError, Loc, Problem, dotted
+
+MOST_DEPTH = 32
+MOST_VALUES = 3_000_000  # some 200,000 links; the parser needs a quarter of a kilobyte for each
+MOST_EXPANDED = 1_000_000
+_NULLS = {"", "~", "null", "Null", "NULL"}
+_TAGS = {f"tag:yaml.org,2002:{kind}" for kind in ("str", "int", "float", "bool", "null", "seq", "map")}
+
+_Loader: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
+
+
+@dataclass(slots=True)
+class YamlNode:
+    """A mapping, a list, a scalar or nothing, with the place it was written at.
+
+    value  of a file, every scalar is the text it was; of plain data, it is the object given
+    keys   for a mapping, the place of each key
+    size   number of nodes when all aliases are written out
+    """
+
+    value: Any
+    place: str
+    keys: dict[str, str] = field(default_factory=dict)
+    size: int = 1
+
+    @property
+    def mapping(self) -> dict[str, YamlNode]:
+        """The entries, or none if this is no mapping."""
+        return self.value if isinstance(self.value, dict) else {}
+
+    @property
+    def items(self) -> list[YamlNode]:
+        """The elements, or none if this is no list."""
+        return self.value if isinstance(self.value, list) else []
+
+    @property
+    def text(self) -> str:
+        """The scalar as text, or "" if this is none."""
+        return "" if self.value is None or isinstance(self.value, dict | list) else str(self.value)
+
+    def plain(self) -> Any:
+        """The data without its places."""
+        if isinstance(self.value, dict):
+            return {key: node.plain() for key, node in self.value.items()}
+        if isinstance(self.value, list):
+            return [node.plain() for node in self.value]
+        return self.value
+
+    def place_of(self, loc: Loc) -> str:
+        """The place of the value at `loc`; steps that are not in the file are passed over."""
+        node, place = self, self.place
+        for step in loc:
+            if isinstance(node.value, dict) and str(step) in node.value:
+                place = node.keys.get(str(step), place)
+                node = node.value[str(step)]
+            elif isinstance(node.value, list) and isinstance(step, int) and step < len(node.value):
+                node = node.value[step]
+                place = node.place
+        return place
+
+
+def parse_yaml(text: str, name: str) -> YamlNode:
+    """The one document of `text`. `name` is what places call it. Raises `DeclarationError`."""
+    builder = _Builder(name)
+    try:
+        for event in yaml.parse(text, Loader=_Loader):
+            builder.take(event)
+    except yaml.MarkedYAMLError as error:
+        raise DeclarationError(_syntax(error, name, text)) from None
+    except (yaml.YAMLError, RecursionError) as error:
+        raise DeclarationError(
+            Problem("this is not YAML", str(error).splitlines()[0], "save it as UTF-8 text", name)
+        ) from None
+    return builder.finish()
+
+
+def _syntax(error: yaml.MarkedYAMLError, name: str, text: str) -> Problem:
+    mark = error.problem_mark or error.context_mark
+    place = f"{name}:{mark.line + 1}" if mark else name
+    why = " ".join(part for part in (error.context, error.problem) if part)
+    lines = text.splitlines()
+    if mark and mark.line < len(lines) and "\t" in lines[mark.line]:
+        return Problem("a tab stands here", "YAML is indented with spaces only", "replace the tab by spaces", place)
+    return Problem(
+        "the YAML cannot be read here",
+        why,
+        "check indentation, brackets, quotes and colons near this line",
+        place,
+    )
+
+
+class _Builder:
+    """Builds nodes from parser events without recursion."""
+
+    def __init__(self, name: str) -> None:
+        self.name = name
+        self.root: YamlNode | None = None
+        self.open: list[tuple[YamlNode, list[tuple[str, str] | None]]] = []
+        self.anchors: dict[str, YamlNode] = {}
+        self.unfinished: set[int] = set()
+        self.problems: list[Problem] = []
+        self.values = self.expanded = 0
+
+    def take(self, event: yaml.Event) -> None:
+        """One event of the parser."""
+        self.values += 1
+        if self.values > MOST_VALUES:
+            why = f"a file has at most {MOST_VALUES} values"
+            raise DeclarationError(Problem("the file is too large", why, "build the train in Python", self.name))
+        if len(self.problems) > MOST_TOLD + 1:
+            raise DeclarationError(self.problems)
+        place = f"{self.name}:{event.start_mark.line + 1}" if event.start_mark else self.name
+        match event:
+            case yaml.ScalarEvent():
+                self._check_tag(event.tag, place)
+                plain = event.implicit[0] and event.value in _NULLS and event.style in (None, "")
+                self._put(YamlNode(None if plain else event.value, place), event.anchor, place)
+            case yaml.MappingStartEvent() | yaml.SequenceStartEvent():
+                self._check_tag(event.tag, place)
+                node = YamlNode({} if isinstance(event, yaml.MappingStartEvent) else [], place)
+                if len(self.open) >= MOST_DEPTH:
+                    raise DeclarationError(
+                        Problem(
+                            "nested too deeply",
+                            f"a declaration needs fewer than {MOST_DEPTH} levels",
+                            "check the brackets",
+                            place,
+                        )
+                    )
+                if event.anchor:
+                    self.anchors[event.anchor] = node
+                self.unfinished.add(id(node))
+                self.open.append((node, [None]))
+            case yaml.MappingEndEvent() | yaml.SequenceEndEvent():
+                node, _ = self.open.pop()
+                self.unfinished.discard(id(node))
+                self._put(node, None, node.place)
+            case yaml.AliasEvent():
+                self._put(self._alias(event.anchor, place), None, place)
+            case yaml.DocumentStartEvent() if self.root is not None:
+                raise DeclarationError(
+                    Problem("a second document begins", "a file declares one train", "split the file", place)
+                )
+
+    def _alias(self, anchor: str | None, place: str) -> YamlNode:
+        target = self.anchors.get(anchor or "")
+        if target is None or id(target) in self.unfinished:
+            what = f"alias '*{anchor}' " + ("contains itself" if target else "points at no anchor")
+            raise DeclarationError(
+                Problem(
+                    what,
+                    "an alias repeats a finished value",
+                    f"write the value out, or set '&{anchor}' before",
+                    place,
+                )
+            )
+        self.expanded += target.size
+        if self.expanded > MOST_EXPANDED:
+            raise DeclarationError(
+                Problem(
+                    "the aliases expand without bound",
+                    f"written out they make more than {MOST_EXPANDED} values",
+                    "write the values out",
+                    place,
+                )
+            )
+        return target
+
+    def _check_tag(self, tag: str | None, place: str) -> None:
+        if tag and tag != "!" and tag not in _TAGS:
+            raise DeclarationError(
+                Problem(f"tag '{tag}' is not used here", "a declaration is plain data", "remove the tag", place)
+            )
+
+    def _put(self, node: YamlNode, anchor: str | None, place: str) -> None:
+        if anchor:
+            self.anchors[anchor] = node
+        if not self.open:
+            self.root = node
+            return
+        parent, pending = self.open[-1]
+        if isinstance(parent.value, list):
+            parent.value.append(node)
+            parent.size += node.size
+        elif pending[0] is None:
+            if not isinstance(node.value, str):
+                text = "null" if node.value is None else "a list or mapping"
+                self.problems.append(
+                    Problem(f"{text} is used as a key", "keys are names", "quote it, or give a name", place)
+                )
+            key = node.text if isinstance(node.value, str) else f"?{place}"
+            pending[0] = (key, place)
+        else:
+            key, key_place = pending[0]
+            pending[0] = None
+            if key in parent.mapping:
+                self.problems.append(
+                    Problem(
+                        f"key '{key}' stands twice",
+                        f"it is also at {parent.keys[key]}, and one would be lost",
+                        "rename or remove one",
+                        key_place,
+                    )
+                )
+            parent.mapping[key] = node
+            parent.keys[key] = key_place
+            parent.size += node.size
+
+    def finish(self) -> YamlNode:
+        """The root, after all problems have been told."""
+        if self.problems:
+            raise DeclarationError(self.problems)
+        if self.root is None or self.root.value is None:
+            raise DeclarationError(
+                Problem("the declaration is empty", "nothing is declared", "begin with `links:`", self.name)
+            )
+        if not isinstance(self.root.value, dict):
+            raise DeclarationError(
+                Problem(
+                    "the declaration is not a mapping",
+                    "a train is declared by keys such as links and gears",
+                    "begin with `links:`",
+                    self.root.place,
+                )
+            )
+        return self.root
+
+
+def node_from_data(data: Any, loc: Loc = ()) -> YamlNode:
+    """Plain data as nodes, whose places are their paths. Raises `DeclarationError` for data nested too deeply."""
+    place = dotted(loc)
+    if len(loc) > MOST_DEPTH:
+        why = f"a declaration needs fewer than {MOST_DEPTH} levels"
+        raise DeclarationError(Problem("nested too deeply", why, "check the brackets", place))
+    if isinstance(data, Mapping):
+        entries = {str(key): node_from_data(value, (*loc, str(key))) for key, value in data.items()}
+        return YamlNode(entries, place, {key: node.place for key, node in entries.items()})
+    if isinstance(data, list | tuple):
+        return YamlNode([node_from_data(value, (*loc, at)) for at, value in enumerate(data)], place)
+    return YamlNode(data, place)
+
+
+def texts(node: YamlNode | None) -> Iterator[str]:
+    """The texts of a list node."""
+    return (item.text for item in node.items) if node else iter(())
+
+
+def as_yaml(data: Mapping[str, Any]) -> str:
+    """YAML text that `load` reads back as the same declaration: parts of a train one a line, keys in their order."""
+    return "".join(_section(key, value) for key, value in data.items())
+
+
+def _section(key: str, value: Any) -> str:
+    """One top-level key; what stands below it in one line an entry."""
+    if isinstance(value, Mapping) and value:
+        lines = [f"  {_line(name)}: {_line(part)}\n" for name, part in value.items()]
+    elif isinstance(value, list | tuple) and value:
+        lines = [f"  - {_line(part)}\n" for part in value]
+    else:
+        return f"{_line(key)}: {_line(value)}\n"
+    return f"{_line(key)}:\n{''.join(lines)}"
+
+
+def _line(value: Any) -> str:
+    """A value on one line. Numbers as Python writes them: a declaration remembers the text of its figures."""
+    if isinstance(value, Mapping):
+        return "{" + ", ".join(f"{_line(key)}: {_line(part)}" for key, part in value.items()) + "}"
+    if isinstance(value, list | tuple):
+        return "[" + ", ".join(map(_line, value)) + "]"
+    if isinstance(value, int | float) and not isinstance(value, bool):
+        return repr(value)
+    # within a list, so that commas and brackets of a text are quoted
+    text: str = yaml.safe_dump([value], default_flow_style=True, width=float("inf"), allow_unicode=True)
+    return text.removesuffix("\n").removeprefix("[").removesuffix("]")

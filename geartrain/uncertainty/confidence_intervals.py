@@ -1,0 +1,103 @@
+"""How sure an estimate is: shares, means, deviations and percentiles with their 95 % intervals."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import ceil, floor, inf, nan, sqrt
+from statistics import NormalDist
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from geartrain.numerics.arrays import Floats
+
+
+CONFIDENCE = 0.95
+PERCENTILES = (2.5, 25.0, 50.0, 75.0, 97.5)
+
+
+def deviations(confidence: float = CONFIDENCE) -> float:
+    """Standard deviations of a normal variable within which it lies with this probability, both ways."""
+    return NormalDist().inv_cdf((1 + confidence) / 2)
+
+
+@dataclass(frozen=True, slots=True)
+class ProbabilityEstimate:
+    """So many of so many trials: a probability, estimated."""
+
+    count: int
+    of: int
+
+    @property
+    def value(self) -> float:
+        """The share itself; NaN of none."""
+        return self.count / self.of if self.of else nan
+
+    @property
+    def interval(self) -> tuple[float, float]:
+        """Wilson's interval: it holds at shares of 0 and 1 too."""
+        return wilson(self.count, self.of)
+
+    def to_dict(self) -> dict[str, Any]:
+        """Plain data for JSON."""
+        low, high = self.interval
+        return {"count": self.count, "of": self.of, "share": self.value if self.of else None, "interval": [low, high]}
+
+
+def wilson(count: int, of: int, z: float | None = None) -> tuple[float, float]:
+    """Wilson's score interval of `count` of `of`, `z` standard deviations wide (E. B. Wilson 1927); 0 to 1 of none."""
+    if not of:
+        return 0.0, 1.0
+    z = deviations() if z is None else z
+    p, square = count / of, z * z / of
+    middle, half = p + square / 2, z * sqrt(p * (1 - p) / of + square / (4 * of))
+    low, high = (middle - half) / (1 + square), (middle + half) / (1 + square)
+    return (0.0 if count == 0 else low), (1.0 if count == of else high)
+
+
+@dataclass(frozen=True, slots=True)
+class IntervalEstimate:
+    """An estimate and its interval."""
+
+    value: float
+    low: float
+    high: float
+
+    def to_dict(self) -> list[float | None]:
+        """Plain data for JSON: value, low, high; null where there is none."""
+        return [each if abs(each) < inf else None for each in (self.value, self.low, self.high)]
+
+
+def mean_of(values: Floats) -> IntervalEstimate:
+    """Mean with its normal interval."""
+    n = len(values)
+    if n < 2:
+        return IntervalEstimate(float(values[0]) if n else nan, -inf, inf)
+    mean, half = float(values.mean()), deviations() * float(values.std(ddof=1)) / sqrt(n)
+    return IntervalEstimate(mean, mean - half, mean + half)
+
+
+def deviation_of(values: Floats) -> IntervalEstimate:
+    """Standard deviation, its interval from the fourth moment: right for distributions that are not normal."""
+    n = len(values)
+    if n < 3:
+        return IntervalEstimate(nan, 0.0, inf)
+    off = values - values.mean()
+    variance = float(off @ off) / (n - 1)
+    if not variance:
+        return IntervalEstimate(0.0, 0.0, 0.0)
+    spread = sqrt(max(float(np.mean(off**4)) - variance**2, 0.0) / n)
+    low, high = (max(variance + sign * deviations() * spread, 0.0) for sign in (-1, 1))
+    return IntervalEstimate(sqrt(variance), sqrt(low), sqrt(high))
+
+
+def percentile_of(ordered: Floats, percent: float) -> IntervalEstimate:
+    """Percentile of values in order; its interval is between two of them, whatever their distribution."""
+    n, p = len(ordered), percent / 100
+    if not n:
+        return IntervalEstimate(nan, -inf, inf)
+    half = deviations() * sqrt(n * p * (1 - p))
+    low, high = floor(n * p - half) - 1, ceil(n * p + half)
+    ends = (float(ordered[low]) if low >= 0 else -inf, float(ordered[high]) if high < n else inf)
+    return IntervalEstimate(float(np.quantile(ordered, p)), *ends)

@@ -1,0 +1,114 @@
+"""The same wheels at other clearances, and with their errors greater or smaller: how often the train jams."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from functools import partial
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from geartrain.errors import Problem, QuestionError
+from geartrain.numerics.work import run
+from geartrain.uncertainty.confidence_intervals import ProbabilityEstimate
+from geartrain.uncertainty.monte_carlo.pointer_error import EVENTS
+from geartrain.uncertainty.monte_carlo.random_streams import BLOCK, RandomStreams
+from geartrain.uncertainty.monte_carlo.trial_block import UNCUT, draw_trial_wheels, judge_trial_pairs
+from geartrain.uncertainty.monte_carlo.trial_run import TrialExecution, block_tasks, check_trials
+
+if TYPE_CHECKING:
+    from geartrain.uncertainty.monte_carlo.trial_plan import TrialPlan
+
+_MOST = 1000
+
+
+@dataclass(frozen=True, slots=True)
+class ClearanceCase:
+    """The train at one clearance (None: as declared), its errors `scale` times as great.
+
+    events   by event, in any pair; `pairs`, the same by pair
+    """
+
+    clearance: float | None
+    scale: float
+    events: Mapping[str, ProbabilityEstimate]
+    pairs: Mapping[str, Mapping[str, ProbabilityEstimate]]
+
+    def to_dict(self) -> dict[str, Any]:
+        """Plain data for JSON."""
+        return {
+            "clearance": self.clearance,
+            "scale": self.scale,
+            **{name: share.to_dict() for name, share in self.events.items()},
+            "pairs": {pair: {n: each.to_dict() for n, each in events.items()} for pair, events in self.pairs.items()},
+        }
+
+
+def read_clearances(text: str) -> list[float]:
+    """`1.005:1.04:8`: factors, from, to, how many; `0.1:0.9:9`: shares of each pair's own window."""
+    first, last, many = [*text.split(":"), "", ""][:3]
+    try:
+        low, high, count = float(first), float(last or first), int(many or (1 if not last else 9))
+    except ValueError:
+        low, high, count = -1.0, -1.0, 0
+    if text.count(":") > 2 or not 0 <= low <= high < 10 or not 1 <= count <= _MOST or (low < 1 <= high):
+        why = "a sweep goes from a least to a greatest clearance, both factors (1 and above) or both shares of windows"
+        raise QuestionError(Problem(f"'{text}' is no sweep of clearance", why, "write for example 1.005:1.04:8"))
+    return [float(each) for each in np.linspace(low, high, count)]
+
+
+def run_clearances(
+    plan: TrialPlan, clearances: Sequence[float], trials: int, seed: int = 1, means: TrialExecution | None = None
+) -> list[ClearanceCase]:
+    """The train at each clearance, by the same wheels."""
+    return jamming_map(plan, clearances, (1.0,), trials, seed, means)
+
+
+def jamming_map(
+    plan: TrialPlan,
+    clearances: Sequence[float | None],
+    scales: Sequence[float],
+    trials: int,
+    seed: int = 1,
+    means: TrialExecution | None = None,
+) -> list[ClearanceCase]:
+    """The train at every clearance with its errors at every scale, the clearance running slowest."""
+    check_trials(trials)
+    means = means or TrialExecution()
+    cases = [(clearance, scale, "") for clearance in clearances for scale in scales]
+    return list(_judged(plan, cases, trials, seed, means))
+
+
+def judged_at(plan: TrialPlan, scale: float, kind: str, trials: int, seed: int, means: TrialExecution) -> ClearanceCase:
+    """The train as declared, its errors of one kind (all for "") at one scale."""
+    return next(_judged(plan, [(None, scale, kind)], trials, seed, means))
+
+
+def _judged(
+    plan: TrialPlan, cases: Sequence[tuple[float | None, float, str]], trials: int, seed: int, means: TrialExecution
+) -> Iterator[ClearanceCase]:
+    tasks = [[*case, *block] for case in cases for block in block_tasks(trials)]
+    results = run(partial(work_case, plan, seed), tasks, means.executor, means.journal, means.tell)
+    for clearance, scale, _ in cases:
+        counts = np.sum([next(results) for _ in range(-(-trials // BLOCK))], axis=0)
+        found = [
+            {name: ProbabilityEstimate(*each) for name, each in zip(EVENTS, row.tolist(), strict=True)}
+            for row in counts
+        ]
+        yield ClearanceCase(
+            clearance, scale, found[-1], dict(zip((pair.name for pair in plan.pairs), found, strict=False))
+        )
+
+
+def work_case(plan: TrialPlan, seed: int, task: Sequence[Any]) -> list[Any]:
+    """One block of one case: for each pair and then the train, for each event, how many of how many."""
+    clearance, scale, kind, block, trials = task
+    changed = plan.scaled(scale, kind)
+    changed = changed if clearance is None else changed.cleared(clearance)
+    marks, _ = judge_trial_pairs(draw_trial_wheels(changed, RandomStreams(seed, block), trials))
+    columns = [*marks.T, np.bitwise_or.reduce(marks, axis=1)]
+    return [
+        [[int(np.count_nonzero(cut & mark)), len(cut)] for mark in EVENTS.values()]
+        for cut in (each[(each & UNCUT) == 0] for each in columns)
+    ]

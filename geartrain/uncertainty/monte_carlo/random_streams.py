@@ -1,0 +1,109 @@
+"""Errors drawn from their own streams: what one wheel draws hangs on its number, the block and the seed alone.
+
+So a trial is the same whoever works it out and whatever else is asked; errors twice as great are the same errors
+doubled; and another clearance is met by the same wheels.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from math import pi
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from geartrain.uncertainty.manufacturing_errors import CutWheel
+from geartrain.uncertainty.manufacturing_errors.cut_wheel import displaced
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from geartrain.numerics.arrays import Bools, Floats
+    from geartrain.uncertainty.manufacturing_errors.declared_errors import ErrorSpecification, WheelErrors
+
+
+BLOCK = 256
+"""Trials that are drawn and worked out together; results hang on it, so it never changes."""
+
+PITCH_ERROR, ECCENTRICITY, TOWARDS, TIP, FLANK_ANGLE_ERROR, CENTRE_DISTANCE_ERROR, BEARING_CLEARANCE, POSITION = range(
+    8
+)
+NUMBER = {
+    "placement": PITCH_ERROR,
+    "eccentricity": ECCENTRICITY,
+    "tip": TIP,
+    "aperture": FLANK_ANGLE_ERROR,
+    "centre": CENTRE_DISTANCE_ERROR,
+    "bearing": BEARING_CLEARANCE,
+}
+
+
+def _never(item: int, kind: int) -> bool:
+    del item, kind
+    return False
+
+
+@dataclass(frozen=True, slots=True)
+class RandomStreams:
+    """The random numbers of one block of trials.
+
+    other   says of which items and kinds a second, independent set is drawn: for sensitivities
+    """
+
+    seed: int
+    block: int
+    other: Callable[[int, int], bool] = field(default=_never)
+
+    def rng(self, item: int, kind: int) -> np.random.Generator:
+        """The stream of one kind of error of one wheel, pair or position."""
+        key = (self.block, item, kind, int(self.other(item, kind)))
+        return np.random.Generator(np.random.PCG64(np.random.SeedSequence(self.seed, spawn_key=key)))
+
+    def errors(self, item: int, kind: str, off: ErrorSpecification, shape: tuple[int, ...]) -> Floats:
+        """Errors as fractions, one for each trial (and tooth)."""
+        if off.way == "value":
+            return np.full(shape, off.size)
+        rng = self.rng(item, NUMBER[kind])
+        unit = rng.standard_normal(shape) if off.way == "normal" else rng.uniform(-1.0, 1.0, shape)
+        return off.size * unit
+
+
+def draw_wheel(wheel: WheelErrors, item: int, streams: RandomStreams, trials: int = BLOCK) -> tuple[CutWheel, Bools]:
+    """Wheels of outer radius 1, arrays (trials, z) where drawn, and whether each can be cut (trials,).
+
+    Those that cannot are handed back even, so that nothing downstream meets teeth without tips.
+    """
+    shape = (trials, wheel.z)
+    zero = np.zeros(wheel.z)
+
+    def drawn(kind: str) -> Floats:
+        found = zero + np.asarray(wheel.tables[kind]) if kind in wheel.tables else zero
+        return found + streams.errors(item, kind, wheel.errors[kind], shape) if kind in wheel.errors else found
+
+    # declared errors are ahead and wider; a wheel's arrays are behind and flatter
+    place, tip = -wheel.pitch * drawn("placement"), wheel.depth * drawn("tip")
+    flank = wheel.half_angle * drawn("aperture")
+    leading = trailing = flank
+    if "eccentricity" in wheel.errors:
+        e, towards = _eccentric(wheel, item, streams, trials)
+        out, turned = displaced(1.0 + tip, np.arange(wheel.z) * wheel.pitch + place, e[:, None], towards[:, None])
+        place, tip, leading, trailing = place + turned, tip + out, flank - turned, flank + turned
+    cut = CutWheel(1.0, wheel.half_angle, place, tip, leading, trailing)
+    good = np.broadcast_to(cut.cuttable.all(axis=-1), (trials,))
+    if good.all():
+        return cut, good
+    kept = [np.where(good[:, None], each, 0.0) for each in (place, tip, leading, trailing)]
+    return CutWheel(1.0, wheel.half_angle, *kept), good
+
+
+def _eccentric(wheel: WheelErrors, item: int, streams: RandomStreams, trials: int) -> tuple[Floats, Floats]:
+    e = wheel.depth * streams.errors(item, "eccentricity", wheel.errors["eccentricity"], (trials,))
+    if wheel.towards is not None:
+        return e, np.full(trials, wheel.towards)
+    return e, streams.rng(item, TOWARDS).uniform(0.0, 2 * pi, trials)
+
+
+def fitted(wheel: CutWheel, radius: float, half_angle: float, mirrored: bool) -> CutWheel:
+    """A wheel of radius 1 in the sizes of a pair, and as the pair sees it turn."""
+    found = CutWheel(radius, half_angle, wheel.place, radius * wheel.tip, wheel.leading, wheel.trailing)
+    return found.mirrored() if mirrored else found

@@ -1,0 +1,180 @@
+"""Whose errors move a pointer: Sobol indices by wheel or by kind of error, through SALib.
+
+A wheel's teeth are one input, and so is the position: what an input gives is drawn from one of two independent sets,
+and trials are worked out with one input after the other taken from the second set (Saltelli 2010, as SALib has it).
+"""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, Literal
+
+import numpy as np
+
+from geartrain.errors import MissingExtraError, Problem, QuestionError
+from geartrain.numerics.work import run
+from geartrain.uncertainty.confidence_intervals import CONFIDENCE, IntervalEstimate
+from geartrain.uncertainty.manufacturing_errors.declared_errors import ERROR_KINDS
+from geartrain.uncertainty.monte_carlo.random_streams import BLOCK, ECCENTRICITY, NUMBER, TOWARDS, RandomStreams
+from geartrain.uncertainty.monte_carlo.trial_block import draw_trial_wheels, input_positions, trial_pointers
+from geartrain.uncertainty.monte_carlo.trial_run import TrialExecution, block_tasks, check_trials
+
+if TYPE_CHECKING:
+    from geartrain.numerics.arrays import Floats
+    from geartrain.uncertainty.monte_carlo.trial_plan import TrialPlan
+
+
+By = Literal["wheel", "kind"]
+_STREAMS = 1 << 21  # blocks of these studies: streams of their own
+_RESAMPLES = 200
+
+
+@dataclass(frozen=True, slots=True)
+class SobolIndex:
+    """First-order and total index of one input, with 95 % intervals by resampling."""
+
+    name: str
+    first: IntervalEstimate
+    total: IntervalEstimate
+
+    def to_dict(self) -> dict[str, Any]:
+        """Plain data for JSON."""
+        return {"of": self.name, "first": self.first.to_dict(), "total": self.total.to_dict()}
+
+
+@dataclass(frozen=True, slots=True)
+class SobolIndices:
+    """Shares of the variance of one output by wheel or kind, the greatest first; `trials` of base samples."""
+
+    output: str
+    by: By
+    trials: int
+    indices: tuple[SobolIndex, ...]
+
+    def to_dict(self) -> dict[str, Any]:
+        """Plain data for JSON."""
+        return {
+            "output": self.output,
+            "by": self.by,
+            "trials": self.trials,
+            "indices": [each.to_dict() for each in self.indices],
+        }
+
+
+def find_sobol_indices(
+    plan: TrialPlan,
+    output: int,
+    by: By = "wheel",
+    trials: int = 1024,
+    seed: int = 1,
+    means: TrialExecution | None = None,
+) -> SobolIndices:
+    """Sobol indices of an output's error at random positions; pairs that jam move it by their pushing flanks.
+
+    Raises `MissingExtraError` without SALib, `QuestionError` where nothing that is off moves the output.
+    """
+    sobol = _sobol()
+    check_trials(trials)
+    means, names = means or TrialExecution(), [name for name, _ in error_groups(plan, output, by)]
+    if len(names) < 2:
+        what = f"no wheel that is off moves '{plan.outputs[output]}'"
+        raise QuestionError(Problem(what, "its error does not vary", "ask for another output"))
+    rows: list[Any] = []
+    for part in run(SobolBlock(plan, seed, output, by), block_tasks(trials), means.executor, None, means.tell):
+        rows += part
+    values = np.array(rows, dtype=float)
+    values = values[np.isfinite(values).all(axis=1)]
+    problem = {"num_vars": len(names), "names": names, "bounds": [[0, 1]] * len(names)}
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        found = sobol.analyze(problem, values.ravel(), False, _RESAMPLES, CONFIDENCE, print_to_console=False, seed=seed)
+    indices = [
+        SobolIndex(name, *(_figure(found[key][at], found[f"{key}_conf"][at]) for key in ("S1", "ST")))
+        for at, name in enumerate(names)
+    ]
+    ordered = tuple(sorted(indices, key=lambda each: -each.total.value))
+    return SobolIndices(plan.outputs[output], by, len(values), ordered)
+
+
+def _sobol() -> Any:
+    from importlib import import_module
+
+    try:
+        return import_module("SALib.analyze.sobol")  # it carries no types
+    except ImportError:
+        raise MissingExtraError("SALib", "errors", "Sobol indices") from None
+
+
+def _figure(value: float, half: float) -> IntervalEstimate:
+    return IntervalEstimate(float(value), float(value - half), float(value + half))
+
+
+def error_groups(plan: TrialPlan, output: int, by: By) -> list[tuple[str, Callable[[int, int], bool]]]:
+    """Names of the inputs that can move an output, and which streams are theirs."""
+    pairs = plan.reach[output]
+    wheels = sorted({wheel for at in pairs for wheel in (plan.pairs[at].first, plan.pairs[at].second)})
+    off = [at for at in wheels if not plan.wheels[at].true]
+    fits = [at for at in pairs if plan.pairs[at].fitting]
+    found: list[tuple[str, Callable[[int, int], bool]]] = []
+    if by == "wheel":
+        found += [(plan.wheels[at].name, _Item(at)) for at in off]
+        found += [(plan.pairs[at].name, _Item(len(plan.wheels) + at)) for at in fits]
+    else:
+        errors = [plan.wheels[at].errors for at in off] + [plan.pairs[at].fitting for at in fits]
+        found += [(kind, _Kind(kind)) for kind in ERROR_KINDS if any(kind in each for each in errors)]
+    return [*found, ("position", _Item(plan.position))]
+
+
+@dataclass(frozen=True, slots=True)
+class _Item:
+    item: int
+
+    def __call__(self, item: int, kind: int) -> bool:
+        del kind
+        return item == self.item
+
+
+@dataclass(frozen=True, slots=True)
+class _Kind:
+    kind: str
+
+    def __call__(self, item: int, kind: int) -> bool:
+        del item
+        also = {TOWARDS} if NUMBER[self.kind] == ECCENTRICITY else set()
+        return kind in {NUMBER[self.kind], *also}
+
+
+def _all(item: int, kind: int) -> bool:
+    del item, kind
+    return True
+
+
+def _none(item: int, kind: int) -> bool:
+    del item, kind
+    return False
+
+
+@dataclass(frozen=True)
+class SobolBlock:
+    """One block of base samples: the errors of the output (rad), (trials, inputs + 2), first set to second set."""
+
+    plan: TrialPlan
+    seed: int
+    output: int
+    by: By
+
+    def __call__(self, task: Sequence[int]) -> list[list[float]]:
+        """The block as plain data."""
+        block, trials = task
+        inputs = [theirs for _, theirs in error_groups(self.plan, self.output, self.by)]
+        columns = [self._errors(block, trials, choice) for choice in (_none, *inputs, _all)]
+        found: list[list[float]] = np.stack(columns, axis=1).tolist()
+        return found
+
+    def _errors(self, block: int, trials: int, choice: Callable[[int, int], bool]) -> Floats:
+        drawn = draw_trial_wheels(self.plan, RandomStreams(self.seed, _STREAMS + block, choice), min(trials, BLOCK))
+        found = trial_pointers(drawn, np.arange(drawn.trials), (self.output,))
+        errors: Floats = found.errors(input_positions(self.plan, drawn.streams, drawn.trials))[0]
+        return errors

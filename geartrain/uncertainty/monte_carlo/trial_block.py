@@ -1,0 +1,160 @@
+"""One block of trials: wheels drawn, pairs judged, and where the pointers stand; the same wherever it is worked out."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
+from math import inf
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from geartrain.dynamics.motion import ErrorComposition, Superposition
+from geartrain.teeth.transmission import ConstantLag
+from geartrain.uncertainty.manufacturing_errors import CutWheel, MeshingVerdicts, batch_verdicts
+from geartrain.uncertainty.manufacturing_errors.cut_pair import CutGearPair
+from geartrain.uncertainty.manufacturing_errors.cut_transmission import TrialTransmissionFunction
+from geartrain.uncertainty.monte_carlo.random_streams import BLOCK, POSITION, RandomStreams, draw_wheel, fitted
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from geartrain.numerics.arrays import Bools, Floats
+    from geartrain.uncertainty.monte_carlo.trial_plan import TrialPair, TrialPlan
+
+    Marks = NDArray[np.uint8]
+
+JAM, CLASH, STANDSTILL, DISENGAGED, UNCUT = 1, 2, 4, 8, 16
+"""Marks of a pair in a trial: a sum of these."""
+STOPS, LOST = JAM | CLASH, JAM | DISENGAGED | UNCUT
+"""A pair that, dragging, does not turn through its cycle; and one whose outputs are not averaged in."""
+
+
+@dataclass(frozen=True)
+class TrialWheels:
+    """The wheels of some trials: `wheels` by number, of outer radius 1; `good` where they can be cut."""
+
+    plan: TrialPlan
+    streams: RandomStreams
+    trials: int
+    wheels: tuple[CutWheel, ...]
+    good: tuple[Bools, ...]
+
+    def pair(self, at: int, widest: int = 0) -> CutGearPair:
+        """One pair as it was drawn; `widest` 1 and -1 have its bearings at their farthest and nearest."""
+        pair = self.plan.pairs[at]
+        sizes = pair.sizes
+        wheels = (
+            fitted(self.wheels[pair.first], sizes.R1, sizes.beta1, pair.mirrored[0]),
+            fitted(self.wheels[pair.second], sizes.R2, sizes.beta2, pair.mirrored[1]),
+        )
+        return CutGearPair(sizes, *wheels, self._shift(pair, at, widest))
+
+    def _shift(self, pair: TrialPair, at: int, widest: int) -> Floats | float:
+        if not pair.fitting:
+            return 0.0
+        shift = np.zeros(self.trials)
+        for kind, off in pair.fitting.items():
+            drawn = self.streams.errors(len(self.plan.wheels) + at, kind, off, (BLOCK,))[: self.trials]
+            # a bearing moves from tooth to tooth: where it matters most is where it counts
+            shift = shift + (widest * np.abs(drawn) if kind == "bearing" and widest else drawn)
+        return shift * pair.depth
+
+
+def draw_trial_wheels(plan: TrialPlan, streams: RandomStreams, trials: int = BLOCK) -> TrialWheels:
+    """The wheels of the first trials of a block."""
+    found = [draw_wheel(wheel, at, streams) for at, wheel in enumerate(plan.wheels)]
+    rows = slice(0, trials)
+    return TrialWheels(
+        plan,
+        streams,
+        trials,
+        tuple(wheel.taken(rows) for wheel, _ in found),
+        tuple(good[rows] for _, good in found),
+    )
+
+
+# ------------------------------------------------------------------------------------------------------------- verdicts
+
+
+def judge_trial_pairs(drawn: TrialWheels, pairs: Iterable[int] | None = None) -> tuple[Marks, Floats]:
+    """Marks, and least play in pitches of the driven wheel, of every pair in every trial (trials, pairs)."""
+    wanted = range(len(drawn.plan.pairs)) if pairs is None else tuple(pairs)
+    marks = np.zeros((drawn.trials, len(drawn.plan.pairs)), np.uint8)
+    play = np.full(marks.shape, inf)
+    for at in wanted:
+        marks[:, at], play[:, at] = _judged(drawn, at)
+    return marks, play
+
+
+def _judged(drawn: TrialWheels, at: int) -> tuple[Marks, Floats]:
+    pair = drawn.plan.pairs[at]
+    near, far = _verdicts(drawn.pair(at, -1)), None
+    if pair.fitting.get("bearing"):
+        far = _verdicts(drawn.pair(at, 1))
+    loose = far or near
+    marks = (
+        JAM * near.jams
+        + CLASH * (near.clash | loose.clash)
+        + STANDSTILL * (near.standstill | loose.standstill)
+        + DISENGAGED * (near.disengaged | loose.disengaged)
+    )
+    uncut = ~(drawn.good[pair.first] & drawn.good[pair.second])
+    marks = np.where(uncut, UNCUT, marks)
+    return np.broadcast_to(marks, (drawn.trials,)).astype(np.uint8), near.play / pair.sizes.p2
+
+
+def _verdicts(pair: CutGearPair) -> MeshingVerdicts:
+    """The verdicts on a batch; one trial where all share everything."""
+    first = pair.first if pair.trials else replace(pair.first, place=pair.first.place[None])
+    return batch_verdicts(pair.sizes, first, pair.second, pair.shift)
+
+
+# ------------------------------------------------------------------------------------------------------------- pointers
+
+
+def input_positions(plan: TrialPlan, streams: RandomStreams, trials: int = BLOCK) -> Floats:
+    """Where the input stands in each trial (turns)."""
+    return streams.rng(plan.position, POSITION).uniform(0.0, plan.span, BLOCK)[:trials]
+
+
+@dataclass(frozen=True)
+class TrialPointers:
+    """The train of some trials in motion."""
+
+    cut: ErrorComposition
+    even: ErrorComposition
+    laws: dict[str, TrialTransmissionFunction]
+
+    def errors(self, turns: Floats) -> Floats:
+        """How far each output is from where even teeth would have it on average (rad), (outputs, n)."""
+        return self.cut.at(turns).error - self.even.at(turns).error
+
+    def superposed(self, turns: Floats) -> Floats:
+        """The same to first order: every pair at its mean angle, every pin at its mean ratio."""
+        return Superposition(self.cut).at(turns) - Superposition(self.even).at(turns)
+
+
+def trial_pointers(
+    drawn: TrialWheels, rows: NDArray[np.int64], outputs: tuple[int, ...] | None = None
+) -> TrialPointers:
+    """Outputs, by default all, with the drawn wheels; `rows` says which trial is asked at each position.
+
+    The laws of all pairs and pins are composed exactly, for every trial at its own position.
+    """
+    plan, whole = drawn.plan, drawn.plan.composition
+    at = {pair.name: number for number, pair in enumerate(plan.pairs)}
+    wanted = whole.outputs if outputs is None else tuple(whole.outputs[each] for each in outputs)
+    offsets = whole.offsets and (whole.offsets if outputs is None else tuple(whole.offsets[each] for each in outputs))
+    pairs = {source.id: plan.pairs[at[source.id]] for source in whole.sources if source.id in at}
+    laws = {name: TrialTransmissionFunction(drawn.pair(at[name]), pair.even, rows) for name, pair in pairs.items()}
+    cut, even = [], []
+    for source in whole.sources:
+        pair, law = pairs.get(source.id), laws.get(source.id)
+        # a cut law repeats after the whole cycle of teeth, an even one after a pitch
+        cut.append(replace(source, law=law, cycles=source.cycles / law.pair.count) if law else source)
+        even.append(
+            replace(source, law=ConstantLag(law.ratio, law.pair.sizes.p1, pair.even)) if pair and law else source
+        )
+    made = [ErrorComposition(whole.spread, tuple(each), wanted, offsets) for each in (cut, even)]
+    return TrialPointers(made[0], made[1], laws)

@@ -1,0 +1,254 @@
+"""Trials by the block, here or by many, kept in a journal as they come; and what becomes of them all."""
+
+from __future__ import annotations
+
+from base64 import b64decode, b64encode
+from collections.abc import Callable, Mapping, Sequence
+from concurrent.futures import Executor
+from dataclasses import dataclass, field, replace
+from functools import partial
+from importlib.metadata import version
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from geartrain.dynamics.motion import Superposition
+from geartrain.errors import Problem, QuestionError, RangeError
+from geartrain.numerics.work import Journal, run
+from geartrain.uncertainty.manufacturing_errors import jamming_bound
+from geartrain.uncertainty.monte_carlo.pointer_error import PointerErrorCourse, TrialResults, turning_trials
+from geartrain.uncertainty.monte_carlo.random_streams import BLOCK, RandomStreams
+from geartrain.uncertainty.monte_carlo.trial_block import (
+    UNCUT,
+    TrialPointers,
+    draw_trial_wheels,
+    input_positions,
+    judge_trial_pairs,
+    trial_pointers,
+)
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from geartrain.numerics.arrays import Floats
+    from geartrain.uncertainty.monte_carlo.trial_plan import TrialPlan
+
+
+VERSION = 1
+"""Of the way trials are drawn and worked out: a journal of another is refused."""
+_CHECKED = 4  # blocks in which superposition is held against composition
+_COURSE = 1 << 20  # courses draw from streams of their own
+_MOST = 10**9
+
+
+@dataclass(frozen=True, slots=True)
+class TrialExecution:
+    """Who works, where finished work is kept, who is told, and who takes each block as it comes."""
+
+    executor: Executor | None = None
+    journal: Journal | None = None
+    tell: Callable[[int, int], None] | None = None
+    take: Callable[[TrialRecord], None] | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class TrialRecord:
+    """One block of trials: numbers of its trials, and arrays as in `TrialResults`; `play` least, in driven pitches."""
+
+    first: int
+    turns: Floats
+    marks: NDArray[np.uint8]
+    play: Floats
+    errors: Floats
+    off: Sequence[tuple[float, float, int]] = ()
+    sums: Sequence[Mapping[str, tuple[float, ...]]] = field(default_factory=tuple)
+
+
+def journal_key(plan: TrialPlan, seed: int, trials: int, **more: Any) -> dict[str, Any]:
+    """What a journal knows a run by: everything its results hang on."""
+    made = {"geartrain": version("geartrain"), "numpy": version("numpy"), "errors": VERSION}
+    return {**made, "seed": seed, "trials": trials, "block": BLOCK, **plan.question(), **more}
+
+
+def check_trials(trials: int) -> None:
+    """Raise `QuestionError` for a number of trials that tells nothing, or too much."""
+    if not 1 <= trials <= _MOST:
+        what = f"{trials} trials" if trials < 1 else f"{trials:.3g} trials are more than can be done"
+        raise QuestionError(Problem(what, "shares are counted over trials", f"ask for 1 to {_MOST:.0e} of them"))
+
+
+def block_tasks(trials: int) -> list[list[int]]:
+    """Tasks: the number of each block and how many of its trials are wanted."""
+    return [[start // BLOCK, min(BLOCK, trials - start)] for start in range(0, trials, BLOCK)]
+
+
+def run_trials(plan: TrialPlan, trials: int, seed: int = 1, means: TrialExecution | None = None) -> TrialResults:
+    """All trials; those that are done where the user interrupts.
+
+    The same for any number of workers, however often it was cut and taken up. Raises `QuestionError` for no trials,
+    `RangeError` where most wheels cannot be cut.
+    """
+    check_trials(trials)
+    means, work = means or TrialExecution(), partial(work_block, plan, seed)
+    found: list[TrialRecord] = []
+    try:
+        for block, packed in enumerate(run(work, block_tasks(trials), means.executor, means.journal, means.tell)):
+            rows = unpack(plan, block, packed)
+            if not block:
+                _check_cut(plan, rows)
+            if means.take is not None:
+                means.take(rows)
+            found.append(replace(rows, play=np.zeros((0, 0))))
+    except KeyboardInterrupt:
+        if not found:
+            raise
+    return gathered(plan, seed, trials, found)
+
+
+def _check_cut(plan: TrialPlan, rows: TrialRecord) -> None:
+    """Refuse errors with which most wheels have no teeth."""
+    uncut = (rows.marks & UNCUT) > 0
+    if uncut.any(axis=1).mean() <= 0.5:
+        return
+    pair = plan.pairs[int(uncut.mean(axis=0).argmax())]
+    wheel = max((plan.wheels[pair.first], plan.wheels[pair.second]), key=lambda each: each.z)
+    raise RangeError(
+        Problem(
+            f"in {uncut.any(axis=1).mean():.0%} of the trials a wheel cannot be cut, most often in pair '{pair.name}'",
+            f"errors are as great as the teeth: those of '{wheel.name}' are {360 / wheel.z:.3g} deg apart",
+            "give errors smaller than the tooth",
+        )
+    )
+
+
+# ------------------------------------------------------------------------------------------------------- in the workers
+
+
+def work_block(plan: TrialPlan, seed: int, task: Sequence[int]) -> dict[str, Any]:
+    """One block of trials as plain data."""
+    block, trials = task
+    drawn = draw_trial_wheels(plan, RandomStreams(seed, block), trials)
+    marks, play = judge_trial_pairs(drawn)
+    turns = input_positions(plan, drawn.streams, trials)
+    found = trial_pointers(drawn, np.arange(trials))
+    first = found.superposed(turns) if block < _CHECKED else None
+    errors = found.errors(turns)  # after the superposition: laws remember what they said last
+    runs = [turning_trials(marks, reach) & np.isfinite(row) for reach, row in zip(plan.reach, errors, strict=True)]
+    off = [] if first is None else [_off(*both) for both in zip(first, errors, strict=True)]
+    return {
+        "marks": _pack(marks),
+        "play": _pack(play),
+        "turns": _pack(turns),
+        "errors": _pack(errors.T),
+        "off": off,
+        "sums": _sums(plan, found, runs),
+    }
+
+
+def _off(first: Floats, exact: Floats) -> tuple[float, float, int]:
+    with np.errstate(invalid="ignore"):
+        good = np.isfinite(first - exact)
+    first, exact = first[good], exact[good]
+    return float(np.sum((first - exact) ** 2)), float(np.sum(exact**2)), len(first)
+
+
+def _sums(
+    plan: TrialPlan, found: TrialPointers, runs: Sequence[NDArray[np.bool_]]
+) -> list[dict[str, tuple[float, ...]]]:
+    """By output and pair: how many trials, and sums of the pair's part, of the whole, and of their product."""
+    superposition = Superposition(found.cut)
+    even = {pair.name: pair.even for pair in plan.pairs}
+    sums: list[dict[str, tuple[float, ...]]] = []
+    for at, rows in enumerate(runs):
+        parts = {
+            source.id: source.sense * response * (found.laws[source.id].last[rows] - even[source.id])
+            for source, response in zip(superposition.sources, superposition.response[at], strict=True)
+            if source.id in found.laws and response
+        }
+        whole = sum(parts.values(), np.zeros(int(np.count_nonzero(rows))))
+        sums.append(
+            {
+                name: (float(len(part)), float(part.sum()), float(whole.sum()), float(part @ whole))
+                for name, part in parts.items()
+            }
+        )
+    return sums
+
+
+def _pack(array: NDArray[Any]) -> str:
+    return b64encode(np.ascontiguousarray(array).tobytes()).decode()
+
+
+def unpack(plan: TrialPlan, block: int, packed: Mapping[str, Any]) -> TrialRecord:
+    """A block again from what a worker said or a journal kept."""
+
+    def array(name: str, width: int = 0) -> Any:
+        found = np.frombuffer(b64decode(packed[name]), np.uint8 if name == "marks" else np.float64)
+        return found.reshape(-1, width) if width else found
+
+    pairs = len(plan.pairs)
+    return TrialRecord(
+        block * BLOCK,
+        array("turns"),
+        array("marks", pairs),
+        array("play", pairs),
+        array("errors", len(plan.outputs)),
+        [tuple(each) for each in packed["off"]],
+        packed["sums"],
+    )
+
+
+# ---------------------------------------------------------------------------------------------------------- all of them
+
+
+def gathered(plan: TrialPlan, seed: int, wanted: int, found: Sequence[TrialRecord]) -> TrialResults:
+    """All blocks as one."""
+    outputs = range(len(plan.outputs))
+    checked = [rows.off for rows in found if rows.off]
+    first = [tuple(map(sum, zip(*(off[at] for off in checked), strict=True))) or (0.0, 0.0, 0) for at in outputs]
+    sums = []
+    for at in outputs:
+        names = found[0].sums[at]
+        sums.append(
+            {name: tuple(map(sum, zip(*(rows.sums[at][name] for rows in found), strict=True))) for name in names}
+        )
+    return TrialResults(
+        plan,
+        seed,
+        wanted,
+        np.concatenate([rows.marks for rows in found]),
+        np.concatenate([rows.turns for rows in found]),
+        np.concatenate([rows.errors for rows in found]),
+        first,  # type: ignore[arg-type]
+        sums,
+        jamming_bounds(plan),
+    )
+
+
+def jamming_bounds(plan: TrialPlan) -> dict[str, float]:
+    """The bound on a jam of every pair whose two wheels have normal errors of placement, and no others."""
+    found = {}
+    for pair in plan.pairs:
+        wheels = plan.wheels[pair.first], plan.wheels[pair.second]
+        plain = all(not each.tables and set(each.errors) <= {"placement"} for each in wheels) and not pair.fitting
+        normal = all(off.way == "normal" for each in wheels for off in each.errors.values())
+        if plain and normal:
+            # the bound is of one deviation for both wheels: the greater of the two
+            sizes = [each.errors["placement"].size for each in wheels if each.errors]
+            found[pair.name] = jamming_bound(pair.sizes, max(sizes, default=0.0))
+    return found
+
+
+def run_course(plan: TrialPlan, output: int, positions_: int, seed: int = 1, trials: int = BLOCK) -> PointerErrorCourse:
+    """Errors of one output along one turn of it (of the input where it stands still), by trial."""
+    trials = min(trials, BLOCK)
+    drawn = draw_trial_wheels(plan, RandomStreams(seed, _COURSE), trials)
+    speed = abs(plan.speeds[output])
+    turns = np.linspace(0.0, float(1 / speed) if speed else 1.0, positions_)
+    rows, chunk = np.repeat(np.arange(trials), positions_), plan.composition.chunk
+    everywhere = np.tile(turns, trials)
+    parts = []
+    for start in range(0, len(rows), chunk):
+        part = slice(start, start + chunk)
+        parts.append(trial_pointers(drawn, rows[part], (output,)).errors(everywhere[part])[0])
+    return PointerErrorCourse(plan.outputs[output], turns, np.concatenate(parts).reshape(trials, positions_))

@@ -1,0 +1,326 @@
+"""Very many combinations one by one: what every output does, and whether each combination fits.
+
+The structure is solved once, as formulas; each combination then costs a few multiplications an output. Combinations are
+taken in blocks that fit the processor's cache.
+
+What combinations looked at one by one come to, in plain data that adds up: tasks of any size, in any order.
+"""
+
+from __future__ import annotations
+
+import pickle
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from functools import cached_property, lru_cache
+from math import prod
+from typing import Any
+
+import numpy as np
+
+from geartrain.synthesis.join.product_lists import Floats, Ints
+from geartrain.synthesis.join.wheel_monomials import IntervalConstraint
+from geartrain.uncertainty.posterior.forward_backward import plain_number
+from geartrain.uncertainty.posterior.inference_problem import InferenceProblem
+from geartrain.uncertainty.posterior.likelihood import Bools, ExactConstraint, FormulaValues, OutputLikelihood
+from geartrain.uncertainty.posterior.monomial_columns import (
+    CombinationColumns,
+    MonomialColumns,
+    Powers,
+    ScaledColumns,
+    find_monomials,
+    find_product_plan,
+)
+from geartrain.uncertainty.posterior.priors import ToothCountPrior
+
+BLOCK = 1 << 13
+"""Combinations worked on at a time: 64 kB an array."""
+_FEW = 0.5
+
+
+class LikelihoodBatch:
+    """A question put to arrays of counts.
+
+    every    True: the speeds of all outputs are to be had too
+    wheels   those that matter to a witness or to whether the train turns, in the order declared; with `every`, those
+             of all outputs
+    """
+
+    def __init__(self, question: InferenceProblem, every: bool = False) -> None:
+        self.question = question
+        functions = [IntervalConstraint(witness.name, witness.formula, ()) for witness in question.witnesses]
+        functions += question.conditions
+        if every:
+            functions += [IntervalConstraint(name, formula, ()) for name, formula in question.outputs.items()]
+        moved = {wheel for one in functions for wheel in one.function.wheels}
+        self.wheels = tuple(wheel for wheel in question.doubts if wheel in moved)
+        self.domains = {wheel: question.doubts[wheel].counts for wheel in self.wheels}
+        self.monomials = find_monomials(functions, self.domains)
+        ordered = sorted(question.witnesses, key=lambda one: len(one.formula.wheels))
+        outputs = question.outputs.items() if every else ()
+        self._values = {name: FormulaValues.of(f, self.monomials, self.domains) for name, f in outputs}
+        self._judges = [
+            OutputLikelihood(one, self.monomials, self.domains, question.soft, self._values.get(one.name))
+            for one in ordered
+        ]
+        self._gates = [ExactConstraint(one, self.monomials, self.domains) for one in question.conditions]
+        values = [*self._values.values(), *(judge.value for judge in self._judges)]
+        self._plan = find_product_plan(key for value in values for key in value.plan)
+
+    def columns(self, counts: Mapping[str, Ints]) -> MonomialColumns:
+        """Some combinations: wheel -> counts, of one length, for all `wheels`."""
+        return CombinationColumns(self.monomials, counts, len(next(iter(counts.values()))) if counts else 1)
+
+    def turns(self, rows: MonomialColumns) -> Bools:
+        """With which combinations the train turns at all."""
+        found: Bools = np.ones(rows.size, dtype=np.bool_)
+        for gate in self._gates:
+            found &= gate.holds(rows)
+        return found
+
+    def judged(self, rows: MonomialColumns) -> tuple[Bools, Floats]:
+        """Which combinations fit, exactly, and their misfit, to rounding; infinite where they do not.
+
+        What one output refuses is not shown to the next, as soon as that saves work.
+        """
+        alive, total = np.arange(rows.size), np.zeros(rows.size)
+        some = rows
+        met = self.turns(rows)
+        for judge in self._judges:
+            if np.count_nonzero(met) < _FEW * some.size:
+                kept = np.flatnonzero(met)
+                if not len(kept):
+                    break
+                alive, some, met = alive[kept], some.pick(kept), met[kept]
+            own, off = judge.judge(some, self._plan)
+            met &= own
+            total[alive] += off
+        found: Bools = np.zeros(rows.size, dtype=np.bool_)
+        found[alive] = met
+        return found, np.where(found, total, np.inf)
+
+    def speeds(self, rows: MonomialColumns) -> dict[str, tuple[Floats, Floats]]:
+        """Output -> speeds, and bounds on their errors."""
+        return {name: value.bounded(rows, self._plan) for name, value in self._values.items()}
+
+
+class CombinationGrid:
+    """All combinations of a batch, numbered: the first wheels turn slowest, as digits of a number.
+
+    A run of neighbours shares the counts of the outer wheels, so only the inner ones are multiplied out, once.
+    """
+
+    def __init__(self, batch: LikelihoodBatch) -> None:
+        self.batch = batch
+        sizes = [len(batch.domains[wheel]) for wheel in batch.wheels]
+        split, inner = len(sizes), 1
+        while split and inner * sizes[split - 1] <= BLOCK:
+            split -= 1
+            inner *= sizes[split]
+        self.outer, self.inner = batch.wheels[:split], batch.wheels[split:]
+        self.block = inner
+        self.runs = prod(sizes[:split])
+
+    @cached_property
+    def digits(self) -> dict[str, Ints]:
+        """Inner wheel -> index of its count, for one run."""
+        return _digits(np.arange(self.block), self._sizes(self.inner))
+
+    @cached_property
+    def _table(self) -> MonomialColumns:
+        counts = {wheel: np.array(self.batch.domains[wheel])[at] for wheel, at in self.digits.items()}
+        return CombinationColumns(self._parts(self.inner), counts, self.block)
+
+    def _parts(self, wheels: Collection[str]) -> list[Powers]:
+        """The monomials as far as some wheels go."""
+        return [{w: p for w, p in powers.items() if w in wheels} for powers in self.batch.monomials]
+
+    def runs_from(self, start: int, stop: int) -> Iterator[tuple[dict[str, int], MonomialColumns]]:
+        """Runs by number: the indices of the outer wheels' counts, and the rows."""
+        parts, sizes = self._parts(self.outer), self._sizes(self.outer)
+        for run in range(start, stop):
+            at = _digits(run, sizes)
+            counts = {wheel: np.array([self.batch.domains[wheel][int(index)]]) for wheel, index in at.items()}
+            yield (
+                {wheel: int(index) for wheel, index in at.items()},
+                ScaledColumns(self._table, CombinationColumns(parts, counts, 1)),
+            )
+
+    def _sizes(self, wheels: tuple[str, ...]) -> dict[str, int]:
+        return {wheel: len(self.batch.domains[wheel]) for wheel in wheels}
+
+
+def _digits(number: Any, sizes: Mapping[str, int]) -> dict[str, Any]:
+    """The digits of a number, or of an array of them, whose places have these sizes, the last one least."""
+    found: dict[str, Any] = {}
+    rest = number
+    for wheel in reversed(tuple(sizes)):
+        rest, found[wheel] = divmod(rest, sizes[wheel])
+    return {wheel: found[wheel] for wheel in sizes}
+
+
+KEPT = 2000
+"""Combinations that a task brings out to find the best; equals beyond are left out."""
+_LONG = 1 << 53
+_NEAR = 1 + 1e-9
+
+
+class PosteriorTally:
+    """Sums over combinations.
+
+    looked    combinations
+    turning   prior weight of those with which the train turns (in a sample: their number)
+    weight    of those that fit: prior weight, by degree of agreement where that is asked for
+    fits      their number
+    square    sum of squared degrees of agreement, for intervals
+    by        for each wheel the weight of what fits with each of its counts
+    sizes     sums of count x count', each from the wheel's `origin_of` on, weighted
+    best      (misfit, indices of counts), best first
+    ranked    False once equals had to be left out
+    """
+
+    def __init__(self, batch: LikelihoodBatch, most: int) -> None:
+        self.batch, self.most = batch, most
+        self.looked = self.fits = 0
+        self.turning: Any = 0
+        self.weight: Any = 0
+        self.square = 0.0
+        self.by: list[list[Any]] = [[0] * len(batch.domains[wheel]) for wheel in batch.wheels]
+        self.sizes: Floats = np.zeros((len(batch.wheels), len(batch.wheels)))
+        self.best: list[tuple[float, tuple[int, ...]]] = []
+        self.ranked = True
+        doubts = [batch.question.doubts[wheel] for wheel in batch.wheels]
+        self._steps = [np.array(doubt.counts, dtype=np.float64) - origin_of(doubt) for doubt in doubts]
+
+    def add(self, places: Mapping[str, Ints | int], misfit: Floats, weights: Any) -> None:
+        """Rows that fit.
+
+        places    wheel -> index of its count, one number for all rows or one for each
+        misfit    of each row
+        weights   of each row, whole numbers or floats
+        """
+        size = len(misfit)
+        if not size:
+            return
+        at = [np.broadcast_to(places[wheel], (size,)) for wheel in self.batch.wheels]
+        self.fits += size
+        self.weight += plain_number(weights.sum())
+        self.square += float((weights.astype(np.float64) ** 2).sum())
+        for sums, index in zip(self.by, at, strict=True):
+            for choice in np.unique(index):
+                sums[choice] += plain_number(weights[index == choice].sum())
+        steps = np.array([own[index] for own, index in zip(self._steps, at, strict=True)])
+        self.sizes += (steps * weights.astype(np.float64)) @ steps.T
+        self._keep(misfit, at)
+
+    def _keep(self, misfit: Floats, at: Sequence[Ints]) -> None:
+        near = np.flatnonzero(misfit <= self._bar())
+        order = near[np.argsort(misfit[near], kind="stable")[: KEPT + 1]]
+        self.best += [(float(misfit[row]), tuple(int(index[row]) for index in at)) for row in order]
+        self._trim()
+
+    def _bar(self) -> float:
+        return self.best[self.most - 1][0] * _NEAR if len(self.best) >= self.most else np.inf
+
+    def _trim(self) -> None:
+        self.best.sort()
+        bar = self._bar()
+        self.best = [one for one in self.best if one[0] <= bar]
+        if len(self.best) > KEPT:
+            self.ranked = False
+            self.best = self.best[:KEPT]
+
+    def join(self, other: Mapping[str, Any]) -> None:
+        """Add what another tally came to."""
+        self.looked += other["looked"]
+        self.fits += other["fits"]
+        self.turning += other["turning"]
+        self.weight += other["weight"]
+        self.square += other["square"]
+        self.by = [[a + b for a, b in zip(x, y, strict=True)] for x, y in zip(self.by, other["by"], strict=True)]
+        self.sizes += np.array(other["sizes"]).reshape(self.sizes.shape)
+        self.best += [(misfit, tuple(at)) for misfit, at in other["best"]]
+        self.ranked &= other["ranked"]
+        self._trim()
+
+    def to_dict(self) -> dict[str, Any]:
+        """Plain data, for `join`."""
+        return {
+            "looked": self.looked,
+            "fits": self.fits,
+            "turning": plain_number(self.turning),
+            "weight": plain_number(self.weight),
+            "square": self.square,
+            "by": [[plain_number(value) for value in sums] for sums in self.by],
+            "sizes": self.sizes.tolist(),
+            "best": [[misfit, list(at)] for misfit, at in self.best],
+            "ranked": self.ranked,
+        }
+
+
+def origin_of(doubt: ToothCountPrior) -> int:
+    """The count from which the others are reckoned, so that sums of products keep their digits: the likeliest."""
+    return doubt.counts[doubt.weights.index(max(doubt.weights))]
+
+
+def packed(question: InferenceProblem, most: int) -> bytes:
+    """What all tasks share, as a worker takes it."""
+    return pickle.dumps((question, most))
+
+
+@lru_cache(maxsize=1)
+def _unpacked(shared: bytes) -> tuple[LikelihoodBatch, CombinationGrid, int]:
+    question, most = pickle.loads(shared)
+    batch = LikelihoodBatch(question)
+    return batch, CombinationGrid(batch), most
+
+
+def grid_of(question: InferenceProblem) -> CombinationGrid:
+    """All combinations of the wheels that matter, in runs."""
+    return CombinationGrid(LikelihoodBatch(question))
+
+
+def enumerate_task(shared: bytes, task: Sequence[int]) -> dict[str, Any]:
+    """The runs from task[0] up to task[1] of all combinations."""
+    batch, grid, most = _unpacked(shared)
+    tally = PosteriorTally(batch, most)
+    doubts = batch.question.doubts
+    total = int(np.prod([doubts[wheel].total for wheel in batch.wheels], dtype=object))
+    kind: Any = np.int64 if total < _LONG else object
+    inner = np.ones(grid.block, dtype=kind)
+    for wheel, at in grid.digits.items():
+        inner = inner * np.array(doubts[wheel].weights, dtype=kind)[at]
+    for places, rows in grid.runs_from(*task):
+        outer = 1
+        for wheel, index in places.items():
+            outer *= doubts[wheel].weights[index]
+        met, misfit = batch.judged(rows)
+        tally.looked += rows.size
+        turning = batch.turns(rows) if batch.question.conditions else slice(None)
+        tally.turning += plain_number(inner[turning].sum()) * outer
+        fit = np.flatnonzero(met)
+        weights = inner[fit] * outer
+        if batch.question.soft:
+            weights = weights.astype(np.float64) / total * np.exp(-misfit[fit] / 2)
+        tally.add({**places, **{wheel: at[fit] for wheel, at in grid.digits.items()}}, misfit[fit], weights)
+    return tally.to_dict()
+
+
+def sample_task(shared: bytes, task: Sequence[int]) -> dict[str, Any]:
+    """Combinations drawn by their prior chances: task is the seed, the number of the block, and how many."""
+    batch, _, most = _unpacked(shared)
+    tally = PosteriorTally(batch, most)
+    seed, block, size = task
+    draw = np.random.Generator(np.random.PCG64(np.random.SeedSequence([seed, block])))
+    places = {}
+    for wheel in batch.wheels:
+        chances = np.array([float(prior) for prior in batch.question.doubts[wheel].priors])
+        places[wheel] = draw.choice(len(chances), size, p=chances / chances.sum())
+    for start in range(0, size, BLOCK):
+        here = {wheel: at[start : start + BLOCK] for wheel, at in places.items()}
+        rows = batch.columns({wheel: np.array(batch.domains[wheel])[at] for wheel, at in here.items()})
+        met, misfit = batch.judged(rows)
+        tally.looked += rows.size
+        tally.turning += int(batch.turns(rows).sum())
+        fit = np.flatnonzero(met)
+        weights = np.exp(-misfit[fit] / 2) if batch.question.soft else np.ones(len(fit), dtype=np.int64)
+        tally.add({wheel: at[fit] for wheel, at in here.items()}, misfit[fit], weights)
+    return tally.to_dict()

@@ -1,0 +1,281 @@
+"""Counts in doubt: every combination looked at, one by one, all at once, or by a sample."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from concurrent.futures import Executor
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from functools import partial
+from math import prod
+from typing import Any
+
+from geartrain.errors import Problem, QuestionError, RangeError
+from geartrain.numerics.work import Journal, run
+from geartrain.train import Train, suggest
+from geartrain.uncertainty.posterior.enumeration import (
+    LikelihoodBatch,
+    PosteriorTally,
+    enumerate_task,
+    grid_of,
+    packed,
+    sample_task,
+)
+from geartrain.uncertainty.posterior.forward_backward import BestCombinations, ForwardBackwardSums
+from geartrain.uncertainty.posterior.inference_problem import InferenceProblem, build_inference_problem
+from geartrain.uncertainty.posterior.observations import LikelihoodKind
+from geartrain.uncertainty.posterior.posterior_result import CountProbability, Method, ToothCountPosterior
+from geartrain.uncertainty.posterior.posterior_summary import (
+    PosteriorSummary,
+    combine_parts,
+    correlations_of_sums,
+    first_with_ties,
+    rank_combinations,
+    summary_of_tally,
+    wheel_posterior,
+)
+from geartrain.uncertainty.posterior.priors import find_priors
+from geartrain.uncertainty.posterior.variable_elimination import EliminationLimitError, eliminate_wheels
+from geartrain.uncertainty.posterior.variance_shares import find_variance_shares
+
+LIMIT = 2_000_000
+"""Combinations that are listed one by one, and transitions of a decomposition, by default: some seconds."""
+SAMPLES = 1_000_000
+_TASKS = 64
+_ALONE = 200_000
+_DRAWN = 1 << 16
+_ENOUGH = 100
+METHODS: tuple[Method, ...] = ("enumerate", "decompose", "sample")
+
+
+@dataclass(frozen=True, slots=True)
+class InferenceExecution:
+    """Who does the work, what is kept of it, and who is told."""
+
+    executor: Executor | None = None
+    journal: Journal | None = None
+    tell: Callable[[int, int], None] | None = None
+
+
+def infer_counts(
+    train: Train,
+    state: str | None = None,
+    *,
+    free: Mapping[str, Sequence[int]] | None = None,
+    outputs: Sequence[str] = (),
+    tolerance: Fraction | None = None,
+    against: LikelihoodKind = "all",
+    scale: Fraction = Fraction(1),
+    soft: bool = False,
+    method: Method | None = None,
+    most: int = 20,
+    limit: int = LIMIT,
+    samples: int = SAMPLES,
+    seed: int = 1,
+    executor: Executor | None = None,
+    journal: Journal | None = None,
+    tell: Callable[[int, int], None] | None = None,
+) -> ToothCountPosterior:
+    """Which tooth counts fit what is known of a train's outputs, and how likely each is then.
+
+    state      of a train with states; None: all of them at once
+    free       wheel -> counts it may have, beside or in place of what is declared
+    outputs    those that count as evidence; all without any
+    tolerance  relative, for targets without one
+    against    which claims count: "targets", "figures" (`expect` and `published`), or "all"
+    scale      multiplies every tolerance
+    soft       False: within its tolerances or not; True: Gaussian, the tolerances taken as standard deviations
+    method     None: "enumerate" where there are at most `limit` combinations, else "decompose" with at most `limit`
+               transitions, else "sample"
+    most       combinations to list
+    limit      bounds the work of the first two ways; both are exact
+    samples    combinations drawn in the third
+    seed       of the sample, and of variance shares that are not exact
+    executor   None: in this process; see `geartrain.numerics.work.open_executor`. The answer does not depend on it
+    journal    where finished work is kept, for a run that may be cut
+    tell       called with (tasks done, tasks in all)
+
+    Interrupted while it lists or samples, it returns what is known, with `cut` True. Raises `QuestionError` for what
+    cannot be asked, `RangeError` where the method asked for would pass the limit.
+    """
+    _check(method, most, limit, samples, seed)
+    question = build_inference_problem(
+        train,
+        find_priors(train, free),
+        state,
+        outputs=outputs,
+        tolerance=tolerance,
+        against=against,
+        scale=scale,
+        soft=soft,
+    )
+    means = InferenceExecution(executor, journal, tell)
+    chosen, found, cut = _find(question, method, most, limit, samples, seed, means)
+    exact = found.evidence if chosen != "sample" else None
+    shares = {
+        name: find_variance_shares(name, formula, question.doubts, seed) for name, formula in question.outputs.items()
+    }
+    return ToothCountPosterior(
+        question.name,
+        chosen,
+        soft,
+        question.combinations,
+        found.looked,
+        found.evidence,
+        found.turning,
+        found.fits,
+        question.witnesses,
+        _alone(question, seed),
+        found.posteriors,
+        found.correlations,
+        rank_combinations(question, found.candidates, most, exact),
+        found.ranked and chosen != "sample" and not cut,
+        {name: one for name, one in shares.items() if one is not None},
+        (*question.remarks, *_doubts_of_sample(found, chosen)),
+        seed if chosen == "sample" else None,
+        cut,
+    )
+
+
+def _doubts_of_sample(found: PosteriorSummary, method: Method) -> Iterator[str]:
+    """A remark where so little of a sample fits that its figures say nothing."""
+    if method == "sample" and found.effective < _ENOUGH:
+        yield (
+            f"the figures rest on {found.effective:.3g} combinations that fit: draw more, raise the limit so that "
+            "nothing need be drawn, or narrow the doubts"
+        )
+
+
+def _check(method: str | None, most: int, limit: int, samples: int, seed: int) -> None:
+    if method is not None and method not in METHODS:
+        raise QuestionError(Problem(f"there is no method '{method}'", "others are", suggest(method, METHODS)))
+    for name, value, least in (("most", most, 1), ("limit", limit, 1), ("samples", samples, 1), ("seed", seed, 0)):
+        if value < least:
+            raise QuestionError(Problem(f"{name} is {value}", "nothing is found with it", f"give {least} or more"))
+
+
+def _find(
+    question: InferenceProblem,
+    method: Method | None,
+    most: int,
+    limit: int,
+    samples: int,
+    seed: int,
+    means: InferenceExecution,
+) -> tuple[Method, PosteriorSummary, bool]:
+    """The way asked for, or the first that stays within the limit."""
+    listed = prod(len(question.doubts[wheel].counts) for wheel in LikelihoodBatch(question).wheels)
+    if method == "enumerate" and listed > limit:
+        raise _passed(f"{listed} combinations to list", limit, "decompose")
+    if method == "enumerate" or (method is None and listed <= limit):
+        return "enumerate", *_enumerated(question, most, means)
+    if method != "sample":
+        try:
+            return "decompose", _decomposed(question, most, limit), False
+        except EliminationLimitError:
+            if method is not None:
+                raise _passed("too many rows", limit, "sample") from None
+    return "sample", *_sampled(question, most, samples, seed, means)
+
+
+def _passed(what: str, limit: int, other: str) -> RangeError:
+    why = f"the limit is {limit}"
+    return RangeError(Problem(what, why, f"raise the limit, narrow the doubts, or let it {other}"))
+
+
+def _enumerated(question: InferenceProblem, most: int, means: InferenceExecution) -> tuple[PosteriorSummary, bool]:
+    runs = grid_of(question).runs
+    step = max(1, -(-runs // _TASKS))
+    tasks = [[at, min(at + step, runs)] for at in range(0, runs, step)]
+    tally, cut = _added(question, most, enumerate_task, tasks, means)
+    return summary_of_tally(question, tally, drawn=False), cut
+
+
+def _sampled(
+    question: InferenceProblem, most: int, samples: int, seed: int, means: InferenceExecution
+) -> tuple[PosteriorSummary, bool]:
+    size = max(1 << 14, -(-samples // 1000))
+    tasks = [[seed, at, min(size, samples - at * size)] for at in range(-(-samples // size))]
+    tally, cut = _added(question, most, sample_task, tasks, means)
+    return summary_of_tally(question, tally, drawn=True), cut
+
+
+def _added(
+    question: InferenceProblem,
+    most: int,
+    work: Callable[[bytes, Any], dict[str, Any]],
+    tasks: Sequence[Any],
+    means: InferenceExecution,
+) -> tuple[PosteriorTally, bool]:
+    """The sum of all tasks; True if it was interrupted."""
+    tally = PosteriorTally(LikelihoodBatch(question), most)
+    results: Iterable[Any] = run(
+        partial(work, packed(question, most)), tasks, means.executor, means.journal, means.tell
+    )
+    try:
+        for result in results:
+            tally.join(result)
+    except KeyboardInterrupt:
+        return tally, True
+    return tally, False
+
+
+def _decomposed(question: InferenceProblem, most: int, limit: int) -> PosteriorSummary:
+    parts = eliminate_wheels(question, limit)
+    sums = [ForwardBackwardSums(part, question.doubts, question.soft) for part in parts]
+    moved = [one for one in sums if any(step.wheel in LikelihoodBatch(question).wheels for step in one.part.steps)]
+    share: Any = prod((one.evidence for one in moved), start=1.0 if question.soft else 1)
+    total = prod(one.total for one in moved)
+    evidence = CountProbability(float(share)) if question.soft else CountProbability(Fraction(int(share), total))
+    posteriors = {}
+    for one in sums:
+        for wheel, weights in one.posteriors.items():
+            idle = one not in moved
+            posteriors[wheel] = wheel_posterior(
+                question.doubts[wheel], None if idle else weights, one.evidence if share else 0, None
+            )
+    lists = [first_with_ties(iter(BestCombinations(one.part, question.doubts)), most) for one in moved]
+    return PosteriorSummary(
+        sum(len(step.choices) for part in parts for step in part.steps),
+        evidence,
+        _turning(question, limit),
+        None if question.soft else _count(question, sums),
+        {wheel: posteriors[wheel] for wheel in question.doubts},
+        correlations_of_sums(question, moved) if share else {},
+        combine_parts([some for some, _ in lists], most) if share else (),
+        all(whole for _, whole in lists),
+        float("inf"),
+    )
+
+
+def _count(question: InferenceProblem, sums: Sequence[ForwardBackwardSums]) -> int:
+    """How many combinations fit: the same sums with every weight 1."""
+    alike = {w: replace(doubt, weights=(1,) * len(doubt.counts)) for w, doubt in question.doubts.items()}
+    return prod(int(ForwardBackwardSums(one.part, alike, False).evidence) for one in sums)
+
+
+def _turning(question: InferenceProblem, limit: int) -> CountProbability:
+    """The share of the prior weight with which the train turns, whatever its outputs do."""
+    if not question.conditions:
+        return CountProbability(Fraction(1))
+    return _evidence(replace(question, witnesses=(), soft=False), limit)
+
+
+def _evidence(question: InferenceProblem, limit: int) -> CountProbability:
+    sums = [ForwardBackwardSums(part, question.doubts, question.soft) for part in eliminate_wheels(question, limit)]
+    if question.soft:
+        return CountProbability(float(prod(float(one.evidence) for one in sums)))
+    return CountProbability(Fraction(prod(int(one.evidence) for one in sums), prod(one.total for one in sums)))
+
+
+def _alone(question: InferenceProblem, seed: int) -> dict[str, CountProbability]:
+    """What each output would tell by itself; of a sample where that is more than a little work."""
+    found = {}
+    for witness in question.witnesses:
+        doubts = {wheel: question.doubts[wheel] for wheel in witness.formula.wheels}
+        one = replace(question, doubts=doubts, witnesses=(witness,), conditions=())
+        try:
+            found[witness.name] = _evidence(one, _ALONE)
+        except EliminationLimitError:
+            found[witness.name] = _sampled(one, 1, _DRAWN, seed, InferenceExecution())[0].evidence
+    return found

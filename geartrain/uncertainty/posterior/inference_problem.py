@@ -1,0 +1,179 @@
+"""All that is asked when counts are in doubt: which wheels, which outputs are known, what must hold for it to turn."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from math import prod
+
+from geartrain.errors import Problem, QuestionError
+from geartrain.synthesis.formulas import Formula, Formulas, find_formulas
+from geartrain.synthesis.join.wheel_monomials import Domains, IntervalConstraint
+from geartrain.synthesis.train.output_requirements import find_output_requirements
+from geartrain.train import Train, suggest
+from geartrain.uncertainty.posterior.observations import (
+    LIKELIHOOD_KINDS,
+    LikelihoodKind,
+    ObservedOutput,
+    observations_of,
+)
+from geartrain.uncertainty.posterior.priors import ToothCountPrior
+
+_NOT_ZERO = (None, Fraction(0)), (Fraction(0), None)
+
+
+@dataclass(frozen=True, slots=True)
+class InferenceProblem:
+    """Wheels in doubt and what is known of the outputs.
+
+    name        of the train
+    doubts      wheel -> its counts and their weights, in the order declared
+    witnesses   outputs of which something is known and that a wheel in doubt moves
+    outputs     every output that a wheel in doubt moves -> its function
+    conditions  what must hold for the train to turn: loops that close, links driven in one way
+    remarks     what the reader should know
+    soft        False: a combination fits or it does not; True: it agrees less and less, exp(-misfit / 2), up
+                to `evidence.FAR` tolerances
+    """
+
+    name: str
+    doubts: Mapping[str, ToothCountPrior]
+    witnesses: tuple[ObservedOutput, ...]
+    outputs: Mapping[str, Formula]
+    conditions: tuple[IntervalConstraint, ...]
+    remarks: tuple[str, ...] = ()
+    soft: bool = False
+
+    @property
+    def domains(self) -> Domains:
+        """Wheel -> its counts, ascending."""
+        return {wheel: doubt.counts for wheel, doubt in self.doubts.items()}
+
+    @property
+    def combinations(self) -> int:
+        """Combinations of counts there are."""
+        return prod(len(doubt.counts) for doubt in self.doubts.values())
+
+    @property
+    def total(self) -> int:
+        """The sum of the weights of all combinations, as whole numbers."""
+        return prod(doubt.total for doubt in self.doubts.values())
+
+    def weight(self, teeth: Mapping[str, int]) -> int:
+        """The prior weight of one combination; its chance is this over `total`."""
+        return prod(doubt.weights[doubt.counts.index(teeth[wheel])] for wheel, doubt in self.doubts.items())
+
+
+def build_inference_problem(
+    train: Train,
+    doubts: Sequence[ToothCountPrior],
+    state: str | None = None,
+    *,
+    outputs: Sequence[str] = (),
+    tolerance: Fraction | None = None,
+    against: LikelihoodKind = "all",
+    scale: Fraction = Fraction(1),
+    soft: bool = False,
+) -> InferenceProblem:
+    """The question of a train in one state, or in all its states at once.
+
+    outputs     those that count as evidence and are shown; all without any
+    tolerance   relative, for targets that have none of their own
+    against     which claims count: "targets", "figures" (`expect` and `published`), or "all"
+    scale       multiplies every tolerance
+
+    Raises `QuestionError` for states and outputs the train does not have, for asked outputs of which nothing is
+    known, where nothing is known of any output that moves, and for trains that never turn.
+    """
+    _check(train, state, against, tolerance, scale)
+    states: Sequence[str | None] = tuple(train.states) or (None,) if state is None else (state,)
+    domains = {doubt.wheel: doubt.counts for doubt in doubts}
+    found = [(one, find_formulas(train, one, domains)) for one in states]
+    _check_outputs(train, states, outputs)
+    witnesses: list[ObservedOutput] = []
+    moved: set[str] = set()
+    known: set[str] = set()
+    shown: dict[str, Formula] = {}
+    conditions: dict[IntervalConstraint, None] = {}
+    remarks: list[str] = []
+    for one, formulas in found:
+        prefix = f"{one}: " if len(states) > 1 else ""
+        conditions |= dict.fromkeys(_conditions(train, formulas))
+        here = {name: f for name, f in formulas.outputs.items() if f.wheels and (not outputs or name in outputs)}
+        moved |= here.keys()
+        shown |= {prefix + name: formula for name, formula in here.items()}
+        for asking in find_output_requirements(train, train.case(one), formulas.outputs, tolerance):
+            if outputs and asking.name not in outputs:
+                continue
+            formula = formulas.outputs[asking.name]
+            witness = ObservedOutput(prefix + asking.name, formula, observations_of(asking.demands, against, scale))
+            if witness.claims and formula.wheels:
+                witnesses.append(witness)
+                known.add(asking.name)
+            else:
+                remarks += _remarks(witness)
+        remarks += [f"the inputs do not determine '{prefix}{name}'" for name in formulas.undetermined]
+    _check_known(moved, known, outputs)
+    by_wheel = {doubt.wheel: doubt for doubt in doubts}
+    return InferenceProblem(train.name, by_wheel, tuple(witnesses), shown, tuple(conditions), tuple(remarks), soft)
+
+
+def _conditions(train: Train, formulas: Formulas) -> Iterator[IntervalConstraint]:
+    for condition in formulas.conditions:
+        if not condition.wheels:
+            what = f"'{train.name}' does not turn, whatever counts the wheels in doubt have"
+            raise QuestionError(Problem(what, condition.label, "`geartrain solve` shows what holds it"))
+        zero = Fraction(0)
+        yield IntervalConstraint(condition.label, condition, ((zero, zero),))
+    for exclusion in formulas.exclusions:
+        yield IntervalConstraint(exclusion.label, exclusion, _NOT_ZERO, strict=True)
+
+
+def _remarks(witness: ObservedOutput) -> Iterator[str]:
+    """On an output that is no evidence: no wheel in doubt moves it, or no tolerance is stated."""
+    if not witness.claims:
+        yield f"'{witness.name}' is not judged: nothing with a tolerance is asked of it"
+    elif not witness.fits(witness.formula.constant):
+        yield f"no wheel in doubt moves '{witness.name}', and it is not as asked: {witness.text}"
+
+
+def _check(
+    train: Train, state: str | None, against: LikelihoodKind, tolerance: Fraction | None, scale: Fraction
+) -> None:
+    if state is not None and state not in train.states:
+        fix = suggest(state, train.states) if train.states else "leave the state out"
+        raise QuestionError(Problem(f"'{train.name}' has no state '{state}'", "it is not declared", fix))
+    if against not in LIKELIHOOD_KINDS:
+        raise QuestionError(
+            Problem(f"there are no claims called '{against}'", "others are", suggest(against, LIKELIHOOD_KINDS))
+        )
+    if tolerance is not None and tolerance < 0:
+        raise QuestionError(Problem(f"a tolerance of {tolerance}", "it is a distance", "give 0 or more"))
+    if scale < 0:
+        raise QuestionError(Problem(f"tolerances times {scale}", "a tolerance is a distance", "give 0 or more"))
+
+
+def _check_outputs(train: Train, states: Sequence[str | None], outputs: Sequence[str]) -> None:
+    known = dict.fromkeys(name for one in states for name in train.case(one).outputs)
+    for name in outputs:
+        if name not in known:
+            fix = suggest(name, known) if known else "declare it under `outputs`"
+            raise QuestionError(Problem(f"'{train.name}' has no output '{name}'", "it is not declared", fix))
+
+
+def _check_known(moved: Collection[str], known: Collection[str], outputs: Sequence[str]) -> None:
+    """moved, known: outputs that a wheel in doubt moves, and those of them of which something is known."""
+    for name in outputs:
+        if name not in moved:
+            why = "no wheel in doubt moves it"
+            raise QuestionError(Problem(f"output '{name}' tells nothing of the counts", why, "leave it out"))
+        if name not in known:
+            raise _nothing_known(f"nothing is known of output '{name}'")
+    if not known:
+        raise _nothing_known("nothing is known of any output that the wheels in doubt move")
+
+
+def _nothing_known(what: str) -> QuestionError:
+    fix = "declare `targets` with a `tolerance`, or an `expect`; or give --tolerance for targets that have none"
+    return QuestionError(Problem(what, "counts can only be weighed against something with a tolerance", fix))

@@ -1,0 +1,273 @@
+"""Whether combinations fit what is known: floats decide where their error allows it, integers where it does not."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cached_property, reduce
+
+import numpy as np
+from numpy.typing import NDArray
+
+from geartrain.numerics.exact import log10
+from geartrain.synthesis.formulas import Formula
+from geartrain.synthesis.formulas.laurent import Term
+from geartrain.synthesis.join.polynomial_constraints import PolynomialConstraint
+from geartrain.synthesis.join.product_lists import Floats
+from geartrain.synthesis.join.wheel_monomials import Interval, IntervalConstraint, find_polynomial_constraints
+from geartrain.uncertainty.posterior.monomial_columns import (
+    Key,
+    MonomialColumns,
+    Powers,
+    ProductPlan,
+    find_product_plan,
+    recipe_of,
+)
+from geartrain.uncertainty.posterior.observations import Observation, ObservedOutput
+
+Bools = NDArray[np.bool_]
+Domains = Mapping[str, tuple[int, ...]]
+
+_U = 2.0**-53
+_SLACK = 1 + 1e-6
+"""Covers the roundings of the bounds themselves, and the squares that first-order bounds leave out."""
+_SAFE = 250
+"""Monomials between 10^-250 and 10^250 are never near the ends of float64, where relative errors are not bounded."""
+
+
+@dataclass(frozen=True, eq=False)
+class CountPolynomial:
+    """A sum of products of items, in float64.
+
+    terms      (coefficient, product) pairs
+    roundings  in one term and in the sum: the value is off by at most roundings u times the sum of the terms' sizes
+    """
+
+    terms: tuple[tuple[float, Key], ...]
+    roundings: int
+
+    @cached_property
+    def relative(self) -> float | None:
+        """A bound on the relative error; None where terms may cancel."""
+        signs = {coefficient > 0 for coefficient, _ in self.terms}
+        return self.roundings * _U * _SLACK if len(signs) == 1 else None
+
+    def __call__(self, rows: MonomialColumns, plan: ProductPlan) -> tuple[Floats, Floats | None]:
+        """The value, and a bound on its error where `relative` is None."""
+        if not self.terms:
+            return np.zeros(()), np.zeros(())
+        each = [rows.product(key, plan) if one == 1 else one * rows.product(key, plan) for one, key in self.terms]
+        value = reduce(np.add, each)
+        if self.relative is not None:
+            return value, None
+        size = reduce(np.add, map(np.abs, each))
+        return value, np.asarray(self.roundings * _U * _SLACK * size)
+
+    def bounded(self, rows: MonomialColumns, plan: ProductPlan) -> tuple[Floats, Floats]:
+        """The value, and a bound on its error in any case."""
+        value, room = self(rows, plan)
+        return value, np.asarray((self.relative or 0) * np.abs(value)) if room is None else room
+
+
+@dataclass(frozen=True, eq=False)
+class FormulaValues:
+    """A formula seen through monomials: each of them is part of one of its groups, or of none.
+
+    upper, lower   `lower` is None where the formula is a sum of monomials
+    plan           its products in few multiplications
+    safe           False where floats may overflow, so that nothing can be said of their error
+    """
+
+    upper: CountPolynomial
+    lower: CountPolynomial | None
+    plan: ProductPlan
+    safe: bool
+
+    @classmethod
+    def of(cls, formula: Formula, monomials: Sequence[Powers], domains: Domains) -> FormulaValues:
+        """Compile a formula."""
+        if not formula.denominator or not _is_safe(formula, domains):
+            return cls(CountPolynomial((), 0), None, {}, False)
+        alone = len(formula.denominator) == 1
+        scale, below = formula.denominator[0] if alone else (1, (0,) * len(formula.wheels))
+        rounded = [2 * sum(map(abs, one.values())) + 7 for one in monomials]
+
+        def made(terms: Sequence[Term]) -> CountPolynomial:
+            pairs = []
+            for coefficient, powers in terms:
+                exponents = dict(zip(formula.wheels, map(int.__sub__, powers, below), strict=True))
+                pairs.append((float(Fraction(coefficient, scale)), _key(exponents, monomials)))
+            each = [sum(abs(power) * (rounded[item] + 1) for item, power in key) for _, key in pairs]
+            return CountPolynomial(tuple(pairs), max(each, default=0) + len(pairs) + 2)
+
+        upper = made(formula.numerator)
+        lower = None if alone else made(formula.denominator)
+        keys = [key for _, key in (*upper.terms, *(lower.terms if lower else ()))]
+        return cls(upper, lower, find_product_plan(keys), True)
+
+    @property
+    def relative(self) -> float | None:
+        """A bound on the relative error of every value; None where that depends on the row."""
+        return self.upper.relative if self.safe and self.lower is None else None
+
+    def __call__(self, rows: MonomialColumns, plan: ProductPlan | None = None) -> tuple[Floats, Floats | None]:
+        """Values at some rows, and bounds on their errors where `relative` is None: infinite where no digit is sure.
+
+        plan   of many formulas at once; default its own
+        """
+        known = rows.values.get(self)
+        if known is None:
+            value, room = self._worked_out(rows, self.plan if plan is None else plan)
+            known = _filled(value, rows.size), None if room is None else _filled(room, rows.size)
+            rows.values[self] = known
+        return known
+
+    def bounded(self, rows: MonomialColumns, plan: ProductPlan | None = None) -> tuple[Floats, Floats]:
+        """Values, and bounds on their errors in any case."""
+        value, room = self(rows, plan)
+        return value, (self.relative or 0) * np.abs(value) if room is None else room
+
+    def _worked_out(self, rows: MonomialColumns, plan: ProductPlan) -> tuple[Floats, Floats | None]:
+        if not self.safe:
+            return np.zeros(()), np.full((), np.inf)
+        if self.lower is None:
+            return self.upper(rows, plan)
+        return _divided(*self.upper.bounded(rows, plan), *self.lower.bounded(rows, plan))
+
+
+def _divided(top: Floats, off: Floats, bottom: Floats, beside: Floats) -> tuple[Floats, Floats]:
+    with np.errstate(all="ignore"):
+        value = top / bottom
+        left = np.abs(bottom) - beside
+        room = _SLACK * ((off + np.abs(value) * beside) / left + 2 * _U * np.abs(value))
+    return value, np.where((left > 0) & np.isfinite(room), room, np.inf)
+
+
+def _filled(values: Floats, size: int) -> Floats:
+    return values if values.ndim else np.full(size, float(values))
+
+
+def _key(exponents: Mapping[str, int], monomials: Sequence[Powers]) -> Key:
+    """A monomial in wheels as a product of items."""
+    found = []
+    for item, powers in enumerate(monomials):
+        wheel, power = next(iter(powers.items()))
+        if exponents.get(wheel, 0):
+            found.append((item, exponents[wheel] // power))
+    return tuple(found)
+
+
+def _is_safe(formula: Formula, domains: Domains) -> bool:
+    """True if no term, whatever way it is multiplied, comes near the ends of float64."""
+    sizes = [log10(Fraction(max(domains[wheel]))) for wheel in formula.wheels]
+    for coefficient, powers in (*formula.numerator, *formula.denominator):
+        reach = sum(size * abs(power) for size, power in zip(sizes, powers, strict=True))
+        if 2 * reach + abs(log10(Fraction(coefficient))) > _SAFE:
+            return False
+    return True
+
+
+class OutputLikelihood:
+    """One witness before many combinations, seen through given monomials.
+
+    witness   whose claims are judged
+    soft      False: claims hold or not; True: they agree more or less, up to `FAR` tolerances
+    value     its formula, where that is compiled already
+    """
+
+    def __init__(
+        self,
+        witness: ObservedOutput,
+        monomials: Sequence[Powers],
+        domains: Domains,
+        soft: bool,
+        value: FormulaValues | None = None,
+    ) -> None:
+        self.value = value or FormulaValues.of(witness.formula, monomials, domains)
+        asked = witness.asked(soft)
+        self._folded, self._ends = _folded(() if asked is None else asked.intervals)
+        self._gate = None if asked is None else ExactConstraint(asked, monomials, domains)
+        self._poles = ExactConstraint(
+            IntervalConstraint(witness.name, witness.formula, ((None, None),)), monomials, domains
+        )
+        self._scales = [_Scale.of(claim) for claim in witness.claims if not claim.is_exact]
+
+    def judge(self, rows: MonomialColumns, plan: ProductPlan | None = None) -> tuple[Bools, Floats]:
+        """Which rows are in order, exactly; and their misfit, sum of (error / tolerance)^2, to rounding."""
+        value, room = self.value(rows, plan)
+        met, doubtful = self._decided(value, room)
+        unsure = np.flatnonzero(doubtful)
+        if len(unsure):
+            met[unsure] = (self._gate or self._poles).holds(rows.pick(unsure))
+        misfit = np.full(rows.size, np.inf)
+        some = np.flatnonzero(met)
+        misfit[some] = sum((one.misfit(value[some]) for one in self._scales), np.zeros(len(some)))
+        return met, misfit
+
+    def _decided(self, value: Floats, room: Floats | None) -> tuple[Bools, Bools]:
+        """What floats say, and where they are so near an end that they may be wrong."""
+        if self._gate is None:
+            sure = np.isfinite(value if room is None else room)
+            return sure, ~sure
+        met: Bools = np.zeros(len(value), dtype=np.bool_)
+        doubtful: Bools = np.zeros(len(value), dtype=np.bool_)
+        size = np.abs(value) if self._folded else value
+        for middle, half, edge in self._ends:
+            gap = np.abs(size - middle)
+            gap -= half
+            met |= gap <= 0
+            np.abs(gap, out=gap)
+            # a value twice as large as an end is far from it, so that a relative error needs no look at the value
+            near = edge + 4 * (self.value.relative or 0) * (abs(middle) + half) if room is None else edge + room
+            doubtful |= ~(gap > near)
+        return met, doubtful
+
+
+def _folded(intervals: Sequence[Interval]) -> tuple[bool, list[tuple[float, float, float]]]:
+    """Intervals as middle, half and rounding of their ends; True if only those of the magnitude are given."""
+    mirrored = {(None if high is None else -high, None if low is None else -low) for low, high in intervals}
+    fold = len(intervals) > 1 and mirrored == set(intervals)
+    found = []
+    for low, high in intervals:
+        if fold and low is not None and low < 0:
+            continue
+        if low is None or high is None:  # a ray is settled with the exact numbers
+            found.append((0.0, 0.0, np.inf))
+            continue
+        ends = float(max(abs(low), abs(high)))
+        found.append((float((low + high) / 2), float((high - low) / 2), 8 * _U * ends))
+    return fold, found
+
+
+@dataclass(frozen=True, slots=True)
+class _Scale:
+    """A claim in floats: what is wanted, and one over the tolerance below and above."""
+
+    wanted: float
+    signed: bool
+    below: float
+    above: float
+
+    @classmethod
+    def of(cls, claim: Observation) -> _Scale:
+        below, above = (claim.half(side) for side in (False, True))
+        return cls(float(claim.wanted), claim.signed, *(1 / float(half) if half else 0.0 for half in (below, above)))
+
+    def misfit(self, value: Floats) -> Floats:
+        off = (value if self.signed else np.abs(value)) - self.wanted
+        found: Floats = (off * np.where(off > 0, self.above, self.below)) ** 2
+        return found
+
+
+class ExactConstraint:
+    """A demand that holds or does not, decided exactly."""
+
+    def __init__(self, asked: IntervalConstraint, monomials: Sequence[Powers], domains: Domains) -> None:
+        self._band: PolynomialConstraint = find_polynomial_constraints(
+            [asked], [recipe_of(powers) for powers in monomials], domains
+        )[0]
+
+    def holds(self, rows: MonomialColumns) -> Bools:
+        """Where it holds."""
+        return self._band.holds(rows)

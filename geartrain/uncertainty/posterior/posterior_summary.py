@@ -1,0 +1,282 @@
+"""The combinations that agree best, in an order that no rounding and no way of searching can change.
+
+What the three ways of looking at all combinations have in common when they are done.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from math import exp, sqrt
+from typing import Any
+
+import numpy as np
+
+from geartrain.uncertainty.posterior.enumeration import PosteriorTally, origin_of
+from geartrain.uncertainty.posterior.forward_backward import CombinationCandidate, ForwardBackwardSums, plain_number
+from geartrain.uncertainty.posterior.inference_problem import InferenceProblem
+from geartrain.uncertainty.posterior.posterior_result import CountCombination, CountProbability, WheelPosterior
+from geartrain.uncertainty.posterior.priors import ToothCountPrior
+
+_NEAR = 1 + 1e-9
+_MOST = 2000
+
+
+def first_with_ties(candidates: Iterator[CombinationCandidate], most: int) -> tuple[list[CombinationCandidate], bool]:
+    """The first `most` of an ascending list and all equals of the last; False if equals had to be left out."""
+    found: list[CombinationCandidate] = []
+    for candidate in candidates:
+        if len(found) >= most and candidate.misfit > found[most - 1].misfit * _NEAR:
+            return found, True
+        if len(found) >= max(most, _MOST):
+            return found, False
+        found.append(candidate)
+    return found, True
+
+
+def combine_parts(parts: Sequence[Sequence[CombinationCandidate]], most: int) -> list[CombinationCandidate]:
+    """Combinations of one candidate of each part, the best of them and their equals."""
+    found = [CombinationCandidate(0.0, {})]
+    for part in parts:
+        joined = (
+            CombinationCandidate(left.misfit + right.misfit, {**left.teeth, **right.teeth})
+            for left in found
+            for right in part
+        )
+        ordered = sorted(joined, key=lambda one: one.misfit)
+        found, _ = first_with_ties(iter(ordered), most)
+    return found
+
+
+def rank_combinations(
+    question: InferenceProblem, candidates: Iterable[CombinationCandidate], most: int, evidence: CountProbability | None
+) -> tuple[CountCombination, ...]:
+    """Exact figures of the candidates, best first: by misfit, then prior weight, then nearness to what is declared.
+
+    evidence   of all that fits; None where it is not known, and then no chances are given
+    """
+    made = [_combination(question, candidate.teeth, evidence) for candidate in candidates]
+    made.sort(key=lambda one: (one.misfit, -_weight(question, one.teeth), len(one.changed), tuple(one.teeth.values())))
+    return tuple(made[:most])
+
+
+def _combination(
+    question: InferenceProblem, teeth: Mapping[str, int], evidence: CountProbability | None
+) -> CountCombination:
+    ordered = {wheel: teeth[wheel] for wheel in question.doubts if wheel in teeth}
+    speeds: dict[str, Fraction] = {}
+    errors: dict[str, Fraction] = {}
+    misfit = Fraction(0)
+    for witness in question.witnesses:
+        speed = witness.formula.value(ordered)
+        assert speed is not None, "what fits has a speed"
+        speeds[witness.name] = speed
+        claim = max(witness.claims, key=lambda one: one.misfit(speed))
+        value = speed if claim.signed else abs(speed)
+        errors[witness.name] = value / claim.wanted - 1 if claim.wanted else value
+        misfit += witness.misfit(speed)
+    changed = tuple(wheel for wheel, count in ordered.items() if count != question.doubts[wheel].declared)
+    chance = _chance(question, ordered, misfit, evidence)
+    return CountCombination(ordered, speeds, errors, misfit, chance, changed)
+
+
+def _chance(
+    question: InferenceProblem, teeth: Mapping[str, int], misfit: Fraction, evidence: CountProbability | None
+) -> CountProbability | None:
+    if evidence is None or not evidence.value:
+        return None
+    prior = Fraction(1)
+    for wheel, count in teeth.items():
+        doubt = question.doubts[wheel]
+        prior *= doubt.priors[doubt.counts.index(count)]
+    if question.soft or not isinstance(evidence.value, Fraction):
+        return CountProbability(
+            float(prior) * (exp(-float(misfit) / 2) if question.soft else 1) / float(evidence.value)
+        )
+    return CountProbability(prior / evidence.value)
+
+
+def _weight(question: InferenceProblem, teeth: Mapping[str, int]) -> int:
+    found = 1
+    for wheel, count in teeth.items():
+        doubt = question.doubts[wheel]
+        found *= doubt.weights[doubt.counts.index(count)]
+    return found
+
+
+_Z = 1.959963984540054  # of 95 %
+_CERTAIN = 1e-4
+"""Spread over range below which a count has no correlation to tell: other counts have a chance under 10^-8, and
+covariances in float64 would be rounding."""
+
+
+@dataclass(frozen=True, slots=True)
+class PosteriorSummary:
+    """Evidence, posteriors, correlations and candidates for the best, whoever found them.
+
+    effective  number of combinations that the figures rest on, where they are of a sample; infinite where they are not
+    """
+
+    looked: int
+    evidence: CountProbability
+    turning: CountProbability
+    fits: int | None
+    posteriors: Mapping[str, WheelPosterior]
+    correlations: Mapping[tuple[str, str], float]
+    candidates: Sequence[CombinationCandidate]
+    ranked: bool
+    effective: float
+
+
+def wilson_of_effective(hits: float, trials: float) -> tuple[float, float]:
+    """The 95 % score interval of a share (Wilson 1927): hits and trials may be effective, not whole numbers."""
+    if not trials:
+        return 0.0, 1.0
+    share, square = hits / trials, _Z * _Z
+    middle = (share + square / (2 * trials)) / (1 + square / trials)
+    half = _Z * sqrt(max(share * (1 - share), 0.0) / trials + square / (4 * trials * trials)) / (1 + square / trials)
+    return (max(0.0, middle - half) if hits else 0.0), (min(1.0, middle + half) if hits < trials else 1.0)
+
+
+def summary_of_tally(question: InferenceProblem, tally: PosteriorTally, drawn: bool) -> PosteriorSummary:
+    """What a listing of combinations comes to, or a sample of them."""
+    wheels = tally.batch.wheels
+    candidates = [
+        CombinationCandidate(misfit, {w: tally.batch.domains[w][index] for w, index in zip(wheels, at, strict=True)})
+        for misfit, at in tally.best
+    ]
+    by = dict(zip(wheels, tally.by, strict=True))
+    if drawn:
+        evidence, turning = _share(tally.weight, tally.looked, tally, question.soft), _counted(tally)
+    else:
+        total = int(np.prod([question.doubts[wheel].total for wheel in wheels], dtype=object))
+        evidence = (
+            CountProbability(float(tally.weight))
+            if question.soft
+            else CountProbability(Fraction(int(tally.weight), total))
+        )
+        turning = CountProbability(Fraction(int(tally.turning), total))
+    trials = tally.weight**2 / tally.square if drawn and tally.square else None
+    posteriors = {
+        wheel: wheel_posterior(doubt, by.get(wheel), tally.weight, trials) for wheel, doubt in question.doubts.items()
+    }
+    fits = None if drawn or question.soft else _all(question, wheels) * tally.fits
+    return PosteriorSummary(
+        tally.looked,
+        evidence,
+        turning,
+        fits,
+        posteriors,
+        _of_sizes(question, tally),
+        candidates,
+        tally.ranked,
+        (trials or 0.0) if drawn else float("inf"),
+    )
+
+
+def _all(question: InferenceProblem, wheels: Sequence[str]) -> int:
+    """Combinations of the wheels on which nothing depends."""
+    found = 1
+    for wheel, doubt in question.doubts.items():
+        found *= 1 if wheel in wheels else len(doubt.counts)
+    return found
+
+
+def _share(weight: float, looked: int, tally: PosteriorTally, soft: bool) -> CountProbability:
+    """A share with its interval: Wilson's for hits, the normal one for degrees of agreement."""
+    if not looked:
+        return CountProbability(0.0, 0.0, 1.0)
+    mean = float(weight) / looked
+    if not soft or not weight:
+        return CountProbability(mean, *wilson_of_effective(float(weight), looked))
+    half = _Z * sqrt(max(tally.square / looked - mean**2, 0.0) / looked)
+    return CountProbability(mean, max(0.0, mean - half), min(1.0, mean + half))
+
+
+def _counted(tally: PosteriorTally) -> CountProbability:
+    if not tally.batch.question.conditions:
+        return CountProbability(Fraction(1))
+    share = tally.turning / tally.looked if tally.looked else 0.0
+    return CountProbability(share, *wilson_of_effective(tally.turning, tally.looked))
+
+
+def wheel_posterior(
+    doubt: ToothCountPrior, weights: Sequence[Any] | None, total: Any, trials: float | None
+) -> WheelPosterior:
+    """The chances of one wheel's counts.
+
+    weights   of what fits with each count; None: nothing known depends on the wheel
+    total     their sum
+    trials    number of hits behind them, where they are of a sample
+    """
+    if not total:
+        return WheelPosterior(doubt, (), weights is None)
+    if weights is None:
+        return WheelPosterior(doubt, tuple(CountProbability(prior) for prior in doubt.priors), True)
+    if trials is not None:
+        shares = [float(weight) / float(total) for weight in weights]
+        return WheelPosterior(
+            doubt,
+            tuple(CountProbability(share, *wilson_of_effective(share * trials, trials)) for share in shares),
+            False,
+        )
+    if isinstance(total, float | np.floating):
+        return WheelPosterior(doubt, tuple(CountProbability(float(weight) / float(total)) for weight in weights), False)
+    return WheelPosterior(
+        doubt, tuple(CountProbability(Fraction(int(weight), int(total))) for weight in weights), False
+    )
+
+
+def _of_sizes(question: InferenceProblem, tally: PosteriorTally) -> dict[tuple[str, str], float]:
+    """Correlations from sums of products of counts."""
+    if not tally.weight:
+        return {}
+    wheels = tally.batch.wheels
+    means, spreads = _moments(question, dict(zip(wheels, tally.by, strict=True)), tally.weight)
+    off = [means[wheel] - origin_of(question.doubts[wheel]) for wheel in wheels]
+    found = {}
+    for i, first in enumerate(wheels):
+        for j, second in enumerate(wheels[i + 1 :], i + 1):
+            found[first, second] = float(tally.sizes[i, j]) / float(tally.weight) - off[i] * off[j]
+    return _correlated(found, spreads)
+
+
+def correlations_of_sums(
+    question: InferenceProblem, sums: Sequence[ForwardBackwardSums]
+) -> dict[tuple[str, str], float]:
+    """Correlations from decomposed parts; wheels of different parts have none."""
+    found: dict[tuple[str, str], float] = {}
+    order = {wheel: at for at, wheel in enumerate(question.doubts)}
+    for one in sums:
+        if one.evidence:
+            _, spreads = _moments(question, one.posteriors, one.evidence)
+            pairs = {(a, b) if order[a] < order[b] else (b, a): value for (a, b), value in one.covariances.items()}
+            found |= _correlated(pairs, spreads)
+    return dict(sorted(found.items(), key=lambda pair: -abs(pair[1])))
+
+
+def _moments(
+    question: InferenceProblem, by: Mapping[str, Sequence[Any]], total: Any
+) -> tuple[dict[str, float], dict[str, float]]:
+    """Posterior mean and standard deviation of every wheel's count; 0 for one that is as good as certain."""
+    means, spreads = {}, {}
+    for wheel, weights in by.items():
+        counts, whole = question.doubts[wheel].counts, Fraction(plain_number(total))
+        pairs = [(count, Fraction(plain_number(weight)) / whole) for count, weight in zip(counts, weights, strict=True)]
+        mean = sum((chance * count for count, chance in pairs), Fraction(0))
+        means[wheel] = float(mean)
+        spread = sqrt(sum((chance * (count - mean) ** 2 for count, chance in pairs), Fraction(0)))
+        spreads[wheel] = spread if spread > _CERTAIN * (counts[-1] - counts[0]) else 0.0
+    return means, spreads
+
+
+def _correlated(
+    covariances: Mapping[tuple[str, str], float], spreads: Mapping[str, float]
+) -> dict[tuple[str, str], float]:
+    found = {}
+    for (first, second), covariance in covariances.items():
+        size = spreads[first] * spreads[second]
+        if size:
+            found[first, second] = min(1.0, max(-1.0, covariance / size))
+    return dict(sorted(found.items(), key=lambda pair: -abs(pair[1])))

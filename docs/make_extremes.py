@@ -54,9 +54,9 @@ source of the tooth law, couple by couple, in 50 digits, and all laws of a train
 takes from geartrain the sizes of the teeth, as exact, and its answer as the place to start from. Torques are balanced
 again in fractions.
 
-The same runs are tests, in `tests/test_extremes.py`, which hold each error below its bound: some roundings of 1.1e-16,
-times what the train makes of them, or the arithmetic that the last column names. The last digits of small errors are
-chance. Times are of the floats alone, for motions of all positions of a run, on a machine with two cores.
+The same runs are tests, in `tests/analysis/test_extremes.py`, which hold each error below its bound: some roundings of
+1.1e-16, times what the train makes of them, or the arithmetic that the last column names. The last digits of small
+errors are chance. Times are of the floats alone, for motions of all positions of a run, on a machine with two cores.
 
 What cannot be followed is refused: a differential near locking that is driven from its slow side would be moved past a
 dead centre by the ripple of its own teeth.

@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+import json
+import subprocess
+import sys
+
 from typer.testing import CliRunner, Result
 
 from geartrain.cli import app
@@ -23,5 +27,31 @@ TWENTY = (
 )
 
 
+# a finder that stands before all others: the named libraries are not there
+BLOCK = """
+import sys
+class Missing:
+    def find_spec(self, name, path=None, target=None):
+        if name.partition(".")[0] in {missing!r}:
+            raise ModuleNotFoundError(f"No module named {{name!r}}", name=name)
+sys.meta_path.insert(0, Missing())
+from geartrain.cli import main
+main()
+"""
+
+
 def call(*arguments: object) -> Result:
     return CliRunner().invoke(app, [str(argument) for argument in arguments])
+
+
+def without(*missing: str, arguments: list[object]) -> subprocess.CompletedProcess[str]:
+    code = BLOCK.format(missing=set(missing))
+    command = [sys.executable, "-c", code, *map(str, arguments)]
+    return subprocess.run(command, capture_output=True, text=True, check=False)
+
+
+def imported_by(code: str) -> set[str]:
+    """The top-level modules loaded in a fresh interpreter after `code`."""
+    tail = "\nimport sys, json; print(json.dumps(sorted({name.split('.')[0] for name in sys.modules})))"
+    done = subprocess.run([sys.executable, "-c", code + tail], capture_output=True, text=True, check=True, timeout=120)
+    return set(json.loads(done.stdout.splitlines()[-1]))

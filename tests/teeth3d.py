@@ -15,6 +15,8 @@ from itertools import product
 import numpy as np
 from numpy.typing import NDArray
 
+from geartrain import GearTrain
+
 Vector = NDArray[np.float64]
 
 
@@ -137,3 +139,22 @@ def put_together(wheels: Mapping[str, Wheel], pairs: Pairs, most: int = 20_000) 
 def best(wheels: Mapping[str, Wheel], pairs: Pairs) -> float:
     """The largest misfit of the best way to put the set together (pitches)."""
     return min(max(map(abs, misfits(wheels, pairs, angles))) for angles in put_together(wheels, pairs))
+
+
+def in_space(train: GearTrain) -> tuple[dict[str, Wheel], list[tuple[str, str]]]:
+    """The wheels of a train as the independent check takes them, from what is declared."""
+    declared = train.declaration
+    axis_of = {joint.pair[1]: joint.axis for joint in declared.revolutes}
+    wheels = {}
+    ways = [[0.0, 0.0, 1.0], *([float(part.value) for part in axis.direction] for axis in declared.axes.values())]
+    for name, (link, wheel) in declared.wheels.items():
+        axis = declared.axes[axis_of.get(link, "main")]
+        place = [part.si for part in axis.position] if axis.position else [0.0, 0.0, 0.0]
+        way = np.array([float(part.value) for part in axis.direction])
+        facing = wheel.facing * way
+        parallel = [np.array(w) for w in ways if np.allclose(np.cross(w, way), 0)]
+        sense = parallel[0]  # as the first of its parallels
+        mark = np.array([0.0, 1.0, 0.0]) if abs(way[0]) > 0.9 * np.linalg.norm(way) else np.array([1.0, 0.0, 0.0])
+        mount = link if link != "frame" else name
+        wheels[name] = Wheel(mount, wheel.count or 0, np.array(place), sense, mark, wheel.internal, facing)
+    return wheels, [gear.pair for gear in declared.gears]

@@ -101,7 +101,7 @@ def _make(name: str, folder: Path) -> None:
 def _files(name: str) -> Iterator[tuple[str, bytes]]:
     """As `geartrain draw`, `view` and `report` write them; each picture is drawn once."""
     import geartrain
-    from geartrain.plot import picture, render
+    from geartrain.drawing import picture, render
     from geartrain.report import Picture, shared_document, to_html
     from geartrain.scene import make_scene
     from geartrain.viewer import page

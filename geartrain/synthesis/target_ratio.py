@@ -94,7 +94,7 @@ def read_ratio(text: str, per: str | None = None) -> TargetRatio:
     `QuestionError` for what has no meaning or more than one.
 
     >>> read_ratio("-235 months / 19 years")
-    Wanted(value=Fraction(235, 19), sense=-1, label='-235 months / 19 years', note='235 months in the time of 19 years')
+    TargetRatio(value=Fraction(235, 19), sense=-1, label='-235 months / 19 years', note='235 months in the time of 19 years')
     """
     if len(text) > _MOST_CHARACTERS:
         raise _problem(f"a ratio of {len(text)} characters", "a number has at most 400", f"write {_WAYS}")

@@ -1,0 +1,175 @@
+"""`geartrain export`: one file by its suffix, a folder of them, and what is refused."""
+
+from __future__ import annotations
+
+import re
+import sys
+from pathlib import Path
+
+import pytest
+from commands import LOCKED, call, without
+
+from geartrain.errors import GearTrainError
+from geartrain.numerics.files import check_folder, write_folder
+
+LIGHT = "svg,graphml,dot,rexs,csv"
+
+
+def test_a_folder_holds_all_that_was_asked_for_and_a_list_of_it(tmp_path: Path) -> None:
+    to = tmp_path / "deep" / "set"
+    done = call("export", "planetary-24-18-60", "--to", to, "--as", LIGHT)
+    assert done.exit_code == 0, done.output
+    files = {str(path.relative_to(to)) for path in to.rglob("*") if path.is_file()}
+    assert {
+        "README.md",
+        "wheels/s.svg",
+        "wheels/ring.svg",
+        "graph.dot",
+        "gear-unit.rexsj",
+        "tables/wheels.csv",
+    } <= files
+    listed = set(re.findall(r"^\| (\S+) \|", (to / "README.md").read_text(encoding="utf-8"), re.M)) - {"file", "---"}
+    assert listed == files - {"README.md"}
+    assert [path.name for path in to.parent.iterdir()] == ["set"], "nothing stands beside it"
+
+
+def test_existing_files_are_refused_as_a_whole_and_force_writes_over_them(tmp_path: Path) -> None:
+    to = tmp_path / "set"
+    (to / "wheels").mkdir(parents=True)
+    (to / "wheels" / "s.svg").write_text("mine", encoding="utf-8")
+    (to / "own.txt").write_text("mine", encoding="utf-8")
+    refused = call("export", "planetary-24-18-60", "--to", to, "--as", "svg")
+    assert isinstance(refused.exception, GearTrainError)
+    assert "wheels/s.svg" in str(refused.exception)
+    assert "--force" in str(refused.exception)
+    assert {path.name for path in to.rglob("*")} == {"wheels", "s.svg", "own.txt"}
+    assert call("export", "planetary-24-18-60", "--to", to, "--as", "svg", "--force").exit_code == 0
+    assert "24 teeth" in (to / "wheels" / "s.svg").read_text(encoding="utf-8")
+    assert (to / "own.txt").read_text(encoding="utf-8") == "mine"
+
+
+def test_one_existing_file_is_kept_unless_forced(tmp_path: Path) -> None:
+    out = tmp_path / "s.svg"
+    out.write_text("mine", encoding="utf-8")
+    asked = ("export", "planetary-24-18-60", "--wheel", "s", "-o", out)
+    refused = call(*asked)
+    assert refused.exit_code != 0
+    assert out.read_text(encoding="utf-8") == "mine"
+    assert call(*asked, "--force").exit_code == 0
+    assert "24 teeth" in out.read_text(encoding="utf-8")
+
+
+def test_a_folder_that_is_stopped_half_way_is_not_there(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def stop(*_: object) -> str:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(sys.modules["geartrain.export.file_set"], "readme", stop)
+    done = call("export", "planetary-24-18-60", "--to", tmp_path / "set", "--as", LIGHT)
+    assert done.exit_code == 130
+    assert "nothing is written" in done.stderr
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize("stop", [KeyboardInterrupt, OSError, GearTrainError])
+def test_what_stops_half_way_leaves_nothing_behind(stop: type[BaseException], tmp_path: Path) -> None:
+    def files():  # type: ignore[no-untyped-def]
+        yield "a/b.txt", b"first"
+        raise stop(()) if stop is GearTrainError else stop()
+
+    for folder in (tmp_path / "new", tmp_path / "old"):
+        if folder.name == "old":
+            folder.mkdir()
+        with pytest.raises(GearTrainError if stop is OSError else stop):
+            write_folder(folder, files())
+    assert [path.name for path in tmp_path.rglob("*")] == ["old"]
+
+
+def test_a_folder_that_is_a_file_is_no_folder(tmp_path: Path) -> None:
+    (tmp_path / "x").write_text("", encoding="utf-8")
+    with pytest.raises(GearTrainError, match="no folder"):
+        check_folder(tmp_path / "x", ["a"])
+
+
+@pytest.mark.parametrize(
+    ("arguments", "what"),
+    [
+        ((), "not said what to write"),
+        (("--to", "d", "-o", "x.glb"), "both given"),
+        (("-o", "x.pdf"), "no train is written as '.pdf'"),
+        (("-o", "x"), "no train is written as 'x'"),
+        (("-o", "x.glb", "--wheel", "s"), "no wheel is written as '.glb'"),
+        (("-o", "x.svg", "--wheel", "nobody"), "no wheel 'nobody'"),
+        (("--to", "d", "--as", "svg,pdf"), "no export 'pdf'"),
+        (("--to", "d", "--wheel", "s"), "for one file"),
+        (("-o", "x.glb", "--turns", "many"), "no number of turns"),
+        (("-o", "x.stl", "--module", "0mm"), "a module of 0 mm"),
+        (("-o", "x.stl", "--thickness", "two"), "two"),
+    ],
+)
+def test_bad_questions_are_said_with_what_to_do(
+    arguments: tuple[object, ...], what: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    done = call("export", "planetary-24-18-60", *arguments)
+    assert isinstance(done.exception, GearTrainError), done.output
+    assert what in str(done.exception)
+    assert "fix:" in str(done.exception)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_module_is_refused_where_the_declaration_has_sizes(tmp_path: Path) -> None:
+    out = tmp_path / "x.stl"
+    text = (
+        "links: {frame: {}, a: {wheels: {p: {teeth: 20, module: 2 mm}}}, b: {wheels: {w: {teeth: 30, module: 2 mm}}}}\n"
+        "revolutes: [{pair: [frame, a], axis: A}, {pair: [frame, b], axis: B}]\ngears: [{pair: [p, w]}]\n"
+        "inputs: {a: 1}\n"
+    )
+    file = tmp_path / "sized.yaml"
+    file.write_text(text, encoding="utf-8")
+    done = call("export", file, "-o", out, "--module", "1mm")
+    assert "sizes of its own" in str(done.exception)
+    assert call("export", file, "-o", out).exit_code == 0
+
+
+def test_a_locked_train_is_written_and_the_exit_code_says_so(tmp_path: Path) -> None:
+    file = tmp_path / "locked.yaml"
+    file.write_text(LOCKED, encoding="utf-8")
+    done = call("export", file, "--to", tmp_path / "set", "--as", LIGHT)
+    assert done.exit_code == 1, done.output
+    assert (tmp_path / "set" / "wheels" / "x.svg").exists()
+
+
+def test_names_and_titles_of_any_letters_are_harmless(tmp_path: Path) -> None:
+    file = tmp_path / "odd.yaml"
+    text = (
+        LOCKED.replace(", {pair: [z, x]}", "").replace("{x: 20}", '{"../<b>&": 20}').replace("[x, y]", '["../<b>&", y]')
+    )
+    file.write_text('name: "<script>|"\n' + text, encoding="utf-8")
+    to = tmp_path / "set"
+    assert call("export", file, "--to", to, "--as", LIGHT).exit_code == 0
+    (odd,) = (path for path in (to / "wheels").iterdir() if "b" in path.stem)
+    assert "<b>" not in odd.read_text(encoding="utf-8")
+    assert "<script>" not in (to / "README.md").read_text(encoding="utf-8")
+    assert {path.name for path in tmp_path.iterdir()} == {"odd.yaml", "set"}
+
+
+@pytest.mark.parametrize(
+    ("library", "out", "extra"),
+    [("ezdxf", "s.dxf", "dxf"), ("pygltflib", "set.glb", "model"), ("OCP", "set.step", "step")],
+)
+def test_a_missing_library_is_named_with_its_extra(library: str, out: str, extra: str, tmp_path: Path) -> None:
+    more = ["--wheel", "s"] if out.startswith("s.") else []
+    done = without(library, arguments=["export", "planetary-24-18-60", "-o", tmp_path / out, *more])
+    assert done.returncode == 2
+    assert f"pip install 'geartrain[{extra}]'" in done.stderr
+    assert "Traceback" not in done.stderr
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_without_any_extra_the_rest_is_written_and_what_is_missing_is_said(tmp_path: Path) -> None:
+    done = without("ezdxf", "pygltflib", "OCP", arguments=["export", "planetary-24-18-60", "--to", tmp_path / "set"])
+    assert done.returncode == 0, done.stderr
+    for extra in ("dxf", "model", "step"):
+        assert f"geartrain[{extra}]" in done.stderr
+    suffixes = {path.suffix for path in (tmp_path / "set").rglob("*") if path.is_file()}
+    assert suffixes == {".svg", ".stl", ".graphml", ".dot", ".rexsj", ".csv", ".md"}

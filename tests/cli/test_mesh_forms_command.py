@@ -1,0 +1,318 @@
+"""`geartrain mesh compare` and `geartrain mesh FORM` as their user meets them: ratios, pages, pictures, refusals."""
+
+from __future__ import annotations
+
+import json
+import re
+import subprocess
+import sys
+from functools import cache
+from math import cos, isclose, pi, radians, sin, sqrt, tan
+from pathlib import Path as File
+from typing import Any
+
+import numpy as np
+import pytest
+from commands import call
+from places import DATA
+
+PRINTED = json.loads((DATA / "tooth_shapes.json").read_text(encoding="utf-8"))
+ROWS = {(row[0], row[1].split(" Q*")[0]): row[2:] for row in PRINTED["performance"]}
+COLUMNS = ("loss", "stress", "off_pitch", "heat", "flash")
+ALL = "involute,uniform_stress,uniform_temperature_a,uniform_temperature_b,least_friction"
+NAMES = {
+    "involute": "involute20",
+    "uniform_stress": "UHS psi0=20",
+    "uniform_temperature_a": "UT-a",
+    "uniform_temperature_b": "UT-b",
+    "least_friction": "MF psi_hi=25 u=0.15",
+}
+PAIR = ("--teeth", 24, 36)
+KEYS = {"form", "teeth", "verdict", "pitch_radii", "flanks", "thickness", "arcs", "contact_ratio", "pressure_angles"}
+KEYS |= {"costs", "efficiency", "outlines"}
+
+
+@cache
+def compared(*arguments: object) -> dict[str, Any]:
+    done = call("mesh", "compare", *arguments, "--json")
+    assert done.exit_code in (0, 1), done.output
+    found: dict[str, Any] = json.loads(done.output)
+    return found
+
+
+def process(*arguments: object, code: str = "from geartrain.cli import main; main()") -> Any:
+    command = [sys.executable, "-c", code, *map(str, arguments)]
+    return subprocess.run(command, capture_output=True, text=True, check=False)
+
+
+@pytest.mark.parametrize("pair", ["spur(24,36)", "spur(12,60)", "bevel(24,36)", "bevel(15,45)"])
+def test_the_ratios_are_those_of_the_printed_tables(pair: str) -> None:
+    kind, z1, z2 = re.fullmatch(r"(\w+)\((\d+),(\d+)\)", pair).groups()  # type: ignore[union-attr]
+    data = compared("--teeth", z1, z2, "--forms", ALL, *(("--bevel", "90deg") if kind == "bevel" else ()))
+    assert {form["form"] for form in data["forms"]} == set(NAMES)
+    for form in data["forms"]:
+        _, *printed, slowest = ROWS[pair, NAMES[form["form"]]]
+        for name, text in zip(COLUMNS, printed, strict=True):
+            value = form["ratios"]["one_pair"][name]
+            assert value is None if text == "inf" else isclose(value, float(text), rel_tol=2e-9), (form["form"], name)
+        involute = float(ROWS[pair, "involute20"][-1])
+        assert form["ratios"]["slowest"] * involute == pytest.approx(float(slowest), abs=1e-9)
+
+
+def test_uniform_temperature_has_the_depth_of_the_involute_in_all_readings() -> None:
+    forms = ",".join(f"uniform_temperature_{reading}" for reading in "abc")
+    data = compared(*PAIR, "--forms", forms)
+    assert [form["ratios"]["depth"] for form in data["forms"]] == pytest.approx([1, 1, 1], abs=1e-9)
+    assert "the working depth" in data["matched"]
+    assert data["forms"][2]["ratios"]["one_pair"]["stress"] is not None
+
+
+def test_a_form_that_cannot_run_has_its_faults_in_place_of_numbers() -> None:
+    done = call("mesh", "compare", *PAIR, "--bevel", "90deg", "--forms", "involute,lantern")
+    assert done.exit_code == 1
+    assert re.search(r"\| lantern +\| - +\| refused \|", done.output)
+    assert "no mate in closed form" in done.output
+    data = compared(*PAIR, "--arcs", "0.7,0.7", "--pressure-angle", "10deg", "--forms", "involute")
+    (form,) = data["forms"]
+    # the dedendum of gear 1 ends where the line of action touches its base circle: R1 tan psi, in pitches
+    assert not form["runs"]
+    assert form["ratios"] is None
+    fault = next(fault for fault in form["faults"] if fault["gear"] == 1)
+    assert fault["kind"] == "undercut"
+    assert float(re.search(r"before ([\d.]+) pitches", fault["fix"])[1]) == pytest.approx(  # type: ignore[index]
+        12 * tan(radians(10)) / pi, rel=1e-5
+    )
+
+
+def test_the_pins_of_a_lantern_are_set_beside_an_involute_with_their_arcs() -> None:
+    data = compared(*PAIR, "--forms", "lantern")
+    lantern, beside = data["forms"]
+    assert lantern["arcs"] == pytest.approx(beside["arcs"])
+    lost, arc = -lantern["arcs"][0], lantern["arcs"][1]
+    assert 0 < lost < 0.05, "what the pins cut off the flanks"
+    assert arc - lost == pytest.approx(1, abs=1e-7)
+    # the mean of X over an arc in recess, against a quarter of a pitch over two halves
+    assert beside["ratios"]["one_pair"]["loss"] == pytest.approx(2 * (arc + lost), rel=1e-12)
+    # pins of 1.5 modules on R2 = 18: J in closed form
+    pins = np.arcsin(0.75 / 36)
+    first, last = pins + lost * pi / 36, pins + arc * pi / 36
+
+    def J(u: float) -> float:
+        return float(-4 * 18**2 * np.log(cos(u)) - 2 * 18 * 0.75 * np.log(tan(pi / 4 + u / 2)))
+
+    loss = (1 / 12 + 1 / 18) * (J(last) - J(first)) / ((arc - lost) * pi)
+    for load in ("one_pair", "shared"):
+        assert lantern["ratios"][load]["loss"] * data["base"][load]["loss"] == pytest.approx(loss, rel=1e-6)
+
+
+def test_a_table_a_page_and_data_say_the_same(tmp_path: File) -> None:
+    for name in ("c.md", "c.html", "c.json"):
+        assert call("mesh", "compare", *PAIR, "--forms", ALL, "-o", tmp_path / name).exit_code == 0
+    page, table = ((tmp_path / name).read_text(encoding="utf-8") for name in ("c.html", "c.md"))
+    data = json.loads((tmp_path / "c.json").read_text(encoding="utf-8"))
+    assert data == compared(*PAIR, "--forms", ALL)
+    for form in data["forms"]:
+        assert f"| {form['form']}" in table
+        assert f"{form['ratios']['one_pair']['loss']:.4f}" in table
+        assert f"{form['ratios']['one_pair']['loss']:.4f}" in page
+    assert "Matched: arcs" in table
+
+
+@pytest.mark.parametrize("form", ["involute", "cycloidal", "lantern", "uniform_stress", "uniform_temperature"])
+def test_every_key_of_a_form_is_the_promised_one(form: str) -> None:
+    data = json.loads(call("mesh", form, *PAIR, "--friction", 0.05, "--json").output)
+    assert set(data) == KEYS
+    assert data["form"] == form
+    assert data["verdict"]["kind"] == "runs"
+    assert 0.97 < data["efficiency"]["min"] <= data["efficiency"]["mean"] < 1
+    assert sum(data["arcs"]) == pytest.approx(data["contact_ratio"])
+
+
+def test_a_page_of_a_pair_has_textbook_numbers() -> None:
+    data = json.loads(call("mesh", "involute", *PAIR, "--json").output)
+    base = [R * cos(radians(20)) for R in (12, 18)]
+    lengths = [sqrt((R + 1) ** 2 - b * b) - R * sin(radians(20)) for R, b in zip((12, 18), base, strict=True)]
+    # the tip of gear 2 begins the contact, the tip of gear 1 ends it; pi cos psi is the base pitch
+    assert data["arcs"] == pytest.approx([length / (pi * cos(radians(20))) for length in reversed(lengths)], rel=1e-12)
+    slide = (1 / 12 + 1 / 18) * max(lengths)
+    assert data["costs"]["sliding"] == pytest.approx(slide, rel=1e-6)
+    assert data["flanks"][0][1] == pytest.approx(13, rel=1e-12)
+    text = call("mesh", "involute", *PAIR).output
+    assert "Verdict: the teeth run" in text
+    assert "Contact ratio 1.64717" in text
+
+
+def test_the_efficiency_tends_to_the_printed_loss_and_the_driver_is_named() -> None:
+    done = json.loads(call("mesh", "uniform_stress", *PAIR, "--friction", 1e-6, "--json").output)
+    assert (1 - done["efficiency"]["mean"]) / 1e-6 == pytest.approx(0.109176344569, rel=1e-5)
+    assert "wheel of 36 drives the wheel of 24" in call("mesh", "uniform_stress", *PAIR, "--driver", 2).output
+
+
+def test_faults_are_told_with_what_would_fit_and_the_exit_code_is_that_of_a_verdict() -> None:
+    done = call("mesh", "involute", "--teeth", 8, 60)
+    assert done.exit_code == 1
+    fits = float(re.search(r"addendum of at most ([\d.]+) modules", done.output)[1])  # type: ignore[index]
+    # the tip circle through the point where the line of action touches the base circle of gear 1
+    most = sqrt((30 * cos(radians(20))) ** 2 + (34 * sin(radians(20))) ** 2) - 30
+    assert fits == pytest.approx(most, abs=5e-4)
+    assert call("mesh", "involute", "--teeth", 8, 60, "--addendum", f"1,{fits - 0.001}").exit_code in (0, 1)
+
+
+REFUSED = [
+    (["compare", *PAIR, "--forms", "involut"], "--forms", "did you mean involute"),
+    (["compare", *PAIR, "--forms", "rubber"], "--forms", "use some of: involute"),
+    (["compare", *PAIR, "--forms", ""], "--forms", "use some of"),
+    (["compare", *PAIR, "--pressure-angle", "50deg"], "--pressure-angle", "between 0 and 45 deg"),
+    (["compare", *PAIR, "--pressure-angle", "20"], "--pressure-angle", "has no unit"),
+    (["compare", *PAIR, "--arcs", "0.5,x"], "--arcs", "in pitches"),
+    (["compare", *PAIR, "--arcs", "-1,2"], "--arcs", "in pitches"),
+    (["compare", *PAIR, "--arcs", "0.2,0.2"], "--arcs", "the contact ratio is 0.4"),
+    (["compare", "--teeth", 8, 9], "--arcs", "end the approach before 0.463"),
+    (["compare", "--teeth", 2, 36], "--teeth", "at least 3 teeth"),
+    (["compare", "--teeth", 36, 24, "--internal"], "--teeth", "does not hold"),
+    (["compare", *PAIR, "--internal", "--bevel", "90deg"], "--bevel", "parallel"),
+    (["compare", *PAIR, "--bevel", "200deg"], "--teeth", "between 0 and 180 deg"),
+    (["compare", *PAIR, "-o", "x.pdf"], "-o", ".md, .html, .json"),
+    (["involute", *PAIR, "--pressure-angle", "95deg"], "--pressure-angle", "between 0 and 90 deg"),
+    (["uniform_stress", *PAIR, "--pressure-angle", "45deg"], "--pressure-angle", "between 0 and 45 deg"),
+    (["uniform_temperature", *PAIR, "--reading", "d"], "--reading", "'d' does not fit"),
+    (["involute", *PAIR, "--friction", "-1"], "--friction", "0 or more"),
+    (["involute", *PAIR, "--centre-distance", "20"], "--teeth", "too short"),
+    (["involute", *PAIR, "--backlash", "0.1mm"], "--module", "nothing to be compared with"),
+    (["involute", *PAIR, "--module", "-2mm"], "--module", "above 0"),
+    (["involute", *PAIR, "--profile", "w.svg"], "--module", "to scale"),
+    (["involute", *PAIR, "--module", "2mm", "--profile", "w.step"], "--profile", ".svg, .dxf, .csv"),
+    (["involute", *PAIR, "--module", "2mm", "--profile", "w.svg", "--fillet", "9mm"], "--fillet", "at most"),
+    (["involute", *PAIR, "--module", "2mm", "--profile", "w.svg", "--bore", "43mm"], "--bore", "43 mm"),
+    (["involute", *PAIR, "--module", "2mm", "--profile", "w.svg", "--rim", "4mm"], "--rim", "leave --rim out"),
+    (["involute", *PAIR, "--module", "2mm", "--profile", "w.svg", "--tolerance", "0mm"], "--tolerance", "above 0"),
+    (["involute", *PAIR, "--module", "2mm", "--profile", "/no/where/w.svg"], "/no/where", "no such folder"),
+    (["involute", *PAIR, "--bevel", "90deg", "--module", "2mm", "--profile", "w.svg"], "--profile", "on a sphere"),
+    (["involute", "--teeth", 8, 60, "--module", "2mm", "--profile", "w.svg"], "--profile", "addendum of at most"),
+    (["involut", *PAIR], "involut", "No such command"),
+]
+
+
+@pytest.mark.parametrize(("arguments", "place", "said"), REFUSED, ids=lambda value: str(value)[:60])
+def test_what_cannot_be_answered_is_refused_with_place_and_what_to_do(
+    arguments: list[object], place: str, said: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    from geartrain.cli import main
+
+    before, sys.argv = sys.argv, ["geartrain", "mesh", *map(str, arguments)]
+    try:
+        with pytest.raises(SystemExit) as stopped:
+            main()
+    finally:
+        sys.argv = before
+    told = capsys.readouterr()
+    assert (stopped.value.code, told.out) == (2, "")
+    text = " ".join(told.err.replace("│", " ").split())
+    assert place in text
+    assert said in text
+
+
+BLOCK = """
+import sys
+class Missing:
+    def find_spec(self, name, path=None, target=None):
+        if name.partition(".")[0] == {missing!r}:
+            raise ModuleNotFoundError(f"No module named {{name!r}}", name=name)
+sys.meta_path.insert(0, Missing())
+from geartrain.cli import main
+main()
+"""
+
+
+@pytest.mark.parametrize(
+    ("missing", "extra", "option", "file"),
+    [("ezdxf", "dxf", "--profile", "w.dxf"), ("matplotlib", "plot", "--plot", "w.svg")],
+)
+def test_a_missing_library_is_named_with_its_extra(
+    missing: str, extra: str, option: str, file: str, tmp_path: File
+) -> None:
+    arguments = ("mesh", "involute", *PAIR, "--module", "2mm", option, tmp_path / file)
+    done = process(*arguments, code=BLOCK.format(missing=missing))
+    assert done.returncode == 2
+    assert f"{missing} is not installed" in done.stderr
+    assert f"pip install 'geartrain[{extra}]'" in done.stderr
+    assert not list(tmp_path.iterdir())
+
+
+def test_an_outline_as_svg_needs_neither(tmp_path: File) -> None:
+    arguments = ("mesh", "involute", *PAIR, "--module", "2mm", "--profile", tmp_path / "w.svg")
+    done = process(*arguments, code=BLOCK.format(missing="scipy"))
+    assert done.returncode == 0, done.stderr
+    assert (tmp_path / "w.svg").exists()
+
+
+# ------------------------------------------------------------------------------------------------------------- pictures
+
+
+def drawn(figure: Any, panel: int, gid: str) -> Any:
+    (line,) = (line for line in figure.axes[panel].lines if line.get_gid() == gid)
+    return np.asarray(line.get_xydata())
+
+
+@cache
+def figure() -> Any:
+    pytest.importorskip("matplotlib")
+    from geartrain.cli.mesh.conjugate_options import pair, read_form, read_wheels
+    from geartrain.drawing import shapes_figure
+
+    asked = read_wheels((24, 36))
+    forms = ("involute", "uniform_stress", "uniform_temperature", "least_friction", "cycloidal", "lantern")
+    return shapes_figure({form: pair(read_form(form, {}), asked).path for form in forms})
+
+
+def test_each_panel_draws_what_it_says() -> None:
+    path = drawn(figure(), 2, "involute")
+    assert path[:, 1] == pytest.approx(path[:, 0] * tan(radians(20)), abs=1e-12)
+    stress = drawn(figure(), 3, "uniform_stress")[:, 1]
+    assert stress == pytest.approx(sqrt((1 / 12 + 1 / 18) / (sin(radians(20)) * cos(radians(20)))), rel=1e-10)
+    heat = drawn(figure(), 4, "uniform_temperature")[:, 1]
+    assert heat == pytest.approx(0.402114570234, rel=1e-6)
+    slide = drawn(figure(), 6, "involute")
+    assert slide[:, 1] == pytest.approx((1 / 12 + 1 / 18) * np.abs(slide[:, 0]) * pi * cos(radians(20)), rel=1e-9)
+    assert drawn(figure(), 7, "involute")[:, 1] == pytest.approx(1, rel=1e-12)
+    # a cycloid's path is its rolling circle, of half the pitch radius of the gear whose dedendum works
+    x, y = drawn(figure(), 2, "cycloidal").T
+    assert x**2 + y**2 == pytest.approx(np.where(x < 0, -12, 18) * y, abs=1e-9)
+
+
+def test_forms_differ_in_colour_or_dashes_and_in_both_where_there_are_few() -> None:
+    lines = [line for line in figure().axes[0].lines if line.get_gid() not in (None, "pitch point")]
+    assert len(lines) == 6
+    assert len({line.get_color() for line in lines}) == 6
+    assert len({str(line._dash_pattern) for line in lines}) == 6
+    for axes in figure().axes:
+        assert min(text.get_fontsize() for text in (axes.title, axes.xaxis.label, axes.yaxis.label)) >= 10
+
+
+def test_a_comparison_is_drawn_to_a_file(tmp_path: File) -> None:
+    pytest.importorskip("matplotlib")
+    file = tmp_path / "c.svg"
+    assert call("mesh", "compare", *PAIR, "--forms", "involute,uniform_stress", "--plot", file).exit_code == 0
+    text = file.read_text(encoding="utf-8")
+    assert all(f'id="{name}"' in text for name in ("involute", "uniform_stress", "pitch point"))
+
+
+@pytest.mark.parametrize("more", [{"internal": True}, {"bevel": "90deg"}], ids=str)
+def test_one_form_of_a_ring_or_a_bevel_is_drawn_too(more: dict[str, Any]) -> None:
+    pytest.importorskip("matplotlib")
+    from geartrain.cli.mesh.conjugate_options import pair, read_form, read_wheels
+    from geartrain.drawing import shapes_figure
+
+    path = pair(read_form("uniform_stress", {}), read_wheels((24, 60), **more)).path
+    made = shapes_figure({"uniform_stress": path})
+    stress = drawn(made, 3, "uniform_stress")[:, 1]
+    unit = path.pitch.p / pi
+    curvature = (path.pitch.A + path.pitch.B) * unit / (sin(radians(20)) * cos(radians(20)))
+    assert stress == pytest.approx(sqrt(curvature), rel=1e-10)
+
+
+def test_a_friction_that_locks_is_part_of_the_verdict() -> None:
+    done = call("mesh", "involute", *PAIR, "--friction", 2)
+    assert done.exit_code == 1
+    assert "but friction locks them" in done.output
+    assert "the teeth run" not in done.output

@@ -1,0 +1,133 @@
+"""`geartrain sphere`: printed numbers, trains that load again, pictures whose teeth meet, kind refusals."""
+
+from __future__ import annotations
+
+import json
+from math import atan, degrees, sqrt
+from pathlib import Path
+
+import numpy as np
+import pytest
+from commands import call
+from places import DOCS
+
+from geartrain import GearTrainError, load
+from geartrain.report import SphereAnswers
+from geartrain.spherical import from_polyhedron
+
+
+def data(*arguments: object) -> dict:
+    return json.loads(call("sphere", *arguments, "--json").stdout)
+
+
+def test_the_set_of_the_document_has_its_printed_numbers() -> None:
+    found = data("icosidodecahedron", "--teeth", "5=20,3=12", "--radius", "5=1.25")
+    assert (found["gears"], found["meshes"], found["mobility"], found["gridlock"]) == (32, 60, 1, None)
+    assert (found["closes"], found["residue"], found["rule"]) == (True, 0, "3 divides z3 and 5 divides z5")
+    assert found["sphere_radius"] == pytest.approx(3.13198541004301, rel=1e-14)
+    assert found["radii"]["5"] == pytest.approx(1.25, rel=1e-14)
+    assert found["radii"]["3"] == pytest.approx(0.75, rel=1e-13)
+    assert found["cones"]["5"] == pytest.approx(23.522418447732, abs=1e-12)
+    assert found["cones"]["3"] == pytest.approx(13.854949692918, abs=1e-12)
+    assert found["angles"]["5-3"] == pytest.approx(degrees(atan(3 - sqrt(5))), abs=1e-13)
+
+
+def test_every_key_is_documented() -> None:
+    text = (DOCS / "json.md").read_text(encoding="utf-8")
+    part = text[text.index("## sphere --json") :]
+    part = part[: part.index("\n## ", 5)]
+    found = data("icosidodecahedron", "--teeth", "5=12,3=6")
+    best = json.loads(call("sphere", "octahedron", "--suggest", 12, "--json").stdout)
+    for key in [*found, *found["sizing"], *found["sizing"]["meshes"][0], *best, *best["solutions"][0]]:
+        assert f"`{key}`" in part, key
+
+
+def test_canaries() -> None:
+    assert data("octahedron", "--teeth", 7)["closes"] is True
+    missed = data("icosidodecahedron", "--teeth", "5=12,3=6")
+    assert missed["closes"] is False
+    assert missed["residue"] == pytest.approx(0.4, abs=1e-12)
+    assert call("sphere", "icosidodecahedron", "--teeth", "5=12,3=6").exit_code == 1
+    locked = data("truncated icosahedron")
+    assert locked["mobility"] == 0
+    assert len(locked["gridlock"]["release"]["meshes"]) == 30
+    assert locked["closes"] is None
+
+
+def test_a_set_becomes_a_train_that_turns_as_it_should(tmp_path: Path) -> None:
+    path = tmp_path / "sphere.yaml"
+    assert call("sphere", "rhombicosidodecahedron", "--teeth", "5=25,4=14,3=12", "-o", path).exit_code == 0
+    train = load(str(path))
+    assert train.mobility.by_rank == 1
+    assert train.mobility.redundant == 120 - 62 + 1
+    speeds = train.solve().speeds
+    for gear in train.declaration.gears:
+        (first, z), (second, other) = (train.declaration.wheels[wheel] for wheel in gear.pair)
+        assert z.count * speeds[first] == -other.count * speeds[second]
+    # the declared train knows of its loops what the set knew
+    assert train.closure.kind == "closes"
+
+
+def test_a_picture_has_the_teeth_of_every_mesh_in_the_gaps() -> None:
+    configuration, cones, phases = SphereAnswers(from_polyhedron("cuboctahedron", teeth={"4": 18, "3": 12})).pose()
+    for i, j in configuration.meshes:
+        z = [configuration.teeth[configuration.kinds[gear]] for gear in (i, j)]
+        towards = [configuration.azimuth(i, j), configuration.azimuth(j, i)]
+        # teeth past the pitch point, counterclockwise on both: a tooth on one side, a gap on the other
+        past = [count * angle / (2 * np.pi) - phases[g] for count, angle, g in zip(z, towards, (i, j), strict=True)]
+        assert abs((sum(past) - 0.5 + 0.5) % 1 - 0.5) < 1e-9 or abs((sum(past) + 0.5) % 1) < 1e-9
+        assert cones[i] + cones[j] == pytest.approx(configuration.angle(i, j), abs=1e-12)
+
+
+def test_suggestions_are_the_best_of_the_table() -> None:
+    found = json.loads(call("sphere", "rhombicosidodecahedron", "--suggest", 40, "--best", 3, "--json").stdout)
+    best = found["solutions"][0]
+    assert best["teeth"] == {"5": 40, "4": 34, "3": 15}
+    assert best["mismatch"] == pytest.approx(-3.342905645e-04, rel=1e-9)
+    assert best["residue"] == 0
+    assert "removed" in call("sphere", "rhombicosidodecahedron", "--suggest", 8).stdout
+    assert call("sphere", "rhombicosidodecahedron", "--suggest", 8).exit_code == 1
+
+
+def test_a_user_s_own_solid_and_graph(tmp_path: Path) -> None:
+    cube = tmp_path / "cube.txt"
+    corners = [(x, y, z) for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)]
+    cube.write_text("# a cube\n" + "".join(f"{x}, {y}, {z}\n" for x, y, z in corners), encoding="utf-8")
+    found = data(cube, "--gears", "faces+vertices", "--teeth", "4=16,v=12")
+    assert (found["gears"], found["meshes"], found["mobility"]) == (14, 24, 1)
+    assert found["angles"]["4-v"] == pytest.approx(54.7356103172453, abs=1e-12)
+    cube.write_text("1 0 0\n0 1\n0 0 one\n", encoding="utf-8")
+    with pytest.raises(GearTrainError, match=r"cube.txt:2.*(\n.*)*cube.txt:3"):
+        raise call("sphere", cube).exception or AssertionError
+    graph = tmp_path / "cube-graph.txt"
+    graph.write_text("a b\nb c\nc d\nd a\ne f\nf g\ng h\nh e\na e\nb f\nc g\nd h\n", encoding="utf-8")
+    packed = data("--graph", graph)
+    assert (packed["gears"], packed["meshes"], packed["mobility"]) == (8, 12, 1)
+    assert set(packed["angles"].values())
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (("icosidodecaedron",), "did you mean 'icosidodecahedron'"),
+        (("cube", "--teeth", "5=20"), "5"),
+        (("icosidodecahedron", "--teeth", "5=20,3=12", "--plot", "x.gif"), "gif"),
+        (("icosidodecahedron", "--radius", "6=1"), "kinds are 5, 3"),
+        ((), "name a solid"),
+    ],
+)
+def test_refusals_say_what_to_do(arguments: tuple[str, ...], message: str) -> None:
+    done = call("sphere", *arguments)
+    assert done.exit_code != 0
+    assert message in f"{done.output}{done.exception}"
+
+
+def test_the_picture_and_the_survey(tmp_path: Path) -> None:
+    picture = tmp_path / "s.svg"
+    assert call("sphere", "octahedron", "--teeth", 16, "--plot", picture).exit_code == 0
+    assert "16 teeth" in picture.read_text(encoding="utf-8")
+    refused = call("sphere", "octahedron", "--plot", picture)
+    assert isinstance(refused.exception, GearTrainError)
+    table = call("sphere", "--survey").stdout
+    assert "| truncated icosahedron " in table
+    assert "41.810314896" in table

@@ -1,0 +1,530 @@
+"""Pictures of trains: what is drawn is read back from the SVG and held against geometry, fractions and the file."""
+
+from __future__ import annotations
+
+import re
+import sys
+import xml.etree.ElementTree as ET
+from fractions import Fraction
+from functools import cache
+from itertools import combinations, pairwise
+from math import atan2, hypot, pi
+from pathlib import Path
+from types import FrameType
+
+import numpy as np
+import pytest
+import shipped
+import yaml
+from commands import LOCKED, call
+from hypothesis import given
+from hypothesis import strategies as st
+from places import TRAINS
+from shipped import train as load
+
+import geartrain
+from geartrain.errors import GearTrainError, QuestionError
+
+pytest.importorskip("matplotlib")
+pytest.importorskip("svgelements")
+
+import svgelements
+from matplotlib.figure import Figure
+
+from geartrain.drawing import KINDS, picture, render
+from geartrain.drawing.arrangement import arrange, spread
+from geartrain.drawing.dial_faces import dials_figure
+from geartrain.drawing.lever_diagram import find_levers
+from geartrain.drawing.plan_view import _within, plan_figure
+from geartrain.scene import make_scene
+from geartrain.scene.pose import body_errors, scene_pose
+
+FEW = [
+    "planetary-24-18-60",
+    "pennestri-2002",
+    "longcase-clock",
+    "zf-8hp70",
+    "bevel-differential",
+    "humpage",
+    "al-biruni-box-of-the-moon",
+    "ferguson-paradox",
+    "four-gear-loop",
+    "worm",
+    "lantern-mill",
+]
+ALL = sorted(path.stem for path in TRAINS.glob("*/*.yaml"))
+Points = np.ndarray[tuple[int, ...], np.dtype[np.float64]]
+SVG = "{http://www.w3.org/2000/svg}"
+
+
+@cache
+def drawn(name: str, kind: str, turns: Fraction = Fraction(0), state: str | None = None) -> Figure:
+    """A picture made once for the tests that only look at it."""
+    return picture(load(name), kind, state, turns)  # type: ignore[arg-type]
+
+
+@cache
+def svg(name: str, kind: str, turns: Fraction = Fraction(0), state: str | None = None) -> ET.Element:
+    return ET.fromstring(render(drawn(name, kind, turns, state), ".svg"))
+
+
+def path_of(root: ET.Element, gid: str) -> list[tuple[float, float]]:
+    """Corners of the first path of a group, y upwards."""
+    group = next(each for each in root.iter(f"{SVG}g") if each.get("id") == gid)
+    path = svgelements.Path(next(group.iter(f"{SVG}path")).get("d"))
+    return [(each.end.x, -each.end.y) for each in path if each.end is not None]
+
+
+def circle_of(root: ET.Element, gid: str) -> tuple[float, float, float]:
+    """Centre and radius of a drawn circle."""
+    points = np.array(path_of(root, gid))
+    low, high = points.min(0), points.max(0)
+    assert high[0] - low[0] == pytest.approx(high[1] - low[1], rel=1e-4)
+    x, y = (low + high) / 2
+    return float(x), float(y), float(high[0] - low[0]) / 2
+
+
+def refusal(name: str, kind: str, **how: object) -> str:
+    with pytest.raises(QuestionError) as caught:
+        picture(load(name), kind, **how)  # type: ignore[arg-type]
+    assert all(problem.fix for problem in caught.value.problems)
+    return str(caught.value)
+
+
+# ----------------------------------------------------------------------------------------------------------- all kinds
+
+
+def draw_all(name: str) -> None:
+    train = load(name)
+    moving = any(circuit.carrier != train.declaration.frame for circuit in train.circuits)
+    outputs = any(case.outputs for case in train.declaration.cases)
+    for kind in KINDS:
+        if (kind == "lever" and not moving) or (kind == "dials" and not outputs):
+            assert name in refusal(name, kind)
+            continue
+        state = train.states[0] if train.states and kind != "lever" else None
+        assert ET.fromstring(render(drawn(name, kind, state=state), ".svg")).tag == f"{SVG}svg"
+
+
+@pytest.mark.parametrize("name", ["ferguson-paradox", "humpage", "worm"])
+def test_a_train_is_drawn_in_every_kind_that_fits(name: str) -> None:
+    draw_all(name)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ALL)
+def test_every_shipped_train_is_drawn_in_every_kind_that_fits(name: str) -> None:
+    draw_all(name)
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_the_same_train_gives_the_same_bytes(kind: str) -> None:
+    once, again = (render(picture(geartrain.load("planetary-24-18-60"), kind), ".svg") for _ in range(2))  # type: ignore[arg-type]
+    assert once == again
+
+
+# ---------------------------------------------------------------------------------------------------------------- plan
+
+
+@pytest.mark.parametrize("name", ["planetary-24-18-60", "longcase-clock", "ferguson-paradox"])
+def test_the_pitch_circles_of_every_pair_touch_on_paper(name: str) -> None:
+    root, declared = svg(name, "plan"), load(name).declaration
+    apart = load_apart(name)
+    for gear in declared.gears:
+        if gear.name in apart:
+            continue
+        (x1, y1, r1), (x2, y2, r2) = (circle_of(root, f"pitch {wheel}") for wheel in gear.pair)
+        ring = any(declared.wheels[wheel][1].internal for wheel in gear.pair)
+        assert hypot(x1 - x2, y1 - y2) == pytest.approx(abs(r1 - r2) if ring else r1 + r2, rel=1e-4)
+
+
+def load_apart(name: str) -> set[str]:
+    """Pairs that the layout says it could not bring together."""
+    from geartrain.scene.layout import lay_out
+
+    return set(lay_out(load(name)).apart)
+
+
+@pytest.mark.parametrize("name", ["planetary-24-18-60", "longcase-clock", "moon-triangular"])
+def test_every_outline_has_as_many_teeth_as_the_file_says(name: str) -> None:
+    root = svg(name, "plan")
+    for wheel, (_, declared) in load(name).declaration.wheels.items():
+        x, y, _ = circle_of(root, f"pitch {wheel}")
+        points = outline_of(root, wheel, declared.internal)
+        radius = np.hypot(*(points - (x, y)).T)
+        outside = radius > (radius.max() + radius.min()) / 2
+        rises = np.count_nonzero(outside & ~np.roll(outside, 1))
+        assert rises == declared.count, wheel
+
+
+@pytest.mark.slow
+def test_the_plan_of_sixty_nine_wheels_is_small_enough_for_a_page() -> None:
+    assert len(render(drawn("freeth-2021", "plan"), ".svg")) < 1_500_000
+
+
+@pytest.mark.parametrize("turns", [Fraction(0), Fraction(31, 7)])
+@pytest.mark.parametrize("name", ["planetary-24-18-60", "longcase-clock"])
+def test_no_tooth_is_drawn_over_a_tooth_of_its_mate(name: str, turns: Fraction) -> None:
+    shapes = pytest.importorskip("shapely.geometry")
+    root, declared = svg(name, "plan", turns), load(name).declaration
+    for gear in declared.gears:
+        one, other = (outline_of(root, wheel, declared.wheels[wheel][1].internal) for wheel in gear.pair)
+        _, _, radius = circle_of(root, f"pitch {gear.pair[0]}")
+        module = 2 * radius / (declared.wheels[gear.pair[0]][1].count or 1)
+        first, second = shapes.Polygon(one), shapes.Polygon(other)
+        ring = declared.wheels[gear.pair[1]][1].internal
+        over = first.difference(second) if ring else first.intersection(second)
+        assert over.area < 0.02 * module**2, gear.name
+
+
+def outline_of(root: ET.Element, wheel: str, ring: bool) -> Points:
+    """Corners of a wheel's teeth; of a ring without its rim, which is drawn first."""
+    x, y, pitch = circle_of(root, f"pitch {wheel}")
+    points = np.array(path_of(root, f"wheel {wheel}"))
+    return points[np.hypot(*(points - (x, y)).T) < pitch * 1.08] if ring else points
+
+
+def test_the_planet_goes_round_as_fractions_say() -> None:
+    name = "planetary-24-18-60"  # the carrier makes 2/7 of a turn for one of the sun
+    centres = []
+    for turns in (Fraction(0), Fraction(7, 8), Fraction(7, 4), Fraction(7, 2)):
+        root = svg(name, "plan", turns)
+        px, py, _ = circle_of(root, "pitch p")
+        sx, sy, size = circle_of(root, "pitch s")
+        centres.append(complex((px - sx) / size, (py - sy) / size))
+    start, quarter, half, whole = centres
+    front = make_scene(load(name)).front
+    assert quarter / start == pytest.approx(1j * front, abs=1e-3)
+    assert half / start == pytest.approx(-1, abs=1e-3)
+    assert whole / start == pytest.approx(1, abs=1e-3)
+
+
+@pytest.mark.parametrize("turns", [Fraction(0), Fraction(37, 10), Fraction(-113, 7)])
+@pytest.mark.parametrize("name", ["pennestri-2002-teeth", "moon-triangular", "voulgaris-2022"])
+def test_a_pose_is_that_of_the_motion(name: str, turns: Fraction) -> None:
+    train = load(name)
+    motion = train.motion(None, tuple(train.declaration.links))
+    found = body_errors(make_scene(train), turns)
+    assert found == pytest.approx(motion.at(np.array([float(turns)])).error[:, 0], abs=1e-9)
+
+
+@pytest.mark.parametrize("name", ["planetary-24-18-60", "humpage", "bevel-differential"])
+def test_meshing_wheels_have_one_velocity_where_their_pitch_surfaces_touch(name: str) -> None:
+    train = load(name)
+    scene = make_scene(train, train.states[1] if train.states else None)
+    turns, step = Fraction(3, 7), Fraction(1, 10**6)
+    before, here, after = (scene_pose(scene, turns + way * step) for way in (-1, 0, 1))
+    scale = max(wheel.radius for wheel in scene.wheels)
+    for pair in scene.pairs:
+        one, other = (scene.wheels[at] for at in pair.wheels)
+        rims = []
+        for wheel in (one, other):
+            centre, along = here.point(wheel.body, wheel.centre), here.way(wheel.body, wheel.direction)
+            mate = other if wheel is one else one
+            away = here.point(mate.body, mate.centre) - centre
+            side = away - (away @ along) * along
+            rims.append((centre, wheel.radius * side / np.linalg.norm(side)))
+        # the point common to both pitch circles lies on the line of centres of one of them, on its near or far side
+        spots = [centre + way * arm for centre, arm in rims for way in (1, -1)]
+        at = min(spots, key=lambda spot: sum(abs(np.linalg.norm(spot - c) - np.linalg.norm(a)) for c, a in rims))
+        speeds = []
+        for wheel in (one, other):
+            body = np.linalg.inv(here.turned[wheel.body]) @ (at - here.moved[wheel.body])
+            speeds.append((after.point(wheel.body, body) - before.point(wheel.body, body)) / float(2 * step))
+        assert speeds[0] == pytest.approx(speeds[1], abs=1e-4 * scale), pair.id
+
+
+def test_a_loop_that_locks_is_red_and_the_verdict_stands_above() -> None:
+    figure = picture(geartrain.load(LOCKED), "plan")
+    edges = {patch.get_gid(): patch.get_edgecolor() for patch in figure.axes[0].patches}
+    assert len({edges[f"wheel {wheel}"] for wheel in "xyz"}) == 1
+    free = picture(geartrain.load(LOCKED.replace(", {pair: [z, x]}", "")), "plan")
+    (sound,) = {p.get_edgecolor() for p in free.axes[0].patches if str(p.get_gid()).startswith("wheel")}
+    assert edges["wheel x"] != sound
+    assert any(text.get_text().startswith("locked: loop a - b - c") for text in figure.axes[0].texts)
+    assert not any("locked" in text.get_text() for text in free.axes[0].texts)
+
+
+# --------------------------------------------------------------------------------------------------------------- stick
+
+
+def segments(figure: Figure, prefix: str) -> list[tuple[str, float, float, float]]:
+    """Uprights of a name: their wheel, x, low and high end."""
+    found = []
+    for line in figure.axes[0].lines:
+        if str(line.get_gid()).startswith(prefix):
+            xs, ys = (np.asarray(each, dtype=float) for each in line.get_data())
+            assert xs[0] == xs[1]
+            found.append((str(line.get_gid())[len(prefix) :], float(xs[0]), float(min(ys)), float(max(ys))))
+    return found
+
+
+@pytest.mark.parametrize("name", FEW)
+def test_uprights_of_a_stick_diagram_never_lie_on_each_other(name: str) -> None:
+    figure = drawn(name, "stick")
+    for (one, x, low, high), (other, at, bottom, top) in combinations(segments(figure, "wheel "), 2):
+        if abs(x - at) < 1e-6 and one != other:
+            assert high <= bottom + 1e-9 or top <= low + 1e-9, f"{one} and {other}"
+
+
+@pytest.mark.parametrize("name", FEW)
+def test_the_two_wheels_of_every_pair_end_at_each_other(name: str) -> None:
+    figure, declared = drawn(name, "stick"), load(name).declaration
+    ends: dict[str, list[tuple[float, float]]] = {}
+    for wheel, x, low, high in segments(figure, "wheel "):
+        ends.setdefault(wheel, []).extend([(x, low), (x, high)])
+    assert set(ends) == set(declared.wheels)
+    for gear in declared.gears:
+        ring = any(declared.wheels[wheel][1].internal for wheel in gear.pair)
+        one, other = (ends[wheel] for wheel in gear.pair)
+        gaps = [hypot(x - u, y - v) for x, y in one for u, v in other]
+        assert min(gaps) == pytest.approx(hypot(0.3, 0.044) if ring else 0.044, abs=1e-6), gear.name
+
+
+# --------------------------------------------------------------------------------------------------------------- graph
+
+
+@pytest.mark.parametrize("name", [*FEW, "freeth-2008"])
+def test_a_graph_has_an_edge_for_every_pair_in_the_file(name: str) -> None:
+    root = svg(name, "graph")
+    kinds = [re.match(r"(revolute|gear|coupling|link) ", str(g.get("id"))) for g in root.iter(f"{SVG}g")]
+    counted = {kind: sum(m is not None and m[1] == kind for m in kinds) for kind in ("revolute", "gear", "coupling")}
+    declared = load(name).declaration
+    wanted = {"revolute": len(declared.revolutes), "gear": len(declared.gears), "coupling": len(declared.couplings)}
+    assert counted == wanted
+    if "extends" not in (data := yaml.safe_load(next(TRAINS.glob(f"*/{name}.yaml")).read_text(encoding="utf-8"))):
+        assert wanted["gear"] == len(data["gears"])
+    assert sum(m is not None and m[1] == "link" for m in kinds) == len(declared.links)
+
+
+@pytest.mark.parametrize("name", [*FEW, "freeth-2008"])
+def test_vertices_of_a_graph_keep_apart(name: str) -> None:
+    figure = drawn(name, "graph")
+    places = []
+    for patch in figure.axes[0].patches:
+        if str(patch.get_gid()).startswith("link "):
+            box = patch.get_path().transformed(patch.get_patch_transform()).get_extents()
+            places.append(((box.x0 + box.x1) / 2, (box.y0 + box.y1) / 2, box.width))
+    for (x, y, width), (u, v, other) in combinations(places, 2):
+        assert hypot(x - u, y - v) > (width + other) / 2 + 0.1
+
+
+# --------------------------------------------------------------------------------------------------------------- lever
+
+
+def test_the_abscissae_of_a_simple_set_are_its_tooth_ratios() -> None:
+    (lever,) = find_levers(load("planetary-24-18-60"))
+    assert dict(lever.abscissae) == {"carrier": 0, "sun": 1, "frame": Fraction(-24, 60)}
+
+
+def test_levers_of_a_transmission_are_its_four_sets_by_willis() -> None:
+    by_hand = {  # z_s (w_s - w_c) = -z_r (w_r - w_c)
+        "C1R4": {"C1R4": 0, "S12": 1, "R1": Fraction(-48, 96)},
+        "IN": {"IN": 0, "S12": 1, "R2S3": Fraction(-48, 96)},
+        "C3": {"C3": 0, "R2S3": 1, "R3S4": Fraction(-69, 111)},
+        "OUT": {"OUT": 0, "R3S4": 1, "C1R4": Fraction(-23, 85)},
+    }
+    assert {lever.carrier: dict(lever.abscissae) for lever in find_levers(load("zf-8hp70"))} == by_hand
+
+
+@pytest.mark.parametrize("name", ["zf-8hp70", "ravigneaux-set", "bevel-differential", "freeth-2021", "wolfrom-175"])
+def test_the_speeds_of_every_set_lie_on_a_line(name: str) -> None:
+    train = load(name)
+    for state in train.states or (None,):
+        speeds = train.solve(state, method="exact").speeds
+        for lever in find_levers(train):
+            points = [(x, speeds[link] * train.signs.get(link, 1)) for link, x in lever.abscissae.items()]
+            for (a, u), (b, v), (c, w) in combinations(points, 3):
+                assert (b - a) * (w - u) == (c - a) * (v - u)
+
+
+def test_a_speed_diagram_shows_the_published_speeds_as_fractions() -> None:
+    figure = drawn("zf-8hp70", "lever")
+    shown = [text.get_text() for axes in figure.axes for text in axes.texts if text.get_gid() == "speed OUT"]
+    assert shown == ["23/108", "23/72", "77/162", "3/5", "6871/8826", "1", "143/120", "3/2", "-529/1744"]
+
+
+def test_a_train_without_a_moving_carrier_has_no_speed_diagram() -> None:
+    assert "no epicyclic set" in refusal("longcase-clock", "lever")
+
+
+# --------------------------------------------------------------------------------------------------------------- dials
+
+
+def angle_of(figure: Figure, output: str) -> float:
+    """Turns clockwise from above at which a pointer is drawn."""
+    (line,) = [line for line in figure.axes[0].lines if line.get_gid() == f"pointer {output}"]
+    (x, u), (y, v) = (np.asarray(each, dtype=float) for each in line.get_data())
+    return atan2(u - x, v - y) / (2 * pi) % 1
+
+
+@pytest.mark.parametrize("turns", [Fraction(31, 7), Fraction(-5, 3), Fraction(10**12 * 12 + 1, 4)])
+def test_the_hands_of_a_clock_stand_where_the_time_is(turns: Fraction) -> None:
+    figure = picture(load("longcase-clock"), "dials", turns=turns)  # the input is the minute hand
+    for output, speed in {"centre": Fraction(1), "hour": Fraction(1, 12), "escape": Fraction(60)}.items():
+        assert angle_of(figure, output) == pytest.approx(float(turns * speed % 1), abs=1e-9)
+
+
+def test_a_pointer_on_a_spiral_moves_outwards_with_every_turn() -> None:
+    reach, scene = [], shipped.scene("freeth-2021")
+    for years in (0, 4, 8, 12, 16):  # five turns in nineteen years
+        figure = dials_figure(scene, Fraction(years), ("metonic",))
+        (line,) = [line for line in figure.axes[0].lines if line.get_gid() == "pointer metonic"]
+        (x, u), (y, v) = (np.asarray(each, dtype=float) for each in line.get_data())
+        reach.append(hypot(u - x, v - y))
+        assert angle_of(figure, "metonic") == pytest.approx(float(Fraction(years * 5, 19) % 1), abs=1e-9)
+    assert np.diff(reach, 2) == pytest.approx(0, abs=1e-9)
+    assert reach[1] > reach[0] * 1.1
+
+
+def test_dials_name_what_they_do_not_have() -> None:
+    assert "no output 'minute hand'" in refusal("longcase-clock", "dials", outputs=("minute hand",))
+
+
+# ----------------------------------------------------------------------------------------------------------- placement
+
+
+@given(st.lists(st.tuples(st.floats(-5, 5), st.floats(0.1, 2)), min_size=1, max_size=8))
+def test_boxes_are_spread_without_overlap_in_their_order(boxes: list[tuple[float, float]]) -> None:
+    wanted, needs = [place for place, _ in boxes], [width for _, width in boxes]
+    places = spread(wanted, needs, (-20.0, 20.0))
+    order = sorted(range(len(boxes)), key=lambda at: wanted[at])
+    for one, other in pairwise(order):
+        assert places[other] - places[one] >= (needs[one] + needs[other]) / 2 - 1e-9
+    if all(abs(a - b) >= (m + n) / 2 for (a, m), (b, n) in combinations(boxes, 2)):
+        assert places == pytest.approx(wanted)
+
+
+@given(st.lists(st.tuples(st.sampled_from("abcdefg"), st.sampled_from("abcdefg")), max_size=12))
+def test_an_arrangement_holds_every_item_once_and_no_single_move_shortens_it(pairs: list[tuple[str, str]]) -> None:
+    def length(order: list[str]) -> int:
+        return sum(abs(order.index(one) - order.index(other)) for one, other in pairs)
+
+    order = arrange("abcdefg", pairs)
+    assert sorted(order) == list("abcdefg")
+    for item in order:
+        rest = [other for other in order if other != item]
+        assert all(length([*rest[:at], item, *rest[at:]]) >= length(order) for at in range(7))
+
+
+# ------------------------------------------------------------------------------------------------------------- command
+
+
+@pytest.fixture
+def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+@pytest.mark.parametrize(("suffix", "head"), [(".svg", b"<?xml"), (".png", b"\x89PNG"), (".pdf", b"%PDF")])
+def test_the_command_writes_what_the_suffix_says(here: Path, suffix: str, head: bytes) -> None:
+    assert call("draw", "four-gear-loop", "-o", f"x{suffix}").exit_code == 0
+    assert (here / f"x{suffix}").read_bytes().startswith(head)
+
+
+def test_without_a_name_the_picture_is_called_after_train_and_kind(here: Path) -> None:
+    assert call("draw", "planetary-24-18-60", "--kind", "lever").exit_code == 0
+    assert [path.name for path in here.iterdir()] == ["planetary-24-18-60-lever.svg"]
+
+
+def test_the_name_of_a_train_never_leads_out_of_the_folder(here: Path) -> None:
+    (here / "t.yaml").write_text("name: ../<script>/x\n" + LOCKED, encoding="utf-8")
+    assert call("draw", "t.yaml", "--kind", "graph").exit_code == 1
+    assert sorted(path.name for path in here.iterdir()) == ["script-x-graph.svg", "t.yaml"]
+    ET.fromstring((here / "script-x-graph.svg").read_bytes())
+
+
+def test_an_existing_file_is_kept_unless_forced(here: Path) -> None:
+    (here / "x.svg").write_text("mine", encoding="utf-8")
+    assert call("draw", "four-gear-loop", "-o", "x.svg").exit_code != 0
+    assert (here / "x.svg").read_text(encoding="utf-8") == "mine"
+    assert call("draw", "four-gear-loop", "-o", "x.svg", "--force").exit_code == 0
+    assert (here / "x.svg").read_bytes().startswith(b"<?xml")
+
+
+@pytest.mark.parametrize(
+    ("path", "said"),
+    [
+        ("", "a folder"),
+        ("folder", "a folder"),
+        ("nowhere/x.svg", "no such folder"),
+        ("x\x07.svg", "no name for a file"),
+        ("y" * 300 + ".svg", "no name for a file"),
+        ("/dev/null", "this is a device"),
+    ],
+)
+@pytest.mark.parametrize("force", [False, True])
+def test_what_cannot_be_a_file_is_refused_with_a_reason_and_a_way_out(
+    here: Path, path: str, said: str, force: bool
+) -> None:
+    from geartrain.numerics.files import destination
+
+    (here / "folder").mkdir()
+    with pytest.raises(GearTrainError, match=said) as caught:
+        destination(Path(path), force)
+    (problem,) = caught.value.problems
+    assert problem.why
+    assert problem.fix
+    assert problem.place
+
+
+def test_nothing_is_worked_out_for_a_file_that_may_not_be_written(here: Path) -> None:
+    result = call("draw", "longcase-clock", "--kind", "lever", "-o", "nowhere/x.svg")
+    assert isinstance(result.exception, GearTrainError)
+    assert "no such folder" in str(result.exception)
+
+
+@pytest.mark.parametrize(
+    "wrong", [("--turns", "many"), ("--turns", "1/0"), ("--turns", "inf"), ("--kind", "poem"), ("-o", "x.gif")]
+)
+def test_wrong_options_are_unusable_input(here: Path, wrong: tuple[str, str]) -> None:
+    result = call("draw", "four-gear-loop", *wrong)
+    assert result.exit_code == 2 or isinstance(result.exception, GearTrainError)  # which the command ends with 2
+    assert not list(here.iterdir())
+
+
+def test_a_train_that_locks_is_drawn_and_told(here: Path) -> None:
+    (here / "t.yaml").write_text(LOCKED, encoding="utf-8")
+    result = call("draw", "t.yaml", "-o", "t.svg")
+    assert result.exit_code == 1
+    assert "locked" in result.stderr
+    assert (here / "t.svg").exists()
+
+
+def test_a_row_twice_as_long_takes_twice_the_steps_to_draw() -> None:
+    """Steps are entries into functions of the plan's modules, among them one for each comparison of a spot."""
+    counts: list[int] = []
+    for count in (60, 120):
+        wheels = range(count)
+        train = geartrain.GearTrain.declare(
+            {
+                "links": {"frame": {}} | {f"g{at}": {"wheels": {f"w{at}": 20 + at % 7}} for at in wheels},
+                "revolutes": [{"pair": ["frame", f"g{at}"], "axis": f"A{at}"} for at in wheels],
+                "gears": [{"pair": [f"w{at}", f"w{at + 1}"]} for at in wheels[:-1]],
+                "inputs": {"g0": 1},
+            }
+        )
+        scene, steps = make_scene(train), [0]
+
+        def entered(frame: FrameType, event: str, _: object, steps: list[int] = steps) -> None:
+            steps[0] += event == "call" and Path(frame.f_code.co_filename).parent.name == "plot"
+
+        sys.setprofile(entered)
+        try:
+            plan_figure(scene)
+        finally:
+            sys.setprofile(None)
+        counts.append(steps[0])
+    assert counts[1] < 2.5 * counts[0], counts
+
+
+@given(
+    *(st.lists(st.tuples(*[st.floats(-9, 9)] * n), max_size=12) for n in (2, 3)),
+)
+def test_spots_are_hidden_by_the_discs_they_lie_in(
+    points: list[tuple[float, float]], discs: list[tuple[float, float, float]]
+) -> None:
+    found = _within(
+        np.array(points).reshape(-1, 2), np.array(discs).reshape(-1, 3)[:, :2], np.array([disc[2] for disc in discs])
+    )
+    assert list(found) == [any(hypot(x - u, y - v) < reach for u, v, reach in discs) for x, y in points]

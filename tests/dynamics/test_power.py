@@ -1,0 +1,641 @@
+"""Flow of power: every shaft and pair balances exactly, loops are found, losses named, pictures true to scale."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+from collections.abc import Iterator
+from fractions import Fraction
+from functools import cache
+from itertools import pairwise
+from math import pi
+from pathlib import Path
+from typing import Any
+
+import pytest
+from commands import call
+from hypothesis import given
+from hypothesis import strategies as st
+from places import ROOT
+
+from geartrain import GearTrain, GearTrainError, load, shipped
+from geartrain.dynamics.torques import (
+    PowerFlow,
+    PowerNode,
+    Torques,
+    percent_of_text,
+    percent_text,
+    watts_per_unit,
+    watts_text,
+)
+from geartrain.report import flow_of, there_and_back, to_markdown, torques_data, torques_document
+from geartrain.report.document import Document
+from geartrain.report.power_report import input_and_output, torque_sections
+
+RING = """
+extends: planetary-24-18-60
+gears:
+  - {pair: [s, p], efficiency: 0.98}
+  - {pair: [p, ring], efficiency: 0.99}
+loads: {carrier: -10 N m}
+"""
+CLOCK = """
+extends: longcase-clock
+inputs: {great: -1/12}
+gears:
+  - {pair: [g96, c8], efficiency: 0.96}
+  - {pair: [c60, t8], efficiency: 0.95}
+  - {pair: [t56, e7], efficiency: 0.94}
+  - {pair: [mw6, h72], efficiency: 0.97}
+links:
+  centre: {bearing: 2 N mm}
+  third: {bearing: 0.5 N mm}
+  hour: {bearing: 4 N mm}
+loads: {escape: -0.1 N mm}
+"""
+SPLIT = """
+extends: prius-power-split
+gears:
+  - {pair: [s30, p23], efficiency: 0.98}
+  - {pair: [p23, r78], efficiency: 0.99}
+states:
+  cruising: {loads: {MG2: -80 N m}}
+  boost: {inputs: {engine: 1, MG1: -1/2}, loads: {MG2: -80 N m}}
+"""
+REVERSE = """
+extends: zf-8hp70
+states:
+  R: {loads: {OUT: 300 N m}}
+"""
+RUBBING_PLANET = RING + "links: {planet: {bearing: 0.5 N m}, carrier: {bearing: 0.2 N m}}\n"
+SHARED = """
+links:
+  frame: {}
+  a: {wheels: {a1: 20, a2: 20}}
+  b: {wheels: {b1: 30, b2: 30}}
+revolutes: [{pair: [frame, a], axis: A}, {pair: [frame, b], axis: B}]
+gears: [{pair: [a1, b1]}, {pair: [a2, b2]}]
+inputs: {a: 1}
+loads: {b: 3}
+"""
+TRAINS = {
+    "ring": RING, "clock": CLOCK, "rubbing": RUBBING_PLANET, "split": SPLIT, "reverse": REVERSE,
+    "norton": "extends: norton-compound\n",
+}  # fmt: skip
+
+
+def states(train: GearTrain) -> tuple[str | None, ...]:
+    return train.states or (None,)
+
+
+def flows(train: GearTrain) -> Iterator[tuple[Torques, PowerFlow]]:
+    """Under the declared loads, and driven from each end to the other."""
+    for state in states(train):
+        for found in (train.torques(state), *(way for way, _, _ in there_and_back(train, state))):
+            if found.verdict and not any(pair.loose for pair in found.pairs.values()):
+                yield found, flow_of(train, found)
+
+
+def require_balance(found: Torques, flow: PowerFlow) -> None:
+    """Nothing appears or vanishes: not at a node, not in all, not of what circles."""
+    assert all(0 <= stream.circling <= stream.power > 0 for stream in flow.streams)
+    for node in flow.nodes:
+        if node.kind not in ("in", "out"):
+            assert flow.surplus(node) == 0, node
+        into = sum(stream.circling for stream in flow.streams if stream.target == node)
+        assert into == sum(stream.circling for stream in flow.streams if stream.source == node)
+    ends = {
+        kind: sum((-flow.surplus(node) for node in flow.nodes if node.kind == kind), Fraction(0))
+        for kind in ("in", "out")
+    }
+    powers = list(found.powers.values())
+    assert ends["in"] == found.power_in == flow.power_in == sum(power for power in powers if power > 0)
+    assert ends["out"] == sum(power for power in powers if power < 0)
+    assert flow.loss == found.loss == ends["in"] + ends["out"]
+    assert all(loss > 0 for loss in flow.losses.values())
+    for name, pair in found.pairs.items():
+        assert flow.losses.get(PowerNode("pair", name), 0) == pair.loss
+    require_no_loop([(stream.source, stream.target) for stream in flow.streams if stream.circling < stream.power])
+    assert sum(loop.power for loop in flow.loops) >= max((stream.circling for stream in flow.streams), default=0)
+
+
+def require_no_loop(edges: list[tuple[PowerNode, PowerNode]]) -> None:
+    while edges:
+        left = [(a, b) for a, b in edges if any(b == source for source, _ in edges)]
+        assert len(left) < len(edges), "what does not circle leads on"
+        edges = left
+
+
+@cache
+def lossy(name: str) -> GearTrain:
+    """A shipped train, every pair of which loses and every link of which rubs, with a load on its output."""
+    train = load(name)
+    declared = train.declaration
+    data: dict[str, Any] = {"extends": name, "name": name}
+    data["gears"] = [
+        {"id": gear.name, "pair": list(gear.pair), "efficiency": f"0.9{1 + at % 9}"}
+        for at, gear in enumerate(declared.gears)
+    ]
+    data["links"] = {link: {"bearing": "1/100"} for link in declared.links if link != declared.frame}
+    loads = {state: load_of(train, state) for state in states(train)}
+    if train.states:
+        data["states"] = {state: {"loads": given} for state, given in loads.items()}
+    else:
+        data["loads"] = loads[None]
+    return load(json.dumps(data, indent=1))
+
+
+def load_of(train: GearTrain, state: str | None) -> dict[str, str]:
+    found = input_and_output(train, state)
+    speed = Fraction(train.solve(state).speeds[found[1]]) if found else Fraction(0)
+    return {found[1]: str(-1 if speed > 0 else 1)} if found and speed else {}
+
+
+@pytest.mark.parametrize("name", shipped())
+def test_every_shaft_and_pair_of_a_shipped_train_gives_on_what_it_takes_in(name: str) -> None:
+    for train in (load(name), lossy(name)):
+        for found, flow in flows(train):
+            require_balance(found, flow)
+
+
+def test_shipped_trains_put_the_balance_to_the_test() -> None:
+    """Most of them carry power with losses of both kinds, several in loops."""
+    seen = [flow for name in shipped() for _, flow in flows(lossy(name)) if flow.streams]
+    assert sum({"pair", "bearing"} == {node.kind for node in flow.losses} for flow in seen) >= 20
+    assert sum(bool(flow.loops) for flow in seen) >= 10
+
+
+@pytest.mark.parametrize("name", TRAINS)
+def test_every_shaft_and_pair_of_a_loaded_train_gives_on_what_it_takes_in(name: str) -> None:
+    found = list(flows(load(TRAINS[name])))
+    assert any(flow.streams for _, flow in found)
+    for torques, flow in found:
+        require_balance(torques, flow)
+
+
+@given(
+    st.lists(st.integers(12, 90), min_size=4, max_size=4),
+    st.lists(st.integers(80, 100), min_size=4, max_size=4),
+    st.integers(-5, 5), st.integers(-5, 5),
+)  # fmt: skip
+def test_two_planetaries_in_any_arrangement_balance(z: list[int], eta: list[int], w: int, v: int) -> None:
+    """Sun and arm driven, ring loaded, through planets with two wheels: power may enter anywhere and circle."""
+    train = load(
+        {
+            "links": {
+                "frame": {},
+                "sun": {"wheels": {"s": z[0]}},
+                "planet": {"wheels": {"p": z[1], "q": z[2]}},
+                "ring": {"wheels": {"r": {"teeth": z[3] + z[2] + 1, "internal": True}}},
+                "arm": {"bearing": "1/7"},
+            },
+            "revolutes": [
+                *({"pair": ["frame", link], "axis": "A"} for link in ("sun", "ring", "arm")),
+                {"pair": ["arm", "planet"], "axis": "P"},
+            ],
+            "gears": [
+                {"pair": ["s", "p"], "efficiency": f"{eta[0]}/100"},
+                {"pair": ["q", "r"], "efficiency": f"{eta[1]}/100"},
+            ],
+            "inputs": {"sun": w, "arm": v},
+            "loads": {"ring": "3"},
+        }
+    )
+    found = train.torques()
+    if found.verdict:
+        require_balance(found, flow_of(train, found))
+
+
+# -------------------------------------------------------------------------------------------------------- known answers
+
+
+def power(flow: PowerFlow, source: tuple[str, str], target: tuple[str, str]) -> Fraction:
+    (found,) = [stream.power for stream in flow.streams if (stream.source, stream.target) == (source, target)]
+    return found
+
+
+def test_half_the_power_of_this_planetary_goes_by_the_planet() -> None:
+    """Sun at 7, arm at 2, planet at -14/3: torques 24, -42 and 18 to one another, so powers 168, -84 and -84."""
+    train = load("planetary-24-18-60")
+    flow = flow_of(train, train.driven("carrier", "sun"))
+    assert power(flow, ("shaft", "sun"), ("pair", "s~p")) == 1
+    assert power(flow, ("pair", "s~p"), ("shaft", "planet")) == Fraction(1, 2)
+    assert power(flow, ("pair", "s~p"), ("shaft", "carrier")) == Fraction(1, 2)
+    assert power(flow, ("pair", "p~ring"), ("shaft", "carrier")) == Fraction(1, 2)
+    assert flow.loops == ()
+
+
+def test_power_circulates_in_the_compound_train_of_norton() -> None:
+    train = load("norton-compound")
+    found = train.torques()
+    flow = flow_of(train, found)
+    assert found.efficiency == Fraction(1250, 17117)
+    (loop,) = flow.loops
+    assert set(loop.pairs) == {"a82~b84", "c86~d82", "e82~f84"}
+    assert set(loop.shafts) == {"arm", "P1", "P2"}
+    # gear A is held by 1750.3064, so P1 turns its pair with 84/82 of that at 83/42
+    assert found.external["A"] == Fraction("1750.3064")
+    assert loop.power == found.external["A"] * Fraction(84, 82) * Fraction(83, 42)
+    assert train.driven("arm", "F").verdict.kind == "self-locking"
+
+
+def test_links_that_turn_together_are_one_shaft() -> None:
+    train = load("extends: planetary\nloads: {carrier: -1}\n")
+    flow = flow_of(train, train.torques("direct drive"))
+    shaft = PowerNode("shaft", "sun + carrier")
+    assert [(stream.source, stream.target) for stream in flow.streams] == [
+        (PowerNode("in", "sun"), shaft),
+        (shaft, PowerNode("out", "carrier")),
+    ]
+
+
+def test_a_bearing_on_a_carrier_takes_from_both() -> None:
+    train = load(RUBBING_PLANET)
+    flow = flow_of(train, train.torques())
+    bearing = PowerNode("bearing", "planet")
+    taken = {stream.source.name: stream.power for stream in flow.streams if stream.target == bearing}
+    # planet at -2/3, carrier at 2/7, rubbing with 1/2
+    assert taken == {"planet": Fraction(1, 3), "carrier": Fraction(1, 7)}
+    assert flow.losses[bearing] == Fraction(1, 2) * Fraction(20, 21)
+
+
+def test_two_loops_that_share_no_shaft_are_told_apart() -> None:
+    """Two compound trains, the second driven by the output of the first."""
+    links: dict[str, Any] = {"frame": {}}
+    revolutes: list[Any] = [{"pair": ["frame", "arm"], "axis": "main"}]
+    gears: list[Any] = []
+    for arm, out, x in (("arm", "F", ""), ("F", "Fx", "x")):
+        links |= {
+            arm: links.get(arm, {}),
+            f"A{x}": {"wheels": {f"a{x}": 82}},
+            f"P{x}": {"wheels": {f"b{x}": 84, f"c{x}": 86}},
+            f"Q{x}": {"wheels": {f"d{x}": 82, f"e{x}": 82}},
+            out: {"wheels": {f"f{x}": {"teeth": 84, "internal": True}}},
+        }
+        revolutes += [{"pair": ["frame", link], "axis": "main"} for link in (f"A{x}", out)]
+        revolutes += [{"pair": [arm, f"{planet}{x}"], "axis": f"{planet}{x}"} for planet in "PQ"]
+        gears += [{"pair": [f"{one}{x}", f"{other}{x}"]} for one, other in ("ab", "cd", "ef")]
+    train = load(
+        {
+            "links": links, "revolutes": revolutes, "gears": gears,
+            "fixed": ["A", "Ax"], "inputs": {"arm": 1}, "loads": {"Fx": -1},
+        }
+    )  # fmt: skip
+    found = train.torques()
+    flow = flow_of(train, found)
+    require_balance(found, flow)
+    assert {loop.pairs for loop in flow.loops} == {("a~b", "c~d", "e~f"), ("ax~bx", "cx~dx", "ex~fx")}
+    assert flow.loops[0].power >= flow.loops[1].power
+
+
+def test_what_is_shared_in_no_certain_way_has_no_flow() -> None:
+    train = load(SHARED)
+    found = train.torques()
+    assert found.verdict.kind == "indeterminate"
+    assert flow_of(train, found).streams == ()
+
+
+# -------------------------------------------------------------------------------------------------------------- amounts
+
+
+@pytest.mark.parametrize(
+    ("more", "watts"),
+    [
+        ("", None),
+        ("rate: 10 turn/s\n", 20 * pi),
+        ("rate: 600 rpm\n", 20 * pi),
+        ("rate: -5 rad/s\n", 5.0),
+        ("rate: 10\n", None),
+        ("inputs: {sun: 600 rpm}\n", pi / 30),
+        ("inputs: {sun: 4}\nrate: 10 turn/s\n", 5 * pi),
+    ],
+)
+def test_powers_are_watts_where_torques_and_speeds_are_real(more: str, watts: float | None) -> None:
+    train = load(RING + more)
+    found = watts_per_unit(train.declaration, train.declaration.case(None))
+    assert found == (None if watts is None else pytest.approx(watts, rel=1e-14))
+
+
+def test_plain_loads_are_no_watts() -> None:
+    train = load(RING.replace(" N m", "") + "rate: 10 turn/s\n")
+    assert watts_per_unit(train.declaration, train.declaration.case(None)) is None
+
+
+@pytest.mark.parametrize(
+    ("amount", "text"),
+    [(0.0, "0 W"), (2.5e-3, "2.5 mW"), (183.42, "183.4 W"), (-26419.9, "-26.42 kW"), (3e7, "30 MW"), (4e-9, "4 nW")],
+)
+def test_watts_have_prefixes(amount: float, text: str) -> None:
+    assert watts_text(amount) == text
+
+
+def test_shares_are_percent_or_multiples() -> None:
+    assert percent_text(Fraction(1, 7)) == "14.29 %"
+    assert percent_text(Fraction(1, 7), 2) == "14 %"
+    assert percent_of_text(Fraction(1, 2), "the power in") == "50 % of the power in"
+    assert percent_of_text(Fraction(2587, 10), "the power in") == "258.7 times the power in"
+
+
+# --------------------------------------------------------------------------------------------------------------- report
+
+
+def test_a_friction_torque_is_not_negative() -> None:
+    with pytest.raises(GearTrainError, match="not negative"):
+        load("extends: planetary\nlinks: {carrier: {bearing: -1 N m}}\n")
+
+
+STRUCK = """
+links:
+  frame: {}
+  first: {wheels: {a: 20}}
+  second: {inertia: 4 g cm2, wheels: {b: 30, c: 24}}
+  third: {inertia: 7 g cm2, wheels: {d: 40}}
+revolutes: [{pair: [frame, first], axis: A}, {pair: [frame, second], axis: B}, {pair: [frame, third], axis: C}]
+gears: [{pair: [a, b]}, {pair: [c, d]}]
+tooth_form: {form: triangular, half_angle: 30 deg, window: 0.5}
+friction: 0.1
+inputs: {first: 1}
+rate: 3 turn/s
+loads: {third: -2 N m}
+outputs: {third: {}}
+"""
+
+
+def page(train: GearTrain) -> str:
+    return to_markdown([torques_document(train, [train.torques(state) for state in states(train)])])
+
+
+def rows(text: str, first: str) -> list[list[str]]:
+    """The table whose header begins with a word."""
+    lines = text.splitlines()
+    start = next(at for at, line in enumerate(lines) if line.startswith(f"| {first} "))
+    table = []
+    for line in lines[start:]:
+        if not line.startswith("|"):
+            break
+        table.append([cell.strip() for cell in line.strip("|").split("|")])
+    return [table[0], *table[2:]]
+
+
+def test_losses_are_named_with_their_shares_and_sum_up() -> None:
+    table = rows(page(load(CLOCK)), "where")
+    assert table[0] == ["where", "lost", "of power in", "of all lost"]
+    named = {row[0]: [float(cell.split()[0]) for cell in row[1:]] for row in table[1:]}
+    single = [name for name in named if name not in ("all pairs", "all bearings", "total")]
+    assert set(single) == {
+        "g96~c8", "c60~t8", "t56~e7", "mw6~h72", "bearing of centre", "bearing of third", "bearing of hour"
+    }  # fmt: skip
+    for column in range(3):
+        parts = sum(named[name][column] for name in single)
+        assert named["total"][column] == pytest.approx(parts, rel=1e-3)
+        assert parts == pytest.approx(named["all pairs"][column] + named["all bearings"][column], rel=1e-3)
+    assert named["total"][2] == 100
+
+
+def test_the_torque_needed_at_the_crank_is_said_where_bearings_rub() -> None:
+    train = load(CLOCK)
+    torque = float(train.torques().external["great"])
+    assert f"Torque needed, with the friction of bearings: at 'great' {torque:.9g} N m." in page(train)
+    assert "Torque needed" not in page(load(RING))
+
+
+def test_powers_are_in_watts_on_a_page_where_they_are_real() -> None:
+    text = page(load(RING + "rate: 10 turn/s\n"))
+    assert "Power in 183.4 W, lost 3.904 W" in text
+    assert rows(text, "where")[-1] == ["total", "3.904 W", "2.129 %", "100 %"]
+    assert rows(text, "link")[1][-1] == "-179.5 W"
+    assert " W" not in page(load(RING))
+
+
+def test_the_loop_is_named_with_what_circulates() -> None:
+    text = page(load("norton-compound"))
+    assert "3543.303 circulates, 258.8 times the power in: through pairs a82~b84, c86~d82, e82~f84 and shafts " in text
+    assert "circulates" not in page(load("extends: planetary\nloads: {carrier: -1}\n"))
+
+
+def test_collisions_stand_beside_sliding() -> None:
+    """Two pairs in a row: each blow strikes all that turns with the driven wheel."""
+    train = load(STRUCK)
+    found = train.torques()
+    table = rows(page(train), "where")
+    assert table[0] == ["where", "sliding", "of power in", "of all sliding", "impact", "of power in"]
+    law = train.meshes[0].law
+    energy = law.impact((4 + 7 * (24 / 40) ** 2) * 1e-7, 2 * pi * 3)[1]
+    data = torques_data(train, found)["losses"]
+    assert data[0]["impact"] == pytest.approx(energy * 3 * 20, rel=1e-12)
+    assert {loss["name"] for loss in data} == {"a~b", "c~d"}
+    assert table[-1][4] == watts_text(sum(loss["impact"] for loss in data))
+
+
+def test_a_train_that_loses_nothing_in_no_loop_has_no_more_to_say() -> None:
+    train = load("extends: planetary-24-18-60\nloads: {carrier: -1}\n")
+    assert [section.title for section in torque_sections(train, train.torques())] == ["Torques"]
+
+
+def titles(document: Document) -> list[str]:
+    return [section.title for section in document.sections]
+
+
+def test_a_report_tells_of_torques_in_loaded_states_only() -> None:
+    from geartrain.report import report_train, train_data
+
+    train = load(SPLIT)
+    found = [title for title in titles(report_train(train)) if "torques" in title or "power" in title]
+    assert found == [f"State {s}: {what}" for s in ("cruising", "boost") for what in ("torques", "flow of power")]
+    assert [each["state"] for each in train_data(train)["torques"]] == ["cruising", "boost"]
+    bare = load("prius-power-split")
+    assert not [title for title in titles(report_train(bare)) if "orque" in title]
+    assert train_data(bare)["torques"] == []
+    only_rubbing = load("extends: planetary-24-18-60\nlinks: {carrier: {bearing: 1 N m}}\n")
+    assert "Torques" in titles(report_train(only_rubbing))
+
+
+def test_a_report_on_a_train_that_locks_itself_is_still_sound(tmp_path: Path) -> None:
+    path = tmp_path / "t.yaml"
+    path.write_text("extends: norton-compound\ninputs: {arm: -1}\nloads: {F: -1764}\n", encoding="utf-8")
+    assert call("torques", path).exit_code == 0
+    path.write_text("extends: norton-compound\ninputs: {F: 1}\nloads: {arm: -1}\noutputs: {F: {expect: null}, "
+                    "P1: {expect: null}, P2: {expect: null}}\n", encoding="utf-8")  # fmt: skip
+    assert call("torques", path).exit_code == 1
+    done = call("report", path)
+    assert done.exit_code == 0
+    assert "self-locking" in done.output
+
+
+def test_every_key_is_documented() -> None:
+    text = (ROOT / "docs" / "json.md").read_text(encoding="utf-8")
+    part = text[text.index("## torques --json") :]
+    part = part[: part.index("\n## ", 5)]
+    train = load(REVERSE)
+    data = torques_data(train, train.torques("R"))
+    assert "`torques`" in text[: text.index("## compare --json")]
+    for key in [*data, *data["flow"], *data["flow"]["loops"][0], *data["flow"]["streams"][0]]:
+        assert f"`{key}`" in part, key
+    train = load(CLOCK)
+    data = torques_data(train, train.torques())
+    for key in (*data["losses"][0], "impact"):
+        assert f"`{key}`" in part, key
+    assert json.loads(json.dumps(data, allow_nan=False)) == data
+
+
+# ------------------------------------------------------------------------------------------------------------- pictures
+
+
+def drawn(name: str, state: str | None) -> tuple[PowerFlow, Any]:
+    pytest.importorskip("matplotlib")
+    from geartrain.drawing import power_figure
+
+    train = load(TRAINS[name])
+    flow = flow_of(train, train.torques(state))
+    return flow, power_figure(flow, f"{name}: how its power flows")
+
+
+PICTURES = [("ring", None), ("clock", None), ("rubbing", None), ("norton", None), ("reverse", "R"),
+            ("split", "cruising"), ("split", "boost")]  # fmt: skip
+
+
+@pytest.mark.parametrize(("name", "state"), PICTURES)
+def test_a_picture_names_every_shaft_pair_and_loss(name: str, state: str | None) -> None:
+    flow, figure = drawn(name, state)
+    from geartrain.drawing import render
+
+    svg = render(figure, ".svg").decode()
+    for node in flow.nodes:
+        if node.kind in ("shaft", "pair"):
+            assert f"<!-- {node.name} -->" in svg
+            assert f'id="{node.kind} {node.name}"' in svg
+    for node, loss in flow.losses.items():
+        word = "teeth" if node.kind == "pair" else "bearing"
+        assert f"<!-- {word} {percent_text(loss / flow.power_in, 3)} -->" in svg
+    for loop in flow.loops:
+        assert f"<!-- {percent_of_text(loop.power / flow.power_in, 'the power in')} circulates -->" in svg
+    assert render(figure, ".png").startswith(b"\x89PNG")
+    assert render(figure, ".pdf").startswith(b"%PDF")
+
+
+@pytest.mark.parametrize(("name", "state"), PICTURES)
+def test_everything_is_inside_and_large_enough(name: str, state: str | None) -> None:
+    _, figure = drawn(name, state)
+    from matplotlib.text import Text
+
+    figure.draw_without_rendering()
+    inside = figure.get_tightbbox()
+    assert min(inside.x0, inside.y0) > -0.01
+    assert inside.x1 < figure.get_figwidth() + 0.01
+    assert inside.y1 < figure.get_figheight() + 0.01
+    words = figure.findobj(lambda each: isinstance(each, Text) and each.get_text() and each.get_visible())
+    assert words
+    assert all(word.get_fontsize() >= 10 for word in words)
+
+
+@pytest.mark.parametrize(("name", "state"), PICTURES)
+def test_bands_are_as_wide_as_their_powers_and_fill_their_nodes(name: str, state: str | None) -> None:
+    pytest.importorskip("matplotlib")
+    from geartrain.drawing.sankey import lay_out_sankey
+
+    train = load(TRAINS[name])
+    flow = flow_of(train, train.torques(state))
+    placed = lay_out_sankey(flow, lambda node, power: 0.5, lambda node, power: 0.4, 9.0)
+    assert placed.width >= 9.0 - 1e-9
+    pieces = [piece for band in placed.bands for piece in band] + [turn.piece for turn in placed.turns]
+    for piece in pieces:
+        assert piece.width == pytest.approx(float(piece.stream.power) * placed.scale, rel=1e-12)
+    for band in placed.bands:
+        assert [piece.target.column - piece.source.column for piece in band] == [1] * len(band)
+    assert {turn.piece.stream.circling / turn.piece.stream.power for turn in placed.turns} <= {Fraction(1)}
+    for spot in placed.spots:
+        for side, shed in ((spot.before, 0.0), (spot.after, spot.shed)):
+            if side:
+                assert sum(piece.width for piece in side) + shed == pytest.approx(spot.height, rel=1e-9)
+        # one beneath the other, from the top
+        tops = sorted((piece.start, piece.width) for piece in spot.after)
+        assert [top for top, _ in tops] == pytest.approx(
+            [spot.top + sum(width for _, width in tops[:at]) for at in range(len(tops))]
+        )
+    for column in range(len(placed.x)):
+        spots = sorted((spot for spot in placed.spots if spot.column == column), key=lambda spot: spot.top)
+        for upper, lower in pairwise(spots):
+            assert upper.top + upper.height + upper.below <= lower.top - lower.above + 1e-6
+    assert all(b - a > 0 for a, b in pairwise(placed.x))
+
+
+def test_the_same_flow_is_the_same_picture() -> None:
+    from geartrain.drawing import render
+
+    assert len({render(drawn("reverse", "R")[1], ".svg") for _ in range(2)}) == 1
+
+
+def test_the_command_draws_one_state(tmp_path: Path) -> None:
+    pytest.importorskip("matplotlib")
+    path, picture = tmp_path / "t.yaml", tmp_path / "t.svg"
+    path.write_text(SPLIT, encoding="utf-8")
+    done = call("torques", path, "--plot", picture)
+    assert done.exit_code == 2
+    assert "--state" in done.stderr
+    assert not picture.exists()
+    assert call("torques", path, "--state", "boost", "--plot", picture).exit_code == 0
+    assert "98.89 % of the power that enters comes out; 1.111 % is lost in teeth" in picture.read_text(encoding="utf-8")
+    # a single loaded state needs no name
+    path.write_text(REVERSE, encoding="utf-8")
+    assert call("torques", path, "--plot", tmp_path / "r.png").exit_code == 0
+    assert call("torques", path, "--plot", tmp_path / "r.gif").exit_code == 2
+
+
+def test_without_loads_a_unit_of_power_is_drawn(tmp_path: Path) -> None:
+    pytest.importorskip("matplotlib")
+    picture = tmp_path / "t.svg"
+    assert call("torques", "zf-8hp70", "--state", "R", "--plot", picture).exit_code == 0
+    assert "while a unit of power leaves at" in picture.read_text(encoding="utf-8")
+
+
+def test_where_no_power_flows_nothing_is_drawn(tmp_path: Path) -> None:
+    pytest.importorskip("matplotlib")
+    path, picture = tmp_path / "t.yaml", tmp_path / "t.svg"
+    path.write_text(SHARED, encoding="utf-8")
+    done = call("torques", path, "--plot", picture)
+    assert isinstance(done.exception, GearTrainError)
+    assert "no flow of power to draw" in str(done.exception)
+    assert done.stdout == ""
+    assert not picture.exists()
+
+
+# -------------------------------------------------------------------------------------------------------------- imports
+
+WITHOUT = """
+import sys
+class Missing:
+    def find_spec(self, name, path=None, target=None):
+        if name.partition(".")[0] in {"numpy", "scipy", "matplotlib", "networkx", "jinja2"}:
+            raise ModuleNotFoundError(f"No module named {name!r}", name=name)
+sys.meta_path.insert(0, Missing())
+from geartrain.cli import main
+main()
+"""
+
+
+def fresh(code: str, *arguments: object) -> subprocess.CompletedProcess[str]:
+    command = [sys.executable, "-c", code, *map(str, arguments)]
+    return subprocess.run(command, capture_output=True, text=True, check=False, timeout=120)
+
+
+def test_a_report_without_loads_imports_nothing_of_torques() -> None:
+    code = """
+import sys, geartrain
+from geartrain.report import report_train, train_data
+train = geartrain.load(sys.argv[1])
+report_train(train), train_data(train)
+print(any(name.startswith("geartrain.dynamics.torques") for name in sys.modules), "numpy" in sys.modules)
+"""
+    assert fresh(code, "planetary").stdout.split() == ["False", "False"]
+    assert fresh(code, "norton-compound").stdout.split() == ["True", "False"]
+
+
+def test_torques_and_their_flow_need_no_large_library_and_a_picture_names_its_extra(tmp_path: Path) -> None:
+    done = fresh(WITHOUT, "torques", "norton-compound")
+    assert (done.returncode, done.stderr) == (0, "")
+    assert "circulates" in done.stdout
+    done = fresh(WITHOUT, "torques", "norton-compound", "--plot", tmp_path / "t.svg")
+    assert (done.returncode, done.stdout) == (2, "")
+    assert "pip install 'geartrain[plot]'" in done.stderr
+    assert list(tmp_path.iterdir()) == []

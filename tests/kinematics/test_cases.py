@@ -1,0 +1,210 @@
+"""Every kinematic case of the collection: speeds of every link, counts, carriers, ratios; and what is refused."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator, Mapping
+from fractions import Fraction
+from typing import Any
+
+import numpy as np
+import pytest
+from places import DATA
+
+from geartrain import GearTrain, GearTrainError, load
+
+CASES = json.loads((DATA / "cases.json").read_text(encoding="utf-8"))
+KINEMATIC = {case["id"]: case for case in CASES["kinematic"]}
+REJECT = {case["id"]: case for case in CASES["reject"]}
+STATES = [(name, state["name"]) for name, case in KINEMATIC.items() for state in case["states"]]
+EPS = 2.0**-53
+
+
+def declaration(case: Mapping[str, Any]) -> dict[str, Any]:
+    """A case in the keys of a declaration: a wheel of its own for each end of each gear pair."""
+    links: dict[str, dict[str, Any]] = {link: {"wheels": {}} for link in case["links"]}
+    gears = []
+    for at, gear in enumerate(case["gears"]):
+        if isinstance(gear, list):
+            gear = dict(zip(("i", "j", "zi", "zj", "type"), gear, strict=True))
+        ring = gear["type"] == "internal"
+        links[gear["i"]]["wheels"][f"i{at}"] = {"teeth": gear["zi"], "internal": ring}
+        links[gear["j"]]["wheels"][f"j{at}"] = gear["zj"]
+        gears.append({"id": f"G{at}", "pair": [f"i{at}", f"j{at}"]})
+    return {
+        "frame": case.get("frame", "0"),
+        "links": links,
+        "revolutes": [{"pair": [a, b], "axis": axis} for a, b, axis in case["revolutes"]],
+        "gears": gears,
+        "states": {
+            state["name"]: {
+                "fixed": state["fixed"],
+                "locks": state["locks"],
+                "inputs": {link: Fraction(speed) for link, speed in state["inputs"].items()},
+            }
+            for state in case.get("states", ())
+        },
+        **({"inputs": case["given"]} if "given" in case else {}),
+    }
+
+
+@pytest.mark.parametrize("name", KINEMATIC)
+def test_mobility_rank_and_redundancy_are_those_of_the_collection(name: str) -> None:
+    case = KINEMATIC[name]
+    mobility = GearTrain.declare(declaration(case)).mobility
+    assert mobility.by_rank == case["mobility"]
+    assert mobility.rank == case["rank"]
+    assert mobility.redundant == case["redundant_gear_constraints"]
+    assert mobility.by_count == case["mobility_formula_jR_minus_jG"]
+
+
+@pytest.mark.parametrize("name", KINEMATIC)
+def test_carrier_and_signed_ratio_of_every_circuit(name: str) -> None:
+    case = KINEMATIC[name]
+    circuits = GearTrain.declare(declaration(case)).circuits
+    assert [(c.i, c.j, c.carrier, c.ratio) for c in circuits] == [
+        (gear["i"], gear["j"], gear["carrier"], Fraction(gear["tau"])) for gear in case["gears"]
+    ]
+
+
+def _state(name: str, state: str) -> Mapping[str, Any]:
+    return next(one for one in KINEMATIC[name]["states"] if one["name"] == state)
+
+
+@pytest.mark.parametrize(("name", "state"), STATES)
+def test_every_link_turns_as_the_collection_says(name: str, state: str) -> None:
+    given = _state(name, state)
+    answer = GearTrain.declare(declaration(KINEMATIC[name])).solve(state)
+    assert answer.verdict.kind == "determined"
+    assert dict(answer.speeds) == {link: Fraction(speed) for link, speed in given["speeds"].items()}
+
+
+def _published() -> Iterator[Any]:
+    for name, state in STATES:
+        given = _state(name, state)
+        for link, speed in given.get("published_speeds", {}).items():
+            yield pytest.param(name, state, link, Fraction(speed), Fraction(0), False, id=f"{name}-{state}-{link}")
+        if "published_ratio" in given:
+            ratio, bound = Fraction(str(given["published_ratio"])), Fraction(str(given["published_tol"]))
+            yield pytest.param(name, state, given["output"], ratio, bound, True, id=f"{name}-{state}-ratio")
+
+
+@pytest.mark.parametrize(("name", "state", "link", "value", "bound", "as_ratio"), list(_published()))
+def test_published_figures_hold_at_their_digits(
+    name: str, state: str, link: str, value: Fraction, bound: Fraction, as_ratio: bool
+) -> None:
+    speed = GearTrain.declare(declaration(KINEMATIC[name])).solve(state)[link]
+    found = 1 / Fraction(speed) if as_ratio else Fraction(speed)
+    assert abs(found - value) <= bound
+
+
+@pytest.mark.parametrize(("name", "state"), STATES)
+def test_freedom_of_each_state_is_links_less_one_less_rank_with_brakes(name: str, state: str) -> None:
+    given = _state(name, state)
+    data = declaration(KINEMATIC[name])
+    data["inputs"], states = {}, data.pop("states")
+    data |= {key: states[state][key] for key in ("fixed", "locks")}
+    verdict = GearTrain.declare(data).solve().verdict
+    assert verdict.kind == "free"
+    assert len(verdict.fixes) == given["state_mobility"]
+
+
+def _dense(train: GearTrain, state: str) -> tuple[list[str], np.ndarray]:
+    """The rows of the system as a dense array, without the frame, for the textbook formula of cond(A, x)."""
+    rows = [row for row in train.equations(state).equations if row.kind != "frame"]
+    links = [link for link in train.declaration.links if link != train.declaration.frame]
+    matrix = np.zeros((len(rows), len(links)))
+    for at, row in enumerate(rows):
+        for link, coefficient in row.terms:
+            if link in links:
+                matrix[at, links.index(link)] += coefficient
+    return links, matrix
+
+
+@pytest.mark.parametrize(("name", "state"), STATES)
+def test_floats_agree_within_their_estimate_and_within_the_condition_of_each_speed(name: str, state: str) -> None:
+    train = GearTrain.declare(declaration(KINEMATIC[name]))
+    exact = {link: Fraction(speed) for link, speed in _state(name, state)["speeds"].items()}
+    found = train.floats(state)
+    for link, speed in exact.items():
+        error = abs(Fraction(found[link]) - speed)
+        assert error <= Fraction(float(found.estimate[link][0])), link
+    links, matrix = _dense(train, state)
+    if len(matrix) == len(links):  # redundant trains have no inverse
+        x = np.array([float(exact[link]) for link in links])
+        bound = np.abs(np.linalg.inv(matrix)) @ np.abs(matrix) @ np.abs(x)
+        second_order = 1000 * EPS**2 * float(np.abs(x).max())
+        for link, most in zip(links, bound, strict=True):
+            error = abs(Fraction(found[link]) - exact[link])
+            assert error <= Fraction(4 * EPS * float(most) + second_order), link
+
+
+SAYS = {
+    "R01": ("no carrier", "a -(x)- 0 -(x)- b", "coaxial"),
+    "R02": ("no carrier", "a -(x)- 0 -(y)- c -(z)- b", "0 and at c"),
+    "R03": ("cycle", "0", "a", "b"),
+    "R04": ("link 'b' is not joined",),
+    "R06": ("0 is not a tooth count",),
+}
+
+
+@pytest.mark.parametrize("name", SAYS)
+def test_what_is_no_train_is_refused_by_name(name: str) -> None:
+    with pytest.raises(GearTrainError) as caught:
+        load(declaration(REJECT[name]))
+    for words in SAYS[name]:
+        assert words in str(caught.value)
+
+
+def test_a_negative_tooth_count_is_refused_like_zero() -> None:
+    data = declaration(REJECT["R06"])
+    data["links"]["a"]["wheels"]["i0"]["teeth"] = -20
+    with pytest.raises(GearTrainError, match="-20 is not a tooth count"):
+        load(data)
+
+
+def test_over_specified_speeds_are_contradictory_and_the_prescriptions_are_named() -> None:
+    verdict = load(declaration(REJECT["R11"])).solve().verdict
+    assert verdict.kind == "contradictory"
+    assert {text.split(" = ")[0] for text in verdict.prescriptions} == {"S", "C", "R"}
+    # 30 S + 78 R must be 108 C: 30 + 156 - 108 leaves 78, or 13 when the common factor 6 is taken out
+    assert "13" in verdict.text
+
+
+def test_under_specified_speeds_leave_c_r_and_p_undetermined() -> None:
+    verdict = load(declaration(REJECT["R12"])).solve().verdict
+    assert verdict.kind == "free"
+    assert set(verdict.links) == {"C", "R", "P"}
+    assert verdict.text.startswith("1 of 2 degrees of freedom prescribed")
+    assert len(verdict.fixes) == 1
+
+
+def test_three_mutually_meshing_wheels_are_locked_and_the_loop_is_named() -> None:
+    verdict = load(declaration(REJECT["R13"])).solve().verdict
+    assert verdict.kind == "locked"
+    (loop,) = verdict.loops
+    assert set(loop.links) == {"a", "b", "c"}
+    assert loop.product == -1
+
+
+@pytest.mark.parametrize("name", ["K45", "K46"])
+@pytest.mark.parametrize("driven", [True, False])
+def test_a_gridlocked_train_is_locked_with_its_loop_driven_or_not(name: str, driven: bool) -> None:
+    data = declaration(KINEMATIC[name])
+    first = KINEMATIC[name]["gears"][0]["i"]
+    train = GearTrain.declare({**data, "inputs": {first: 1} if driven else {}})
+    verdict = train.solve().verdict
+    assert verdict.kind == "locked"
+    (loop,) = verdict.loops
+    # round the triangle: (-3/2)(-4/3)(-1/2) = -1; between the two meshes of the layshaft: 20/21 or its inverse
+    assert loop.product in ({Fraction(-1)} if name == "K45" else {Fraction(20, 21), Fraction(21, 20)})
+    assert set(train.mobility.still) == set(data["links"]) - {"0"}
+
+
+def test_the_loops_that_close_are_named() -> None:
+    (loop,) = GearTrain.declare(declaration(KINEMATIC["K44"])).mobility.loops
+    assert set(loop.links) == {"a", "b", "c", "d"}
+    assert loop.product == 1
+    planets = GearTrain.declare(declaration(KINEMATIC["K43"])).mobility
+    assert len(planets.loops) == 2
+    assert all(loop.product == 1 and loop.carrier == "C" for loop in planets.loops)

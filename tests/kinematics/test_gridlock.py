@@ -1,0 +1,657 @@
+"""Why meshes lock a train, and which to disengage: against known tables, enumeration and dense elimination."""
+
+from __future__ import annotations
+
+import itertools
+import json
+import random
+from collections.abc import Callable, Iterable, Sequence
+from fractions import Fraction
+from pathlib import Path
+from typing import Any
+
+import networkx as nx
+import polyhedra
+import pytest
+from commands import call, imported_by
+from hypothesis import assume, given
+from hypothesis import strategies as st
+from reference_solver import echelon, wheel_table, willis_rows
+from strategies import trains
+from test_cases import KINEMATIC, REJECT, declaration
+
+from geartrain import GearTrain, load
+from geartrain.kinematics.gridlock import MeshRemoval
+from geartrain.kinematics.gridlock import removal_choice as choosing
+from geartrain.kinematics.gridlock.branch_and_bound import greedy_removal
+from geartrain.kinematics.gridlock.gain_graph import (
+    GainGraph,
+    biconnected_blocks,
+    is_balanced,
+    shortest_loop,
+    single_mesh_removals,
+    walk_gain_graph,
+)
+from geartrain.kinematics.gridlock.planar_matching import planar_removal
+from geartrain.kinematics.gridlock.removal_choice import choose_removal
+
+Data = dict[str, Any]
+
+
+# gears on all faces of a polyhedron -----------------------------------------------------------------------------------
+
+PLATONIC = {
+    "tetrahedron": (polyhedra.TETRAHEDRON, 4, 6, 2),
+    "cube": (polyhedra.CUBE, 6, 12, 4),
+    "octahedron": (polyhedra.OCTAHEDRON, 8, 12, 0),
+    "dodecahedron": (polyhedra.DODECAHEDRON, 12, 30, 10),
+    "icosahedron": (polyhedra.ICOSAHEDRON, 20, 30, 6),
+}
+# gears, meshes, least number of meshes to disengage
+ARCHIMEDEAN = {
+    "truncated tetrahedron": (8, 18, 6),
+    "cuboctahedron": (14, 24, 0),
+    "truncated cube": (14, 36, 12),
+    "truncated octahedron": (14, 36, 12),
+    "rhombicuboctahedron": (26, 48, 0),
+    "truncated cuboctahedron": (26, 72, 24),
+    "snub cube": (38, 60, 12),
+    "icosidodecahedron": (32, 60, 0),
+    "truncated dodecahedron": (32, 90, 30),
+    "truncated icosahedron": (32, 90, 30),
+    "rhombicosidodecahedron": (62, 120, 0),
+    "truncated icosidodecahedron": (62, 180, 60),
+    "snub dodecahedron": (92, 150, 30),
+}
+# duals: the Catalan solids, by the name of the solid they are dual to
+CATALAN = {
+    "truncated tetrahedron": ("triakis tetrahedron", 4),
+    "cuboctahedron": ("rhombic dodecahedron", 8),
+    "truncated cube": ("triakis octahedron", 8),
+    "truncated octahedron": ("tetrakis hexahedron", 0),
+    "rhombicuboctahedron": ("deltoidal icositetrahedron", 8),
+    "truncated cuboctahedron": ("disdyakis dodecahedron", 0),
+    "snub cube": ("pentagonal icositetrahedron", 16),
+    "icosidodecahedron": ("rhombic triacontahedron", 20),
+    "truncated dodecahedron": ("triakis icosahedron", 20),
+    "truncated icosahedron": ("pentakis dodecahedron", 12),
+    "rhombicosidodecahedron": ("deltoidal hexecontahedron", 32),
+    "truncated icosidodecahedron": ("disdyakis triacontahedron", 0),
+    "snub dodecahedron": ("pentagonal hexecontahedron", 46),
+}
+
+
+def solids() -> Iterable[Any]:
+    for name, (solid, *counts) in PLATONIC.items():
+        yield pytest.param(solid, *counts, id=name)
+    for name, make in polyhedra.ARCHIMEDEAN.items():
+        solid = make()
+        gears, meshes, drop = ARCHIMEDEAN[name]
+        yield pytest.param(solid, gears, meshes, drop, id=name)
+        dual, least = CATALAN[name]
+        yield pytest.param(polyhedra.dual(solid), meshes + 2 - gears, meshes, least, id=dual)
+    for n in range(3, 9):
+        yield pytest.param(polyhedra.prism(n), n + 2, 3 * n, n, id=f"{n}-prism")
+    for n in range(4, 9):
+        yield pytest.param(polyhedra.antiprism(n), 2 * n + 2, 4 * n, 0, id=f"{n}-antiprism")
+    for n in range(4, 9):
+        least = 0 if n % 2 == 0 else 2
+        yield pytest.param(polyhedra.dual(polyhedra.prism(n)), 2 * n, 3 * n, least, id=f"{n}-bipyramid")
+
+
+def ordinary(teeth: Sequence[int], meshes: Iterable[tuple[int, int]], rings: Iterable[int] = ()) -> Data:
+    """Gears on fixed axes, one wheel each."""
+    count = len(teeth)
+    links: Data = {
+        f"g{at}": {"wheels": {f"w{at}": {"teeth": z, "internal": at in rings}}} for at, z in enumerate(teeth)
+    }
+    return {
+        "links": {"frame": {}, **links},
+        "revolutes": [{"pair": ["frame", f"g{at}"], "axis": f"A{at}"} for at in range(count)],
+        "gears": [{"id": f"{i}-{j}", "pair": [f"w{i}", f"w{j}"]} for i, j in meshes],
+        "inputs": {"g0": 1},
+    }
+
+
+def less(data: Data, gone: Iterable[str]) -> Data:
+    out = set(gone)
+    return {**data, "gears": [gear for gear in data["gears"] if gear["id"] not in out]}
+
+
+def proved(release: MeshRemoval, firm: Iterable[str] = ()) -> int:
+    """The bound of its proofs, after counting how often each mesh is in a loop of each."""
+    for proof in release.proofs:
+        times = [pair for loop in proof.loops for pair in loop.pairs if pair not in firm]
+        assert all(times.count(pair) <= proof.sharing for pair in times)
+        assert all(not loop.closes for loop in proof.loops)
+    return sum(proof.at_least for proof in release.proofs)
+
+
+@pytest.mark.parametrize(("solid", "gears", "meshes", "drop"), list(solids()))
+def test_gears_on_all_faces_need_the_least_disengaging_that_is_known(
+    solid: polyhedra.Map, gears: int, meshes: int, drop: int
+) -> None:
+    pairs = polyhedra.neighbours(solid)
+    assert (len(solid), len(pairs)) == (gears, meshes)
+    data = ordinary([6 + 2 * len(face) for face in solid], pairs)
+    train = GearTrain.declare(data)
+    assert train.mobility.by_rank == (1 if drop == 0 else 0)
+    found = train.gridlock
+    assert found.moves == (drop == 0)
+    if found.release is not None:
+        assert len(found.release.meshes) == drop
+        assert found.release.least
+        assert GearTrain.declare(less(data, found.release.meshes)).solve().verdict
+
+
+def test_the_thirty_meshes_of_a_truncated_icosahedron_are_proved_by_loops() -> None:
+    solid = polyhedra.ARCHIMEDEAN["truncated icosahedron"]()
+    data = ordinary([2 * len(face) for face in solid], polyhedra.neighbours(solid))
+    release = GearTrain.declare(data).gridlock.release
+    assert release is not None
+    assert release.method == "matching"
+    assert proved(release) == 30
+    hexagons = [f"{i}-{j}" for i, j in polyhedra.neighbours(solid) if len(solid[i]) == len(solid[j]) == 6]
+    assert len(hexagons) == 30
+    assert GearTrain.declare(less(data, hexagons)).solve().verdict
+    text = str(release)
+    assert text.startswith("disengage 30 meshes: ")
+    assert "and 18 more; no fewer will do: 60 loops that do not close have each mesh in at most two of them" in text
+
+
+# trains of the collection ---------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("case", [KINEMATIC["K45"], REJECT["R13"]], ids=["K45", "R13"])
+def test_of_three_wheels_in_a_ring_any_one_mesh_frees(case: Data) -> None:
+    data = declaration(case)
+    found = GearTrain.declare(data).gridlock
+    (jam,) = found.jams
+    assert (set(jam.loop.links), jam.loop.product, jam.by) == ({"a", "b", "c"}, -1, "sign")
+    assert found.release is not None
+    assert set(found.release.choices) == {"G0", "G1", "G2"}
+    assert len(found.release.meshes) == 1
+    for mesh in found.release.choices:
+        assert GearTrain.declare({**less(data, [mesh]), "inputs": {"a": 1}}).solve().verdict.kind != "locked"
+
+
+def test_of_two_parallel_meshes_of_different_ratio_either_frees() -> None:
+    found = GearTrain.declare(declaration(KINEMATIC["K46"])).gridlock
+    (jam,) = found.jams
+    assert jam.by == "ratio"
+    assert jam.loop.product in (Fraction(20, 21), Fraction(21, 20))
+    assert found.release is not None
+    assert set(found.release.choices) == set(jam.loop.pairs)
+    assert len(jam.loop.pairs) == 2
+    assert f"each wheel would turn at two speeds, {jam.loop.product} of each other" in str(jam)
+
+
+@pytest.mark.parametrize("name", [name for name, case in KINEMATIC.items() if case["mobility"] > 0])
+def test_a_train_that_moves_has_nothing_to_disengage(name: str) -> None:
+    assert GearTrain.declare(declaration(KINEMATIC[name])).gridlock.moves
+
+
+def lattice(k: int, diagonals: Iterable[tuple[int, int]] = (), seed: int = 5) -> Data:
+    draw = random.Random(seed)
+    right = [(at, at + 1) for at in range(k * k) if (at + 1) % k]
+    down = [(at, at + k) for at in range(k * (k - 1))]
+    crossing = [(r * k + c, (r + 1) * k + c + 1) for r, c in diagonals]
+    return ordinary([draw.randint(17, 99) for _ in range(k * k)], [*right, *down, *crossing])
+
+
+@pytest.mark.parametrize("k", [3, 10, 40, 100])
+def test_a_lattice_moves_and_one_diagonal_more_is_the_one_mesh_to_take_out(k: int) -> None:
+    train = GearTrain.declare(lattice(k))
+    assert train.gridlock.moves
+    assert train.mobility.redundant == (k - 1) ** 2
+    found = GearTrain.declare(lattice(k, [(0, 0)])).gridlock
+    (jam,) = found.jams
+    assert len(jam.loop.links) == 3
+    assert f"0-{k + 1}" in jam.loop.pairs
+    assert found.release is not None
+    assert found.release.meshes == (f"0-{k + 1}",)
+    assert found.release.choices == (f"0-{k + 1}",)
+
+
+@pytest.mark.parametrize("large", [False, True])
+def test_each_diagonal_of_a_lattice_costs_one_mesh(large: bool, monkeypatch: pytest.MonkeyPatch) -> None:
+    if large:
+        monkeypatch.setattr(choosing, "LARGE", 100)
+    data = lattice(30, [(3, 4), (3, 20), (17, 9), (28, 28)])
+    found = GearTrain.declare(data).gridlock
+    assert found.release is not None
+    assert found.release.least
+    assert proved(found.release) == 4
+    assert set(found.release.meshes) == {gear["id"] for gear in data["gears"][-4:]}
+    assert found.release.method == ("loops" if large else "matching")
+
+
+def test_a_chain_of_tiny_ratios_moves() -> None:
+    data: Data = {"links": {"frame": {}, "g0": {"wheels": {"a0": 20}}}, "gears": [], "inputs": {"g0": 1}}
+    for at in range(1, 701):
+        data["links"][f"g{at}"] = {"wheels": {f"b{at}": 60, f"a{at}": 20}}
+        data["gears"].append({"pair": [f"a{at - 1}", f"b{at}"]})
+    data["revolutes"] = [{"pair": ["frame", f"g{at}"], "axis": f"A{at}"} for at in range(701)]
+    assert GearTrain.declare(data).gridlock.moves
+
+
+def test_a_loop_that_misses_by_eight_in_ten_million_is_a_gridlock_and_any_mesh_frees_it() -> None:
+    links = {
+        "frame": {},
+        "a": {"wheels": {"a113": 113, "a108": {"teeth": 108, "internal": True}}},
+        "b": {"wheels": {"b117": 117, "b95": 95}},
+        "c": {"wheels": {"c96": 96, "c113": 113}},
+    }
+    joints = [{"pair": ["frame", link], "axis": link} for link in "abc"]
+    gears = [{"pair": ["a113", "b117"]}, {"pair": ["b95", "c96"]}, {"pair": ["c113", "a108"]}]
+    found = GearTrain.declare({"links": links, "revolutes": joints, "gears": gears, "inputs": {"a": 1}}).gridlock
+    (jam,) = found.jams
+    assert jam.loop.product in (Fraction(1213055, 1213056), Fraction(1213056, 1213055))
+    assert jam.by == "ratio"
+    assert found.release is not None
+    assert len(found.release.choices) == 3
+
+
+def test_fibonacci_ratios_that_differ_in_the_last_digit_are_a_gridlock() -> None:
+    links = {
+        "frame": {},
+        "a": {"wheels": {"a1": 63245986, "a2": 39088169}},
+        "b": {"wheels": {"b1": 102334155, "b2": 63245986}},
+    }
+    joints = [{"pair": ["frame", link], "axis": link} for link in "ab"]
+    gears = [{"pair": ["a1", "b1"]}, {"pair": ["a2", "b2"]}]
+    found = GearTrain.declare({"links": links, "revolutes": joints, "gears": gears}).gridlock
+    (jam,) = found.jams
+    assert abs(jam.loop.product - 1) == pytest.approx(Fraction(1, 63245986**2), rel=1e-6)
+    assert found.release is not None
+    assert len(found.release.choices) == 2
+
+
+# rings, pins, carriers, brakes ----------------------------------------------------------------------------------------
+
+
+def test_a_ring_in_a_loop_of_three_lets_it_turn_and_in_a_loop_of_four_locks_it() -> None:
+    three = ordinary([60, 20, 20], [(0, 1), (1, 2), (2, 0)], rings=[0])
+    one_ring = {**three, "gears": three["gears"][:2]}
+    one_ring["links"]["g0"]["wheels"]["x0"] = 60
+    one_ring["gears"].append({"id": "2-0", "pair": ["w2", "x0"]})
+    assert GearTrain.declare(one_ring).gridlock.moves, "internal, external, external: two reversals"
+    assert GearTrain.declare(three).gridlock.release is not None, "internal, internal, external: one reversal"
+
+
+PLANETARY: Data = {
+    "links": {
+        "frame": {},
+        "sun": {"wheels": {"s": 24, "s2": 30}},
+        "ring": {"wheels": {"r": {"teeth": 60, "internal": True}, "r2": 40}},
+        "p": {"wheels": {"p": 18}},
+        "q": {"wheels": {"q": 18}},
+        "carrier": {"wheels": {"c": 50}},
+    },
+    "revolutes": [
+        {"pair": ["frame", "sun"], "axis": "main"},
+        {"pair": ["frame", "ring"], "axis": "main"},
+        {"pair": ["frame", "carrier"], "axis": "main"},
+        {"pair": ["carrier", "p"], "axis": "p"},
+        {"pair": ["carrier", "q"], "axis": "q"},
+    ],
+    "gears": [
+        {"id": "sp", "pair": ["s", "p"]},
+        {"id": "pr", "pair": ["p", "r"]},
+        {"id": "sq", "pair": ["s", "q"]},
+        {"id": "qr", "pair": ["q", "r"]},
+    ],
+}
+
+
+def test_planets_that_touch_lock_the_set_to_its_carrier_though_the_whole_turns() -> None:
+    touching = {**PLANETARY, "gears": [*PLANETARY["gears"], {"id": "pq", "pair": ["p", "q"]}]}
+    assert GearTrain.declare(PLANETARY).gridlock.moves
+    train = GearTrain.declare({**touching, "inputs": {"carrier": 1}})
+    assert train.solve().verdict, "as one block"
+    (jam,) = train.gridlock.jams
+    assert jam.carrier == "carrier"
+    assert set(jam.links) == {"sun", "ring", "p", "q"}
+    assert train.gridlock.release is not None
+    assert train.gridlock.release.choices == ("pq",)
+
+
+def test_brakes_inputs_and_locks_are_no_gridlock_and_are_never_taken_out() -> None:
+    held = {**PLANETARY, "fixed": ["sun", "ring"], "locks": [["carrier", "sun"]], "inputs": {"carrier": 1}}
+    train = GearTrain.declare(held)
+    assert train.solve().verdict.kind == "locked"
+    assert train.gridlock.moves
+
+
+def coupled(*wheels: tuple[str, int, str]) -> Data:
+    """The planetary set with fixed-axis idlers from one of its central wheels to another."""
+    data: Data = {key: dict(part) if isinstance(part, dict) else list(part) for key, part in PLANETARY.items()}
+    for at, (first, teeth, second) in enumerate(wheels):
+        data["links"][f"idler{at}"] = {"wheels": {f"i{at}": teeth}}
+        data["revolutes"].append({"pair": ["frame", f"idler{at}"], "axis": f"idler{at}"})
+        data["gears"] += [{"id": f"{first}{at}", "pair": [first, f"i{at}"]}]
+        data["gears"] += [{"id": f"{second}{at}", "pair": [f"i{at}", second]}]
+    return data
+
+
+def test_meshes_about_two_carriers_that_hold_each_other_are_found_without_a_loop_that_fails() -> None:
+    # sun, ring and carrier are all geared together, at speeds that Willis does not allow
+    data = coupled(("s2", 20, "r2"), ("s2", 25, "c"))
+    train = GearTrain.declare(data)
+    assert train.mobility.by_rank == 0
+    assert not train.mobility.locked
+    found = train.gridlock
+    assert not found.moves
+    assert not found.jams
+    assert set(found.held) == set(data["links"]) - {"frame"}
+    release = found.release
+    assert release is not None
+    assert (len(release.meshes), release.method) == (1, "one")
+    assert set(release.choices) == {gear for gear in ("s20", "r20", "s21", "c1") if _frees(data, [gear])}
+    assert "about several carriers together, each loop of which closes" in str(found)
+
+
+def test_a_wheel_that_its_ratio_keeps_upright_is_not_held() -> None:
+    assert load("freeth-2021").gridlock.moves, "sun56 stands still while its mesh rolls"
+
+
+def test_a_pin_in_a_slot_is_never_taken_out() -> None:
+    data = {
+        "links": {"frame": {}, "p": {"wheels": {"p": 8}}, "s": {"wheels": {"s": 8}}},
+        "revolutes": [{"pair": ["frame", link], "axis": link} for link in "ps"],
+        "gears": [{"id": "mesh", "pair": ["p", "s"]}],
+        "couplings": [{"id": "pin", "kind": "pin_and_slot", "pin": "p", "slot": "s"}],
+    }
+    found = GearTrain.declare(data).gridlock
+    assert found.jams[0].meshes == 1
+    assert found.release is not None
+    assert found.release.choices == ("mesh",)
+
+
+def test_a_follower_holds_nothing_but_itself() -> None:
+    data = {
+        "links": {"frame": {}, "p": {"wheels": {"p": 8}}, "s": {"wheels": {"s": 8}}, "t": {"wheels": {"t": 9}}},
+        "revolutes": [{"pair": ["frame", link], "axis": link} for link in "pst"],
+        "gears": [{"id": "mesh", "pair": ["s", "t"]}],
+        "couplings": [{"id": "pin", "kind": "pin_follower", "pin": "p", "slot": "s"}],
+    }
+    train = GearTrain.declare(data)
+    assert set(train.mobility.still) == {"s", "t"}
+    assert train.gridlock.moves
+
+
+# against enumeration --------------------------------------------------------------------------------------------------
+
+
+def least_by_trying(network: GainGraph) -> int:
+    loose = [mesh for mesh in range(len(network.ends)) if mesh not in network.firm]
+    return next(
+        size for size in range(len(loose) + 1) for some in itertools.combinations(loose, size) if _closed(network, some)
+    )
+
+
+def _closed(network: GainGraph, gone: Iterable[int]) -> bool:
+    """Whether speeds exist that all other meshes agree with, none of them 0: by dense elimination."""
+    graph, out = nx.Graph(), set(gone)
+    graph.add_nodes_from(range(network.size))
+    rows = []
+    for mesh, (i, j) in enumerate(network.ends):
+        if mesh not in out:
+            row = [Fraction(0)] * network.size
+            row[i], row[j] = Fraction(network.gains.get(mesh, 1)), Fraction(-1)
+            rows.append(row)
+            graph.add_edge(i, j)
+    return len(echelon(rows, network.size)) == network.size - nx.number_connected_components(graph)
+
+
+@st.composite
+def networks(draw: st.DrawFn, gains: Sequence[Any], firm: bool = False, most: int = 7) -> GainGraph:
+    """Connected, with parallel meshes, at most 12 loose meshes."""
+    size = draw(st.integers(2, most))
+    ends = [(draw(st.integers(0, at - 1)), at) for at in range(1, size)]
+    other = st.tuples(st.integers(0, size - 1), st.integers(0, size - 1)).filter(lambda pair: pair[0] != pair[1])
+    ends += draw(st.lists(other, min_size=1, max_size=12 - len(ends)))
+    drawn = {mesh: draw(st.sampled_from(gains)) for mesh in range(len(ends))}
+    held = frozenset(range(draw(st.integers(0, 2)))) & frozenset(range(size - 1)) if firm else frozenset()
+    return GainGraph(size, ends, {mesh: gain for mesh, gain in drawn.items() if gain != 1}, held)
+
+
+SIGNS = (1, -1)
+RATIOS = (1, 1, -1, Fraction(2), Fraction(3, 2), Fraction(1, 2))
+
+
+@given(st.one_of(networks(SIGNS, firm=True), networks(RATIOS, firm=True)))
+def test_a_chosen_set_is_as_small_as_trying_all_sets_finds(network: GainGraph) -> None:
+    least = least_by_trying(network)
+    assert is_balanced(network) == (least == 0)
+    assume(least > 0)
+    choice = choose_removal(network, walk_gain_graph(network))
+    assert _closed(network, choice.meshes)
+    assert not network.firm.intersection(choice.meshes)
+    assert len(choice.meshes) == choice.at_least == least
+    if choice.method == "one":
+        assert choice.choices == [
+            mesh for mesh in range(len(network.ends)) if mesh not in network.firm and _closed(network, [mesh])
+        ]
+
+
+@given(networks(SIGNS, firm=True))
+def test_a_matching_of_odd_regions_is_as_small_as_trying_all_sets_finds(network: GainGraph) -> None:
+    for block in biconnected_blocks(network):
+        part, _ = network.part(block)
+        found = walk_gain_graph(part)
+        plain = GainGraph(part.size, part.ends, found.breaking, part.firm)
+        join = planar_removal(plain)
+        graph = nx.Graph(part.ends)
+        assert (join is not None) or not nx.check_planarity(graph)[0]
+        if join is not None:
+            assert _closed(part, join.meshes)
+            assert not part.firm.intersection(join.meshes)
+            assert len(join.meshes) == least_by_trying(part)
+
+
+@given(st.one_of(networks(SIGNS, firm=True), networks(RATIOS, firm=True)))
+def test_no_mesh_of_a_greedy_set_can_stay_and_its_loops_share_none(network: GainGraph) -> None:
+    meshes, loops = greedy_removal(network, walk_gain_graph(network))
+    assert _closed(network, meshes)
+    assert not network.firm.intersection(meshes)
+    assert not any(_closed(network, set(meshes) - {mesh}) for mesh in meshes)
+    every = [mesh for loop in loops for _, mesh in loop if mesh not in network.firm]
+    assert len(every) == len(set(every))
+    for loop in loops:
+        assert network.product(loop) != 1
+        assert [network.other(mesh, node) for node, mesh in loop] == [node for node, _ in loop[1:] + loop[:1]]
+
+
+@given(networks(RATIOS))
+def test_every_single_mesh_that_frees_is_found(network: GainGraph) -> None:
+    assume(not is_balanced(network))
+    found = single_mesh_removals(network, walk_gain_graph(network))
+    assert sorted(found) == [mesh for mesh in range(len(network.ends)) if _closed(network, [mesh])]
+
+
+@given(networks(RATIOS))
+def test_the_shortest_loop_that_fails_is_found(network: GainGraph) -> None:
+    loop = shortest_loop(network)
+    if loop is None:
+        assert _closed(network, ())
+        return
+    assert network.product(loop) != 1
+    assert len({mesh for _, mesh in loop}) == len(loop) == len({node for node, _ in loop})
+    for size in range(2, len(loop)):
+        for some in itertools.combinations(range(len(network.ends)), size):
+            part, _ = network.part(some)
+            assert part.size > size or not _is_ring(part) or _closed(part, ())
+
+
+def _is_ring(part: GainGraph) -> bool:
+    degrees = [end for ends in part.ends for end in ends]
+    return all(degrees.count(node) == 2 for node in range(part.size))
+
+
+@given(networks(SIGNS))
+def test_blocks_are_those_of_networkx(network: GainGraph) -> None:
+    found = [{frozenset(network.ends[mesh]) for mesh in block} for block in biconnected_blocks(network)]
+    known = nx.biconnected_component_edges(nx.Graph(network.ends))
+    assert sorted(map(sorted, (map(sorted, block) for block in found))) == sorted(
+        map(sorted, ([sorted(pair) for pair in block] for block in known))
+    )
+
+
+def test_nine_mutual_wheels_are_beyond_the_plane_and_small_enough_to_search_or_said_to_be_greedy() -> None:
+    for count in (5, 6, 7, 9):
+        pairs = list(itertools.combinations(range(count), 2))
+        network = GainGraph(count, pairs, dict.fromkeys(range(len(pairs)), -1))
+        choice = choose_removal(network, walk_gain_graph(network))
+        least = len(pairs) - (count // 2) * (count - count // 2)  # what no two halves can keep
+        assert is_balanced(network, choice.meshes)
+        assert choice.at_least <= least <= len(choice.meshes)
+        if len(pairs) <= choosing.SMALL or choice.method != "greedy":
+            assert len(choice.meshes) == choice.at_least == least
+
+
+def test_a_greedy_set_says_that_a_smaller_one_may_do() -> None:
+    text = str(MeshRemoval(("a", "b", "c"), "greedy", 2))
+    assert text == ("disengage 3 meshes: a, b, c; none of them can stay, but a smaller set may do; at least 2 must go")
+
+
+# whole trains, against dense elimination ------------------------------------------------------------------------------
+
+
+def _frees(data: Data, gone: Iterable[str]) -> bool:
+    """Every loop about each carrier closes, and no link stands still both with these ratios and with others."""
+    rest = less(data, gone)
+    rest = {**rest, "couplings": [one for one in rest.get("couplings", ()) if one["kind"] != "pin_follower"]}
+    rows, carriers = willis_rows(rest)
+    relative = [
+        (carrier, {link: value for link, value in row.items() if link != carrier})
+        for carrier, row in zip(carriers.values(), rows, strict=True)
+    ]
+    nodes = sorted({(carrier, link) for carrier, row in relative for link in row})
+    graph = nx.Graph()
+    graph.add_edges_from([(carrier, link) for link in row] for carrier, row in relative)
+    matrix = [
+        [row.get(link, Fraction(0)) if where == carrier else Fraction(0) for where, link in nodes]
+        for carrier, row in relative
+    ]
+    if len(echelon(matrix, len(nodes))) != len(nodes) - nx.number_connected_components(graph):
+        return False
+    draw = random.Random(1)
+    others = {node: draw.randint(1000, 9999) for node in nodes}
+    varied = [
+        (carrier, {link: value / others[carrier, link] for link, value in row.items()}) for carrier, row in relative
+    ]
+    return not _still(rest, relative) & _still(rest, varied)
+
+
+def _still(data: Data, relative: list[tuple[str, dict[str, Fraction]]]) -> set[str]:
+    """Links whose speed is 0 in every motion, from rows in speeds relative to a carrier."""
+    links = [link for link in data["links"] if link != "frame"]
+    matrix = [
+        [row.get(link, Fraction(0)) - (sum(row.values()) if link == carrier else 0) for link in links]
+        for carrier, row in relative
+    ]
+    pivots = echelon(matrix, len(links))
+    free = [at for at in range(len(links)) if at not in pivots]
+    return {links[pivot] for top, pivot in enumerate(pivots) if not any(matrix[top][at] for at in free)}
+
+
+@given(trains(most=7, pairs=8))
+def test_what_is_said_of_random_trains_is_what_trying_all_sets_finds(data: Data) -> None:
+    found = GearTrain.declare(data).gridlock
+    names = [gear["id"] for gear in data["gears"]]
+    sets = (some for size in range(len(names) + 1) for some in itertools.combinations(names, size))
+    least = next((some for some in sets if _frees(data, some)), None)
+    assert found.moves == (least == ())
+    if found.release is None:
+        assert found.moves or least is None
+        return
+    assert least is not None
+    assert _frees(data, found.release.meshes)
+    assert found.release.least
+    assert len(found.release.meshes) == len(least)
+    if found.release.method == "one" and len(found.release.meshes) == 1:
+        assert set(found.release.choices) == {name for name in names if _frees(data, [name])}
+    for jam in found.jams:
+        assert jam.loop.product != 1
+    pins = [coupling["id"] for coupling in data["couplings"]]
+    assert proved(found.release, pins) <= len(found.release.meshes)
+
+
+def test_a_loop_that_locks_what_is_held_already_does_not_upset_the_mobility() -> None:
+    links = {
+        "frame": {"wheels": {"f": 8}},
+        "a": {"wheels": {"a": 8}},
+        "b": {"wheels": {"b": 8}},
+        "c": {"wheels": {"c": 8}},
+    }
+    data = {
+        "links": links,
+        "revolutes": [
+            {"pair": ["frame", "a"], "axis": "A"},
+            {"pair": ["frame", "b"], "axis": "B"},
+            {"pair": ["a", "c"], "axis": "C"},
+        ],
+        "gears": [{"id": "ab", "pair": ["a", "b"]}, {"id": "fc", "pair": ["f", "c"]}],
+        "couplings": [
+            {"id": "pin", "kind": "pin_and_slot", "pin": "a", "slot": "b"},
+            {"id": "follower", "kind": "pin_follower", "pin": "frame", "slot": "c"},
+            {"id": "pin2", "kind": "pin_and_slot", "pin": "frame", "slot": "c"},
+        ],
+    }
+    train = GearTrain.declare(data)
+    assert train.mobility.by_rank == 0
+    assert train.mobility.shared == ()
+    assert train.gridlock.release is not None
+    assert set(train.gridlock.release.meshes) == {"ab", "fc"}
+
+
+def test_wheels_of_a_declaration_are_read_as_the_reference_reads_them() -> None:
+    assert wheel_table(PLANETARY)["r"] == ("ring", 60, True)
+
+
+# what is printed, and what it costs -----------------------------------------------------------------------------------
+
+THREE = """
+links:
+  frame: {}
+  a: {wheels: {a20: 20}}
+  b: {wheels: {b30: 30}}
+  c: {wheels: {c40: 40}}
+revolutes:
+  - {pair: [frame, a], axis: A}
+  - {pair: [frame, b], axis: B}
+  - {pair: [frame, c], axis: C}
+gears: [{pair: [a20, b30]}, {pair: [b30, c40]}, {pair: [c40, a20]}]
+inputs: {a: 1}
+"""
+
+
+def test_check_and_report_say_what_to_disengage(train_file: Callable[..., Path]) -> None:
+    path = train_file(THREE)
+    done = call("check", path)
+    out = done.stdout
+    assert done.exit_code == 1
+    assert "gridlock: loop a - b - c (pairs a20~b30, b30~c40, c40~a20; ratio product -1) does not close" in out
+    assert "to free the train, disengage one of a20~b30, b30~c40, c40~a20" in out
+    done = call("report", path)
+    assert done.exit_code == 1
+    assert "To free the train, disengage one of a20~b30, b30~c40, c40~a20." in done.stdout
+
+
+def test_the_json_of_a_report_has_the_gridlock(train_file: Callable[..., Path]) -> None:
+    data = json.loads(call("report", train_file(THREE), "--json").stdout)[0]["gridlock"]
+    assert set(data) == {"moves", "jams", "held", "release"}
+    assert data["moves"] is False
+    assert set(data["jams"][0]) == {"carrier", "loop", "links", "meshes", "by", "release"}
+    assert data["release"] == data["jams"][0]["release"]
+    assert set(data["release"]) == {"meshes", "method", "least", "at_least", "choices", "proofs"}
+    assert data["release"]["choices"] == ["a20~b30", "b30~c40", "c40~a20"]
+    moving = json.loads(call("report", "planetary", "--json").stdout)[0]["gridlock"]
+    assert moving == {"moves": True, "jams": [], "held": [], "release": None}
+
+
+@pytest.mark.parametrize("source", ["'pennestri-2002'", "'freeth-2021'", repr(THREE)])
+def test_neither_a_train_that_moves_nor_a_small_gridlock_needs_networkx(source: str) -> None:
+    used = imported_by(f"import geartrain; geartrain.load({source}).gridlock")
+    assert not used & {"networkx", "numpy", "scipy"}

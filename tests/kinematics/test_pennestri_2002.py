@@ -1,0 +1,113 @@
+"""The Antikythera train of Pennestri, Valentini and Petti (2002): structure, circuits, speeds, misprints."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+import pytest
+from pennestri import TABLES_1_TO_3, TURNING_PAIRS
+
+from geartrain import GearTrain, load
+from geartrain.kinematics.graph import adjacency_labels, adjacency_matrix
+
+# exact, from the circuits of Tables 1 to 3 by hand; the paper prints four decimals
+SPEEDS = {
+    1: "0", 2: "5", 3: "-1", 4: "-1", 5: "254/19", 6: "16/9", 7: "-1", 8: "1/4", 9: "-1/2", 10: "32/19",
+    11: "-64/19", 12: "-254/19", 13: "-197/76", 14: "-254/19", 15: "1", 16: "470/19", 17: "-235/19",
+    18: "235/57", 19: "-235/228", 20: "-235/38",
+}  # fmt: skip
+TABLE_4 = {
+    1: "0", 2: "5", 3: "-1", 4: "-1", 5: "13.3684", 6: "1.7777", 7: "-1", 8: "0.2500", 9: "-0.5000", 10: "1.6842",
+    11: "-3.3684", 12: "-13.3684", 13: "-2.5921", 14: "-13.3684", 15: "1", 16: "24.7368", 17: "-12.3684",
+    18: "4.1228", 19: "-1.0307", 20: "-6.1842",
+}  # fmt: skip
+
+
+@pytest.fixture(scope="module")
+def train() -> GearTrain:
+    return load("pennestri-2002")
+
+
+def test_all_twenty_speeds_are_exact(train: GearTrain) -> None:
+    assert dict(train.solve().speeds) == {str(link): Fraction(speed) for link, speed in SPEEDS.items()}
+
+
+@pytest.mark.parametrize("link", TABLE_4)
+def test_speeds_agree_with_table_4_at_the_digits_printed(train: GearTrain, link: int) -> None:
+    speed, printed = Fraction(train.solve()[str(link)]), TABLE_4[link]
+    digits = len(printed.partition(".")[2])
+    if link == 6:  # 16/9 is cut off in the paper, not rounded
+        assert Fraction(int(speed * 10**4), 10**4) == Fraction(printed)
+    else:
+        assert abs(speed - Fraction(printed)) <= Fraction(1, 2 * 10**digits)
+
+
+def test_circuits_carriers_and_wheels_are_those_of_tables_1_to_3(train: GearTrain) -> None:
+    rows = [line.split() for line in TABLES_1_TO_3.strip().splitlines()]
+    assert [[c.id, c.i, c.j, c.carrier, *c.wheels] for c in train.circuits] == rows
+
+
+def test_every_circuit_reverses_in_the_ratio_of_its_teeth(train: GearTrain) -> None:
+    ratios = {circuit.id: circuit.ratio for circuit in train.circuits}
+    # tau = -z_j/z_i, all pairs being external: three of them from the tooth list of the paper
+    assert ratios["G1"] == Fraction(-225, 45)
+    assert ratios["G6"] == Fraction(-127, 32)
+    assert ratios["G14"] == Fraction(-192, 48)
+    assert all(ratio < 0 for ratio in ratios.values())
+
+
+def test_nineteen_turning_pairs_less_eighteen_gear_pairs_leave_one_degree_of_freedom(train: GearTrain) -> None:
+    mobility = train.mobility
+    assert (mobility.links, mobility.turning_pairs, mobility.gear_pairs) == (20, 19, 18)
+    assert mobility.by_count == 19 - 18 == mobility.by_rank == 1
+    assert mobility.redundant == 0
+    assert mobility.loops == ()
+
+
+def test_adjacency_matrix_is_in_the_style_of_table_7(train: GearTrain) -> None:
+    expected = [["" for _ in range(20)] for _ in range(20)]
+    pairs = {pair: f"R({axis})" for pair, axis in TURNING_PAIRS.items()}
+    for line in TABLES_1_TO_3.strip().splitlines():
+        name, i, j, *_ = line.split()
+        pairs[int(i), int(j)] = name
+    for (i, j), text in pairs.items():
+        expected[i - 1][j - 1] = expected[j - 1][i - 1] = text
+    assert adjacency_labels(train.graph) == expected
+
+
+def test_numeric_adjacency_counts_37_edges_and_is_symmetric(train: GearTrain) -> None:
+    matrix = adjacency_matrix(train.graph)
+    assert matrix.values.sum() == 2 * (19 + 18)
+    assert (matrix.values == matrix.values.T).all()
+    assert matrix["12", "13"] == 1
+    assert matrix["12", "14"] == 0
+
+
+def test_fifteen_teeth_on_link_18_do_not_give_the_printed_speeds() -> None:
+    changed = load("extends: pennestri-2002\nlinks:\n  18: {wheels: {Z18: {teeth: 15}}}\n").solve()
+    assert abs(float(changed["18"]) - 4.1228) > 1
+    assert changed["18"] == Fraction(-235, 19) * Fraction(-20, 15)
+    assert {output.name for output in changed.failures} == {"18", "19"}
+
+
+def test_the_declared_expectations_hold_and_the_errata_are_carried(train: GearTrain) -> None:
+    answer = train.solve()
+    assert answer
+    assert answer.failures == ()
+    printed = [erratum.printed for erratum in train.declaration.errata]
+    assert any("z18 = 15" in text for text in printed)
+    assert any("236/19" in text for text in printed)
+
+
+def test_price_train_has_235_synodic_months_in_nineteen_years(train: GearTrain) -> None:
+    answer = train.solve()
+    months = answer["moon"] + answer["sun"]  # sun and moon turn against each other here: the sum of signed speeds
+    assert months == Fraction(235, 19) != Fraction(236, 19)
+
+
+def test_the_moon_misses_the_month_by_what_table_5_says(train: GearTrain) -> None:
+    (against,) = train.solve().outputs["17"].targets
+    # 235/19 synodic months a year of 365.242190402 d, against the month of 29.530588853 d
+    error = Fraction(235, 19) * Fraction("29.530588853") / Fraction("365.242190402") - 1
+    assert against.error == error
+    assert against.ppm == pytest.approx(12.5026, abs=1e-4)

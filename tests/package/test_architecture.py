@@ -1,0 +1,152 @@
+"""What is imported when, who may know whom, and that everything public says what it is."""
+
+from __future__ import annotations
+
+import doctest
+import importlib
+import inspect
+import pkgutil
+import shutil
+import subprocess
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+from types import ModuleType
+
+import pytest
+from commands import imported_by
+from places import ROOT
+
+import geartrain
+
+
+def test_importing_geartrain_brings_no_heavy_library() -> None:
+    heavy = {"scipy", "matplotlib", "jinja2", "networkx", "numpy", "typer", "rich"}
+    assert not imported_by("import geartrain") & heavy
+
+
+@pytest.mark.parametrize("question", ["solve()", "mobility", "circuits", "equations().text()", "solve(output='moon')"])
+def test_an_exact_answer_brings_no_array_library(question: str) -> None:
+    used = imported_by(f"import geartrain; geartrain.load('pennestri-2002').{question}")
+    assert not used & {"scipy", "matplotlib", "networkx", "numpy"}
+
+
+def test_the_graph_brings_networkx_and_neither_scipy_nor_matplotlib() -> None:
+    used = imported_by("import geartrain; geartrain.load('pennestri-2002').graph")
+    assert "networkx" in used
+    assert not used & {"scipy", "matplotlib"}
+
+
+def test_floats_bring_scipy_and_no_plots() -> None:
+    used = imported_by("import geartrain; geartrain.load('pennestri-2002').floats()")
+    assert "scipy" in used
+    assert "matplotlib" not in used
+
+
+def test_a_train_built_in_python_reads_no_yaml_file() -> None:
+    code = """
+from geartrain import GearTrain
+import builtins
+def forbidden(*a, **k): raise AssertionError('a file is opened')
+builtins.open = forbidden
+joint = {'pair': ['frame', 'a'], 'axis': 'A'}
+train = GearTrain.declare({'links': {'frame': {}, 'a': {}}, 'revolutes': [joint], 'inputs': {'a': 1}})
+assert train.solve()['a'] == 1
+"""
+    assert "geartrain" in imported_by(code)
+
+
+def modules() -> Iterator[ModuleType]:
+    for found in pkgutil.walk_packages(geartrain.__path__, "geartrain."):
+        if not found.name.endswith("__main__"):
+            try:
+                yield importlib.import_module(found.name)
+            except geartrain.GearTrainError:  # an optional library is not installed
+                continue
+
+
+def public(module: ModuleType) -> Iterator[tuple[str, object]]:
+    for name, thing in list(vars(module).items()):
+        if name.startswith("_") or getattr(thing, "__module__", None) != module.__name__:
+            continue
+        if inspect.isclass(thing):
+            yield name, thing
+            for part, member in list(vars(thing).items()):
+                function = member.fget if isinstance(member, property) else getattr(member, "__func__", member)
+                function = getattr(function, "func", function)
+                if not part.startswith("_") and inspect.isfunction(function):
+                    yield f"{name}.{part}", function
+        elif inspect.isfunction(thing):
+            yield name, thing
+
+
+def test_every_module_class_and_function_in_sight_says_what_it_is() -> None:
+    silent = []
+    for module in modules():
+        if not module.__doc__:
+            silent.append(module.__name__)
+        silent += [f"{module.__name__}.{name}" for name, thing in public(module) if not getattr(thing, "__doc__", None)]
+    assert not silent, " ".join(silent)
+
+
+def test_the_examples_in_docstrings_are_true() -> None:
+    results = {module.__name__: doctest.testmod(module) for module in modules()}
+    assert sum(result.attempted for result in results.values()) > 0
+    assert [name for name, result in results.items() if result.failed] == []
+
+
+def test_every_field_of_the_declaration_has_a_description() -> None:
+    from geartrain.train import Train
+
+    schema = Train.model_json_schema()
+    bare = [
+        f"{kind}.{name}"
+        for kind, part in [("Train", schema), *schema["$defs"].items()]
+        for options in [part, *part.get("anyOf", ())]
+        for name, field in options.get("properties", {}).items()
+        if not field.get("description")
+    ]
+    assert bare == []
+
+
+def test_the_declarations_in_the_package_satisfy_its_own_json_schema() -> None:
+    jsonschema = pytest.importorskip("jsonschema")
+    yaml = pytest.importorskip("yaml")
+    from geartrain.train import Train
+
+    validator = jsonschema.Draft202012Validator(Train.model_json_schema())
+    for name, path in geartrain.shipped().items():
+        data = yaml.load(path.read_text(encoding="utf-8"), Loader=yaml.BaseLoader)
+        if "extends" in data:
+            continue  # what a child leaves out stands in its parent
+        problems = [error.message for error in validator.iter_errors(as_core_yaml(data))]
+        assert problems == [], f"{name}: {problems[:3]}"
+
+
+def as_core_yaml(data: object) -> object:
+    """Texts as an editor's YAML 1.2 reader types them: integers, decimals, true, false and nothing."""
+    if isinstance(data, dict):
+        return {key: as_core_yaml(value) for key, value in data.items()}
+    if isinstance(data, list):
+        return [as_core_yaml(value) for value in data]
+    text = str(data)
+    if text in ("", "~", "null"):
+        return None
+    if text in ("true", "false"):
+        return text == "true"
+    for kind in (int, float):
+        try:
+            return kind(text)
+        except ValueError:
+            continue
+    return text
+
+
+@pytest.mark.skipif(
+    not (Path(sys.executable).parent / "lint-imports").exists(), reason="import-linter is not installed"
+)
+def test_the_corridor_runs_one_way() -> None:
+    command = shutil.which("lint-imports", path=str(Path(sys.executable).parent))
+    assert command is not None
+    done = subprocess.run([command, "--no-cache"], cwd=ROOT, capture_output=True, text=True, check=False, timeout=300)
+    assert done.returncode == 0, done.stdout + done.stderr

@@ -1,0 +1,74 @@
+"""What a fresh process imports, and how it does without what it does not need."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from commands import without
+
+
+def normal(*arguments: object) -> subprocess.CompletedProcess[str]:
+    command = [sys.executable, "-m", "geartrain", *map(str, arguments)]
+    return subprocess.run(command, capture_output=True, text=True, check=False)
+
+
+@pytest.mark.parametrize(
+    ("missing", "arguments"),
+    [
+        (["scipy", "numpy", "matplotlib", "jinja2", "flint"], ["report", "pennestri-2002"]),
+        (["scipy", "numpy", "networkx", "matplotlib", "jinja2"], ["solve", "pennestri-2002"]),
+        (["scipy", "numpy", "networkx", "matplotlib", "jinja2"], ["solve", "zf-8hp70", "--json"]),
+        (["scipy", "numpy", "networkx", "matplotlib", "jinja2"], ["check", "freeth-2021", "zf-8hp70"]),
+        (["scipy", "numpy", "networkx", "matplotlib", "jinja2"], ["compare", "freeth-2006", "freeth-2008"]),
+        (["scipy", "numpy", "networkx", "matplotlib", "jinja2"], ["periods", "saros"]),
+        (["scipy", "numpy", "networkx", "matplotlib", "jinja2"], ["equations", "zf-8hp70"]),
+    ],
+    ids=lambda words: " ".join(words),
+)
+def test_a_command_says_the_same_without_the_libraries_it_has_no_need_of(
+    missing: list[str], arguments: list[object]
+) -> None:
+    bare, whole = without(*missing, arguments=arguments), normal(*arguments)
+    assert (bare.returncode, bare.stderr) == (0, "")
+    assert bare.stdout == whole.stdout != ""
+
+
+def test_a_cold_report_imports_networkx_alone_of_the_large_libraries() -> None:
+    command = [sys.executable, "-X", "importtime", "-m", "geartrain", "report", "pennestri-2002"]
+    done = subprocess.run(command, capture_output=True, text=True, check=True)
+    names = {line.rsplit("|", 1)[1].strip() for line in done.stderr.splitlines() if line.startswith("import time:")}
+    tops = {name.partition(".")[0] for name in names}
+    assert {"geartrain", "pydantic", "yaml", "networkx"} <= tops, "this listing shows what is imported"
+    assert tops & {"scipy", "numpy", "matplotlib", "jinja2", "pandas", "flint", "hypothesis", "pytest"} == set()
+
+
+@pytest.mark.parametrize("verb", ["report", "compare"])
+def test_a_page_without_jinja2_is_refused_with_the_extra_to_install(verb: str, tmp_path: Path) -> None:
+    new, old = tmp_path / "new.html", tmp_path / "old.html"
+    old.write_text("before", encoding="utf-8")
+    for out in (new, old):
+        done = without("jinja2", arguments=[verb, "worm", "planetary", "-o", out, "--force"])
+        assert (done.returncode, done.stdout) == (2, "")
+        assert "jinja2" in done.stderr
+        assert "pip install 'geartrain[report]'" in done.stderr
+        assert "Traceback" not in done.stderr
+    assert old.read_text(encoding="utf-8") == "before"
+    assert list(tmp_path.iterdir()) == [old]
+
+
+def test_the_same_report_in_markdown_needs_no_extra(tmp_path: Path) -> None:
+    out = tmp_path / "r.md"
+    assert without("jinja2", arguments=["report", "worm", "-o", out]).returncode == 0
+    assert "-1/30" in out.read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize(("name", "code"), [("worm", 0), ("wrong", 1), ("missing", 2)])
+def test_the_exit_code_of_the_process_is_that_of_the_finding(name: str, code: int, tmp_path: Path) -> None:
+    (tmp_path / "wrong").write_text("extends: worm\noutputs: {wheel: {expect: 1/30}}\n", encoding="utf-8")
+    done = normal("check", name if code == 0 else tmp_path / name)
+    assert done.returncode == code
+    assert "Traceback" not in done.stderr
+    assert bool(done.stderr) == (code == 2)

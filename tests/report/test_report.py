@@ -1,0 +1,501 @@
+"""Reports read back by readers that know nothing of geartrain (markdown-it, html.parser, json), and written whole."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+import os
+import re
+import stat
+from collections.abc import Iterator
+from fractions import Fraction
+from html import unescape
+from html.parser import HTMLParser
+from pathlib import Path
+
+import pytest
+from commands import TWENTY, UNUSABLE, call
+from markdown_it import MarkdownIt
+from pennestri import TABLES_1_TO_3, TURNING_PAIRS
+from places import ROOT
+from rich.console import Console
+
+from geartrain import load, shipped
+from geartrain.report import compare_trains, report_train, to_html, to_markdown, to_terminal
+
+Rows = list[list[str]]
+SCRIPT = (ROOT / "geartrain" / "report" / "page.js").read_text(encoding="utf-8")
+VOID = {"meta", "link", "br", "hr", "img", "input", "base", "col", "wbr"}
+
+# teeth of pennestri-2002: Tables 1 to 3 and the Maple listing, where they are (z18 = 60)
+TEETH = {
+    "Z2": 45, "Z3": 225, "Za2": 45, "Z4": 225, "Za4": 64, "Z10": 38, "Z6": 36, "Zb4": 32, "Z15": 32, "Za5": 32,
+    "Za11": 127, "Z12": 32, "Za6": 54, "Z7": 96, "Za7": 16, "Z8": 64, "Z9": 32, "Za10": 48, "Z11": 24, "Za12": 32,
+    "Z13": 64, "Z14": 32, "Z16": 48, "Za20": 192, "Za14": 48, "Za15": 48, "Za16": 30, "Z17": 60, "Za17": 20,
+    "Z18": 60, "Za18": 15, "Z19": 60,
+}  # fmt: skip
+
+
+class Page(HTMLParser):
+    """Tables as rows of cells, headings, tags that are not closed, and whatever would be fetched or run.
+
+    Links within the page fetch nothing; the one script that comes with every page is known.
+    """
+
+    def __init__(self, text: str) -> None:
+        super().__init__()
+        self.tables: list[Rows] = []
+        self.headings: list[str] = []
+        self.open: list[str] = []
+        self.astray: list[str] = []
+        self.outside: list[str] = []
+        self.feed(text)
+        self.close()
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        fetched = [(key, value) for key, value in attrs if key in ("src", "href", "srcset", "action", "data")]
+        self.outside += [f"{key}={value}" for key, value in fetched if (key, (value or "")[:1]) != ("href", "#")]
+        self.outside += [key for key, _ in attrs if key.startswith("on")]
+        if tag in ("iframe", "object", "embed", "link", "base", "form"):
+            self.outside.append(tag)
+        if tag not in VOID:
+            self.open.append(tag)
+        if tag == "table":
+            self.tables.append([])
+        elif tag == "tr":
+            self.tables[-1].append([])
+        elif tag in ("td", "th"):
+            self.tables[-1][-1].append("")
+        elif tag in ("h1", "h2"):
+            self.headings.append("")
+
+    def handle_endtag(self, tag: str) -> None:
+        if not self.open or self.open.pop() != tag:
+            self.astray.append(tag)
+
+    def handle_data(self, data: str) -> None:
+        last = self.open[-1] if self.open else ""
+        if last in ("td", "th"):
+            self.tables[-1][-1][-1] += data
+        elif last in ("h1", "h2"):
+            self.headings[-1] += data
+        elif last == "script" and data != SCRIPT:
+            self.outside.append(data)
+        elif last == "style":
+            self.outside += re.findall(r"url\([^)]*\)|@import[^;]*|https?:[^\s;]*", data)
+
+
+def markdown_tables(text: str) -> list[Rows]:
+    """The tables of a Markdown text as another program reads them."""
+    tables: list[Rows] = []
+    within = False
+    for token in MarkdownIt("commonmark").enable("table").parse(text):
+        if token.type == "table_open":
+            tables.append([])
+        elif token.type == "tr_open":
+            tables[-1].append([])
+        elif token.type in ("td_open", "th_open"):
+            within = True
+        elif token.type in ("td_close", "th_close"):
+            within = False
+        elif token.type == "inline" and within:
+            tables[-1][-1].append(unescape(token.content))
+    return tables
+
+
+def headings(text: str) -> list[str]:
+    tokens = MarkdownIt("commonmark").enable("table").parse(text)
+    return [tokens[at + 1].content for at, token in enumerate(tokens) if token.type == "heading_open"]
+
+
+def section(text: str, title: str) -> list[Rows]:
+    """The tables of one section."""
+    found = text[text.index(f"\n## {title}\n") + 1 :]
+    return markdown_tables(found.split("\n## ", 1)[0])
+
+
+def column(table: Rows, name: str) -> list[str]:
+    at = table[0].index(name)
+    return [row[at] for row in table[1:]]
+
+
+def by_name(table: Rows) -> dict[str, dict[str, str]]:
+    return {row[0]: dict(zip(table[0], row, strict=True)) for row in table[1:]}
+
+
+@pytest.fixture(scope="module")
+def paper() -> str:
+    return call("report", "pennestri-2002").output
+
+
+# ---------------------------------------------------------------------------------------------- the paper's own tables
+
+
+def test_the_adjacency_matrix_of_the_report_is_table_7_cell_by_cell(paper: str) -> None:
+    cells = {pair: f"R({axis})" for pair, axis in TURNING_PAIRS.items()}
+    for line in TABLES_1_TO_3.strip().splitlines():
+        name, i, j, *_ = line.split()
+        cells[int(i), int(j)] = name
+    expected = [["", *map(str, range(1, 21))]] + [
+        [str(i), *(cells.get((i, j)) or cells.get((j, i)) or "" for j in range(1, 21))] for i in range(1, 21)
+    ]
+    assert section(paper, "Adjacency matrix") == [expected]
+
+
+def test_the_circuits_of_the_report_are_tables_1_to_3_with_their_teeth(paper: str) -> None:
+    found = {}
+    for table in section(paper, "Fundamental circuits"):
+        for at, name in enumerate(table[0][1:], start=1):
+            found[name] = [row[at] for row in table[1:]]
+    expected = {}
+    for line in TABLES_1_TO_3.strip().splitlines():
+        name, i, j, k, z_i, z_j = line.split()
+        tau = Fraction(-TEETH[z_j], TEETH[z_i])
+        expected[name] = [i, j, k, f"{z_i} {TEETH[z_i]}", f"{z_j} {TEETH[z_j]}", str(tau)]
+    assert found == expected
+
+
+def test_the_speeds_of_the_report_are_the_twenty_fractions_and_their_decimals(paper: str) -> None:
+    (table,) = section(paper, "Speeds")
+    assert column(table, "link") == [str(link) for link in range(1, 21)]
+    assert column(table, "speed") == list(TWENTY)
+    for text, right in zip(column(table, "decimal"), TWENTY, strict=True):
+        assert abs(Fraction(text) - Fraction(right)) <= abs(Fraction(right)) / 10**7
+    for text, right in zip(column(table, "output : input"), TWENTY, strict=True):
+        if right != "0":
+            out, into = (Fraction(part) for part in text.split(" : "))
+            assert abs(out / into * 5 / Fraction(right) - 1) <= Fraction(1, 10**6)
+
+
+def test_the_report_carries_every_erratum_of_the_declaration_with_what_is_right(paper: str) -> None:
+    (table,) = section(paper, "Errata of the sources")
+    printed = dict(zip(column(table, "printed"), column(table, "right"), strict=True))
+    assert "60" in printed["z18 = 15"]
+    assert "235/19" in next(right for text, right in printed.items() if "236/19" in text)
+    assert "27.32166" in next(right for text, right in printed.items() if "27.3229" in text)
+    assert all(column(table, "why"))
+
+
+def test_the_mobility_of_the_report_is_nineteen_less_eighteen(paper: str) -> None:
+    assert "19 - 18 = 1" in paper
+    assert "20 links - 1 - rank 18 = 1" in paper
+
+
+# ------------------------------------------------------------------------------------------------- three forms, one say
+
+
+@pytest.mark.parametrize("name", shipped())
+def test_html_and_markdown_of_a_report_hold_the_same_tables(name: str) -> None:
+    document = report_train(load(name))
+    page, text = Page(to_html([document])), to_markdown([document])
+    assert page.tables == markdown_tables(text)
+    assert page.headings == headings(text)
+    assert all(len({len(row) for row in table}) == 1 for table in page.tables)
+    assert sum(map(len, page.tables)) > len(load(name).declaration.links)
+    assert (page.open, page.astray, page.outside) == ([], [], [])
+
+
+def test_what_an_author_writes_can_neither_run_in_a_page_nor_break_a_table(tmp_path: Path) -> None:
+    path = tmp_path / "t.yaml"
+    path.write_text(
+        'title: "<script>alert(1)</script> & | <b>"\n'
+        'links: {frame: {}, "a|b": {note: "<img src=x onerror=y> | z", wheels: {"w|1": 20}}, c: {wheels: {v: 30}}}\n'
+        'revolutes: [{pair: [frame, "a|b"], axis: "A|x"}, {pair: [frame, c], axis: C}]\n'
+        'gears: [{id: "G|1", pair: ["w|1", v]}]\n'
+        'inputs: {"a|b": 1}\n',
+        encoding="utf-8",
+    )
+    document = report_train(load(path))
+    page, text = Page(to_html([document])), to_markdown([document])
+    assert page.outside == []
+    assert page.headings[0] == "<script>alert(1)</script> & | <b>"
+    assert page.tables == markdown_tables(text)
+    assert page.tables[0][2][0] == "a|b"
+    assert page.tables[0][2][3] == "<img src=x onerror=y> | z"
+    assert page.tables[1][2][3] == "G|1"
+
+
+def test_a_note_of_several_lines_stays_within_its_cell(tmp_path: Path) -> None:
+    path = tmp_path / "t.yaml"
+    path.write_text(
+        'links: {frame: {}, a: {note: "one\\ntwo", wheels: {w: 20}}, c: {wheels: {v: 30}}}\n'
+        "revolutes: [{pair: [frame, a], axis: A}, {pair: [frame, c], axis: C}]\n"
+        "gears: [{pair: [w, v]}]\n"
+        "inputs: {a: 1}\n"
+        'errata: [{place: p, printed: 1, right: 2, why: "because\\nof this"}]\n',
+        encoding="utf-8",
+    )
+    text = to_markdown([report_train(load(path))])
+    assert [row[0] for row in section(text, "Structure")[0]] == ["link", "frame", "a", "c"]
+    assert len(section(text, "Errata of the sources")[0]) == 2
+
+
+@pytest.mark.parametrize("name", ["pennestri-2002", "zf-8hp70", "freeth-2021"])
+def test_the_json_of_a_report_says_what_the_markdown_says(name: str, tmp_path: Path) -> None:
+    out = tmp_path / "r.json"
+    assert call("report", name, "-o", out).exit_code == 0
+    whole = json.loads(out.read_text(encoding="utf-8"))
+    assert whole == json.loads(call("report", name, "--json").output)
+    (data,) = whole
+    text = call("report", name).output
+    (matrix,) = section(text, "Adjacency matrix")
+    assert [matrix[0][1:], *(row[1:] for row in matrix[1:])] == [
+        data["adjacency"]["links"],
+        *data["adjacency"]["cells"],
+    ]
+    circuits = {}
+    for table in section(text, "Fundamental circuits"):
+        for at, circuit in enumerate(table[0][1:], start=1):
+            circuits[circuit] = [row[at] for row in table[1:]]
+    assert list(circuits) == [circuit["id"] for circuit in data["circuits"]]
+    for circuit in data["circuits"]:
+        bodies = [circuit["i"], circuit["j"], circuit["carrier"]]
+        assert [*bodies, circuit["ratio"]] == [*circuits[circuit["id"]][:3], circuits[circuit["id"]][5]]
+    for answer in data["states"]:
+        head = "Speeds" if answer["state"] is None else f"State {answer['state']}: speeds"
+        (table,) = section(text, head)
+        assert column(table, "speed") == [speed["exact"] for speed in answer["speeds"].values()]
+
+
+@pytest.mark.parametrize("suffix", [".md", ".html", ".json", ".HTML", ""])
+def test_several_trains_stand_in_one_report_in_the_order_asked(suffix: str, tmp_path: Path) -> None:
+    names = ["zf-8hp70", "worm", "pennestri-2002"]
+    titles = [load(name).declaration.title for name in names]
+    out = tmp_path / f"r{suffix}"
+    assert call("report", *names, "-o", out).exit_code == 0
+    text = out.read_text(encoding="utf-8")
+    if suffix == ".json":
+        assert [train["title"] for train in json.loads(text)] == titles
+    elif suffix.lower() == ".html":
+        assert [title for title in Page(text).headings if title in titles] == titles
+    else:
+        assert [title for title in headings(text) if title in titles] == titles
+        assert text.rstrip() == call("report", *names).output.rstrip()
+
+
+# -------------------------------------------------------------------------------------------------------- whole or not
+
+
+@pytest.mark.parametrize("suffix", [".md", ".html", ".json"])
+@pytest.mark.parametrize("verb", ["report", "compare"])
+def test_a_run_that_fails_leaves_the_old_file_and_makes_no_new_one(verb: str, suffix: str, tmp_path: Path) -> None:
+    bad, old, new = tmp_path / "bad.yaml", tmp_path / f"old{suffix}", tmp_path / f"new{suffix}"
+    bad.write_text(UNUSABLE, encoding="utf-8")
+    old.write_text("before", encoding="utf-8")
+    for out in (old, new):
+        result = call(verb, "worm", bad, "pennestri-2002", "-o", out)
+        assert result.exit_code != 0
+        assert result.stdout == ""
+    assert old.read_text(encoding="utf-8") == "before"
+    assert sorted(tmp_path.iterdir()) == [bad, old]
+
+
+def test_a_disk_that_fills_up_leaves_the_old_file_and_no_scraps(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    old = tmp_path / "old.md"
+    old.write_text("before", encoding="utf-8")
+
+    def full(*_: object) -> None:
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(os, "replace", full)
+    result = call("report", "worm", "-o", old, "--force")
+    assert "No space left on device" in str(result.exception)
+    assert old.read_text(encoding="utf-8") == "before"
+    assert list(tmp_path.iterdir()) == [old]
+
+
+@pytest.mark.parametrize(
+    ("where", "said"),
+    [
+        ("no/such/folder/r.md", "there is no such folder"),
+        ("file/r.md", "there is no such folder"),
+        ("folder", "this is a folder"),
+    ],
+)
+def test_a_place_that_cannot_be_written_is_named(where: str, said: str, tmp_path: Path) -> None:
+    (tmp_path / "file").write_text("before", encoding="utf-8")
+    (tmp_path / "folder").mkdir()
+    result = call("report", "worm", "-o", tmp_path / where)
+    assert result.exit_code != 0
+    assert f"{tmp_path / where}: {said}" in str(result.exception)
+    assert (tmp_path / "file").read_text(encoding="utf-8") == "before"
+    assert sorted(path.name for path in tmp_path.rglob("*")) == ["file", "folder"]
+
+
+@pytest.mark.skipif(not hasattr(os, "geteuid") or os.geteuid() == 0, reason="root may write everywhere")
+def test_a_folder_that_is_closed_is_left_as_it_is(tmp_path: Path) -> None:
+    tmp_path.chmod(0o500)
+    try:
+        assert call("report", "worm", "-o", tmp_path / "r.md").exit_code != 0
+        assert list(tmp_path.iterdir()) == []
+    finally:
+        tmp_path.chmod(0o700)
+
+
+def test_a_written_file_has_the_rights_of_any_other_new_file_and_keeps_those_of_an_old_one(tmp_path: Path) -> None:
+    usual, new, old = tmp_path / "usual", tmp_path / "new.md", tmp_path / "old.md"
+    usual.touch()
+    old.write_text("before", encoding="utf-8")
+    old.chmod(0o640)
+    assert call("report", "worm", "-o", new).exit_code == call("report", "worm", "-o", old, "--force").exit_code == 0
+    assert stat.S_IMODE(new.stat().st_mode) == stat.S_IMODE(usual.stat().st_mode)
+    assert stat.S_IMODE(old.stat().st_mode) == 0o640
+    assert new.read_text(encoding="utf-8") == old.read_text(encoding="utf-8") != "before"
+
+
+def test_a_verdict_is_written_for_it_is_a_result(tmp_path: Path) -> None:
+    path, out = tmp_path / "t.yaml", tmp_path / "r.md"
+    path.write_text("extends: worm\ninputs: {screw: 1, wheel: 1}\n", encoding="utf-8")
+    assert call("report", path, "-o", out).exit_code == 1
+    assert "contradictory" in out.read_text(encoding="utf-8")
+
+
+# ------------------------------------------------------------------------------------------- comparisons, gears, dials
+
+
+def test_alternatives_stand_side_by_side_with_exact_numbers() -> None:
+    text = call("compare", "freeth-2006", "freeth-2008").output
+    (table,) = section(text, "Outputs")
+    assert table[0] == ["output", "freeth-2006", "freeth-2008"]
+    rows = {row[0]: row[1:] for row in table[1:]}
+    assert rows["games"][0] == ""
+    assert rows["games"][1].startswith("1/4 ")
+    # five turns in nineteen years, one in seventy-six, four in 223 months, one in 669
+    saros = Fraction(4) * Fraction(235, 19) / 223
+    for name, right in (
+        ("metonic", Fraction(-5, 19)),
+        ("callippic", Fraction(-1, 76)),
+        ("saros", -saros),
+        ("exeligmos", -saros / 12),
+    ):
+        assert rows[name][0] == rows[name][1]
+        assert rows[name][0].split(" = ")[0] == str(right)
+
+
+def test_the_wheels_that_differ_are_those_that_differ_in_the_declarations() -> None:
+    text = call("compare", "freeth-2008", "freeth-2008-b224", "freeth-2006").output
+    (table,) = section(text, "Wheels that differ")
+    names = table[0][1:]
+    wheels = [{name: str(w.count) for name, (_, w) in load(train).declaration.wheels.items()} for train in names]
+    every = dict.fromkeys(wheel for counts in wheels for wheel in counts)
+    expected = [[wheel, *(counts.get(wheel, "") for counts in wheels)] for wheel in every]
+    assert sorted(table[1:]) == sorted(row for row in expected if len(set(row[1:])) > 1)
+    assert by_name(table)["b1"] == {
+        "wheel": "b1",
+        "freeth-2008": "223",
+        "freeth-2008-b224": "224",
+        "freeth-2006": "223",
+    }
+
+
+def test_the_errors_compared_are_speed_over_target_less_one() -> None:
+    with open(ROOT / "geartrain" / "train" / "periods.csv", encoding="utf-8", newline="") as source:
+        periods = {row["name"]: row for row in csv.DictReader(source)}
+    year = Fraction(periods["year_tropical_J2000"]["value"])
+    trains = [load(name) for name in ("price-1974", "freeth-2008")]
+    (table,) = section(to_markdown([compare_trains(trains)]), "Error against the targets in ppm")
+    checked = 0
+    for row in table[1:]:
+        output, label = row[0].removesuffix(" (magnitude)").split(": ", 1)
+        turns, _, name = label.rpartition(" turns in ")
+        if periods.get(name, {}).get("kind") != "period" or periods[name]["exact"]:
+            continue
+        target = Fraction(turns or 1) * year / Fraction(periods[name]["value"])
+        for train, cell in zip(trains, row[1:], strict=True):
+            if cell:
+                error = (abs(Fraction(train.solve()[output])) / target - 1) * 10**6
+                assert float(cell) == pytest.approx(float(error), rel=1e-5, abs=1e-9)
+                checked += 1
+    assert checked >= 10
+
+
+def test_the_shift_table_has_the_ratios_and_clutches_of_the_maker() -> None:
+    # ZF's catalogue prints two decimals; three of five elements are closed in every gear
+    catalogue = {
+        "1": ("ABC", "4.70"), "2": ("ABE", "3.13"), "3": ("BCE", "2.10"), "4": ("BDE", "1.67"), "5": ("BCD", "1.28"),
+        "6": ("CDE", "1.00"), "7": ("ACD", "0.84"), "8": ("ADE", "0.67"), "R": ("ABD", "-3.30"),
+    }  # fmt: skip
+    (table,) = section(call("report", "zf-8hp70").output, "States")
+    assert table[0] == ["state", *"ABCDE", "verdict", "OUT"]
+    found = {}
+    for row in table[1:]:
+        assert set(row[1:6]) == {"x", ""}
+        speed, ratio = re.fullmatch(r"(\S+)(?: \(in/out (\S+)\))", row[7]).groups()  # type: ignore[union-attr]
+        assert abs(1 / Fraction(speed) - Fraction(ratio)) <= Fraction(1, 10**5) * abs(Fraction(ratio))
+        engaged = "".join(name for name, mark in zip("ABCDE", row[1:6], strict=True) if mark)
+        found[row[0]] = (engaged, f"{float(ratio):.2f}")
+        assert row[6] == "determined"
+    assert found == catalogue
+
+
+@pytest.mark.parametrize("name", ["freeth-2008", "freeth-2021", "freeth-jones-2012"])
+def test_only_the_games_pointer_turns_anticlockwise_for_who_reads_the_back(name: str) -> None:
+    (table,) = section(call("report", name).output, "Outputs")
+    rows = by_name(table)
+    read = {pointer: rows[pointer]["as read"] for pointer in ("metonic", "callippic", "saros", "exeligmos", "games")}
+    sense = {pointer: words.split(",")[0] for pointer, words in read.items()}
+    assert sense == dict.fromkeys(("metonic", "callippic", "saros", "exeligmos"), "clockwise") | {
+        "games": "counter-clockwise"
+    }
+    assert rows["metonic"]["speed"].startswith("-")
+    assert rows["games"]["speed"] == "1/4"
+    # on the front there is no mirror: what is positive is clockwise
+    assert rows["sun"]["as read"].split(",")[0] == rows["moon"]["as read"].split(",")[0] == "clockwise"
+    # five turns of the Metonic spiral take nineteen years and show 235 months
+    assert "a turn in 3.8," in read["metonic"]
+    assert "5 turns in 19," in read["metonic"]
+    assert f"a division in {19 / 235:.7g}" in read["metonic"]
+
+
+# ----------------------------------------------------------------------------------------------------------- terminals
+
+
+def terminal(name: str, width: int) -> str:
+    console = Console(file=io.StringIO(), width=width, color_system=None)
+    to_terminal([report_train(load(name))], console)
+    assert isinstance(console.file, io.StringIO)
+    return console.file.getvalue()
+
+
+def strips(shown: str) -> Iterator[tuple[str, str]]:
+    """The cells of the matrix on a terminal with the column they start under."""
+    matrix = shown[shown.index("Adjacency matrix") : shown.index("Fundamental circuits")]
+    head: dict[int, str] = {}
+    lines = matrix.splitlines()
+    start = next(at for at, line in enumerate(lines) if line.startswith(" "))
+    for line in lines[start:]:
+        if not line.strip():
+            continue
+        if line.startswith(" "):
+            head = {found.start(): found.group() for found in re.finditer(r"\S+", line)}
+            continue
+        row = line.split()[0]
+        for found in re.finditer(r"\S+", line):
+            if found.start():
+                yield f"{row} {head[found.start()]}", found.group()
+
+
+@pytest.mark.parametrize("width", [40, 80, 120])
+def test_a_terminal_shows_every_cell_of_table_7_in_its_row_and_column(width: int) -> None:
+    shown = terminal("pennestri-2002", width)
+    assert max(map(len, shown.splitlines())) <= width
+    expected = {}
+    pairs = {pair: f"R({axis})" for pair, axis in TURNING_PAIRS.items()}
+    pairs |= {(int(i), int(j)): name for name, i, j, *_ in map(str.split, TABLES_1_TO_3.strip().splitlines())}
+    for (i, j), cell in pairs.items():
+        expected |= {f"{i} {j}": cell, f"{j} {i}": cell}
+    found = list(strips(shown))
+    assert dict(found) == expected
+    assert len(found) == len(expected) == 74
+
+
+@pytest.mark.parametrize("name", ["pennestri-2002", "zf-8hp70", "freeth-2021"])
+def test_a_terminal_of_80_columns_is_never_overrun_and_shows_every_speed(name: str) -> None:
+    shown = terminal(name, 80)
+    assert max(map(len, shown.splitlines())) <= 80
+    for answer in load(name).answers():
+        for speed in answer.speeds.values():
+            assert str(speed) in shown

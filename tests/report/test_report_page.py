@@ -1,0 +1,238 @@
+"""The page of a report as another reader finds it: an HTML parser that knows nothing of geartrain."""
+
+from __future__ import annotations
+
+import base64
+import hashlib
+import re
+from collections.abc import Callable
+from html.parser import HTMLParser
+from pathlib import Path
+from xml.etree import ElementTree
+
+import pytest
+from commands import LOCKED, call, without
+
+from geartrain import GearTrainError, load
+from geartrain.report import Picture, compare_trains, report_train, shared_document, to_html, to_markdown
+from geartrain.report.html_page import inline, is_web
+
+SVG = (
+    '<?xml version="1.0"?><!DOCTYPE svg><svg xmlns="http://www.w3.org/2000/svg" width="10pt" height="5pt" '
+    'viewBox="0 0 10 5">'
+    '<defs><path id="a" d="M 0.123456 1 L 2 3"/></defs><g clip-path="url(#a)"><use href="#a"/></g></svg>'
+)
+Elements = list[tuple[str, dict[str, str]]]
+
+
+class Read(HTMLParser):
+    """All elements with their attributes, the text of each kind, and what every cell says."""
+
+    def __init__(self, page: str) -> None:
+        super().__init__()
+        self.elements: Elements = []
+        self.text = ""
+        self.inside: list[str] = []
+        self.scripts: list[str] = []
+        self.feed(page)
+        self.close()
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        self.elements.append((tag, {key: value or "" for key, value in attrs}))
+        self.inside.append(tag)
+
+    def handle_endtag(self, tag: str) -> None:
+        while self.inside and self.inside.pop() != tag:
+            pass
+
+    def handle_data(self, data: str) -> None:
+        last = self.inside[-1] if self.inside else ""
+        if last == "script":
+            self.scripts.append(data)
+        elif last != "style":
+            self.text += data
+
+    def all(self, tag: str) -> list[dict[str, str]]:
+        return [attrs for name, attrs in self.elements if name == tag]
+
+    @property
+    def ids(self) -> list[str]:
+        return [attrs["id"] for _, attrs in self.elements if "id" in attrs]
+
+
+def page_of(*names: str, pictures: tuple[Picture, ...] = (), viewer: str = "") -> Read:
+    return Read(to_html([shared_document(load(name), pictures, viewer) for name in names]))
+
+
+@pytest.mark.parametrize("names", [("freeth-2021",), ("zf-8hp70", "worm", "worm")])
+def test_every_link_of_the_contents_leads_to_one_place_of_the_page(names: tuple[str, ...]) -> None:
+    page = page_of(*names, pictures=(Picture("one", SVG), Picture("two", SVG)), viewer="<p>turns</p>")
+    targets = [attrs["href"][1:] for attrs in page.all("a") if attrs["href"].startswith("#")]
+    assert len(page.ids) == len(set(page.ids)), "no name is given twice"
+    assert set(targets) <= set(page.ids)
+    sections = [attrs["id"] for attrs in page.all("section")]
+    assert len(sections) > 5 * len(names)
+    assert set(sections) <= set(targets), "the contents leave no section out"
+
+
+def test_the_badge_tells_the_worst_that_is_known_of_a_train(train_file: Callable[..., Path]) -> None:
+    def badge(text: str) -> str:
+        shown = to_html([shared_document(load(train_file(text)))])
+        found = re.search(r'<div class="badge( bad)?">(.*?)</div>', shown)
+        assert found
+        return ("BAD " if found[1] else "") + found[2]
+
+    sound = LOCKED.replace(", {pair: [z, x]}", "")
+    assert badge(sound) == "determined"
+    assert badge(LOCKED) == "BAD locked"
+    assert badge(sound + "outputs:\n  c: {expect: 1/3}\n") == "BAD 1 expectation failed"
+    assert badge(sound.replace("inputs: {a: 1}", "states: {x: {inputs: {a: 1}}, y: {}}")) == "BAD free in 1 of 2 states"
+
+
+def test_exact_values_can_be_copied_whole_where_they_are_shortened(train_file: Callable[..., Path]) -> None:
+    wheels = [f"c{at}: {{wheels: {{i{at}: {10**9 + 2 * at + 1}, o{at}: {10**9 - 2 * at - 1}}}}}" for at in range(8)]
+    text = (
+        f"links: {{frame: {{}}, {', '.join(wheels)}}}\n"
+        f"revolutes: [{', '.join(f'{{pair: [frame, c{at}], axis: A{at}}}' for at in range(8))}]\n"
+        f"gears: [{', '.join(f'{{pair: [o{at}, i{at + 1}]}}' for at in range(7))}]\n"
+        "inputs: {c0: 1}\n"
+    )
+    train = load(train_file(text))
+    speed = str(train.solve()["c7"])
+    assert len(speed) > 100
+    page = Read(to_html([shared_document(train)]))
+    assert speed in {attrs.get("data-exact") for attrs in page.all("td")}
+    assert speed not in page.text
+    assert "digits)/(" in page.text
+    compared = Read(to_html([compare_trains([load("freeth-2008"), load("price-1974")])]))
+    assert {"254/19", "-254/19"} <= {attrs.get("data-exact") for attrs in compared.all("td")}
+
+
+def test_sources_stand_at_the_end_and_wheels_lead_to_them(train_file: Callable[..., Path]) -> None:
+    path = train_file(
+        """
+        extends: worm
+        sources:
+          good: {cite: a paper, url: "https://example.org/a?b=1&c=2", note: read it}
+          bad: {cite: a trap, url: "javascript:alert(1)"}
+        links:
+          wheel: {wheels: {extra: {teeth: 30, source: good, status: surviving, note: "<b>worn</b>"}}}
+        """
+    )
+    page = Read(to_html([shared_document(load(path))]))
+    links = [attrs["href"] for attrs in page.all("a")]
+    assert "https://example.org/a?b=1&c=2" in links
+    assert all(link.startswith(("#", "https://")) for link in links)
+    assert "javascript:alert(1)" in page.text, "it is shown, and no link"
+    assert "<b>worn</b>" in page.text
+    (cited,) = {link for link in links if link.startswith("#source-")}
+    assert cited[1:] in page.ids
+    assert "Source good: a paper" not in page.text
+    assert "Source good: a paper" in to_markdown([report_train(load(path))])
+
+
+@pytest.mark.parametrize(
+    ("url", "right"),
+    [
+        ("https://doi.org/10.1038/s41598-021-84310-w", True),
+        ("HTTP://example.org", True),
+        ("javascript:alert(1)", False),
+        (" javascript:alert(1)", False),
+        ("java\nscript:alert(1)", False),
+        ("data:text/html,<script>alert(1)</script>", False),
+        ("vbscript:x", False),
+        ("//example.org", False),
+        ("https:", False),
+        ("https://[", False),
+        ("shelf 3", False),
+    ],
+)
+def test_only_addresses_of_the_web_become_links(url: str, right: bool) -> None:
+    assert is_web(url) is right
+
+
+def test_what_a_user_writes_stays_text_and_the_only_script_is_known_by_its_hash(
+    train_file: Callable[..., Path],
+) -> None:
+    evil = "<script>alert(1)</script>\"'><img src=x onerror=alert(2)>"
+    path = train_file(f"extends: worm\nname: {evil!r}\ntitle: {evil!r}\nnote: {evil!r}\n".replace("\\'", "''"))
+    train = load(path)
+    assert train.declaration.title == evil
+    page = Read(to_html([shared_document(train, notes=[evil])]))
+    assert page.text.count(evil) >= 3
+    assert [tag for tag, _ in page.elements if tag in ("img", "iframe", "object", "link", "form")] == []
+    assert not any(key.startswith("on") for _, attrs in page.elements for key in attrs)
+    (script,) = page.scripts
+    (policy,) = [attrs["content"] for attrs in page.all("meta") if "http-equiv" in attrs]
+    digest = base64.b64encode(hashlib.sha256(script.encode()).digest()).decode()
+    assert f"script-src 'sha256-{digest}'" in policy
+    assert policy.startswith("default-src 'none'")
+    assert "http" not in policy
+
+
+def test_pictures_stand_inline_with_names_of_their_own_and_nothing_lost() -> None:
+    first, second = (ElementTree.fromstring(inline(SVG, number)) for number in (1, 2))
+    for number, element in ((1, first), (2, second)):
+        names = [each.get("id") for each in element.iter() if each.get("id")]
+        assert names == [f"p{number}-a"]
+        assert [each.get("href") for each in element.iter() if each.get("href")] == [f"#p{number}-a"]
+        assert [each.get("clip-path") for each in element.iter() if each.get("clip-path")] == [f"url(#p{number}-a)"]
+        assert element.get("viewBox") == "0 0 10 5"
+        assert element.get("width") is None
+        assert [each.get("d") for each in element.iter() if each.get("d")] == ["M 0.12 1 L 2 3"]
+
+
+def test_a_page_has_the_plan_and_the_dials_a_train_has(tmp_path: Path) -> None:
+    out = tmp_path / "r.html"
+    assert call("report", "byzantine-sundial-calendar", "-o", out).exit_code == 0
+    page = Read(out.read_text(encoding="utf-8"))
+    dials = bool(load("byzantine-sundial-calendar").declaration.dials)
+    assert len(page.all("figure")) == len(page.all("svg")) == 1 + dials
+    assert call("report", "worm", "-o", out, "--force").exit_code == 0
+    assert len(Read(out.read_text(encoding="utf-8")).all("svg")) == 1
+
+
+def test_a_page_that_is_there_stays_unless_force_is_used(tmp_path: Path) -> None:
+    out = tmp_path / "r.html"
+    out.write_text("mine", encoding="utf-8")
+    refused = call("report", "worm", "-o", out)
+    assert isinstance(refused.exception, GearTrainError)
+    assert "--force" in str(refused.exception)
+    assert out.read_text(encoding="utf-8") == "mine"
+    assert call("report", "worm", "-o", out, "--force").exit_code == 0
+    assert Read(out.read_text(encoding="utf-8")).all("h1")
+
+
+def test_without_matplotlib_a_page_comes_without_pictures_and_says_what_brings_them(tmp_path: Path) -> None:
+    out = tmp_path / "r.html"
+    done = without("matplotlib", arguments=["report", "worm", "-o", out])
+    assert (done.returncode, "Traceback" in done.stderr) == (0, False)
+    page = Read(out.read_text(encoding="utf-8"))
+    assert page.all("svg") == []
+    assert "pip install 'geartrain[plot]'" in page.text
+    assert "-1/30" in page.text
+
+
+def test_the_viewer_stands_in_a_frame_that_cannot_reach_the_page(tmp_path: Path) -> None:
+    out = tmp_path / "r.html"
+    assert call("report", "worm", "-o", out, "--view").exit_code == 0
+    (frame,) = Read(out.read_text(encoding="utf-8")).all("iframe")
+    assert "allow-scripts" in frame["sandbox"]
+    assert "allow-same-origin" not in frame["sandbox"]
+    inner = Read(frame["srcdoc"])
+    assert inner.all("canvas") or inner.scripts, "the frame holds a page of its own"
+
+
+@pytest.mark.parametrize("out", [(), ("-o", "r.md"), ("-o", "r.json")])
+def test_a_train_turns_in_a_page_only(out: tuple[str, ...], tmp_path: Path) -> None:
+    words = [str(tmp_path / word) if word.startswith("r.") else word for word in out]
+    result = call("report", "worm", "--view", *words)
+    assert result.exit_code == 2
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_what_only_a_page_has_room_for_changes_no_markdown() -> None:
+    train = load("freeth-2008")
+    plain = to_markdown([shared_document(train)])
+    assert "Wheels and their sources" not in plain
+    assert to_markdown([shared_document(train, [Picture("x", SVG)], "<p>v</p>", ["n"])]) == plain

@@ -1,0 +1,231 @@
+"""Layouts of all shipped trains: wheels touch, roll on each other, keep apart, and stand where they are declared."""
+
+from __future__ import annotations
+
+import itertools
+import math
+import random
+from collections.abc import Iterator
+from functools import cache
+
+import numpy as np
+import pytest
+import shipped
+from places import TRAINS
+from shapely.geometry import Point
+
+import geartrain
+from geartrain.scene.layout import Layout, WheelPlace, lay_out
+from geartrain.scene.layout.axial_slots import find_axial_slots
+
+NAMES = sorted(path.stem for path in TRAINS.glob("*/*.yaml"))
+Z = np.array([0.0, 0.0, 1.0])
+
+
+@cache
+def load(name: str) -> tuple[geartrain.GearTrain, Layout]:
+    train = shipped.train(name)
+    return train, lay_out(train)
+
+
+def named(layout: Layout, *names: str) -> bool:
+    return any(all(f"'{name}'" in notice.what for name in names) for notice in layout.notices)
+
+
+def way(layout: Layout, wheel: WheelPlace) -> np.ndarray:
+    return np.array(layout.axes[wheel.axis].direction)
+
+
+def touching(layout: Layout, first: WheelPlace, second: WheelPlace) -> tuple[np.ndarray, float, bool]:
+    """The common point of two pitch circles, how far they miss it, and whether their axes are parallel."""
+    u, v = way(layout, first), way(layout, second)
+    a, b = np.array(first.centre), np.array(second.centre)
+    if np.linalg.norm(np.cross(u, v)) < 1e-12:
+        b = b + u * ((a - b) @ u)  # a broad wheel has its middle elsewhere
+        line = (b - a) / (np.linalg.norm(b - a) or 1.0)
+        ends = [(a + s * first.radius * line, b + t * second.radius * line) for s in (1, -1) for t in (1, -1)]
+    else:
+        e, f = v - (u @ v) * u, u - (u @ v) * v
+        e, f = e / np.linalg.norm(e), f / np.linalg.norm(f)
+        ends = [(a + s * first.radius * e, b + t * second.radius * f) for s in (1, -1) for t in (1, -1)]
+    p, q = min(ends, key=lambda each: float(np.linalg.norm(each[0] - each[1])))
+    return (p + q) / 2, float(np.linalg.norm(p - q)), bool(np.linalg.norm(np.cross(u, v)) < 1e-12)
+
+
+def sense(train: geartrain.GearTrain, label: str) -> np.ndarray:
+    """The direction about which speeds of links on an axis count, as the reference says: the first of its parallels."""
+    ways = [Z, *(np.array([float(part.value) for part in axis.direction]) for axis in train.declaration.axes.values())]
+    own = train.declaration.axes.get(label)
+    mine = Z if own is None else np.array([float(part.value) for part in own.direction])
+    return next(each for each in ways if np.linalg.norm(np.cross(each, mine)) < 1e-12) / np.linalg.norm(mine)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_pitch_circles_of_wheels_in_mesh_touch_and_roll(name: str) -> None:
+    train, layout = load(name)
+    gears = [circuit for circuit in train.circuits if circuit.kind == "gear"]
+    assert len(gears) == len(train.declaration.gears)
+    triangular = {mesh.name for mesh in train.meshes if mesh.form == "triangular"}
+    for circuit in gears:
+        first, second = (layout.wheels[wheel] for wheel in circuit.wheels)
+        if named(layout, first.wheel, second.wheel):
+            assert circuit.id in layout.apart
+            continue
+        assert circuit.id not in layout.apart
+        kinds = [train.declaration.wheels[wheel][1] for wheel in circuit.wheels]
+        # in the carrier's frame, with the second turning once
+        spins = [float(circuit.ratio) * sense(train, first.axis), sense(train, second.axis)]
+        if "worm" in (kinds[0].kind, kinds[1].kind):
+            if kinds[0].kind != "worm":
+                first, second, kinds, spins = second, first, kinds[::-1], spins[::-1]
+            starts = (kinds[0].count or 0) * (1 if kinds[0].hand == "right" else -1)
+            rolls_on_a_worm(layout, first, second, starts, spins)
+            continue
+        point, miss, parallel = touching(layout, first, second)
+        if circuit.id in triangular and miss > 1e-6:
+            assert miss < 0.1 * (first.radius + second.radius), "their law says how far, not their pitch circles"
+            continue
+        assert miss < (1e-9 if parallel else 1e-6) * (first.radius + second.radius)
+        speeds = [
+            np.cross(spin, point - np.array(wheel.centre)) for spin, wheel in zip(spins, (first, second), strict=True)
+        ]
+        assert np.linalg.norm(speeds[0]) == pytest.approx(second.radius, rel=1e-6)
+        assert speeds[0] == pytest.approx(speeds[1], abs=1e-6 * second.radius)
+
+
+def rolls_on_a_worm(layout: Layout, worm: WheelPlace, wheel: WheelPlace, starts: int, spins: list[np.ndarray]) -> None:
+    """A thread at one side of a worm runs along the axis: against a right hand's turn."""
+    u, v = way(layout, worm), way(layout, wheel)
+    apart = np.array(worm.centre) - np.array(wheel.centre)
+    assert abs(apart @ u) + abs(apart @ v) < 1e-9 * wheel.radius
+    assert np.linalg.norm(apart) == pytest.approx(worm.radius + wheel.radius, rel=1e-9)
+    at = apart * wheel.radius / np.linalg.norm(apart)
+    thread = -(spins[0] @ u) * starts * worm.module / 2
+    assert np.cross(spins[1], at) @ u == pytest.approx(thread, rel=1e-9)
+
+
+def poses(train: geartrain.GearTrain, layout: Layout, count: int) -> Iterator[dict[str, np.ndarray]]:
+    """Places of axes, in plan, while each carrier turns as it likes about its own axis."""
+    dice = random.Random(1)
+    carriers = sorted({axis.carrier for axis in layout.axes.values()} - {train.declaration.frame})
+
+    def carried(label: str, point: np.ndarray, angles: dict[str, float]) -> np.ndarray:
+        bearer = layout.axes[label].carrier
+        while bearer != train.declaration.frame:
+            pivot = layout.axes[train.tree.axis(bearer) or ""]
+            c, s = math.cos(angles[bearer]), math.sin(angles[bearer])
+            x, y = point[:2] - np.array(pivot.point[:2])
+            point = np.array(pivot.point[:2]) + np.array([c * x - s * y, s * x + c * y])
+            bearer = pivot.carrier
+        return point[:2]
+
+    for _ in range(count if carriers else 1):
+        angles = {carrier: dice.uniform(0, math.tau) for carrier in carriers}
+        yield {label: carried(label, np.array(axis.point), angles) for label, axis in layout.axes.items()}
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_no_two_wheels_of_one_height_overlap_while_carriers_turn(name: str) -> None:
+    train, layout = load(name)
+    upright = [wheel for wheel in layout.wheels.values() if abs(way(layout, wheel)[2]) == 1 and not wheel.cone]
+    mates = {frozenset(gear.pair) for gear in train.declaration.gears}
+    pairs = [
+        (a, b)
+        for a, b in itertools.combinations(upright, 2)
+        if frozenset((a.wheel, b.wheel)) not in mates
+        and abs(a.centre[2] - b.centre[2]) < (a.thickness + b.thickness) / 2 * (1 - 1e-9)
+    ]
+    for places in poses(train, layout, 8):
+        for a, b in pairs:
+            discs = []
+            for wheel in (a, b):
+                internal = train.declaration.wheels[wheel.wheel][1].internal
+                disc = Point(*places[wheel.axis]).buffer(wheel.radius + (2 if internal else 0.9) * wheel.module, 24)
+                hole = Point(*places[wheel.axis]).buffer(wheel.radius - 0.9 * wheel.module, 24)
+                discs.append(disc.difference(hole) if internal else disc)
+            assert discs[0].intersection(discs[1]).area < 1e-6, (a.wheel, b.wheel)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_a_tooth_stands_before_a_space_in_every_mesh(name: str) -> None:
+    train, layout = load(name)
+    for gear in train.declaration.gears:
+        first, second = (layout.wheels[wheel] for wheel in gear.pair)
+        kinds = [train.declaration.wheels[wheel][1] for wheel in gear.pair]
+        if gear.name in layout.apart or "worm" in (kinds[0].kind, kinds[1].kind):
+            continue
+        if any("teeth" in notice.what and f"'{gear.name}'" in notice.what for notice in layout.notices):
+            continue
+        point, _, _ = touching(layout, first, second)
+        along = np.cross(way(layout, first), point - np.array(first.centre))
+        along /= np.linalg.norm(along)
+        past = []
+        for wheel, kind in ((first, kinds[0]), (second, kinds[1])):
+            u, x = way(layout, wheel), np.array(wheel.reference)
+            out = point - np.array(wheel.centre)
+            angle = math.atan2(out @ np.cross(u, x), out @ x)
+            teeth = (wheel.turn - angle) * (kind.count or 0) / math.tau
+            past.append(teeth * np.sign(np.cross(u, out) @ along))
+        assert math.remainder(past[0] - past[1] - 0.5, 1.0) == pytest.approx(0, abs=1e-6)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_declared_positions_and_modules_hold_and_notices_say_what_why_and_what_to_do(name: str) -> None:
+    train, layout = load(name)
+    for label, axis in train.declaration.axes.items():
+        if axis.position is not None and label in layout.axes:
+            assert layout.axes[label].how == "given"
+            assert layout.axes[label].point == pytest.approx([float(part.si) * 1000 for part in axis.position], abs=0)
+    for wheel, (_, kind) in train.declaration.wheels.items():
+        if kind.module is not None and kind.module.unit:
+            assert layout.wheels[wheel].module == pytest.approx(kind.module.si * 1000, rel=1e-15)
+            assert layout.wheels[wheel].given
+        assert layout.wheels[wheel].radius > 0
+    for notice in layout.notices:
+        assert notice.what
+        assert notice.why
+        assert notice.fix
+    assert layout.front == (-1 if train.declaration.view.positive == "clockwise" else 1)
+
+
+@pytest.mark.parametrize("name", ["longcase-clock", "pennestri-2002-teeth", "humpage", "freeth-2021"])
+def test_a_train_read_again_is_laid_out_the_same(name: str) -> None:
+    assert lay_out(geartrain.load(name)) == load(name)[1]
+
+
+def test_axes_of_pins_stand_as_far_apart_as_declared() -> None:
+    _, layout = load("freeth-2021")
+    for first, second, far in (("K1", "K2", 1.1), ("ME20", "B", 36), ("R1", "B", 27.8), ("MA71", "MA80", 6.58)):
+        a, b = (layout.axes[label].point for label in (first, second))
+        assert math.dist(a[:2], b[:2]) == pytest.approx(far, rel=1e-9)
+
+
+def test_trains_that_cannot_be_laid_out_as_declared_are_these() -> None:
+    """Their pairs ask for different distances of the same axes; all others touch everywhere, and nothing collides."""
+    said = {name: [notice.what for notice in load(name)[1].notices] for name in NAMES}
+    assert {name for name in NAMES if load(name)[1].apart} == {"ferguson-paradox", "prague-orloj", "prius-power-split"}
+    assert [name for name in NAMES if any("collide" in what for what in said[name])] == []
+    assert [name for name in NAMES if any("teeth of" in what for what in said[name])] == ["four-gear-loop"]
+
+
+def test_each_wheel_of_a_shared_pinion_has_its_own_height() -> None:
+    _, layout = load("ferguson-paradox")
+    heights = sorted(layout.wheels[name].centre[2] for name in ("w99", "w100", "w101"))
+    broad = layout.wheels["p20"]
+    thin = layout.wheels["w99"].thickness
+    assert heights[1] - heights[0] > thin
+    assert heights[2] - heights[1] > thin
+    assert broad.centre[2] - broad.thickness / 2 <= heights[0] - thin / 2 + 1e-12
+    assert broad.centre[2] + broad.thickness / 2 >= heights[2] + thin / 2 - 1e-12
+
+
+def test_shelves_are_found_in_a_row_of_thousands() -> None:
+    """Two wheels of a long row run into each other: the search goes down the whole row, and back where it must."""
+    row = [(f"w{at}", f"w{at + 1}") for at in range(3000)]
+    shelves = find_axial_slots(row, lambda one, other: {one, other} == {"w2990", "w2992"})
+    assert len(shelves) == 3001
+    for one, other in row:
+        assert shelves[one][0] <= shelves[other][1], "mates share a shelf"
+        assert shelves[other][0] <= shelves[one][1], "mates share a shelf"
+    (low, high), (under, over) = shelves["w2990"], shelves["w2992"]
+    assert high < under or over < low

@@ -204,9 +204,9 @@ Written by `python docs/make_mesh_accuracy.py` from the run
 on a machine with two cores. Compare times within a pair only: they are ratios to the direct formula in the same run.
 The methods:
 
-- **direct**: `TriangularLaw`. Of all couples of teeth only those that can be lowest are asked, the switching points
+- **direct**: `TriangularTransmission`. Of all couples of teeth only those that can be lowest are asked, the switching points
   are roots found to rounding, and each angle takes one formula.
-- **tabulated**: `Tabulated(law)`. Polynomials of degree 4 on uniform cells cut at the corners of the law, from
+- **tabulated**: `TabulatedTransmission(law)`. Polynomials of degree 4 on uniform cells cut at the corners of the law, from
   the law's own answers at Chebyshev nodes within each cell. As many cells as it takes for 1e-12 of a driven pitch
   (default), or as many as given.
 - **sampled**: the lowest of all couples in reach at so many positions of a pitch, linear between.

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from fractions import Fraction
 
-IntegerVector = tuple[int, int, int]
+from geartrain.numerics.vectors import IntegerVector, dot
 
 _CHANCE = 1e-3  # an angle drawn at random is taken for a fraction at most this often
 _DENSITY = 3 / math.pi**2  # reduced fractions below 1 with a denominator up to q number some q squared times this
@@ -18,9 +18,9 @@ def rational_angle(u: IntegerVector, v: IntegerVector, turn: float) -> Fraction 
     part of a turn only for cos 2x = 0, +-1/2, +-1) it must then be 0, 1/4, 1/2, 3/4 or 1: the angle is a multiple
     of a 24-th of a turn or no rational part of one. `turn` is the angle in floats, good to 1/48.
     """
-    dot = u[0] * v[0] + u[1] * v[1] + u[2] * v[2]
-    square = (u[0] * u[0] + u[1] * u[1] + u[2] * u[2]) * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2])
-    if 4 * dot * dot % square:
+    along = dot(u, v)
+    square = dot(u, u) * dot(v, v)
+    if 4 * along * along % square:
         return None
     return Fraction(round(24 * turn) % 24, 24)
 

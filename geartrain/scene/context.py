@@ -11,8 +11,7 @@ from typing import TYPE_CHECKING
 from geartrain.errors import GearTrainError, Problem
 from geartrain.numerics.exact import decimal, fraction_text
 from geartrain.numerics.quantity import turns_in
-from geartrain.scene.layout.axis_places import Vector
-from geartrain.scene.layout.vectors import dot, unit_or_z
+from geartrain.numerics.vectors import Vector, dot, unit_or_z
 
 if TYPE_CHECKING:
     from geartrain.analysis.gear_train import GearTrain

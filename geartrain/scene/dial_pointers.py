@@ -10,10 +10,9 @@ from dataclasses import replace
 from fractions import Fraction
 
 from geartrain.kinematics.judged_outputs import SpeedValue, relative_speed
+from geartrain.numerics.vectors import Vector, beside, dot, minus, plus, scaled, size
 from geartrain.scene.context import SceneContext, exact, rounded
 from geartrain.scene.elements import DialFace, Pointer
-from geartrain.scene.layout.axis_places import Vector
-from geartrain.scene.layout.vectors import beside, dot, minus, plus, scaled, size
 from geartrain.scene.output_dependence import find_dependence
 
 Key = tuple[str, str, str]

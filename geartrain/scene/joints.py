@@ -8,10 +8,9 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
+from geartrain.numerics.vectors import Vector, across, beside, dot, minus, plus, size, unit_or_z
 from geartrain.scene.context import SceneContext
 from geartrain.scene.elements import SceneCoupling, ScenePair
-from geartrain.scene.layout.axis_places import Vector
-from geartrain.scene.layout.vectors import across, beside, dot, minus, plus, size, unit_or_z
 from geartrain.scene.movement import MovementStart
 
 if TYPE_CHECKING:

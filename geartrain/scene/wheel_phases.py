@@ -15,10 +15,9 @@ from math import pi
 from typing import TYPE_CHECKING
 
 from geartrain.errors import Problem
+from geartrain.numerics.vectors import Vector, across, azimuth, cross, dot, minus, scaled, size, unit_or_z
 from geartrain.scene.bodies import as_placed
 from geartrain.scene.context import SceneContext
-from geartrain.scene.layout.axis_places import Vector
-from geartrain.scene.layout.vectors import across, azimuth, cross, dot, minus, scaled, size, unit_or_z
 from geartrain.scene.movement import MovementStart
 
 if TYPE_CHECKING:

@@ -8,10 +8,10 @@ from typing import Any
 
 from geartrain.kinematics.circuits.joint_tree import Tree
 from geartrain.numerics.quantity import Figure
+from geartrain.numerics.vectors import ExactVector, cross, dot, minus, parallel
 from geartrain.train import Train, Wheel
 
-Vector = tuple[Fraction, Fraction, Fraction]
-_Z: Vector = (Fraction(0), Fraction(0), Fraction(1))
+_Z: ExactVector = (Fraction(0), Fraction(0), Fraction(1))
 
 
 class Axes:
@@ -26,30 +26,30 @@ class Axes:
         self.positions = {label: axis.position for label, axis in train.axes.items() if axis.position}
         self.directions = {label: _vector(axis.direction) for label, axis in train.axes.items()}
         self.plain = all(direction == _Z for direction in self.directions.values())
-        self._first: dict[Vector, Vector] = {}
+        self._first: dict[ExactVector, ExactVector] = {}
         for direction in (_Z, *self.directions.values()):
             self._first.setdefault(_line(direction), direction)
 
-    def direction(self, label: str | None) -> Vector:
+    def direction(self, label: str | None) -> ExactVector:
         """Direction of an axis; z where none is declared."""
         return self.directions.get(label or "", _Z)
 
     def sign(self, label: str | None) -> int:
         """-1 if the axis points against the first declared direction parallel to it."""
         own = self.direction(label)
-        return 1 if _dot(self._first[_line(own)], own) > 0 else -1
+        return 1 if dot(self._first[_line(own)], own) > 0 else -1
 
     def are_parallel(self, labels: Iterable[str | None]) -> bool:
         """True if all these axes have one direction, or the opposite, in the pose where all angles are zero."""
         directions = [self.direction(label) for label in labels]
-        return self.plain or all(_parallel(directions[0], other) for other in directions[1:])
+        return self.plain or all(parallel(directions[0], other) for other in directions[1:])
 
     def are_one_line(self, one: str, other: str) -> bool:
         """True if both axes have positions, and lie on one line; two labels are else two lines."""
         here, there = self.positions.get(one), self.positions.get(other)
         if here is None or there is None or not self.are_parallel((one, other)):
             return False
-        return _parallel(self.direction(one), _less(_vector(there), _vector(here)))
+        return parallel(self.direction(one), minus(_vector(there), _vector(here)))
 
     def screw(self, label: str) -> dict[int, Fraction] | None:
         """A rotation about an axis: its direction, and the velocity of the origin; None without a position."""
@@ -57,7 +57,7 @@ class Axes:
         if here is None:
             return None
         direction = self.direction(label)
-        parts = (*direction, *_cross(_vector(here), direction))
+        parts = (*direction, *cross(_vector(here), direction))
         return {at: part for at, part in enumerate(parts) if part}
 
     def labels_at(self, i: str, j: str, carrier: str) -> tuple[str | None, str | None]:
@@ -72,10 +72,10 @@ class Axes:
         if "worm" in (wheel_i.kind, wheel_j.kind):
             return self._worm(i, j, carrier, wheel_i, wheel_j)
         labels = self.labels_at(i, j, carrier)
-        parallel = self.are_parallel(labels)
-        if parallel and not {"bevel", "contrate"} & {wheel_i.kind, wheel_j.kind}:
+        side_by_side = self.are_parallel(labels)
+        if side_by_side and not {"bevel", "contrate"} & {wheel_i.kind, wheel_j.kind}:
             return z_i, -z_j if wheel_i.internal or wheel_j.internal else z_j, ""
-        if not parallel and (wheel_i.internal or wheel_j.internal):
+        if not side_by_side and (wheel_i.internal or wheel_j.internal):
             raise ValueError("a ring on an axis that is not parallel to its mate's")
         side_i = wheel_i.facing * self.sign(labels[0])
         side_j = wheel_j.facing * self.sign(labels[1])
@@ -94,9 +94,9 @@ class Axes:
         turn = Fraction(0)
         if here is not None and there is not None:
             arm, centre = _vector(here), _vector(there)
-            reach = _less(arm, centre)
+            reach = minus(arm, centre)
             # the worm's thread drives the wheel's teeth against the direction in which it would screw itself
-            turn = -hand * _dot(self.direction(worm), _cross(self.direction(wheel), reach))
+            turn = -hand * dot(self.direction(worm), cross(self.direction(wheel), reach))
         flip = self.sign(worm) * self.sign(wheel)
         if turn:
             return z_i, (-1 if turn > 0 else 1) * flip * z_j, ""
@@ -129,30 +129,14 @@ def are_parallel(train: Train, tree: Tree, of: str, base: str) -> bool:
     return Axes(train, tree).are_parallel(tree.path(of, base)[1])
 
 
-def _vector(figures: Iterable[Any]) -> Vector:
+def _vector(figures: Iterable[Any]) -> ExactVector:
     """Three figures as numbers, or three lengths in metres."""
     x, y, z = (figure.value if isinstance(figure, Figure) else figure.base for figure in figures)
     return x, y, z
 
 
-def _line(direction: Vector) -> Vector:
+def _line(direction: ExactVector) -> ExactVector:
     """The same for all directions parallel to one."""
     scale = next(part for part in direction if part)
     x, y, z = direction
     return x / scale, y / scale, z / scale
-
-
-def _less(u: Vector, v: Vector) -> Vector:
-    return u[0] - v[0], u[1] - v[1], u[2] - v[2]
-
-
-def _dot(u: Vector, v: Vector) -> Fraction:
-    return u[0] * v[0] + u[1] * v[1] + u[2] * v[2]
-
-
-def _cross(u: Vector, v: Vector) -> Vector:
-    return u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]
-
-
-def _parallel(u: Vector, v: Vector) -> bool:
-    return not any(_cross(u, v))

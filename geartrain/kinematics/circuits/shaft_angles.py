@@ -5,12 +5,12 @@ from __future__ import annotations
 from math import atan2, sqrt
 
 from geartrain.errors import Problem, RangeError
-from geartrain.kinematics.circuits.axes import Axes, Vector
+from geartrain.kinematics.circuits.axes import Axes
 from geartrain.kinematics.circuits.fundamental import Circuit
 from geartrain.kinematics.circuits.joint_tree import Tree
+from geartrain.numerics.vectors import ExactVector, Vector, cross, dot
 from geartrain.train import Train
 
-Floats = tuple[float, float, float]
 _MEET = 1e-3  # of the distance of two declared points: nearer axes meet, for positions are rounded
 
 
@@ -27,29 +27,21 @@ def shaft_angle(train: Train, tree: Tree, circuit: Circuit) -> float | None:
     _, last = tree.path(circuit.carrier, circuit.j)
     labels = first[0], last[-1]
     u, v = (_floats(axes.direction(label)) for label in labels)
-    across = _cross(u, v)
-    size = sqrt(_dot(across, across))
+    across = cross(u, v)
+    size = sqrt(dot(across, across))
     if not size:
         return None
     here, there = (axes.positions.get(label) for label in labels)
     if here is not None and there is not None:
         apart = there[0].si - here[0].si, there[1].si - here[1].si, there[2].si - here[2].si
-        offset, reach = abs(_dot(apart, across)) / size, sqrt(_dot(apart, apart))
+        offset, reach = abs(dot(apart, across)) / size, sqrt(dot(apart, apart))
         if offset > _MEET * reach:
             raise RangeError(
                 Problem("its axes do not meet", "they pass each other", "correct the positions of its axes")
             )
     facing = train.wheels[circuit.wheels[0]][1].facing * train.wheels[circuit.wheels[1]][1].facing
-    return atan2(size, facing * _dot(u, v))
+    return atan2(size, facing * dot(u, v))
 
 
-def _floats(vector: Vector) -> Floats:
+def _floats(vector: ExactVector) -> Vector:
     return float(vector[0]), float(vector[1]), float(vector[2])
-
-
-def _dot(u: Floats, v: Floats) -> float:
-    return u[0] * v[0] + u[1] * v[1] + u[2] * v[2]
-
-
-def _cross(u: Floats, v: Floats) -> Floats:
-    return u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]

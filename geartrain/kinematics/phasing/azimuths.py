@@ -15,7 +15,8 @@ from geartrain.kinematics.circuits import Circuit, Tree
 from geartrain.kinematics.phasing.pitch_points import EPS, PitchPoints, UnplacedPair
 from geartrain.numerics.containers import collector_paused
 from geartrain.numerics.quantity import UNITS, Figure, Quantity
-from geartrain.numerics.rational_angles import IntegerVector, rational_angle, recognised_angle
+from geartrain.numerics.rational_angles import rational_angle, recognised_angle
+from geartrain.numerics.vectors import IntegerVector, across_whole, cross, dot, minus, parallel
 from geartrain.train import Train
 
 if TYPE_CHECKING:
@@ -119,7 +120,7 @@ def _direction(figures: Sequence[Figure], senses: list[IntegerVector]) -> tuple[
     """A direction, how far off it may be (rad), and that of its parallels which was met first."""
     way = _whole([figure.value for figure in figures])
     rough = math.hypot(*(float(figure.half or 0) for figure in figures))
-    sense = next((known for known in senses if not any(_cross(known, way))), None)
+    sense = next((known for known in senses if parallel(known, way)), None)
     if sense is None:
         senses.append(way)
     return way, rough / math.hypot(*(float(figure.value) for figure in figures)), sense or way
@@ -154,7 +155,7 @@ def _contact(train: Train, circuit: Circuit, first: _Axis, second: _Axis) -> _Co
     kinds = {wheel.kind for wheel in wheels}
     if "worm" in kinds:
         return "a worm is set by shifting it along its axis"
-    if not any(_cross(first.way, second.way)):
+    if parallel(first.way, second.way):
         if kinds != {"spur"}:
             return "a bevel pair on parallel axes has no pitch point"
         return _side_by_side(first, second, [wheel.internal for wheel in wheels])
@@ -165,33 +166,33 @@ def _side_by_side(first: _Axis, second: _Axis, internal: Sequence[bool]) -> _Con
     """Parallel axes: towards the other axis, but away from it from the axis of a wheel that runs in a ring."""
     if first.place is None or second.place is None:
         return "the positions of its axes are not declared"
-    way = _across(_minus(second.place, first.place), first.sense)
+    way = across_whole(minus(second.place, first.place), first.sense)
     if not any(way):
         return "its axes are one"
-    # _across lengthens by the square of the sense
-    length = _norm(way) / _dot(first.sense, first.sense)
+    # across_whole lengthens by the square of the sense
+    length = _norm(way) / dot(first.sense, first.sense)
     rounded = _turns(float((first.error + second.error) / length))
-    back = _minus((0, 0, 0), way)
+    back = minus((0, 0, 0), way)
     return back if internal[1] else way, way if internal[0] else back, rounded, 4 * EPS
 
 
 def _through_a_point(first: _Axis, second: _Axis, facing: Sequence[int]) -> _Contact | str:
     """Axes through one point: towards the side to which the mate's cone opens."""
     if first.place is not None and second.place is not None:
-        apart = _dot(_minus(second.place, first.place), _cross(first.way, second.way))
-        reach = _norm(_minus(second.place, first.place))
+        apart = dot(minus(second.place, first.place), cross(first.way, second.way))
+        reach = _norm(minus(second.place, first.place))
         slack = first.error + second.error + reach * Fraction(first.unsure + second.unsure)
         if abs(apart) > slack * _norm(first.way) * _norm(second.way):
             return "its axes do not meet"
     n, m = ((f * a.way[0], f * a.way[1], f * a.way[2]) for a, f in ((first, facing[0]), (second, facing[1])))
-    cross = float(_norm(_cross(n, m)) / (_norm(n) * _norm(m)))
-    rounded = _turns((first.unsure + second.unsure) / cross)
-    return _across(m, first.way), _across(n, second.way), rounded, 16 * EPS / cross
+    sine = float(_norm(cross(n, m)) / (_norm(n) * _norm(m)))
+    rounded = _turns((first.unsure + second.unsure) / sine)
+    return across_whole(m, first.way), across_whole(n, second.way), rounded, 16 * EPS / sine
 
 
 def _norm(vector: IntegerVector) -> Fraction:
     """Length of a vector to 64 bits and more; its numbers may have hundreds of digits."""
-    return Fraction(math.isqrt(_dot(vector, vector) << 128), 1 << 64)
+    return Fraction(math.isqrt(dot(vector, vector) << 128), 1 << 64)
 
 
 def _turns(sine: float) -> float:
@@ -270,21 +271,3 @@ def _families(
                 count += 1
     family = [(i, j) for (i, _), (j, _) in found]
     return family, [(p, q) for (_, p), (_, q) in found], frozenset(guessed)
-
-
-def _dot(u: IntegerVector, v: IntegerVector) -> int:
-    return u[0] * v[0] + u[1] * v[1] + u[2] * v[2]
-
-
-def _cross(u: IntegerVector, v: IntegerVector) -> IntegerVector:
-    return u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]
-
-
-def _minus(u: IntegerVector, v: IntegerVector) -> IntegerVector:
-    return u[0] - v[0], u[1] - v[1], u[2] - v[2]
-
-
-def _across(v: IntegerVector, n: IntegerVector) -> IntegerVector:
-    """The part of v across n, lengthened by the square of n so that it stays whole."""
-    square, along = _dot(n, n), _dot(v, n)
-    return square * v[0] - along * n[0], square * v[1] - along * n[1], square * v[2] - along * n[2]

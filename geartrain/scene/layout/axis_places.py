@@ -7,8 +7,8 @@ from dataclasses import dataclass, field
 from typing import Literal
 
 from geartrain.errors import Problem
+from geartrain.numerics.vectors import Vector
 
-Vector = tuple[float, float, float]
 How = Literal["given", "found", "free"]
 
 

@@ -13,8 +13,7 @@ from geartrain.errors import GearTrainError
 from geartrain.kinematics.circuits import Circuit, Tree
 from geartrain.kinematics.circuits.axes import Axes
 from geartrain.numerics.quantity import Quantity
-from geartrain.scene.layout.axis_places import Vector
-from geartrain.scene.layout.vectors import unit
+from geartrain.numerics.vectors import Vector, unit
 from geartrain.train import Train, Wheel
 
 ContactKind = Literal["side", "ring", "bevel", "crown", "screw"]

@@ -7,9 +7,9 @@ from math import hypot
 
 from geartrain.analysis.gear_train import GearTrain
 from geartrain.errors import Problem
+from geartrain.numerics.vectors import across, cross, dot, minus, plus, size, unit
 from geartrain.scene.layout.declared_geometry import DeclaredGeometry, PitchContact
 from geartrain.scene.layout.parallel_groups import Arrangement
-from geartrain.scene.layout.vectors import across, along, cross, dot, minus, size, unit
 from geartrain.scene.layout.wheel_geometry import WheelSize
 from geartrain.scene.layout.wheel_modules import pitch_distance
 from geartrain.scene.layout.wheel_stacks import WheelStack
@@ -44,7 +44,7 @@ def _gap(reading: DeclaredGeometry, found: Arrangement, sizes: Mapping[str, Whee
         aside = size(across(off, upright))
         far = abs(dot(off, upright)) - sum(radii)
         return far if aside <= _TOUCH * sum(radii) else hypot(far, aside)
-    tips = [along(centres[at], found.seats[touch.name][at].out, radii[at]) for at in (0, 1)]
+    tips = [plus(centres[at], found.seats[touch.name][at].out, radii[at]) for at in (0, 1)]
     return size(minus(tips[1], tips[0]))
 
 

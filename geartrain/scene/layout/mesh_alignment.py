@@ -7,8 +7,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from math import atan2, pi, remainder
 
-from geartrain.scene.layout.axis_places import Vector
-from geartrain.scene.layout.vectors import across, cross, dot, frame
+from geartrain.numerics.vectors import Vector, across, cross, dot, frame
 
 
 @dataclass(frozen=True, slots=True)

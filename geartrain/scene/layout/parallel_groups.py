@@ -6,14 +6,13 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from geartrain.numerics.vectors import Vector, dot, frame, plus
 from geartrain.scene.layout.axial_slots import find_axial_slots
 from geartrain.scene.layout.axis_placement import Point, plan
-from geartrain.scene.layout.axis_places import Vector
 from geartrain.scene.layout.declared_geometry import AxisLine, DeclaredGeometry, PitchContact
 from geartrain.scene.layout.placement_problem import PlacementProblems, flat
 from geartrain.scene.layout.plan_clearance import swept_ranges
 from geartrain.scene.layout.stack_builder import build_wheel_stack
-from geartrain.scene.layout.vectors import along, dot, frame
 from geartrain.scene.layout.wheel_geometry import Seat, WheelSize, seats
 from geartrain.scene.layout.wheel_modules import WheelModules
 from geartrain.scene.layout.wheel_stacks import HeightConstraint, WheelStack, overlap
@@ -104,11 +103,11 @@ class Arranger:
         )
         self.towers[lines[0].group] = tower
         heights = tower.heights()
-        feet = {label: along(along(_ORIGIN, x, u), y, v) for label, (u, v) in places.items()}
+        feet = {label: plus(plus(_ORIGIN, x, u), y, v) for label, (u, v) in places.items()}
         for line in lines:
             self.points[line.label] = line.given or feet[line.label]
         for wheel, height in heights.items():
-            self.centres[wheel] = along(feet[self.reading.axis[wheel]], n, height)
+            self.centres[wheel] = plus(feet[self.reading.axis[wheel]], n, height)
 
     def _broaden(self, labels: set[str], near: Floats, far: Floats) -> None:
         """Make wheels broad that have mates one above the other."""
@@ -136,10 +135,10 @@ class Arranger:
                 if touch.axes[new] in labels and touch.axes[1 - new] in self.points and known in self.centres:
                     seat = self.seats[touch.name][1 - new]
                     way = self.reading.lines[touch.axes[1 - new]].way
-                    point = along(self.centres[known], way, -seat.far)
+                    point = plus(self.centres[known], way, -seat.far)
                     if touch.kind == "screw":
                         far = sum(self.sizes[wheel].radius for wheel in touch.wheels)
-                        point = along(point, seat.out, far)
+                        point = plus(point, seat.out, far)
                     yield touch, new, point
 
     def _fixed(
@@ -176,7 +175,7 @@ class Arranger:
             wheel = touch.wheels[new]
             way = self.reading.lines[touch.axes[new]].way
             seat = self.seats[touch.name][new]
-            at = along(point, way, seat.far)
+            at = plus(point, way, seat.far)
             demands.append(HeightConstraint(wheel, dot(at, n)))
         return demands
 

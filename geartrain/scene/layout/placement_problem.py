@@ -7,11 +7,10 @@ from dataclasses import dataclass
 from itertools import pairwise
 from math import hypot
 
+from geartrain.numerics.vectors import Vector, dot
 from geartrain.scene.layout.axis_placement import PlacementProblem, Point
-from geartrain.scene.layout.axis_places import Vector
 from geartrain.scene.layout.declared_geometry import AxisLine, DeclaredGeometry, PitchContact
 from geartrain.scene.layout.plan_clearance import Disc
-from geartrain.scene.layout.vectors import dot
 from geartrain.scene.layout.wheel_geometry import Seat, WheelSize
 from geartrain.scene.layout.wheel_modules import WheelModules
 

@@ -8,11 +8,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from geartrain.numerics.vectors import Vector, dot
 from geartrain.scene.layout.axis_placement import Point
-from geartrain.scene.layout.axis_places import Vector
 from geartrain.scene.layout.declared_geometry import AxisLine, DeclaredGeometry, PitchContact
 from geartrain.scene.layout.plan_overlap import PlanOverlap, WheelBlock, find_plan_overlap, plates
-from geartrain.scene.layout.vectors import dot
 from geartrain.scene.layout.wheel_geometry import Seat, WheelSize, rim
 from geartrain.scene.layout.wheel_stacks import HeightConstraint, WheelStack
 

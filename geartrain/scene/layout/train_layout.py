@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from geartrain.analysis.gear_train import GearTrain
-from geartrain.scene.layout.axis_places import AxisPlace, How, Layout, Vector, WheelPlace
+from geartrain.numerics.vectors import Vector, across, dot, minus, plus, size, unit
+from geartrain.scene.layout.axis_places import AxisPlace, How, Layout, WheelPlace
 from geartrain.scene.layout.declared_geometry import DeclaredGeometry, PitchContact, read_geometry
 from geartrain.scene.layout.layout_diagnostics import misfits, notices
 from geartrain.scene.layout.mesh_alignment import PitchPoint, align_meshes, pitch_point, reference
 from geartrain.scene.layout.parallel_groups import Arrangement, Arranger
-from geartrain.scene.layout.vectors import across, along, dot, minus, size, unit
 from geartrain.scene.layout.wheel_geometry import Seat, WheelSize, find_sizes
 from geartrain.scene.layout.wheel_modules import WheelModules, find_wheel_modules
 
@@ -82,7 +82,7 @@ def _side_by_side(reading: DeclaredGeometry, found: Arrangement, touch: PitchCon
     way = reading.lines[touch.axes[0]].way
     apart = across(minus(found.points[touch.axes[1]], found.points[touch.axes[0]]), way)
     out = unit(apart) if size(apart) else reference(way)
-    back = along((0.0, 0.0, 0.0), out, -1.0)
+    back = plus((0.0, 0.0, 0.0), out, -1.0)
     rings = [reading.wheels[wheel][1].internal for wheel in touch.wheels]
     return back if rings[1] else out, out if rings[0] else back
 

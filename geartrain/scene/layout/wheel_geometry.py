@@ -8,9 +8,8 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from math import atan2, cos, sin, tan
 
-from geartrain.scene.layout.axis_places import Vector
+from geartrain.numerics.vectors import Vector, across, cross, dot, plus, size, unit
 from geartrain.scene.layout.declared_geometry import DeclaredGeometry, PitchContact
-from geartrain.scene.layout.vectors import across, along, cross, dot, size, unit
 from geartrain.scene.layout.wheel_modules import WheelModules
 from geartrain.teeth.standard_teeth import DEDENDUM
 
@@ -84,9 +83,9 @@ def seats(reading: DeclaredGeometry, touch: PitchContact, radii: tuple[float, fl
     """
     if touch.kind == "screw":
         out = screw_way(reading, touch)
-        return Seat(0.0, 0.0, out), Seat(0.0, 0.0, along((0.0, 0.0, 0.0), out, -1.0))
+        return Seat(0.0, 0.0, out), Seat(0.0, 0.0, plus((0.0, 0.0, 0.0), out, -1.0))
     facing = tuple(reading.wheels[wheel][1].facing for wheel in touch.wheels)
-    n, m = (along((0.0, 0.0, 0.0), reading.lines[end].way, side) for end, side in zip(touch.axes, facing, strict=True))
+    n, m = (plus((0.0, 0.0, 0.0), reading.lines[end].way, side) for end, side in zip(touch.axes, facing, strict=True))
     sine, cosine = size(cross(n, m)), dot(n, m)
     first, second = radii
     ways = unit(across(m, n)), unit(across(n, m))
@@ -112,7 +111,7 @@ def screw_way(reading: DeclaredGeometry, touch: PitchContact) -> Vector:
         apart = dot(
             (wheel.given[0] - worm.given[0], wheel.given[1] - worm.given[1], wheel.given[2] - worm.given[2]), way
         )
-        return way if apart >= 0 else along((0.0, 0.0, 0.0), way, -1.0)
+        return way if apart >= 0 else plus((0.0, 0.0, 0.0), way, -1.0)
     return way
 
 

@@ -12,8 +12,8 @@ from heapq import heappop, heappush
 from itertools import pairwise
 from statistics import median
 
+from geartrain.numerics.vectors import across, cross, dot, minus, size, unit
 from geartrain.scene.layout.declared_geometry import DeclaredGeometry, PinSlotTie, PitchContact, millimetres
-from geartrain.scene.layout.vectors import across, cross, dot, minus, size, unit
 
 _ROUNDS = 12
 _MOST = 300  # distances on closed chains up to which modules are balanced

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from geartrain.scene.layout.axis_places import Vector
+from geartrain.numerics.vectors import Vector
 from geartrain.scene.layout.plan_overlap import PlanOverlap, WheelBlock
 from geartrain.scene.layout.stack_order import StackOrder
 from geartrain.scene.layout.wheel_geometry import WheelSize

@@ -8,6 +8,7 @@ from math import atan2, cos, dist, hypot, pi, sin, tan
 from typing import TYPE_CHECKING
 
 from geartrain.errors import Problem
+from geartrain.numerics.vectors import Vector, dot, minus
 from geartrain.scene.solids.flat_drawing import EngravedText, FlatDrawing
 from geartrain.scene.solids.manufacturing_sizes import ManufacturingSizes, bores
 from geartrain.teeth.outlines.contour import Contour
@@ -84,8 +85,8 @@ def _plate(
     right, up = basis(normal)
     holes: dict[str, tuple[Point, float]] = {}
     for label, axis in axes.items():
-        away = tuple(a - b for a, b in zip(axis.point, origin, strict=True))
-        hole = (_dot(away, right), _dot(away, up)), diameters[label]
+        away = minus(axis.point, origin)
+        hole = (dot(away, right), dot(away, up)), diameters[label]
         if (other := _in_the_way(hole, holes)) is None:
             holes[label] = hole
         elif dist(hole[0], holes[other][0]) > _PARALLEL:
@@ -148,7 +149,7 @@ def _hull(points: Sequence[Point]) -> list[Point]:
     return chain(ordered) + chain(ordered[::-1])
 
 
-def basis(normal: Sequence[float]) -> tuple[tuple[float, ...], tuple[float, ...]]:
+def basis(normal: Vector) -> tuple[Vector, Vector]:
     """Two unit vectors across the normal, right and up for one who looks against it; x and y for plus z."""
     nx, ny, nz = normal
     if hypot(nx, ny) < _PARALLEL:
@@ -158,12 +159,8 @@ def basis(normal: Sequence[float]) -> tuple[tuple[float, ...], tuple[float, ...]
     return right, (-nz * right[1], nz * right[0], nx * right[1] - ny * right[0])
 
 
-def _dot(a: Sequence[float], b: Sequence[float]) -> float:
-    return sum(x * y for x, y in zip(a, b, strict=True))
-
-
-def _parallel(a: Sequence[float], b: Sequence[float]) -> bool:
-    return abs(abs(_dot(a, b)) - 1) < _PARALLEL
+def _parallel(a: Vector, b: Vector) -> bool:
+    return abs(abs(dot(a, b)) - 1) < _PARALLEL
 
 
 # ------------------------------------------------------------------------------------------------------ pins and slots

@@ -1,33 +1,56 @@
-"""Vectors in space as three floats.
+"""Vectors in space as plain tuples of three numbers.
 
-Vectors in space, as plain tuples.
+`dot`, `cross`, `minus`, `across_whole` and `parallel` are exact where the numbers are (integers, Fractions); what takes
+a length or a direction of length 1 is for floats.
 """
 
 from __future__ import annotations
 
+from fractions import Fraction
 from math import atan2, sqrt
+from typing import TypeVar
 
-from geartrain.scene.layout.axis_places import Vector
+Vector = tuple[float, float, float]
+IntegerVector = tuple[int, int, int]
+ExactVector = tuple[Fraction, Fraction, Fraction]
+
+N = TypeVar("N", int, float, Fraction)
 
 
-def dot(u: Vector, v: Vector) -> float:
+def dot(u: tuple[N, N, N], v: tuple[N, N, N]) -> N:
     """The scalar product."""
     return u[0] * v[0] + u[1] * v[1] + u[2] * v[2]
 
 
-def cross(u: Vector, v: Vector) -> Vector:
+def cross(u: tuple[N, N, N], v: tuple[N, N, N]) -> tuple[N, N, N]:
     """The vector product."""
     return u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]
 
 
-def along(point: Vector, way: Vector, far: float = 1.0) -> Vector:
-    """The point that lies `far` times a way from another."""
-    return point[0] + far * way[0], point[1] + far * way[1], point[2] + far * way[2]
-
-
-def minus(u: Vector, v: Vector) -> Vector:
+def minus(u: tuple[N, N, N], v: tuple[N, N, N]) -> tuple[N, N, N]:
     """The way from v to u."""
     return u[0] - v[0], u[1] - v[1], u[2] - v[2]
+
+
+def parallel(u: tuple[N, N, N], v: tuple[N, N, N]) -> bool:
+    """True if two vectors have one direction or opposite ones; decided without a tolerance, so for exact numbers."""
+    return not any(cross(u, v))
+
+
+def across_whole(v: IntegerVector, n: IntegerVector) -> IntegerVector:
+    """The part of v across n, lengthened by the square of n so that it stays whole."""
+    square, along = dot(n, n), dot(v, n)
+    return square * v[0] - along * n[0], square * v[1] - along * n[1], square * v[2] - along * n[2]
+
+
+def plus(u: Vector, v: Vector, factor: float = 1.0) -> Vector:
+    """u + factor v: the point that lies `factor` times a way v from a point u."""
+    return u[0] + factor * v[0], u[1] + factor * v[1], u[2] + factor * v[2]
+
+
+def scaled(u: Vector, factor: float) -> Vector:
+    """u times a number."""
+    return u[0] * factor, u[1] * factor, u[2] * factor
 
 
 def size(v: Vector) -> float:
@@ -45,7 +68,7 @@ def unit(v: Vector) -> Vector:
 
 def across(v: Vector, n: Vector) -> Vector:
     """The part of v across a unit vector n."""
-    return along(v, n, -dot(v, n))
+    return plus(v, n, -dot(v, n))
 
 
 def frame(n: Vector) -> tuple[Vector, Vector]:
@@ -61,17 +84,7 @@ def foot(point: Vector, way: Vector, other: Vector, cut: Vector) -> tuple[Vector
     square = 1.0 - turn * turn
     near = (dot(apart, way) - turn * dot(apart, cut)) / square
     there = (turn * dot(apart, way) - dot(apart, cut)) / square
-    return along(point, way, near), along(other, cut, there)
-
-
-def scaled(u: Vector, factor: float) -> Vector:
-    """u times a number."""
-    return u[0] * factor, u[1] * factor, u[2] * factor
-
-
-def plus(u: Vector, v: Vector, factor: float = 1.0) -> Vector:
-    """u + factor v."""
-    return u[0] + factor * v[0], u[1] + factor * v[1], u[2] + factor * v[2]
+    return plus(point, way, near), plus(other, cut, there)
 
 
 def unit_or_z(u: Vector) -> Vector:

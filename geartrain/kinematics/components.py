@@ -18,6 +18,7 @@ from geartrain.kinematics.verdict import Loop
 from geartrain.numerics.containers import collector_paused
 from geartrain.numerics.exact import LinearForm, add_into
 from geartrain.numerics.factored_ratios import FactoredRatios
+from geartrain.numerics.graphs import chain_to_root, ways_to_common_ancestor
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,10 +73,7 @@ class Components:
         chord = self.circuits[circuit]
         carrier = self.index[chord.carrier]
         up, down = [self.node(self.index[link], carrier) for link in (chord.i, chord.j)]
-        left, right = self._ancestors(up), self._ancestors(down)
-        while len(left) > 1 and len(right) > 1 and left[-2] == right[-2]:
-            left.pop()
-            right.pop()
+        left, right = ways_to_common_ancestor(up, down, self._above)
         # walk: common ancestor -> ... -> i, over the chord to j, and back up to the ancestor
         walk = left[::-1] + right[:-1]
         pairs = [self.node_circuit[node] for node in left[-2::-1]] + [circuit]
@@ -88,17 +86,14 @@ class Components:
             step,
         )
 
-    def _ancestors(self, node: int) -> list[int]:
-        chain = [node]
-        while (above := self.node_parent[node]) >= 0:
-            node = above
-            chain.append(node)
-        return chain
+    def _above(self, node: int) -> int | None:
+        above = self.node_parent[node]
+        return above if above >= 0 else None
 
     def path(self, nodes: Iterable[int]) -> list[int]:
         """The circuits that join some nodes of one component: the part of the train that relates them."""
         wanted = list(nodes)
-        chains = [self._ancestors(node) for node in wanted]
+        chains = [chain_to_root(node, self._above) for node in wanted]
         common = set(chains[0]).intersection(*chains[1:]) if chains else set()
         used = {self.node_circuit[node]: None for chain in chains for node in chain if node not in common}
         return [circuit for circuit in used if circuit >= 0]

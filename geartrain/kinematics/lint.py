@@ -29,7 +29,7 @@ def _centre_distances(train: Train, tree: Tree, circuits: Sequence[Circuit]) -> 
     In half modules, for spur wheels of one module. Profile shift bridges a tooth or two (30 + 2 x 23 = 76 runs with a
     ring of 78), so this only warns.
     """
-    met: dict[tuple[str, str, str | None], tuple[int, str, bool]] = {}
+    met: dict[tuple[str, str, str], tuple[int, str, bool]] = {}
     at = {gear.name: position for position, gear in enumerate(train.gears)}
     wheels = train.wheels
     for circuit in circuits:
@@ -40,18 +40,10 @@ def _centre_distances(train: Train, tree: Tree, circuits: Sequence[Circuit]) -> 
             if {wheel.kind, other.kind} != {"spur"} or wheel.count is None or other.count is None or wheel.internal:
                 continue
             distance = other.count - wheel.count if other.internal else other.count + wheel.count
-            key = (circuit.carrier, own, _axis_in(tree, link, circuit.carrier))
-            if key[2] is None:
-                continue
+            key = (circuit.carrier, own, tree.axis_seen_from(circuit.carrier, link))
             before = met.setdefault(key, (distance, mate, other.internal))
             if before[0] != distance:
                 yield _distance_problem(train, own, mate, before, distance, at[circuit.id])
-
-
-def _axis_in(tree: Tree, link: str, carrier: str) -> str | None:
-    """The axis on which a link turns as seen from its carrier."""
-    _, labels = tree.path(carrier, link)
-    return labels[-1] if labels else None
 
 
 def _distance_problem(

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from math import lcm, pi
 from typing import TYPE_CHECKING, Any
@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from geartrain.errors import Problem, QuestionError
+from geartrain.numerics.graphs import tree_path
 from geartrain.spherical.configuration import Configuration, kinds_in_order
 
 if TYPE_CHECKING:
@@ -110,18 +111,7 @@ def fundamental_loops(gears: int, meshes: Sequence[tuple[int, int]]) -> Iterator
                     queue.append(other)
     for i, j in meshes:
         if parent[i] != j and parent[j] != i:
-            yield _loop(parent, i, j)
-
-
-def _loop(parent: Mapping[int, int], i: int, j: int) -> list[int]:
-    left, right = [i], [j]
-    for chain in (left, right):
-        while parent[chain[-1]] >= 0:
-            chain.append(parent[chain[-1]])
-    while len(left) > 1 and len(right) > 1 and left[-2] == right[-2]:
-        left.pop()
-        right.pop()
-    return left + right[-2::-1]
+            yield tree_path(i, j, lambda gear: parent[gear] if parent[gear] >= 0 else None)
 
 
 def loop_rules(configuration: Configuration) -> tuple[tuple[Fraction | float, ...], ...]:

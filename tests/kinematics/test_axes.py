@@ -7,8 +7,9 @@ from fractions import Fraction
 
 import pytest
 from models import PAIR, pair, refusal
+from random_trains import random_train
 
-from geartrain import load
+from geartrain import GearTrain, load, shipped
 
 # axes, bevels and worms -----------------------------------------------------------------------------------------------
 
@@ -141,3 +142,13 @@ def test_a_worm_without_positions_has_a_conventional_sense_and_says_so(hand: str
 def test_a_worm_drives_an_external_wheel_only(mate: str) -> None:
     text = PAIR.format(rest="inputs: {a: 1}").replace("p: 20", "p: {teeth: 2, kind: worm}")
     assert "no worm drive" in refusal(text.replace("w: 60", f"w: {mate}"))
+
+
+def test_the_axis_seen_from_a_carrier_is_the_last_one_on_the_way_from_it() -> None:
+    trains = [load(name) for name in shipped()]
+    random = [GearTrain.declare(random_train(seed).data) for seed in range(100)]
+    for train in [*trains, *random]:
+        for circuit in train.circuits:
+            for link in (circuit.i, circuit.j):
+                _, labels = train.tree.path(circuit.carrier, link)
+                assert train.tree.axis_seen_from(circuit.carrier, link) == labels[-1], circuit

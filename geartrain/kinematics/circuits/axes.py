@@ -60,18 +60,12 @@ class Axes:
         parts = (*direction, *cross(_vector(here), direction))
         return {at: part for at, part in enumerate(parts) if part}
 
-    def labels_at(self, i: str, j: str, carrier: str) -> tuple[str | None, str | None]:
-        """The axis labels on which i and j turn in the carrier."""
-        _, first = self.tree.path(i, carrier)
-        _, last = self.tree.path(carrier, j)
-        return (first[0] if first else None), (last[-1] if last else None)
-
     def coefficients(self, i: str, j: str, carrier: str, wheel_i: Wheel, wheel_j: Wheel) -> tuple[int, int, str]:
         """a and b of the circuit, and a note where a sign is a convention."""
         z_i, z_j = wheel_i.count or 0, wheel_j.count or 0
         if "worm" in (wheel_i.kind, wheel_j.kind):
             return self._worm(i, j, carrier, wheel_i, wheel_j)
-        labels = self.labels_at(i, j, carrier)
+        labels = self.tree.axis_seen_from(carrier, i), self.tree.axis_seen_from(carrier, j)
         side_by_side = self.are_parallel(labels)
         if side_by_side and not {"bevel", "contrate"} & {wheel_i.kind, wheel_j.kind}:
             return z_i, -z_j if wheel_i.internal or wheel_j.internal else z_j, ""
@@ -88,9 +82,9 @@ class Axes:
         z_i, z_j = wheel_i.count or 0, wheel_j.count or 0
         worm_first = wheel_i.kind == "worm"
         hand = 1 if (wheel_i if worm_first else wheel_j).hand == "right" else -1
-        label_i, label_j = self.labels_at(i, j, carrier)
+        label_i, label_j = self.tree.axis_seen_from(carrier, i), self.tree.axis_seen_from(carrier, j)
         worm, wheel = (label_i, label_j) if worm_first else (label_j, label_i)
-        here, there = self.positions.get(worm or ""), self.positions.get(wheel or "")
+        here, there = self.positions.get(worm), self.positions.get(wheel)
         turn = Fraction(0)
         if here is not None and there is not None:
             arm, centre = _vector(here), _vector(there)

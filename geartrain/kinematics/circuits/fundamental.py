@@ -80,7 +80,7 @@ def find_circuits(train: Train, tree: Tree) -> tuple[Circuit, ...]:
         if carrier is None:
             problems.append(_no_carrier(train, tree, coupling.name, coupling.slot, coupling.pin, ("couplings", at)))
             continue
-        labels = axes.labels_at(coupling.slot, coupling.pin, carrier)
+        labels = tree.axis_seen_from(carrier, coupling.slot), tree.axis_seen_from(carrier, coupling.pin)
         if not axes.are_parallel(labels):
             problems.append(_oblique_pin(train, coupling, labels, at))
             continue
@@ -138,7 +138,7 @@ def _no_carrier(train: Train, tree: Tree, name: str, i: str, j: str, loc: tuple[
     return Problem(f"'{name}' has no carrier", why, fix, train.place(*loc))
 
 
-def _oblique_pin(train: Train, coupling: Coupling, labels: Sequence[str | None], at: int) -> Problem:
+def _oblique_pin(train: Train, coupling: Coupling, labels: Sequence[str], at: int) -> Problem:
     return Problem(
         f"coupling '{coupling.name}': the axes '{labels[1]}' of its pin and '{labels[0]}' of its slot are not parallel",
         "a pin slides along its slot in one plane, and these turn in two",

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 from geartrain.errors import DeclarationError, Problem
 from geartrain.numerics.containers import FrozenFields, collector_paused
+from geartrain.numerics.graphs import ways_to_common_ancestor
 from geartrain.train import Train
 
 
@@ -27,23 +28,27 @@ class Tree(FrozenFields):
         """The label of the joint nearest the frame; None for the frame itself."""
         return self.parent[link][1] if link in self.parent else None
 
-    def chain(self, link: str) -> list[str]:
-        """The links from `link` to the frame, as declared."""
-        chain = [link]
-        while link in self.parent:
-            link = self.parent[link][0]
-            chain.append(link)
-        return chain
+    def above(self, link: str) -> str | None:
+        """The next link towards the frame, as declared; None for the frame itself."""
+        return self.parent[link][0] if link in self.parent else None
+
+    def bears(self, carrier: str, link: str) -> bool:
+        """True if the axis of `link` is one that the carrier bears and carries along."""
+        return self.top.get(link) == carrier
+
+    def axis_seen_from(self, carrier: str, link: str) -> str:
+        """The axis on which a link of a circuit turns as seen from the circuit's carrier.
+
+        Its own where the carrier bears it; else it is coaxial with the carrier, or bears the carrier's axis: the
+        carrier's own then.
+        """
+        return self.parent[link if self.bears(carrier, link) else carrier][1]
 
     def path(self, i: str, j: str) -> tuple[list[str], list[str]]:
         """The tree path from i to j: its links, and the axis labels between them."""
-        up, down = self.chain(i), self.chain(j)
-        while len(up) > 1 and len(down) > 1 and up[-2] == down[-2]:
-            up.pop()
-            down.pop()
-        down.pop()
-        labels = [self.parent[link][1] for link in up[:-1]] + [self.parent[link][1] for link in reversed(down)]
-        return up + down[::-1], labels
+        up, down = ways_to_common_ancestor(i, j, self.above)
+        labels = [self.parent[link][1] for link in [*up[:-1], *down[-2::-1]]]
+        return up + down[-2::-1], labels
 
 
 @collector_paused()

@@ -16,6 +16,7 @@ from geartrain.errors import DeclarationError, Loc, Problem
 from geartrain.kinematics.circuits.axes import Axes, joint_sum_links
 from geartrain.kinematics.circuits.joint_tree import Tree
 from geartrain.numerics.exact import eliminate
+from geartrain.numerics.graphs import ways_to_common_ancestor
 from geartrain.train import StateCase, Train
 
 JointOnLine = tuple[str, str, tuple[str, ...]]
@@ -86,11 +87,10 @@ class _Lines:
 
     def joints(self, a: str, b: str) -> tuple[JointOnLine, ...]:
         """The joints between two links, one for each line; each link hung on the one that bears its axis."""
-        up, down = self._chain(a), self._chain(b)
-        while up and down and up[-1] == down[-1]:
-            up.pop()
-            down.pop()
-        steps = up + [(outer, inner, label) for inner, outer, label in reversed(down)]
+        parent, top = self._tree.parent, self._tree.top
+        up, down = ways_to_common_ancestor(a, b, top.get)
+        steps = [(link, top[link], parent[link][1]) for link in up[:-1]]
+        steps += [(top[link], link, parent[link][1]) for link in down[-2::-1]]
         found: list[JointOnLine] = []
         for start, end, label in steps:
             if found and self._alike(found[-1][2][-1], label):
@@ -100,14 +100,6 @@ class _Lines:
             else:
                 found.append((start, end, (label,)))
         return tuple(found)
-
-    def _chain(self, link: str) -> list[tuple[str, str, str]]:
-        """From a link to the frame, one step for each axis."""
-        tree, steps = self._tree, []
-        while link in tree.parent:
-            steps.append((link, tree.top[link], tree.parent[link][1]))
-            link = tree.top[link]
-        return steps
 
     def _alike(self, one: str, other: str) -> bool:
         return one == other or self._axes.are_one_line(one, other)

@@ -23,9 +23,7 @@ def shaft_angle(train: Train, tree: Tree, circuit: Circuit) -> float | None:
     axes = Axes(train, tree)
     if axes.plain:
         return None
-    _, first = tree.path(circuit.i, circuit.carrier)
-    _, last = tree.path(circuit.carrier, circuit.j)
-    labels = first[0], last[-1]
+    labels = [tree.axis_seen_from(circuit.carrier, link) for link in (circuit.i, circuit.j)]
     u, v = (_floats(axes.direction(label)) for label in labels)
     across = cross(u, v)
     size = sqrt(dot(across, across))

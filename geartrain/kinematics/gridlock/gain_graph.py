@@ -13,6 +13,8 @@ from functools import cached_property
 from itertools import pairwise
 from typing import NamedTuple
 
+from geartrain.numerics.graphs import tree_path, ways_to_common_ancestor
+
 Gain = Fraction | int
 GainLoop = list[tuple[int, int]]
 """A closed walk: at each step the node it leaves and the mesh it takes."""
@@ -87,20 +89,13 @@ class GainWalk(NamedTuple):
     breaking: dict[int, Gain]
     chords: list[int]
 
-    def back(self, node: int) -> list[int]:
-        """The nodes from here to the root."""
-        chain = [node]
-        while self.parent[node] >= 0:
-            node = self.parent[node]
-            chain.append(node)
-        return chain
+    def above(self, node: int) -> int | None:
+        """The node from which another was reached; None for a root."""
+        return self.parent[node] if self.parent[node] >= 0 else None
 
     def loop(self, mesh: int, ends: tuple[int, int]) -> GainLoop:
         """The loop a chord closes, from where its two ways to the root part; the chord follows its first end."""
-        up, down = self.back(ends[0]), self.back(ends[1])
-        while len(up) > 1 and len(down) > 1 and up[-2] == down[-2]:
-            up.pop()
-            down.pop()
+        up, down = ways_to_common_ancestor(*ends, self.above)
         there = [(self.parent[node], self.entry[node]) for node in up[-2::-1]]
         return [*there, (ends[0], mesh), *((node, self.entry[node]) for node in down[:-1])]
 
@@ -161,7 +156,7 @@ def single_mesh_removals(network: GainGraph, found: GainWalk) -> list[int]:
     if not found.breaking:
         return []
     chord = next(iter(found.breaking))
-    path = _path(found, *network.ends[chord])
+    path = tree_path(*network.ends[chord], found.above)
     anchors = _anchors(found, path)
     opened, agreed, amounts = [0] * (len(path) + 1), [0] * (len(path) + 1), set()
     for mesh, amount in found.breaking.items():
@@ -180,15 +175,6 @@ def single_mesh_removals(network: GainGraph, found: GainWalk) -> list[int]:
         if open_here == len(found.breaking) and not agreed_here and len(amounts) == 1:
             singles.append(found.entry[first] if found.parent[first] == second else found.entry[second])
     return [mesh for mesh in singles if mesh not in network.firm]
-
-
-def _path(found: GainWalk, first: int, second: int) -> list[int]:
-    """The nodes of the tree's path between two nodes."""
-    up, down = found.back(first), found.back(second)
-    while len(up) > 1 and len(down) > 1 and up[-2] == down[-2]:
-        up.pop()
-        down.pop()
-    return up + down[-2::-1]
 
 
 def _anchors(found: GainWalk, path: Sequence[int]) -> list[int]:
@@ -278,22 +264,8 @@ def _loop_through(network: GainGraph, without: Collection[int], start: int, belo
                 queue.append(there)
             elif speed[there] != gained and depth[here] + depth[there] + 1 < below:
                 best, below = (here, mesh, there), depth[here] + depth[there] + 1
-    return None if best is None else _closed(came, *best)
-
-
-def _closed(came: Mapping[int, tuple[int, int]], here: int, mesh: int, there: int) -> GainLoop:
-    """The loop of a chord, without the stretch that its two ways back share."""
-    up: GainLoop = []
-    node = here
-    while node in came:
-        up.append(came[node])
-        node = came[node][0]
-    down: GainLoop = []
-    node = there
-    while node in came:
-        down.append((node, came[node][1]))
-        node = came[node][0]
-    while up and down and up[-1][1] == down[-1][1]:
-        up.pop()
-        down.pop()
-    return [*up[::-1], (here, mesh), *down]
+    if best is None:
+        return None
+    here, mesh, there = best
+    up, down = ways_to_common_ancestor(here, there, lambda node: came[node][0] if node in came else None)
+    return [*(came[node] for node in up[-2::-1]), (here, mesh), *((node, came[node][1]) for node in down[:-1])]

@@ -60,7 +60,7 @@ def place_pitch_points(train: Train, tree: Tree, circuits: Sequence[Circuit]) ->
         if circuit.kind != "gear":
             left_out.append(UnplacedPair(circuit.id, "a pin in a slot has no teeth"))
             continue
-        first, second = (axes.get(_label(tree, link, circuit.carrier), plain) for link in (circuit.i, circuit.j))
+        first, second = (axes.get(tree.axis_seen_from(circuit.carrier, link), plain) for link in (circuit.i, circuit.j))
         found = _contact(train, circuit, first, second)
         if isinstance(found, str):
             left_out.append(UnplacedPair(circuit.id, found))
@@ -85,12 +85,6 @@ def mount_frame_wheels(circuit: Circuit, frame: str) -> Circuit:
     return circuit._replace(
         i=f"{frame}{MOUNT}{first}" if i == frame else i, j=f"{frame}{MOUNT}{second}" if j == frame else j
     )
-
-
-def _label(tree: Tree, link: str, carrier: str) -> str:
-    """The axis on which a link of a pair turns as seen from the pair's carrier."""
-    own = tree.axis(link)
-    return (own if tree.top.get(link) == carrier else tree.axis(carrier) or own) or ""
 
 
 # ---------------------------------------------------------------------------------------------------------------- axes

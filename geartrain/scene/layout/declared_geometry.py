@@ -100,7 +100,7 @@ def read_geometry(train: GearTrain) -> DeclaredGeometry:
     couplings = {coupling.name: coupling for coupling in declared.couplings}
     stretches = _stretches(train)
     for circuit in train.circuits:
-        ends = label(tree, circuit.i, circuit.carrier), label(tree, circuit.j, circuit.carrier)
+        ends = tree.axis_seen_from(circuit.carrier, circuit.i), tree.axis_seen_from(circuit.carrier, circuit.j)
         if circuit.kind != "gear":
             coupling = couplings[circuit.id]
             offset = None if coupling.offset is None else millimetres(coupling.offset)
@@ -113,12 +113,6 @@ def read_geometry(train: GearTrain) -> DeclaredGeometry:
     for wheel, (link, _) in declared.wheels.items():
         axis.setdefault(wheel, tree.axis(link) or next(iter(lines), ""))
     return DeclaredGeometry(lines, axis, tuple(touches), tuple(ties), declared.wheels, tuple(strays))
-
-
-def label(tree: Tree, link: str, carrier: str) -> str:
-    """The axis on which a link turns as seen from a carrier."""
-    own = tree.axis(link)
-    return (own if tree.top.get(link) == carrier else tree.axis(carrier) or own) or ""
 
 
 def millimetres(length: Quantity) -> Fraction:

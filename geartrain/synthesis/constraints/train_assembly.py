@@ -169,7 +169,10 @@ class TrainAssembly:
             circuit.carrier,
             circuit.wheels,
             (circuit.i, circuit.j),
-            (self._axis(circuit.i, circuit.carrier), self._axis(circuit.j, circuit.carrier)),
+            (
+                self.tree.axis_seen_from(circuit.carrier, circuit.i),
+                self.tree.axis_seen_from(circuit.carrier, circuit.j),
+            ),
             (self.part(circuit.wheels[0]), self.part(circuit.wheels[1])),
             1 if circuit.a * circuit.b > 0 else -1,
             0 if first.internal else 1 if second.internal else None,
@@ -220,15 +223,6 @@ class TrainAssembly:
         number: dict[int, int] = {}
         return {wheel: number.setdefault(id(members), len(number)) for wheel, members in group.items()}
 
-    def _axis(self, link: str, carrier: str) -> str:
-        """The axis on which a link turns as seen from the carrier of a pair: borne by it, or the carrier's own."""
-        own = self.tree.axis(link)
-        return (own if self.is_borne(link, carrier) else self.tree.axis(carrier) or own) or ""
-
-    def is_borne(self, link: str, carrier: str) -> bool:
-        """True if the axis of a link is one that the carrier carries along."""
-        return self.tree.top.get(link) == carrier
-
     @cached_property
     def sets(self) -> tuple[PlanetSet, ...]:
         """The sets of planets on carriers other than the frame; those declared alike are copies of the first."""
@@ -246,7 +240,7 @@ class TrainAssembly:
         """Planets of a carrier, those together that mesh with each other."""
         group: dict[str, list[str]] = {}
         for mesh in self._meshes_of(carrier):
-            borne = [link for link in mesh.links if self.is_borne(link, carrier)]
+            borne = [link for link in mesh.links if self.tree.bears(carrier, link)]
             for link in borne:
                 group.setdefault(link, [link])
             if len(borne) == 2 and group[borne[0]] is not group[borne[1]]:
@@ -273,7 +267,7 @@ class TrainAssembly:
         """Meshes of a planet with central wheels, by the names of those."""
         found = [mesh for mesh in self._meshes_of(carrier) if link in mesh.links]
         sides = [(mesh, 1 - mesh.links.index(link)) for mesh in found]
-        sides = [(mesh, side) for mesh, side in sides if not self.is_borne(mesh.links[side], carrier)]
+        sides = [(mesh, side) for mesh, side in sides if not self.tree.bears(carrier, mesh.links[side])]
         return [mesh for mesh, _ in sorted(sides, key=lambda each: each[0].wheels[each[1]])]
 
     def _planet(self, carrier: str, link: str, inward: AssemblyMesh | None, among: list[AssemblyMesh]) -> Planet:

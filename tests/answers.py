@@ -42,7 +42,8 @@ from typing import Any, NamedTuple, NoReturn
 
 ROOT = Path(__file__).resolve().parent.parent
 RENAMED: dict[str, str] = {}
-"""Old spellings and new: of a verb (`geartrain sweep`) where a command begins so, of an option (`--free`) anywhere."""
+"""Old spellings and new: of a verb where a command begins so ("geartrain mesh pin": "geartrain pin"), of an option
+wherever it stands ("--free": "--in-doubt")."""
 
 EACH = (
     *("solve {} --json", "solve {}", "solve {} --method floats --json", "check {}", "report {} --json", "report {}"),
@@ -208,14 +209,12 @@ def _states(train: str) -> list[str]:
 def respelled(command: str) -> list[str]:
     """The words of a command in today's spelling."""
     words = shlex.split(command)
-    for old, new in sorted(RENAMED.items(), key=lambda each: -len(each[0].split())):
-        begin = old.split()
-        if old.startswith("-"):
-            words = [new if word == old else word for word in words]
-        elif words[: len(begin)] == begin:
-            words = new.split() + words[len(begin) :]
-            break
-    return words
+    verbs = [old.split() for old in RENAMED if not old.startswith("-")]
+    begins = [verb for verb in verbs if words[: len(verb)] == verb]
+    if begins:
+        verb = max(begins, key=len)
+        words = RENAMED[" ".join(verb)].split() + words[len(verb) :]
+    return [RENAMED.get(word, word) if word.startswith("-") else word for word in words]
 
 
 def answers(group: Group, wanted: Callable[[str], bool]) -> list[Answer]:

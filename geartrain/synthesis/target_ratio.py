@@ -93,8 +93,9 @@ def read_ratio(text: str, per: str | None = None) -> TargetRatio:
     the opposite; without one the sense is free. Speeds of the table that are retrograde count by magnitude.
     `QuestionError` for what has no meaning or more than one.
 
-    >>> read_ratio("-235 months / 19 years")
-    TargetRatio(value=Fraction(235, 19), sense=-1, label='-235 months / 19 years', note='235 months in the time of 19 years')
+    >>> ratio = read_ratio("-235 months / 19 years")
+    >>> ratio.value, ratio.sense, ratio.note
+    (Fraction(235, 19), -1, '235 months in the time of 19 years')
     """
     if len(text) > _MOST_CHARACTERS:
         raise _problem(f"a ratio of {len(text)} characters", "a number has at most 400", f"write {_WAYS}")

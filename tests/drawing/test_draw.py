@@ -507,7 +507,7 @@ def test_a_row_twice_as_long_takes_twice_the_steps_to_draw() -> None:
         scene, steps = make_scene(train), [0]
 
         def entered(frame: FrameType, event: str, _: object, steps: list[int] = steps) -> None:
-            steps[0] += event == "call" and Path(frame.f_code.co_filename).parent.name == "plot"
+            steps[0] += event == "call" and Path(frame.f_code.co_filename).parent.name == "drawing"
 
         sys.setprofile(entered)
         try:

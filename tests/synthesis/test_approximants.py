@@ -368,8 +368,8 @@ def test_impossible_questions_are_refused() -> None:
 def test_pairs_are_found_without_an_array_library() -> None:
     code = """
 import sys
-from geartrain.synthesis.pairs import find_pairs
-from geartrain.synthesis.targets import read_ratio
+from geartrain.synthesis.gear_pair_search import find_pairs
+from geartrain.synthesis.target_ratio import read_ratio
 assert find_pairs(read_ratio("235/19"), range(30, 300), range(12, 60))[0].teeth == (235, 19)
 assert not {"numpy", "scipy", "networkx", "matplotlib"} & set(sys.modules)
 """

@@ -1,0 +1,163 @@
+"""The house of the package: its rooms, its words, and the size of what stands in them."""
+
+from __future__ import annotations
+
+import ast
+import importlib
+import re
+from collections import defaultdict
+from collections.abc import Iterator
+from functools import cache
+from pathlib import Path
+
+import networkx
+from places import ROOT, TESTS
+
+PACKAGE = ROOT / "geartrain"
+ROOMS = {
+    *("cli", "report", "drawing", "viewer", "export", "scene", "uncertainty", "synthesis", "spherical", "analysis"),
+    *("dynamics", "kinematics", "train", "teeth", "numerics", "errors"),
+}
+# bench is no room of the house: it measures all of them
+BESIDE = {"__init__", "__main__", "py", "bench"}
+
+# words in -ing and -ed that the field uses as nouns, and names that wait for a better one
+NOUNS = {"bearing", "coupling", "drawing", "manufacturing", "matching", "packing", "phasing", "scaling", "sharing"}
+WAITING = {
+    *("closing", "marching", "timing"),  # of bench
+    *("stage_pairing", "stage_ranking", "reconstructions_compared", "tooth_forms_compared"),
+}
+
+# classes of bench that have one name
+SHARED = {"Case", "Effort"}
+
+LONGEST = 350
+# each waits to be split; nothing may be added
+TOO_LONG = {
+    "analysis/gear_train.py",
+    "dynamics/motion/motion_model.py",
+    "kinematics/speeds/exact_speeds.py",
+    "kinematics/speeds/float_speeds.py",
+    "numerics/exact.py",
+    "report/json_schema.py",
+    "scene/train_teeth.py",
+    "train/references.py",
+}
+
+
+@cache
+def modules() -> dict[str, Path]:
+    """Every module of the package by its dotted name."""
+    found = sorted(path.relative_to(ROOT) for path in PACKAGE.rglob("*.py"))
+    return {".".join(path.with_suffix("").parts).removesuffix(".__init__"): path for path in found}
+
+
+def syntax(path: Path) -> ast.Module:
+    return ast.parse((ROOT / path).read_text(encoding="utf-8"))
+
+
+def test_every_entry_of_the_package_is_a_room_of_the_house() -> None:
+    entries = {path.name.partition(".")[0] for path in PACKAGE.iterdir() if path.name != "__pycache__"}
+    assert entries - BESIDE == ROOMS
+
+
+def test_every_room_says_what_it_is() -> None:
+    rooms = [name for name, path in modules().items() if path.name == "__init__.py"]
+    silent = [name for name in rooms if not ast.get_docstring(syntax(modules()[name]))]
+    assert silent == []
+
+
+def test_a_folder_holds_two_modules_or_more_and_none_lies_deeper_than_the_second_floor() -> None:
+    folders = {path.parent for path in PACKAGE.rglob("*.py")}
+    assert [str(folder) for folder in folders if len(list(folder.glob("*.py"))) < 2] == []
+    assert [str(folder) for folder in folders if len(folder.relative_to(PACKAGE).parts) > 2] == []
+
+
+def test_no_two_public_classes_share_a_name() -> None:
+    homes: dict[str, list[str]] = defaultdict(list)
+    for name, path in modules().items():
+        for part in syntax(path).body:
+            if isinstance(part, ast.ClassDef) and not part.name.startswith("_"):
+                homes[part.name].append(name)
+    assert {name: where for name, where in homes.items() if len(where) > 1 and name not in SHARED} == {}
+
+
+def test_modules_are_named_by_nouns() -> None:
+    def participle(stem: str) -> bool:
+        last = stem.rpartition("_")[2]
+        return last.endswith(("ing", "ed")) and last not in NOUNS and stem not in WAITING
+
+    stems = {part for name in modules() for part in name.split(".")}
+    assert sorted(filter(participle, stems)) == []
+
+
+def test_no_module_is_too_long_to_read_in_one_go() -> None:
+    long = {
+        str(path.relative_to("geartrain"))
+        for path in modules().values()
+        if len((ROOT / path).read_text(encoding="utf-8").splitlines()) > LONGEST
+    }
+    assert long - TOO_LONG == set()
+
+
+def imported(body: list[ast.stmt]) -> Iterator[str]:
+    """What a module imports when it is itself imported; not what its functions import when they are called."""
+    for part in body:
+        match part:
+            case ast.Import(names=names):
+                yield from (each.name for each in names)
+            case ast.ImportFrom(module=str(source), names=names):
+                for each in names:
+                    inner = f"{source}.{each.name}"
+                    yield inner if inner in modules() else source
+            case ast.Try(body=inner_body):
+                yield from imported(inner_body)
+
+
+def test_no_circle_of_imports_not_even_inside_a_room() -> None:
+    graph = networkx.DiGraph(
+        (name, other) for name, path in modules().items() for other in imported(syntax(path).body) if other in modules()
+    )
+    circles = [sorted(each) for each in networkx.strongly_connected_components(graph) if len(each) > 1]
+    assert circles == []
+
+
+# ----------------------------------------------------------------------------- names of modules in texts and in strings
+
+# files whose `geartrain` is the object that a page with the viewer gives to scripts
+OF_THE_PAGE = {"docs/viewer.md", *(f"tests/browser/{path.name}" for path in (TESTS / "browser").glob("*.py"))}
+# files that a command writes, and a name that is to be missing
+NO_MODULE = {"geartrain.schema.json", "geartrain.drawing.nothing"}
+
+
+def dotted_names() -> Iterator[tuple[str, str]]:
+    """Each dotted name below `geartrain` in tests, in the documentation and in settings, with its place."""
+    files = [ROOT / "README.md", ROOT / "pyproject.toml", ROOT / "mkdocs.yml"]
+    for folder in (TESTS, ROOT / "docs"):
+        files += [path for path in folder.rglob("*") if path.suffix in (".py", ".md", ".yml")]
+    for path in files:
+        place = str(path.relative_to(ROOT))
+        if place not in OF_THE_PAGE:
+            for name in re.findall(r"\bgeartrain(?:\.[A-Za-z_]\w*)+", path.read_text(encoding="utf-8")):
+                yield name, place
+
+
+def exists(name: str) -> bool:
+    """Whether a dotted name is a module, or an attribute of one, or an attribute of that."""
+    parts = name.split(".")
+    known = max(at for at in range(1, len(parts) + 1) if ".".join(parts[:at]) in modules())
+    thing: object = importlib.import_module(".".join(parts[:known]))
+    for part in parts[known:]:
+        if not hasattr(thing, part):
+            return False
+        thing = getattr(thing, part)
+    return True
+
+
+def test_every_module_that_a_test_or_a_page_names_is_there() -> None:
+    """A test that asks whether an old name is *not* imported would go on passing and ask nothing."""
+    places = defaultdict(set)
+    for name, place in dotted_names():
+        places[name].add(place)
+    missing = {name: sorted(where) for name, where in places.items() if name not in NO_MODULE and not exists(name)}
+    assert missing == {}

@@ -3,7 +3,7 @@
 exact, factored_ratios, long_float   integers and Fractions of any length; floats with an exponent of their own
 integer_lattice, rational_angles     integer rows in a rational span; angles as parts of a turn
 vectors                              three numbers as a vector in space, exact where they are
-graphs                               paths in a rooted forest
+graphs                               paths in a rooted forest, groups of what is joined
 block_triangular                     matching, then strongly connected components (Dulmage and Mendelsohn)
 roots, chandrupatla                  many bracketed roots at once
 chebyshev, polynomial_pieces         functions as series and as pieces of polynomials

@@ -1,12 +1,13 @@
-"""Paths in a rooted forest: what several rooms ask of a small graph.
+"""Paths in a rooted forest, and groups of things that are joined: what several rooms ask of a small graph.
 
 A forest is given by the vertex above each one; None above a root. It may be as deep as it likes: nothing recurs.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable
-from typing import TypeVar
+from collections.abc import Callable, Hashable, Iterable
+from itertools import pairwise
+from typing import Generic, TypeVar
 
 V = TypeVar("V", bound=Hashable)
 
@@ -38,3 +39,45 @@ def tree_path(i: V, j: V, above: Callable[[V], V | None]) -> list[V]:
     """The vertices on the way from i to j in one tree, both ends included."""
     up, down = ways_to_common_ancestor(i, j, above)
     return up + down[-2::-1]
+
+
+class DisjointSets(Generic[V]):
+    """Things in groups that only grow together (union-find); a thing not heard of before is a group by itself."""
+
+    def __init__(self) -> None:
+        self._above: dict[V, V] = {}
+
+    def find(self, thing: V) -> V:
+        """The head of a thing's group: the same for all of its members until the group grows."""
+        above = self._above
+        while (head := above.setdefault(thing, thing)) != thing:
+            thing = above[thing] = above[head]  # halves the way for the next to ask
+        return thing
+
+    def join(self, first: V, second: V) -> None:
+        """Make one group of the groups of two things."""
+        self._above[self.find(second)] = self.find(first)
+
+    def are_apart(self, first: V, second: V) -> bool:
+        """True if two things are in different groups."""
+        return self.find(first) != self.find(second)
+
+
+def joined_groups(things: Iterable[V], joints: Iterable[Iterable[V]]) -> list[list[V]]:
+    """The groups of things that joints, each between any number of things, hold together.
+
+    Groups stand in the order of their first members, and members in the order given. What a joint names beside the
+    things does not count.
+
+    >>> joined_groups("abcde", ["cax", "eb", "xd"])
+    [['a', 'c'], ['b', 'e'], ['d']]
+    """
+    sets: DisjointSets[V] = DisjointSets()
+    order = dict.fromkeys(things)
+    for joint in joints:
+        for first, second in pairwise(thing for thing in joint if thing in order):
+            sets.join(first, second)
+    groups: dict[V, list[V]] = {}
+    for thing in order:
+        groups.setdefault(sets.find(thing), []).append(thing)
+    return list(groups.values())

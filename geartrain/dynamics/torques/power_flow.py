@@ -12,11 +12,13 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
+from itertools import chain
 from typing import Any, Literal, NamedTuple
 
 from geartrain.dynamics.torques.torque_results import Torques
 from geartrain.kinematics.circuits import Tree, close_joints
 from geartrain.numerics.exact import as_float
+from geartrain.numerics.graphs import joined_groups
 from geartrain.numerics.quantity import RADIANS_PER_TURN
 from geartrain.train import StateCase, Train
 
@@ -141,11 +143,9 @@ def find_power_flow(train: Train, tree: Tree, signs: Mapping[str, int], found: T
 
 def _shafts(locks: Iterable[tuple[str, str]]) -> dict[str, PowerNode]:
     """The shaft of every link that is locked to another one, named by all its links."""
-    groups: dict[str, tuple[str, ...]] = {}
-    for a, b in locks:
-        joined = tuple(dict.fromkeys((*groups.get(a, (a,)), *groups.get(b, (b,)))))
-        groups |= dict.fromkeys(joined, joined)
-    return {link: PowerNode("shaft", " + ".join(group)) for link, group in groups.items()}
+    pairs = list(locks)
+    groups = joined_groups(chain(*pairs), pairs)
+    return {link: PowerNode("shaft", " + ".join(group)) for group in groups for link in group}
 
 
 def _takers(

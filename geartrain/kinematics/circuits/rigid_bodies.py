@@ -16,7 +16,7 @@ from geartrain.errors import DeclarationError, Loc, Problem
 from geartrain.kinematics.circuits.axes import Axes, joint_sum_links
 from geartrain.kinematics.circuits.joint_tree import Tree
 from geartrain.numerics.exact import eliminate
-from geartrain.numerics.graphs import ways_to_common_ancestor
+from geartrain.numerics.graphs import DisjointSets, ways_to_common_ancestor
 from geartrain.train import StateCase, Train
 
 JointOnLine = tuple[str, str, tuple[str, ...]]
@@ -125,10 +125,10 @@ class _Bodies:
 
     def __init__(self, lines: _Lines, case: StateCase) -> None:
         self._lines = lines
-        self._body: dict[str, str] = {}
+        self._bodies: DisjointSets[str] = DisjointSets()
         for rigid in rigid_connections(lines, case):
             if len(rigid.joints) == 1:
-                self._join(*rigid.joints[0][:2])
+                self._bodies.join(*rigid.joints[0][:2])
 
     def close(self, across: Sequence[Rigid]) -> tuple[list[tuple[Rigid, JointOnLine]], list[Rigid]]:
         """The joints that must be closed, each with its cause, and the prescriptions that would make linkages."""
@@ -141,23 +141,15 @@ class _Bodies:
             rigid = able[0]
             waiting.remove(rigid)
             for joint in self._open(rigid):
-                self._join(*joint[:2])
+                self._bodies.join(*joint[:2])
                 closed.append((rigid, joint))
         return closed, waiting
 
     def _open(self, rigid: Rigid) -> list[JointOnLine]:
-        return [joint for joint in rigid.joints if self._find(joint[0]) != self._find(joint[1])]
+        return [joint for joint in rigid.joints if self._bodies.are_apart(joint[0], joint[1])]
 
     def _labels(self, rigid: Rigid) -> list[str]:
         return [labels[0] for _, _, labels in self._open(rigid)]
-
-    def _join(self, a: str, b: str) -> None:
-        self._body[self._find(a)] = self._find(b)
-
-    def _find(self, link: str) -> str:
-        while self._body.get(link, link) != link:
-            link = self._body[link]
-        return link
 
 
 def _joint_by_joint(

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 
+from geartrain.numerics.graphs import DisjointSets
+
 AxialSlots = tuple[int, int]
 """The lowest and the highest shelf that a wheel stands on."""
 
@@ -32,18 +34,12 @@ def find_axial_slots(meshes: Sequence[tuple[str, str]], overlap: Callable[[str, 
 
 
 def _groups(meshes: Sequence[tuple[str, str]]) -> list[list[tuple[str, str]]]:
-    head: dict[str, str] = {}
-
-    def find(wheel: str) -> str:
-        while head.setdefault(wheel, wheel) != wheel:
-            wheel = head[wheel]
-        return wheel
-
+    wheels: DisjointSets[str] = DisjointSets()
     for first, second in meshes:
-        head[find(second)] = find(first)
+        wheels.join(first, second)
     groups: dict[str, list[tuple[str, str]]] = {}
     for mesh in meshes:
-        groups.setdefault(find(mesh[0]), []).append(mesh)
+        groups.setdefault(wheels.find(mesh[0]), []).append(mesh)
     return list(groups.values())
 
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from itertools import pairwise
 from math import hypot
 
+from geartrain.numerics.graphs import DisjointSets
 from geartrain.numerics.vectors import Vector, dot
 from geartrain.scene.layout.axis_placement import PlacementProblem, Point
 from geartrain.scene.layout.declared_geometry import AxisLine, DeclaredGeometry, PitchContact
@@ -64,17 +65,19 @@ class PlacementProblems:
     ) -> None:
         """Distances of a likeness, for pins without dimensions and carried axes that mesh with nothing on the way."""
         radius = {label: max((disc.outer for disc in discs[label]), default=1.0) for label in labels}
-        joined = _Joined(labels, distances)
+        joined: DisjointSets[str] = DisjointSets()
+        for pair in distances:
+            joined.join(*pair)
         for tie in self.reading.ties:
             pair = (min(tie.axes), max(tie.axes))
             if tie.offset is None and set(pair) <= set(labels) and pair not in distances:
                 if tie.encloses:
                     distances[pair] = 0.12 * min(radius[end] for end in pair)
-                elif joined.apart(*pair):
+                elif joined.are_apart(*pair):
                     distances[pair] = 1.6 * radius[tie.axes[0]]
                 joined.join(*pair)
         for label, pivot in pivots.items():
-            if pivot in radius and joined.apart(label, pivot):
+            if pivot in radius and joined.are_apart(label, pivot):
                 distances[min(label, pivot), max(label, pivot)] = 1.2 * (
                     radius[label] + min(radius[pivot], radius[label])
                 )
@@ -115,27 +118,6 @@ class PlacementProblems:
             if len(found) > 1 and {touch.kind for _, touch in found} == {"side", "ring"}:
                 counts = {touch.kind: self.reading.wheels[mate][1].count or 1 for mate, touch in found}
                 yield axis, counts["side"] + counts["ring"]
-
-
-class _Joined:
-    """Which axes hang together."""
-
-    def __init__(self, labels: list[str], distances: Mapping[tuple[str, str], float]) -> None:
-        self.head = {label: label for label in labels}
-        for pair in distances:
-            self.join(*pair)
-
-    def _find(self, label: str) -> str:
-        while self.head[label] != label:
-            self.head[label] = self.head[self.head[label]]
-            label = self.head[label]
-        return label
-
-    def join(self, first: str, second: str) -> None:
-        self.head[self._find(first)] = self._find(second)
-
-    def apart(self, first: str, second: str) -> bool:
-        return self._find(first) != self._find(second)
 
 
 def flat(point: Vector, x: Vector, y: Vector) -> Point:

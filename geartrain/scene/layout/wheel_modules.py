@@ -12,6 +12,7 @@ from heapq import heappop, heappush
 from itertools import pairwise
 from statistics import median
 
+from geartrain.numerics.graphs import joined_groups
 from geartrain.numerics.vectors import across, cross, dot, minus, size, unit
 from geartrain.scene.layout.declared_geometry import DeclaredGeometry, PinSlotTie, PitchContact, millimetres
 
@@ -170,19 +171,9 @@ def find_wheel_modules(reading: DeclaredGeometry) -> WheelModules:
 
 
 def _clusters(reading: DeclaredGeometry) -> dict[str, int]:
-    head = {wheel: wheel for wheel in reading.wheels}
-
-    def find(wheel: str) -> str:
-        while head[wheel] != wheel:
-            head[wheel] = head[head[wheel]]
-            wheel = head[wheel]
-        return wheel
-
-    for touch in reading.touches:
-        first, second = map(find, touch.wheels)
-        head[second] = first
-    numbers: dict[str, int] = {}
-    return {wheel: numbers.setdefault(find(wheel), len(numbers)) for wheel in head}
+    groups = joined_groups(reading.wheels, (touch.wheels for touch in reading.touches))
+    number = {wheel: at for at, group in enumerate(groups) for wheel in group}
+    return {wheel: number[wheel] for wheel in reading.wheels}
 
 
 def _by_axes(reading: DeclaredGeometry) -> dict[tuple[str, str], list[PitchContact]]:

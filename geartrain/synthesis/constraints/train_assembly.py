@@ -6,9 +6,11 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
+from itertools import chain
 from typing import TYPE_CHECKING, Literal
 
 from geartrain.kinematics.circuits import Circuit, Tree, find_circuits, find_tree
+from geartrain.numerics.graphs import joined_groups
 from geartrain.synthesis.constraints.count_conditions import LinearSum
 
 if TYPE_CHECKING:
@@ -212,16 +214,10 @@ class TrainAssembly:
     @cached_property
     def kin(self) -> Mapping[str, int]:
         """Wheels that must share a module, for they mesh or mesh with wheels that do: the number of their group."""
-        group = {wheel: [wheel] for wheel in self.train.wheels}
-        for circuit in self.circuits:
-            if circuit.kind != "gear" or any(self.train.wheels[wheel][1].kind == "worm" for wheel in circuit.wheels):
-                continue
-            one, other = (group[wheel] for wheel in circuit.wheels)
-            if one is not other:
-                joined = one + other
-                group.update(dict.fromkeys(joined, joined))
-        number: dict[int, int] = {}
-        return {wheel: number.setdefault(id(members), len(number)) for wheel, members in group.items()}
+        worms = {wheel for wheel, (_, kind) in self.train.wheels.items() if kind.kind == "worm"}
+        pairs = [circuit.wheels for circuit in self.circuits if circuit.kind == "gear"]
+        groups = joined_groups(self.train.wheels, [pair for pair in pairs if worms.isdisjoint(pair)])
+        return {wheel: number for number, group in enumerate(groups) for wheel in group}
 
     @cached_property
     def sets(self) -> tuple[PlanetSet, ...]:
@@ -238,15 +234,9 @@ class TrainAssembly:
 
     def _groups(self, carrier: str) -> list[list[str]]:
         """Planets of a carrier, those together that mesh with each other."""
-        group: dict[str, list[str]] = {}
-        for mesh in self._meshes_of(carrier):
-            borne = [link for link in mesh.links if self.tree.bears(carrier, link)]
-            for link in borne:
-                group.setdefault(link, [link])
-            if len(borne) == 2 and group[borne[0]] is not group[borne[1]]:
-                joined = group[borne[0]] + group[borne[1]]
-                group.update(dict.fromkeys(joined, joined))
-        return list({id(links): links for links in group.values()}.values())
+        meshing = [mesh.links for mesh in self._meshes_of(carrier)]
+        planets = [[link for link in links if self.tree.bears(carrier, link)] for links in meshing]
+        return joined_groups(chain(*planets), planets)
 
     def _meshes_of(self, carrier: str) -> list[AssemblyMesh]:
         return [mesh for mesh in self.meshes if mesh.carrier == carrier and not mesh.worm]

@@ -12,6 +12,7 @@ from functools import cached_property
 from itertools import product
 from math import prod
 
+from geartrain.numerics.graphs import joined_groups
 from geartrain.synthesis.constraints.count_conditions import Condition, CountConstraint, CountEquation
 from geartrain.synthesis.join.polynomial_constraints import PolynomialConstraint
 from geartrain.synthesis.join.product_lists import ItemRecipe, forecast
@@ -251,13 +252,7 @@ class _Planner:
 
     def _parts(self, items: Items, active: Iterable[int]) -> list[Items]:
         """The items parted by the constraints that join them."""
-        parts: list[Items] = [frozenset({item}) for item in sorted(items)]
-        for at in active:
-            joined = [part for part in parts if part & self.scopes[at]]
-            if len(joined) > 1:
-                parts = [part for part in parts if part not in joined]
-                parts.append(frozenset().union(*joined))
-        return sorted(parts, key=min)
+        return [frozenset(part) for part in joined_groups(sorted(items), (self.scopes[at] for at in active))]
 
 
 def extents(question: JoinProblem) -> list[tuple[float, float]]:

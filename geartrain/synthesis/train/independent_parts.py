@@ -10,6 +10,7 @@ from math import prod
 
 from geartrain.errors import Problem, QuestionError, RangeError
 from geartrain.numerics.exact import decimal
+from geartrain.numerics.graphs import joined_groups
 from geartrain.synthesis.constraints.count_conditions import CountConstraint
 from geartrain.synthesis.formulas.output_formulas import find_formulas
 from geartrain.synthesis.formulas.rational_functions import Formula
@@ -150,20 +151,15 @@ def _idle(asking: OutputRequirement) -> Iterator[str]:
 
 def find_parts(demands: TrainRequirements, domains: Domains, rules: Sequence[CountConstraint]) -> Iterator[SearchPart]:
     """The wheels parted by what joins them, in the order declared; idle wheels are parts by themselves."""
-    groups: list[set[str]] = [{wheel} for wheel in domains]
     scopes = chain(
         (asking.function.wheels for asking in demands.askings),
         (condition.function.wheels for condition in demands.conditions),
         (rule.wheels for rule in rules),
     )
-    for scope in scopes:
-        joined = [group for group in groups if not group.isdisjoint(scope)]
-        groups = [group for group in groups if group not in joined]
-        groups.append(set().union(*joined))
-    order = {wheel: at for at, wheel in enumerate(domains)}
-    for group in sorted(groups, key=lambda group: min(order[wheel] for wheel in group)):
+    for wheels in joined_groups(domains, scopes):
+        group = set(wheels)
         yield SearchPart(
-            {wheel: counts for wheel, counts in domains.items() if wheel in group},
+            {wheel: domains[wheel] for wheel in wheels},
             tuple(asking for asking in demands.askings if not group.isdisjoint(asking.function.wheels)),
             tuple(one for one in demands.conditions if not group.isdisjoint(one.function.wheels)),
             tuple(rule for rule in rules if not group.isdisjoint(rule.wheels)),

@@ -16,6 +16,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from geartrain.numerics.graphs import joined_groups
 from geartrain.synthesis.join.product_lists import Floats, Ints
 from geartrain.synthesis.join.wheel_monomials import Domains, IntervalConstraint
 from geartrain.uncertainty.posterior.inference_problem import InferenceProblem
@@ -144,14 +145,9 @@ def eliminate_wheels(question: InferenceProblem, limit: int) -> tuple[Eliminatio
 
 def find_independent_parts(question: InferenceProblem) -> list[tuple[str, ...]]:
     """The wheels in lots that no output and no condition joins, in the order declared."""
-    lots: list[set[str]] = [{wheel} for wheel in question.doubts]
     scopes = [witness.formula.wheels for witness in question.witnesses]
     scopes += [condition.function.wheels for condition in question.conditions]
-    for scope in scopes:
-        joined = [lot for lot in lots if not lot.isdisjoint(scope)]
-        lots = [lot for lot in lots if lot not in joined] + [set().union(*joined)]
-    order = {wheel: at for at, wheel in enumerate(question.doubts)}
-    return sorted((tuple(sorted(lot, key=order.__getitem__)) for lot in lots), key=lambda lot: order[lot[0]])
+    return [tuple(lot) for lot in joined_groups(question.doubts, scopes)]
 
 
 @dataclass(frozen=True, slots=True)

@@ -78,13 +78,22 @@ class Components:
         walk = left[::-1] + right[:-1]
         pairs = [self.node_circuit[node] for node in left[-2::-1]] + [circuit]
         pairs += [self.node_circuit[node] for node in right[:-1]]
-        step = Fraction(-chord.a, chord.b) * self.relative(up) / self.relative(down)
         return Loop(
             chord.carrier,
             tuple(self.links[self.node_link[node]] for node in walk),
             tuple(self.circuits[pair].id for pair in pairs),
-            step,
+            self.closing_product(circuit),
         )
+
+    def closing_product(self, circuit: int) -> Fraction:
+        """The product of the ratios round the loop that a circuit completes: 1 where it closes.
+
+        It is by how much the circuit contradicts the walk through its component, from its first link to its second.
+        """
+        chord = self.circuits[circuit]
+        carrier = self.index[chord.carrier]
+        first, second = (self.relative(self.node(self.index[link], carrier)) for link in (chord.i, chord.j))
+        return chord.gain * first / second
 
     def _above(self, node: int) -> int | None:
         above = self.node_parent[node]
@@ -294,12 +303,8 @@ def relevant_circuits(circuits: Sequence[Circuit], keep: Iterable[str]) -> list[
     users: dict[str, set[int]] = {}
     members: list[tuple[str, ...]] = []
     for at, circuit in enumerate(circuits):
-        links = [circuit.i]
-        if circuit.b:
-            links.append(circuit.j)
-        if circuit.a + circuit.b:
-            links.append(circuit.carrier)
-        members.append(tuple(links))
+        links = tuple(link for link, _ in circuit.terms)
+        members.append(links)
         for link in links:
             users.setdefault(link, set()).add(at)
     gone = set()

@@ -59,7 +59,10 @@ def assemble_willis_system(
     signs   -1 for links whose axis points against the reference direction of its parallels
     """
     rows = [WillisEquation("frame", "frame", ((frame, 1),))]
-    rows += [WillisEquation(c.id, c.kind, willis_terms(c, signs)) for c in circuits]
+    rows += [
+        WillisEquation(c.id, c.kind, tuple((link, factor * signs.get(link, 1)) for link, factor in c.terms))
+        for c in circuits
+    ]
     if case is not None:
         rows += [WillisEquation(f"fixed {link}", "fixed", ((link, 1),)) for link in case.fixed if link != frame]
         rows += [
@@ -69,16 +72,6 @@ def assemble_willis_system(
         ]
         rows += [WillisEquation(f"input {link}", "input", ((link, 1),), speed) for link, speed in case.inputs.items()]
     return WillisSystem(tuple(links), tuple(rows), case is None or case.exact)
-
-
-def willis_terms(circuit: Circuit, signs: Mapping[str, int]) -> tuple[tuple[str, int], ...]:
-    """The non-zero integer terms a w_i + b w_j - (a + b) w_k of one circuit."""
-    terms = (
-        (circuit.i, circuit.a * signs.get(circuit.i, 1)),
-        (circuit.j, circuit.b * signs.get(circuit.j, 1)),
-        (circuit.carrier, -(circuit.a + circuit.b) * signs.get(circuit.carrier, 1)),
-    )
-    return tuple(term for term in terms if term[1])
 
 
 def _sum(terms: Sequence[tuple[str, int]], symbol: str, escape: bool = False) -> str:

@@ -240,14 +240,12 @@ def losses_data(flow: PowerFlow, blows: Mapping[str, float]) -> list[dict[str, A
 
 def input_and_output(train: GearTrain, state: str | None) -> tuple[str, str] | None:
     """The one input and the one link that power leaves by: an output, loaded or alone; None if that is not plain."""
-    from geartrain.dynamics.torques import declared_loads
-
     case = train.declaration.case(state if state is not None or not train.states else train.states[0])
     if len(case.inputs) != 1:
         return None
     source = train.declaration.crank or next(iter(case.inputs))
     links = dict.fromkeys(output.of or name for name, output in case.outputs.items())
-    loads = [link for link in declared_loads(train.declaration, case)[0] if link != source]
+    loads = [link for link in case.loads if link != source]
     chosen = loads if len(loads) == 1 else [link for link in links if link != source]
     return (source, chosen[0]) if len(chosen) == 1 else None
 

@@ -34,6 +34,8 @@ class StateCase:
     inputs    in the train's unit, `Train.unit_name`
     loc       where the inputs were declared
     clutches  the clutch or brake behind a fixed link or a lock
+    loads     torques on links; power into the train is positive
+    solve_for the link whose torque is named as unknown
     exact     False where radians had to be counted in turns, or turns in radians: to 50 digits then
     causes    a link that is fixed, or two that are locked, only because something else is -> the links of that
     """
@@ -45,6 +47,8 @@ class StateCase:
     outputs: Mapping[str, Output]
     loc: Loc
     clutches: Mapping[tuple[str, ...], str]
+    loads: Mapping[str, Quantity] = field(default_factory=dict)
+    solve_for: str | None = None
     exact: bool = True
     causes: Mapping[tuple[str, ...], tuple[str, ...]] = field(default_factory=dict)
 
@@ -170,19 +174,20 @@ class Train(Declared):
         loc: Loc = ("states", state, "inputs") if state is not None and own.inputs is not None else ("inputs",)
         return StateCase(
             state,
-            {link: self._speed(speed) for link, speed in inputs.items()},
-            tuple(dict.fromkeys(fixed)),
-            tuple(locks),
-            outputs,
-            loc,
-            clutches,
-            all(self._is_exact(speed) for speed in inputs.values()),
+            inputs={link: self._speed(speed) for link, speed in inputs.items()},
+            fixed=tuple(dict.fromkeys(fixed)),
+            locks=tuple(locks),
+            outputs=outputs,
+            loc=loc,
+            clutches=clutches,
+            loads=self.loads if own.loads is None else own.loads,
+            solve_for=self.solve_for if own.solve_for is None else own.solve_for,
+            exact=all(self._is_exact(speed) for speed in inputs.values()),
         )
 
     def is_loaded(self, state: str | None) -> bool:
         """True if torques follow from something declared: loads, or friction of bearings."""
-        own = self.states[state].loads if state is not None else None
-        return bool(self.loads if own is None else own) or any(link.bearing for link in self.links.values())
+        return bool(self.case(state).loads) or any(link.bearing for link in self.links.values())
 
     def _speed(self, speed: Quantity) -> Fraction:
         """A prescribed speed in the train's unit."""

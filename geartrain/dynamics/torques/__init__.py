@@ -2,7 +2,7 @@
 
 from geartrain.dynamics.torques.drivers import find_drivers, undetermined_drivers
 from geartrain.dynamics.torques.flow_patterns import FlowPattern, find_flow_patterns
-from geartrain.dynamics.torques.load_case import LoadCase, declared_loads
+from geartrain.dynamics.torques.load_case import LoadCase
 from geartrain.dynamics.torques.power_flow import (
     PowerFlow,
     PowerNode,
@@ -35,7 +35,6 @@ __all__ = [
     "TorqueBalance",
     "TorqueVerdict",
     "Torques",
-    "declared_loads",
     "drive",
     "find_drivers",
     "find_flow_patterns",

@@ -98,11 +98,3 @@ class LoadCase:
         if torque is None or link == self.train.frame:
             return Fraction(0)
         return torque.base
-
-
-def declared_loads(train: Train, case: StateCase) -> tuple[dict[str, Fraction], str | None]:
-    """The loads of one case, N m or plain, and the link whose torque is named as unknown."""
-    state = train.states[case.state] if case.state is not None else None
-    loads = train.loads if state is None or state.loads is None else state.loads
-    solve_for = train.solve_for if state is None or state.solve_for is None else state.solve_for
-    return {link: torque.base for link, torque in loads.items()}, solve_for

@@ -252,10 +252,8 @@ _PREFIXES = ((1e6, "M"), (1e3, "k"), (1.0, ""), (1e-3, "m"), (1e-6, "µ"))
 
 def has_torque_units(train: Train, state: str | None) -> bool:
     """True if the loads and bearings of one state are given in units."""
-    own = train.states[state].loads if state is not None else None
-    loads = train.loads if own is None else own
     bearings = (part.bearing for part in train.links.values() if part.bearing is not None)
-    torques = [torque for torque in (*loads.values(), *bearings) if torque.value]
+    torques = [torque for torque in (*train.case(state).loads.values(), *bearings) if torque.value]
     return bool(torques) and all(torque.unit is not None for torque in torques)
 
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from geartrain.dynamics.torques.flow_patterns import FlowPattern, find_flow_patterns
-from geartrain.dynamics.torques.load_case import LoadCase, declared_loads
+from geartrain.dynamics.torques.load_case import LoadCase
 from geartrain.dynamics.torques.load_sharing import find_shares, find_ties
 from geartrain.dynamics.torques.mean_efficiencies import (
     MeanEfficiencies,
@@ -36,11 +36,11 @@ class UnknownLinks:
 
 def find_torques(setting: LoadCase) -> Torques:
     """Torques under the declared loads, or under the friction of bearings alone."""
-    loads, solve_for = declared_loads(setting.train, setting.case)
+    loads = {link: torque.base for link, torque in setting.case.loads.items()}
     if not loads and not any(map(setting.bearing, setting.train.links)):
         text = "no load is declared: give `loads` on links, negative against their turning, or `bearing` friction"
         return Torques(setting.case.state, TorqueVerdict("unloaded", text))
-    asked = _asked(setting, loads, solve_for)
+    asked = _asked(setting, loads, setting.case.solve_for)
     verdict = _summed(setting, (*loads, *asked.links))
     if verdict is None:
         verdict = _still(setting, asked.links)

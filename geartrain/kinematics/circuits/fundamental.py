@@ -41,6 +41,22 @@ class Circuit(NamedTuple):
         """tau = (w_i - w_k) / (w_j - w_k), signed and exact."""
         return Fraction(-self.b, self.a)
 
+    @property
+    def gain(self) -> Fraction:
+        """1 / tau = (w_j - w_k) / (w_i - w_k), signed and exact; for b other than 0."""
+        return Fraction(-self.a, self.b)
+
+    @property
+    def terms(self) -> tuple[tuple[str, int], ...]:
+        """The row of the Willis system: links with their coefficients in a w_i + b w_j - (a + b) w_k, none zero.
+
+        Speeds of a row are about the reference direction of parallel axes. Its transpose are the torques of a pair
+        without loss; its moduli those of its teeth's phases.
+        """
+        c = -self.a - self.b
+        terms = (self.i, self.a), (self.j, self.b), (self.carrier, c)
+        return terms if self.b and c else tuple(term for term in terms if term[1])
+
 
 @collector_paused()
 def find_circuits(train: Train, tree: Tree) -> tuple[Circuit, ...]:

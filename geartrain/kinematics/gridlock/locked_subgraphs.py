@@ -93,10 +93,7 @@ def _nodes(parts: Components) -> Iterator[tuple[int, int]]:
 
 def _gain(parts: Components, chord: int) -> Gain:
     """By how much a circuit contradicts the walk through its component, from its first link to its second."""
-    circuit = parts.circuits[chord]
-    carrier = parts.index[circuit.carrier]
-    first, second = (parts.relative(parts.node(parts.index[link], carrier)) for link in (circuit.i, circuit.j))
-    gain = Fraction(-circuit.a, circuit.b) * first / second
+    gain = parts.closing_product(chord)
     return -1 if gain == -1 else gain
 
 

@@ -48,7 +48,7 @@ def propagate(
     signs   -1 for links whose axis points against the reference direction of its parallels
     """
     index = {link: at for at, link in enumerate(links)}
-    rows = _rows(index, index[frame], circuits, case)
+    rows = _rows(index, frame, circuits, case)
     users: list[list[int]] = [[] for _ in links]
     for at, row in enumerate(rows):
         for link, _ in row:
@@ -84,15 +84,14 @@ def propagate(
     return PropagatedSpeeds(index, speeds, signs)
 
 
-def _rows(index: Mapping[str, int], frame: int, circuits: Sequence[Circuit], case: StateCase) -> list[Terms]:
+def _rows(index: Mapping[str, int], frame: str, circuits: Sequence[Circuit], case: StateCase) -> list[Terms]:
     """All circuits and locks as rows over the moving links."""
     rows: list[Terms] = []
-    for _, _, i, j, k, a, b, _, _ in circuits:
-        terms = ((index[i], a), (index[j], b), (index[k], -a - b))
-        rows.append(tuple(term for term in terms if term[1] and term[0] != frame))
+    for circuit in circuits:
+        rows.append(tuple([(index[link], factor) for link, factor in circuit.terms if link != frame]))
     for first, second in case.locks:
         if first != second:
-            rows.append(tuple(term for term in ((index[first], 1), (index[second], -1)) if term[0] != frame))
+            rows.append(tuple([(index[link], factor) for link, factor in ((first, 1), (second, -1)) if link != frame]))
     return rows
 
 

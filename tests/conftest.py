@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import os
+import sys
 from collections.abc import Callable
 from pathlib import Path
 from textwrap import dedent
@@ -10,6 +12,10 @@ import pytest
 from hypothesis import HealthCheck, settings
 
 from geartrain import GearTrain, GearTrainError, load
+
+# none of the above loads numpy; matrices here are small, and threads waiting for each other cost four times their work
+for _library in ("OPENBLAS", "OMP", "MKL"):
+    os.environ.setdefault(f"{_library}_NUM_THREADS", "1")
 
 # the same examples in every run, so that a change is judged by itself; --slow draws new ones
 _CLOCKLESS = [HealthCheck.too_slow, HealthCheck.data_too_large]
@@ -30,6 +36,25 @@ def pytest_configure(config: pytest.Config) -> None:
     config.addinivalue_line("markers", "slow: more than a few seconds; runs with --slow only")
     if config.getoption("--slow"):
         settings.load_profile("hunt")
+    if sys.dont_write_bytecode and hasattr(config, "cache"):
+        _compile_once(config.cache.mkdir("bytecode"))
+
+
+def _compile_once(folder: Path) -> None:
+    """Where no bytecode may lie beside the sources it is kept with pytest's cache: the fresh interpreters need it."""
+    os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
+    os.environ["PYTHONPYCACHEPREFIX"] = sys.pycache_prefix = str(folder)
+    sys.dont_write_bytecode = False
+
+
+@pytest.hookimpl(optionalhook=True)
+def pytest_xdist_make_scheduler(config: pytest.Config, log: object) -> object | None:
+    """Each worker takes whole files, so that what a file's tests share is made once."""
+    if config.getoption("dist") != "load":
+        return None
+    from xdist.scheduler import LoadFileScheduling
+
+    return LoadFileScheduling(config, log)
 
 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:

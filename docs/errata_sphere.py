@@ -8,7 +8,7 @@ from math import asin, atan, atan2, cos, degrees, radians, sin
 
 import numpy as np
 
-from geartrain.report import SphereAnswers
+from geartrain.report.spherical_report import SphereAnswers
 from geartrain.spherical import Configuration, from_polyhedron, ratio_windows, size_gears
 
 NOTE = "icosidodecahedron"

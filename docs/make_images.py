@@ -16,7 +16,11 @@ from rich.console import Console
 import geartrain
 from geartrain.drawing import law_figure, motion_figure, picture, power_figure, render, sphere_figure, teeth_figure
 from geartrain.dynamics.motion import MotionRun
-from geartrain.report import Document, SphereAnswers, flow_of, report_train, to_terminal
+from geartrain.report.document import Document
+from geartrain.report.power_report import flow_of
+from geartrain.report.spherical_report import SphereAnswers
+from geartrain.report.text import to_terminal
+from geartrain.report.train_report import report_train
 from geartrain.spherical import from_polyhedron
 
 IMAGES = Path(__file__).resolve().parent / "images"

@@ -41,7 +41,7 @@ from pathlib import Path
 from typing import Any, NamedTuple, NoReturn
 
 ROOT = Path(__file__).resolve().parent.parent
-RENAMED: dict[str, str] = {}
+RENAMED: dict[str, str] = {"geartrain errors": "geartrain montecarlo", "geartrain sweep": "geartrain posterior"}
 """Old spellings and new: of a verb where a command begins so ("geartrain mesh pin": "geartrain pin"), of an option
 wherever it stands ("--free": "--in-doubt")."""
 

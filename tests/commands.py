@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+import inspect
 import json
 import subprocess
 import sys
+from collections.abc import Callable, Iterator
+from typing import Any
 
+import typer.main
 from typer.testing import CliRunner, Result
 
 from geartrain.cli import app
@@ -55,3 +59,19 @@ def imported_by(code: str) -> set[str]:
     tail = "\nimport sys, json; print(json.dumps(sorted({name.split('.')[0] for name in sys.modules})))"
     done = subprocess.run([sys.executable, "-c", code + tail], capture_output=True, text=True, check=True, timeout=120)
     return set(json.loads(done.stdout.splitlines()[-1]))
+
+
+def verbs() -> Iterator[tuple[str, Any]]:
+    """Every command there is, groups among them, by its full name, from the application itself."""
+
+    def walk(name: str, command: Any) -> Iterator[tuple[str, Any]]:
+        yield name, command
+        for sub, child in getattr(command, "commands", {}).items():
+            yield from walk(f"{name} {sub}".strip(), child)
+
+    return walk("", typer.main.get_command(app))
+
+
+def functions() -> Iterator[tuple[str, Callable[..., None]]]:
+    """Every verb that is no group, and the function that it runs."""
+    return ((name, inspect.unwrap(each.callback)) for name, each in verbs() if not hasattr(each, "commands"))

@@ -102,7 +102,9 @@ def _files(name: str) -> Iterator[tuple[str, bytes]]:
     """As `geartrain draw`, `view` and `report` write them; each picture is drawn once."""
     import geartrain
     from geartrain.drawing import picture, render
-    from geartrain.report import Picture, shared_document, to_html
+    from geartrain.report.document import Picture
+    from geartrain.report.html_page import to_html
+    from geartrain.report.shared_page import shared_document
     from geartrain.scene import make_scene
     from geartrain.viewer import page
 

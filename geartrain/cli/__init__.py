@@ -7,28 +7,22 @@ from typing import Annotated
 
 import typer
 
-from geartrain.cli import (
-    bench,
-    check,
-    compare,
-    draw,
-    equations,
-    errors,
-    export,
-    graph,
-    mesh,
-    motion,
-    report,
-    schema,
-    solve,
-    sphere,
-    sweep,
-    teeth,
-    torques,
-    view,
-)
-from geartrain.cli import catalogue as listing
-from geartrain.cli.exit_codes import VerbGroup, guarded
+from geartrain.cli.exit_codes import EndingGroup, guarded
+from geartrain.cli.verbs import LazyGroup, Verbs
+
+
+class VerbGroup(EndingGroup, LazyGroup):
+    """`geartrain` itself."""
+
+    verbs = Verbs(
+        "geartrain.cli",
+        (
+            *("report", "view", "draw", "export", "compare", "check", "solve", "equations", "graph", "torques"),
+            *("motion", "montecarlo", "sphere", "teeth", "posterior", "schema", "list", "periods", "mesh", "bench"),
+        ),
+        renamed={"errors": "montecarlo", "sweep": "posterior"},
+    )
+
 
 app = typer.Typer(
     name="geartrain",
@@ -40,27 +34,6 @@ app = typer.Typer(
     epilog="Exit codes: 0 determined, every expectation holds; 1 a verdict or a failed expectation; 2 unusable input; "
     "3 a fault of geartrain itself; 130 interrupted; 141 nobody reads the output any more.",
 )
-app.command("report")(report.run)
-app.command("view")(view.run)
-app.command("draw")(draw.run)
-app.command("export")(export.run)
-app.command("compare")(compare.run)
-app.command("check")(check.run)
-app.command("solve")(solve.run)
-app.command("equations")(equations.run)
-app.command("graph")(graph.run)
-app.command("torques")(torques.run)
-app.command("motion")(motion.run)
-app.command("errors")(errors.run)
-app.command("sphere")(sphere.run)
-# a negative ratio is no option
-app.command("teeth", context_settings={"ignore_unknown_options": True})(teeth.run)
-app.command("sweep")(sweep.run)
-app.command("schema")(schema.run)
-app.command("list")(listing.trains)
-app.command("periods")(listing.periods)
-app.add_typer(mesh.app, name="mesh")
-app.add_typer(bench.app, name="bench")
 
 
 def _version(wanted: bool) -> None:

@@ -20,7 +20,9 @@ class BenchmarkTables(Protocol):
         """Tables."""
 
 
-app = typer.Typer(help="Measure error against run time, as ratios within one run.", no_args_is_help=True)
+app = typer.Typer(
+    add_completion=False, help="Measure error against run time, as ratios within one run.", no_args_is_help=True
+)
 
 
 @app.callback()

@@ -17,7 +17,7 @@ from geartrain.errors import GearTrainError, Problem, printable
 
 if TYPE_CHECKING:
     from geartrain.analysis.gear_train import GearTrain
-    from geartrain.report import Document
+    from geartrain.report.document import Document
 
 GOOD, VERDICT, NOT_USABLE, INTERRUPTED = 0, 1, 2, 130
 PICTURES = (".svg", ".png", ".pdf")
@@ -142,16 +142,17 @@ def emit(text: str, out: Sink = STANDARD) -> None:
 
 def show(documents: Sequence[Document], out: Sink, suffix: str | None = None) -> None:
     """Documents as HTML or Markdown to a file, or on the terminal: through rich if somebody looks, else as Markdown."""
-    from geartrain import report
+    from geartrain.report.html_page import to_html
+    from geartrain.report.text import to_markdown, to_terminal
 
     if (out.suffix if suffix is None else suffix) == ".html":
-        emit(report.to_html(documents), out)
+        emit(to_html(documents), out)
     elif out == STANDARD and sys.stdout.isatty():
         from rich.console import Console
 
-        report.to_terminal(documents, Console(highlight=False))
+        to_terminal(documents, Console(highlight=False))
     else:
-        emit(report.to_markdown(documents), out)
+        emit(to_markdown(documents), out)
 
 
 def draw(figure: Any, out: Sink) -> None:

@@ -19,13 +19,14 @@ def run(
     force: Force = False,
 ) -> None:
     """Put the outputs of several trains side by side, with their errors against the targets."""
-    from geartrain import report
+    from geartrain.report.reconstructions_compared import compare_trains
+    from geartrain.report.train_report import train_data
 
     to = sink(out, force, (".md", ".html", ".json"))
     trains = load_all(files)
     sound = all(answer for train in trains for answer in train.answers())
     if json or to.suffix == ".json":
-        emit(as_json([report.train_data(train) for train in trains]), to)
+        emit(as_json([train_data(train) for train in trains]), to)
     else:
-        show([report.compare_trains(trains, everything)], to)
+        show([compare_trains(trains, everything)], to)
     raise typer.Exit(GOOD if sound else VERDICT)

@@ -28,8 +28,8 @@ class _ReaderGoneError(Exception):
     """Nobody reads standard output any more."""
 
 
-class VerbGroup(TyperGroup):
-    """The verbs; a closed pipe and Ctrl-C are not left to typer, which would end with the exit code of a verdict."""
+class EndingGroup(TyperGroup):
+    """A group of verbs; a closed pipe and Ctrl-C are not left to typer, whose exit code would be that of a verdict."""
 
     def make_context(self, *given: Any, **more: Any) -> Any:
         """Read the command line; `--help` and `--version` end here."""

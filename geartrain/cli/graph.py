@@ -26,7 +26,8 @@ def run(
     """Print the graph: adjacency in letters (R(axis), G#) or numbers, edges, Graphviz, GraphML, or JSON."""
     from geartrain.analysis.loader import load
     from geartrain.kinematics import graph
-    from geartrain.report import Document, Section, Table, to_markdown
+    from geartrain.report.document import Document, Section, Table
+    from geartrain.report.text import to_markdown
 
     to = sink(out, force, _SUFFIXES)
     form = form or _SUFFIXES.get(to.suffix, "")

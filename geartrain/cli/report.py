@@ -11,7 +11,7 @@ from geartrain.errors import GearTrainError, MissingExtraError
 
 if TYPE_CHECKING:
     from geartrain.analysis.gear_train import GearTrain
-    from geartrain.report import Document, Picture
+    from geartrain.report.document import Document, Picture
 
 
 def run(
@@ -25,7 +25,8 @@ def run(
 
     A page of .html has pictures of the plan and the dials too, where the extra 'plot' is installed.
     """
-    from geartrain import report
+    from geartrain.report.html_page import to_html
+    from geartrain.report.train_report import report_train, train_data
 
     to = sink(out, force, (".md", ".html", ".json"))
     if view and to.suffix != ".html":
@@ -33,19 +34,19 @@ def run(
     trains = load_all(files)
     good = all(is_sound(train, state) for train in trains for state in train.states or (None,))
     if json or to.suffix == ".json":
-        emit(as_json([report.train_data(train) for train in trains]), to)
+        emit(as_json([train_data(train) for train in trains]), to)
     elif to.suffix == ".html":
-        emit(report.to_html([_shared(train, view) for train in trains]), to)
+        emit(to_html([_shared(train, view) for train in trains]), to)
     else:
-        show([report.report_train(train) for train in trains], to)
+        show([report_train(train) for train in trains], to)
     raise typer.Exit(GOOD if good else VERDICT)
 
 
 def _shared(train: GearTrain, view: bool) -> Document:
-    from geartrain import report
+    from geartrain.report.shared_page import shared_document
 
     pictures, notes = _pictures(train)
-    return report.shared_document(train, pictures, _viewer(train) if view else "", notes)
+    return shared_document(train, pictures, _viewer(train) if view else "", notes)
 
 
 def _viewer(train: GearTrain) -> str:
@@ -57,7 +58,7 @@ def _viewer(train: GearTrain) -> str:
 
 def _pictures(train: GearTrain) -> tuple[list[Picture], list[str]]:
     """The plan, and the dials where there are any; and what kept one from being drawn."""
-    from geartrain import report
+    from geartrain.report.document import Picture
 
     drawn: list[Picture] = []
     notes: list[str] = []
@@ -65,7 +66,7 @@ def _pictures(train: GearTrain) -> tuple[list[Picture], list[str]]:
     for kind in kinds:
         caption = {"plan": "The plan, to scale", "dials": "The dials"}[kind]
         try:
-            drawn.append(report.Picture(caption, _svg(train, kind)))
+            drawn.append(Picture(caption, _svg(train, kind)))
         except MissingExtraError as missing:
             return [], [f"This page has no pictures: {missing.problems[0].what}; {missing.problems[0].fix}."]
         except GearTrainError as error:

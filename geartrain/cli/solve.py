@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from geartrain.cli.common import GOOD, VERDICT, File, Force, Json, Out, StateName, as_json, emit, sink
-from geartrain.kinematics.answer import Answer
+
+if TYPE_CHECKING:
+    from geartrain.kinematics.answer import Answer
 
 OutputName = Annotated[str | None, typer.Option("--output", help="An output or a link: only what drives it is solved.")]
 
@@ -23,7 +25,6 @@ def run(
 ) -> None:
     """Solve a train and print its speeds as fractions and decimals."""
     from geartrain.analysis.loader import load
-    from geartrain.report.train_report import answers_data
 
     if method not in ("auto", "exact", "floats"):
         raise typer.BadParameter(f"'{method}' is not a method; use auto, exact or floats", param_hint="--method")
@@ -32,6 +33,8 @@ def run(
     states = [state] if state is not None or not train.states else list(train.states)
     answers = [train.solve(name, output, method) for name in states]  # type: ignore[arg-type]
     if json or to.suffix == ".json":
+        from geartrain.report.train_report import answers_data
+
         emit(as_json(answers_data(train, answers, whole=output is None)), to)
     else:
         emit("\n".join(_text(answer, output, train.bookkeeping) for answer in answers), to)

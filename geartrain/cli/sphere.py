@@ -55,7 +55,7 @@ def run(
     force: Force = False,
 ) -> None:
     """Gears on a sphere: mobility, gridlock, closure of the teeth, sizes; with -o x.yaml as a train."""
-    from geartrain import report
+    from geartrain.report.spherical_report import SphereAnswers, sphere_data, sphere_document
 
     to = sink(out, force, (".md", ".html", ".json", *_YAML))
     picture = sink(plot, force, PICTURES, "--plot")
@@ -72,16 +72,16 @@ def run(
     if suggest:
         _suggest(configuration, suggest, best, json or to.suffix == ".json", to)
         return
-    found = report.SphereAnswers(configuration, _sphere_radius(configuration, radius), made)
+    found = SphereAnswers(configuration, _sphere_radius(configuration, radius), made)
     if to.suffix in _YAML:
         from geartrain.spherical import to_train
         from geartrain.train.yaml_nodes import as_yaml
 
         emit(as_yaml(to_train(configuration)), to)
     elif json or to.suffix == ".json":
-        emit(as_json(report.sphere_data(found)), to)
+        emit(as_json(sphere_data(found)), to)
     else:
-        show([report.sphere_document(found)], to)
+        show([sphere_document(found)], to)
     if plot is not None:
         _draw(found, picture)
     raise typer.Exit(GOOD if found.moves and (found.closure is None or found.closure) else VERDICT)
@@ -99,7 +99,7 @@ def _survey(json: bool, to: Sink) -> None:
     from rich.console import Console
     from rich.progress import track
 
-    from geartrain import report
+    from geartrain.report.spherical_report import survey_document
     from geartrain.spherical.polyhedron_survey import SURVEYED
     from geartrain.spherical.polyhedron_survey import survey as survey_solids
 
@@ -108,18 +108,18 @@ def _survey(json: bool, to: Sink) -> None:
     if json:
         emit(as_json([row.to_dict() for row in rows]), to)
     else:
-        show([report.survey_document(rows)], to)
+        show([survey_document(rows)], to)
 
 
 def _suggest(configuration: Configuration, most: int, best: int, json: bool, to: Sink) -> None:
-    from geartrain import report
+    from geartrain.report.spherical_report import suggestions_data, suggestions_document
     from geartrain.spherical.tooth_count_search import suggest_tooth_counts
 
     found = suggest_tooth_counts(configuration, most, best)
     if json:
-        emit(as_json(report.suggestions_data(found)), to)
+        emit(as_json(suggestions_data(found)), to)
     else:
-        show([report.suggestions_document(found)], to)
+        show([suggestions_document(found)], to)
     raise typer.Exit(GOOD if len(found) else VERDICT)
 
 

@@ -1,4 +1,4 @@
-"""What `geartrain errors --plot` and `geartrain sweep --plot` draw."""
+"""What `geartrain montecarlo --plot` and `geartrain posterior --plot` draw."""
 
 from __future__ import annotations
 

@@ -10,7 +10,9 @@ import pytest
 from playwright.sync_api import Browser, Page
 
 from geartrain import load
-from geartrain.report import Picture, shared_document, to_html
+from geartrain.report.document import Picture
+from geartrain.report.html_page import to_html
+from geartrain.report.shared_page import shared_document
 
 EVIL = "<script>alert(1)</script>\"'><img src=x onerror=alert(2)>"
 SVG = (

@@ -17,14 +17,13 @@ from typing import Any
 
 import networkx as nx
 import pytest
-import typer
-from commands import LOCKED, RIGHT, TWENTY, UNUSABLE, WRONG
+from commands import LOCKED, RIGHT, TWENTY, UNUSABLE, WRONG, verbs
 from jsonschema import Draft202012Validator
 from pennestri import TABLES_1_TO_3, TURNING_PAIRS
 from places import ROOT
 
 from geartrain import load, shipped
-from geartrain.cli import app, main
+from geartrain.cli import main
 
 COMMANDS = (ROOT / "docs" / "commands.md").read_text(encoding="utf-8")
 
@@ -67,17 +66,6 @@ def file(tmp_path: Path) -> Callable[..., Path]:
         return path
 
     return write
-
-
-def verbs() -> Iterator[tuple[str, Any]]:
-    """Every command there is, by its full name, from the application itself."""
-
-    def walk(name: str, command: Any) -> Iterator[tuple[str, Any]]:
-        yield name, command
-        for sub, child in getattr(command, "commands", {}).items():
-            yield from walk(f"{name} {sub}".strip(), child)
-
-    return walk("", typer.main.get_command(app))
 
 
 # ---------------------------------------------------------------------------------------------------------------- help

@@ -16,21 +16,19 @@ from types import SimpleNamespace
 from typing import Any
 
 import pytest
-import typer
+from commands import verbs
 from places import ROOT
 from test_output_files import ASKED, DOUBT
 
 from geartrain.cli import app, main
-from geartrain.cli.exit_codes import VerbGroup
+from geartrain.cli.exit_codes import EndingGroup
 
 OTHERS = {"check": ("check", "worm"), "list": ("list",), "periods": ("periods",)}
 
 
-def verbs(group: typer.Typer = app, name: str = "") -> Iterator[tuple[str, Any]]:
-    for each in group.registered_commands:
-        yield f"{name} {each.name or each.callback.__name__}".strip(), each  # type: ignore[union-attr]
-    for each in group.registered_groups:
-        yield from verbs(each.typer_instance, f"{name} {each.name}".strip())  # type: ignore[arg-type]
+def runs() -> Iterator[tuple[str, Any]]:
+    """Every command that is no group."""
+    return ((name, each) for name, each in verbs() if not hasattr(each, "commands"))
 
 
 def asked(verb: str) -> list[str]:
@@ -66,7 +64,7 @@ def broken(each: Any, error: BaseException) -> Callable[..., None]:
     return fail
 
 
-@pytest.mark.parametrize(("verb", "each"), list(verbs()), ids=[name for name, _ in verbs()])
+@pytest.mark.parametrize(("verb", "each"), list(runs()), ids=[name for name, _ in runs()])
 def test_a_fault_of_any_command_is_exit_3_one_line_and_a_file_to_send(
     run: Callable[..., tuple[int, str, str]], monkeypatch: pytest.MonkeyPatch, tmp_path: Path, verb: str, each: Any
 ) -> None:
@@ -90,7 +88,7 @@ def test_a_fault_of_any_command_is_exit_3_one_line_and_a_file_to_send(
 def test_whatever_python_raises_is_no_verdict(
     run: Callable[..., tuple[int, str, str]], monkeypatch: pytest.MonkeyPatch, error: Exception
 ) -> None:
-    each = dict(verbs())["solve"]
+    each = dict(runs())["solve"]
     monkeypatch.setattr(each, "callback", broken(each, error))
     code, _, err = run("solve", "worm")
     assert code == 3
@@ -103,7 +101,7 @@ def test_whatever_python_raises_is_no_verdict(
 def test_a_fault_is_told_where_no_file_can_be_made(
     run: Callable[..., tuple[int, str, str]], monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
-    each = dict(verbs())["solve"]
+    each = dict(runs())["solve"]
     monkeypatch.setattr(each, "callback", broken(each, RuntimeError("x")))
     nowhere = SimpleNamespace(mkstemp=functools.partial(tempfile.mkstemp, dir=tmp_path / "nowhere"))
     monkeypatch.setattr("geartrain.cli.exit_codes.tempfile", nowhere)
@@ -128,7 +126,7 @@ def test_a_fault_deep_inside_is_one_too(
 def test_an_interrupt_is_exit_130_without_a_traceback(
     run: Callable[..., tuple[int, str, str]], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    each = dict(verbs())["solve"]
+    each = dict(runs())["solve"]
     monkeypatch.setattr(each, "callback", broken(each, KeyboardInterrupt()))
     assert run("solve", "worm") == (130, "", "stopped\n")
 
@@ -159,7 +157,7 @@ def test_a_reader_that_goes_is_exit_141_in_silence(arguments: tuple[str, ...]) -
 
 def test_all_exit_codes_are_told_where_exit_codes_are_told() -> None:
     root = ROOT
-    assert issubclass(app.info.cls, VerbGroup)  # type: ignore[arg-type]
+    assert issubclass(app.info.cls, EndingGroup)  # type: ignore[arg-type]
     for page in ("docs/commands.md", "docs/json.md"):
         codes = set(re.findall(r"^\| (\d+) \|", (root / page).read_text(encoding="utf-8"), re.M))
         assert {"0", "1", "2", "3", "130", "141"} <= codes, page
@@ -169,7 +167,7 @@ def test_all_exit_codes_are_told_where_exit_codes_are_told() -> None:
 
 # ------------------------------------------------------------------------------------------------------------- resumed
 
-CUT = ("errors", "moon-triangular", "--output", "moon", "--set", "placement=2 %")
+CUT = ("montecarlo", "moon-triangular", "--output", "moon", "--set", "placement=2 %")
 
 
 @pytest.mark.parametrize("question", [(*CUT, "--trials", "2"), DOUBT])
@@ -199,7 +197,7 @@ def test_a_journal_of_another_question_is_refused_and_kept(
     monkeypatch.setattr(Journal, "finish", Journal.close)
     assert run(*CUT, "--trials", "2", "--seed", "7")[0] == 0
     monkeypatch.setattr(Journal, "finish", finish)
-    (kept,) = tmp_path.glob("errors-*.partial.jsonl")
+    (kept,) = tmp_path.glob("montecarlo-*.partial.jsonl")
     text = kept.read_bytes()
     code, out, err = run(*CUT, "--trials", "2", "--seed", "8", "--resume")
     assert (code, out) == (2, "")

@@ -111,9 +111,12 @@ CASES: list[tuple[tuple[str, ...], tuple[str, ...]]] = [
     (("motion", "{pair}", "--samples", "40"), ("turns", "seed", "phases", "tabulated", "output")),
     (("motion", "{pair}", "--samples", "40", "--turns", "3", "--spectrum", "--estimates"), ("turns", "tabulated")),
     (("motion", "{pair}", "--turns", "3"), ("samples:few",)),
-    (("errors", "{pair}", "--trials", "4"), ("seed", "set", "clearance", "tolerance", "jam", "workers:few")),
-    (("errors", "{pair}"), ("trials:few",)),
-    (("sweep", "{pair}", "--free", "x=47:49"), ("tolerance", "scale", "most", "limit", "samples:few", "seed", "free")),
+    (("montecarlo", "{pair}", "--trials", "4"), ("seed", "set", "clearance", "tolerance", "jam", "workers:few")),
+    (("montecarlo", "{pair}"), ("trials:few",)),
+    (
+        ("posterior", "{pair}", "--free", "x=47:49"),
+        ("tolerance", "scale", "most", "limit", "samples:few", "seed", "free"),
+    ),
     (("teeth", "5.25"), ("stages", "range", "wheels", "pinions", "tolerance", "best", "most-total", "pick", "shift")),
     (("teeth", "5.25", "--kind", "simple"), ("planets", "clearance", "ratio-is", "best", "tolerance", "mode")),
     (("teeth", "a=3.2", "b=7.1"), ("effort", "walk", "tolerance", "best", "range")),
@@ -207,7 +210,7 @@ KEPT = [
     ("sphere cube", "radius", "nan"),
     ("teeth 5.25", "best", "9" * 25),
     ("teeth 5.25", "most-total", "0"),
-    ("sweep {pair} --free x=47:49", "seed", "-1"),
+    ("posterior {pair} --free x=47:49", "seed", "-1"),
 ]
 """What once ended in a traceback, in nonsense or never."""
 
@@ -217,7 +220,9 @@ ALL = [(" ".join(base), option, value) for base, options in CASES for option in 
 def said(text: str, option: str, value: str, folder: Path, number: int) -> str:
     """What is wrong with one command; empty if nothing is."""
     base = tuple(text.split(" "))
-    told = ["--json"] if base[0] in ("mesh", "motion", "sweep", "teeth", "sphere") and "--profile" not in base else []
+    told = (
+        ["--json"] if base[0] in ("mesh", "motion", "posterior", "teeth", "sphere") and "--profile" not in base else []
+    )
     arguments = [*command(base, folder, number), *asked(option, value), *told]
     try:
         with chdir(folder):  # a search that is cut short leaves its journal where it runs

@@ -12,10 +12,8 @@ from pathlib import Path
 from typing import Annotated, Any, get_args, get_origin, get_type_hints
 
 import pytest
-import typer
-from commands import RIGHT, UNUSABLE, call
+from commands import RIGHT, UNUSABLE, call, functions
 
-from geartrain.cli import app
 from geartrain.errors import GearTrainError
 from geartrain.numerics.files import LongTable, destination, write_bytes, write_folder
 
@@ -25,8 +23,8 @@ PAIR = ("--teeth", "20", "30")
 SIZED = (*PAIR, "--module", "1mm")
 FORMS = ("involute", "cycloidal", "lantern", "uniform-stress", "uniform-temperature", "least-friction")
 MOTION = ("motion", "moon-triangular", "--turns", "1", "--samples", "64", "--output", "moon")
-DOUBT = ("sweep", "{doubt}", "--free", "x=18:22", "--free", "z=38:42")
-ERRORS = ("errors", "moon-triangular", "--trials", "2", "--output", "moon", "--set", "placement=2 %")
+DOUBT = ("posterior", "{doubt}", "--free", "x=18:22", "--free", "z=38:42")
+ERRORS = ("montecarlo", "moon-triangular", "--trials", "2", "--output", "moon", "--set", "placement=2 %")
 
 # command and writing option -> the rest of a question, and the suffixes it may be written with
 ASKED: dict[tuple[str, str], tuple[tuple[str, ...], tuple[str, ...]]] = {
@@ -42,13 +40,13 @@ ASKED: dict[tuple[str, str], tuple[tuple[str, ...], tuple[str, ...]]] = {
     ("torques", "--plot"): (("torques", "{loaded}"), (".svg",)),
     ("motion", "-o"): (MOTION, (".md", ".json", ".csv")),
     ("motion", "--plot"): (MOTION, (".svg",)),
-    ("errors", "-o"): (ERRORS, (".md", ".json", ".csv", ".parquet")),
-    ("errors", "--plot"): (ERRORS, (".svg",)),
+    ("montecarlo", "-o"): (ERRORS, (".md", ".json", ".csv", ".parquet")),
+    ("montecarlo", "--plot"): (ERRORS, (".svg",)),
     ("sphere", "-o"): (("sphere", "cube"), (".md", ".json")),
     ("sphere", "--plot"): (("sphere", "cube", "--teeth", "4=12"), (".svg",)),
     ("teeth", "-o"): (("teeth", "7/3", "--stages", "1", "--best", "1"), (".md", ".json", ".csv")),
-    ("sweep", "-o"): (DOUBT, (".md", ".json", ".csv", ".parquet")),
-    ("sweep", "--plot"): (DOUBT, (".svg",)),
+    ("posterior", "-o"): (DOUBT, (".md", ".json", ".csv", ".parquet")),
+    ("posterior", "--plot"): (DOUBT, (".svg",)),
     ("schema", "-o"): (("schema",), (".json",)),
     ("mesh triangular", "-o"): (("mesh", "triangular", *PAIR, "--window", "0.5"), (".md", ".json")),
     ("mesh triangular", "--plot"): (("mesh", "triangular", *PAIR, "--window", "0.5"), (".svg",)),
@@ -75,17 +73,11 @@ FIRST = [(command, option, suffixes[0]) for (command, option), (_, suffixes) in 
 def writing() -> Iterator[tuple[str, str]]:
     """Every option of every command that names a file, from the annotations of the commands themselves."""
 
-    def walk(name: str, group: typer.Typer) -> Iterator[tuple[str, str]]:
-        for each in group.registered_commands:
-            verb = f"{name} {each.name or each.callback.__name__}".strip()
-            for hint in get_type_hints(each.callback, include_extras=True).values():
-                if get_origin(hint) is Annotated and Path in (get_args(get_args(hint)[0]) or get_args(hint)[:1]):
-                    option = get_args(hint)[1]
-                    yield verb, (option.default, *option.param_decls)[-1]
-        for each in group.registered_groups:
-            yield from walk(f"{name} {each.name}".strip(), each.typer_instance)
-
-    return walk("", app)
+    for verb, function in functions():
+        for hint in get_type_hints(function, include_extras=True).values():
+            if get_origin(hint) is Annotated and Path in (get_args(get_args(hint)[0]) or get_args(hint)[:1]):
+                option = get_args(hint)[1]
+                yield verb, (option.default, *option.param_decls)[-1]
 
 
 @pytest.fixture(scope="module", autouse=True)

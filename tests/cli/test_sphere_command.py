@@ -12,7 +12,7 @@ from commands import call
 from places import DOCS
 
 from geartrain import GearTrainError, load
-from geartrain.report import SphereAnswers
+from geartrain.report.spherical_report import SphereAnswers
 from geartrain.spherical import from_polyhedron
 
 

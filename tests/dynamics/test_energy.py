@@ -21,7 +21,7 @@ from reference_solver import find_carrier as carrier_of
 
 from geartrain import GearTrain, GearTrainError, load, shipped
 from geartrain.dynamics.torques import LoadedPair, TorqueBalance, Torques, find_flow_patterns
-from geartrain.report import flow_of, there_and_back
+from geartrain.report.power_report import flow_of, there_and_back
 from geartrain.teeth.transmission import TransmissionFunction
 from geartrain.train.mechanism import Efficiencies
 

@@ -29,9 +29,16 @@ from geartrain.dynamics.torques import (
     watts_per_unit,
     watts_text,
 )
-from geartrain.report import flow_of, there_and_back, to_markdown, torques_data, torques_document
 from geartrain.report.document import Document
-from geartrain.report.power_report import input_and_output, torque_sections
+from geartrain.report.power_report import (
+    flow_of,
+    input_and_output,
+    there_and_back,
+    torque_sections,
+    torques_data,
+    torques_document,
+)
+from geartrain.report.text import to_markdown
 
 RING = """
 extends: planetary-24-18-60
@@ -438,7 +445,7 @@ def titles(document: Document) -> list[str]:
 
 
 def test_a_report_tells_of_torques_in_loaded_states_only() -> None:
-    from geartrain.report import report_train, train_data
+    from geartrain.report.train_report import report_train, train_data
 
     train = load(SPLIT)
     found = [title for title in titles(report_train(train)) if "torques" in title or "power" in title]
@@ -622,7 +629,7 @@ def fresh(code: str, *arguments: object) -> subprocess.CompletedProcess[str]:
 def test_a_report_without_loads_imports_nothing_of_torques() -> None:
     code = """
 import sys, geartrain
-from geartrain.report import report_train, train_data
+from geartrain.report.train_report import report_train, train_data
 train = geartrain.load(sys.argv[1])
 report_train(train), train_data(train)
 print(any(name.startswith("geartrain.dynamics.torques") for name in sys.modules), "numpy" in sys.modules)

@@ -21,7 +21,9 @@ from strategies import Data, trains
 
 from geartrain import GearTrain, load
 from geartrain.dynamics.torques import Torques
-from geartrain.report import report_train, to_markdown, torques_data, torques_document
+from geartrain.report.power_report import torques_data, torques_document
+from geartrain.report.text import to_markdown
+from geartrain.report.train_report import report_train
 
 AXLE = """
 links:

@@ -20,7 +20,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from geartrain import load
-from geartrain.report import report_train, to_markdown, torques_data, torques_document
+from geartrain.report.power_report import torques_data, torques_document
+from geartrain.report.text import to_markdown
+from geartrain.report.train_report import report_train
 from geartrain.teeth.pin_transmission import PinToSlotTransmission, SlotToPinTransmission
 
 PIN = """

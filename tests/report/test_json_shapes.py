@@ -149,15 +149,20 @@ def test_json_is_what_a_file_of_that_name_holds(files: Path) -> None:
 # ------------------------------------------------------------------------------------------------- all other questions
 
 RATIO = ("teeth", "7/3", "--stages", "1", "--best", "2")
-CUT = ("errors", "moon-triangular", "--trials", "16", "--set", "placement=2 %")
-DOUBT = ("sweep", "target.yaml", "--free", "x=18:22", "--free", "z=38:42")
+CUT = ("montecarlo", "moon-triangular", "--trials", "16", "--set", "placement=2 %")
+DOUBT = ("posterior", "target.yaml", "--free", "x=18:22", "--free", "z=38:42")
 PAIR = ("--teeth", "20", "30")
 TRIANGULAR = ("mesh", "triangular", *PAIR)
 MOTION = ("motion", "moon-triangular", "--turns", "1", "--samples", "256", "--output", "moon")
 ASKED: dict[str, list[tuple[str, ...]]] = {
     "motion": [MOTION, (*MOTION, "--estimates", "--spectrum", "--phases", "2"), ("motion", "worm", "--samples", "64")],
-    "errors": [CUT, (*CUT, "--output", "moon"), (*CUT, "--clearance", "0.2:0.8:2")],
-    "sweep": [DOUBT, (*DOUBT, "--soft"), (*DOUBT, "--method", "sample", "--samples", "500"), (*DOUBT, "--scale", "0")],
+    "montecarlo": [CUT, (*CUT, "--output", "moon"), (*CUT, "--clearance", "0.2:0.8:2")],
+    "posterior": [
+        DOUBT,
+        (*DOUBT, "--soft"),
+        (*DOUBT, "--method", "sample", "--samples", "500"),
+        (*DOUBT, "--scale", "0"),
+    ],
     "sphere": [
         ("sphere", "cube"),
         ("sphere", "cube", "--teeth", "4=12"),

@@ -22,7 +22,10 @@ from places import ROOT
 from rich.console import Console
 
 from geartrain import load, shipped
-from geartrain.report import compare_trains, report_train, to_html, to_markdown, to_terminal
+from geartrain.report.html_page import to_html
+from geartrain.report.reconstructions_compared import compare_trains
+from geartrain.report.text import to_markdown, to_terminal
+from geartrain.report.train_report import report_train
 
 Rows = list[list[str]]
 SCRIPT = (ROOT / "geartrain" / "report" / "page.js").read_text(encoding="utf-8")

@@ -14,8 +14,12 @@ import pytest
 from commands import LOCKED, call, without
 
 from geartrain import GearTrainError, load
-from geartrain.report import Picture, compare_trains, report_train, shared_document, to_html, to_markdown
-from geartrain.report.html_page import inline, is_web
+from geartrain.report.document import Picture
+from geartrain.report.html_page import inline, is_web, to_html
+from geartrain.report.reconstructions_compared import compare_trains
+from geartrain.report.shared_page import shared_document
+from geartrain.report.text import to_markdown
+from geartrain.report.train_report import report_train
 
 SVG = (
     '<?xml version="1.0"?><!DOCTYPE svg><svg xmlns="http://www.w3.org/2000/svg" width="10pt" height="5pt" '

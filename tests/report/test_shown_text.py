@@ -22,8 +22,8 @@ from places import ROOT
 
 from geartrain.errors import Problem, printable
 from geartrain.numerics.files import LongTable, csv_line, csv_lines, csv_text
-from geartrain.report import to_markdown
 from geartrain.report.document import Document, Section, Table
+from geartrain.report.text import to_markdown
 
 EVIL = "\x1b]0;owned\x07\x1b[2J\x9b31m\u202etxt"
 STEERING = re.compile("[\x00-\x08\x0b-\x1f\x7f-\x9f\u202a-\u202e\u2028\u2029]")
@@ -93,7 +93,7 @@ def odd_outputs(file: Path, parent: str, of: str) -> Path:
     "command",
     [
         lambda file, out: ("motion", file, "--turns", "1", "--samples", "8", "-o", out, *outputs()),
-        lambda file, out: ("errors", file, "--trials", "2", "--set", "placement=2 %", "-o", out, *outputs()),
+        lambda file, out: ("montecarlo", file, "--trials", "2", "--set", "placement=2 %", "-o", out, *outputs()),
     ],
 )
 def test_columns_of_names_with_commas_do_not_shift(tmp_path: Path, command: Callable[..., Any]) -> None:
@@ -174,7 +174,7 @@ SHOWN = [
     *(("equations", "--latex"), ("torques",), ("torques", "--json"), ("motion", "--turns", "1", "--samples", "8")),
     *(("graph",), ("graph", "--as", "matrix"), ("graph", "--as", "dot"), ("graph", "--as", "graphml")),
     *(("graph", "--as", "json"), ("draw", "--kind", "graph", "-o", "-"), ("solve", "--output", "x" + EVIL)),
-    *(("solve", "--state", EVIL), ("teeth",), ("sweep",), ("errors",), ("motion", "--turns", EVIL)),
+    *(("solve", "--state", EVIL), ("teeth",), ("posterior",), ("montecarlo",), ("motion", "--turns", EVIL)),
     *(("export", "--to", "parts" + EVIL), ("solve", "-o", "x" + EVIL), ("solve", "--method", EVIL)),
 ]
 
@@ -229,7 +229,8 @@ def test_a_terminal_shows_a_hostile_report_as_text(hostile: Path) -> None:
     from rich.console import Console
 
     from geartrain import load
-    from geartrain.report import report_train, to_terminal
+    from geartrain.report.text import to_terminal
+    from geartrain.report.train_report import report_train
 
     out = io.StringIO()
     to_terminal([report_train(load(hostile))], Console(file=out, width=200, color_system=None, highlight=False))

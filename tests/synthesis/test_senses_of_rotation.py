@@ -17,7 +17,9 @@ from hypothesis import strategies as st
 
 import geartrain
 from geartrain import GearTrain
-from geartrain.report import compare_trains, report_train, to_markdown
+from geartrain.report.reconstructions_compared import compare_trains
+from geartrain.report.text import to_markdown
+from geartrain.report.train_report import report_train
 from geartrain.synthesis.formulas import with_counts
 from geartrain.synthesis.train.train_search import search
 from geartrain.uncertainty.posterior import infer_counts

@@ -111,7 +111,7 @@ def _run(
     force: bool,
     **given: Any,
 ) -> None:
-    from geartrain import report
+    from geartrain.report.conjugate_pair_page import shape_data, shape_document
     from geartrain.teeth.conjugate.conjugate_transmission import ConjugateTransmission
 
     to, picture = sink(out, force, (".md", ".html", ".json")), sink(plot, force, PICTURES, "--plot")
@@ -122,9 +122,9 @@ def _run(
     law = ConjugateTransmission(found, _friction(friction), driver)
     wheels = [] if profile is None else [_cut(form, own, found, asked, wheel, outlined, given)]
     if json or to.suffix == ".json":
-        emit(as_json(report.shape_data(form, law, wheels)), to)
+        emit(as_json(shape_data(form, law, wheels)), to)
     else:
-        show([report.shape_document(form, law, wheels)], to)
+        show([shape_document(form, law, wheels)], to)
     if plot is not None:
         from geartrain.drawing import shapes_figure
 

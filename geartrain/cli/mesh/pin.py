@@ -26,14 +26,14 @@ def run(
     force: Force = False,
 ) -> None:
     """Law of a pin in a slot or in a follower: mean ratio, amplitude, extreme speeds."""
-    from geartrain import report
+    from geartrain.report.pair_page import pin_data, pin_document
 
     to = sink(out, force, (".md", ".html", ".json"))
     law = _pin_law(pin_radius, offset, _friction(friction), driver)
     if json or to.suffix == ".json":
-        emit(as_json(report.pin_data(law)), to)
+        emit(as_json(pin_data(law)), to)
     else:
-        show([report.pin_document(law, driver)], to)
+        show([pin_document(law, driver)], to)
 
 
 def _pin_law(pin_radius: str, offset: str, friction: float, driver: str) -> PinTransmission:

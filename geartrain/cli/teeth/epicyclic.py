@@ -23,7 +23,7 @@ def run(
     shift: int,
 ) -> None:
     """Answer for one kind of set."""
-    from geartrain import report
+    from geartrain.report.tooth_numbers import set_row, sets_document
 
     if kind == "list":
         listing(asked.json, asked.out)
@@ -51,24 +51,24 @@ def run(
         clearance=float(_decimal(clearance)),
         slack=shift,
     )
-    rows = [report.set_row(solution) for solution in found.solutions]
+    rows = [set_row(solution) for solution in found.solutions]
     asked.answer(
         found.to_dict(),
         rows,
-        lambda: report.sets_document(found),
+        lambda: sets_document(found),
         lambda at: declaration_of(found.solutions[at]),
     )
 
 
 def listing(json: bool, to: Sink = STANDARD) -> None:
     """The kinds there are."""
-    from geartrain import report
+    from geartrain.report.tooth_numbers import kinds_document
     from geartrain.synthesis.epicyclic.set_kinds import kinds
 
     if json:
         emit(as_json({name: kind.to_dict() for name, kind in kinds().items()}), to)
     else:
-        show([report.kinds_document(kinds())], to)
+        show([kinds_document(kinds())], to)
 
 
 def _number(text: str | None, default: str, option: str) -> int:

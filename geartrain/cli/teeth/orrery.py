@@ -17,7 +17,7 @@ def run(asked: SearchOptions, texts: list[str], effort: int, walk: int | None) -
     from rich.console import Console
     from rich.progress import Progress
 
-    from geartrain import report
+    from geartrain.report.tooth_numbers import orrery_document, orrery_rows
     from geartrain.synthesis.orrery.orrery_search import find_orrery
 
     periods = _periods(texts)
@@ -33,7 +33,7 @@ def run(asked: SearchOptions, texts: list[str], effort: int, walk: int | None) -
         )
     ended = {"interrupt": "interrupted"}.get(found.ended, found.ended)
     data = {**found.to_dict(), "ended": ended}
-    asked.answer(data, report.orrery_rows(found), lambda: report.orrery_document(found), lambda _: found.to_train())
+    asked.answer(data, orrery_rows(found), lambda: orrery_document(found), lambda _: found.to_train())
 
 
 def _periods(texts: list[str]) -> dict[str, Fraction]:

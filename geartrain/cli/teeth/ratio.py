@@ -24,7 +24,7 @@ def run(
     approximants: bool,
 ) -> None:
     """Answer for one ratio."""
-    from geartrain import report
+    from geartrain.report.tooth_numbers import stages_document, stages_row
     from geartrain.synthesis.ratio.stage_problem import StageConstraints
     from geartrain.synthesis.target_ratio import read_ratio
 
@@ -37,8 +37,8 @@ def run(
         _pairs(asked, wanted)
     found, cut = _search(asked, means, wanted, stages, fit)
     data = {**found.to_dict(), "ended": "interrupted" if cut else "whole"}
-    rows = [report.stages_row(solution) for solution in found]
-    asked.answer(data, rows, lambda: report.stages_document(found))
+    rows = [stages_row(solution) for solution in found]
+    asked.answer(data, rows, lambda: stages_document(found))
 
 
 def _search(
@@ -78,7 +78,7 @@ def _search(
 
 def _pairs(asked: SearchOptions, wanted: TargetRatio) -> None:
     """One pair in long ranges: by the tree, without a list of counts."""
-    from geartrain import report
+    from geartrain.report.tooth_numbers import pairs_document, stages_row
     from geartrain.synthesis.gear_pair_search import count_pairs, find_pairs
     from geartrain.synthesis.ratio.stage_infeasibility import OUTSIDE
     from geartrain.synthesis.ratio.stage_problem import StageConstraints
@@ -104,15 +104,15 @@ def _pairs(asked: SearchOptions, wanted: TargetRatio) -> None:
         "note": "",
         "ended": "whole",
     }
-    rows = [report.stages_row(solution) for solution in solutions]
-    asked.answer(data, rows, lambda: report.pairs_document(wanted, solutions, count))
+    rows = [stages_row(solution) for solution in solutions]
+    asked.answer(data, rows, lambda: pairs_document(wanted, solutions, count))
 
 
 def _fractions(asked: SearchOptions, wanted: TargetRatio) -> None:
-    from geartrain import report
+    from geartrain.report.tooth_numbers import approximants_document
     from geartrain.synthesis.stern_brocot import approximants
 
     most = max(asked.wheels.most, asked.pinions.most)
     found = approximants(wanted.value, most)
     data = {"wanted": wanted.to_dict(), "most": most, "solutions": [each.to_dict() for each in found]}
-    asked.answer(data, data["solutions"], lambda: report.approximants_document(wanted, most, found))  # type: ignore[arg-type]
+    asked.answer(data, data["solutions"], lambda: approximants_document(wanted, most, found))  # type: ignore[arg-type]

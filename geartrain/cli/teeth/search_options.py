@@ -21,7 +21,7 @@ from geartrain.cli.long_runs import means, table_text
 
 if TYPE_CHECKING:
     from geartrain.cli.long_runs import RunExecution as Work
-    from geartrain.report import Document
+    from geartrain.report.document import Document
     from geartrain.synthesis.tooth_count_ranges import CountRuns
 
 

@@ -25,8 +25,8 @@ def run(
     where: list[str],
 ) -> None:
     """Answer for the free wheels of a train."""
-    from geartrain import report
     from geartrain.analysis.loader import read_declaration
+    from geartrain.report.tooth_numbers import assignment_rows, assignments_document
     from geartrain.synthesis.constraints.constraint_options import read_constraint_options
 
     train = read_declaration(file)
@@ -45,8 +45,8 @@ def run(
     solutions = found.solutions
     asked.answer(
         data,
-        report.assignment_rows(found),
-        lambda: report.assignments_document(found, standings),
+        assignment_rows(found),
+        lambda: assignments_document(found, standings),
         lambda at: found.declaration(solutions[at], _parent(file, asked.out.path)),
     )
 

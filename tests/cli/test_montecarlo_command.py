@@ -1,4 +1,4 @@
-"""`geartrain errors`: what is written and read back, what is refused, and what an interrupted run leaves."""
+"""`geartrain montecarlo`: what is written and read back, what is refused, and what an interrupted run leaves."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ Write = Callable[..., Path]
 
 
 def ask(*words: object) -> Any:
-    return CliRunner().invoke(app, ["errors", *map(str, words)])
+    return CliRunner().invoke(app, ["montecarlo", *map(str, words)])
 
 
 @pytest.fixture

@@ -1,4 +1,4 @@
-"""`geartrain sweep`: which tooth counts fit what the outputs show, where evidence leaves counts open."""
+"""`geartrain posterior`: which tooth counts fit what the outputs show, where evidence leaves counts open."""
 
 from __future__ import annotations
 
@@ -99,7 +99,7 @@ def run(
     }
     question = {"train": train.model_dump(mode="json"), **asked}
     count = 1 if workers is None and scheduler is None else workers
-    with means("sweep", _kept(question, out), question, count, scheduler, resume) as (executor, journal, progress):
+    with means("posterior", _kept(question, out), question, count, scheduler, resume) as (executor, journal, progress):
         found = infer_counts(train, **asked, executor=executor, journal=journal, tell=progress)
         close_journal(journal, found.cut)
     if drawing.path is not None and not found.best:
@@ -111,18 +111,18 @@ def run(
 
 
 def _answer(found: ToothCountPosterior, json: bool, to: Sink) -> None:
-    from geartrain import report
+    from geartrain.report.posterior_report import sweep_data, sweep_document, sweep_rows
 
     if to.suffix == ".csv":
-        emit(table_text(report.sweep_rows(found)), to)
+        emit(table_text(sweep_rows(found)), to)
     elif to.suffix == ".parquet":
-        _write_parquet(report.sweep_rows(found), to, {"train": found.name, "method": found.method})
+        _write_parquet(sweep_rows(found), to, {"train": found.name, "method": found.method})
     elif to.suffix == ".json":
-        emit(as_json(report.sweep_data(found)), to)
+        emit(as_json(sweep_data(found)), to)
     elif not json or to.path is not None:
-        show([report.sweep_document(found)], to)
+        show([sweep_document(found)], to)
     if json and to.suffix != ".json":
-        emit(as_json(report.sweep_data(found)))
+        emit(as_json(sweep_data(found)))
     if found.cut:
         raise typer.Exit(INTERRUPTED)
     raise typer.Exit(GOOD if found.best else VERDICT)
@@ -157,7 +157,7 @@ def _kept(question: Mapping[str, Any], out: Path | None) -> Path:
     """Where the journal of this sweep is."""
     train = plain_json.loads(plain_json.dumps(question["train"], default=str))
     mark = hashlib.sha256(plain_json.dumps(train, sort_keys=True).encode()).hexdigest()[:8]
-    return (out.parent if out else Path()) / f"sweep-{train['name']}-{mark}.partial.jsonl"
+    return (out.parent if out else Path()) / f"posterior-{train['name']}-{mark}.partial.jsonl"
 
 
 def _write_parquet(rows: Sequence[Mapping[str, Any]], to: Sink, about: Mapping[str, str]) -> None:

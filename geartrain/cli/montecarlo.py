@@ -1,4 +1,4 @@
-"""`geartrain errors`: a train cut by hand, many times over: how often it jams, how far its pointers stray."""
+"""`geartrain montecarlo`: a train cut by hand, many times over: how often it jams, how far its pointers stray."""
 
 from __future__ import annotations
 
@@ -121,12 +121,12 @@ def _check_extras(sobol: bool) -> None:
 
 
 def _answer(findings: MonteCarloResult, json: bool, to: Sink) -> None:
-    from geartrain import report
+    from geartrain.report.monte_carlo_report import trials_data, trials_document
 
     if json:
-        emit(as_json(report.trials_data(findings)), to)
+        emit(as_json(trials_data(findings)), to)
     else:
-        show([report.trials_document(findings)], to)
+        show([trials_document(findings)], to)
 
 
 def _partial(found: TrialResults) -> MonteCarloResult:
@@ -214,7 +214,7 @@ class _Work:
 def _kept(question: Mapping[str, Any], out: Path | None) -> Path:
     """Where the journal of these trials is."""
     mark = hashlib.sha256(plain.dumps(question, sort_keys=True).encode()).hexdigest()[:8]
-    return (out.parent if out else Path()) / f"errors-{mark}.partial.jsonl"
+    return (out.parent if out else Path()) / f"montecarlo-{mark}.partial.jsonl"
 
 
 @dataclass(frozen=True)

@@ -1,4 +1,4 @@
-"""`geartrain list` and `geartrain periods`: what is shipped."""
+"""`geartrain periods`: the shipped table of astronomical periods."""
 
 from __future__ import annotations
 
@@ -9,16 +9,7 @@ import typer
 from geartrain.cli.common import emit
 
 
-def trains() -> None:
-    """List the shipped trains with their titles."""
-    from geartrain.analysis.loader import load, shipped
-
-    width = max((len(name) for name in shipped()), default=0)
-    lines = [f"{name:<{width}}  {load(path).declaration.title}" for name, path in shipped().items()]
-    emit("\n".join(lines))
-
-
-def periods(
+def run(
     word: Annotated[str, typer.Argument(help="Show only names that contain this.", metavar="[WORD]")] = "",
 ) -> None:
     """List the shipped table of astronomical periods, speeds and counts."""

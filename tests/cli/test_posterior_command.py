@@ -1,4 +1,4 @@
-"""`geartrain sweep`, as a user runs it."""
+"""`geartrain posterior`, as a user runs it."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ def train(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 
 def test_a_sweep_lists_what_fits_and_leaves_no_journal(train: Path) -> None:
-    result = call("sweep", train)
+    result = call("posterior", train)
     assert result.exit_code == 0
     assert f"{len(FITS)} fit" in result.stdout
     assert "Combinations that agree best" in result.stdout
@@ -45,17 +45,17 @@ def test_a_sweep_lists_what_fits_and_leaves_no_journal(train: Path) -> None:
 
 
 def test_json_csv_and_parquet_hold_the_same_combinations(train: Path) -> None:
-    plain = json.loads(call("sweep", train, "--json").stdout)
+    plain = json.loads(call("posterior", train, "--json").stdout)
     assert {(one["teeth"]["w"], one["teeth"]["v"]) for one in plain["best"]} == FITS
     assert Fraction(plain["evidence"]["exact"]) == Fraction(len(FITS), 15)
     assert plain["fits"] == len(FITS)
-    assert call("sweep", train, "-o", "out.csv").exit_code == 0
+    assert call("posterior", train, "-o", "out.csv").exit_code == 0
     rows = list(csv.DictReader(io.StringIO(Path("out.csv").read_text())))
     assert {(int(row["w"]), int(row["v"])) for row in rows} == FITS
     for row in rows:
         assert float(row["speed of b"]) == pytest.approx(-int(row["w"]) / int(row["v"]), rel=1e-15)
     parquet = pytest.importorskip("pyarrow.parquet")
-    assert call("sweep", train, "-o", "out.parquet").exit_code == 0
+    assert call("posterior", train, "-o", "out.parquet").exit_code == 0
     table = parquet.read_table("out.parquet").to_pylist()
     assert [(row["w"], row["v"], row["misfit"]) for row in table] == [
         (int(row["w"]), int(row["v"]), float(row["misfit"])) for row in rows
@@ -63,24 +63,24 @@ def test_json_csv_and_parquet_hold_the_same_combinations(train: Path) -> None:
 
 
 def test_pages_are_written_whole(train: Path) -> None:
-    assert call("sweep", train, "-o", "out.md").exit_code == 0
+    assert call("posterior", train, "-o", "out.md").exit_code == 0
     assert Path("out.md").read_text().startswith("# Counts in doubt of pair")
-    assert call("sweep", train, "-o", "out.html").exit_code == 0
+    assert call("posterior", train, "-o", "out.html").exit_code == 0
     assert "Which wheel decides which output" in Path("out.html").read_text()
 
 
 def test_counts_are_freed_held_and_weighed_by_options(train: Path) -> None:
-    plain = json.loads(call("sweep", train, "--free", "w=20", "--free", "v=57,59:61", "--json").stdout)
+    plain = json.loads(call("posterior", train, "--free", "w=20", "--free", "v=57,59:61", "--json").stdout)
     assert plain["wheels"]["v"]["counts"] == [57, 59, 60, 61]
     assert plain["wheels"]["w"]["counts"] == [20]
     assert plain["combinations"] == 4
-    assert json.loads(call("sweep", train, "--soft", "--json").stdout)["soft"] is True
-    tight = json.loads(call("sweep", train, "--scale", "0", "--json").stdout)
+    assert json.loads(call("posterior", train, "--soft", "--json").stdout)["soft"] is True
+    tight = json.loads(call("posterior", train, "--scale", "0", "--json").stdout)
     assert {(one["teeth"]["w"], one["teeth"]["v"]) for one in tight["best"]} == {(20, 60)}
 
 
 def test_nothing_that_fits_is_an_answer_and_exit_1(train: Path) -> None:
-    result = call("sweep", train, "--free", "w=40:45")
+    result = call("posterior", train, "--free", "w=40:45")
     assert result.exit_code == 1
     assert "None of them fits" in result.stdout
 
@@ -96,7 +96,7 @@ def test_nothing_that_fits_is_an_answer_and_exit_1(train: Path) -> None:
     ],
 )
 def test_options_that_say_nothing_are_refused(train: Path, options: tuple[str, str]) -> None:
-    result = call("sweep", train, *options)
+    result = call("posterior", train, *options)
     assert result.exit_code == 2
     assert "Traceback" not in result.output
 
@@ -105,7 +105,7 @@ def test_a_sample_may_be_resumed_and_another_question_is_refused(train: Path, mo
     from geartrain.uncertainty.posterior import inference as sweeping
 
     options = ("--method", "sample", "--samples", "100000", "--json")
-    whole = json.loads(call("sweep", train, *options).stdout)
+    whole = json.loads(call("posterior", train, *options).stdout)
     real = sweeping.PosteriorTally.join
 
     def cut(tally: sweeping.PosteriorTally, other: dict[str, object]) -> None:
@@ -114,13 +114,13 @@ def test_a_sample_may_be_resumed_and_another_question_is_refused(train: Path, mo
             raise KeyboardInterrupt
 
     monkeypatch.setattr(sweeping.PosteriorTally, "join", cut)
-    result = call("sweep", train, *options)
+    result = call("posterior", train, *options)
     assert result.exit_code == 130
     assert json.loads(result.stdout)["ended"] == "interrupted"
     monkeypatch.setattr(sweeping.PosteriorTally, "join", real)
     assert len(list(train.parent.glob("*.partial.jsonl"))) == 1
-    other = call("sweep", train, "--method", "sample", "--samples", "90000", "--resume")
+    other = call("posterior", train, "--method", "sample", "--samples", "90000", "--resume")
     assert other.exit_code != 0
     assert "another question" in str(other.exception)
-    assert json.loads(call("sweep", train, *options, "--resume").stdout) == whole
+    assert json.loads(call("posterior", train, *options, "--resume").stdout) == whole
     assert not list(train.parent.glob("*.partial.jsonl"))

@@ -1,0 +1,91 @@
+"""The verbs, one file each: a verb is imported when it is asked for, so that none waits for the imports of another."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from importlib import import_module
+from typing import Any, ClassVar
+
+import typer
+from typer.core import TyperGroup
+
+from geartrain.cli.common import tell
+
+Command = Any
+"""A command of click, which typer carries with it or imports, by its version."""
+
+
+class Verbs(Mapping[str, Command]):
+    """The commands of a group by their names, each made when it is asked for.
+
+    A verb is a module of `package` with a function `run`, or with a `typer.Typer` named `app` for a group.
+
+    Parameters
+    ----------
+    package
+        Where the modules are.
+    names
+        The verbs, as `--help` lists them.
+    renamed
+        Old words and the verbs they are called now. They work still, and `--help` does not list them.
+    make
+        Name -> command, for verbs that are no modules; None where the name is that of a module.
+    """
+
+    def __init__(
+        self,
+        package: str,
+        names: tuple[str, ...],
+        renamed: Mapping[str, str] | None = None,
+        make: Callable[[str], Callable[..., None] | None] = lambda name: None,
+    ) -> None:
+        self.package, self.names, self.renamed, self._make = package, names, renamed or {}, make
+        self._made: dict[str, Command] = {}
+
+    def __getitem__(self, name: str) -> Command:
+        name = self.renamed.get(name, name)
+        if name not in self.names:
+            raise KeyError(name)
+        if name not in self._made:
+            self._made[name] = self._command(name)
+        return self._made[name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self.names)
+
+    def __len__(self) -> int:
+        return len(self.names)
+
+    def _command(self, name: str) -> Command:
+        run = self._make(name)
+        if run is None:
+            module = import_module(f"{self.package}.{name}")
+            if hasattr(module, "app"):
+                command = typer.main.get_command(module.app)
+                command.name = name
+                return command
+            run = module.run
+        one = typer.Typer(add_completion=False, pretty_exceptions_enable=False)
+        # an argument that begins with a minus may be a negative number; the verb that takes one complains of others
+        one.command(name, context_settings=getattr(run, "context_settings", None))(run)
+        return typer.main.get_command(one)
+
+
+class LazyGroup(TyperGroup):
+    """A group of verbs that are imported when they are asked for."""
+
+    verbs: ClassVar[Verbs]
+
+    def __init__(self, *given: Any, **more: Any) -> None:
+        super().__init__(*given, **more)
+        self.commands = self.verbs  # type: ignore[assignment]
+
+    def resolve_command(self, ctx: Any, args: list[str]) -> tuple[str | None, Any, list[str]]:
+        """The verb that was asked for; what it is called now is said where an old word was used."""
+        name, command, rest = super().resolve_command(ctx, args)
+        new = self.verbs.renamed.get(name or "")
+        if new is None:
+            return name, command, rest
+        if not ctx.resilient_parsing:
+            tell(f"note: `{ctx.command_path} {name}` is called `{ctx.command_path} {new}` now")
+        return new, command, rest

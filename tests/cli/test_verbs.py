@@ -1,0 +1,89 @@
+"""A verb is imported when it is asked for, brings only the rooms it needs, and answers to its old name."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+
+import pytest
+from commands import call, functions
+
+BEHIND_VERSION = {"geartrain", "geartrain.cli", "geartrain.errors"}
+BEHIND_SOLVE = {
+    *BEHIND_VERSION,
+    *("geartrain.analysis", "geartrain.kinematics", "geartrain.train", "geartrain.teeth", "geartrain.numerics"),
+    "geartrain.report",  # how a number is written for a reader
+}
+HEAVY = {"numpy", "scipy", "networkx", "matplotlib", "jinja2", "rich"}
+
+
+def loaded(*arguments: str) -> set[str]:
+    """The modules in a fresh interpreter after a command."""
+    code = f"""
+import json, sys
+from geartrain.cli import main
+sys.argv = ["geartrain", *{arguments!r}]
+try:
+    main()
+except SystemExit as ended:
+    assert not ended.code, ended.code
+print(json.dumps(sorted(sys.modules)))
+"""
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True, timeout=120)
+    return set(json.loads(done.stdout.splitlines()[-1]))
+
+
+def rooms(modules: set[str]) -> set[str]:
+    return {".".join(name.split(".")[:2]) for name in modules if name.split(".")[0] == "geartrain"}
+
+
+def verbs_in(modules: set[str]) -> set[str]:
+    return {name.split(".")[2] for name in modules if name.startswith("geartrain.cli.")}
+
+
+def test_the_version_is_told_by_the_shell_alone() -> None:
+    modules = loaded("--version")
+    assert rooms(modules) <= BEHIND_VERSION
+    assert not modules & {*HEAVY, "pydantic", "yaml"}
+    assert verbs_in(modules) <= {"common", "exit_codes", "verbs"}
+
+
+@pytest.mark.parametrize("more", [(), ("--output", "carrier")])
+def test_solve_brings_the_rooms_that_solve_and_no_other_verb(more: tuple[str, ...]) -> None:
+    modules = loaded("solve", "planetary-24-18-60", *more)
+    assert rooms(modules) <= BEHIND_SOLVE
+    assert not modules & HEAVY
+    assert verbs_in(modules) <= {"common", "exit_codes", "verbs", "solve"}
+
+
+def test_a_verb_brings_no_page_but_its_own() -> None:
+    pages = {name for name in loaded("torques", "norton-planetary") if name.startswith("geartrain.report.")}
+    assert "geartrain.report.power_report" in pages
+    assert not pages & {f"geartrain.report.{other}" for other in ("spherical_report", "tooth_numbers", "motion_report")}
+
+
+def test_every_verb_is_one_file_called_like_it() -> None:
+    for name, function in functions():
+        path = f"geartrain.cli.{name.replace(' ', '.')}"
+        in_one_file = name.startswith(("bench ", "mesh "))  # benchmarks are alike, and so are forms of teeth
+        assert in_one_file or function.__module__ == path, name
+
+
+def test_help_lists_every_verb_with_what_it_does() -> None:
+    said = " ".join(call("--help").stdout.replace("│", " ").split())
+    for name, function in functions():
+        if " " not in name:
+            assert f" {name} " in said
+            assert " ".join(str(function.__doc__).split()[:3]) in said, name
+
+
+@pytest.mark.parametrize(("old", "new"), [("errors", "montecarlo"), ("sweep", "posterior")])
+def test_an_old_name_works_and_tells_the_new_one_once(old: str, new: str) -> None:
+    asked = ("pennestri-2002", "--no-such-option") if old == "sweep" else ("pennestri-2002", "--trials", "x")
+    said, now = call(old, *asked), call(new, *asked)
+    note = f"note: `geartrain {old}` is called `geartrain {new}` now"
+    assert said.exit_code == now.exit_code == 2
+    assert said.stderr.count(note) == 1, said.stderr
+    assert "note:" not in now.stderr
+    assert f"│ {old} " not in call("--help").stdout

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
+from difflib import get_close_matches
 from itertools import islice
 
 Loc = tuple[str | int, ...]
@@ -33,6 +34,23 @@ def dotted(loc: Loc) -> str:
     for step in loc:
         text += f"[{step}]" if isinstance(step, int) else f".{step}" if text else step
     return text
+
+
+def nearest_names(name: str, known: Iterable[str], wide: bool = False) -> list[str]:
+    """The known names that may be meant by an unknown one, the most alike first.
+
+    wide   where names are long and made of parts, as those of periods and files: less likeness will do, and one more
+           is named
+    """
+    return get_close_matches(name, tuple(dict.fromkeys(known)), n=3 if wide else 2, cutoff=0.5 if wide else 0.6)
+
+
+def suggest(name: str, known: Iterable[str], otherwise: str = "", wide: bool = False) -> str:
+    """What to write instead of an unknown name: the nearest known ones, else `otherwise`, else all if they are few."""
+    known = tuple(dict.fromkeys(known))
+    if close := nearest_names(name, known, wide):
+        return f"did you mean {' or '.join(map(repr, close))}?"
+    return otherwise or (f"use one of: {', '.join(known)}" if 0 < len(known) <= 30 else "correct the name")
 
 
 @dataclass(frozen=True, slots=True)

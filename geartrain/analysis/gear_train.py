@@ -10,7 +10,7 @@ from functools import cached_property
 from math import isfinite
 from typing import TYPE_CHECKING, Any, Literal, get_args
 
-from geartrain.errors import DeclarationError, Problem, QuestionError, RangeError
+from geartrain.errors import DeclarationError, Problem, QuestionError, RangeError, suggest
 from geartrain.kinematics.answer import Answer, SpeedAccuracy
 from geartrain.kinematics.circuits import (
     Circuit,
@@ -36,7 +36,7 @@ from geartrain.kinematics.verdict import Verdict
 from geartrain.kinematics.willis_system import WillisSystem, assemble_willis_system
 from geartrain.numerics.exact import TooDenseError, as_float
 from geartrain.numerics.long_float import rounded, scaled
-from geartrain.train import GearPair, StateCase, Train, declare, suggest
+from geartrain.train import GearPair, StateCase, Train, declare
 
 if TYPE_CHECKING:
     from geartrain.dynamics.gear_meshes import PinMesh

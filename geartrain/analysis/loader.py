@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from difflib import get_close_matches
 from functools import cache
 from pathlib import Path
 from stat import S_ISDIR, S_ISREG
@@ -11,7 +10,7 @@ from types import MappingProxyType
 from typing import Any
 
 from geartrain.analysis.gear_train import GearTrain
-from geartrain.errors import DeclarationError, Problem
+from geartrain.errors import DeclarationError, Problem, suggest
 from geartrain.train import Train, declare
 from geartrain.train.inheritance import merge_parent
 from geartrain.train.yaml_nodes import YamlNode, node_from_data, parse_yaml
@@ -99,7 +98,7 @@ def _parent(name: str, folder: Path, place: str) -> Path:
         Problem(
             f"`extends` names '{name}'",
             f"there is no such file in {'this folder' if folder == Path() else folder} and no such shipped train",
-            _near(name, siblings),
+            suggest(name, siblings, otherwise="`geartrain list` shows the shipped trains", wide=True),
             place,
         )
     )
@@ -126,15 +125,10 @@ def _find(source: str | Path) -> Path:
         Problem(
             "there is no such file",
             f"and no shipped train is called '{path.stem}'",
-            _near(path.stem, shipped()),
+            suggest(path.stem, shipped(), otherwise="`geartrain list` shows the shipped trains", wide=True),
             str(source),
         )
     )
-
-
-def _near(name: str, known: Any) -> str:
-    close = get_close_matches(name, list(known), n=3, cutoff=0.5)
-    return f"did you mean {' or '.join(map(repr, close))}?" if close else "`geartrain list` shows the shipped trains"
 
 
 def _read(path: Path) -> str:

@@ -9,14 +9,13 @@ from importlib.util import find_spec
 from math import degrees
 from typing import TYPE_CHECKING
 
-from geartrain.errors import GearTrainError, Problem, QuestionError, printable
+from geartrain.errors import GearTrainError, Problem, QuestionError, printable, suggest
 from geartrain.export.csv_tables import to_tables
 from geartrain.export.flat_files import to_dxf, to_svg
 from geartrain.export.rexs import to_rexs
 from geartrain.export.wheel_sheets import WheelSheet, file_names, wheel_sheets
 from geartrain.kinematics import graph
 from geartrain.scene.solids.flat_drawing import FlatDrawing
-from geartrain.train import suggest
 
 if TYPE_CHECKING:
     from geartrain.scene.solids.solid_assembly import SolidModel

@@ -1,13 +1,12 @@
-"""Block triangular form of a square sparse system: which unknowns must be solved together, and in which order.
+"""Which unknowns of a sparse system must be found together, and in which order; known is only which row holds which.
 
-It knows only which row holds which column. Every row is matched to a column of its own; a column then hangs on the
-other columns of its row, and columns that hang on each other make one block.
+Rows are matched to columns of their own as far as they can be. In a square system a column then hangs on the other
+columns of its row, and columns that hang on each other make one block of the block triangular form. In any other,
+alternating paths from unmatched rows and columns part the system into three (Dulmage and Mendelsohn 1958): one with
+rows to spare, one that is square, one with columns to spare; each needs only what stands before it.
 
-Parts of a sparse system that need not be square: which unknowns must be found together, and in which order.
-
-Rows and columns are matched as far as they can be; alternating paths from unmatched ones part the system into three
-(Dulmage and Mendelsohn 1958): one with rows to spare, one that is square, one with columns to spare. Each needs only
-what stands before it, and the square one has its own block triangular form.
+Written out here, for the answers that need it are to load neither numpy nor networkx, and without recursion: trains are
+as deep as they like.
 """
 
 from __future__ import annotations
@@ -29,65 +28,11 @@ def find_blocks(rows: Sequence[Sequence[int]], also: Sequence[Sequence[int]] = (
     rows   the columns of each row; `also`, columns that a row hangs on without holding them
     Cost is linear in trees, and rows times entries at worst.
     """
-    taken = _match(rows)
-    if taken is None:
+    row_of = _maximum_matching(dict(enumerate(rows)))
+    if len(row_of) < len(rows):
         return None
+    taken = [row_of[column] for column in range(len(rows))]
     return _strong([(*row, *more) for row, more in zip(rows, also, strict=True)] if also else rows, taken)
-
-
-def _match(rows: Sequence[Sequence[int]]) -> list[int] | None:
-    """The row of every column, every row once; None where there is no such matching."""
-    taken = [-1] * len(rows)
-    left = _peel(rows, taken)
-    return taken if all(_augment(rows, taken, row) for row in left) else None
-
-
-def _peel(rows: Sequence[Sequence[int]], taken: list[int]) -> list[int]:
-    """Match rows with one column left, again and again; what remains is returned."""
-    users: list[list[int]] = [[] for _ in rows]
-    missing = [len(row) for row in rows]
-    for at, row in enumerate(rows):
-        for column in row:
-            users[column].append(at)
-    matched = [False] * len(rows)
-    queue = [at for at, count in enumerate(missing) if count == 1]
-    for at in queue:
-        free = next((column for column in rows[at] if taken[column] < 0), -1)
-        if free < 0:
-            continue
-        taken[free], matched[at] = at, True
-        for other in users[free]:
-            missing[other] -= 1
-            if missing[other] == 1 and not matched[other]:
-                queue.append(other)
-    return [at for at in range(len(rows)) if not matched[at]]
-
-
-def _augment(rows: Sequence[Sequence[int]], taken: list[int], start: int) -> bool:
-    """Give a row a column, moving other rows to other columns of theirs where need be (depth first, no recursion)."""
-    for column in rows[start]:
-        if taken[column] < 0:
-            taken[column] = start
-            return True
-    seen: set[int] = set()
-    stack = [(start, iter(rows[start]))]
-    path: list[int] = []
-    while stack:
-        _, columns = stack[-1]
-        fresh = next((column for column in columns if column not in seen), -1)
-        if fresh < 0:
-            stack.pop()
-            if path:
-                path.pop()
-            continue
-        seen.add(fresh)
-        path.append(fresh)
-        if taken[fresh] < 0:
-            for (row, _), given in zip(stack, path, strict=True):
-                taken[given] = row
-            return True
-        stack.append((taken[fresh], iter(rows[taken[fresh]])))
-    return False
 
 
 def _strong(rows: Sequence[Sequence[int]], taken: Sequence[int]) -> list[Block]:
@@ -169,13 +114,35 @@ def _square_blocks(rows: Mapping[int, Collection[int]], known: Collection[int]) 
 def _maximum_matching(rows: Mapping[int, Collection[int]]) -> dict[int, int]:
     """A matching of as many rows as can be: column -> row. A round visits every column once at most."""
     row_of: dict[int, int] = {}
-    free = list(rows)
+    free = _peel(rows, row_of)
     while True:
         seen: set[int] = set()
         left = [row for row in free if not _augment_from(rows, row, row_of, seen)]
         if len(left) == len(free):
             return row_of
         free = left
+
+
+def _peel(rows: Mapping[int, Collection[int]], row_of: dict[int, int]) -> list[int]:
+    """Match rows with one column left, again and again; the rows that remain. This settles trees in linear time."""
+    users: dict[int, list[int]] = {}
+    for row, held in rows.items():
+        for column in held:
+            users.setdefault(column, []).append(row)
+    missing = {row: len(held) for row, held in rows.items()}
+    matched: set[int] = set()
+    queue = [row for row, count in missing.items() if count == 1]
+    for row in queue:
+        free = next((column for column in rows[row] if column not in row_of), None)
+        if free is None:
+            continue
+        row_of[free] = row
+        matched.add(row)
+        for other in users[free]:
+            missing[other] -= 1
+            if missing[other] == 1 and other not in matched:
+                queue.append(other)
+    return [row for row in rows if row not in matched]
 
 
 def _augment_from(rows: Mapping[int, Collection[int]], root: int, row_of: dict[int, int], seen: set[int]) -> bool:

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass
-from difflib import get_close_matches
 from fractions import Fraction
 from typing import Annotated, Any
 
 from pydantic import AfterValidator, GetCoreSchemaHandler, GetJsonSchemaHandler
 from pydantic_core import PydanticCustomError, core_schema
+
+from geartrain.errors import nearest_names
 
 TURN = "turn"
 RADIANS_PER_TURN = 6.283185307179586
@@ -290,7 +291,7 @@ def _nearest(unit: str, dimension: str) -> str:
     known = _units_of(dimension)
     spelt = {name.casefold(): name for name, meant in _SPELT.items() if meant in known.split(", ")}
     names = spelt | {name.casefold(): name for name in known.split(", ")}
-    close = get_close_matches(unit.casefold(), names, n=1, cutoff=0.6)
+    close = nearest_names(unit.casefold(), names)
     return f"did you mean '{names[close[0]]}'? Known here: {known}" if close else f"use one of: {known}"
 
 

@@ -13,10 +13,9 @@ from typing import TYPE_CHECKING, Literal, get_args
 
 import numpy as np
 
-from geartrain.errors import GearTrainError, Problem, QuestionError
+from geartrain.errors import GearTrainError, Problem, QuestionError, suggest
 from geartrain.spherical.polyhedra import Polyhedron, from_the_top
 from geartrain.spherical.symmetric_displacement import SymmetricFreedom
-from geartrain.train import suggest
 
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats

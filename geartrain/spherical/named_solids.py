@@ -12,9 +12,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from geartrain.errors import GearTrainError, Problem
+from geartrain.errors import GearTrainError, Problem, suggest
 from geartrain.spherical.polyhedra import Polyhedron, from_the_top, polyhedron
-from geartrain.train import suggest
 
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats

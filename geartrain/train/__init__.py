@@ -7,7 +7,7 @@ from geartrain.train.manufacturing import AngleError, LengthError, PairMounting,
 from geartrain.train.mechanism import Axis, GearPair, Link, Revolute, Source, Teeth, Wheel
 from geartrain.train.outputs import Dial, Expect, Output, Published, SpeedUnit, Target, View
 from geartrain.train.states import Clutch, Erratum, Remove, State
-from geartrain.train.validation import declare, suggest
+from geartrain.train.validation import declare
 
 __all__ = [
     "AngleError",
@@ -35,5 +35,4 @@ __all__ = [
     "Wheel",
     "WheelManufacture",
     "declare",
-    "suggest",
 ]

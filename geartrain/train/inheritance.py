@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
-from difflib import get_close_matches
 
-from geartrain.errors import DeclarationError, Problem
+from geartrain.errors import DeclarationError, Problem, suggest
 from geartrain.train.yaml_nodes import YamlNode, texts
 
 _NOT_INHERITED = ("name", "title", "note", "extends", "remove")
@@ -187,8 +186,7 @@ def _check_known(root: YamlNode, remove: YamlNode, gone: Mapping[str, list[str]]
     for key, names in gone.items():
         for at, name in enumerate(names):
             if key in known and name not in known[key]:
-                close = get_close_matches(name, known[key], n=2)
-                fix = f"did you mean {' or '.join(map(repr, close))}?" if close else "leave it out"
+                fix = suggest(name, known[key], otherwise="leave it out")
                 problems.append(
                     Problem(
                         f"`remove` names '{name}'",

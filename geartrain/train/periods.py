@@ -5,12 +5,13 @@ from __future__ import annotations
 import csv
 from collections.abc import Mapping
 from dataclasses import dataclass
-from difflib import get_close_matches
 from fractions import Fraction
 from functools import cache
 from importlib import resources
 from types import MappingProxyType
 from typing import Literal
+
+from geartrain.errors import suggest
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,5 +49,4 @@ def period_table() -> Mapping[str, Period]:
 
 def suggested_period(name: str) -> str:
     """What to write instead of an unknown `name`."""
-    close = get_close_matches(name, period_table(), n=3, cutoff=0.5)
-    return f"did you mean {', '.join(close)}?" if close else "`geartrain periods` lists the names"
+    return suggest(name, period_table(), otherwise="`geartrain periods` lists the names", wide=True)

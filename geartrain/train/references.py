@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from difflib import get_close_matches
 
-from geartrain.errors import Loc, Problem, dotted
+from geartrain.errors import Loc, Problem, dotted, suggest
 from geartrain.numerics.quantity import Quantity
 from geartrain.train.declaration import Train
 from geartrain.train.outputs import Output, Target
@@ -27,12 +26,7 @@ def find_problems(train: Train) -> Iterator[Problem]:
 
 
 def _unknown(train: Train, kind: str, name: str, known: Iterable[str], *loc: str | int) -> Problem:
-    close = get_close_matches(name, tuple(known), n=2, cutoff=0.6)
-    fix = (
-        f"did you mean {' or '.join(repr(found) for found in close)}?"
-        if close
-        else f"declare the {kind}, or correct the name"
-    )
+    fix = suggest(name, known, otherwise=f"declare the {kind}, or correct the name")
     return Problem(f"no {kind} '{name}'", f"`{dotted(loc)}` names it", fix, train.place(*loc))
 
 

@@ -3,14 +3,23 @@
 from __future__ import annotations
 
 import types
-from collections.abc import Iterable, Iterator, Mapping
-from difflib import get_close_matches
+from collections.abc import Iterator, Mapping
 from itertools import islice
 from typing import Annotated, Any, Union, get_args, get_origin
 
 from pydantic import BaseModel, ValidationError
 
-from geartrain.errors import MOST_TOLD, DeclarationError, Loc, Marks, Problem, dotted, first_problems
+from geartrain.errors import (
+    MOST_TOLD,
+    DeclarationError,
+    Loc,
+    Marks,
+    Problem,
+    dotted,
+    first_problems,
+    nearest_names,
+    suggest,
+)
 from geartrain.numerics.containers import collector_paused
 from geartrain.teeth import ToothForm
 from geartrain.train.declaration import Train
@@ -90,7 +99,7 @@ def _explained(error: ValidationError, place: Marks) -> Iterator[Problem]:
     misspelt = {
         (*loc[:-1], close[0])
         for loc in islice(unknown, _HEAD)
-        if (close := get_close_matches(str(loc[-1]), list(_keys_at(loc[:-1])), n=1))
+        if (close := nearest_names(str(loc[-1]), _keys_at(loc[:-1])))
     }
     return (_explain(item, place) for item in errors if item["type"] != "missing" or item["loc"] not in misspelt)
 
@@ -164,15 +173,6 @@ def _real_steps(loc: Loc) -> Loc:
             or (step in tags and at > 1 and loc[at - 2] == "couplings")
         )
     )
-
-
-def suggest(name: str, known: Iterable[str]) -> str:
-    """The nearest of the known names, or all of them if they are few."""
-    known = tuple(dict.fromkeys(known))
-    close = get_close_matches(name, known, n=2, cutoff=0.6)
-    if close:
-        return f"did you mean {' or '.join(repr(found) for found in close)}?"
-    return f"use one of: {', '.join(known)}" if 0 < len(known) <= 30 else "correct the name"
 
 
 def _keys_at(loc: Loc) -> Iterator[str]:

@@ -159,7 +159,7 @@ def test_faults_are_told_with_what_would_fit_and_the_exit_code_is_that_of_a_verd
 
 
 REFUSED = [
-    (["compare", *PAIR, "--forms", "involut"], "--forms", "did you mean involute"),
+    (["compare", *PAIR, "--forms", "involut"], "--forms", "did you mean 'involute'"),
     (["compare", *PAIR, "--forms", "rubber"], "--forms", "use some of: involute"),
     (["compare", *PAIR, "--forms", ""], "--forms", "use some of"),
     (["compare", *PAIR, "--pressure-angle", "50deg"], "--pressure-angle", "between 0 and 45 deg"),

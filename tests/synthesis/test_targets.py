@@ -123,7 +123,7 @@ def test_a_fraction_is_exact_at_any_length(top: int, bottom: int, sign: str) -> 
         ("1e9999", "three digits"),
         ("1_000", "is no number"),
         ("%", "is no number"),
-        ("year_tropicl_J2000", "did you mean year_tropical_J2000"),
+        ("year_tropicl_J2000", "did you mean 'year_tropical_J2000'"),
         ("moon", "is no number"),
         ("235 months", "half a pair of counts"),
         ("19 years", "'235 months / 19 years'"),

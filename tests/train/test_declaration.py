@@ -293,7 +293,7 @@ def test_a_unit_names_what_one_turn_takes() -> None:
         ("inputs: {a: 2 furlongs}", "unknown unit"),
         ("inputs: {a: 1}\nunit: {per: 7 furlongs}", "is no unit"),
         ("inputs: {a: 1}\nunit: {per: 7}", "is no unit"),
-        ("inputs: {a: 1}\nunit: {per: month_synodic_j2000}", "did you mean month_synodic_J2000"),
+        ("inputs: {a: 1}\nunit: {per: month_synodic_j2000}", "did you mean 'month_synodic_J2000'"),
         ("inputs: {frame: 1}", "the frame 'frame' is an input"),
         ("inputs: {c: 1}", "no link 'c'"),
         ("inputs: {a: 1}\ncrank: c", "no link 'c'"),
@@ -309,7 +309,7 @@ def test_inputs_and_units_that_make_no_sense_are_refused(rest: str, said: str) -
 @pytest.mark.parametrize(
     ("targets", "said"),
     [
-        ("[month_synodyc_J2000]", "did you mean month_synodic_J2000"),
+        ("[month_synodyc_J2000]", "did you mean 'month_synodic_J2000'"),
         ("[{name: month_synodic_J2000, period: 3 d}]", "a target is one thing"),
         ("[{turns: 3}]", "a target is one thing"),
         ("[{period: 29.5}]", "no unit"),

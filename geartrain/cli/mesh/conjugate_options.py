@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from difflib import get_close_matches
 from typing import TYPE_CHECKING, Any
 
 from geartrain.cli.option_values import at_option, quantity
-from geartrain.errors import GearTrainError, Problem
+from geartrain.errors import GearTrainError, Problem, suggest
 
 if TYPE_CHECKING:
     from geartrain.teeth.conjugate.conjugate_form import ConjugateToothForm, WheelPair
@@ -165,6 +164,5 @@ def _problem(item: Any, form: str) -> Problem:
 
 def unknown_form(name: str) -> GearTrainError:
     """A form nobody has heard of."""
-    close = get_close_matches(name, NAMES, n=2, cutoff=0.5)
-    fix = f"did you mean {' or '.join(close)}?" if close else f"use some of: {', '.join(NAMES)}"
+    fix = suggest(name, NAMES, otherwise=f"use some of: {', '.join(NAMES)}", wide=True)
     return GearTrainError(Problem(f"there is no tooth form '{name}' to compare", "", fix, "--forms"))

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from geartrain.errors import Problem, QuestionError
+from geartrain.errors import Problem, QuestionError, suggest
 from geartrain.kinematics.circuits import Circuit, Tree, close_joints, find_circuits, find_tree, link_signs
 from geartrain.kinematics.components import relevant_circuits
 from geartrain.synthesis.formulas.laurent import Laurent, TooLongError
@@ -17,7 +17,7 @@ from geartrain.synthesis.formulas.rational_functions import Formula as Formula
 from geartrain.synthesis.formulas.rational_functions import make_formula
 from geartrain.synthesis.formulas.symbolic_elimination import SymbolicSolution, solve_rows
 from geartrain.synthesis.formulas.symbolic_equations import SymbolicEquations
-from geartrain.train import StateCase, Teeth, Train, Wheel, suggest
+from geartrain.train import StateCase, Teeth, Train, Wheel
 from geartrain.train.fields import MOST_TEETH
 
 Counts = tuple[int, ...]

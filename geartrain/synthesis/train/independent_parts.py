@@ -8,7 +8,7 @@ from fractions import Fraction
 from itertools import chain
 from math import prod
 
-from geartrain.errors import Problem, QuestionError, RangeError
+from geartrain.errors import Problem, QuestionError, RangeError, suggest
 from geartrain.numerics.exact import decimal
 from geartrain.numerics.graphs import joined_groups
 from geartrain.synthesis.constraints.count_conditions import CountConstraint
@@ -16,7 +16,7 @@ from geartrain.synthesis.formulas.output_formulas import find_formulas
 from geartrain.synthesis.formulas.rational_functions import Formula
 from geartrain.synthesis.join.wheel_monomials import Domains, IntervalConstraint
 from geartrain.synthesis.train.output_requirements import OutputRequirement, find_output_requirements, value_of
-from geartrain.train import Teeth, Train, suggest
+from geartrain.train import Teeth, Train
 
 _MOST_COUNTS = 10**6
 _ANYTHING_ELSE = (None, Fraction(0)), (Fraction(0), None)

@@ -7,7 +7,7 @@ from concurrent.futures import Executor
 from dataclasses import dataclass
 from fractions import Fraction
 
-from geartrain.errors import Problem, QuestionError
+from geartrain.errors import Problem, QuestionError, suggest
 from geartrain.numerics.exact import decimal
 from geartrain.numerics.work import Journal
 from geartrain.synthesis.constraints.assembly_constraints import find_constraints
@@ -21,7 +21,7 @@ from geartrain.synthesis.train.search_passes import NOT_BEGUN, PartSearch, PassR
 from geartrain.synthesis.train.tolerance_expansion import solve
 from geartrain.synthesis.train.train_findings import ORDERS, Assignment, By, PartFindings, Standing, TrainFindings
 from geartrain.synthesis.train.train_infeasibility import find_shortfall, tallied
-from geartrain.train import Train, suggest
+from geartrain.train import Train
 
 LIMIT = 10**9
 """Steps (partial assignments looked at) that a pass may take by default: a few minutes."""

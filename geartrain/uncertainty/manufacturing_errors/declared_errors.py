@@ -7,10 +7,9 @@ from dataclasses import dataclass, field, replace
 from math import degrees, pi
 from typing import TYPE_CHECKING, Literal
 
-from geartrain.errors import Problem, QuestionError, RangeError
+from geartrain.errors import Problem, QuestionError, RangeError, suggest
 from geartrain.numerics.quantity import Quantity
 from geartrain.teeth.triangular.pair_geometry import depth
-from geartrain.train import suggest
 
 if TYPE_CHECKING:
     from geartrain.teeth.gear_mesh import GearMesh

@@ -10,9 +10,9 @@ from functools import partial
 from math import prod
 from typing import Any
 
-from geartrain.errors import Problem, QuestionError, RangeError
+from geartrain.errors import Problem, QuestionError, RangeError, suggest
 from geartrain.numerics.work import Journal, run
-from geartrain.train import Train, suggest
+from geartrain.train import Train
 from geartrain.uncertainty.posterior.enumeration import (
     LikelihoodBatch,
     PosteriorTally,

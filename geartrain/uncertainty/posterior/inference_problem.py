@@ -7,11 +7,11 @@ from dataclasses import dataclass
 from fractions import Fraction
 from math import prod
 
-from geartrain.errors import Problem, QuestionError
+from geartrain.errors import Problem, QuestionError, suggest
 from geartrain.synthesis.formulas import Formula, Formulas, find_formulas
 from geartrain.synthesis.join.wheel_monomials import Domains, IntervalConstraint
 from geartrain.synthesis.train.output_requirements import find_output_requirements
-from geartrain.train import Train, suggest
+from geartrain.train import Train
 from geartrain.uncertainty.posterior.observations import (
     LIKELIHOOD_KINDS,
     LikelihoodKind,

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
-from geartrain.errors import Problem, QuestionError, RangeError
-from geartrain.train import Teeth, Train, suggest
+from geartrain.errors import Problem, QuestionError, RangeError, suggest
+from geartrain.train import Teeth, Train
 from geartrain.train.fields import MOST_TEETH
 
 MOST_COUNTS = 10**5

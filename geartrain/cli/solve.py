@@ -33,9 +33,9 @@ def run(
     states = [state] if state is not None or not train.states else list(train.states)
     answers = [train.solve(name, output, method) for name in states]  # type: ignore[arg-type]
     if json or to.suffix == ".json":
-        from geartrain.report.train_report import answers_data
+        from geartrain.report.train_data import collect_answers
 
-        emit(as_json(answers_data(train, answers, whole=output is None)), to)
+        emit(as_json(collect_answers(train, answers, whole=output is None).to_dict()), to)
     else:
         emit("\n".join(_text(answer, output, train.bookkeeping) for answer in answers), to)
     raise typer.Exit(GOOD if all(answers) else VERDICT)

@@ -6,13 +6,13 @@ import html
 from collections.abc import Mapping
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import Any
 
-from geartrain.kinematics.judged_outputs import OutputResult, SpeedValue, speed_data
+from geartrain.kinematics.judged_outputs import OutputResult, SpeedFigures, SpeedValue, speed_figures
 from geartrain.kinematics.verdict import Verdict
 from geartrain.numerics.containers import FrozenFields
 from geartrain.numerics.exact import abridged_text, decimal
 from geartrain.numerics.long_float import Real, as_plain
+from geartrain.numerics.plain_data import Key, Result
 
 
 @dataclass(frozen=True, slots=True)
@@ -22,13 +22,9 @@ class SpeedAccuracy:
     estimate: Real
     true_error: Real | None
 
-    def to_dict(self) -> dict[str, Any]:
-        """Plain data for JSON; null beyond the range of float64."""
-        return {"estimate": as_plain(self.estimate), "true_error": as_plain(self.true_error)}
-
 
 @dataclass(frozen=True, slots=True)
-class Answer(FrozenFields):
+class Answer(FrozenFields, Result):
     """What a train does in one state.
 
     place     where the state's inputs were declared
@@ -39,6 +35,8 @@ class Answer(FrozenFields):
     accuracy  link -> absolute errors of its speed; empty for exact speeds
     work      circuits that were solved
     """
+
+    KEYS = ("state", "verdict", "method", Key("speeds", "speed_figures"), "outputs")
 
     train: str
     state: str | None
@@ -69,18 +67,14 @@ class Answer(FrozenFields):
         """True if determined and every expectation holds."""
         return bool(self.verdict) and not self.failures
 
-    def to_dict(self) -> dict[str, Any]:
-        """Plain data for JSON; the keys are stable (docs/json.md)."""
-        speeds = {link: speed_data(speed) for link, speed in self.speeds.items()}
+    @property
+    def speed_figures(self) -> Mapping[str, SpeedFigures]:
+        """The speeds, and how far floats are off, as JSON has them."""
+        found = {link: speed_figures(speed) for link, speed in self.speeds.items()}
         for link, accuracy in self.accuracy.items():
-            speeds[link] |= accuracy.to_dict()
-        return {
-            "state": self.state,
-            "verdict": self.verdict.to_dict(),
-            "method": self.method,
-            "speeds": speeds,
-            "outputs": {name: result.to_dict() for name, result in self.outputs.items()},
-        }
+            found[link]["estimate"] = as_plain(accuracy.estimate)
+            found[link]["true_error"] = as_plain(accuracy.true_error)
+        return found
 
     def _repr_html_(self) -> str:
         shown = {name: result.speed for name, result in self.outputs.items()} or self.speeds

@@ -5,11 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import Any, Literal
+from typing import Literal, NamedTuple, Required, TypedDict
 
 from geartrain.kinematics.circuits import Circuit
 from geartrain.numerics.exact import as_float, decimal, fraction_text
 from geartrain.numerics.long_float import LongFloat, as_plain
+from geartrain.numerics.plain_data import Key, Result
 from geartrain.train import Output, Published, StateCase, Target, Train
 from geartrain.train.periods import period_table
 
@@ -52,7 +53,7 @@ def error_against(speed: SpeedValue, wanted: Fraction, signed: bool) -> SpeedVal
 
 
 @dataclass(frozen=True, slots=True)
-class TargetResult:
+class TargetResult(Result):
     """An output against one target. A positive error is fast.
 
     goal                the target's speed in the train's unit, and whether its sense counts
@@ -62,6 +63,16 @@ class TargetResult:
                         (both None beyond the range of float64)
     met                 within the declared tolerance; None without one
     """
+
+    KEYS = (
+        Key("target", "label"),
+        Key("speed", to=as_float),
+        "compared",
+        "ppm",
+        "days_per_century",
+        "degrees_per_unit",
+        "met",
+    )
 
     goal: RatioGoal
     error: SpeedValue
@@ -89,21 +100,39 @@ class TargetResult:
         """The error in parts per million; None where 0 is wanted, and beyond the range of floats."""
         return is_near(self.error, 10**6) if self.speed else None
 
-    def to_dict(self) -> dict[str, Any]:
-        """Plain data for JSON."""
-        return {
-            "target": self.label,
-            "speed": as_float(self.speed),
-            "compared": self.compared,
-            "ppm": self.ppm,
-            "days_per_century": self.days_per_century,
-            "degrees_per_unit": self.degrees_per_unit,
-            "met": self.met,
-        }
+
+class SpeedFigures(TypedDict, total=False):
+    """A speed as JSON has it: a fraction in text, and the nearest float; errors are of speeds solved in floats."""
+
+    exact: Required[str | None]
+    value: Required[float | None]
+    decimal: str
+    estimate: float | None
+    true_error: float | None
+
+
+class JudgedExpectation(NamedTuple):
+    """A declared `expect`, and whether it holds."""
+
+    value: str
+    holds: bool | None
 
 
 @dataclass(frozen=True, slots=True)
-class OutputResult:
+class JudgedFigure(Result):
+    """A declared `published` figure, what stands against it in its form, and whether it holds."""
+
+    KEYS = ("value", Key("as", "form"), "place", "found", "holds")
+
+    value: str
+    form: Literal["speed", "input/output", "output/input"]
+    place: str | None
+    found: SpeedValue | None
+    holds: bool | None
+
+
+@dataclass(frozen=True, slots=True)
+class OutputResult(Result):
     """One output: its exact speed and whether its declared expectations hold.
 
     speed            exact, or a float (`LongFloat` past 1e308) where solved in floats; None where undetermined
@@ -112,6 +141,8 @@ class OutputResult:
     published_holds  None without a `published`
     bookkeeping      True for a sum of joint speeds over non-parallel axes, which is no rotation
     """
+
+    KEYS = (Key("", "figures"), "of", "relative_to", Key("output/input", "ratio"), "expect", "published", "targets")
 
     name: str
     output: Output
@@ -131,30 +162,28 @@ class OutputResult:
         return None if published is None else as_published(published, self.speed, self.ratio)
 
     @property
+    def figures(self) -> SpeedFigures:
+        """The speed as JSON has it."""
+        return speed_figures(self.speed)
+
+    @property
+    def expect(self) -> JudgedExpectation | None:
+        """The declared expectation, judged."""
+        expect = self.output.expect
+        return None if expect is None else JudgedExpectation(str(expect.value), self.expect_holds)
+
+    @property
+    def published(self) -> JudgedFigure | None:
+        """The published figure, judged."""
+        figure = self.output.published
+        if figure is None:
+            return None
+        return JudgedFigure(str(figure.value), figure.as_, figure.place, self.found, self.published_holds)
+
+    @property
     def holds(self) -> bool:
         """False if an `expect` or a `published` figure is not met."""
         return self.expect_holds is not False and self.published_holds is not False
-
-    def to_dict(self) -> dict[str, Any]:
-        """Plain data for JSON."""
-        expect, published = self.output.expect, self.output.published
-        return {
-            **speed_data(self.speed),
-            "of": self.of,
-            "relative_to": self.relative_to,
-            "output/input": _plain(self.ratio),
-            "expect": None if expect is None else {"value": str(expect.value), "holds": self.expect_holds},
-            "published": None
-            if published is None
-            else {
-                "value": str(published.value),
-                "as": published.as_,
-                "place": published.place,
-                "found": _plain(self.found),
-                "holds": self.published_holds,
-            },
-            "targets": [target.to_dict() for target in self.targets],
-        }
 
 
 def is_near(value: SpeedValue, times: int) -> float | None:
@@ -163,24 +192,19 @@ def is_near(value: SpeedValue, times: int) -> float | None:
     return None if size is None else size * times
 
 
-def _plain(value: SpeedValue | None) -> str | float | None:
-    """A number for JSON: a fraction as text, else a float; None beyond the range of float64."""
-    return fraction_text(value) if isinstance(value, Fraction) else as_plain(value)
-
-
 def magnitude(value: SpeedValue) -> SpeedValue:
     """|value|, of the same kind."""
     return value if value >= 0 else -value
 
 
-def speed_data(speed: SpeedValue | None) -> dict[str, Any]:
+def speed_figures(speed: SpeedValue | None) -> SpeedFigures:
     """`exact` and `value` of a speed for JSON; beyond the range of float64 `value` is null and `decimal` has it."""
     if isinstance(speed, LongFloat):
         return {"exact": None, "value": None, "decimal": f"{speed:.12g}"}
     if not isinstance(speed, Fraction):
         return {"exact": None, "value": speed}
     value = as_float(speed)
-    plain: dict[str, Any] = {"exact": fraction_text(speed), "value": value}
+    plain: SpeedFigures = {"exact": fraction_text(speed), "value": value}
     if value is None:
         plain["decimal"] = decimal(speed)
     return plain
@@ -281,11 +305,13 @@ def _against(train: Train, target: Target, speed: SpeedValue) -> TargetResult:
 
 
 @dataclass(frozen=True, slots=True)
-class Sensitivity:
+class Sensitivity(Result):
     """What one tooth fewer and one tooth more on an uncertain wheel do to an output, in ppm of its speed.
 
     None stands for a train that no longer turns, or an output that stands still.
     """
+
+    KEYS = ("wheel", "teeth", "output", Key("one_fewer_ppm", "less"), Key("one_more_ppm", "more"))
 
     wheel: str
     teeth: int

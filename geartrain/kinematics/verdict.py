@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import Any, Literal
+from typing import Literal
 
-from geartrain.numerics.exact import abridged_text, fraction_text
+from geartrain.numerics.exact import abridged_text
+from geartrain.numerics.plain_data import Result
 
 
 @dataclass(frozen=True, slots=True)
-class Loop:
+class Loop(Result):
     """A closed loop of meshing wheels in one carrier's frame: links in order and the product of its ratios.
 
     `product` is the speed with which the walk round the loop comes back, as a multiple of the speed it left
@@ -31,21 +32,12 @@ class Loop:
         pairs, product = ", ".join(self.pairs), abridged_text(self.product)
         return f"loop {' - '.join(self.links)} (pairs {pairs}; ratio product {product})"
 
-    def to_dict(self) -> dict[str, Any]:
-        """Plain data for JSON."""
-        return {
-            "carrier": self.carrier,
-            "links": list(self.links),
-            "pairs": list(self.pairs),
-            "product": fraction_text(self.product),
-        }
-
 
 VerdictKind = Literal["determined", "free", "locked", "contradictory"]
 
 
 @dataclass(frozen=True, slots=True)
-class Verdict:
+class Verdict(Result):
     """What a train does with its inputs. A verdict is an answer, never an exception.
 
     determined      every link's speed follows from the inputs
@@ -66,14 +58,3 @@ class Verdict:
 
     def __str__(self) -> str:
         return f"{self.kind}: {self.text}"
-
-    def to_dict(self) -> dict[str, Any]:
-        """Plain data for JSON."""
-        return {
-            "kind": self.kind,
-            "text": self.text,
-            "links": list(self.links),
-            "fixes": list(self.fixes),
-            "prescriptions": list(self.prescriptions),
-            "loops": [loop.to_dict() for loop in self.loops],
-        }

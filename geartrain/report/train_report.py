@@ -1,45 +1,21 @@
-"""Whether the teeth of all loops meet when a train is put together, and the angles at which its wheels go in.
-
-What a report on one train says, section by section.
-
-The report as plain data, with stable keys (docs/json.md).
-"""
+"""What a report on one train says, section by section."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from math import degrees
-from typing import Any
 
 from geartrain.analysis.gear_train import GearTrain
 from geartrain.kinematics.answer import Answer
 from geartrain.kinematics.circuits import Circuit
-from geartrain.kinematics.speeds import Mobility
 from geartrain.kinematics.verdict import Loop
 from geartrain.numerics.exact import abridged_text
 from geartrain.report.answers import answer_sections, doubtful_wheels, expectations_met, shift_table
 from geartrain.report.document import MOST_ROWS, Document, ExactText, Section, Table, cut
-from geartrain.report.gear_pairs import teeth_data, teeth_sections
-from geartrain.report.motion_report import moving_data, moving_sections
-from geartrain.report.power_report import loaded_data, loaded_sections
+from geartrain.report.gear_pairs import teeth_sections
+from geartrain.report.motion_report import moving_sections
+from geartrain.report.power_report import loaded_sections
 from geartrain.train import Source, Train, Wheel
-
-
-def closure_sections(train: GearTrain) -> Iterator[Section]:
-    """Phase closure of a train whose axes have positions and whose pairs form loops; nothing for others."""
-    if not train.is_placed or train.closure.kind == "open":
-        return
-    closure = train.closure
-    rows = [(link, f"{degrees(angle):.6f}") for link, angle in closure.angles.items()]
-    text = "Zero marks of links at these angles put every tooth before a gap; wheels have a tooth at their link's mark."
-    lines = [line.strip() for line in closure.text.splitlines()]
-    yield Section("Putting it together", (*lines, text), (Table(("link", "angle (deg)"), cut(rows)),))
-
-
-def closure_data(train: GearTrain) -> dict[str, Any] | None:
-    """The same as plain data; None where positions are not declared."""
-    return train.closure.to_dict() if train.is_placed else None
-
 
 _CIRCUITS_ABREAST = 6
 
@@ -49,7 +25,7 @@ def report_train(train: GearTrain) -> Document:
     declared = train.declaration
     answers = tuple(train.answers())
     sections = [*_structure(train), _circuits(train), _mobility(train)]
-    sections += closure_sections(train)
+    sections += _phasing(train)
     if train.remarks:
         notes = [f"{remark.what}" + (f": {remark.why}" if remark.why else "") + "." for remark in train.remarks]
         sections.append(Section("Remarks", notes))
@@ -197,80 +173,16 @@ def _mobility(train: GearTrain) -> Section:
     return Section("Mobility", lines)
 
 
+def _phasing(train: GearTrain) -> Iterator[Section]:
+    """Phase closure of a train whose axes have positions and whose pairs form loops; nothing for others."""
+    if not train.is_placed or train.closure.kind == "open":
+        return
+    closure = train.closure
+    rows = [(link, f"{degrees(angle):.6f}") for link, angle in closure.angles.items()]
+    text = "Zero marks of links at these angles put every tooth before a gap; wheels have a tooth at their link's mark."
+    lines = [line.strip() for line in closure.text.splitlines()]
+    yield Section("Putting it together", (*lines, text), (Table(("link", "angle (deg)"), cut(rows)),))
+
+
 def _loop(loop: Loop) -> str:
     return f"loop {' - '.join(loop.links)} by {', '.join(loop.pairs)}, ratio product {abridged_text(loop.product)}"
-
-
-def mobility_data(found: Mobility) -> dict[str, Any]:
-    """Mobility as plain data."""
-    return {
-        "by_count": found.by_count,
-        "by_rank": found.by_rank,
-        "rank": found.rank,
-        "redundant": found.redundant,
-        "redundant_loops": [loop.to_dict() for loop in found.loops],
-        "locked_loops": [loop.to_dict() for loop in found.locked],
-        "still": list(found.still),
-        "never_rolling": list(found.idle),
-    }
-
-
-def answers_data(train: GearTrain, answers: Iterable[Answer], whole: bool = True) -> dict[str, Any]:
-    """Name, unit, mobility, and `states`, a list of answers: one for each state that was asked for.
-
-    A train without states has one answer, whose `state` is None. `whole` False has None for the mobility: it takes all
-    circuits, where one output takes only those that drive it.
-    """
-    return {
-        "name": train.name,
-        "title": train.declaration.title,
-        "unit": train.declaration.unit_name,
-        "mobility": mobility_data(train.mobility) if whole else None,
-        "states": [answer.to_dict() for answer in answers],
-    }
-
-
-def train_data(train: GearTrain) -> dict[str, Any]:
-    """Everything a report holds: sources, circuits, adjacency, answers, sensitivities and errata."""
-    from geartrain.kinematics.graph import adjacency_labels
-
-    declared = train.declaration
-    answers = list(train.answers())
-    data = answers_data(train, answers)
-    data["gridlock"] = train.gridlock.to_dict()
-    data["closure"] = closure_data(train)
-    data["sources"] = {key: source.cite for key, source in declared.sources.items()}
-    data["circuits"] = [
-        {
-            "id": c.id,
-            "kind": c.kind,
-            "i": c.i,
-            "j": c.j,
-            "carrier": c.carrier,
-            "wheels": list(c.wheels),
-            "ratio": str(c.ratio),
-            "note": c.note,
-        }
-        for c in train.circuits
-    ]
-    small = len(declared.links) <= 500
-    data["adjacency"] = {"links": list(train.graph), "cells": adjacency_labels(train.graph)} if small else None
-    data["remarks"] = [{"place": r.place, "what": r.what, "why": r.why} for r in train.remarks]
-    data["sensitivity"] = [
-        {
-            "state": answer.state,
-            "wheel": s.wheel,
-            "teeth": s.teeth,
-            "output": s.output,
-            "one_fewer_ppm": s.less,
-            "one_more_ppm": s.more,
-        }
-        for answer in answers
-        if answer.verdict
-        for s in train.sensitivity(answer)
-    ]
-    data |= teeth_data(train)
-    data["torques"] = loaded_data(train)
-    data["motion"] = moving_data(train)
-    data["errata"] = [erratum.model_dump() for erratum in declared.errata]
-    return data

@@ -12,7 +12,7 @@ import yaml
 from mutants import mutant
 
 from geartrain import GearTrain, GearTrainError, load
-from geartrain.report.train_report import train_data
+from geartrain.report.train_data import train_data
 
 KEPT = (354, 368, 1589, 8277)
 """Seeds that once raised something else."""

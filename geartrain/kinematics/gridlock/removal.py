@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from typing import Any, Literal
+from typing import Literal
 
 from geartrain.kinematics.verdict import Loop
 from geartrain.numerics.exact import abridged_text
+from geartrain.numerics.plain_data import Result
 
 RemovalMethod = Literal["one", "loops", "matching", "search", "greedy"]
 _WEAKER: tuple[RemovalMethod, ...] = ("one", "loops", "matching", "search", "greedy")
@@ -15,8 +16,10 @@ _SHOWN = 12
 
 
 @dataclass(frozen=True, slots=True)
-class RemovalBound:
+class RemovalBound(Result):
     """Loops that do not close, each mesh on at most `sharing` of them: one mesh frees no more than that many."""
+
+    KEYS = ("sharing", "loops")
 
     loops: tuple[Loop, ...]
     sharing: int
@@ -35,7 +38,7 @@ class RemovalBound:
 
 
 @dataclass(frozen=True, slots=True)
-class MeshRemoval:
+class MeshRemoval(Result):
     """Meshes to disengage so that every loop closes and all links held by them can move; none of them could stay.
 
     method     one: a single mesh is enough (of each part). loops: as many loops that do not close share no mesh.
@@ -45,6 +48,8 @@ class MeshRemoval:
     choices    where one mesh is enough: all that would do
     proofs     loops that prove the bound; it may rest on the method alone
     """
+
+    KEYS = ("meshes", "method", "least", "at_least", "choices", "proofs")
 
     meshes: tuple[str, ...]
     method: RemovalMethod
@@ -79,22 +84,9 @@ class MeshRemoval:
         }
         return f"no fewer will do: {proof or exact[self.method]}"
 
-    def to_dict(self) -> dict[str, Any]:
-        """Plain data for JSON."""
-        return {
-            "meshes": list(self.meshes),
-            "method": self.method,
-            "least": self.least,
-            "at_least": self.at_least,
-            "choices": list(self.choices),
-            "proofs": [
-                {"sharing": proof.sharing, "loops": [loop.to_dict() for loop in proof.loops]} for proof in self.proofs
-            ],
-        }
-
 
 @dataclass(frozen=True, slots=True)
-class LockedSubgraph:
+class LockedSubgraph(Result):
     """One component that its meshes lock to its carrier, and what frees it.
 
     loop     a loop that does not close
@@ -123,26 +115,17 @@ class LockedSubgraph:
             f"does not close: {why}"
         )
 
-    def to_dict(self) -> dict[str, Any]:
-        """Plain data for JSON."""
-        return {
-            "carrier": self.carrier,
-            "loop": self.loop.to_dict(),
-            "links": list(self.links),
-            "meshes": self.meshes,
-            "by": self.by,
-            "release": self.release.to_dict(),
-        }
-
 
 @dataclass(frozen=True, slots=True)
-class Gridlock:
+class Gridlock(Result):
     """Whether the meshes of a train let it move, brakes and inputs left aside, and if not, how to free it.
 
     jams      components with a loop that does not close
     held      links that meshes about several carriers hold still together, though each loop closes
     release   what frees the whole train; None if it moves, or if nothing was found
     """
+
+    KEYS = ("moves", "jams", "held", "release")
 
     jams: tuple[LockedSubgraph, ...] = ()
     held: tuple[str, ...] = ()
@@ -173,15 +156,6 @@ class Gridlock:
             yield f"to free the train, {self.release}"
         elif not self.moves:
             yield "no set of meshes is known to free it: pins in slots hold it, or there are too many meshes to try"
-
-    def to_dict(self) -> dict[str, Any]:
-        """Plain data for JSON."""
-        return {
-            "moves": self.moves,
-            "jams": [jam.to_dict() for jam in self.jams],
-            "held": list(self.held),
-            "release": self.release.to_dict() if self.release else None,
-        }
 
 
 def _some(names: Sequence[str], mark: str = ", ") -> str:

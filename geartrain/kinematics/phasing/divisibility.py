@@ -6,15 +6,27 @@ import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from typing import NamedTuple
+
+from geartrain.numerics.plain_data import Result
 
 Row = dict[str, int]
 
 
+class DivisibilityCondition(NamedTuple):
+    """`modulus` divides the sum of tooth numbers, each times its factor."""
+
+    modulus: int
+    factors: Mapping[str, int]
+
+
 @dataclass(frozen=True)
-class DivisibilityRule:
+class DivisibilityRule(Result):
     """Conditions on tooth numbers: `modulus` divides the sum of factor times tooth number, for each."""
 
-    conditions: tuple[tuple[int, Mapping[str, int]], ...]
+    KEYS = ("text", "conditions")
+
+    conditions: tuple[DivisibilityCondition, ...]
 
     @property
     def text(self) -> str:
@@ -27,10 +39,6 @@ class DivisibilityRule:
     def holds(self, teeth: Mapping[str, int]) -> bool:
         """True if the set closes with these tooth numbers, by kind."""
         return not any(sum(f * teeth[kind] for kind, f in terms.items()) % m for m, terms in self.conditions)
-
-    def to_dict(self) -> list[dict[str, object]]:
-        """Plain data for JSON."""
-        return [{"modulus": modulus, "factors": dict(terms)} for modulus, terms in self.conditions]
 
 
 def find_divisibility_rule(forms: Iterable[Mapping[str, Fraction]]) -> DivisibilityRule:
@@ -58,7 +66,7 @@ def find_divisibility_rule(forms: Iterable[Mapping[str, Fraction]]) -> Divisibil
             else:
                 _join(mixed, modulus, terms)
     single = [(modulus, {kind: 1}) for kind, modulus in sorted(alone.items())]
-    return DivisibilityRule((*single, *mixed))
+    return DivisibilityRule(tuple(DivisibilityCondition(modulus, terms) for modulus, terms in (*single, *mixed)))
 
 
 def _join(found: list[tuple[int, Row]], modulus: int, terms: Row) -> None:

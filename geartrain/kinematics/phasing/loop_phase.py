@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import Any
 
 from geartrain.kinematics.phasing.phase_system import (
     PhaseCondition,
@@ -15,10 +14,11 @@ from geartrain.kinematics.phasing.phase_system import (
     judge_residue,
 )
 from geartrain.numerics.exact import fraction_text
+from geartrain.numerics.plain_data import Key, Result
 
 
 @dataclass(frozen=True)
-class LoopPhase:
+class LoopPhase(Result):
     """What one loop of meshes asks for, and what it gets.
 
     gears     wheels in order; two wheels of one link between which the loop goes over are joined by `+`
@@ -32,6 +32,8 @@ class LoopPhase:
               wheels are compound
     retime    wheel -> pitches by which to turn it on its arbor, counterclockwise, to close the loop: any one of them
     """
+
+    KEYS = ("gears", "meshes", "weights", Key("verdict", "kind"), "residue", "slack", "how", "miss", "inside", "retime")
 
     gears: tuple[str, ...]
     meshes: tuple[str, ...]
@@ -72,23 +74,6 @@ class LoopPhase:
         if self.how == "exact":
             return ""
         return " (angles recognised)" if self.how == "recognised" else f" (to {self.slack:.1g})"
-
-    def to_dict(self) -> dict[str, Any]:
-        """Plain data for JSON; pitches as exact fractions in text, or floats."""
-        return {
-            "gears": list(self.gears),
-            "meshes": list(self.meshes),
-            "weights": list(self.weights),
-            "verdict": self.kind,
-            "residue": plain_residue(self.residue),
-            "slack": self.slack,
-            "how": self.how,
-            "miss": plain_residue(self.miss),
-            "inside": None
-            if self.inside is None
-            else {gear: plain_residue(part) for gear, part in self.inside.items()},
-            "retime": dict(self.retime),
-        }
 
 
 def describe_loop(problem: PhaseSystem, condition: PhaseCondition) -> LoopPhase:
@@ -146,11 +131,6 @@ def _inside(problem: PhaseSystem, condition: PhaseCondition) -> dict[str, Fracti
         found[gear] = found.get(gear, Fraction(0)) + part
         before = mesh
     return found
-
-
-def plain_residue(value: Fraction | float) -> str | float:
-    """An exact number as text, a float as it is."""
-    return fraction_text(value) if isinstance(value, Fraction) else value
 
 
 def _shown(value: Fraction | float) -> str:

@@ -11,9 +11,10 @@ from typing import TYPE_CHECKING, Any
 
 from geartrain.kinematics.phasing.azimuths import MOUNT
 from geartrain.kinematics.phasing.divisibility import DivisibilityRule, find_divisibility_rule
-from geartrain.kinematics.phasing.loop_phase import LoopPhase, describe_loop, plain_residue
+from geartrain.kinematics.phasing.loop_phase import LoopPhase, describe_loop
 from geartrain.kinematics.phasing.phase_system import PhaseKind, PhaseSystem, ResidueKnowledge
 from geartrain.kinematics.phasing.pitch_points import UnplacedPair
+from geartrain.numerics.plain_data import Key, Result
 
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
@@ -22,7 +23,7 @@ _SHOWN = 10  # loops named in a text
 
 
 @dataclass(frozen=True)
-class MeshPhasing:
+class MeshPhasing(Result):
     """Whether the teeth of every loop meet, and the angles at which the wheels are put in.
 
     problem   the phases of all meshes
@@ -31,6 +32,25 @@ class MeshPhasing:
     unjudged  loops of the train that go through a pair or pin without a known place
     rigid     loops that cannot turn, for their ratios do not multiply to 1: no phase is asked of them
     """
+
+    KEYS = (
+        Key("verdict", "kind"),
+        "text",
+        "how",
+        "worst",
+        "loops",
+        "rule",
+        Key("angles", to=math.degrees),
+        Key("wheels", to=math.degrees),
+        Key("errors", "spread_errors"),
+        "last",
+        "spread",
+        "fits",
+        "unjudged",
+        "left_out",
+        "rigid",
+        Key("complete", "problem.complete"),
+    )
 
     problem: PhaseSystem = field(repr=False)
     plays: Mapping[str, float] = field(default_factory=dict)
@@ -115,6 +135,11 @@ class MeshPhasing:
         """What every pair is off where the loops miss, spread by least squares (pitches)."""
         return self._errors(self.problem.spread_angles)
 
+    @property
+    def spread_errors(self) -> Mapping[str, float]:
+        """The same; nothing where all loops close."""
+        return self.errors if self.missing else {}
+
     @cached_property
     def last_errors(self) -> Mapping[str, float]:
         """What pairs are off if all the error is left to the pairs put in last (pitches)."""
@@ -196,28 +221,6 @@ class MeshPhasing:
             None: "and not all play is known",
         }
         return f", {words[self.fits]}"
-
-    def to_dict(self) -> dict[str, Any]:
-        """Plain data for JSON. Angles in degrees, errors in pitches."""
-        rule = self.rule
-        return {
-            "verdict": self.kind,
-            "text": self.text,
-            "how": self.how,
-            "worst": plain_residue(self.worst),
-            "loops": [loop.to_dict() for loop in self.loops],
-            "rule": None if rule is None else {"text": rule.text, "conditions": rule.to_dict()},
-            "angles": {link: math.degrees(angle) for link, angle in self.angles.items()},
-            "wheels": {wheel: math.degrees(angle) for wheel, angle in self.wheels.items()},
-            "errors": dict(self.errors) if self.missing else {},
-            "last": self.last,
-            "spread": self.spread,
-            "fits": self.fits,
-            "unjudged": self.unjudged,
-            "left_out": [{"name": one.name, "why": one.why} for one in self.left_out],
-            "rigid": self.rigid,
-            "complete": self.problem.complete,
-        }
 
     def _errors(self, angles: Sequence[float] | Floats) -> dict[str, float]:
         found = self.problem.errors(angles).tolist()

@@ -21,6 +21,7 @@ from geartrain.kinematics.speeds.propagation import propagate
 from geartrain.kinematics.verdict import Loop, Verdict
 from geartrain.numerics.containers import collector_paused
 from geartrain.numerics.exact import PRIME, LinearForm, TooDenseError, add_into, eliminate, rank_modulo, residues
+from geartrain.numerics.plain_data import Key, Result
 from geartrain.train import StateCase
 
 _GIVEN = -1  # the column in which prescribed numbers stand
@@ -30,7 +31,7 @@ EXACT_BUDGET = 400_000
 
 
 @dataclass(frozen=True, slots=True)
-class Mobility:
+class Mobility(Result):
     """Degrees of freedom by count and by exact rank, and what makes them differ.
 
     by_count    turning pairs less gear pairs and couplings; right only without redundancy
@@ -41,6 +42,17 @@ class Mobility:
     idle        circuits whose wheels never roll on each other
     certain     False where the rank was taken modulo two primes (exact but for accidents of 1e-36)
     """
+
+    KEYS = (
+        "by_count",
+        "by_rank",
+        "rank",
+        "redundant",
+        Key("redundant_loops", "loops"),
+        Key("locked_loops", "locked"),
+        "still",
+        Key("never_rolling", "idle"),
+    )
 
     links: int
     turning_pairs: int

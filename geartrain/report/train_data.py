@@ -1,0 +1,140 @@
+"""What is told of one train as plain data: its answers alone, and all that a report holds."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from geartrain.numerics.plain_data import Key, Result
+
+if TYPE_CHECKING:
+    from geartrain.analysis.gear_train import GearTrain
+    from geartrain.errors import Problem
+    from geartrain.kinematics.answer import Answer
+    from geartrain.kinematics.circuits import Circuit
+    from geartrain.kinematics.gridlock.removal import Gridlock
+    from geartrain.kinematics.judged_outputs import Sensitivity
+    from geartrain.kinematics.phasing import MeshPhasing
+    from geartrain.kinematics.speeds import Mobility
+    from geartrain.train.states import Erratum
+
+_MOST_LINKS = 500  # of a train whose adjacency is told
+
+
+@dataclass(frozen=True)
+class TrainAnswers(Result):
+    """A train and its answers: one for each state that was asked for.
+
+    unit       empty for plain numbers
+    mobility   None where one output was asked for: it takes all circuits, where that takes those that drive it
+    states     answers; a train without states has one, whose `state` is None
+    """
+
+    name: str
+    title: str
+    unit: str
+    mobility: Mobility | None
+    states: tuple[Answer, ...]
+
+
+def collect_answers(train: GearTrain, answers: Iterable[Answer], whole: bool = True) -> TrainAnswers:
+    """What `solve` tells: answers of a train; without its mobility unless it is solved as a whole."""
+    declared, mobility = train.declaration, train.mobility if whole else None
+    return TrainAnswers(train.name, declared.title, declared.unit_name, mobility, tuple(answers))
+
+
+@dataclass(frozen=True)
+class AdjacencyLetters:
+    """Which links are joined: in row and column order of `links` the turning pairs, gear pairs and couplings."""
+
+    links: tuple[str, ...]
+    cells: list[list[str]]
+
+
+@dataclass(frozen=True)
+class StateSensitivity:
+    """What one tooth on a wheel in doubt does to an output in a state."""
+
+    KEYS = ("state", Key("", "change"))
+
+    state: str | None
+    change: Sensitivity
+
+
+@dataclass(frozen=True)
+class CircuitFigures:
+    """A fundamental circuit: a gear pair or coupling, its bodies and carrier, its ratio (w_i - w_k)/(w_j - w_k)."""
+
+    KEYS = tuple(
+        Key(name, f"circuit.{name}") for name in ("id", "kind", "i", "j", "carrier", "wheels", "ratio", "note")
+    )
+
+    circuit: Circuit
+
+
+@dataclass(frozen=True)
+class TrainRemark:
+    """A note on a sound declaration."""
+
+    KEYS = tuple(Key(name, f"problem.{name}") for name in ("place", "what", "why"))
+
+    problem: Problem
+
+
+@dataclass(frozen=True)
+class TrainReport(TrainAnswers):
+    """All that a report on a train holds.
+
+    closure     whether the teeth of all loops meet; None where axes have no positions
+    sources     citations by key
+    adjacency   None for very large trains
+    teeth       pairs with real teeth, in every way in which they are driven
+    pins        couplings with dimensions
+    torques     of every state with loads, or friction of bearings
+    motion      of every state of a train with real teeth or pins; where it cannot be followed, the `error`
+    """
+
+    gridlock: Gridlock
+    closure: MeshPhasing | None
+    sources: Mapping[str, str]
+    circuits: tuple[CircuitFigures, ...]
+    adjacency: AdjacencyLetters | None
+    remarks: tuple[TrainRemark, ...]
+    sensitivity: tuple[StateSensitivity, ...]
+    teeth: list[Any]
+    pins: list[Any]
+    torques: list[Any]
+    motion: list[Any]
+    errata: tuple[Erratum, ...]
+
+
+def train_data(train: GearTrain) -> dict[str, Any]:
+    """Everything a report holds, as plain data."""
+    return collect_report(train).to_dict()
+
+
+def collect_report(train: GearTrain) -> TrainReport:
+    """Everything a report holds: answers, structure, teeth, torques, motion, doubts and errata."""
+    from geartrain.kinematics.graph import adjacency_labels
+    from geartrain.report.gear_pairs import teeth_data
+    from geartrain.report.motion_report import moving_data
+    from geartrain.report.power_report import loaded_data
+
+    declared, small = train.declaration, len(train.declaration.links) <= _MOST_LINKS
+    answers = tuple(train.answers())
+    doubts = ((answer, change) for answer in answers if answer.verdict for change in train.sensitivity(answer))
+    return TrainReport(
+        **vars(collect_answers(train, answers)),
+        gridlock=train.gridlock,
+        closure=train.closure if train.is_placed else None,
+        sources={key: source.cite for key, source in declared.sources.items()},
+        circuits=tuple(map(CircuitFigures, train.circuits)),
+        adjacency=AdjacencyLetters(tuple(train.graph), adjacency_labels(train.graph)) if small else None,
+        remarks=tuple(map(TrainRemark, train.remarks)),
+        sensitivity=tuple(StateSensitivity(answer.state, change) for answer, change in doubts),
+        **teeth_data(train),
+        torques=loaded_data(train),
+        motion=moving_data(train),
+        errata=tuple(declared.errata),
+    )

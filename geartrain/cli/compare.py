@@ -20,7 +20,7 @@ def run(
 ) -> None:
     """Put the outputs of several trains side by side, with their errors against the targets."""
     from geartrain.report.reconstructions_compared import compare_trains
-    from geartrain.report.train_report import train_data
+    from geartrain.report.train_data import train_data
 
     to = sink(out, force, (".md", ".html", ".json"))
     trains = load_all(files)

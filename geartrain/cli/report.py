@@ -26,7 +26,8 @@ def run(
     A page of .html has pictures of the plan and the dials too, where the extra 'plot' is installed.
     """
     from geartrain.report.html_page import to_html
-    from geartrain.report.train_report import report_train, train_data
+    from geartrain.report.train_data import train_data
+    from geartrain.report.train_report import report_train
 
     to = sink(out, force, (".md", ".html", ".json"))
     if view and to.suffix != ".html":

@@ -445,7 +445,8 @@ def titles(document: Document) -> list[str]:
 
 
 def test_a_report_tells_of_torques_in_loaded_states_only() -> None:
-    from geartrain.report.train_report import report_train, train_data
+    from geartrain.report.train_data import train_data
+    from geartrain.report.train_report import report_train
 
     train = load(SPLIT)
     found = [title for title in titles(report_train(train)) if "torques" in title or "power" in title]
@@ -629,7 +630,8 @@ def fresh(code: str, *arguments: object) -> subprocess.CompletedProcess[str]:
 def test_a_report_without_loads_imports_nothing_of_torques() -> None:
     code = """
 import sys, geartrain
-from geartrain.report.train_report import report_train, train_data
+from geartrain.report.train_data import train_data
+from geartrain.report.train_report import report_train
 train = geartrain.load(sys.argv[1])
 report_train(train), train_data(train)
 print(any(name.startswith("geartrain.dynamics.torques") for name in sys.modules), "numpy" in sys.modules)

@@ -23,7 +23,8 @@ import geartrain.dynamics.motion
 from geartrain import GearTrain, GearTrainError, load
 from geartrain.dynamics.motion import MotionRun
 from geartrain.report.text import to_markdown
-from geartrain.report.train_report import report_train, train_data
+from geartrain.report.train_data import train_data
+from geartrain.report.train_report import report_train
 from geartrain.teeth.conjugate.conjugate_mesh import ConjugateMesh
 from geartrain.teeth.conjugate.conjugate_transmission import ConjugateTransmission
 from geartrain.teeth.gear_mesh import GearMesh
@@ -561,7 +562,7 @@ from geartrain import load
 train = load("planetary-24-18-60-involute")
 train.solve()
 assert "numpy" not in sys.modules
-from geartrain.report.train_report import train_data
+from geartrain.report.train_data import train_data
 train_data(train)
 heavy = ("scipy", "matplotlib", "jinja2", "geartrain.teeth.triangular.triangular_transmission")
 print([name for name in heavy if name in sys.modules])

@@ -14,7 +14,6 @@ from typing import TYPE_CHECKING, Any
 
 from geartrain.numerics.exact import as_float
 from geartrain.scene.solids.bearing_plates import basis
-from geartrain.teeth.involute import Involute
 
 if TYPE_CHECKING:
     from geartrain.scene.layout import WheelPlace
@@ -106,7 +105,8 @@ class _Unit:
     def angle(self, name: str) -> float:
         """Pressure angle (deg) of a wheel's first pair with involutes; 20 of others."""
         forms = (gear.tooth_form or self.declared.tooth_form for gear in self.declared.gears if name in gear.pair)
-        return next((degrees(form.pressure_angle.si) for form in forms if isinstance(form, Involute)), _ANGLE)
+        angles = (form.rack_angle for form in forms if form is not None)
+        return next((degrees(angle) for angle in angles if angle is not None), _ANGLE)
 
     def stage(self, gear: GearPair, unit: int) -> None:
         """The pair as a stage of its kind; a ring is its second gear."""

@@ -81,7 +81,7 @@ def conjugate_data(mesh: ConjugateMesh) -> dict[str, Any]:
             "why": first.why if first else "",
             "fix": first.fix if first else "",
         },
-        "gears": list(mesh.wheels),
+        "gears": list(mesh.gears),
         "note": mesh.note,
         "play": verdict.play,
         "arcs": [arc / pitch.p for arc in driver_arcs(law)],

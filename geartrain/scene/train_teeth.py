@@ -7,30 +7,27 @@ that let all mates pass; pairs that ask for different teeth of one wheel leave i
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
-from functools import lru_cache
+from dataclasses import dataclass
 from math import atan2, cos, hypot, pi, sin
 from typing import TYPE_CHECKING, Protocol
 
 from geartrain.dynamics.gear_meshes import find_sizes
 from geartrain.errors import GearTrainError, Problem
 from geartrain.numerics.containers import FrozenDict
-from geartrain.teeth.conjugate.conjugate_form import WheelPair, conjugate_pair_of
-from geartrain.teeth.conjugate.conjugate_mesh import ConjugateMesh
-from geartrain.teeth.involute import Involute
-from geartrain.teeth.lantern import Lantern
+from geartrain.teeth.conjugate.conjugate_form import conjugate_pair_of
+from geartrain.teeth.conjugate.wheel_pair import WheelPair
 from geartrain.teeth.outlines.contour import Contour
 from geartrain.teeth.outlines.tooth_outline import Vertex, repeated
-from geartrain.teeth.outlines.tooth_requirement import CLEARANCE, LanternPins, ToothRequirement, alike, cut_tooth
-from geartrain.teeth.outlines.wheel_outline import check_flat, lantern
+from geartrain.teeth.outlines.tooth_requirement import ToothRequirement
+from geartrain.teeth.outlines.wheel_outline import lantern
+from geartrain.teeth.outlines.wheel_requirement import LanternPins
 from geartrain.teeth.standard_teeth import PLAY, UndeclaredWheel, check_size, lone_mate, standard_form, standard_teeth
-from geartrain.teeth.triangular.pair_geometry import depth
-from geartrain.teeth.triangular.triangular_mesh import TriangularMesh
 
 if TYPE_CHECKING:
     from geartrain.analysis.gear_train import GearTrain
-    from geartrain.teeth.conjugate.conjugate_transmission import ConjugatePair
     from geartrain.teeth.gear_mesh import DeclaredPair, GearMesh
+    from geartrain.teeth.involute import Involute
+    from geartrain.teeth.outlines.wheel_requirement import WheelRequirement
     from geartrain.teeth.standard_teeth import StandardTeeth
     from geartrain.train import GearPair, Wheel
 
@@ -139,26 +136,12 @@ def find_train_teeth(
 
 @dataclass(frozen=True)
 class _Asked:
-    """What a pair asks of a wheel: the demand of conjugate teeth, or tip radius (modules) and half angle (rad)."""
+    """What a pair asks of a wheel."""
 
     pair: str
     form: str
     words: str
-    demand: ToothRequirement | None = None
-    blade: tuple[float, float] = (0.0, 0.0)
-
-    def agrees(self, other: _Asked) -> bool:
-        """True if one wheel does for both."""
-        if self.demand is None or other.demand is None:
-            near = all(abs(a - b) <= _SAME * max(a, 1.0) for a, b in zip(self.blade, other.blade, strict=True))
-            return self.demand is other.demand and near
-        if _is_pins(self.demand) or _is_pins(other.demand):
-            return self.demand.pins == other.demand.pins
-        return alike(self.demand, other.demand)
-
-
-def _is_pins(demand: ToothRequirement) -> bool:
-    return demand.pins is not None and demand.pins.gear == demand.gear
+    requirement: WheelRequirement
 
 
 class _Toothing:
@@ -172,7 +155,7 @@ class _Toothing:
         except GearTrainError as error:
             meshes, self.unbuilt = (), error.problems
         self.meshes = {mesh.name: mesh for mesh in meshes}
-        self.sizes = find_sizes(self.declared, meshes)
+        self.sizes = find_sizes(meshes)
         self.pairs: dict[str, list[GearPair]] = {name: [] for name in self.declared.wheels}
         for gear in self.declared.gears:
             for wheel in gear.pair:
@@ -209,9 +192,9 @@ class _Toothing:
         flat = [(gear.name, self._gear(mate), self.standard[mate]) for gear, mate in mates if mate in self.standard]
         for pair, mate, its in flat or [("", lone_mate(own), teeth)]:
             form, wheels, at = self._standard_pair((own, teeth), (mate, its), name)
-            yield _Asked(
-                pair, STANDARD, teeth.words, _demand(conjugate_pair_of(form, wheels), at, _free(form, wheels, at))
-            )
+            clearance = form.bottom_clearance(wheels, at)
+            required = ToothRequirement(conjugate_pair_of(form, wheels), at, _CHORD, clearance)
+            yield _Asked(pair, STANDARD, teeth.words, required)
 
     def _standard_pair(
         self, first: tuple[UndeclaredWheel, StandardTeeth], second: tuple[UndeclaredWheel, StandardTeeth], name: str
@@ -231,23 +214,8 @@ class _Toothing:
         meshes = [mesh for gear in self.pairs[name] if (mesh := self._mesh(gear)) is not None]
         flat = [mesh for mesh in meshes if self._wheel(self._mate(mesh.gear, name)).kind == "spur"]
         for mesh in flat or meshes:
-            words = mesh.form.replace("_", " ")
-            if isinstance(mesh, TriangularMesh):
-                sizes = mesh.law.sizes
-                R, beta = (sizes.R1, sizes.beta1) if name == mesh.driver else (sizes.R2, sizes.beta2)
-                yield _Asked(mesh.name, mesh.form, words, None, (R * self.sizes[mesh.name].scale, beta))
-            elif isinstance(mesh, ConjugateMesh):
-                gear, form = mesh.wheels.index(name) + 1, mesh.gear.tooth_form or self.declared.tooth_form
-                wheels = self._wheels_of(mesh)
-                demand = _demand(mesh.law.pair, gear, _free(form, wheels, gear), _pins(form, wheels))
-                yield _Asked(mesh.name, mesh.form, words, demand)
-
-    def _wheels_of(self, mesh: ConjugateMesh) -> WheelPair:
-        pitch = mesh.law.path.pitch
-        wheels = [self._wheel(name) for name in mesh.wheels]
-        sizes = [wheel.module.si * (wheel.count or 0) for wheel in wheels if wheel.module and wheel.module.unit]
-        module = sum(sizes) / (pitch.z1 + pitch.z2) if len(sizes) == 2 else None
-        return WheelPair(pitch.z1, pitch.z2, any(wheel.internal for wheel in wheels), module=module)
+            scale = self.sizes[mesh.name].scale if mesh.name in self.sizes else 1.0
+            yield _Asked(mesh.name, mesh.form, mesh.tooth_form.words, mesh.requirement(name, scale, _CHORD))
 
     @staticmethod
     def _mate(gear: DeclaredPair, name: str) -> str:
@@ -288,27 +256,15 @@ class _Toothing:
 
     def _one(self, name: str, asked: Sequence[_Asked]) -> WheelTeeth:
         for other in asked[1:]:
-            if not asked[0].agrees(other):
+            if not asked[0].requirement.agrees(other.requirement):
                 raise _at_odds(asked[0], other)
         return self._cut(name, asked)
 
     def _cut(self, name: str, asked: Sequence[_Asked]) -> WheelTeeth:
-        z, first = self._wheel(name).count or 1, asked[0]
-        demands = tuple(dict.fromkeys(each.demand for each in asked if each.demand is not None))
-        if not demands:
-            (tip, beta), half = first.blade, pi / z
-            root = tip * (1 - depth(z, beta))
-            tooth = tuple((r * cos(turn), r * sin(turn), 0.0) for r, turn in ((root, -half), (tip, 0.0), (root, half)))
-            return WheelTeeth(name, z, "external", first.form, first.words, tip, root, tooth)
-        for demand in demands:
-            check_flat(demand.pair)
-        if _is_pins(demands[0]):
-            pins = demands[0].pins
-            assert pins is not None
-            radii = pins.circle + pins.radius, pins.circle - pins.radius
-            return WheelTeeth(name, z, "pins", first.form, first.words, *radii, pins=pins)
-        tooth, tip, root, kind = _tooth(demands)
-        return WheelTeeth(name, z, kind, first.form, first.words, tip, root, tooth)
+        first, *others = asked
+        cut = first.requirement.cut([each.requirement for each in others])
+        z = self._wheel(name).count or 1
+        return WheelTeeth(name, z, cut.kind, first.form, first.words, cut.tip, cut.root, cut.tooth, cut.pins)
 
     def _plays(self, found: Mapping[str, WheelTeeth]) -> Iterator[PairPlay]:
         """Of all pairs of which both wheels are cut."""
@@ -331,37 +287,16 @@ class _Toothing:
         return mesh.verdict.play * (self._wheel(mesh.driven).count or 0) / 2
 
     def _misplaced_play(self, gear: GearPair, mesh: GearMesh | None, gap: float) -> float | None:
-        """Involutes run at any distance, with other play; negative where they would jam."""
-        if isinstance(mesh, ConjugateMesh):
-            form, wheels = mesh.gear.tooth_form or self.declared.tooth_form, self._wheels_of(mesh)
-        else:
-            first, second = ((self._gear(name), self.standard[name]) for name in gear.pair)
-            form, wheels, _ = self._standard_pair(first, second, gear.pair[0])
-        if not isinstance(form, Involute) or isinstance(mesh, TriangularMesh):
-            return None
-        found = form.involutes(wheels)
-        moved = replace(found, distance=found.distance + (-gap if wheels.internal else gap))
-        try:
-            return moved.play * moved.pitch.z1 / 2 / moved.pitch.R1
-        except ValueError:
-            return None  # nearer than the base circles touch
-
-
-def _demand(
-    pair: ConjugatePair, gear: int, clearance: float | None, pins: LanternPins | None = None
-) -> ToothRequirement:
-    return ToothRequirement(pair, gear, _CHORD, CLEARANCE if clearance is None else clearance, pins)
-
-
-@lru_cache(maxsize=4096)
-def _tooth(demands: tuple[ToothRequirement, ...]) -> tuple[tuple[Vertex, ...], float, float, str]:
-    """The tooth for all demands, its tip and root radius, and the kind of its wheel."""
-    made, _ = cut_tooth(demands)
-    return tuple(made.vertices()), made.tip, made.root, "ring" if made.flank.outward < 0 else "external"
+        """Play of axes that stand `gap` modules too far apart; None for teeth that do not run there as at home."""
+        if mesh is not None:
+            return mesh.play_apart(gap)
+        first, second = ((self._gear(name), self.standard[name]) for name in gear.pair)
+        form, wheels, _ = self._standard_pair(first, second, gear.pair[0])
+        return form.play_apart(wheels, gap)
 
 
 def _at_odds(first: _Asked, other: _Asked) -> GearTrainError:
-    tips = [each.blade[0] if each.demand is None else float(each.demand.flank.r[-1]) for each in (first, other)]
+    tips = [each.requirement.tip for each in (first, other)]
     if first.words != other.words:
         how = f"{first.words} teeth and {other.words} teeth"
     elif abs(tips[0] - tips[1]) > _SAME * tips[0]:
@@ -385,23 +320,3 @@ def _half_declared(name: str, gear: GearPair, mate: str, other: str) -> GearTrai
             f"declare a `tooth_form` for pair '{gear.name}' too",
         )
     )
-
-
-def _free(form: object, wheels: WheelPair, gear: int) -> float | None:
-    """What an involute's dedendum leaves under the mate's tip (modules); None, the usual, for other forms."""
-    if not isinstance(form, Involute):
-        return None
-    found = form.involutes(wheels)
-    own, mate = (found.first, found.second) if gear == 1 else (found.second, found.first)
-    if not found.second.ring:
-        return max(found.distance - mate.tip - own.root, 0.0)
-    free = own.root - mate.tip if gear == 2 else mate.tip - own.root
-    return max(free - found.distance, 0.0)
-
-
-def _pins(form: object, wheels: WheelPair) -> LanternPins | None:
-    if not isinstance(form, Lantern):
-        return None
-    z = wheels.z1 if form.pins == 1 else wheels.z2
-    radius = z / 2 if form.pin_radius is None else wheels.modules(form.pin_radius, "pin_radius")
-    return LanternPins(form.pins, radius, wheels.modules(form.pin_diameter, "pin_diameter") / 2)

@@ -8,16 +8,9 @@ from typing import TYPE_CHECKING, Literal
 from pydantic import Field, model_validator
 
 from geartrain.numerics.quantity import Figure
-from geartrain.teeth.conjugate.conjugate_form import (
-    ConjugateToothForm,
-    TwoFigures,
-    TwoLengths,
-    WheelPair,
-    arcs_of,
-    bad,
-    check_arcs,
-    refused,
-)
+from geartrain.teeth.conjugate.conjugate_form import ConjugateToothForm, arcs_of, check_arcs
+from geartrain.teeth.conjugate.wheel_pair import WheelPair
+from geartrain.teeth.tooth_form import TwoFigures, TwoLengths, bad, refused
 
 if TYPE_CHECKING:
     from geartrain.teeth.conjugate.conjugate_transmission import ConjugatePair

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, Protocol, Self
@@ -12,6 +12,7 @@ from geartrain.teeth.transmission import ExactRatio
 
 if TYPE_CHECKING:
     from geartrain.errors import Problem
+    from geartrain.teeth.outlines.wheel_requirement import WheelRequirement
     from geartrain.teeth.transmission import TransmissionFunction
 
 
@@ -33,6 +34,22 @@ class DeclaredPair(Protocol):
     @property
     def fitting(self) -> Any:
         """How exactly it is mounted; None: as the train says."""
+
+
+class NamedForm(Protocol):
+    """What a mesh reads of the tooth form that made it."""
+
+    @property
+    def form(self) -> str:
+        """Its name."""
+
+    @property
+    def words(self) -> str:
+        """Its name as prose has it."""
+
+    @property
+    def has_lengths(self) -> bool:
+        """True for teeth declared in units of length."""
 
 
 class PairVerdict(Protocol):
@@ -74,28 +91,105 @@ class MeshDriver:
         return {"driver": self.wheel, "driver_is": self.why, "determined": self.known}
 
 
-@dataclass(frozen=True)
-class GearMesh(ABC):
-    """A gear pair with real teeth, and friction if it is declared.
+_CONTRATE = "the contrate is taken for a spur wheel"
 
-    form   name of the tooth form
-    who    the wheel that drives, and how that is known
-    law    with that wheel driving, forwards
-    note   what the form takes the wheels for, where it is not what they are
+
+@dataclass(frozen=True)
+class MeshingWheels:
+    """The two wheels of a gear pair as a train declares them: what a tooth form makes a mesh of.
+
+    place      where the pair is declared
+    counts     tooth numbers; `kinds` of the wheels, and which of them are rings
+    friction   None where none is declared
+    distance   half the modules times the teeth, summed (m); None unless both wheels declare a module with a unit
     """
 
     gear: DeclaredPair
-    form: str
-    who: MeshDriver
     place: str
-    law: TransmissionFunction
+    counts: tuple[int, int]
+    kinds: tuple[str, str] = ("spur", "spur")
+    internal: tuple[bool, bool] = (False, False)
     friction: float | None = None
-    note: str = ""
+    distance: float | None = None
+
+    @property
+    def module(self) -> float | None:
+        """Mean module (m); None where no length says it."""
+        return None if self.distance is None else 2 * self.distance / sum(self.counts)
+
+    @property
+    def touching(self) -> float:
+        """The distance (modules) at which pitch circles touch."""
+        z1, z2 = self.counts
+        return abs(z1 - z2) / 2 if any(self.internal) else (z1 + z2) / 2
+
+    @property
+    def driver(self) -> MeshDriver:
+        """The first wheel, until who drives is known."""
+        return MeshDriver(self.gear.pair[0], "", False)
+
+    @property
+    def note(self) -> str:
+        """What the wheels are taken for, where it is not what they are; empty where it is."""
+        return _CONTRATE if "contrate" in self.kinds else ""
+
+
+@dataclass(frozen=True, slots=True)
+class PairSize:
+    """Of a pair with real teeth.
+
+    scale      modules in one unit of its law's lengths
+    distance   of its axes, in modules
+    stretch    that distance over the one at which pitch circles touch
+    """
+
+    scale: float
+    distance: float
+    stretch: float
+
+
+@dataclass(frozen=True)
+class GearMesh(ABC):
+    """A gear pair with real teeth, and friction if it is declared: all that others ask of it, whatever its form.
+
+    who    the wheel that drives, and how that is known
+    law    with that wheel driving, forwards; `coast` is that of the other flanks
+    """
+
+    wheels: MeshingWheels
+    tooth_form: NamedForm
+    who: MeshDriver
+    law: TransmissionFunction
+
+    @property
+    def gear(self) -> DeclaredPair:
+        """The pair as declared."""
+        return self.wheels.gear
 
     @property
     def name(self) -> str:
         """The name of the pair."""
         return self.gear.name
+
+    @property
+    def form(self) -> str:
+        """The name of the tooth form."""
+        return self.tooth_form.form
+
+    @property
+    def place(self) -> str:
+        """Where the pair is declared."""
+        return self.wheels.place
+
+    @property
+    def friction(self) -> float | None:
+        """Coefficient of friction; None where none is declared."""
+        return self.wheels.friction
+
+    @property
+    def note(self) -> str:
+        """What the form takes the wheels for, where it is not what they are."""
+        return self.wheels.note
 
     @property
     def driver(self) -> str:
@@ -107,6 +201,11 @@ class GearMesh(ABC):
         """The other wheel."""
         first, second = self.gear.pair
         return second if self.driver == first else first
+
+    @property
+    def coast(self) -> TransmissionFunction:
+        """The transmission function of the coast flanks, which push while the driver turns back."""
+        return self.law.turned_back()
 
     @property
     @abstractmethod
@@ -121,6 +220,39 @@ class GearMesh(ABC):
     @abstractmethod
     def _faults(self) -> Iterator[Problem]:
         """Everything that is wrong with these teeth, without pair and place."""
+
+    @abstractmethod
+    def size(self, tips: Mapping[str, float]) -> PairSize | None:
+        """How large the pair is, and how far apart its axes stand; None where the axes are not parallel.
+
+        tips   tip radii (modules) of wheels that have a size already, for teeth that are similar at any scale
+        """
+
+    @property
+    def unit_tips(self) -> Mapping[str, float]:
+        """Tip radii in the unit of the law, of wheels that have a size only up to a scale; none by default."""
+        return {}
+
+    @abstractmethod
+    def requirement(self, wheel: str, scale: float, tolerance: float) -> WheelRequirement:
+        """The teeth that this pair asks of one of its wheels.
+
+        scale       modules in one unit of the law's lengths, as of `size`
+        tolerance   how far (modules) a chord may leave a flank
+        """
+
+    @property
+    def cut_sizes(self) -> object | None:
+        """The sizes about which manufacturing errors are drawn, tooth by tooth; None for forms without such a law."""
+        return None
+
+    def play_apart(self, gap: float) -> float | None:
+        """Play on the pitch circle (modules) of axes that stand `gap` modules too far apart; below 0 they jam.
+
+        None for teeth that do not run there as they do at home.
+        """
+        del gap
+        return None
 
     @property
     def label(self) -> str:

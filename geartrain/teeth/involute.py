@@ -2,20 +2,16 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from math import pi, tan
 from typing import TYPE_CHECKING, Literal
 
 from pydantic import Field, model_validator
 
 from geartrain.numerics.quantity import Angle
-from geartrain.teeth.conjugate.conjugate_form import (
-    ConjugateToothForm,
-    TwoFigures,
-    WheelPair,
-    bad,
-    check_angle,
-    refused,
-)
+from geartrain.teeth.conjugate.conjugate_form import ConjugateToothForm, check_angle
+from geartrain.teeth.conjugate.wheel_pair import WheelPair
+from geartrain.teeth.tooth_form import TwoFigures, bad, refused
 
 if TYPE_CHECKING:
     from geartrain.teeth.conjugate.conjugate_transmission import ConjugatePair
@@ -65,7 +61,30 @@ class Involute(ConjugateToothForm):
         wheels.check()
         return self._bevel(wheels) if wheels.bevel else self._spur(wheels)
 
+    @property
+    def rack_angle(self) -> float:
+        """Pressure angle of the rack (rad)."""
+        return self.pressure_angle.si
+
     # ------------------------------------------------------------------------------------------------ parallel axes
+
+    def bottom_clearance(self, wheels: WheelPair, gear: int) -> float:
+        """What the dedendum leaves under the mate's tip (modules)."""
+        found = self.involutes(wheels)
+        own, mate = (found.first, found.second) if gear == 1 else (found.second, found.first)
+        if not found.second.ring:
+            return max(found.distance - mate.tip - own.root, 0.0)
+        free = own.root - mate.tip if gear == 2 else mate.tip - own.root
+        return max(free - found.distance, 0.0)
+
+    def play_apart(self, wheels: WheelPair, gap: float) -> float | None:
+        """Involutes run at any distance, with other play; None where their base circles would not reach."""
+        found = self.involutes(wheels)
+        moved = replace(found, distance=found.distance + (-gap if wheels.internal else gap))
+        try:
+            return moved.play * moved.pitch.z1 / 2 / moved.pitch.R1
+        except ValueError:
+            return None  # nearer than the base circles touch
 
     def involutes(self, wheels: WheelPair) -> InvolutePair:
         """Sizes of a pair with parallel axes, in modules."""

@@ -9,20 +9,15 @@ from pydantic import BeforeValidator, Field, model_validator
 
 from geartrain.errors import Problem, RangeError
 from geartrain.numerics.quantity import Figure, Length
-from geartrain.teeth.conjugate.conjugate_form import (
-    ConjugateToothForm,
-    TwoFigures,
-    WheelPair,
-    arcs_of,
-    bad,
-    check_arcs,
-    refused,
-)
+from geartrain.teeth.conjugate.conjugate_form import ConjugateToothForm, arcs_of, check_arcs
+from geartrain.teeth.conjugate.wheel_pair import WheelPair
+from geartrain.teeth.tooth_form import TwoFigures, bad, refused
 
 if TYPE_CHECKING:
     from geartrain.teeth.conjugate.admissibility import ToothFault
     from geartrain.teeth.conjugate.conjugate_transmission import ConjugatePair
     from geartrain.teeth.conjugate.pitch_surfaces import PitchSurfaces
+    from geartrain.teeth.outlines.wheel_requirement import LanternPins
 
 
 def _first_or_second(raw: object) -> object:
@@ -117,6 +112,14 @@ class Lantern(ConjugateToothForm):
             "its addendum, a smaller pin_diameter, or a smaller pin_radius",
         )
         return (fault,)
+
+    def lantern_pins(self, wheels: WheelPair) -> LanternPins:
+        """Which wheel has the pins, and how large their circle and they are."""
+        from geartrain.teeth.outlines.wheel_requirement import LanternPins
+
+        z = wheels.z1 if self.pins == 1 else wheels.z2
+        radius = z / 2 if self.pin_radius is None else wheels.modules(self.pin_radius, "pin_radius")
+        return LanternPins(self.pins, radius, wheels.modules(self.pin_diameter, "pin_diameter") / 2)
 
     def _sizes(self, R: float, wheels: WheelPair) -> tuple[float, float]:
         """Distance of the pins from the axle, and their radius, in modules."""

@@ -8,15 +8,9 @@ from typing import TYPE_CHECKING, Literal
 from pydantic import Field, model_validator
 
 from geartrain.numerics.quantity import Angle, Figure, Quantity
-from geartrain.teeth.conjugate.conjugate_form import (
-    ConjugateToothForm,
-    TwoFigures,
-    WheelPair,
-    arcs_of,
-    bad,
-    check_angle,
-    check_arcs,
-)
+from geartrain.teeth.conjugate.conjugate_form import ConjugateToothForm, arcs_of, check_angle, check_arcs
+from geartrain.teeth.conjugate.wheel_pair import WheelPair
+from geartrain.teeth.tooth_form import TwoFigures, bad
 
 if TYPE_CHECKING:
     from geartrain.teeth.conjugate.conjugate_transmission import ConjugatePair

@@ -10,7 +10,8 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 from geartrain.errors import GearTrainError, Problem
-from geartrain.teeth.conjugate.conjugate_form import WheelPair, conjugate_pair_of
+from geartrain.teeth.conjugate.conjugate_form import conjugate_pair_of
+from geartrain.teeth.conjugate.wheel_pair import WheelPair
 from geartrain.teeth.involute import Involute
 
 ADDENDUM, DEDENDUM = 1.0, 1.25  # modules: those of the tallest, and the depth of all

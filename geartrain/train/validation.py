@@ -21,7 +21,7 @@ from geartrain.errors import (
     suggest,
 )
 from geartrain.numerics.containers import collector_paused
-from geartrain.teeth import ToothForm
+from geartrain.teeth import AnyToothForm
 from geartrain.train.declaration import Train
 from geartrain.train.references import find_problems
 
@@ -110,7 +110,7 @@ def _name(kind: Any) -> tuple[Any, ...]:
     return get_args(field.annotation) if field else ()
 
 
-_FORMS = {name for form in get_args(get_args(ToothForm)[0]) for name in _name(form)}
+_FORMS = {name for form in get_args(get_args(AnyToothForm)[0]) for name in _name(form)}
 _SHAPES = {
     "dict_type": "a mapping of keys to values",
     "model_type": "a mapping of keys to values",

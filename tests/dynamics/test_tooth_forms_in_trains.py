@@ -150,7 +150,7 @@ def test_a_ring_may_be_named_first_and_stays_the_second_gear(crank: str) -> None
     plain = only(pair("{form: cycloidal}", "20", ring, more=rest))
     text = PAIR.format(rest=f"tooth_form: {{form: cycloidal}}\n{rest}").replace("w: 60", f"w: {ring}")
     turned = only(load(text.replace("pair: [p, w]", "pair: [w, p]")))
-    assert (turned.wheels, plain.wheels) == (("p", "w"), ("p", "w"))
+    assert (turned.gears, plain.gears) == (("p", "w"), ("p", "w"))
     assert turned.driver == plain.driver == {"a": "p", "b": "w"}[crank]
     assert turned.law.ratio == plain.law.ratio == (Fraction(1, 3) if crank == "a" else 3)
     assert turned.law.efficiency_mean() == plain.law.efficiency_mean()

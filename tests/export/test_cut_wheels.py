@@ -21,7 +21,7 @@ import geartrain
 from geartrain import GearTrain, GearTrainError
 from geartrain.export import ManufacturingSizes, SolidModel, export_files, notices, wheel_file
 from geartrain.scene import make_scene
-from geartrain.teeth.conjugate.conjugate_form import WheelPair
+from geartrain.teeth.conjugate.wheel_pair import WheelPair
 from geartrain.teeth.involute import Involute
 from geartrain.teeth.triangular.triangular_mesh import TriangularMesh
 

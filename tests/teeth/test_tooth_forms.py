@@ -16,11 +16,12 @@ from places import DATA
 from pydantic import ValidationError
 
 from geartrain.errors import GearTrainError
-from geartrain.teeth.conjugate.conjugate_form import ConjugateToothForm, WheelPair
+from geartrain.teeth.conjugate.conjugate_form import ConjugateToothForm
 from geartrain.teeth.conjugate.conjugate_transmission import ConjugateTransmission
 from geartrain.teeth.conjugate.off_design import OffDesignTransmission, outlines
 from geartrain.teeth.conjugate.path_costs import height, measure
 from geartrain.teeth.conjugate.path_of_contact import PathOfContact
+from geartrain.teeth.conjugate.wheel_pair import WheelPair
 from geartrain.teeth.contact.outline_contact import solve
 from geartrain.teeth.cycloidal import Cycloidal
 from geartrain.teeth.involute import Involute

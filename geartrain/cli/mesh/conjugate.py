@@ -32,8 +32,8 @@ from geartrain.errors import GearTrainError, Problem
 
 if TYPE_CHECKING:
     from geartrain.teeth.conjugate.conjugate_transmission import ConjugatePair
-    from geartrain.teeth.outlines.tooth_requirement import LanternPins
     from geartrain.teeth.outlines.wheel_outline import BlankSizes, WheelOutline
+    from geartrain.teeth.outlines.wheel_requirement import LanternPins
 
 _SIZES = ("module", "clearance", "fillet", "bore", "rim")
 
@@ -207,7 +207,7 @@ def _pins(form: str, own: dict[str, str | None], asked: ConjugateOptions) -> Lan
     if form != "lantern":
         return None
     from geartrain.teeth.lantern import Lantern
-    from geartrain.teeth.outlines.tooth_requirement import LanternPins
+    from geartrain.teeth.outlines.wheel_requirement import LanternPins
 
     model = read_form(form, own)
     assert isinstance(model, Lantern)

@@ -9,8 +9,9 @@ from geartrain.cli.option_values import at_option, quantity
 from geartrain.errors import GearTrainError, Problem, suggest
 
 if TYPE_CHECKING:
-    from geartrain.teeth.conjugate.conjugate_form import ConjugateToothForm, WheelPair
+    from geartrain.teeth.conjugate.conjugate_form import ConjugateToothForm
     from geartrain.teeth.conjugate.conjugate_transmission import ConjugatePair
+    from geartrain.teeth.conjugate.wheel_pair import WheelPair
 
 FORMS: dict[str, dict[str, str]] = {
     "involute": {
@@ -75,7 +76,7 @@ class ConjugateOptions:
     @property
     def wheels(self) -> WheelPair:
         """As the forms take them. Raises `GearTrainError` where they are no pair."""
-        from geartrain.teeth.conjugate.conjugate_form import WheelPair
+        from geartrain.teeth.conjugate.wheel_pair import WheelPair
 
         found = WheelPair(self.z1, self.z2, self.internal, self.shaft_angle, self.module)
         try:

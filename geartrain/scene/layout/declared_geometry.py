@@ -146,7 +146,7 @@ def _lines(declared: Train, tree: Tree) -> dict[str, AxisLine]:
 def _stretches(train: GearTrain) -> dict[str, Fraction]:
     """How much farther apart than touching pitch circles real teeth want their axes, by pair; none where none is so."""
     try:
-        sizes = find_sizes(train.declaration, train.meshes)
+        sizes = find_sizes(train.meshes)
     except GearTrainError:
         return {}  # why there are no such teeth is told where they are asked for
     return {name: Fraction(size.stretch) for name, size in sizes.items() if abs(size.stretch - 1) > _TOUCHING}

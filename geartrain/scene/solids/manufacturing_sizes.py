@@ -13,8 +13,6 @@ from geartrain.errors import Problem, QuestionError
 from geartrain.numerics.containers import FrozenDict
 from geartrain.numerics.quantity import Quantity
 from geartrain.scene.layout import Layout
-from geartrain.teeth import Triangular
-from geartrain.teeth.conjugate.conjugate_form import ConjugateToothForm
 from geartrain.teeth.standard_teeth import DEDENDUM
 from geartrain.train import GearPair, Train
 
@@ -103,25 +101,18 @@ def _with_backlash(declared: Train, modules: Mapping[str, Fraction], backlash: F
 
 def _thinned(declared: Train, gear: GearPair, modules: Mapping[str, Fraction], backlash: Fraction) -> GearPair:
     form = gear.tooth_form or declared.tooth_form
-    if not isinstance(form, ConjugateToothForm):
+    if form is None:
         return gear
     play = backlash / modules[gear.pair[0]]
-    quantity = Quantity(play, None, f"{float(play):.9g}")
-    return gear.changed(tooth_form=form.model_copy(update={"backlash": quantity}))
+    return gear.changed(tooth_form=form.thinned(Quantity(play, None, f"{float(play):.9g}")))
 
 
 def _own_play(declared: Train) -> Iterator[Problem]:
     """Pairs whose play is not for a maker to say."""
     for at, gear in enumerate(declared.gears):
-        form, place = gear.tooth_form or declared.tooth_form, declared.place("gears", at)
-        if isinstance(form, Triangular):
-            what = f"--backlash cannot thin the triangular teeth of pair '{gear.name}'"
-            why = "their play follows from their clearance, and thinner teeth would have another motion"
-            yield Problem(what, why, "leave --backlash out, or declare more `clearance`", place)
-        elif isinstance(form, ConjugateToothForm) and "backlash" in form.model_fields_set:
-            what = f"pair '{gear.name}' has a backlash of its own"
-            why = f"it declares {form.backlash.text}, and what is declared wins"
-            yield Problem(what, why, "leave --backlash out, or take the `backlash` out of the file", place)
+        form = gear.tooth_form or declared.tooth_form
+        if form is not None and (problem := form.own_play(gear.name)) is not None:
+            yield replace(problem, place=declared.place("gears", at))
 
 
 def thick(layout: Layout, making: ManufacturingSizes) -> Layout:

@@ -2,127 +2,31 @@
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
-from dataclasses import dataclass
+from abc import abstractmethod
 from functools import lru_cache
 from math import pi, tau
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Self
 
-from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, WithJsonSchema, model_validator
-from pydantic_core import PydanticCustomError
+from pydantic import Field, model_validator
 
-from geartrain.errors import GearTrainError, Problem
+from geartrain.errors import Problem
 from geartrain.numerics.quantity import Angle, Figure, Length, Quantity
+from geartrain.teeth.conjugate.wheel_pair import WheelPair
+from geartrain.teeth.tooth_form import IDEAL, ShaftAngle, ToothForm, bad, refused
 
 if TYPE_CHECKING:
     from geartrain.teeth.conjugate.conjugate_transmission import ConjugatePair, ConjugateTransmission
     from geartrain.teeth.conjugate.off_design import OffDesignTransmission
     from geartrain.teeth.conjugate.path_of_contact import PathOfContact
     from geartrain.teeth.conjugate.pitch_surfaces import PitchSurfaces
+    from geartrain.teeth.gear_mesh import GearMesh, MeshingWheels
+    from geartrain.teeth.outlines.wheel_requirement import LanternPins
 
-FEWEST, MOST_TEETH = 3, 10**9
-_LEAST_ANGLE = 1e-6  # rad: axes that meet under less are as good as parallel, and cones lost in rounding
 _DESIGN = 1e-9  # of a centre distance: nearer to the design is at it
 
 
-def _twice(raw: object) -> object:
-    return raw if isinstance(raw, list | tuple) else (raw, raw)
-
-
-def _schema(kind: str) -> WithJsonSchema:
-    one = {"type": ["number", "string"]} if kind == "number" else {"type": ["string", "number"]}
-    return WithJsonSchema({"anyOf": [one, {"type": "array", "items": one, "minItems": 2, "maxItems": 2}]})
-
-
-TwoFigures = Annotated[tuple[Figure, Figure], BeforeValidator(_twice), _schema("number")]
-"""One number for both, or a list of two."""
-
-TwoLengths = Annotated[tuple[Length, Length], BeforeValidator(_twice), _schema("length")]
-"""One length for both, or a list of two; plain numbers are modules."""
-
-
-@dataclass(frozen=True, slots=True)
-class WheelPair:
-    """The two wheels that a form is asked about.
-
-    z1, z2        tooth numbers; `internal`: the second is a ring
-    shaft_angle   rad, for bevels; None for parallel axes
-    module        m, or None where no length says it
-    """
-
-    z1: int
-    z2: int
-    internal: bool = False
-    shaft_angle: float | None = None
-    module: float | None = None
-
-    @property
-    def bevel(self) -> bool:
-        """True if the axes meet."""
-        return self.shaft_angle is not None
-
-    @property
-    def pitch(self) -> PitchSurfaces:
-        """The pitch surfaces at the design distance. Raises `GearTrainError` where there are none."""
-        from geartrain.teeth.conjugate.pitch_surfaces import PitchSurfaces
-
-        self.check()
-        if self.shaft_angle is None:
-            return PitchSurfaces.spur(self.z1, self.z2, self.internal)
-        return PitchSurfaces.cones(self.z1, self.z2, self.shaft_angle)
-
-    @property
-    def distance(self) -> float:
-        """Design centre distance in modules."""
-        return (self.z2 - self.z1 if self.internal else self.z1 + self.z2) / 2
-
-    def check(self) -> None:
-        """Raises `GearTrainError` for wheels that cannot be a pair."""
-        for z in (self.z1, self.z2):
-            if z < FEWEST:
-                raise refused(
-                    f"a wheel of {z} {'tooth' if z == 1 else 'teeth'} has no conjugate teeth",
-                    "so few leave no arc on which one pair takes over from the last",
-                    f"give at least {FEWEST} teeth, or another tooth_form",
-                )
-        if self.internal and self.z2 <= self.z1:
-            raise refused(
-                f"a ring of {self.z2} teeth does not hold a wheel of {self.z1}",
-                "its pitch circle is not the larger one",
-                "give the ring more teeth",
-            )
-        if self.internal and self.bevel:
-            raise refused("a ring's axis is parallel to its pinion's", "", "give the pair no shaft angle")
-        if max(self.z1, self.z2) > MOST_TEETH:
-            raise refused(
-                f"a wheel of {max(self.z1, self.z2)} teeth",
-                "its teeth are lost in the rounding of its radius",
-                f"give at most {MOST_TEETH:g} teeth",
-            )
-        if self.shaft_angle is not None and not _LEAST_ANGLE <= self.shaft_angle <= pi - _LEAST_ANGLE:
-            raise refused(
-                f"a shaft angle of {self.shaft_angle:.6g} rad is none",
-                f"bevel axes meet between 0 and 180 deg, and {_LEAST_ANGLE:g} rad from either at least",
-                "give parallel axes to a spur pair",
-            )
-
-    def modules(self, length: Quantity, name: str) -> float:
-        """A declared length in modules; plain numbers are. Raises `GearTrainError` where no module is known."""
-        if length.unit is None:
-            return float(length.value)
-        if self.module is None:
-            raise refused(
-                f"the {name} {length.text} has nothing to be compared with",
-                "the wheels declare no module with a unit",
-                f"give the `module` of both wheels, or the {name} as a plain number of modules",
-            )
-        return length.si / self.module
-
-
-class ConjugateToothForm(BaseModel, ABC):
+class ConjugateToothForm(ToothForm):
     """A conjugate tooth form: a path of contact for any two wheels, and the thickness of their teeth."""
-
-    model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
 
     backlash: Length = Field(
         "0",
@@ -140,6 +44,71 @@ class ConjugateToothForm(BaseModel, ABC):
         if self.centre_distance is not None and self.centre_distance.value <= 0:
             raise bad("length", f"centre_distance {self.centre_distance.text} is no length", "write it above 0")
         return self
+
+    def mesh(self, wheels: MeshingWheels, shaft_angle: ShaftAngle) -> GearMesh:
+        """The mesh of a pair, its first wheel driving; a ring is gear 2 of the form in whichever order it is named."""
+        from geartrain.teeth.conjugate.conjugate_mesh import ConjugateMesh
+
+        if why := refusal(wheels.kinds):
+            raise refused(f"it cannot have {self.words} teeth", why, IDEAL)
+        ring_first = wheels.internal[0]
+        if ring_first:
+            check_order(self, wheels.gear.pair)
+        law = self.law(
+            *(wheels.counts[::-1] if ring_first else wheels.counts),
+            wheels.friction or 0.0,
+            2 if ring_first else 1,
+            pitch_distance=wheels.distance,
+            internal=any(wheels.internal),
+            shaft_angle=self._shaft_angle(wheels, shaft_angle),
+        )
+        mesh = ConjugateMesh(wheels, self, wheels.driver, law)
+        if not mesh.rigid:
+            _ = mesh.faults  # teeth too far apart to touch raise: here, where the pair is named
+        return mesh
+
+    def _shaft_angle(self, wheels: MeshingWheels, shaft_angle: ShaftAngle) -> float | None:
+        """Of a bevel pair; None for wheels that mesh as spur wheels do."""
+        if "contrate" in wheels.kinds:
+            return None
+        angle = shaft_angle()
+        if angle is None and "bevel" in wheels.kinds:
+            raise refused(
+                f"it cannot have {self.words} teeth",
+                "nothing says how the axes of its bevels meet",
+                f"declare `axes` with the `direction` of both, or {IDEAL}",
+            )
+        return angle
+
+    def own_play(self, pair: str) -> Problem | None:
+        """Declared play wins over a maker's."""
+        if "backlash" not in self.model_fields_set:
+            return None
+        why = f"it declares {self.backlash.text}, and what is declared wins"
+        fix = "leave --backlash out, or take the `backlash` out of the file"
+        return Problem(f"pair '{pair}' has a backlash of its own", why, fix)
+
+    def thinned(self, backlash: Quantity) -> Self:
+        """The same teeth with this play."""
+        return self.model_copy(update={"backlash": backlash})
+
+    def bottom_clearance(self, wheels: WheelPair, gear: int) -> float | None:
+        """What is free under the mate's tip at the root of gear 1 or 2 (modules); None where the form does not say."""
+        del wheels, gear
+        return None
+
+    def play_apart(self, wheels: WheelPair, gap: float) -> float | None:
+        """Play on the pitch circle (modules) of axes that stand `gap` modules too far apart; below 0 they jam.
+
+        None for forms that do not run there as they do at home.
+        """
+        del wheels, gap
+        return None
+
+    def lantern_pins(self, wheels: WheelPair) -> LanternPins | None:
+        """The round pins that one wheel has for teeth; None where both have teeth."""
+        del wheels
+        return None
 
     @abstractmethod
     def pair(self, wheels: WheelPair) -> ConjugatePair:
@@ -244,11 +213,28 @@ def check_angle(name: str, angle: Angle, below: float = 0.25) -> None:
         )
 
 
-def bad(kind: str, what: str, fix: str) -> PydanticCustomError:
-    """An error of a declaration, with what to do."""
-    return PydanticCustomError(kind, "{what}", {"what": what, "fix": fix})
+def refusal(kinds: tuple[str, str]) -> str:
+    """Why a pair cannot have conjugate teeth; empty if it can."""
+    if "worm" in kinds:
+        return "a worm's thread slides along the wheel, and rolls on no pitch surface"
+    if set(kinds) >= {"bevel", "contrate"}:
+        return "a bevel and a contrate wheel have no pair of pitch cones"
+    return ""
 
 
-def refused(what: str, why: str, fix: str) -> GearTrainError:
-    """A pair that a form does not give."""
-    return GearTrainError(Problem(what, why, fix))
+def wheel_specific_parameters(form: ConjugateToothForm) -> list[str]:
+    """Parameters that tell the two wheels apart."""
+    given = {name: getattr(form, name) for name in type(form).model_fields}
+    uneven = [name for name, value in given.items() if isinstance(value, tuple) and value[0].value != value[1].value]
+    return uneven + [name for name in ("pins",) if name in form.model_fields_set]
+
+
+def check_order(form: ConjugateToothForm, pair: tuple[str, str]) -> None:
+    """Raises `GearTrainError` for a form whose wheels differ on a pair that names its ring first."""
+    if uneven := wheel_specific_parameters(form):
+        ring, pinion = pair
+        raise refused(
+            f"it is not plain whose {' and '.join(uneven)} is whose",
+            f"the pair names its ring '{ring}' first, and these teeth count the ring as the second wheel",
+            f"name the pinion first: `pair: [{pinion}, {ring}]`",
+        )

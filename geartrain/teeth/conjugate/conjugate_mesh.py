@@ -2,20 +2,33 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Protocol
 
-from geartrain.errors import GearTrainError, Problem
-from geartrain.teeth.gear_mesh import GearMesh
+from geartrain.errors import Problem
+from geartrain.teeth.conjugate.wheel_pair import WheelPair
+from geartrain.teeth.gear_mesh import GearMesh, NamedForm, PairSize
 
 if TYPE_CHECKING:
-    from geartrain.teeth.conjugate.conjugate_form import ConjugateToothForm
     from geartrain.teeth.conjugate.conjugate_transmission import ConjugateTransmission, ConjugateVerdict
     from geartrain.teeth.conjugate.off_design import OffDesignTransmission
+    from geartrain.teeth.outlines.tooth_requirement import ToothRequirement
+    from geartrain.teeth.outlines.wheel_requirement import LanternPins
 
-IDEAL = "give this pair `tooth_form: {form: ideal}`"
+
+class ConjugateDetails(NamedForm, Protocol):
+    """What such a mesh asks of its form besides the name: see the methods of the form."""
+
+    def bottom_clearance(self, wheels: WheelPair, gear: int) -> float | None:
+        """What is free under the mate's tip (modules)."""
+
+    def play_apart(self, wheels: WheelPair, gap: float) -> float | None:
+        """Play of axes that stand too far apart (modules)."""
+
+    def lantern_pins(self, wheels: WheelPair) -> LanternPins | None:
+        """Round pins in place of teeth."""
 
 
 @dataclass(frozen=True)
@@ -25,8 +38,8 @@ class ConjugateMesh(GearMesh):
     At another distance than they are made for, all but involutes have a law that is not rigid.
     """
 
+    tooth_form: ConjugateDetails
     law: ConjugateTransmission | OffDesignTransmission
-    ring_first: bool = False
 
     @cached_property
     def reversed(self) -> ConjugateTransmission | OffDesignTransmission:
@@ -45,15 +58,43 @@ class ConjugateMesh(GearMesh):
         return float(sum(pair.halves) / pair.path.pitch.p)
 
     @property
-    def wheels(self) -> tuple[str, str]:
+    def gears(self) -> tuple[str, str]:
         """The wheels that are gear 1 and gear 2 of the law."""
         first, second = self.gear.pair
-        return (second, first) if self.ring_first else (first, second)
+        return (second, first) if self.wheels.internal[0] else (first, second)
+
+    @property
+    def wheel_pair(self) -> WheelPair:
+        """The two wheels as the form knows them, axes taken as parallel."""
+        pitch = self.law.path.pitch
+        return WheelPair(pitch.z1, pitch.z2, any(self.wheels.internal), module=self.wheels.module)
+
+    def size(self, tips: Mapping[str, float]) -> PairSize | None:
+        """Lengths of the law are modules already."""
+        del tips
+        pitch = self.law.path.pitch
+        if pitch.bevel:
+            return None
+        distance = float(getattr(self.law, "distance", abs(pitch.R1 + pitch.R2)))
+        return PairSize(1.0, distance, distance / self.wheels.touching)
+
+    def requirement(self, wheel: str, scale: float, tolerance: float) -> ToothRequirement:
+        """The flank of the design, with a root that lets the mate pass."""
+        from geartrain.teeth.outlines.tooth_requirement import CLEARANCE, ToothRequirement
+
+        del scale
+        gear, wheels = self.gears.index(wheel) + 1, self.wheel_pair
+        free, pins = self.tooth_form.bottom_clearance(wheels, gear), self.tooth_form.lantern_pins(wheels)
+        return ToothRequirement(self.law.pair, gear, tolerance, CLEARANCE if free is None else free, pins)
+
+    def play_apart(self, gap: float) -> float | None:
+        """As the form has it: involutes run at any distance."""
+        return self.tooth_form.play_apart(self.wheel_pair, gap)
 
     @property
     def label(self) -> str:
         """The pair, with which wheel is which gear."""
-        first, second = self.wheels
+        first, second = self.gears
         return f"pair '{self.name}' (gear 1 is '{first}', gear 2 '{second}')"
 
     def _faults(self) -> Iterator[Problem]:
@@ -65,32 +106,3 @@ class ConjugateMesh(GearMesh):
                 "can overcome",
                 f"give a friction below {self.law.locking_friction:.4g}, or let the other wheel drive",
             )
-
-
-def refusal(kinds: tuple[str, str]) -> str:
-    """Why a pair cannot have conjugate teeth; empty if it can."""
-    if "worm" in kinds:
-        return "a worm's thread slides along the wheel, and rolls on no pitch surface"
-    if set(kinds) >= {"bevel", "contrate"}:
-        return "a bevel and a contrate wheel have no pair of pitch cones"
-    return ""
-
-
-def wheel_specific_parameters(form: ConjugateToothForm) -> list[str]:
-    """Parameters that tell the two wheels apart."""
-    given = {name: getattr(form, name) for name in type(form).model_fields}
-    uneven = [name for name, value in given.items() if isinstance(value, tuple) and value[0].value != value[1].value]
-    return uneven + [name for name in ("pins",) if name in form.model_fields_set]
-
-
-def check_order(form: ConjugateToothForm, pair: tuple[str, str]) -> None:
-    """Raises `GearTrainError` for a form whose wheels differ on a pair that names its ring first."""
-    if uneven := wheel_specific_parameters(form):
-        ring, pinion = pair
-        raise GearTrainError(
-            Problem(
-                f"it is not plain whose {' and '.join(uneven)} is whose",
-                f"the pair names its ring '{ring}' first, and these teeth count the ring as the second wheel",
-                f"name the pinion first: `pair: [{pinion}, {ring}]`",
-            )
-        )

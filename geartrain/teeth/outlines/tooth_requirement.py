@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
-from math import acos, inf, pi, radians
+from math import acos, cos, inf, pi, radians
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -15,6 +15,7 @@ import numpy as np
 from geartrain.errors import Problem, QuestionError
 from geartrain.teeth.outlines.flank_curve import FlankCurve, flank
 from geartrain.teeth.outlines.tooth_outline import ToothOutline, fillet, pin_span
+from geartrain.teeth.outlines.wheel_requirement import CutTooth, LanternPins, WheelRequirement
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -108,17 +109,8 @@ _HALVINGS = 18
 _ALIKE = 1e-5  # modules: flanks that differ by less are one
 
 
-@dataclass(frozen=True, slots=True)
-class LanternPins:
-    """Round pins instead of teeth: which gear has them, the radius of their circle, their own; modules."""
-
-    gear: int
-    circle: float
-    radius: float
-
-
 @dataclass(frozen=True)
-class ToothRequirement:
+class ToothRequirement(WheelRequirement):
     """The teeth of gear 1 or 2 of a pair, lengths in modules.
 
     tolerance   how far a chord may leave a flank
@@ -163,6 +155,33 @@ class ToothRequirement:
         return ToothRequirement(self.pair, 3 - self.gear, self.tolerance, self.clearance, self.pins)
 
     @property
+    def has_pins(self) -> bool:
+        """True for the lantern of a pair: round pins, no teeth."""
+        return self.pins is not None and self.pins.gear == self.gear
+
+    @property
+    def tip(self) -> float:
+        """Radius of the tips."""
+        return float(self.flank.r[-1])
+
+    def agrees(self, other: WheelRequirement) -> bool:
+        """True if one wheel does for both."""
+        if not isinstance(other, ToothRequirement):
+            return False
+        return self.pins == other.pins if self.has_pins or other.has_pins else alike(self, other)
+
+    def cut(self, others: Sequence[WheelRequirement] = ()) -> CutTooth:
+        """Pins, or the one tooth whose root lets the mates of all pass."""
+        demands = (self, *(each for each in others if isinstance(each, ToothRequirement)))
+        for demand in demands:
+            check_flat(demand.pair)
+        if self.pins is not None and self.has_pins:
+            return CutTooth(
+                "pins", self.pins.circle + self.pins.radius, self.pins.circle - self.pins.radius, (), self.pins
+            )
+        return _cut(tuple(dict.fromkeys(demands)))
+
+    @property
     def root(self) -> float:
         """Radius of the root circle: as deep under the pitch circle as the mate's tip stands over its own, and more.
 
@@ -196,6 +215,34 @@ def _flank(pair: ConjugatePair, gear: int, tolerance: float) -> FlankCurve:
     # pins are round whatever part of them works
     whole = pair.path.approach.arc, pair.path.recess.arc
     return flank(pair.path, gear, pair.arcs if pair.solid[gear - 1] else whole, tolerance)
+
+
+@lru_cache(maxsize=4096)
+def _cut(demands: tuple[ToothRequirement, ...]) -> CutTooth:
+    made, _ = cut_tooth(demands)
+    kind = "ring" if made.flank.outward < 0 else "external"
+    return CutTooth(kind, made.tip, made.root, tuple(made.vertices()))
+
+
+def check_flat(pair: ConjugatePair) -> None:
+    """Raise `QuestionError` for a pair that no flat wheels can be cut for."""
+    path = pair.path
+    if path.pitch.bevel:
+        virtual = [path.pitch.z1 / cos(path.pitch.R1), path.pitch.z2 / max(cos(path.pitch.R2), 1e-9)]
+        raise QuestionError(
+            Problem(
+                "a bevel wheel has no flat outline",
+                "its teeth lie on a sphere and taper to the point where the axes meet",
+                "leave --profile out, or as a likeness draw the spur pair its back cones develop into, of "
+                f"{virtual[0]:.4g} and {virtual[1]:.4g} teeth",
+                "--profile",
+            )
+        )
+    if pair.faults:
+        raise QuestionError(Problem(fault.what, fault.why, fault.fix, "--profile") for fault in pair.faults)
+    if path.approach.start or path.recess.start:
+        why = "where the flanks end there is nothing to say how thick the teeth are"
+        raise QuestionError(Problem("this path of contact keeps off the pitch point", why, "take another form"))
 
 
 def alike(one: ToothRequirement, other: ToothRequirement) -> bool:

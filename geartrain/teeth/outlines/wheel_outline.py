@@ -12,7 +12,8 @@ from typing import TYPE_CHECKING, Any
 from geartrain.errors import Problem, QuestionError
 from geartrain.teeth.outlines.contour import Contour
 from geartrain.teeth.outlines.tooth_outline import ToothOutline
-from geartrain.teeth.outlines.tooth_requirement import CLEARANCE, LanternPins, ToothRequirement, cut_tooth
+from geartrain.teeth.outlines.tooth_requirement import CLEARANCE, ToothRequirement, check_flat, cut_tooth
+from geartrain.teeth.outlines.wheel_requirement import LanternPins
 
 if TYPE_CHECKING:
     from geartrain.teeth.conjugate.conjugate_transmission import ConjugatePair
@@ -112,27 +113,6 @@ def outline(pair: ConjugatePair, gear: int, cut: BlankSizes, pins: LanternPins |
     if pins is not None and gear == pins.gear:
         return both.lantern(pins)
     return both.toothed(gear)
-
-
-def check_flat(pair: ConjugatePair) -> None:
-    """Raise `QuestionError` for a pair that no flat wheels can be cut for."""
-    path = pair.path
-    if path.pitch.bevel:
-        virtual = [path.pitch.z1 / cos(path.pitch.R1), path.pitch.z2 / max(cos(path.pitch.R2), 1e-9)]
-        raise QuestionError(
-            Problem(
-                "a bevel wheel has no flat outline",
-                "its teeth lie on a sphere and taper to the point where the axes meet",
-                "leave --profile out, or as a likeness draw the spur pair its back cones develop into, of "
-                f"{virtual[0]:.4g} and {virtual[1]:.4g} teeth",
-                "--profile",
-            )
-        )
-    if pair.faults:
-        raise QuestionError(Problem(fault.what, fault.why, fault.fix, "--profile") for fault in pair.faults)
-    if path.approach.start or path.recess.start:
-        why = "where the flanks end there is nothing to say how thick the teeth are"
-        raise QuestionError(Problem("this path of contact keeps off the pitch point", why, "take another form"))
 
 
 class _Both:

@@ -4,13 +4,15 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Annotated, Literal
 
-from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, WithJsonSchema, model_validator
+from pydantic import BeforeValidator, Field, WithJsonSchema, model_validator
 from pydantic_core import PydanticCustomError
 
-from geartrain.errors import GearTrainError, Problem
+from geartrain.errors import Problem
 from geartrain.numerics.quantity import RADIANS_PER_TURN, Angle, Figure, Length
+from geartrain.teeth.tooth_form import IDEAL, ShaftAngle, ToothForm, refused, twice
 
 if TYPE_CHECKING:
+    from geartrain.teeth.gear_mesh import GearMesh, MeshingWheels
     from geartrain.teeth.triangular.clearance_window import ClearanceWindow
     from geartrain.teeth.triangular.pair_geometry import TriangularSizes
     from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
@@ -26,17 +28,11 @@ TRIANGULAR_SCOPE = (
 )
 
 
-def _one_per_wheel(raw: object) -> object:
-    return raw if isinstance(raw, list | tuple) else (raw, raw)
-
-
-class Triangular(BaseModel):
+class Triangular(ToothForm):
     """Triangular teeth: straight flanks that meet in a point."""
 
-    model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
-
     form: Literal["triangular"] = Field(description="The name of this form")
-    half_angle: Annotated[tuple[Angle, Angle], BeforeValidator(_one_per_wheel), WithJsonSchema(_ONE_OR_TWO)] = Field(
+    half_angle: Annotated[tuple[Angle, Angle], BeforeValidator(twice), WithJsonSchema(_ONE_OR_TWO)] = Field(
         description="Half the aperture of a tooth, between 0 and 90 deg; a list of two gives one for each wheel"
     )
     clearance: Figure | None = Field(
@@ -116,7 +112,31 @@ class Triangular(BaseModel):
                 {"names": ", ".join(given), "fix": "give all with a unit, or all without"},
             )
 
+    @property
+    def has_lengths(self) -> bool:
+        """True for teeth declared in units of length."""
+        radii = () if isinstance(self.radii, str) else self.radii
+        return any(length is not None and length.unit for length in (self.centre_distance, self.backlash, *radii))
+
     # ------------------------------------------------------------------------------------------------------- a pair
+
+    def mesh(self, wheels: MeshingWheels, shaft_angle: ShaftAngle) -> GearMesh:
+        """The mesh of a pair, its first wheel driving."""
+        from geartrain.teeth.triangular.triangular_mesh import TriangularMesh
+
+        del shaft_angle
+        if why := refusal(wheels.kinds, any(wheels.internal)):
+            raise refused("it cannot have triangular teeth", why, f"{TRIANGULAR_SCOPE}; {IDEAL}")
+        law = self.law(*wheels.counts, wheels.friction or 0.0, pitch_distance=wheels.distance)
+        return TriangularMesh(wheels, self, wheels.driver, law)
+
+    def own_play(self, pair: str) -> Problem:
+        """The play of triangular teeth is not for a maker to say."""
+        return Problem(
+            f"--backlash cannot thin the triangular teeth of pair '{pair}'",
+            "their play follows from their clearance, and thinner teeth would have another motion",
+            "leave --backlash out, or declare more `clearance`",
+        )
 
     def sizes(self, z1: int, z2: int, pitch_distance: float | None = None) -> TriangularSizes:
         """The sizes of a pair in m, or in the unit of plain radii, or with R1 = 1 where nothing gives a length.
@@ -129,7 +149,7 @@ class Triangular(BaseModel):
         for z in (z1, z2):
             if z < FEWEST:
                 what = f"a wheel of {z} {'tooth' if z == 1 else 'teeth'} has no triangular teeth"
-                raise _error(what, TRIANGULAR_SCOPE, f"give at least {FEWEST} teeth, or another tooth_form")
+                raise refused(what, TRIANGULAR_SCOPE, f"give at least {FEWEST} teeth, or another tooth_form")
         beta1, beta2 = (angle.si for angle in self.half_angle)
         if self.radii == "pitch_true":
             R1, R2 = pitch_true(z1, z2)
@@ -151,7 +171,7 @@ class Triangular(BaseModel):
         length = self.centre_distance or self.backlash
         assert length is not None
         if isinstance(self.radii, str) and (pitch_distance is None or length.unit is None):
-            raise _error(
+            raise refused(
                 f"the length {length.text} has nothing to be compared with",
                 "neither radii nor modules with a unit give these wheels a size",
                 "give `radii: [first, second]` or the `module` of both wheels, or the clearance as a factor",
@@ -196,7 +216,7 @@ def sizes_window(sizes: TriangularSizes) -> ClearanceWindow:
 
     window = find_window(sizes)
     if not window:
-        raise _error(
+        raise refused(
             f"no clearance lets {sizes.z1} and {sizes.z2} triangular teeth turn",
             f"up to a factor of {1 + window.jam:.6g} there is {window.jam_kind}, and from {1 + window.run:.6g} on "
             f"{window.run_kind}",
@@ -217,13 +237,9 @@ def _excess_of_backlash(sizes: TriangularSizes, backlash: float, text: str) -> f
     low, high = 0.0, sizes.greatest_excess * (1 - 1e-9)
     least, most = play(low), play(high)
     if not least <= backlash <= most:
-        raise _error(
+        raise refused(
             f"no clearance gives a backlash of {text}",
             f"these teeth have from {max(least, 0):.6g} to {most:.6g} (in m, or the plain unit)",
             "give a backlash between the two",
         )
     return root(lambda excess: play(excess) - backlash, low, high, least - backlash, most - backlash)
-
-
-def _error(what: str, why: str, fix: str) -> GearTrainError:
-    return GearTrainError(Problem(what, why, fix))

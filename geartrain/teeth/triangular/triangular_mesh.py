@@ -2,17 +2,51 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from math import cos, pi, sin
 from typing import TYPE_CHECKING
 
 from geartrain.errors import Problem
-from geartrain.teeth.gear_mesh import GearMesh
+from geartrain.teeth.gear_mesh import GearMesh, PairSize
+from geartrain.teeth.outlines.wheel_requirement import SAME_SIZE, CutTooth, WheelRequirement
 
 if TYPE_CHECKING:
     from geartrain.teeth.triangular.clearance_window import ClearanceWindow, TriangularVerdict
+    from geartrain.teeth.triangular.pair_geometry import TriangularSizes
     from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
+
+
+@dataclass(frozen=True)
+class TriangularTooth(WheelRequirement):
+    """A tooth of z that ends in a point: its tip radius (modules), and half its aperture (rad)."""
+
+    z: int
+    tip_radius: float
+    half_angle: float
+
+    @property
+    def tip(self) -> float:
+        """Radius of the tips (modules)."""
+        return self.tip_radius
+
+    def agrees(self, other: WheelRequirement) -> bool:
+        """True for teeth as tall and as sharp."""
+        if not isinstance(other, TriangularTooth):
+            return False
+        pairs = (self.tip_radius, other.tip_radius), (self.half_angle, other.half_angle)
+        return all(abs(a - b) <= SAME_SIZE * max(a, 1.0) for a, b in pairs)
+
+    def cut(self, others: Sequence[WheelRequirement] = ()) -> CutTooth:
+        """Straight from the middle of a space to the tip."""
+        from geartrain.teeth.triangular.pair_geometry import depth
+
+        del others
+        tip, half = self.tip_radius, pi / self.z
+        root = tip * (1 - depth(self.z, self.half_angle))
+        corners = ((root, -half), (tip, 0.0), (root, half))
+        return CutTooth("external", tip, root, tuple((r * cos(turn), r * sin(turn), 0.0) for r, turn in corners))
 
 
 @dataclass(frozen=True)
@@ -40,6 +74,32 @@ class TriangularMesh(GearMesh):
 
         sizes = self.law.sizes
         return find_window(sizes) if sizes.has_valleys else None
+
+    @property
+    def unit_tips(self) -> Mapping[str, float]:
+        """Both wheels': triangular teeth have sizes up to a scale."""
+        return {self.driver: self.law.sizes.R1, self.driven: self.law.sizes.R2}
+
+    def size(self, tips: Mapping[str, float]) -> PairSize:
+        """As large as its wheel that has a size already; else as lengths declare it, or so that pitch circles touch."""
+        D, touching, module = self.law.sizes.D, self.wheels.touching, self.wheels.module
+        scale = touching / D
+        if module is not None and self.tooth_form.has_lengths:
+            scale = 1 / module
+        scale = next((tips[wheel] / R for wheel, R in self.unit_tips.items() if wheel in tips), scale)
+        return PairSize(scale, D * scale, D * scale / touching)
+
+    def requirement(self, wheel: str, scale: float, tolerance: float) -> TriangularTooth:
+        """A point at the tip radius; straight flanks need no tolerance."""
+        del tolerance
+        sizes = self.law.sizes
+        z, R, beta = (sizes.z1, sizes.R1, sizes.beta1) if wheel == self.driver else (sizes.z2, sizes.R2, sizes.beta2)
+        return TriangularTooth(z, R * scale, beta)
+
+    @property
+    def cut_sizes(self) -> TriangularSizes:
+        """The sizes that manufacturing errors are drawn about."""
+        return self.law.sizes
 
     def _faults(self) -> Iterator[Problem]:
         if not self.verdict:

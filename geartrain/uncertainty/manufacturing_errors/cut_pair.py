@@ -105,11 +105,11 @@ def sizes_of(pair: TriangularSizes | TriangularTransmission | GearMesh) -> Trian
     from geartrain.teeth.triangular.pair_geometry import TriangularSizes
     from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
 
-    law = getattr(pair, "law", pair)
-    if isinstance(law, TriangularTransmission):
-        return law.sizes
-    if isinstance(law, TriangularSizes):
-        return law
+    if isinstance(pair, TriangularSizes):
+        return pair
+    sizes = pair.sizes if isinstance(pair, TriangularTransmission) else getattr(pair, "cut_sizes", None)
+    if isinstance(sizes, TriangularSizes):
+        return sizes
     raise RangeError(
         Problem(
             f"{getattr(pair, 'label', 'this pair')} has no triangular teeth",

@@ -1,0 +1,94 @@
+"""The two wheels that a conjugate tooth form is asked about, and whether there can be such a pair."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import pi
+from typing import TYPE_CHECKING
+
+from geartrain.teeth.tooth_form import refused
+
+if TYPE_CHECKING:
+    from geartrain.numerics.quantity import Quantity
+    from geartrain.teeth.conjugate.pitch_surfaces import PitchSurfaces
+
+FEWEST, MOST_TEETH = 3, 10**9
+_LEAST_ANGLE = 1e-6  # rad: axes that meet under less are as good as parallel, and cones lost in rounding
+
+
+@dataclass(frozen=True, slots=True)
+class WheelPair:
+    """The two wheels that a form is asked about.
+
+    z1, z2        tooth numbers; `internal`: the second is a ring
+    shaft_angle   rad, for bevels; None for parallel axes
+    module        m, or None where no length says it
+    """
+
+    z1: int
+    z2: int
+    internal: bool = False
+    shaft_angle: float | None = None
+    module: float | None = None
+
+    @property
+    def bevel(self) -> bool:
+        """True if the axes meet."""
+        return self.shaft_angle is not None
+
+    @property
+    def pitch(self) -> PitchSurfaces:
+        """The pitch surfaces at the design distance. Raises `GearTrainError` where there are none."""
+        from geartrain.teeth.conjugate.pitch_surfaces import PitchSurfaces
+
+        self.check()
+        if self.shaft_angle is None:
+            return PitchSurfaces.spur(self.z1, self.z2, self.internal)
+        return PitchSurfaces.cones(self.z1, self.z2, self.shaft_angle)
+
+    @property
+    def distance(self) -> float:
+        """Design centre distance in modules."""
+        return (self.z2 - self.z1 if self.internal else self.z1 + self.z2) / 2
+
+    def check(self) -> None:
+        """Raises `GearTrainError` for wheels that cannot be a pair."""
+        for z in (self.z1, self.z2):
+            if z < FEWEST:
+                raise refused(
+                    f"a wheel of {z} {'tooth' if z == 1 else 'teeth'} has no conjugate teeth",
+                    "so few leave no arc on which one pair takes over from the last",
+                    f"give at least {FEWEST} teeth, or another tooth_form",
+                )
+        if self.internal and self.z2 <= self.z1:
+            raise refused(
+                f"a ring of {self.z2} teeth does not hold a wheel of {self.z1}",
+                "its pitch circle is not the larger one",
+                "give the ring more teeth",
+            )
+        if self.internal and self.bevel:
+            raise refused("a ring's axis is parallel to its pinion's", "", "give the pair no shaft angle")
+        if max(self.z1, self.z2) > MOST_TEETH:
+            raise refused(
+                f"a wheel of {max(self.z1, self.z2)} teeth",
+                "its teeth are lost in the rounding of its radius",
+                f"give at most {MOST_TEETH:g} teeth",
+            )
+        if self.shaft_angle is not None and not _LEAST_ANGLE <= self.shaft_angle <= pi - _LEAST_ANGLE:
+            raise refused(
+                f"a shaft angle of {self.shaft_angle:.6g} rad is none",
+                f"bevel axes meet between 0 and 180 deg, and {_LEAST_ANGLE:g} rad from either at least",
+                "give parallel axes to a spur pair",
+            )
+
+    def modules(self, length: Quantity, name: str) -> float:
+        """A declared length in modules; plain numbers are. Raises `GearTrainError` where no module is known."""
+        if length.unit is None:
+            return float(length.value)
+        if self.module is None:
+            raise refused(
+                f"the {name} {length.text} has nothing to be compared with",
+                "the wheels declare no module with a unit",
+                f"give the `module` of both wheels, or the {name} as a plain number of modules",
+            )
+        return length.si / self.module

@@ -1,0 +1,81 @@
+"""What a gear pair asks of the teeth of one of its wheels, whatever its form: one tooth that does for all its pairs."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from geartrain.teeth.outlines.tooth_outline import Vertex
+
+SAME_SIZE = 1e-9  # of a length, or rad: what differs by less is one
+
+
+@dataclass(frozen=True, slots=True)
+class LanternPins:
+    """Round pins instead of teeth: which gear has them, the radius of their circle, their own; modules."""
+
+    gear: int
+    circle: float
+    radius: float
+
+
+@dataclass(frozen=True, slots=True)
+class CutTooth:
+    """The tooth of a wheel as it is cut, lengths in modules.
+
+    kind        external, ring or pins
+    tip, root   radii
+    tooth       about the x axis, from root to root; empty for pins
+    """
+
+    kind: str
+    tip: float
+    root: float
+    tooth: tuple[Vertex, ...] = ()
+    pins: LanternPins | None = None
+
+
+class WheelRequirement(ABC):
+    """The teeth that one pair wants on one of its wheels."""
+
+    @property
+    @abstractmethod
+    def tip(self) -> float:
+        """Radius of the tips (modules)."""
+
+    @abstractmethod
+    def agrees(self, other: WheelRequirement) -> bool:
+        """True if one wheel does for both."""
+
+    @abstractmethod
+    def cut(self, others: Sequence[WheelRequirement] = ()) -> CutTooth:
+        """The tooth for this pair and for others that agree. Raises `GearTrainError` where there is none."""
+
+
+@dataclass(frozen=True)
+class FixedTooth(WheelRequirement):
+    """A tooth that its form gives whole, whatever the mate does; its vertices as in `CutTooth`, modules."""
+
+    tip_radius: float
+    root_radius: float
+    tooth: tuple[Vertex, ...]
+
+    @property
+    def tip(self) -> float:
+        """Radius of the tips (modules)."""
+        return self.tip_radius
+
+    def agrees(self, other: WheelRequirement) -> bool:
+        """True if every vertex is the same."""
+        if not isinstance(other, FixedTooth) or len(self.tooth) != len(other.tooth):
+            return False
+        pairs = (pair for both in zip(self.tooth, other.tooth, strict=True) for pair in zip(*both, strict=True))
+        return all(abs(a - b) <= SAME_SIZE * max(abs(a), 1.0) for a, b in pairs)
+
+    def cut(self, others: Sequence[WheelRequirement] = ()) -> CutTooth:
+        """The tooth itself."""
+        del others
+        return CutTooth("external", self.tip_radius, self.root_radius, self.tooth)

@@ -1,0 +1,90 @@
+"""What all tooth forms share: a declaration that makes a gear mesh of two wheels, and the field types they declare."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Annotated, Self
+
+from pydantic import BaseModel, BeforeValidator, ConfigDict, WithJsonSchema
+from pydantic_core import PydanticCustomError
+
+from geartrain.errors import GearTrainError, Problem
+from geartrain.numerics.quantity import Figure, Length, Quantity
+
+if TYPE_CHECKING:
+    from geartrain.teeth.gear_mesh import GearMesh, MeshingWheels
+
+IDEAL = "give this pair `tooth_form: {form: ideal}`"
+
+ShaftAngle = Callable[[], float | None]
+"""The angle (rad) under which the axes of a pair meet; None where they are parallel."""
+
+
+def twice(raw: object) -> object:
+    """One value for both wheels, or the two as they are."""
+    return raw if isinstance(raw, list | tuple) else (raw, raw)
+
+
+def _schema(kind: str) -> WithJsonSchema:
+    one = {"type": ["number", "string"]} if kind == "number" else {"type": ["string", "number"]}
+    return WithJsonSchema({"anyOf": [one, {"type": "array", "items": one, "minItems": 2, "maxItems": 2}]})
+
+
+TwoFigures = Annotated[tuple[Figure, Figure], BeforeValidator(twice), _schema("number")]
+"""One number for both, or a list of two."""
+
+TwoLengths = Annotated[tuple[Length, Length], BeforeValidator(twice), _schema("length")]
+"""One length for both, or a list of two; plain numbers are modules."""
+
+
+class ToothForm(BaseModel, ABC):
+    """The teeth of a gear pair as declared: what knows how to make a mesh of two wheels, whatever the form."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
+
+    if TYPE_CHECKING:
+        form: str
+
+    @property
+    def words(self) -> str:
+        """The name of the form as prose has it."""
+        return self.form.replace("_", " ")
+
+    @abstractmethod
+    def mesh(self, wheels: MeshingWheels, shaft_angle: ShaftAngle) -> GearMesh | None:
+        """The mesh of a gear pair, its first wheel driving; None for teeth that add nothing to the ratio.
+
+        shaft_angle   asked only where the form needs it
+        Raises `GearTrainError` where these wheels cannot have such teeth, without naming pair or place.
+        """
+
+    @property
+    def has_lengths(self) -> bool:
+        """True for teeth declared in units of length, where others are so many modules."""
+        return False
+
+    @property
+    def rack_angle(self) -> float | None:
+        """Pressure angle (rad) of the rack that cuts these teeth; None where no rack does."""
+        return None
+
+    def own_play(self, pair: str) -> Problem | None:
+        """Why a maker's play does not hold for this pair; None where it does."""
+        del pair
+        return None
+
+    def thinned(self, backlash: Quantity) -> Self:
+        """The form with this much play on the pitch circle (modules); itself where it has no play to declare."""
+        del backlash
+        return self
+
+
+def bad(kind: str, what: str, fix: str) -> PydanticCustomError:
+    """An error of a declaration, with what to do."""
+    return PydanticCustomError(kind, "{what}", {"what": what, "fix": fix})
+
+
+def refused(what: str, why: str, fix: str) -> GearTrainError:
+    """A pair that a form does not give."""
+    return GearTrainError(Problem(what, why, fix))

@@ -160,7 +160,7 @@ def test_a_ring_may_be_named_first_and_stays_the_second_gear(crank: str) -> None
 def test_a_ring_named_first_is_refused_where_its_form_tells_the_wheels_apart() -> None:
     text = PAIR.format(rest="tooth_form: {form: involute, addendum: [1, 0.9]}\ninputs: {a: 1}")
     text = text.replace("w: 60", "w: {teeth: 60, internal: true}")
-    assert only(load(text)).wheels == ("p", "w")
+    assert only(load(text)).gears == ("p", "w")
     problem = said(load(text.replace("pair: [p, w]", "pair: [w, p]")))
     assert "whose addendum" in problem
     assert "`pair: [p, w]`" in problem

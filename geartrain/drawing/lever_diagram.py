@@ -1,14 +1,11 @@
 """Speed diagrams of epicyclic sets: coaxial members at abscissae given by teeth, their speeds as ordinates on a line.
 
-Seen from its carrier k, a set turns all its members in fixed proportion: w_m = w_k + x_m u. So the points (x_m, w_m)
-of one state lie on a straight line, the carrier's at x = 0 (Kutzbach 1927; Benford and Leising 1981, the lever
-analogy).
+The abscissae are those of `geartrain.kinematics.levers`.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Sequence
 from fractions import Fraction
 from itertools import groupby
 from typing import Any
@@ -19,7 +16,7 @@ from geartrain.drawing.backend import Axes, Figure
 from geartrain.drawing.style import BLACK, BLUE, GREY, LETTER, PALE, RED, SMALL, sheet, title_of, too_many
 from geartrain.errors import Problem, QuestionError
 from geartrain.kinematics.answer import Answer
-from geartrain.kinematics.components import find_components
+from geartrain.kinematics.levers import Lever, find_levers
 from geartrain.numerics.exact import decimal, fraction_text, is_short
 
 Point = tuple[Fraction, list[str], Fraction | None]
@@ -32,39 +29,13 @@ _FINE = 8.5  # points
 _LONG = 11  # letters of a fraction that is still written out
 
 
-@dataclass(frozen=True, slots=True)
-class Lever:
-    """One epicyclic set: its carrier, and the abscissa of each member, the greatest of them 1.
+def lever_figure(train: GearTrain, state: str | None = None, labels: bool = True) -> Figure:
+    """A panel for each set and each state (or the one named): sets side by side, states below each other.
 
-    abscissae   link -> x, exact; the carrier's is 0
+    Raises `QuestionError` where nothing is epicyclic, or for more panels than a page holds.
     """
-
-    carrier: str
-    abscissae: Mapping[str, Fraction]
-
-
-def find_levers(train: GearTrain) -> list[Lever]:
-    """Every elementary set of a train: what meshes in one moving carrier's frame, and turns on that carrier's axis.
-
-    A planet is a member only where fewer than two other links are. Raises `QuestionError` where nothing is epicyclic.
-    """
-    declared, tree = train.declaration, train.tree
-    parts = find_components(tuple(declared.links), declared.frame, train.circuits)
-    found = []
-    for group, carrier in enumerate(parts.group_carrier):
-        if carrier == parts.frame:
-            continue
-        nodes = [node for node, own in enumerate(parts.node_group) if own == group]
-        if len(nodes) < 2:  # the slot of a follower, held by its pin
-            continue
-        relative = {parts.links[parts.node_link[node]]: parts.relative(node) for node in nodes}
-        name = parts.links[carrier]
-        axis = tree.axis(name)
-        coaxial = {link: x for link, x in relative.items() if link == declared.frame or tree.axis(link) == axis}
-        members = coaxial if len(coaxial) > 1 else relative
-        scale = max(members.values(), key=abs)
-        found.append(Lever(name, {name: Fraction(0)} | {link: x / scale for link, x in members.items()}))
-    if not found:
+    levers = find_levers(train.declaration, train.tree, train.circuits)
+    if not levers:
         raise QuestionError(
             Problem(
                 f"'{train.name}' has no epicyclic set",
@@ -72,15 +43,6 @@ def find_levers(train: GearTrain) -> list[Lever]:
                 "draw another kind: plan, stick, graph or dials",
             )
         )
-    return found
-
-
-def lever_figure(train: GearTrain, state: str | None = None, labels: bool = True) -> Figure:
-    """A panel for each set and each state (or the one named): sets side by side, states below each other.
-
-    Raises `QuestionError` where nothing is epicyclic, or for more panels than a page holds.
-    """
-    levers = find_levers(train)
     states: list[str | None] = [state] if state is not None else [*train.states] or [None]
     too_many(train, len(levers) * len(states), _MOST, "panels of sets and states")
     answers = [train.solve(name) for name in states]

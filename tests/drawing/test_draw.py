@@ -34,7 +34,6 @@ from matplotlib.figure import Figure
 from geartrain.drawing import KINDS, picture, render
 from geartrain.drawing.arrangement import arrange, spread
 from geartrain.drawing.dial_faces import dials_figure
-from geartrain.drawing.lever_diagram import find_levers
 from geartrain.drawing.plan_view import _within, plan_figure
 from geartrain.scene import make_scene
 from geartrain.scene.pose import body_errors, scene_pose
@@ -310,32 +309,6 @@ def test_vertices_of_a_graph_keep_apart(name: str) -> None:
 
 
 # --------------------------------------------------------------------------------------------------------------- lever
-
-
-def test_the_abscissae_of_a_simple_set_are_its_tooth_ratios() -> None:
-    (lever,) = find_levers(load("planetary-24-18-60"))
-    assert dict(lever.abscissae) == {"carrier": 0, "sun": 1, "frame": Fraction(-24, 60)}
-
-
-def test_levers_of_a_transmission_are_its_four_sets_by_willis() -> None:
-    by_hand = {  # z_s (w_s - w_c) = -z_r (w_r - w_c)
-        "C1R4": {"C1R4": 0, "S12": 1, "R1": Fraction(-48, 96)},
-        "IN": {"IN": 0, "S12": 1, "R2S3": Fraction(-48, 96)},
-        "C3": {"C3": 0, "R2S3": 1, "R3S4": Fraction(-69, 111)},
-        "OUT": {"OUT": 0, "R3S4": 1, "C1R4": Fraction(-23, 85)},
-    }
-    assert {lever.carrier: dict(lever.abscissae) for lever in find_levers(load("zf-8hp70"))} == by_hand
-
-
-@pytest.mark.parametrize("name", ["zf-8hp70", "ravigneaux-set", "bevel-differential", "freeth-2021", "wolfrom-175"])
-def test_the_speeds_of_every_set_lie_on_a_line(name: str) -> None:
-    train = load(name)
-    for state in train.states or (None,):
-        speeds = train.solve(state, method="exact").speeds
-        for lever in find_levers(train):
-            points = [(x, speeds[link] * train.signs.get(link, 1)) for link, x in lever.abscissae.items()]
-            for (a, u), (b, v), (c, w) in combinations(points, 3):
-                assert (b - a) * (w - u) == (c - a) * (v - u)
 
 
 def test_a_speed_diagram_shows_the_published_speeds_as_fractions() -> None:

@@ -1,37 +1,21 @@
-"""Tooth forms, one file each; a pair chooses one by its `form`."""
+"""Tooth forms, one file each; a pair chooses one by its `form`.
+
+The forms are shown here by name, and imported when one is asked for: a train without any needs none.
+"""
 
 from __future__ import annotations
 
-from typing import Annotated
+from typing import TYPE_CHECKING, Any
 
-from pydantic import Field
+if TYPE_CHECKING:
+    from geartrain.teeth.any_tooth_form import *  # noqa: F403
 
-from geartrain.teeth.cycloidal import Cycloidal
-from geartrain.teeth.ideal import Ideal
-from geartrain.teeth.involute import Involute
-from geartrain.teeth.lantern import Lantern
-from geartrain.teeth.least_friction import LeastFriction
-from geartrain.teeth.tooth_form import ToothForm
-from geartrain.teeth.triangular import Triangular
-from geartrain.teeth.uniform_stress import UniformStress
-from geartrain.teeth.uniform_temperature import UniformTemperature
 
-ConjugateForm = Involute | Cycloidal | Lantern | UniformStress | UniformTemperature | LeastFriction
-"""Teeth that keep their ratio at every instant at the distance they are made for."""
+def __getattr__(name: str) -> Any:
+    from importlib import import_module
 
-AnyToothForm = Annotated[Ideal | ConjugateForm | Triangular, Field(discriminator="form")]
-"""Whatever a declaration may say of the teeth of a pair."""
-
-__all__ = [
-    "AnyToothForm",
-    "ConjugateForm",
-    "Cycloidal",
-    "Ideal",
-    "Involute",
-    "Lantern",
-    "LeastFriction",
-    "ToothForm",
-    "Triangular",
-    "UniformStress",
-    "UniformTemperature",
-]
+    if not name.startswith("_"):
+        forms = import_module("geartrain.teeth.any_tooth_form")
+        if name in forms.__all__:
+            return getattr(forms, name)
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

@@ -13,9 +13,8 @@ from pydantic import BeforeValidator, Field, PrivateAttr
 from geartrain.errors import Loc, Marks, dotted
 from geartrain.numerics.exact import abridged_text, decimal
 from geartrain.numerics.quantity import Friction, Quantity, Speed, Torque, in_unit, same_kind
-from geartrain.teeth import AnyToothForm
 from geartrain.teeth.pin_coupling import Coupling
-from geartrain.train.fields import ByName, Declared, Id, Nothing
+from geartrain.train.fields import ByName, Declared, DeclaredToothForm, Id, Nothing
 from geartrain.train.manufacturing import PairMounting, WheelManufacture
 from geartrain.train.mechanism import Axis, GearPair, Link, Revolute, Source, Wheel
 from geartrain.train.outputs import Dial, Output, SpeedUnit, View
@@ -103,7 +102,7 @@ class Train(Declared):
     revolutes: tuple[Revolute, ...] = Field((), description="Turning pairs; together they form a tree")
     gears: tuple[GearPair, ...] = Field((), description="Gear pairs")
     couplings: tuple[Coupling, ...] = Field((), description="Pins in slots")
-    tooth_form: AnyToothForm | None = Field(
+    tooth_form: DeclaredToothForm | None = Field(
         None, description="Form of the teeth of every pair that has none of its own"
     )
     friction: Friction | None = Field(None, description="Friction of the teeth of every pair that has none of its own")

@@ -2,10 +2,19 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any, Literal, Self, TypeVar
+from functools import cache
+from typing import TYPE_CHECKING, Annotated, Any, Literal, Self, TypeVar
 
-from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, WithJsonSchema
-from pydantic_core import PydanticCustomError
+from pydantic import (
+    AfterValidator,
+    BaseModel,
+    BeforeValidator,
+    ConfigDict,
+    GetJsonSchemaHandler,
+    TypeAdapter,
+    WithJsonSchema,
+)
+from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
 from geartrain.numerics.containers import FrozenDict
 
@@ -89,3 +98,29 @@ ByName = Annotated[dict[Id, Part], AfterValidator(FrozenDict)]
 Count = Annotated[int, BeforeValidator(_count)]
 Boolean = Annotated[bool, BeforeValidator(_boolean)]
 Nothing = BeforeValidator(_empty_for_nothing)
+
+
+@cache
+def tooth_forms() -> TypeAdapter[Any]:
+    """The reader of all tooth forms; most trains declare none, and import none."""
+    from geartrain.teeth.any_tooth_form import AnyToothForm
+
+    return TypeAdapter(AnyToothForm)
+
+
+if TYPE_CHECKING:
+    from geartrain.teeth.any_tooth_form import AnyToothForm
+
+    DeclaredToothForm = AnyToothForm
+else:
+
+    class DeclaredToothForm:
+        """A tooth form as a field of a model: the forms are imported when the first is read."""
+
+        @classmethod
+        def __get_pydantic_core_schema__(cls, source: Any, handler: Any) -> CoreSchema:
+            return core_schema.no_info_plain_validator_function(lambda raw: tooth_forms().validate_python(raw))
+
+        @classmethod
+        def __get_pydantic_json_schema__(cls, schema: CoreSchema, handler: GetJsonSchemaHandler) -> dict[str, Any]:
+            return handler(tooth_forms().core_schema)

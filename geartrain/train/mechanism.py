@@ -16,8 +16,18 @@ from pydantic import (
 from pydantic_core import PydanticCustomError
 
 from geartrain.numerics.quantity import Angle, Figure, Friction, Inertia, Length, Quantity, Share, Torque
-from geartrain.teeth import AnyToothForm
-from geartrain.train.fields import Boolean, ByName, Count, Declared, Id, Status, also, short_for, side
+from geartrain.train.fields import (
+    Boolean,
+    ByName,
+    Count,
+    Declared,
+    DeclaredToothForm,
+    Id,
+    Status,
+    also,
+    short_for,
+    side,
+)
 from geartrain.train.manufacturing import PairMounting, WheelManufacture
 
 
@@ -233,7 +243,7 @@ class GearPair(Declared):
 
     id: str = Field("", description="Name of the pair; default first~second")
     pair: tuple[Id, Id] = Field(description="The two wheels")
-    tooth_form: AnyToothForm | None = Field(None, description="Form of the teeth; default the train's")
+    tooth_form: DeclaredToothForm | None = Field(None, description="Form of the teeth; default the train's")
     friction: Friction | None = Field(None, description="Coefficient of friction between teeth")
     efficiency: Annotated[Efficiencies, BeforeValidator(_efficiency)] | None = Field(
         None,

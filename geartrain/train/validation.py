@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import types
 from collections.abc import Iterator, Mapping
+from functools import cache
 from itertools import islice
 from typing import Annotated, Any, Union, get_args, get_origin
 
@@ -21,8 +22,8 @@ from geartrain.errors import (
     suggest,
 )
 from geartrain.numerics.containers import collector_paused
-from geartrain.teeth import AnyToothForm
 from geartrain.train.declaration import Train
+from geartrain.train.fields import DeclaredToothForm
 from geartrain.train.references import find_problems
 
 
@@ -110,7 +111,14 @@ def _name(kind: Any) -> tuple[Any, ...]:
     return get_args(field.annotation) if field else ()
 
 
-_FORMS = {name for form in get_args(get_args(AnyToothForm)[0]) for name in _name(form)}
+@cache
+def _forms() -> dict[str, type[BaseModel]]:
+    """Every tooth form by the name that chooses it."""
+    from geartrain.teeth.any_tooth_form import AnyToothForm
+
+    return {name: form for form in get_args(get_args(AnyToothForm)[0]) for name in _name(form)}
+
+
 _SHAPES = {
     "dict_type": "a mapping of keys to values",
     "model_type": "a mapping of keys to values",
@@ -164,7 +172,7 @@ def _where(loc: Loc) -> str:
 
 def _real_steps(loc: Loc) -> Loc:
     """`loc` without the tags pydantic adds for unions, which are not in the file."""
-    tags = {"count", "doubt", "pin_and_slot", "pin_follower", *_FORMS}
+    tags = {"count", "doubt", "pin_and_slot", "pin_follower", *_forms()}
     return tuple(
         step
         for at, step in enumerate(loc)
@@ -179,7 +187,7 @@ def _keys_at(loc: Loc) -> Iterator[str]:
     """The keys a declaration may have at `loc`, found by walking the models."""
     kinds: list[Any] = [Train]
     for step in loc:
-        named = [kind for kind in kinds if step in _FORMS and step in _name(kind)]
+        named = [kind for kind in kinds if step in _name(kind)]
         kinds = named or [after for kind in kinds for after in _step(kind, step)]
     for kind in kinds:
         for name, field in kind.model_fields.items():
@@ -195,7 +203,9 @@ def _step(kind: Any, step: str | int) -> Iterator[Any]:
 
 
 def _models_in(annotation: Any) -> Iterator[Any]:
-    if isinstance(annotation, type) and issubclass(annotation, BaseModel):
+    if annotation is DeclaredToothForm:
+        yield from _forms().values()
+    elif isinstance(annotation, type) and issubclass(annotation, BaseModel):
         yield annotation
     elif get_origin(annotation) is Annotated:
         yield from _models_in(get_args(annotation)[0])

@@ -1,0 +1,37 @@
+"""Every tooth form: the union of which a declaration chooses one by its `form`."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+from pydantic import Field
+
+from geartrain.teeth.cycloidal import Cycloidal
+from geartrain.teeth.ideal import Ideal
+from geartrain.teeth.involute import Involute
+from geartrain.teeth.lantern import Lantern
+from geartrain.teeth.least_friction import LeastFriction
+from geartrain.teeth.tooth_form import ToothForm
+from geartrain.teeth.triangular import Triangular
+from geartrain.teeth.uniform_stress import UniformStress
+from geartrain.teeth.uniform_temperature import UniformTemperature
+
+ConjugateForm = Involute | Cycloidal | Lantern | UniformStress | UniformTemperature | LeastFriction
+"""Teeth that keep their ratio at every instant at the distance they are made for."""
+
+AnyToothForm = Annotated[Ideal | ConjugateForm | Triangular, Field(discriminator="form")]
+"""Whatever a declaration may say of the teeth of a pair."""
+
+__all__ = [
+    "AnyToothForm",
+    "ConjugateForm",
+    "Cycloidal",
+    "Ideal",
+    "Involute",
+    "Lantern",
+    "LeastFriction",
+    "ToothForm",
+    "Triangular",
+    "UniformStress",
+    "UniformTemperature",
+]

@@ -416,7 +416,7 @@ def test_trains_of_ordinary_speeds_are_solved_as_they_are(monkeypatch: pytest.Mo
     def refuse(*_: object) -> None:
         raise AssertionError("nothing is to be scaled")
 
-    monkeypatch.setattr("geartrain.kinematics.speeds.scaling.find_exponents", refuse)
+    monkeypatch.setattr("geartrain.kinematics.speeds.float_speeds.find_exponents", refuse)
     for train in (*(train for train, _, _ in STIFF.values()), load("pennestri-2002"), GearTrain.declare(row((11, 10)))):
         assert not train.floats().exponents.values.any()
 

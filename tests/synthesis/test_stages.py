@@ -551,7 +551,7 @@ def test_an_interrupt_keeps_what_was_found_and_a_journal_takes_it_up(
             raise KeyboardInterrupt
         return real(task)
 
-    monkeypatch.setattr("geartrain.synthesis.ratio.search_segments.search_segment", some)
+    monkeypatch.setattr("geartrain.synthesis.ratio.segment_sweep.search_segment", some)
     with Journal(tmp_path / "journal", {"month": 1}) as journal:
         part = find_stages(*QUESTION, tolerance=Fraction(1, 10**5), journal=journal)
         assert 0 < len(journal) < 9

@@ -864,7 +864,7 @@ def test_an_interrupt_at_any_time_gives_findings_that_say_so(monkeypatch: pytest
                 raise KeyboardInterrupt
             return real(*question)
 
-        monkeypatch.setattr(passes, "find_question", interrupted)
+        monkeypatch.setattr(passes, "find_join_problem", interrupted)
         (part,) = find(data).parts
         assert part.complete == (after > 0)
         assert part.reason.startswith("interrupted") == (after == 0)

@@ -159,7 +159,9 @@ def test_every_path_obeys_the_fundamental_law_and_euler_savary(
     z1: int, z2: int, tilted: float, bevel: bool, shape: str
 ) -> None:
     pitch = PitchSurfaces.cones(z1, z2) if bevel else PitchSurfaces.spur(z1, z2)
-    A, B, X, psi = pitch.A, pitch.B, pitch.p * 0.4, radians(tilted)
+    # with few teeth a path of uniform heat comes to a right angle before it has travelled 0.4 pitches
+    part = 0.3 if shape == "heat" and min(z1, z2) < 12 else 0.4
+    A, B, X, psi = pitch.A, pitch.B, pitch.p * part, radians(tilted)
     make = {
         "stress": lambda a, b: forms.uniform_stress(pitch, a, b, X, psi),
         "heat": lambda a, b: forms.uniform_heat(pitch, b, 3 * (A + B), X),

@@ -20,7 +20,7 @@ from geartrain.errors import GearTrainError, QuestionError, RangeError
 from geartrain.numerics.work import Journal, open_executor
 from geartrain.synthesis.formulas import with_counts
 from geartrain.uncertainty.posterior import ToothCountPosterior, find_priors, infer_counts
-from geartrain.uncertainty.posterior.enumeration import LikelihoodBatch
+from geartrain.uncertainty.posterior.enumeration import LikelihoodBatch, sample_task
 from geartrain.uncertainty.posterior.inference_problem import build_inference_problem
 
 CHAIN: dict[str, Any] = {
@@ -450,12 +450,17 @@ def test_who_does_the_work_changes_nothing(tmp_path: Any) -> None:
         Journal(tmp_path / "j.jsonl", {"train": "planetary"})
 
 
-def test_an_interrupted_run_says_what_it_knows() -> None:
-    def tell(done: int, total: int) -> None:
-        if done:
-            raise KeyboardInterrupt
+def test_an_interrupted_run_says_what_it_knows(monkeypatch: pytest.MonkeyPatch) -> None:
+    asked: list[object] = []
 
-    found = run(CHAIN, method="sample", samples=60_000, tell=tell)
+    def first_only(shared: bytes, task: Any) -> Any:
+        asked.append(task)
+        if len(asked) > 1:
+            raise KeyboardInterrupt
+        return sample_task(shared, task)
+
+    monkeypatch.setattr("geartrain.uncertainty.posterior.inference.sample_task", first_only)
+    found = run(CHAIN, method="sample", samples=60_000)
     assert found.cut
     assert 0 < found.looked < 60_000
     assert found.evidence.low is not None

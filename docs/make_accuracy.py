@@ -1,37 +1,28 @@
-"""Write docs/accuracy.md from runs of the benchmark; the page begins with the commands that make them."""
+"""Write docs/accuracy.md from kept runs of the study of speeds."""
 
 from __future__ import annotations
 
-import json
-from pathlib import Path
-from typing import Any
+from functools import partial
 
-from geartrain.bench import Record, Records
+from studies.page import from_command_line, lowered, read, write_page
+from studies.speed_study import SpeedRecord, SpeedRecords, speeds
 
-HERE = Path(__file__).parent
-RUNS = (
-    "kinematics-small.json",
-    "kinematics-large.json",
-    "kinematics-million.json",
-    "kinematics-drift.json",
-)
-Rows = dict[tuple[str, int, str], Record]
+RUNS = {
+    "kinematics-small": partial(speeds, 1_000),
+    "kinematics-large": partial(speeds, 100_000, 10_000),
+    "kinematics-million": partial(speeds, 1_000_000, 1_000_000, ["tree"]),
+    "kinematics-drift": partial(speeds, 100_000, 1_000, ["drift"]),
+}
+Rows = dict[tuple[str, int, str], SpeedRecord]
 REFINED = "sparse LU, COLAMD, refined, with estimate"
 
 
 def main() -> None:
-    """Read the run, write the page."""
-    runs: list[dict[str, Any]] = [json.loads((HERE / "data" / name).read_text(encoding="utf-8")) for name in RUNS]
-    records = Records(runs[0]["title"], [Record(**row) for run in runs for row in run["rows"]])
-    rows = {(row.family, row.links, row.method): row for row in records.rows}
-    told = Records(records.title, list(rows.values()))
-    text = "\n".join([HEAD, growth(rows), DEFAULT, findings(rows), TABLES, tables(told)])
-    (HERE / "accuracy.md").write_text(text, encoding="utf-8")
-
-
-def tables(records: Records) -> str:
-    """The tables of the run, a heading lower than they are printed."""
-    return records.to_markdown().split("\n", 2)[2].replace("## ", "### ")
+    """Read the runs, write the page."""
+    runs = read(SpeedRecords, *RUNS)
+    rows = {(row.family, row.links, row.method): row for run in runs for row in run.rows}
+    told = SpeedRecords(runs[0].title, list(rows.values()))
+    write_page("accuracy", [HEAD, growth(rows), DEFAULT, findings(rows), TABLES, lowered(told.tables())])
 
 
 def growth(rows: Rows) -> str:
@@ -58,7 +49,7 @@ ONE = ("exact", "exact, one output")
 DECLARE_AND_CIRCUITS = ("(declare: checked models from plain data)", "(find the circuits)")
 
 
-def _seconds(row: Record | None) -> str:
+def _seconds(row: SpeedRecord | None) -> str:
     if row is None:
         return "-"
     return row.note if row.seconds is None else f"{row.seconds:.3g} s"
@@ -97,13 +88,9 @@ def findings(rows: Rows) -> str:
 
 HEAD = """# Error against run time
 
-Written by `python docs/make_accuracy.py` from the runs
+Written by
 
-    geartrain bench kinematics --most 1000 --json --force -o docs/data/kinematics-small.json
-    geartrain bench kinematics --least 10000 --json --force -o docs/data/kinematics-large.json
-    geartrain bench kinematics --least 1000000 --most 1000000 --family tree --json --force \\
-        -o docs/data/kinematics-million.json
-    geartrain bench kinematics --least 1000 --family drift --json --force -o docs/data/kinematics-drift.json
+    python docs/make_accuracy.py --measure
 
 on a machine with two cores. Compare times within a table only: they are ratios to the exact solve of the same train
 in the same run. The matrices of the sparse solvers come with rows and columns in random order, as a model arrives, and
@@ -150,4 +137,4 @@ TABLES = """## All measurements
 """
 
 if __name__ == "__main__":
-    main()
+    from_command_line(RUNS, partial(speeds, 1_000, 0, ["chain", "epicyclic"]), main)

@@ -1,22 +1,17 @@
-"""Write docs/mesh-accuracy.md and its picture from a run of the benchmark; the page begins with the command."""
+"""Write docs/mesh-accuracy.md and its picture from a kept run of its study."""
 
 from __future__ import annotations
 
-import json
 import re
-from pathlib import Path
+from functools import partial
 from textwrap import fill
 
-import matplotlib
+from studies.mesh_study import DIRECT, SCANNED, TABULATED, MeshRecord, MeshRecords, meshes
+from studies.page import from_command_line, lowered, picture, read, span, write_page
 
-from geartrain.bench import MeshRecord, MeshRecords
-
-HERE = Path(__file__).resolve().parent
-PICTURE = HERE / "images" / "mesh-accuracy.svg"
 MANY = 1_000_000  # angles over which building is spread
 Rows = dict[tuple[str, str, str], MeshRecord]
 SHOWN = ("48/96", "3/7", "1000/3000", "100000/100000")
-DIRECT, SCANNED, TABULATED = "direct", "scan of all couples", "tabulated"
 # colours that the colour-blind tell apart, and a marker for each
 LOOKS = {
     "sampled and interpolated": ("#D55E00", "s", r"sampled, \d+"),
@@ -29,19 +24,13 @@ LOOKS = {
 
 def main() -> None:
     """Read the run, write page and picture."""
-    run = json.loads((HERE / "data" / "mesh.json").read_text(encoding="utf-8"))
-    records = MeshRecords(run["title"], [MeshRecord(**row) for row in run["rows"]])
+    (records,) = read(MeshRecords, "mesh")
     rows = {(row.family, row.method, row.quantity): row for row in records.rows}
-    text = "\n".join([HEAD, default(rows), PLOT, growth(rows), findings(rows), TABLES, tables(records)])
-    (HERE / "mesh-accuracy.md").write_text(text, encoding="utf-8")
+    # growth has a table of its own
+    kept = MeshRecords(records.title, [row for row in records.rows if not row.family.startswith("growth")])
+    parts = [HEAD, default(rows), PLOT, growth(rows), findings(rows), TABLES, lowered(kept.tables())]
+    write_page("mesh-accuracy", parts)
     draw(rows)
-    print("wrote docs/mesh-accuracy.md and docs/images/mesh-accuracy.svg")
-
-
-def tables(records: MeshRecords) -> str:
-    """The tables of the run, a heading lower than they are printed; growth has a table of its own."""
-    kept = [row for row in records.rows if not row.family.startswith("growth")]
-    return MeshRecords(records.title, kept).to_markdown().split("\n", 2)[2].replace("## ", "### ")
 
 
 def pairs(rows: Rows) -> list[str]:
@@ -71,12 +60,6 @@ def errors(rows: Rows, pattern: str, quantity: str = "error") -> list[float]:
         for (_, method, asked), row in rows.items()
         if asked == quantity and re.fullmatch(pattern, method) and row.error is not None
     ]
-
-
-def span(values: list[float]) -> str:
-    """Least to greatest, or one number where both print the same."""
-    least, greatest = (f"{each:.0f}" if each >= 10 else f"{each:.2g}" for each in (min(values), max(values)))
-    return least if least == greatest else f"{least} to {greatest}"
 
 
 def default(rows: Rows) -> str:
@@ -115,10 +98,10 @@ def growth(rows: Rows) -> str:
     families = list(dict.fromkeys(family for family, *_ in rows if family.startswith("growth")))
     for family in families:
         cells = [f"{seconds(rows, family, *method) * 1e3:.3g} ms" for method in methods]
-        lines.append(f"| {family.split()[1]} | {rows[family, DIRECT, 'path'].links} | {' | '.join(cells)} |")
+        lines.append(f"| {family.split()[1]} | {rows[family, DIRECT, 'path'].couples} | {' | '.join(cells)} |")
     first, last = families[0], families[-1]
     ratios = [seconds(rows, last, *method) / seconds(rows, first, *method) for method in methods]
-    couples = rows[last, DIRECT, "path"].links / rows[first, DIRECT, "path"].links
+    couples = rows[last, DIRECT, "path"].couples / rows[first, DIRECT, "path"].couples
     teeth = int(last.split("/")[1]) / int(first.split("/")[1])
     return "\n".join(lines) + "\n\n" + fill(GROWTH.format(*ratios, couples=couples, teeth=teeth), 120) + "\n"
 
@@ -160,28 +143,19 @@ def findings(rows: Rows) -> str:
 
 def draw(rows: Rows) -> None:
     """True error over cost an angle, a line a method, a panel a pair."""
-    matplotlib.use("svg")
-    from matplotlib import pyplot as plt
-
-    style = {"font.size": 11, "svg.hashsalt": "mesh", "svg.fonttype": "none", "font.family": "sans-serif"}
-    with plt.rc_context(style):
-        figure, axes = plt.subplots(2, 2, figsize=(8.6, 7.4), sharex=True, sharey=True, layout="constrained")
+    with picture("mesh-accuracy", 2, 2, figsize=(8.6, 7.4), sharex=True, sharey=True) as (figure, axes):
         for ax, pair in zip(axes.flat, SHOWN, strict=True):
             for name, (colour, marker, pattern) in LOOKS.items():
                 points = curve(rows, pair, pattern)
                 alone = 13 if marker == "*" else 9
                 size = 6 if len(points) > 1 else alone
                 ax.plot(*zip(*points, strict=True), color=colour, marker=marker, ms=size, lw=1.6, label=name)
-            couples = rows[pair, DIRECT, "error"].links
+            couples = rows[pair, DIRECT, "error"].couples
             ax.set_title(f"{pair}, {couples} {'couple' if couples == 1 else 'couples'} in reach", fontsize=11)
             ax.set(xscale="log", yscale="log", ylim=(1e-16, 1e-1), xlim=(8, 8000))
-            ax.grid(color="0.88", lw=0.6)
-            ax.spines[["top", "right"]].set_visible(False)
         figure.supxlabel("ns an angle over a million angles, building included")
         figure.supylabel("greatest true error, pitches of the driven wheel")
         figure.legend(*axes[0, 0].get_legend_handles_labels(), loc="outside upper center", ncols=3, frameon=False)
-        figure.savefig(PICTURE, metadata={"Date": None})
-        plt.close(figure)
 
 
 def curve(rows: Rows, pair: str, pattern: str) -> list[tuple[float, float]]:
@@ -197,17 +171,17 @@ def curve(rows: Rows, pair: str, pattern: str) -> list[tuple[float, float]]:
 
 HEAD = """# Error against run time: the law of triangular teeth
 
-Written by `python docs/make_mesh_accuracy.py` from the run
+Written by
 
-    geartrain bench mesh --json --force -o docs/data/mesh.json
+    python docs/make_mesh_accuracy.py --measure
 
 on a machine with two cores. Compare times within a pair only: they are ratios to the direct formula in the same run.
 The methods:
 
-- **direct**: `TriangularTransmission`. Of all couples of teeth only those that can be lowest are asked, the switching points
-  are roots found to rounding, and each angle takes one formula.
-- **tabulated**: `TabulatedTransmission(law)`. Polynomials of degree 4 on uniform cells cut at the corners of the law, from
-  the law's own answers at Chebyshev nodes within each cell. As many cells as it takes for 1e-12 of a driven pitch
+- **direct**: `TriangularTransmission`. Of all couples of teeth only those that can be lowest are asked, the switching
+  points are roots found to rounding, and each angle takes one formula.
+- **tabulated**: `TabulatedTransmission(law)`. Polynomials of degree 4 on uniform cells cut at the corners of the law,
+  from the law's own answers at Chebyshev nodes within each cell. As many cells as it takes for 1e-12 of a driven pitch
   (default), or as many as given.
 - **sampled**: the lowest of all couples in reach at so many positions of a pitch, linear between.
 - **scan of all couples**: who drives is asked of all couples at 128 positions of a pitch, each change is narrowed down
@@ -251,4 +225,4 @@ TABLES = """## All measurements
 """
 
 if __name__ == "__main__":
-    main()
+    from_command_line({"mesh": meshes}, partial(meshes, quick=True), main)

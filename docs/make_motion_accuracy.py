@@ -1,21 +1,27 @@
-"""Write docs/motion-accuracy.md and its picture from a run of the benchmark; the page begins with the command."""
+"""Write docs/motion-accuracy.md and its picture from a kept run of its study."""
 
 from __future__ import annotations
 
-import json
-from pathlib import Path
+from functools import partial
 from textwrap import fill
 
-import matplotlib
 from matplotlib.axes import Axes
+from studies.motion_records import (
+    ADAPTIVE,
+    BOUND,
+    DIRECT,
+    INDEPENDENT,
+    LAGGED,
+    NOMINAL,
+    TABLES,
+    MotionRecord,
+    MotionRecords,
+    TrainRecord,
+)
+from studies.motion_study import motion
+from studies.page import from_command_line, lowered, paragraphs, picture, read, span, write_page
 
-from geartrain.bench import MotionRecord, MotionRecords, TrainRecord
-
-HERE = Path(__file__).resolve().parent
-PICTURE = HERE / "images" / "motion-accuracy.svg"
-BOUND, INDEPENDENT, NOMINAL, LAGGED = "sum of ranges", "independent rms", "superposition", "superposition with lag"
-DIRECT, TABLES = "direct", ("tabulated, 1e-06", "tabulated, 1e-09", "tabulated, 1e-12")
-MARCHED, ADAPTIVE = ("marching, 1 a position", "marching, 10 a position"), "marching, RK45"
+MARCHED = ("marching, 1 a position", "marching, 10 a position")
 LEAST = 1e-14  # degrees: what is less is drawn here
 # colours that the colour-blind tell apart, and a marker for each; a line joins the methods of one name
 LOOKS = {
@@ -33,33 +39,12 @@ Rows = dict[tuple[str, str], MotionRecord]
 
 def main() -> None:
     """Read the run, write page and picture."""
-    run = json.loads((HERE / "data" / "motion.json").read_text(encoding="utf-8"))
-    records = MotionRecords.from_dict(run)
+    (records,) = read(MotionRecords, "motion")
     rows = {(row.family, row.method): row for row in records.rows}
     head = HEAD.format(sample=records.trains[0].sample)
-    text = "\n".join([head, which(records, rows), PLOT, trains(records), costs(records, rows), growth(records), ALL])
-    (HERE / "motion-accuracy.md").write_text(text + tables(records), encoding="utf-8")
+    parts = [head, which(records, rows), PLOT, trains(records), costs(records, rows), growth(records)]
+    write_page("motion-accuracy", [*parts, ALL + lowered(records.tables_of_trains())])
     draw(records, rows)
-    print("wrote docs/motion-accuracy.md and docs/images/motion-accuracy.svg")
-
-
-def tables(records: MotionRecords) -> str:
-    """The tables of the run, a heading lower than they are printed; growth has its own place."""
-    return (
-        MotionRecords("", records.rows, records.trains).to_markdown().split("## Chains")[0][4:].replace("## ", "### ")
-    )
-
-
-def paragraphs(text: str, **numbers: object) -> str:
-    """Text with its numbers, each paragraph or point filled."""
-    parts = text.format(**numbers).strip().split("\n\n")
-    return "\n\n".join(fill(part, 120, subsequent_indent="  " if part[:2] == "- " else "") for part in parts) + "\n"
-
-
-def span(values: list[float], form: str = ".2g") -> str:
-    """Least to greatest, or one number where both print the same."""
-    least, greatest = (f"{each:.0f}" if each >= 10 else f"{each:{form}}" for each in (min(values), max(values)))
-    return least if least == greatest else f"{least} to {greatest}"
 
 
 def thousands(values: list[float]) -> str:
@@ -178,7 +163,7 @@ def chains(records: MotionRecords) -> str:
 
 def growth(records: MotionRecords) -> str:
     """How preparation and time grow with the pairs of a chain."""
-    table = MotionRecords("", (), (), records.growth).to_markdown().split("## Chains of pairs\n\n")[1]
+    table = "\n".join(records.table_of_chains())
     first, last = records.growth[0], records.growth[-1]
     text = paragraphs(
         GROWTH,
@@ -198,12 +183,7 @@ def growth(records: MotionRecords) -> str:
 
 def draw(records: MotionRecords, rows: Rows) -> None:
     """Greatest error over seconds, a marker a method, a panel a train."""
-    matplotlib.use("svg")
-    from matplotlib import pyplot as plt
-
-    style = {"font.size": 11, "svg.hashsalt": "motion", "svg.fonttype": "none", "font.family": "sans-serif"}
-    with plt.rc_context(style):
-        figure, axes = plt.subplots(2, 2, figsize=(9.4, 8.4), sharex=True, sharey=True, layout="constrained")
+    with picture("motion-accuracy", 2, 2, figsize=(9.4, 8.4), sharex=True, sharey=True) as (figure, axes):
         times = [row.seconds for row in records.rows if row.seconds]
         for ax, train in zip(axes.flat, records.trains, strict=True):
             panel(ax, train, rows)
@@ -212,8 +192,6 @@ def draw(records: MotionRecords, rows: Rows) -> None:
         figure.supxlabel(f"seconds for {positions:,} positions, preparation apart")
         figure.supylabel("greatest error, degrees at the output")
         figure.legend(*axes[0, 0].get_legend_handles_labels(), loc="outside upper center", ncols=3, frameon=False)
-        figure.savefig(PICTURE, metadata={"Date": None})
-        plt.close(figure)
 
 
 def panel(ax: Axes, train: TrainRecord, rows: Rows) -> None:
@@ -231,8 +209,6 @@ def panel(ax: Axes, train: TrainRecord, rows: Rows) -> None:
     ax.text(0.98, most * 1.6, "ripple itself", transform=ax.get_yaxis_transform(), ha="right", color="0.4", fontsize=9)
     ax.set_title(train.family, fontsize=11)
     ax.set_yticks([10.0**at for at in range(-14, 4, 2)])
-    ax.grid(color="0.88", lw=0.6)
-    ax.spines[["top", "right"]].set_visible(False)
 
 
 def point(row: MotionRecord) -> tuple[float, float]:
@@ -245,9 +221,9 @@ def point(row: MotionRecord) -> tuple[float, float]:
 
 HEAD = """# Error against run time: the motion of whole trains
 
-Written by `python docs/make_motion_accuracy.py` from the run
+Written by
 
-    geartrain bench motion --json --force -o docs/data/motion.json
+    python docs/make_motion_accuracy.py --measure
 
 on a machine with two cores, busy with other work too. Compare times within a train only: they are medians of five
 rounds, and ratios to the direct composition in the same round. The methods:
@@ -341,4 +317,4 @@ ALL = """## All measurements
 """
 
 if __name__ == "__main__":
-    main()
+    from_command_line({"motion": motion}, partial(motion, quick=True), main)

@@ -83,6 +83,7 @@ def run(command: str, folder: Path, status: int = 0) -> tuple[list[str], int]:
     ours, theirs = pty.openpty()
     environment = os.environ | {
         "PATH": f"{Path(sys.executable).parent}:{os.environ['PATH']}",
+        "PYTHONPATH": os.pathsep.join([str(ROOT), str(ROOT / "docs")]),  # a page asks a study
         "COLUMNS": COLUMNS,
         "LINES": "40",
         "TERM": "xterm",

@@ -1,20 +1,16 @@
-"""Write docs/shapes-accuracy.md and its picture from a run of the benchmark; the page begins with the command."""
+"""Write docs/shapes-accuracy.md and its picture from a kept run of its study."""
 
 from __future__ import annotations
 
-import json
 from collections.abc import Sequence
+from functools import partial
 from math import log10
-from pathlib import Path
 from textwrap import fill
 
-import matplotlib
 from matplotlib.axes import Axes
+from studies.page import from_command_line, lowered, paragraphs, picture, read, span, write_page
+from studies.shape_study import ShapeRecords, WorkRecord, quickest, shapes
 
-from geartrain.bench import ShapeRecords, WorkRecord, quickest
-
-HERE = Path(__file__).resolve().parent
-PICTURE = HERE / "images" / "shapes-accuracy.svg"
 PROBLEMS = [f"{kind} {form}" for kind in ("stress", "heat", "friction") for form in ("spur", "bevel")]
 # colours that the colour-blind tell apart, and a marker for each
 WAYS = {
@@ -32,24 +28,10 @@ LEAST = 1e-16
 
 def main() -> None:
     """Read the run, write page and picture."""
-    records = ShapeRecords.from_dict(json.loads((HERE / "data" / "shapes.json").read_text(encoding="utf-8")))
-    tables = records.to_markdown().partition("\n\n")[2].replace("## ", "### ")
+    (records,) = read(ShapeRecords, "shapes")
     parts = [HEAD, which(records), PLOT, winners(records), starts(records), extremes(records), inwards(records)]
-    (HERE / "shapes-accuracy.md").write_text("\n".join([*parts, "## All measurements\n", tables]), encoding="utf-8")
+    write_page("shapes-accuracy", [*parts, "## All measurements\n", lowered(records.tables()), ""])
     draw(records)
-    print("wrote docs/shapes-accuracy.md and docs/images/shapes-accuracy.svg")
-
-
-def paragraphs(text: str, **numbers: object) -> str:
-    """Text with its numbers, each paragraph or point filled."""
-    parts = text.format(**numbers).strip().split("\n\n")
-    return "\n\n".join(fill(part, 120, subsequent_indent="  " if part[:2] == "- " else "") for part in parts) + "\n"
-
-
-def span(values: Sequence[float], form: str = ".2g") -> str:
-    """Least to greatest, or one number where both print the same."""
-    least, greatest = format(min(values), form), format(max(values), form)
-    return least if least == greatest else f"{least} to {greatest}"
 
 
 def of(records: ShapeRecords, problem: str, method: str) -> list[WorkRecord]:
@@ -174,18 +156,11 @@ def inwards(records: ShapeRecords) -> str:
 
 def draw(records: ShapeRecords) -> None:
     """Error over time for each problem, logarithmic."""
-    matplotlib.use("svg")
-    from matplotlib import pyplot as plt
-
-    style = {"font.size": 11, "svg.hashsalt": "shapes", "svg.fonttype": "none", "font.family": "sans-serif"}
-    with plt.rc_context(style):
-        figure, axes = plt.subplots(3, 2, figsize=(10.4, 12), layout="constrained", sharex=True, sharey=True)
+    with picture("shapes-accuracy", 3, 2, figsize=(10.4, 12), sharex=True, sharey=True) as (_, axes):
         for ax, problem in zip(axes.flat, PROBLEMS, strict=True):
             work(ax, records, problem)
         axes[0, 0].legend(frameon=False, fontsize=9, loc="upper right")
         axes[2, 0].legend(frameon=False, fontsize=9, loc="upper right")
-        figure.savefig(PICTURE, metadata={"Date": None})
-        plt.close(figure)
 
 
 def work(ax: Axes, records: ShapeRecords, problem: str) -> None:
@@ -199,15 +174,13 @@ def work(ax: Axes, records: ShapeRecords, problem: str) -> None:
     ax.axhline(2.2e-16, color="0.55", lw=1, ls="--")
     ax.set(xscale="log", yscale="log", xlabel="milliseconds", ylabel="relative error of the last contact")
     ax.set_title(problem.replace("heat", "temperature"), fontsize=11)
-    ax.grid(color="0.88", lw=0.6)
-    ax.spines[["top", "right"]].set_visible(False)
 
 
 HEAD = """# Error against run time: tooth shapes
 
-Written by `python docs/make_shapes_accuracy.py` from the run
+Written by
 
-    geartrain bench shapes --json --force -o docs/data/shapes.json
+    python docs/make_shapes_accuracy.py --measure
 
 on a machine with two cores, busy with other work too: times are the least of five rounds, and still uneven; compare
 them within a table only, as ratios. The error is that of the distance of the last contact after half a pitch, 24 and 36
@@ -266,4 +239,4 @@ angle that is 1e-6 rad off. The error grows as theory says; outwards it falls by
 outwards forgives its start. Distances are parts of the last."""
 
 if __name__ == "__main__":
-    main()
+    from_command_line({"shapes": shapes}, partial(shapes, quick=True), main)

@@ -1,21 +1,25 @@
-"""Write docs/sphere-accuracy.md and its picture from a run of the benchmark; the page begins with the command."""
+"""Write docs/sphere-accuracy.md and its picture from a kept run of its study."""
 
 from __future__ import annotations
 
-import json
 from collections.abc import Sequence
-from pathlib import Path
-from textwrap import fill
+from functools import partial
 
-import matplotlib
 from matplotlib.axes import Axes
+from studies.loop_closures import FRACTIONS as EXACT
+from studies.loop_closures import FROM_AXES, ROUNDED
+from studies.page import from_command_line, lowered, paragraphs, picture, read, span, write_page
+from studies.sphere_records import (
+    TARGET,
+    TOLERANCE,
+    ClosureRecord,
+    FitRecord,
+    PackRecord,
+    SphereRecords,
+    growth,
+)
+from studies.sphere_study import sphere
 
-from geartrain.bench import ClosureRecord, FitRecord, PackRecord, SphereRecords, growth
-
-HERE = Path(__file__).resolve().parent
-PICTURE = HERE / "images" / "sphere-accuracy.svg"
-TARGET, TOLERANCE = 1e-11, 1e-9
-EXACT, ROUNDED, FROM_AXES = "fractions", "floats of the fractions", "floats from the axes"
 # colours that the colour-blind tell apart, and a marker for each
 FAMILIES = {"hull": ("#0072B2", "o"), "zonohedron": ("#009E73", "s"), "trapezohedron": ("#D55E00", "^")}
 PRISM, PLANETS = "6-antiprism", "planetary"
@@ -28,28 +32,18 @@ LOOPS = {
 
 def main() -> None:
     """Read the run, write page and picture."""
-    records = SphereRecords.from_dict(json.loads((HERE / "data" / "sphere.json").read_text(encoding="utf-8")))
-    parts = [HEAD, which(records), PLOT, circles(records), moves(records), loops(records), ALL + tables(records)]
-    (HERE / "sphere-accuracy.md").write_text("\n".join(parts), encoding="utf-8")
+    (records,) = read(SphereRecords, "sphere")
+    parts = [
+        HEAD,
+        which(records),
+        PLOT,
+        circles(records),
+        moves(records),
+        loops(records),
+        ALL + lowered(records.tables()),
+    ]
+    write_page("sphere-accuracy", parts)
     draw(records)
-    print("wrote docs/sphere-accuracy.md and docs/images/sphere-accuracy.svg")
-
-
-def tables(records: SphereRecords) -> str:
-    """The tables of the run, a heading lower than they are printed."""
-    return records.to_markdown().partition("\n\n")[2].replace("## ", "### ")
-
-
-def paragraphs(text: str, **numbers: object) -> str:
-    """Text with its numbers, each paragraph or point filled."""
-    parts = text.format(**numbers).strip().split("\n\n")
-    return "\n\n".join(fill(part, 120, subsequent_indent="  " if part[:2] == "- " else "") for part in parts) + "\n"
-
-
-def span(values: Sequence[float], form: str = ".2g") -> str:
-    """Least to greatest, or one number where both print the same."""
-    least, greatest = (f"{float(f'{each:.2g}'):,.0f}" if each >= 10 else f"{each:{form}}" for each in ends(values))
-    return least if least == greatest else f"{least} to {greatest}"
 
 
 def count(many: int, verb: str) -> str:
@@ -249,22 +243,13 @@ def loops(records: SphereRecords) -> str:
 
 def draw(records: SphereRecords) -> None:
     """Residuals, times and float errors, all on logarithmic axes."""
-    matplotlib.use("svg")
-    from matplotlib import pyplot as plt
-
-    style = {"font.size": 11, "svg.hashsalt": "sphere", "svg.fonttype": "none", "font.family": "sans-serif"}
-    with plt.rc_context(style):
-        figure, axes = plt.subplots(2, 2, figsize=(10.4, 9.2), layout="constrained")
+    with picture("sphere-accuracy", 2, 2, figsize=(10.4, 9.2)) as (_, axes):
         convergence(axes[0, 0], records)
         radii(axes[0, 1], records)
         wholes(axes[1, 0], records)
         closure(axes[1, 1], records)
         for ax in axes.flat:
             ax.set(xscale="log", yscale="log")
-            ax.grid(color="0.88", lw=0.6)
-            ax.spines[["top", "right"]].set_visible(False)
-        figure.savefig(PICTURE, metadata={"Date": None})
-        plt.close(figure)
 
 
 def convergence(ax: Axes, records: SphereRecords) -> None:
@@ -346,9 +331,9 @@ def closure(ax: Axes, records: SphereRecords) -> None:
 
 HEAD = """# Residual against steps and time: gears on a sphere
 
-Written by `python docs/make_sphere_accuracy.py` from the run
+Written by
 
-    geartrain bench sphere --json --force -o docs/data/sphere.json
+    python docs/make_sphere_accuracy.py --measure
 
 on a machine with two cores, busy with other work too: times are medians of three rounds or more; compare them within
 a table only, as ratios. Where mpmath is not installed, the longest floats of the machine stand in for 40 digits.
@@ -442,4 +427,4 @@ ALL = """## All measurements
 """
 
 if __name__ == "__main__":
-    main()
+    from_command_line({"sphere": sphere}, partial(sphere, quick=True), main)

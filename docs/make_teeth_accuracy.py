@@ -1,18 +1,15 @@
-"""Write docs/teeth-accuracy.md and its picture from a run of the benchmark; the page begins with the command."""
+"""Write docs/teeth-accuracy.md and its picture from a kept run of its study."""
 
 from __future__ import annotations
 
-import json
 from collections.abc import Sequence
 from fractions import Fraction
-from pathlib import Path
-from textwrap import fill
+from functools import partial
 
-import matplotlib
 from matplotlib.axes import Axes
-
-from geartrain.bench import TeethGrowth, TeethRecord, TeethRecords
-from geartrain.bench.teeth_records import (
+from studies.page import from_command_line, lowered, number, paragraphs, picture, read, span, write_page
+from studies.records import seconds_text
+from studies.tooth_number_records import (
     CHAIN,
     CONVERGENTS,
     EVERY,
@@ -25,11 +22,12 @@ from geartrain.bench.teeth_records import (
     RATIO,
     TRAIN,
     WALKED,
+    TeethGrowth,
+    TeethRecord,
+    TeethRecords,
 )
-from geartrain.bench.timing import seconds_text
+from studies.tooth_number_study import tooth_numbers
 
-HERE = Path(__file__).resolve().parent
-PICTURE = HERE / "images" / "teeth-accuracy.svg"
 PUBLIC = 44.7  # seconds of the public brute-force tool
 HAND = (FACTORED, WALKED, CONVERGENTS)
 # colours that the colour-blind tell apart, and a marker for each
@@ -50,39 +48,18 @@ WIDE = "12:100"
 
 def main() -> None:
     """Read the run, write page and picture."""
-    records = TeethRecords.from_dict(json.loads((HERE / "data" / "teeth.json").read_text(encoding="utf-8")))
-    parts = [HEAD, which(records), PLOT, compared(records), growing(records), memory(records), ALL + tables(records)]
-    (HERE / "teeth-accuracy.md").write_text("\n".join(parts), encoding="utf-8")
+    (records,) = read(TeethRecords, "teeth")
+    parts = [
+        HEAD,
+        which(records),
+        PLOT,
+        compared(records),
+        growing(records),
+        memory(records),
+        ALL + lowered(records.tables()),
+    ]
+    write_page("teeth-accuracy", parts)
     draw(records)
-    print("wrote docs/teeth-accuracy.md and docs/images/teeth-accuracy.svg")
-
-
-def tables(records: TeethRecords) -> str:
-    """The tables of the run, a heading lower than they are printed."""
-    return records.to_markdown().partition("\n\n")[2].replace("## ", "### ")
-
-
-def paragraphs(text: str, **numbers: object) -> str:
-    """Text with its numbers, each paragraph or point filled."""
-    parts = text.format(**numbers).strip().split("\n\n")
-    return (
-        "\n\n".join(
-            fill(part, 120, subsequent_indent="  " if part[:2] == "- " else "", break_on_hyphens=False)
-            for part in parts
-        )
-        + "\n"
-    )
-
-
-def span(values: Sequence[float], form: str = ".2g") -> str:
-    """Least to greatest, or one number where both print the same."""
-    least, greatest = (number(each, form) for each in (min(values), max(values)))
-    return least if least == greatest else f"{least} to {greatest}"
-
-
-def number(value: float, form: str = ".2g") -> str:
-    """Two digits, without powers of ten where a reader can do without."""
-    return f"{float(f'{value:.2g}'):,.0f}" if 10 <= value < 1e6 else f"{value:{form}}"
 
 
 def middle(values: Sequence[float]) -> float:
@@ -275,24 +252,14 @@ def memory(records: TeethRecords) -> str:
 
 def draw(records: TeethRecords) -> None:
     """Errors over time, and growth, all on logarithmic axes but the number of wheels."""
-    matplotlib.use("svg")
-    from matplotlib import pyplot as plt
-
-    style = {"font.size": 11, "svg.hashsalt": "teeth", "svg.fonttype": "none", "font.family": "sans-serif"}
-    with plt.rc_context(style):
-        figure, axes = plt.subplots(2, 3, figsize=(14.4, 9.2), layout="constrained")
+    with picture("teeth-accuracy", 2, 3, figsize=(14.4, 9.2)) as (figure, axes):
         for ax, (name, stages) in zip(axes[0], SHOWN, strict=True):
             errors(ax, records, name, stages)
         times(axes[1, 0], records)
         peaks(axes[1, 1], records)
         trains(axes[1, 2], records)
-        for ax in axes.flat:
-            ax.grid(color="0.88", lw=0.6)
-            ax.spines[["top", "right"]].set_visible(False)
         handles, names = axes[0, 0].get_legend_handles_labels()
         figure.legend(handles, names, frameon=False, loc="outside upper center", ncols=len(names), fontsize=10)
-        figure.savefig(PICTURE, metadata={"Date": None})
-        plt.close(figure)
 
 
 def errors(ax: Axes, records: TeethRecords, name: str, stages: int) -> None:
@@ -375,9 +342,9 @@ def trains(ax: Axes, records: TeethRecords) -> None:
 
 HEAD = """# Best error against time: tooth numbers
 
-Written by `python docs/make_teeth_accuracy.py` from the run
+Written by
 
-    geartrain bench teeth --json --force -o docs/data/teeth.json
+    python docs/make_teeth_accuracy.py --measure
 
 on a machine with two cores, busy with other work too: times are medians of three rounds in which the ways take turns,
 of one round where a task is long; compare them within a table only, as ratios. A round of growth is the best of the
@@ -479,4 +446,4 @@ ALL = """## All measurements
 """
 
 if __name__ == "__main__":
-    main()
+    from_command_line({"teeth": tooth_numbers}, partial(tooth_numbers, quick=True), main)

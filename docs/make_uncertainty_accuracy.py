@@ -1,21 +1,17 @@
-"""Write docs/uncertainty-accuracy.md and its picture from a run of the benchmark; the page begins with the command."""
+"""Write docs/uncertainty-accuracy.md and its picture from a kept run of its study."""
 
 from __future__ import annotations
 
-import json
 from collections.abc import Sequence
-from pathlib import Path
-from textwrap import fill
+from functools import partial
 
-import matplotlib
 from matplotlib.axes import Axes
+from studies.cut_pair_trials import EVERY, PLACES
+from studies.page import from_command_line, lowered, paragraphs, picture, read, write_page
+from studies.page import span as span_of
+from studies.uncertainty_records import COUNTS, SINGLY, RateRecord, UncertaintyRecords, at_one
+from studies.uncertainty_study import uncertainty
 
-from geartrain.bench import RateRecord, UncertaintyRecords
-from geartrain.bench.uncertainty_pairs import EVERY, PLACES
-from geartrain.bench.uncertainty_records import COUNTS, SINGLY, at_one
-
-HERE = Path(__file__).resolve().parent
-PICTURE = HERE / "images" / "uncertainty-accuracy.svg"
 # colours that the colour-blind tell apart
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7")
 MARKERS = ("o", "s", "^", "D")
@@ -24,26 +20,10 @@ GOALS = {COUNTS: 1e6, PLACES: 1e6, EVERY: 1e5}
 
 def main() -> None:
     """Read the run, write page and picture."""
-    data = json.loads((HERE / "data" / "uncertainty.json").read_text(encoding="utf-8"))
-    records = UncertaintyRecords.from_dict(data)
+    (records,) = read(UncertaintyRecords, "uncertainty")
     parts = [HEAD, which(records), PLOT, rates(records), estimates(records), workers(records), memory(records)]
-    (HERE / "uncertainty-accuracy.md").write_text("\n".join([*parts, ALL + tables(records)]), encoding="utf-8")
+    write_page("uncertainty-accuracy", [*parts, ALL + lowered(records.tables())])
     draw(records)
-    print("wrote docs/uncertainty-accuracy.md and docs/images/uncertainty-accuracy.svg")
-
-
-def tables(records: UncertaintyRecords) -> str:
-    """The tables of the run, a heading lower than they are printed."""
-    return records.to_markdown().partition("\n\n")[2].replace("## ", "### ")
-
-
-def paragraphs(text: str, **numbers: object) -> str:
-    """Text with its numbers, each paragraph or point filled."""
-    parts = text.format(**numbers).strip().split("\n\n")
-    filled = (
-        fill(part, 120, subsequent_indent="  " if part[:2] == "- " else "", break_on_hyphens=False) for part in parts
-    )
-    return "\n\n".join(filled) + "\n"
 
 
 def number(value: float) -> str:
@@ -54,9 +34,8 @@ def number(value: float) -> str:
 
 
 def span(values: Sequence[float]) -> str:
-    """Least to greatest, or one number where both print the same."""
-    least, greatest = number(min(values)), number(max(values))
-    return least if least == greatest else f"{least} to {greatest}"
+    """Least to greatest, in these numbers."""
+    return span_of(values, number)
 
 
 def together(records: UncertaintyRecords, family: str) -> list[RateRecord]:
@@ -163,20 +142,13 @@ def memory(records: UncertaintyRecords) -> str:
 
 def draw(records: UncertaintyRecords) -> None:
     """Rates as bars beside their loops, and errors over trials."""
-    matplotlib.use("svg")
-    from matplotlib import pyplot as plt
-
-    style = {"font.size": 11, "svg.hashsalt": "uncertainty", "svg.fonttype": "none", "font.family": "sans-serif"}
-    with plt.rc_context(style):
-        figure, axes = plt.subplots(1, 2, figsize=(14.4, 7.0), layout="constrained", width_ratios=(3, 2))
+    with picture("uncertainty-accuracy", 1, 2, figsize=(14.4, 7.0), width_ratios=(3, 2)) as (_, axes):
         bars(axes[0], records)
         falling(axes[1], records)
         for ax in axes:
             ax.grid(color="0.88", lw=0.6)
             ax.set_axisbelow(True)
             ax.spines[["top", "right"]].set_visible(False)
-        figure.savefig(PICTURE, metadata={"Date": None})
-        plt.close(figure)
 
 
 def bars(ax: Axes, records: UncertaintyRecords) -> None:
@@ -213,9 +185,9 @@ def falling(ax: Axes, records: UncertaintyRecords) -> None:
 
 HEAD = """# Error against run time: counts in doubt, wheels cut by hand
 
-Written by `python docs/make_uncertainty_accuracy.py` from the run
+Written by
 
-    geartrain bench uncertainty --json --force -o docs/data/uncertainty.json
+    python docs/make_uncertainty_accuracy.py --measure
 
 on a machine with two cores, busy with other work. So times of one process are those its processor spent, medians of
 three rounds; whatever is done many at a time stands beside a plain loop over single solutions in the same rounds, as
@@ -288,4 +260,4 @@ ALL = """## All measurements
 """
 
 if __name__ == "__main__":
-    main()
+    from_command_line({"uncertainty": uncertainty}, partial(uncertainty, quick=True), main)

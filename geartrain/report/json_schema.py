@@ -598,6 +598,20 @@ COMPARED = _has(
     }
 )
 
+METHOD = _has(
+    {
+        "stage": _enum("speeds", "transmission functions", "motion", "torques"),
+        "method": TEXT,
+        "seconds": NUMBER,
+        "error": SOME,
+        "unit": _enum("relative", "pitches", "deg"),
+        "reference": TEXT,
+        "prepared": SOME,
+        "ratio": NUMBER,
+    }
+)
+ACCURACY = _has({"state": WORDS, "positions": COUNT, "methods": _list(METHOD), "left_out": _named(TEXT)})
+
 ANSWERS: dict[str, Schema] = {
     "solve": _has(TRAIN),
     "report": _list(REPORT),
@@ -606,6 +620,7 @@ ANSWERS: dict[str, Schema] = {
     "motion": _has(MOTION),
     "montecarlo": ERRORS,
     "posterior": SWEEP,
+    "bench": _has({"name": TEXT, "title": TEXT, "states": _list(ACCURACY)}),
     "sphere": SPHERE,
     "sphere --suggest": SUGGESTED,
     "sphere --survey": _list(_of("object")),

@@ -47,6 +47,7 @@ ASKED: dict[tuple[str, str], tuple[tuple[str, ...], tuple[str, ...]]] = {
     ("teeth", "-o"): (("teeth", "7/3", "--stages", "1", "--best", "1"), (".md", ".json", ".csv")),
     ("posterior", "-o"): (DOUBT, (".md", ".json", ".csv", ".parquet")),
     ("posterior", "--plot"): (DOUBT, (".svg",)),
+    ("bench", "-o"): (("bench", "worm"), (".md", ".html", ".json")),
     ("schema", "-o"): (("schema",), (".json",)),
     ("mesh triangular", "-o"): (("mesh", "triangular", *PAIR, "--window", "0.5"), (".md", ".json")),
     ("mesh triangular", "--plot"): (("mesh", "triangular", *PAIR, "--window", "0.5"), (".svg",)),
@@ -59,10 +60,6 @@ for _form in FORMS:
     ASKED[f"mesh {_form.replace('-', '_')}", "-o"] = (("mesh", _form.replace("-", "_"), *PAIR), (".md",))
     ASKED[f"mesh {_form.replace('-', '_')}", "--plot"] = (("mesh", _form.replace("-", "_"), *PAIR), (".svg",))
     ASKED[f"mesh {_form.replace('-', '_')}", "--profile"] = (("mesh", _form.replace("-", "_"), *SIZED), (".svg",))
-MEASURED = ("kinematics", "mesh", "motion", "sphere", "shapes", "teeth", "uncertainty")
-"""Benchmarks, which take long: only what is refused before they begin is tried."""
-for _bench in MEASURED:
-    ASKED[f"bench {_bench}", "-o"] = (("bench", _bench), (".md",))
 FOLDER = ("export", "--to")
 TRAINS: dict[str, Path] = {}
 
@@ -165,7 +162,7 @@ def test_a_read_only_file_is_refused_even_to_root_and_by_force(
 
 @pytest.mark.parametrize(
     ("command", "option", "suffix"),
-    [case for case in CASES if not case[0].startswith("bench") and case[:2] != ("view", "-o")],
+    [case for case in CASES if case[:2] != ("view", "-o")],
 )
 def test_by_force_the_file_behind_a_link_is_replaced_and_link_and_rights_are_kept(
     here: Path, command: str, option: str, suffix: str
@@ -188,8 +185,6 @@ def test_by_force_the_file_behind_a_link_is_replaced_and_link_and_rights_are_kep
 
 @pytest.mark.parametrize(("command", "option", "suffix"), [case for case in FIRST if case[1] == "-o"])
 def test_a_dash_is_standard_output_and_no_file(here: Path, command: str, option: str, suffix: str) -> None:
-    if command.startswith("bench"):
-        return
     done = ask(command, option, "-")
     if command == "export":
         assert "no train is written as '-'" in refused(done)

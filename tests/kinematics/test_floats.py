@@ -11,10 +11,10 @@ from typing import Any
 import pytest
 from hypothesis import assume, example, given
 from hypothesis import strategies as st
+from studies.train_families import drift
 from test_large_trains import ten_thousand_cascade
 
 from geartrain import GearTrain, GearTrainError, load
-from geartrain.bench.families import drift
 from geartrain.errors import RangeError
 from geartrain.kinematics.speeds.float_speeds import FloatSpeeds, solve_floats
 from geartrain.numerics.exact import decimal

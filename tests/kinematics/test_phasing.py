@@ -16,10 +16,10 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from studies.residue_errors import first_float_failure, measure_phase_accuracy
 from teeth3d import Wheel, best, in_space, misfits
 
 from geartrain import GearTrain, GearTrainError
-from geartrain.bench.phasing import first_float_failure, measure_phase_accuracy
 from geartrain.kinematics.phasing import (
     MeshPhasing,
     find_divisibility_rule,

@@ -7,16 +7,14 @@ import random
 import tracemalloc
 from collections.abc import Callable
 from fractions import Fraction
-from importlib import import_module
 from typing import Any
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from studies.train_families import drift
 
 from geartrain import GearTrain
-from geartrain.bench.families import drift
-from geartrain.bench.kinematics import count_steps, kinematics
 from geartrain.numerics.factored_ratios import FactoredRatios, product_of_powers
 
 factors = st.integers(1, 10**12).flatmap(lambda n: st.sampled_from([n, -n])) | st.sampled_from([-36, 24, 997])
@@ -168,15 +166,3 @@ def test_a_drifting_train_behind_a_planetary_set_is_read_through_its_components(
     assert answer["carrier"] == Fraction(2, 7)
     assert answer["g899"] == Fraction(2, 7) * Fraction(-30, 50) * ratio(data, 899)
     assert answer["g899"] in list(answer.speeds.values())
-
-
-def test_the_benchmark_measures_the_drifting_chain(monkeypatch: pytest.MonkeyPatch) -> None:
-    module = import_module("geartrain.bench.kinematics")
-    monkeypatch.setattr(module, "SIZES", (120,))
-    monkeypatch.setattr(module, "_DRIFTED", 100)
-    monkeypatch.setattr(module, "_JUDGED", 20)
-    steps: list[str] = []
-    records = kinematics(120, steps.append, least=1, families=["drift"])
-    errors = {row.method: row.error for row in records.rows}
-    assert errors["exact"] == errors["exact, one output"] == 0
-    assert len(steps) <= count_steps(120, 1, ["drift"])

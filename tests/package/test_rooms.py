@@ -18,18 +18,13 @@ ROOMS = {
     *("cli", "report", "drawing", "viewer", "export", "scene", "uncertainty", "synthesis", "spherical", "analysis"),
     *("dynamics", "kinematics", "train", "teeth", "numerics", "errors"),
 }
-# bench is no room of the house: it measures all of them
-BESIDE = {"__init__", "__main__", "py", "bench"}
+BESIDE = {"__init__", "__main__", "py"}
 
 # words in -ing and -ed that the field uses as nouns, and names that wait for a better one
 NOUNS = {"bearing", "coupling", "drawing", "manufacturing", "matching", "packing", "phasing", "scaling", "sharing"}
 WAITING = {
-    *("closing", "marching", "timing"),  # of bench
     *("stage_pairing", "stage_ranking", "reconstructions_compared", "tooth_forms_compared"),
 }
-
-# classes of bench that have one name
-SHARED = {"Case", "Effort"}
 
 LONGEST = 350
 # each waits to be split; nothing may be added
@@ -79,7 +74,7 @@ def test_no_two_public_classes_share_a_name() -> None:
         for part in syntax(path).body:
             if isinstance(part, ast.ClassDef) and not part.name.startswith("_"):
                 homes[part.name].append(name)
-    assert {name: where for name, where in homes.items() if len(where) > 1 and name not in SHARED} == {}
+    assert {name: where for name, where in homes.items() if len(where) > 1} == {}
 
 
 def test_modules_are_named_by_nouns() -> None:

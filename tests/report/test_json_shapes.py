@@ -163,6 +163,7 @@ ASKED: dict[str, list[tuple[str, ...]]] = {
         (*DOUBT, "--method", "sample", "--samples", "500"),
         (*DOUBT, "--scale", "0"),
     ],
+    "bench": [("bench", "moon-triangular", "--positions", "50"), ("bench", "lantern-mill", "--positions", "50")],
     "sphere": [
         ("sphere", "cube"),
         ("sphere", "cube", "--teeth", "4=12"),

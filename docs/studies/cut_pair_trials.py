@@ -1,0 +1,183 @@
+"""Pairs of hand-cut wheels, judged many at once and one by one; trials of which the chance of a jam is known."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from math import comb, lcm, radians, sqrt
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from geartrain.numerics.work import open_executor, run
+from geartrain.teeth.triangular.pair_geometry import TriangularSizes, equal_depth
+from geartrain.uncertainty.confidence_intervals import wilson
+from geartrain.uncertainty.manufacturing_errors import (
+    CuttingErrorModel,
+    CutWheel,
+    ErrorDistribution,
+    MeshingVerdicts,
+    batch_verdicts,
+    cut_transmission_function,
+    nominal_backlash,
+)
+from geartrain.uncertainty.manufacturing_errors.cut_pair import CutGearPair
+from studies.uncertainty_records import ErrorRecord
+
+Bools = NDArray[np.bool_]
+
+PLACES, EVERY = "places", "every error"
+ERRORS = {
+    PLACES: CuttingErrorModel(ErrorDistribution(0.0413)),
+    EVERY: CuttingErrorModel(
+        ErrorDistribution(0.02), ErrorDistribution(0.04), ErrorDistribution(0.03), ErrorDistribution(0.07)
+    ),
+}
+"""Standard deviations: places in pitches; heights and eccentricity in depths, half angles in half angles."""
+
+
+def sized(z1: int, z2: int, excess: float) -> TriangularSizes:
+    """Teeth of half angle 30 degrees and one depth on both wheels."""
+    beta = radians(30)
+    return TriangularSizes(z1, z2, *equal_depth(z1, z2, beta, beta), beta, beta, excess)
+
+
+Single = tuple[float, tuple[bool, bool, bool]]
+"""Least play (rad of the driven wheel); whether it stops, stands still somewhere, loses contact."""
+
+
+@dataclass(frozen=True)
+class Batch:
+    """Wheels of one pair, drawn once and judged in several ways."""
+
+    z1: int
+    z2: int
+    excess: float
+    errors: str
+    trials: int
+    seed: int = 1
+
+    @property
+    def name(self) -> str:
+        """`64/38 at 1.02`."""
+        return f"{self.z1}/{self.z2} at {1 + self.excess:g}"
+
+    @property
+    def pitches(self) -> int:
+        """Tooth pitches of a full cycle: one trial."""
+        return lcm(self.z1, self.z2)
+
+    @cached_property
+    def pair(self) -> CutGearPair:
+        """The wheels, (trials, z) each."""
+        sizes, rng = sized(self.z1, self.z2, self.excess), np.random.default_rng(self.seed)
+        cutting = ERRORS[self.errors]
+        driver = cutting.draw(CutWheel.driver_of(sizes), rng, self.trials)
+        return CutGearPair(sizes, driver, cutting.draw(CutWheel.driven_of(sizes), rng, self.trials))
+
+    def together(self) -> MeshingVerdicts:
+        """All trials at once."""
+        return batch_verdicts(self.pair.sizes, self.pair.first, self.pair.second)
+
+    def singly(self, trials: int) -> list[Single]:
+        """The first trials by a plain loop."""
+        return [self._single(at) for at in range(trials)]
+
+    def _single(self, at: int) -> Single:
+        law = cut_transmission_function(self.pair.sizes, self.pair.first.trial(at), self.pair.second.trial(at))
+        events = law.events
+        return events.play, (events.stop is not None, bool(events.of("standstill")), events.disengages)
+
+    def compared(self, found: MeshingVerdicts, singly: list[Single]) -> tuple[float, int]:
+        """Greatest difference of a play (pitches of the driven wheel), and trials of other verdicts."""
+        marks = np.stack((found.stops, found.standstill, found.disengaged), axis=1)[: len(singly)]
+        play = np.array([each for each, _ in singly])
+        off = np.abs(play - found.play[: len(singly)]).max() / self.pair.sizes.p2
+        return float(off), int((marks != np.array([each for _, each in singly])).any(axis=1).sum())
+
+
+# a pair whose chance of a jam is a finite sum -------------------------------------------------------------------------
+
+SHARE = 0.88
+"""The play over the greatest difference of two driven places."""
+
+
+def chance_of_jam(z: int, share: float) -> float:
+    """Chance that, of z independent uniform numbers on 0..1 in a circle, one exceeds the one before by `share`.
+
+    With a share of 1/2 or more two such steps never follow each other, and steps that do not are independent, each
+    of chance q = (1 - share)^2 / 2. So the chance that there is none is the sum of (-q)^k over the ways to choose k
+    steps of the circle that do not touch, z / (z - k) (z - k choose k) of them.
+    """
+    if not 0.5 <= share <= 1 or z < 3:
+        raise ValueError("steps are rare only for a share from 1/2 to 1, in a circle of 3 or more")
+    q = (1 - share) ** 2 / 2
+    return -sum(z * comb(z - k, k) // (z - k) * (-q) ** k for k in range(1, z // 2 + 1))
+
+
+def uneven_driven(places: NDArray[np.float64]) -> CutGearPair:
+    """64 even teeth drive 38 whose places, -1 to 1, use up the play when two neighbours differ by 2 `SHARE`.
+
+    A driven tooth that is late against the one before it by more than the least play jams; errors as small as these
+    let nothing else jam.
+    """
+    sizes = sized(64, 38, 0.01)
+    half = nominal_backlash(sizes) * sizes.p2 / (2 * SHARE)
+    driven = CutWheel.driven_of(sizes).placed(half * places)
+    return CutGearPair(sizes, CutWheel.driver_of(sizes), driven)
+
+
+# trials in blocks of their own seeds ----------------------------------------------------------------------------------
+
+BLOCK = 2000
+"""Trials that are drawn together."""
+SIGMA = 0.0516
+EXACT, NORMAL = "64/38 at 1.01, driven places uniform", "64/38 at 1.02, places normal of 5.16 %"
+
+
+def block_of_jams(task: Sequence[Any]) -> str:
+    """Which trials of one block jam, packed: task is the case, the seed, and the number of the block."""
+    case, seed, block = task
+    rng = np.random.default_rng(np.random.SeedSequence(seed, spawn_key=(block,)))
+    pair = _exact(rng) if case == EXACT else _normal(rng)
+    return np.packbits(batch_verdicts(pair.sizes, pair.first, pair.second).jams).tobytes().hex()
+
+
+def _exact(rng: np.random.Generator) -> CutGearPair:
+    return uneven_driven(rng.uniform(-1.0, 1.0, (BLOCK, 38)))
+
+
+def _normal(rng: np.random.Generator) -> CutGearPair:
+    sizes, cutting = sized(64, 38, 0.02), CuttingErrorModel(ErrorDistribution(SIGMA))
+    driver = cutting.draw(CutWheel.driver_of(sizes), rng, BLOCK)
+    return CutGearPair(sizes, driver, cutting.draw(CutWheel.driven_of(sizes), rng, BLOCK))
+
+
+def jams(case: str, blocks: int, seed: int = 1, workers: int = 1, on_done: Callable[[], None] = lambda: None) -> Bools:
+    """Which trials jam, (blocks * BLOCK,); the same for any number of workers."""
+    tasks = [(case, seed, block) for block in range(blocks)]
+    found = []
+    with open_executor(workers) as executor:
+        for text in run(block_of_jams, tasks, executor):
+            found.append(np.unpackbits(np.frombuffer(bytes.fromhex(text), np.uint8))[:BLOCK])
+            on_done()
+    return np.concatenate(found).astype(bool)
+
+
+def errors_of(case: str, found: Bools, numbers: Sequence[int]) -> list[ErrorRecord]:
+    """How far estimates from so many trials are off, each from trials of its own out of those found.
+
+    The exact case is held against its sum, the other against the mean of all that were found.
+    """
+    truth = chance_of_jam(38, SHARE) if case == EXACT else float(found.mean())
+    off = 0.0 if case == EXACT else sqrt(truth * (1 - truth) / len(found))
+    rows = []
+    for number in numbers:
+        hits = found[: len(found) // number * number].reshape(-1, number).sum(axis=1)
+        rms = float(np.sqrt(np.mean(np.square(hits / number - truth))))
+        ends = [wilson(int(each), number) for each in hits]
+        covered = sum(low <= truth <= high for low, high in ends) / len(ends)
+        rows.append(ErrorRecord(case, truth, off, number, len(hits), rms, sqrt(truth * (1 - truth) / number), covered))
+    return rows

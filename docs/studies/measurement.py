@@ -1,0 +1,96 @@
+"""One measurement of work against precision: in this process, or in one of its own with its peak of memory."""
+
+from __future__ import annotations
+
+import gc
+import multiprocessing
+import sys
+import time
+from collections.abc import Callable, Iterable, Sequence
+from multiprocessing.connection import Connection
+from pathlib import Path
+from typing import Any, NamedTuple
+
+LIMIT = 120.0
+"""Seconds after which a method is said not to finish."""
+
+Task = Callable[[], Any]
+Step = tuple[str, Callable[[], Sequence[Any]]]
+"""What is measured, and what measures it and returns its records."""
+
+
+def taken(steps: Iterable[Step]) -> list[Any]:
+    """The records of all steps; each is named on standard error before it is taken."""
+    rows: list[Any] = []
+    for name, measured in steps:
+        print(name, file=sys.stderr, flush=True)
+        rows += measured()
+    return rows
+
+
+def timed(task: Task, clock: Callable[[], float] = time.perf_counter) -> tuple[float, Any]:
+    """Seconds, and what the task returned."""
+    start = clock()
+    found = task()
+    return clock() - start, found
+
+
+class Cost(NamedTuple):
+    """Best time (s), growth of peak memory (MB) and greatest error of a task; None stands for what could not be had."""
+
+    seconds: float | None
+    megabytes: float | None
+    error: float | None
+    note: str = ""
+
+
+def measure(task: Task, error_of: Callable[[Any], float | None] = lambda _: None, limit: float = LIMIT) -> Cost:
+    """Time `task` in a forked process, best of repeats within a fifth of a second, and judge what it returned.
+
+    error_of   result -> its greatest error, outside the time measured
+    """
+    context = multiprocessing.get_context("fork")
+    here, there = context.Pipe(duplex=False)
+    process = context.Process(target=_child, args=(there, task, error_of))
+    process.start()
+    there.close()
+    try:
+        if not here.poll(limit):
+            return Cost(None, None, None, f"not within {limit:.0f} s")
+        return Cost(*here.recv())
+    except EOFError:
+        return Cost(None, None, None, "out of memory")
+    finally:
+        process.kill()
+        process.join()
+
+
+def _child(pipe: Connection, task: Task, error_of: Callable[[Any], float | None]) -> None:
+    gc.freeze()  # the parent's objects stay shared pages
+    before = _reset_peak()
+    try:
+        best, total, result = float("inf"), 0.0, None
+        while total < 0.2:
+            took, result = timed(task)
+            best, total = min(best, took), total + took
+        memory = None if before is None else (_status("VmHWM") or 0) / 1024 - before
+        pipe.send((best, memory, error_of(result), ""))
+    except Exception as error:  # a method that cannot is a row of the table, not the end of the run
+        pipe.send((None, None, None, (str(error).strip() or type(error).__name__).splitlines()[0]))
+
+
+def _reset_peak() -> float | None:
+    """Forget the peak of memory so far (Linux), and say what is in use in MB."""
+    try:
+        Path("/proc/self/clear_refs").write_text("5")
+    except OSError:
+        return None
+    resident = _status("VmRSS")
+    return None if resident is None else resident / 1024
+
+
+def _status(key: str) -> int | None:
+    for line in Path("/proc/self/status").read_text().splitlines():
+        if line.startswith(key):
+            return int(line.split()[1])
+    return None

@@ -1,0 +1,257 @@
+"""Every way to the speeds of a train: time, memory and true error over size."""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from importlib.util import find_spec
+from typing import Any
+
+import numpy as np
+
+from geartrain.analysis.gear_train import GearTrain
+from geartrain.analysis.loader import load
+from geartrain.kinematics.circuits import find_circuits, find_tree
+from geartrain.kinematics.components import Components, SolvedPart, find_components
+from geartrain.kinematics.speeds import solve
+from geartrain.kinematics.speeds.float_speeds import Floats, PaddedRows, prepare, solve_floats
+from geartrain.kinematics.willis_system import WillisEquation, WillisSystem
+from studies.measurement import Task, measure
+from studies.records import StudyRecords, distinct, error_text, number_text, ratio_text, seconds_text, table
+from studies.train_families import FAMILIES, Data
+
+SIZES = (100, 1_000, 10_000, 100_000, 1_000_000)
+ORDERINGS = ("COLAMD", "MMD_ATA", "MMD_AT_PLUS_A", "NATURAL")
+_GRID_EXACT = 2_100
+_FLINT_LINKS = 1_100
+_ALL_LINKS = 200_000
+_DRIFTED = 2_000  # links beyond which a ratio that drifts leaves float64, and each number is long
+_JUDGED = 50  # equations into which such speeds are put
+
+Advance = Callable[[str], None]
+
+
+@dataclass(frozen=True, slots=True)
+class SpeedRecord:
+    """A method on a train: best time, growth of peak memory, greatest true relative error of any speed.
+
+    None stands for what could not be had: a method that did not finish, or an error without an exact answer.
+    """
+
+    family: str
+    links: int
+    method: str
+    seconds: float | None
+    megabytes: float | None
+    error: float | None
+    note: str = ""
+
+
+@dataclass(frozen=True)
+class SpeedRecords(StudyRecords):
+    """All measurements of one run on one machine."""
+
+    rows: Sequence[SpeedRecord]
+
+    def tables(self) -> list[str]:
+        """One table a family and size, with each method's time over that of the exact method."""
+        lines = []
+        for family, links in distinct((row.family, row.links) for row in self.rows):
+            group = [row for row in self.rows if (row.family, row.links) == (family, links)]
+            base = next((row.seconds for row in group if row.method == "exact" and row.seconds), None)
+            columns: dict[str, Callable[[SpeedRecord], str]] = {
+                "method": lambda row: row.method,
+                "time": lambda row: seconds_text(row.seconds),
+                "ratio to exact": lambda row, base=base: ratio_text(row.seconds, base),  # type: ignore[misc]
+                "memory": lambda row: number_text(row.megabytes, ".0f", " MB"),
+                "true error": lambda row: row.note or error_text(row.error),
+            }
+            lines += [f"## {family}, {links} links", "", *table(columns, group)]
+        return lines
+
+
+def speeds(
+    most: int, least: int = 0, families: Collection[str] = tuple(FAMILIES), advance: Advance = lambda _: None
+) -> SpeedRecords:
+    """Measure all methods on `families` from `least` to `most` links; `advance` hears of every measurement."""
+    rows: list[SpeedRecord] = []
+    for family, train, data in _trains(most, least, families):
+        rows += _measure_all(family, train, data, advance)
+    return SpeedRecords("Speeds: error against run time", rows)
+
+
+def _trains(most: int, least: int, families: Collection[str]) -> Iterator[tuple[str, GearTrain, Data | None]]:
+    """Two shipped trains, then each family as it grows, with the data it is declared from."""
+    for name in ("pennestri-2002", "freeth-2021") if least == 0 else ():
+        yield name, load(name), None
+    for family in families:
+        for size in SIZES:
+            if least <= size <= most:
+                data = FAMILIES[family](size)
+                yield family, GearTrain.declare(data), data
+
+
+def _measure_all(family: str, train: GearTrain, data: Data | None, advance: Advance) -> list[SpeedRecord]:
+    links, last = len(train.declaration.links), list(train.declaration.links)[-1]
+    rows: list[SpeedRecord] = []
+
+    def take(method: str, task: Task, error_of: Callable[[Any], float | None] = lambda _: None) -> None:
+        advance(f"{family} {links}: {method}")
+        rows.append(SpeedRecord(family, links, method, *measure(task, error_of)))
+
+    declared = train.declaration
+    if data is not None:
+        take("(declare: checked models from plain data)", lambda: GearTrain.declare(data))
+        take("(find the circuits)", lambda: find_circuits(declared, find_tree(declared)))
+    system, redundant = train.equations(), [train.circuits[at].id for at in _components(train).closing]
+    coupled = family == "grid" and links > _GRID_EXACT
+    drifted = family == "drift" and links > _DRIFTED
+    exact = None if coupled else _exact(train)
+    some = WillisSystem(system.links, system.equations[:: links // _JUDGED]) if drifted else system
+    if not (drifted and links > _ALL_LINKS):  # to read them all takes the square of their number, whatever is kept
+        take("exact", lambda: _read(_exact(train)), lambda speeds: _residue(some, speeds))
+    if exact is not None:
+        take(
+            "exact, one output",
+            lambda: train.solve(output=last, method="exact")[last],
+            lambda speed: _same(speed, exact[last]),
+        )
+    if drifted:
+        return rows
+    truth = None if exact is None else np.array([float(exact[link]) for link in train.declaration.links])
+    if family in ("chain", "drift", "tree", "lattice"):
+        take(
+            "walking in floats",
+            lambda: _walk(train),
+            lambda found: _error([found[link] for link in train.declaration.links], truth),
+        )
+    frame, matrix, equations = prepare(system, redundant)
+    shuffled = _Shuffled(matrix, links)
+    moving = [at for at, link in enumerate(train.declaration.links) if link != frame]
+    right = np.array([float(row.right) for row in equations])
+
+    def error_of(x: Floats) -> float | None:
+        return _error(x, None if truth is None else truth[moving])
+
+    if links <= _FLINT_LINKS and find_spec("flint"):
+        compiled = _compiled(matrix, equations)
+        take(
+            "compiled rationals, python-flint",
+            lambda: compiled[0].solve(compiled[1]),
+            lambda x: error_of(np.array([float(Fraction(int(v[0].p), int(v[0].q))) for v in x.tolist()])),
+        )
+    if links <= _ALL_LINKS:
+        take("scipy spsolve", lambda: shuffled.spsolve(right), error_of)
+    for ordering in ORDERINGS if links <= _ALL_LINKS else ORDERINGS[:1]:
+        take(f"sparse LU, {ordering}", lambda ordering=ordering: shuffled.splu(right, ordering), error_of)  # type: ignore[misc]
+    take("sparse LU, COLAMD, refined, with estimate", lambda: _refined(system, redundant), lambda x: _error(x, truth))
+    return rows
+
+
+def _components(train: GearTrain) -> Components:
+    declared = train.declaration
+    return find_components(tuple(declared.links), declared.frame, train.circuits, declared.inputs)
+
+
+def _exact(train: GearTrain) -> Mapping[str, Fraction]:
+    """Walk, reduce, eliminate, read off: everything but the circuits themselves."""
+    declared = train.declaration
+    part = SolvedPart(tuple(declared.links), declared.frame, train.circuits, tuple(declared.inputs))
+    return solve(part, declared.case(train.states[0] if train.states else None), train.signs, None).speeds
+
+
+def _read(speeds: Mapping[str, Fraction]) -> Mapping[str, Fraction]:
+    """The speeds, each multiplied out once."""
+    for _ in speeds.values():
+        pass
+    return speeds
+
+
+def _same(speed: Any, right: Fraction) -> float:
+    return 0.0 if speed == right else float("inf")
+
+
+def _residue(system: WillisSystem, speeds: Mapping[str, Fraction]) -> float:
+    """0 if the speeds satisfy every raw equation exactly."""
+    return 0.0 if all(_holds(row, speeds) for row in system.equations) else float("inf")
+
+
+def _holds(row: WillisEquation, speeds: Mapping[str, Fraction]) -> bool:
+    """The row in integers, cross-multiplied: reducing fractions of long numbers would take longer than solving."""
+    top, bottom = 0, 1
+    for link, coefficient in row.terms:
+        speed = speeds[link]
+        top = top * speed.denominator + coefficient * speed.numerator * bottom
+        bottom *= speed.denominator
+    return top * row.right.denominator == row.right.numerator * bottom
+
+
+def _walk(train: GearTrain) -> dict[str, float]:
+    """An ordinary train link by link in floats, the plainest loop there is."""
+    edges: dict[str, list[tuple[str, float]]] = {}
+    for circuit in train.circuits:
+        edges.setdefault(circuit.i, []).append((circuit.j, -circuit.a / circuit.b))
+        edges.setdefault(circuit.j, []).append((circuit.i, -circuit.b / circuit.a))
+    (start, speed), *_ = train.declaration.case(None).inputs.items()
+    speeds = {train.declaration.frame: 0.0, start: float(speed)}
+    queue = deque([start])
+    while queue:
+        here = queue.popleft()
+        for there, ratio in edges.get(here, ()):
+            if there not in speeds:
+                speeds[there] = speeds[here] * ratio
+                queue.append(there)
+    return speeds
+
+
+def _compiled(matrix: PaddedRows, equations: Sequence[WillisEquation]) -> tuple[Any, Any]:
+    """The raw system as integer matrices of a compiled library."""
+    import flint
+
+    lines = [[0] * len(equations) for _ in equations]
+    for at, line in enumerate(lines):
+        for column, coefficient in zip(matrix.columns[at], matrix.coefficients[at], strict=True):
+            line[column] += int(coefficient)
+    return flint.fmpz_mat(lines), flint.fmpz_mat([[int(row.right)] for row in equations])
+
+
+def _refined(system: WillisSystem, redundant: list[str]) -> Floats:
+    values: Floats = solve_floats(system, redundant).speeds.values[:, 0]
+    return values
+
+
+def _error(x: Any, truth: Floats | None) -> float | None:
+    """Greatest relative error of any speed that is not 0."""
+    if truth is None:
+        return None
+    used = truth != 0
+    return float(np.max(np.abs((np.asarray(x)[used] - truth[used]) / truth[used])))
+
+
+class _Shuffled:
+    """The raw matrix with rows and columns in random order, as a user's model would arrive."""
+
+    def __init__(self, rows: PaddedRows, seed: int) -> None:
+        draw = np.random.default_rng(seed)
+        size = len(rows.columns)
+        self.lines, self.columns = draw.permutation(size), draw.permutation(size)
+        self.matrix = rows.matrix()[self.lines][:, self.columns].tocsc()
+
+    def _back(self, y: Floats) -> Floats:
+        x = np.empty_like(y)
+        x[self.columns] = y
+        return x
+
+    def spsolve(self, right: Floats) -> Floats:
+        from scipy.sparse import linalg
+
+        solver: Any = linalg
+        return self._back(solver.spsolve(self.matrix, right[self.lines]))
+
+    def splu(self, right: Floats, ordering: str) -> Floats:
+        from scipy.sparse import linalg
+
+        solver: Any = linalg
+        return self._back(solver.splu(self.matrix, permc_spec=ordering).solve(right[self.lines]))

@@ -1,0 +1,50 @@
+"""Error against run time of the methods on one train, as a document."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from geartrain.analysis.accuracy import MethodAccuracy, TrainAccuracy
+from geartrain.report.document import Document, Section, Table
+
+_LEAD = (
+    "Times are the best of repeats on this machine; compare them within a stage only, as ratios to its cheapest way. "
+    "`prepared` is what comes once, before: laws, windows of clearance, tables."
+)
+
+
+def accuracy_document(found: Sequence[TrainAccuracy]) -> Document:
+    """A section for each state with a table of each stage, and what the train does not have."""
+    sections = [section for each in found for section in _sections(each)]
+    return Document(f"Error against run time: {found[0].train}", [_LEAD], sections)
+
+
+def _sections(found: TrainAccuracy) -> list[Section]:
+    state = "" if found.state is None else f"State {found.state}: "
+    stages = dict.fromkeys(row.stage for row in found.methods)
+    sections = [
+        Section(f"{state}{stage}", (), [_table([row for row in found.methods if row.stage == stage])])
+        for stage in stages
+    ]
+    left_out = [f"{stage}: {why}." for stage, why in found.left_out.items()]
+    return [*sections, Section(f"{state}left out", left_out)] if left_out else sections
+
+
+def _table(rows: Sequence[MethodAccuracy]) -> Table:
+    header = ["method", "prepared", "time", "over the cheapest", "error", "held against"]
+    cells = [
+        [row.method, _time(row.prepared), _time(row.seconds), f"{row.ratio:.3g}", _error(row), row.reference]
+        for row in rows
+    ]
+    return Table(header, cells)
+
+
+def _error(row: MethodAccuracy) -> str:
+    if row.error is None:
+        return "-"
+    return "0" if row.error == 0 else f"{row.error:.1e} {'' if row.unit == 'relative' else row.unit}".strip()
+
+
+def _time(seconds: float | None) -> str:
+    """Three digits in milliseconds."""
+    return "-" if seconds is None else f"{seconds * 1e3:.3g} ms"

@@ -1,0 +1,118 @@
+"""Error against run time of a user's own train: errors are those that other ways find. Times are never judged."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+from fractions import Fraction
+from math import degrees
+from typing import Any
+
+import numpy as np
+import pytest
+from commands import LOCKED, RIGHT, call
+
+from geartrain import GearTrain, load
+from geartrain.analysis.accuracy import LAWS, MOTION, SPEEDS, TORQUES, MethodAccuracy, TrainAccuracy, find_accuracy
+
+PAIR: dict[str, Any] = {
+    "links": {"frame": {}, "a": {"wheels": {"p": 20}}, "b": {"wheels": {"w": 40}}},
+    "revolutes": [{"pair": ["frame", "a"], "axis": "A"}, {"pair": ["frame", "b"], "axis": "B"}],
+    "gears": [{"pair": ["p", "w"]}],
+    "inputs": {"a": 1},
+}
+
+
+def row_of(found: TrainAccuracy, stage: str, method: str) -> MethodAccuracy:
+    (row,) = (row for row in found.methods if (row.stage, row.method) == (stage, method))
+    return row
+
+
+@pytest.fixture(scope="module")
+def moon() -> TrainAccuracy:
+    return find_accuracy(load("moon-triangular"), positions=500)
+
+
+def test_every_time_is_over_that_of_the_cheapest_method_of_its_stage(moon: TrainAccuracy) -> None:
+    for stage in (SPEEDS, LAWS, MOTION):
+        rows = [row for row in moon.methods if row.stage == stage]
+        least = min(row.seconds for row in rows)
+        assert least > 0
+        assert [row.ratio for row in rows] == [row.seconds / least for row in rows]
+        assert all(row.reference for row in rows)
+
+
+def test_exact_speeds_meet_every_equation_and_floats_are_as_far_off_as_a_third_of_a_turn_is() -> None:
+    data = PAIR | {"links": PAIR["links"] | {"b": {"wheels": {"w": 60}}}}
+    found = find_accuracy(GearTrain.declare(data))
+    assert row_of(found, SPEEDS, "exact").error == 0
+    third = abs(Fraction(1 / 3) * 3 - 1)
+    assert row_of(found, SPEEDS, "floats").error == pytest.approx(float(third), rel=1e-6)
+    assert set(found.left_out) == {LAWS, MOTION, TORQUES}
+
+
+def test_tables_are_within_their_tolerance_and_the_formula_is_the_reference(moon: TrainAccuracy) -> None:
+    assert row_of(moon, LAWS, "direct, 4 laws").error is None
+    for tolerance in (1e-6, 1e-12):
+        table = row_of(moon, LAWS, f"tabulated, {tolerance:.0e}")
+        assert table.error is not None
+        assert 0 < table.error < tolerance
+        assert table.prepared is not None
+
+
+def test_motion_is_off_as_a_sum_of_the_laws_themselves_is(moon: TrainAccuracy) -> None:
+    """Superposition by hand, each law asked at the angle its driver has on average, against the composition."""
+    train = load("moon-triangular")
+    motion = train.motion(outputs=["moon"])
+    turns = np.arange(500) * (20.0 / 500)
+    total = np.zeros(500)
+    for source in motion.ahead.used:
+        S = float(source.cycles) * turns * source.law.period + source.start - source.turned
+        of, base = motion.ahead.outputs[0]
+        total += source.sense * motion.ahead.spread.sensitivity(of, base)[source.pair] * source.law.error(S)
+    off = degrees(np.abs(total - motion.hung.at(turns).error[0]).max())
+    assert row_of(moon, MOTION, "superposed").error == pytest.approx(off, rel=1e-6)
+    lagged, tables = (row_of(moon, MOTION, name).error for name in ("superposed with lag", "composed, tabulated laws"))
+    assert tables is not None
+    assert lagged is not None
+    assert 0 < tables < 1e-9 < lagged < off / 2
+
+
+def test_virtual_work_is_off_by_what_the_losses_take() -> None:
+    """A pair of efficiency 0.9 under a load of 1 takes 1/2 of it without losses, 1/1.8 with them: a tenth less."""
+    data = PAIR | {"gears": [{"pair": ["p", "w"], "efficiency": 0.9}], "loads": {"b": 1}}
+    found = find_accuracy(GearTrain.declare(data))
+    assert row_of(found, TORQUES, "balance with losses").error == 0
+    assert row_of(found, TORQUES, "virtual work, without losses").error == pytest.approx(0.1, rel=1e-12)
+
+
+def test_a_train_that_does_not_turn_says_so_and_measures_nothing(train_file: object) -> None:
+    path = train_file(LOCKED)  # type: ignore[operator]
+    done = call("bench", path, "--json")
+    assert done.exit_code == 1
+    (found,) = json.loads(done.stdout)["states"]
+    assert found["methods"] == []
+    assert set(found["left_out"]) == {SPEEDS, LAWS, MOTION, TORQUES}
+
+
+def test_the_command_has_a_table_for_each_stage_and_one_answer_for_each_state(train_file: object) -> None:
+    done = call("bench", "moon-triangular", "--positions", 100)
+    assert done.exit_code == 0
+    for stage in (SPEEDS, LAWS, MOTION):
+        assert f"## {stage}\n" in done.stdout
+    assert "torques: no loads are declared" in done.stdout
+    states = RIGHT.replace("inputs: {a: 1}", "states: {one: {inputs: {a: 1}}, other: {inputs: {b: 1}}}")
+    path = train_file(states.replace("{expect: 1/2}", "{}"))  # type: ignore[operator]
+    assert [each["state"] for each in json.loads(call("bench", path, "--json").stdout)["states"]] == ["one", "other"]
+
+
+def test_a_train_without_tooth_forms_brings_no_tooth() -> None:
+    code = (
+        "import sys, geartrain; from geartrain.analysis.accuracy import find_accuracy; "
+        "find_accuracy(geartrain.load('pennestri-2002')); "
+        "heavy = ('geartrain.teeth.triangular.triangular_transmission', 'geartrain.dynamics.motion'); "
+        "print([name for name in sys.modules if name.startswith(heavy)])"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == "[]"

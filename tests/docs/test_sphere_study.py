@@ -1,0 +1,186 @@
+"""The study of gears on a sphere: convergence, judgement and closure stand in order. Times are never judged."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import replace
+from fractions import Fraction
+from itertools import pairwise
+
+import networkx as nx
+import numpy as np
+import pytest
+from studies.circle_packings import FixedPoint, judged, overlaps
+from studies.loop_closures import draw_teeth, true_residue
+from studies.planar_graphs import hull, trapezohedron, zonohedron
+from studies.sphere_records import TARGET, ClosureRecord, PackRecord, SphereRecords, growth
+from studies.sphere_study import sphere
+
+from geartrain.spherical.circle_packing import SpherePacking, pack_circles
+from geartrain.spherical.planar_map import checked_graph, regions_of, with_region_circles
+from geartrain.spherical.planar_packing import PlanarPacking
+
+
+@pytest.fixture(scope="module")
+def records() -> SphereRecords:
+    return sphere(quick=True)
+
+
+def map_of(edges: list[tuple[str, str]]) -> tuple[int, list[tuple[int, ...]]]:
+    named = checked_graph(edges)
+    return with_region_circles(len(named), regions_of(named), list(named))
+
+
+@pytest.fixture(scope="module")
+def packing() -> SpherePacking:
+    return pack_circles(*map_of(hull(7)))
+
+
+def closures(records: SphereRecords, method: str) -> list[ClosureRecord]:
+    return sorted((row for row in records.closures if row.method == method), key=lambda row: row.power)
+
+
+# circles -------------------------------------------------------------------------------------------------------------
+
+
+def test_newton_squares_the_residual(records: SphereRecords) -> None:
+    for row in records.packings:
+        left = [residual for _, residual in row.steps]
+        near = [(a, b) for a, b in pairwise(left) if a < 0.1 and b > 1e-11]
+        assert near, "a step near the solution and above rounding"
+        assert row.squares == [b / a**2 for a, b in near]
+        assert all(b < 1.0 * a**2 for a, b in near)
+        assert left[-1] < 1e-13
+
+
+def test_the_fixed_point_only_divides_the_residual(records: SphereRecords) -> None:
+    for row in records.packings:
+        (first, above), (last, below) = row.trace[0], row.trace[-1]
+        each = (below / above) ** (1 / (last - first))
+        assert 0.3 < each < 0.99
+        assert row.left == below < TARGET
+        assert row.sweeps == last > 10 * len(row.counted)
+        assert len(row.counted) <= 6
+
+
+def test_both_ways_lead_to_the_same_radii() -> None:
+    plane = PlanarPacking(*map_of(hull(11)))
+    u, _ = plane.radii()
+    sweeps = FixedPoint(plane)
+    sweeps.run(1e-12)
+    near = u[np.isfinite(u)]
+    assert sweeps.u - sweeps.u[0] == pytest.approx(near - near[0], abs=1e-10)
+    assert sweeps.residual < 1e-12
+    hasty = FixedPoint(plane)
+    hasty.run(0.0, patience=0.0)
+    assert hasty.sweeps == 10
+    assert 1e-3 < hasty.residual < 10
+
+
+def test_packings_touch_in_forty_digits(records: SphereRecords) -> None:
+    for row in records.packings:
+        assert 0 < row.judged < 1e-14
+        assert row.overlaps == 0
+
+
+def test_the_judge_tells_an_error_that_is_there(packing: SpherePacking) -> None:
+    assert judged(packing) < 1e-14
+    cones = packing.cones.copy()
+    cones[3] += 1e-7
+    wide = replace(packing, cones=cones)
+    assert judged(wide) == pytest.approx(1e-7, rel=1e-6)
+    assert overlaps(wide) == sum(3 in mesh for mesh in packing.meshes)
+    regions = packing.region_cones.copy()
+    regions[2] -= 1e-8
+    assert judged(replace(packing, region_cones=regions)) == pytest.approx(1e-8, rel=1e-5)
+
+
+@pytest.mark.parametrize(
+    ("edges", "gears"), [(hull(11), 29), (zonohedron(6), 32), (zonohedron(3), 8), (trapezohedron(14), 30)]
+)
+def test_the_graphs_are_planar_bipartite_and_3_connected(edges: list[tuple[str, str]], gears: int) -> None:
+    graph = nx.Graph(edges)
+    assert len(graph) == gears
+    assert graph.number_of_edges() == len(edges) == 2 * gears - 4, "all regions have four"
+    assert nx.is_bipartite(graph)
+    assert nx.check_planarity(graph)[0]
+    assert nx.node_connectivity(graph) == 3
+
+
+def test_growth_is_the_exponent_of_the_larger_graphs() -> None:
+    gears = [10, 100, 300, 1000]
+    assert growth(gears, [99.0, *(7e-6 * n**1.5 for n in gears[1:])]) == pytest.approx(1.5, abs=1e-12)
+
+
+def test_small_graphs_are_fitted(records: SphereRecords) -> None:
+    assert len(records.fits) == 3 * len(records.packings)
+    for row in records.fits:
+        assert row.exact
+        assert row.residual < 1e-11
+        assert row.moved < 3
+    moved = {(row.family, row.gears, row.aim, row.least): row.moved for row in records.fits}
+    for family, gears in {(row.family, row.gears) for row in records.fits if row.family == "hull"}:
+        assert moved[family, gears, "pitch", 50] < moved[family, gears, "pitch", 12], "finer rounding moves axes less"
+
+
+# closure -------------------------------------------------------------------------------------------------------------
+
+
+def test_fractions_are_never_wrong(records: SphereRecords) -> None:
+    rows = closures(records, "fractions")
+    assert {row.power for row in rows} >= {1, 12}
+    assert len({row.family for row in rows}) == 4
+    assert all(row.error == row.wrong == row.best == row.own == row.unclear == 0 for row in rows)
+
+
+def test_floats_err_in_proportion_to_the_teeth_until_verdicts_are_wrong(records: SphereRecords) -> None:
+    for method, family in (("floats of the fractions", "6-antiprism"), ("floats", "planetary")):
+        rows = [row for row in closures(records, method) if row.family == family]
+        for row in rows:
+            assert 1e-17 < row.error / 10**row.power < 3e-15
+        assert rows[0].wrong == 0
+        assert rows[-1].power == 12
+        assert 0 < rows[-1].wrong < rows[-1].loops
+        assert rows[-1].best == 0, "half the least residue still tells them apart"
+
+
+def test_angles_from_axes_know_nothing_at_many_teeth(records: SphereRecords) -> None:
+    rows = closures(records, "floats from the axes")
+    assert all(row.wrong == 0 and row.error < 1e-10 for row in rows if row.power == 1)
+    last = [row for row in rows if row.power == 12]
+    assert all(row.wrong >= row.loops // 2 and row.best > row.loops // 4 for row in last)
+
+
+def test_a_forecast_says_unclear_and_is_not_wrong(records: SphereRecords) -> None:
+    for row in closures(records, "floats"):
+        assert row.bound is not None
+        assert row.error < row.bound
+        assert row.own == 0
+        assert row.unclear < row.loops
+
+
+def test_half_of_the_drawn_teeth_close() -> None:
+    shares = [Fraction(1, 6), Fraction(2, 3)]
+    for power in (1, 15):
+        teeth = draw_teeth(shares, power, 40)
+        assert all(10**power <= z < 10 ** (power + 1) for kind in teeth for z in kind.tolist())
+        left = [true_residue(z, shares) for z in zip(*(each.tolist() for each in teeth), strict=True)]
+        assert [not each for each in left] == [True] * 20 + [False] * 20
+    assert true_residue((7, 3), (Fraction(1, 6), Fraction(2, 3))) == Fraction(1, 6)
+
+
+# records -------------------------------------------------------------------------------------------------------------
+
+
+def test_records_survive_json_and_print_as_tables(records: SphereRecords) -> None:
+    again = SphereRecords.from_dict(json.loads(json.dumps(records.to_dict())))
+    assert again.to_markdown() == records.to_markdown()
+    assert "| hull | 29 | 54 |" in again.to_markdown()
+
+
+def test_steps_count_to_the_target_and_ratios_with_them(records: SphereRecords) -> None:
+    steps = [(1.0, 0.2), (2.0, 0.01), (4.0, 3e-5), (8.0, 2e-12), (16.0, 1e-15)]
+    row: PackRecord = replace(records.packings[0], steps=steps, swept=60.0)
+    assert row.counted == steps[:4]
+    assert (row.newton, row.ratio) == (15.0, 4.0)
+    assert row.squares == pytest.approx([0.3])

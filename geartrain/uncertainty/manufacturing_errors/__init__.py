@@ -6,8 +6,9 @@ from geartrain.uncertainty.manufacturing_errors.cut_transmission import (
 )
 from geartrain.uncertainty.manufacturing_errors.cut_wheel import CuttingErrorModel, CutWheel, ErrorDistribution
 from geartrain.uncertainty.manufacturing_errors.least_backlash import jamming_bound, nominal_backlash
+from geartrain.uncertainty.manufacturing_errors.meshing_cycle import MeshingVerdicts
 from geartrain.uncertainty.manufacturing_errors.meshing_events import MeshingEvent, MeshingEvents
-from geartrain.uncertainty.manufacturing_errors.meshing_verdicts import MeshingVerdicts, batch_verdicts
+from geartrain.uncertainty.manufacturing_errors.meshing_verdicts import batch_verdicts
 
 __all__ = [
     "CutTransmissionFunction",

@@ -24,13 +24,13 @@ from geartrain.uncertainty.manufacturing_errors.least_backlash import (
     least_sum,
     steepest,
 )
+from geartrain.uncertainty.manufacturing_errors.meshing_cycle import MeshingCycle, MeshingVerdicts, chunks
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from geartrain.numerics.arrays import Bools, Floats
     from geartrain.teeth.triangular.pair_geometry import TriangularSizes
-    from geartrain.uncertainty.manufacturing_errors.meshing_verdicts import MeshingVerdicts
 
 
 _NODES = 2001  # of the table of J_n over the range of places: linear between them
@@ -39,15 +39,11 @@ _UNSURE = 1e-4  # of a driven pitch: play that is nearer to 0 is looked at witho
 
 def verdicts_of_pitch_errors(pair: CutGearPair, chunk: int) -> MeshingVerdicts:
     """The verdict on each trial; those that may clash or stand still are looked at couple by couple."""
-    from geartrain.uncertainty.manufacturing_errors.meshing_verdicts import MeshingVerdicts, chunks
-
     parts = [_verdicts(part, chunk) for part in chunks(pair, chunk // (pair.sizes.z1 + pair.sizes.z2))]
     return MeshingVerdicts.joined(parts)
 
 
 def _verdicts(pair: CutGearPair, chunk: int) -> MeshingVerdicts:
-    from geartrain.uncertainty.manufacturing_errors.meshing_verdicts import MeshingCycle, MeshingVerdicts
-
     play, teeth = backlash_of_pitch_errors(pair), _Passing(pair)
     for rows in _parts(np.abs(play) < _UNSURE * pair.sizes.p2, chunk // pair.count):
         play[rows] = MeshingCycle(_some(pair, rows)).play()

@@ -45,15 +45,18 @@ class ProbabilityEstimate:
         return {"count": self.count, "of": self.of, "share": self.value if self.of else None, "interval": [low, high]}
 
 
-def wilson(count: int, of: int, z: float | None = None) -> tuple[float, float]:
-    """Wilson's score interval of `count` of `of`, `z` standard deviations wide (E. B. Wilson 1927); 0 to 1 of none."""
+def wilson(count: float, of: float, z: float | None = None) -> tuple[float, float]:
+    """Wilson's score interval of `count` of `of`, `z` standard deviations wide (E. B. Wilson 1927); 0 to 1 of none.
+
+    Of weighted trials both are effective numbers, not whole ones.
+    """
     if not of:
         return 0.0, 1.0
     z = deviations() if z is None else z
     p, square = count / of, z * z / of
-    middle, half = p + square / 2, z * sqrt(p * (1 - p) / of + square / (4 * of))
+    middle, half = p + square / 2, z * sqrt(max(p * (1 - p), 0.0) / of + square / (4 * of))
     low, high = (middle - half) / (1 + square), (middle + half) / (1 + square)
-    return (0.0 if count == 0 else low), (1.0 if count == of else high)
+    return (max(0.0, low) if count else 0.0), (min(1.0, high) if count < of else 1.0)
 
 
 @dataclass(frozen=True, slots=True)

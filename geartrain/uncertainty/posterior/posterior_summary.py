@@ -13,6 +13,7 @@ from typing import Any
 
 import numpy as np
 
+from geartrain.uncertainty.confidence_intervals import deviations, wilson
 from geartrain.uncertainty.posterior.enumeration import PosteriorTally, origin_of
 from geartrain.uncertainty.posterior.forward_backward import CombinationCandidate, ForwardBackwardSums, plain_number
 from geartrain.uncertainty.posterior.inference_problem import InferenceProblem
@@ -105,7 +106,6 @@ def _weight(question: InferenceProblem, teeth: Mapping[str, int]) -> int:
     return found
 
 
-_Z = 1.959963984540054  # of 95 %
 _CERTAIN = 1e-4
 """Spread over range below which a count has no correlation to tell: other counts have a chance under 10^-8, and
 covariances in float64 would be rounding."""
@@ -127,16 +127,6 @@ class PosteriorSummary:
     candidates: Sequence[CombinationCandidate]
     ranked: bool
     effective: float
-
-
-def wilson_of_effective(hits: float, trials: float) -> tuple[float, float]:
-    """The 95 % score interval of a share (Wilson 1927): hits and trials may be effective, not whole numbers."""
-    if not trials:
-        return 0.0, 1.0
-    share, square = hits / trials, _Z * _Z
-    middle = (share + square / (2 * trials)) / (1 + square / trials)
-    half = _Z * sqrt(max(share * (1 - share), 0.0) / trials + square / (4 * trials * trials)) / (1 + square / trials)
-    return (max(0.0, middle - half) if hits else 0.0), (min(1.0, middle + half) if hits < trials else 1.0)
 
 
 def summary_of_tally(question: InferenceProblem, tally: PosteriorTally, drawn: bool) -> PosteriorSummary:
@@ -189,8 +179,8 @@ def _share(weight: float, looked: int, tally: PosteriorTally, soft: bool) -> Cou
         return CountProbability(0.0, 0.0, 1.0)
     mean = float(weight) / looked
     if not soft or not weight:
-        return CountProbability(mean, *wilson_of_effective(float(weight), looked))
-    half = _Z * sqrt(max(tally.square / looked - mean**2, 0.0) / looked)
+        return CountProbability(mean, *wilson(float(weight), looked))
+    half = deviations() * sqrt(max(tally.square / looked - mean**2, 0.0) / looked)
     return CountProbability(mean, max(0.0, mean - half), min(1.0, mean + half))
 
 
@@ -198,7 +188,7 @@ def _counted(tally: PosteriorTally) -> CountProbability:
     if not tally.batch.question.conditions:
         return CountProbability(Fraction(1))
     share = tally.turning / tally.looked if tally.looked else 0.0
-    return CountProbability(share, *wilson_of_effective(tally.turning, tally.looked))
+    return CountProbability(share, *wilson(tally.turning, tally.looked))
 
 
 def wheel_posterior(
@@ -218,7 +208,7 @@ def wheel_posterior(
         shares = [float(weight) / float(total) for weight in weights]
         return WheelPosterior(
             doubt,
-            tuple(CountProbability(share, *wilson_of_effective(share * trials, trials)) for share in shares),
+            tuple(CountProbability(share, *wilson(share * trials, trials)) for share in shares),
             False,
         )
     if isinstance(total, float | np.floating):

@@ -54,9 +54,11 @@ def plain(value: Any, to: Callable[[Any], Any] | None = None) -> Any:
     """
     if value is None:
         return None
+    if hasattr(value, "_asdict"):  # a named tuple
+        value = value._asdict()
     if isinstance(value, Mapping):
         return {key: plain(each, to) for key, each in value.items()}
-    if isinstance(value, Sequence) and not isinstance(value, str) and not hasattr(value, "_fields"):
+    if isinstance(value, Sequence) and not isinstance(value, str):
         return [plain(each, to) for each in value]
     if hasattr(value, "tolist"):  # an array, or one of its numbers
         return plain(value.tolist(), to)
@@ -95,8 +97,6 @@ def keys_of(kind: type) -> tuple[Key, ...]:
     named: tuple[str | Key, ...] = getattr(kind, "KEYS", ())
     if not named and is_dataclass(kind):
         named = tuple(field.name for field in fields(kind))
-    if not named:
-        named = getattr(kind, "_fields", ())
     if not named:
         raise TypeError(f"{kind.__name__} has no plain data: it is no dataclass, and has no KEYS")
     return tuple(each if isinstance(each, Key) else Key(each) for each in named)

@@ -41,6 +41,8 @@ def shape_of(kind: Any, to: Callable[[Any], Any] | None = None) -> Schema:
         return _one_of([shape_of(part, None if part is NoneType else to) for part in parts])
     if isinstance(origin, type) and issubclass(origin, Mapping):
         return {"type": "object", "additionalProperties": shape_of(parts[1], to)}
+    if hasattr(kind, "_fields"):
+        return _object({name: shape_of(_own_kind(kind, name), to) for name in kind._fields}, kind._fields, kind)
     if origin is tuple and parts[-1:] != (...,):
         size = len(parts)
         return {"type": "array", "minItems": size, "maxItems": size, "items": _one_of([shape_of(p, to) for p in parts])}

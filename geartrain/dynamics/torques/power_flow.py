@@ -13,12 +13,13 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from itertools import chain
-from typing import Any, Literal, NamedTuple
+from typing import Literal, NamedTuple
 
 from geartrain.dynamics.torques.torque_results import Torques
 from geartrain.kinematics.circuits import Tree, close_joints
 from geartrain.numerics.exact import as_float
 from geartrain.numerics.graphs import joined_groups
+from geartrain.numerics.plain_data import Key, Result
 from geartrain.numerics.quantity import RADIANS_PER_TURN
 from geartrain.train import StateCase, Train
 
@@ -33,30 +34,34 @@ class PowerNode(NamedTuple):
 
 
 @dataclass(frozen=True)
-class PowerStream:
+class PowerStream(Result):
     """Power from one node to the next, above 0; `circling` of it runs in closed loops."""
+
+    KEYS = (Key("from", "source"), Key("to", "target"), Key("power", to=as_float), Key("circling", to=as_float))
 
     source: PowerNode
     target: PowerNode
     power: Fraction
     circling: Fraction = Fraction(0)
 
-    def to_dict(self) -> dict[str, Any]:
-        """Plain data for JSON."""
-        return {
-            "from": self.source._asdict(),
-            "to": self.target._asdict(),
-            "power": as_float(self.power),
-            "circling": as_float(self.circling),
-        }
-
 
 @dataclass(frozen=True)
-class RecirculatingPower:
-    """Nodes that feed each other in closed loops, and the power that runs round in them without leaving."""
+class RecirculatingPower(Result):
+    """Nodes that feed each other in closed loops, and the power that runs round in them without leaving.
+
+    power_in   what enters the train
+    """
+
+    KEYS = ("pairs", "shafts", Key("power", to=as_float), Key("of_power_in", to=as_float))
 
     nodes: tuple[PowerNode, ...]
     power: Fraction
+    power_in: Fraction
+
+    @property
+    def of_power_in(self) -> Fraction | None:
+        """Its power over that which enters the train; None where none does."""
+        return self.power / self.power_in if self.power_in else None
 
     @property
     def pairs(self) -> tuple[str, ...]:
@@ -70,12 +75,39 @@ class RecirculatingPower:
 
 
 @dataclass(frozen=True)
-class PowerFlow:
+class PowerLoss(Result):
+    """What a pair or bearing loses, beside what enters the train and what is lost in all."""
+
+    KEYS = (
+        *(Key("kind", "node.kind"), Key("name", "node.name"), Key("power", to=as_float)),
+        *(Key("of_power_in", to=as_float), Key("of_loss", to=as_float)),
+    )
+
+    node: PowerNode
+    power: Fraction
+    power_in: Fraction
+    loss: Fraction
+
+    @property
+    def of_power_in(self) -> Fraction | None:
+        """Over the power that enters; None where none does."""
+        return self.power / self.power_in if self.power_in else None
+
+    @property
+    def of_loss(self) -> Fraction:
+        """Over all that is lost."""
+        return self.power / self.loss
+
+
+@dataclass(frozen=True)
+class PowerFlow(Result):
     """All streams of a train in one case, in the unit of its powers.
 
     losses   by pair and bearing, only where there are some
     loops    circulating power, the greatest first
     """
+
+    KEYS = ("streams", "loops")
 
     power_in: Fraction = Fraction(0)
     streams: tuple[PowerStream, ...] = ()
@@ -92,26 +124,16 @@ class PowerFlow:
         """Power lost in all pairs and bearings."""
         return sum(self.losses.values(), Fraction(0))
 
+    @property
+    def shares(self) -> tuple[PowerLoss, ...]:
+        """The losses, with their shares of the whole."""
+        return tuple(PowerLoss(node, lost, self.power_in, self.loss) for node, lost in self.losses.items())
+
     def surplus(self, node: PowerNode) -> Fraction:
         """What a node takes in and neither gives on nor loses: 0 everywhere but at the ends."""
         taken = sum((stream.power for stream in self.streams if stream.target == node), Fraction(0))
         given = sum((stream.power for stream in self.streams if stream.source == node), Fraction(0))
         return taken - given - self.losses.get(node, Fraction(0))
-
-    def to_dict(self) -> dict[str, Any]:
-        """Plain data for JSON."""
-        return {
-            "streams": [stream.to_dict() for stream in self.streams],
-            "loops": [
-                {
-                    "pairs": list(loop.pairs),
-                    "shafts": list(loop.shafts),
-                    "power": as_float(loop.power),
-                    "of_power_in": as_float(loop.power / self.power_in) if self.power_in else None,
-                }
-                for loop in self.loops
-            ],
-        }
 
 
 def find_power_flow(train: Train, tree: Tree, signs: Mapping[str, int], found: Torques) -> PowerFlow:
@@ -137,7 +159,7 @@ def find_power_flow(train: Train, tree: Tree, signs: Mapping[str, int], found: T
         if lost := sum(net.values(), Fraction(0)):
             losses[node] = lost
     streams += [PowerStream(shaft, PowerNode("out", link), -power) for shaft, link, power in ends if power < 0]
-    streams, loops = _circulation(streams)
+    streams, loops = _circulation(streams, found.power_in)
     return PowerFlow(found.power_in, tuple(streams), losses, tuple(loops))
 
 
@@ -172,7 +194,9 @@ def _takers(
 # -------------------------------------------------------------------------------------------------------------- loops
 
 
-def _circulation(streams: Sequence[PowerStream]) -> tuple[list[PowerStream], list[RecirculatingPower]]:
+def _circulation(
+    streams: Sequence[PowerStream], power_in: Fraction
+) -> tuple[list[PowerStream], list[RecirculatingPower]]:
     """Streams with the part that circles, and the loops: closed ways are taken out, the widest first."""
     left = [stream.power for stream in streams]
     rounds: list[tuple[PowerNode, Fraction]] = []
@@ -188,7 +212,8 @@ def _circulation(streams: Sequence[PowerStream]) -> tuple[list[PowerStream], lis
         loops[members] = loops.get(members, Fraction(0)) + power
     order = dict.fromkeys(end for stream in streams for end in (stream.source, stream.target))
     found = [
-        RecirculatingPower(tuple(node for node in order if node in members), power) for members, power in loops.items()
+        RecirculatingPower(tuple(node for node in order if node in members), power, power_in)
+        for members, power in loops.items()
     ]
     return marked, sorted(found, key=lambda loop: -loop.power)
 

@@ -6,10 +6,11 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property
-from typing import Any, Literal
+from typing import Literal, NamedTuple
 
 from geartrain.numerics.containers import FrozenFields
 from geartrain.numerics.exact import as_float
+from geartrain.numerics.plain_data import Key, Result
 
 TorqueVerdictKind = Literal[
     "determined",
@@ -27,7 +28,7 @@ TorqueVerdictKind = Literal[
 
 
 @dataclass(frozen=True)
-class TorqueVerdict:
+class TorqueVerdict(Result):
     """Whether the torques follow from the loads.
 
     determined      they do, and nothing that is declared is left out
@@ -50,13 +51,9 @@ class TorqueVerdict:
     def __bool__(self) -> bool:
         return self.kind in ("determined", "incomplete", "ambiguous", "indeterminate")
 
-    def to_dict(self) -> dict[str, Any]:
-        """Plain data for JSON."""
-        return {"kind": self.kind, "text": self.text, "candidates": list(self.candidates)}
-
 
 @dataclass(frozen=True)
-class NeglectedEffect:
+class NeglectedEffect(Result):
     """Something that torques do not count: `what`, the pairs or links `where` it is, and `why`."""
 
     what: str
@@ -71,13 +68,9 @@ class NeglectedEffect:
     def __str__(self) -> str:
         return f"{self.what} ({', '.join(self.where)})"
 
-    def to_dict(self) -> dict[str, Any]:
-        """Plain data for JSON."""
-        return {"what": self.what, "where": list(self.where), "why": self.why}
-
 
 @dataclass(frozen=True)
-class HoldingTorque:
+class HoldingTorque(Result):
     """A brake on one link, or a lock of two, with the torques it exerts on them; None where these are open.
 
     clutch   its name, if it has one
@@ -85,20 +78,34 @@ class HoldingTorque:
              closes every joint on its way
     """
 
+    KEYS = ("links", "clutch", Key("cause", "declared_cause"), Key("torques", "by_link", as_float))
+
     links: tuple[str, ...]
     torques: tuple[Fraction, ...] | None
     clutch: str | None = None
     cause: tuple[str, ...] = ()
 
-    def to_dict(self) -> dict[str, Any]:
-        """Plain data for JSON."""
-        torques = None if self.torques is None else dict(zip(self.links, map(as_float, self.torques), strict=True))
-        cause = list(self.cause) or None
-        return {"links": list(self.links), "clutch": self.clutch, "cause": cause, "torques": torques}
+    @property
+    def declared_cause(self) -> tuple[str, ...] | None:
+        """The cause; None where what is held is what is declared."""
+        return self.cause or None
+
+    @property
+    def by_link(self) -> Mapping[str, Fraction] | None:
+        """The torques by link; None where they are open."""
+        return None if self.torques is None else dict(zip(self.links, self.torques, strict=True))
+
+
+class MemberTorques(NamedTuple):
+    """Torques on the members of a gear pair or coupling."""
+
+    first: Fraction
+    second: Fraction
+    carrier: Fraction
 
 
 @dataclass(frozen=True)
-class PairTorque:
+class PairTorque(Result):
     """One gear pair or coupling under load.
 
     driver      the wheel (or link) that drives in the carrier's frame; "" where nothing flows
@@ -108,6 +115,14 @@ class PairTorque:
     loose       the balance does not determine it
     """
 
+    KEYS = (
+        "driver",
+        Key("torques", "on_members", as_float),
+        Key("power", to=as_float),
+        Key("loss", to=as_float),
+        Key("shared", "loose"),
+    )
+
     id: str
     driver: str
     links: tuple[str, str, str]
@@ -116,6 +131,11 @@ class PairTorque:
     rolling: Fraction | None
     efficiency: Fraction
     loose: bool = False
+
+    @property
+    def on_members(self) -> MemberTorques:
+        """The torques by name."""
+        return MemberTorques(*self.torques)
 
     @cached_property
     def power(self) -> Fraction | None:
@@ -130,19 +150,20 @@ class PairTorque:
         """Power lost; where the speed is open nothing is counted."""
         return (self.power or Fraction(0)) * (1 - self.efficiency)
 
-    def to_dict(self) -> dict[str, Any]:
-        """Plain data for JSON."""
-        return {
-            "driver": self.driver,
-            "torques": dict(zip(("first", "second", "carrier"), map(as_float, self.torques), strict=True)),
-            "power": None if self.power is None else as_float(self.power),
-            "loss": as_float(self.loss),
-            "shared": self.loose,
-        }
+
+@dataclass(frozen=True)
+class LinkTorque(Result):
+    """An external torque on a link, its power (None where the speed is open), and whether it was asked for."""
+
+    KEYS = (Key("torque", to=as_float), Key("power", to=as_float), "asked")
+
+    torque: Fraction
+    power: Fraction | None
+    asked: bool
 
 
 @dataclass(frozen=True)
-class Torques(FrozenFields):
+class Torques(FrozenFields, Result):
     """External torques by link, torques and powers by pair, and the balance of power, all exact.
 
     external    on every link that has one: loads, bearings, what was asked for, brakes
@@ -151,6 +172,19 @@ class Torques(FrozenFields):
     held        brakes and locks with the torques they exert
     left_out    what is not counted
     """
+
+    KEYS = (
+        "state",
+        "verdict",
+        Key("efficiency", to=as_float),
+        Key("circulating", to=as_float),
+        Key("links", "link_torques"),
+        "held",
+        "pairs",
+        Key("power_in", "known_power_in", as_float),
+        Key("loss", "known_loss", as_float),
+        "left_out",
+    )
 
     state: str | None
     verdict: TorqueVerdict
@@ -166,6 +200,14 @@ class Torques(FrozenFields):
     def powers(self) -> Mapping[str, Fraction]:
         """External power by link, positive into the train; of links whose speed is determined."""
         return {link: torque * self.speeds[link] for link, torque in self.external.items() if link in self.speeds}
+
+    @property
+    def link_torques(self) -> Mapping[str, LinkTorque]:
+        """External torques by link."""
+        powers = self.powers
+        return {
+            link: LinkTorque(torque, powers.get(link), link in self.asked) for link, torque in self.external.items()
+        }
 
     @property
     def open_speeds(self) -> tuple[str, ...]:
@@ -190,6 +232,16 @@ class Torques(FrozenFields):
         return sum((pair.loss for pair in self.pairs.values()), self.bearing_loss)
 
     @property
+    def known_power_in(self) -> Fraction | None:
+        """Power that enters; None where the speed of a loaded link is open."""
+        return None if self.open_speeds else self.power_in
+
+    @property
+    def known_loss(self) -> Fraction | None:
+        """Power lost; None where the speed of a loaded link is open."""
+        return None if self.open_speeds else self.loss
+
+    @property
     def efficiency(self) -> Fraction | None:
         """Power out over power in; None where nothing goes in, or an asked torque or a loaded link's speed is open."""
         if not self.power_in or self.open_speeds or any(link not in self.external for link in self.asked):
@@ -208,26 +260,3 @@ class Torques(FrozenFields):
         if not self.power_in or self.open_speeds or len(known) < len(powers):
             return None
         return max(known, default=Fraction(0)) / self.power_in
-
-    def to_dict(self) -> dict[str, Any]:
-        """Plain data for JSON."""
-        efficiency, circulating = self.efficiency, self.circulating
-        return {
-            "state": self.state,
-            "verdict": self.verdict.to_dict(),
-            "efficiency": None if efficiency is None else as_float(efficiency),
-            "circulating": None if circulating is None else as_float(circulating),
-            "links": {
-                link: {
-                    "torque": as_float(torque),
-                    "power": as_float(self.powers[link]) if link in self.speeds else None,
-                    "asked": link in self.asked,
-                }
-                for link, torque in self.external.items()
-            },
-            "held": [each.to_dict() for each in self.held],
-            "pairs": {name: pair.to_dict() for name, pair in self.pairs.items()},
-            "power_in": None if self.open_speeds else as_float(self.power_in),
-            "loss": None if self.open_speeds else as_float(self.loss),
-            "left_out": [each.to_dict() for each in self.left_out],
-        }

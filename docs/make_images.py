@@ -17,7 +17,6 @@ import geartrain
 from geartrain.drawing import law_figure, motion_figure, picture, power_figure, render, sphere_figure, teeth_figure
 from geartrain.dynamics.motion import MotionRun
 from geartrain.report.document import Document
-from geartrain.report.power_report import flow_of
 from geartrain.report.spherical_report import SphereAnswers
 from geartrain.report.text import to_terminal
 from geartrain.report.train_report import report_train
@@ -74,7 +73,7 @@ def pointers() -> None:
 def power() -> None:
     """The power that circulates in Norton's compound train."""
     train = geartrain.load("norton-compound")
-    figure = power_figure(flow_of(train, train.torques()), train.name)
+    figure = power_figure(train.power_flow(train.torques()), train.name)
     (IMAGES / "power.svg").write_bytes(render(figure, ".svg"))
     print("wrote docs/images/power.svg")
 

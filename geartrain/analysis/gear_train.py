@@ -41,7 +41,7 @@ from geartrain.train import GearPair, StateCase, Train, declare
 if TYPE_CHECKING:
     from geartrain.dynamics.gear_meshes import PinMesh
     from geartrain.dynamics.motion import Motion, MotionProblem, ToothImpact
-    from geartrain.dynamics.torques import LoadCase, Torques
+    from geartrain.dynamics.torques import DrivenWay, LoadCase, PowerFlow, Torques
     from geartrain.kinematics.graph import Graph
     from geartrain.kinematics.gridlock import Gridlock
     from geartrain.kinematics.phasing import MeshPhasing
@@ -256,6 +256,24 @@ class GearTrain:
         if setting is None:
             return Torques(state, TorqueVerdict("still", "the speeds of this state are not determined"))
         return drive(setting, load, source)
+
+    def drive_both_ways(self, state: str | None = None) -> list[DrivenWay]:
+        """The train driven from its input, and from its output, a unit of power leaving at the other.
+
+        Empty where it is not plain which link is the output.
+        """
+        from geartrain.dynamics.torques import DrivenWay, input_and_output
+
+        case = self.declaration.case(state if state is not None or not self.states else self.states[0])
+        found = input_and_output(self.declaration, case)
+        ways = [] if found is None else [found, found[::-1]]
+        return [DrivenWay(self.driven(load, source, state), source, load) for source, load in ways]
+
+    def power_flow(self, found: Torques) -> PowerFlow:
+        """The streams of power under some torques of this train."""
+        from geartrain.dynamics.torques import find_power_flow
+
+        return find_power_flow(self.declaration, self.tree, self.signs, found)
 
     def motion(
         self,

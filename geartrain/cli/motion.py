@@ -118,7 +118,7 @@ def _report(
     spectrum: bool,
 ) -> None:
     """The figures, into the second place where they are cut short."""
-    from geartrain.report.motion_report import motion_data, motion_document
+    from geartrain.report.motion_report import collect_motion, describe_motion
 
     work = asked.samples * (1 + phases + estimates + spectrum)
     stopped = False
@@ -136,9 +136,9 @@ def _report(
             stopped = True
     to = into[stopped]
     if json:
-        emit(as_json(motion_data(asked, *of)), to)
+        emit(as_json(collect_motion(asked, *of).to_dict()), to)
     else:
-        show([motion_document(asked)], to)
+        show([describe_motion(asked)], to)
     if stopped:
         tell(f"stopped after {asked.done} of {asked.samples} positions; the figures are of those")
         raise typer.Exit(INTERRUPTED)

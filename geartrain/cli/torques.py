@@ -43,7 +43,7 @@ def run(
 ) -> None:
     """Torques on links and pairs under the declared loads, flow of power and losses, efficiency there and back."""
     from geartrain.analysis.loader import load
-    from geartrain.report.power_report import torques_data, torques_document
+    from geartrain.report.power_report import collect_torque_report, describe_torques
 
     to = sink(out, force, (".md", ".html", ".json"))
     picture = sink(plot, force, PICTURES, "--plot")
@@ -55,10 +55,9 @@ def run(
     if plot is not None:
         _draw(train, list(found.values()), picture)
     if json or to.suffix == ".json":
-        data = [torques_data(train, each) for each in found.values()]
-        emit(as_json({"name": train.name, "title": train.declaration.title, "states": data}), to)
+        emit(as_json(collect_torque_report(train, list(found.values())).to_dict()), to)
     else:
-        show([torques_document(train, list(found.values()))], to)
+        show([describe_torques(train, list(found.values()))], to)
     raise typer.Exit(GOOD if sound else VERDICT)
 
 
@@ -66,7 +65,6 @@ def _draw(train: GearTrain, found: Sequence[Torques], picture: Sink) -> None:
     """The flow under the declared loads; without any, that of a unit of power from the input to the output."""
     from geartrain.drawing import power_figure
     from geartrain.dynamics.torques import watts_per_unit
-    from geartrain.report.power_report import flow_of, there_and_back
 
     loaded = [each for each in found if each.verdict.kind != "unloaded"] if len(found) > 1 else list(found)
     if len(loaded) != 1:
@@ -75,10 +73,10 @@ def _draw(train: GearTrain, found: Sequence[Torques], picture: Sink) -> None:
     (torques,) = loaded
     name = train.name if torques.state is None else f"{train.name}, state {torques.state}"
     watts = watts_per_unit(train.declaration, train.declaration.case(torques.state))
-    if torques.verdict.kind == "unloaded" and (ways := there_and_back(train, torques.state)):
+    if torques.verdict.kind == "unloaded" and (ways := train.drive_both_ways(torques.state)):
         torques, source, load = ways[0]
         name, watts = f"{name}, while a unit of power leaves at '{load}', driven from '{source}'", None
-    draw(power_figure(flow_of(train, torques), f"{name}: {_summary(torques)}", watts), picture)
+    draw(power_figure(train.power_flow(torques), f"{name}: {_summary(torques)}", watts), picture)
 
 
 def _summary(torques: Torques) -> str:

@@ -23,16 +23,26 @@ class Key:
     name   in the data; "" puts the keys of a part in among those of the whole
     of     the attribute, `part.attribute` for one of a part; by default that called `name`
     to     what is made of each number or object in it, at any depth; the kind of that is in its return annotation
+    keys   what is told of each object in it, where that is not what its class says
     """
 
     name: str
     of: str = ""
     to: Callable[[Any], Any] | None = None
+    keys: tuple[str | Key, ...] = ()
 
     @property
     def path(self) -> str:
-        """The attribute that is told."""
-        return self.of or self.name
+        """The attribute that is told; "" for the result itself."""
+        return "" if self.of == _ITSELF else self.of or self.name
+
+
+_ITSELF = "."
+
+
+def group(name: str, *keys: str | Key) -> Key:
+    """Keys of a result that stand in an object of their own."""
+    return Key(name, _ITSELF, keys=keys)
 
 
 class Result:
@@ -46,8 +56,8 @@ class Result:
         return _told(self)
 
 
-def plain(value: Any, to: Callable[[Any], Any] | None = None) -> Any:
-    """What JSON can hold of a value; `to` is applied to whatever in it is no mapping, list or None.
+def plain(value: Any, to: Callable[[Any], Any] | None = None, keys: tuple[str | Key, ...] = ()) -> Any:
+    """What JSON can hold of a value; `to` and `keys`, as in `Key`, are for whatever in it is no mapping, list or None.
 
     >>> plain({"ratio": Fraction(254, 19), "teeth": (20, 30)})
     {'ratio': '254/19', 'teeth': [20, 30]}
@@ -55,11 +65,11 @@ def plain(value: Any, to: Callable[[Any], Any] | None = None) -> Any:
     if value is None:
         return None
     if hasattr(value, "_asdict"):  # a named tuple
-        value = value._asdict()
+        return _told(value, keys) if keys else plain(value._asdict(), to)
     if isinstance(value, Mapping):
-        return {key: plain(each, to) for key, each in value.items()}
+        return {key: plain(each, to, keys) for key, each in value.items()}
     if isinstance(value, Sequence) and not isinstance(value, str):
-        return [plain(each, to) for each in value]
+        return [plain(each, to, keys) for each in value]
     if hasattr(value, "tolist"):  # an array, or one of its numbers
         return plain(value.tolist(), to)
     if to is not None:
@@ -72,14 +82,14 @@ def plain(value: Any, to: Callable[[Any], Any] | None = None) -> Any:
         return None  # float64 has no such number
     if hasattr(value, "model_dump"):  # a part of a declaration
         return value.model_dump(mode="json")
-    return value.to_dict() if hasattr(value, "to_dict") else _told(value)
+    return value.to_dict() if hasattr(value, "to_dict") and not keys else _told(value, keys)
 
 
-def _told(result: Any) -> dict[str, Any]:
+def _told(result: Any, keys: tuple[str | Key, ...] = ()) -> dict[str, Any]:
     kind: Any = type(result)
     found: dict[str, Any] = {}
-    for key, read in _readers(kind):
-        value = plain(read(result), key.to)
+    for key in whole(keys) if keys else keys_of(kind):
+        value = plain(attrgetter(key.path)(result) if key.path else result, key.to, key.keys)
         if key.name:
             found[key.name] = value
         else:
@@ -88,15 +98,16 @@ def _told(result: Any) -> dict[str, Any]:
 
 
 @cache
-def _readers(kind: Any) -> tuple[tuple[Key, Callable[[Any], Any]], ...]:
-    return tuple((key, attrgetter(key.path)) for key in keys_of(kind))
-
-
-def keys_of(kind: type) -> tuple[Key, ...]:
+def keys_of(kind: Any) -> tuple[Key, ...]:
     """The keys of a class's plain data, in order. Raises `TypeError` for a class that has none."""
     named: tuple[str | Key, ...] = getattr(kind, "KEYS", ())
     if not named and is_dataclass(kind):
         named = tuple(field.name for field in fields(kind))
     if not named:
         raise TypeError(f"{kind.__name__} has no plain data: it is no dataclass, and has no KEYS")
-    return tuple(each if isinstance(each, Key) else Key(each) for each in named)
+    return whole(named)
+
+
+def whole(keys: tuple[str | Key, ...]) -> tuple[Key, ...]:
+    """Keys, where a name stands for the attribute of that name."""
+    return tuple(each if isinstance(each, Key) else Key(each) for each in keys)

@@ -19,7 +19,7 @@ from types import ModuleType, NoneType, UnionType
 from typing import Annotated, Any, ForwardRef, Literal, NotRequired, Required, Union, get_args, get_origin, is_typeddict
 
 from geartrain.numerics.long_float import LongFloat
-from geartrain.numerics.plain_data import keys_of
+from geartrain.numerics.plain_data import Key, keys_of, whole
 
 Schema = dict[str, Any]
 
@@ -32,33 +32,41 @@ _LINE = re.compile(r"^    (\w+(?:, \w+)*)   *(\S.*(?:\n      .*)*)", re.MULTILIN
 """A line of a class's docstring that tells of fields, with those that go on with it."""
 
 
-def shape_of(kind: Any, to: Callable[[Any], Any] | None = None) -> Schema:
-    """The schema of values of a kind, told as plain data; `to` as in `Key`."""
+def shape_of(kind: Any, to: Callable[[Any], Any] | None = None, keys: tuple[str | Key, ...] = ()) -> Schema:
+    """The schema of values of a kind, told as plain data; `to` and `keys` as in `Key`."""
     origin, parts = get_origin(kind), get_args(kind)
     if origin in (Annotated, Required, NotRequired):
-        return shape_of(parts[0], to)
+        return shape_of(parts[0], to, keys)
     if origin in (Union, UnionType):
-        return _one_of([shape_of(part, None if part is NoneType else to) for part in parts])
-    if isinstance(origin, type) and issubclass(origin, Mapping):
-        return {"type": "object", "additionalProperties": shape_of(parts[1], to)}
-    if hasattr(kind, "_fields"):
+        return _one_of([_PLAIN[NoneType] if part is NoneType else shape_of(part, to, keys) for part in parts])
+    if hasattr(kind, "_fields") and not keys:  # a named tuple
         return _object({name: shape_of(_own_kind(kind, name), to) for name in kind._fields}, kind._fields, kind)
-    if origin is tuple and parts[-1:] != (...,):
-        size = len(parts)
-        return {"type": "array", "minItems": size, "maxItems": size, "items": _one_of([shape_of(p, to) for p in parts])}
-    if isinstance(origin, type) and hasattr(origin, "__iter__"):
-        return {"type": "array", "items": shape_of(parts[0], to)} if hasattr(origin, "__len__") else {"type": "array"}
+    if not isinstance(origin, type) or not hasattr(origin, "__iter__"):
+        return _of_one(kind, to, keys)
+    if not hasattr(origin, "__len__") or origin.__module__ == "numpy":
+        return {"type": "array"}
+    if issubclass(origin, Mapping):
+        return {"type": "object", "additionalProperties": shape_of(parts[1], to, keys)}
+    size = {} if origin is not tuple or parts[-1] is ... else {"minItems": len(parts), "maxItems": len(parts)}
+    items = _one_of([shape_of(part, to, keys) for part in parts if part is not ...])
+    return {"type": "array", **size, "items": items}
+
+
+def _of_one(kind: Any, to: Callable[[Any], Any] | None, keys: tuple[str | Key, ...]) -> Schema:
+    """The schema of what is no mapping, list or None."""
     if to is not None:
         return shape_of(to) if isinstance(to, type) or to in _PLAIN else shape_of(_returned(to))
-    if origin is Literal:
-        return {"enum": list(parts)}
+    if keys:
+        return _record(kind, whole(keys))
+    if get_origin(kind) is Literal:
+        return {"enum": list(get_args(kind))}
     if kind in _PLAIN:
         return _PLAIN[kind]
     if is_typeddict(kind):
         return _typed_dict(kind)
     if hasattr(kind, "model_json_schema"):
         return dict(kind.model_json_schema())
-    return _record(kind)
+    return _record(kind, keys_of(kind))
 
 
 def _typed_dict(kind: Any) -> Schema:
@@ -76,16 +84,17 @@ def _one_of(shapes: list[Schema]) -> Schema:
     return different[0] if len(different) == 1 else {"anyOf": different}
 
 
-def _record(kind: type) -> Schema:
+def _record(kind: type, keys: tuple[Key, ...]) -> Schema:
     """A result: its keys, and those of its parts that stand among them."""
     words = _words(kind)
     properties: dict[str, Schema] = {}
     required = []
-    for key in keys_of(kind):
-        shape = shape_of(attribute_kind(kind, key.path), key.to)
+    for key in keys:
+        shape = shape_of(attribute_kind(kind, key.path) if key.path else kind, key.to, key.keys)
         if not key.name:
-            properties |= shape["properties"]
-            required += shape["required"]
+            parts = [part for part in shape.get("anyOf", [shape]) if "properties" in part]
+            properties |= {name: each for part in parts for name, each in part["properties"].items()}
+            required += shape.get("required", ())  # keys of a part that may be None are not needed
             continue
         said = words.get(key.of) or words.get(key.name) or _summary(getattr(kind, key.path, None))
         properties[key.name] = ({"description": said} if said else {}) | shape

@@ -1,26 +1,29 @@
-"""What real teeth and pins do to outputs, as a page and as plain data."""
+"""What real teeth and pins do to outputs: as a page, and as figures for JSON."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
 from math import degrees
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, NamedTuple
 
 from geartrain.errors import GearTrainError
-from geartrain.numerics.exact import abridged_text, fraction_text
+from geartrain.numerics.exact import abridged_text
+from geartrain.numerics.plain_data import Key, Result
 from geartrain.report.document import Document, Section, Table, figure
 
 if TYPE_CHECKING:
     from geartrain.analysis.gear_train import GearTrain
     from geartrain.dynamics.motion import ErrorEstimates, MotionRun, RunningStatistics, SpectrumLine
-    from geartrain.teeth.gear_mesh import GearMesh
+    from geartrain.teeth.gear_mesh import GearMesh, MeshDriver
 
 
 _ABREAST = 8  # outputs side by side
 _TURNS, _POSITIONS = 20.0, 20_001  # of the run in a report
 
 
-def motion_document(run: MotionRun) -> Document:
+def describe_motion(run: MotionRun) -> Document:
     """Error and speed of each output of a run, and what else was asked of it."""
     train, period = run.motion.train, run.motion.period
     lead = [
@@ -63,15 +66,14 @@ def moving_sections(train: GearTrain) -> Iterator[Section]:
         yield Section("Motion", (_rigid(train.meshes),))
 
 
-def moving_data(train: GearTrain) -> list[dict[str, Any]]:
-    """Motion in every state as plain data; empty for a train of ideal teeth and pins without sizes."""
-    found = []
-    for state, run in _runs(train):
-        if isinstance(run, GearTrainError):
-            found.append({"name": train.name, "state": state, "error": str(run)})
-        else:
-            found.append(motion_data(run, train.name, state))
-    return found
+def moving_figures(train: GearTrain) -> tuple[MotionFigures | UnfollowedMotion, ...]:
+    """Motion in every state; empty for a train of ideal teeth and pins without sizes."""
+    return tuple(
+        UnfollowedMotion(train.name, state, str(run))
+        if isinstance(run, GearTrainError)
+        else collect_motion(run, train.name, state)
+        for state, run in _runs(train)
+    )
 
 
 def _runs(train: GearTrain) -> Iterator[tuple[str | None, MotionRun | GearTrainError]]:
@@ -153,7 +155,10 @@ def _phased(run: MotionRun) -> Section:
     rows = []
     for at, tally in enumerate(run.tallies):
         sets = [tallies[at] for tallies in run.phased]
-        peaks, rms = ([degrees(value) for value in values] for values in zip(*_sizes(sets), strict=True))
+        peaks, rms = (
+            [degrees(value) for value in values]
+            for values in zip(*((each.peak_to_peak, each.rms) for each in sets), strict=True)
+        )
         speeds = [each.speeds for each in sets]
         rows.append(
             (
@@ -168,10 +173,6 @@ def _phased(run: MotionRun) -> Section:
     return Section("Random phases", (text,), (Table(header, rows),))
 
 
-def _sizes(sets: list[RunningStatistics]) -> list[tuple[float, float]]:
-    return [(tally.peak_to_peak, tally.rms) for tally in sets]
-
-
 def _estimates(found: dict[str, ErrorEstimates]) -> Section:
     rows = []
     for name, each in found.items():
@@ -182,9 +183,8 @@ def _estimates(found: dict[str, ErrorEstimates]) -> Section:
             ("", "independent phases", "-", *_degrees(each.independent), "-", "-"),
         ]
         for how, superposed in (("superposed", each.nominal), ("superposed with lag", each.lagged)):
-            data = superposed.to_dict()
-            off = data["difference"]
-            rows.append(("", how, *_degrees(data["peak_to_peak"], data["rms"]), *_degrees(off["greatest"], off["rms"])))
+            own, off = superposed.own, superposed.off
+            rows.append(("", how, *_degrees(own.peak_to_peak, own.rms, superposed.greatest, off.rms)))
     header = ("output", "method", "error p-p (deg)", "rms (deg)", "greatest difference (deg)", "rms of it (deg)")
     text = "Cheap estimates beside the composed motion; the difference is pointwise, each about its own mean."
     return Section("Estimates", (text,), (Table(header, rows),))
@@ -209,44 +209,117 @@ def _spectrum(name: str, lines: list[SpectrumLine]) -> Section:
     return Section(f"Spectrum of {name}", (text,), (Table(header, rows),))
 
 
-def motion_data(run: MotionRun, name: str, state: str | None) -> dict[str, Any]:
-    """A run of a train, by name, in a state as plain data with stable keys; angles in rad.
+# ---------------------------------------------------------------------------------------------------------- plain data
 
-    What was not asked for is None.
+
+class PhaseRange(NamedTuple):
+    """Least and greatest error (rad) of one output over runs with other phases."""
+
+    peak_to_peak: tuple[float, float]
+    rms: tuple[float, float]
+
+
+class PhaseSets(NamedTuple):
+    """How many sets of random phases were tried, and their seed."""
+
+    sets: int
+    seed: int | None
+
+
+class PartialRun(NamedTuple):
+    """What was done of an interrupted run."""
+
+    done: int
+    of: int
+
+
+@dataclass(frozen=True)
+class OutputMotion:
+    """One output of a run; what was not asked for is None.
+
+    setting       by how much the pointer is turned on its wheels, so that at turn 0 its teeth do not displace it (rad)
+    sensitivity   radians of the output per radian of error of a pair's driven side, by pair
     """
-    motion, period = run.motion, run.motion.period
+
+    KEYS = (Key("", "tally"), "setting", "sensitivity", "phases", "estimates", "spectrum")
+
+    tally: RunningStatistics
+    setting: float
+    sensitivity: Mapping[str, float]
+    phases: PhaseRange | None
+    estimates: ErrorEstimates | None
+    spectrum: Sequence[SpectrumLine] | None
+
+
+@dataclass(frozen=True)
+class MotionFigures(Result):
+    """A run of a train in a state; angles in rad.
+
+    state         as it was named
+    input         the link whose turns are counted
+    period        turns after which everything repeats; None where nothing ripples
+    drivers       by pair that ripples
+    turned_back   pairs whose driver turns against its mean at times
+    rigid         pairs with real teeth that keep their ratio at every instant and add nothing
+    """
+
+    name: str
+    state: str | None
+    input: str
+    turns: float
+    positions: int
+    period: Fraction | None
+    drivers: Mapping[str, MeshDriver]
+    turned_back: Sequence[str]
+    rigid: Sequence[str]
+    outputs: Mapping[str, OutputMotion]
+    phases: PhaseSets | None
+    partial: PartialRun | None
+
+
+@dataclass(frozen=True)
+class UnfollowedMotion:
+    """A state in which the motion cannot be followed, and why."""
+
+    name: str
+    state: str | None
+    error: str
+
+
+def collect_motion(run: MotionRun, name: str, state: str | None) -> MotionFigures:
+    """A run of a train, by name, in a state."""
+    motion = run.motion
     used = {source.id for source in motion.ahead.used}
-    drivers = {name: driver.to_dict() for name, driver in motion.train.drivers.items() if name in used}
     composition = motion.ahead if run.turns >= 0 else motion.back
-    outputs: dict[str, Any] = {}
-    for at, tally in enumerate(run.tallies):
-        lines, estimates = run.spectra.get(tally.name), run.estimates.get(tally.name)
-        outputs[tally.name] = tally.to_dict() | {
-            "setting": motion.setting[tally.name],
-            "sensitivity": dict(motion.sensitivity[tally.name]),
-            "phases": _phases_data([tallies[at] for tallies in run.phased]),
-            "estimates": None if estimates is None else estimates.to_dict(),
-            "spectrum": None if lines is None else [line.to_dict() for line in lines],
-        }
-    return {
-        "name": name,
-        "state": state,
-        "input": motion.train.lead,
-        "turns": run.turns,
-        "positions": run.done,
-        "period": None if period is None else fraction_text(period),
-        "drivers": drivers,
-        "turned_back": sorted(composition.turned_back),
-        "rigid": [mesh.name for mesh in motion.train.rigid],
-        "outputs": outputs,
-        "phases": {"sets": len(run.phased), "seed": run.seed} if run.phased else None,
-        "partial": {"done": run.done, "of": run.samples} if run.done < run.samples else None,
+    outputs = {
+        tally.name: OutputMotion(
+            tally,
+            motion.setting[tally.name],
+            motion.sensitivity[tally.name],
+            _phase_range([tallies[at] for tallies in run.phased]),
+            run.estimates.get(tally.name),
+            run.spectra.get(tally.name),
+        )
+        for at, tally in enumerate(run.tallies)
     }
+    return MotionFigures(
+        name,
+        state,
+        input=motion.train.lead,
+        turns=run.turns,
+        positions=run.done,
+        period=motion.period,
+        drivers={pair: driver for pair, driver in motion.train.drivers.items() if pair in used},
+        turned_back=sorted(composition.turned_back),
+        rigid=[mesh.name for mesh in motion.train.rigid],
+        outputs=outputs,
+        phases=PhaseSets(len(run.phased), run.seed) if run.phased else None,
+        partial=PartialRun(run.done, run.samples) if run.done < run.samples else None,
+    )
 
 
-def _phases_data(tallies: list[RunningStatistics]) -> dict[str, Any] | None:
-    """Least and greatest of one output over runs with other phases."""
+def _phase_range(tallies: list[RunningStatistics]) -> PhaseRange | None:
     if not tallies:
         return None
-    peaks, rms = zip(*_sizes(tallies), strict=True)
-    return {"peak_to_peak": [min(peaks), max(peaks)], "rms": [min(rms), max(rms)]}
+    peaks, rms = zip(*((tally.peak_to_peak, tally.rms) for tally in tallies), strict=True)
+    return PhaseRange((min(peaks), max(peaks)), (min(rms), max(rms)))

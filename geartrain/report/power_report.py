@@ -1,18 +1,20 @@
-"""Torques, flow of power and losses of a train, as sections and as plain data."""
+"""Torques, flow of power and losses of a train: as sections, and as figures for JSON."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, NamedTuple
 
 from geartrain.analysis.gear_train import GearTrain
-from geartrain.numerics.exact import as_float, fraction_text
+from geartrain.numerics.exact import as_float
+from geartrain.numerics.plain_data import Key, Result
 from geartrain.report.document import Document, Section, Table, cut, figure
 
 if TYPE_CHECKING:
-    from geartrain.dynamics.torques import PowerFlow, Torques
+    from geartrain.dynamics.torques.power_flow import PowerFlow, PowerLoss
+    from geartrain.dynamics.torques.torque_results import Torques, TorqueVerdict
 
 _UNITS = (
     "Torques as loads are given; power is torque times speed in the train's unit, positive into the train; in a pair, "
@@ -24,7 +26,7 @@ _UNITS_IN_WATTS = (
 )
 
 
-def torques_document(train: GearTrain, found: Sequence[Torques]) -> Document:
+def describe_torques(train: GearTrain, found: Sequence[Torques]) -> Document:
     """Torques under the declared loads, one answer a state, and the efficiency there and back."""
     sections = [section for each in found for section in torque_sections(train, each)]
     lead = [f"Train '{train.name}'. {_units(train, found)}"]
@@ -39,9 +41,9 @@ def loaded_sections(train: GearTrain) -> Iterator[Section]:
         yield section if at else replace(section, paragraphs=(_units(train, found), *section.paragraphs))
 
 
-def loaded_data(train: GearTrain) -> list[dict[str, Any]]:
+def loaded_figures(train: GearTrain) -> tuple[TorqueFigures, ...]:
     """Torques of all states with loads or friction of bearings as plain data."""
-    return [torques_data(train, each) for each in _loaded(train)]
+    return tuple(collect_torques(train, each) for each in _loaded(train))
 
 
 def _loaded(train: GearTrain) -> Iterator[Torques]:
@@ -75,7 +77,7 @@ def torque_sections(train: GearTrain, found: Torques) -> Iterator[Section]:
         lines.append(f"Torque needed, with the friction of bearings: {needed}{uncounted_words(found)}.")
     tables = [_links(found, amounts), *_held(found), _pairs(found, amounts)]
     yield Section(head, lines, tuple(tables))
-    flow = flow_of(train, found)
+    flow = train.power_flow(found)
     parts = tuple(_loops(flow, amounts)), tuple(_losses(flow, amounts, _blows(train, found)))
     if any(parts):
         yield Section("Flow of power" if state is None else f"State {state}: flow of power", *parts)
@@ -84,13 +86,6 @@ def torque_sections(train: GearTrain, found: Torques) -> Iterator[Section]:
 def _blows(train: GearTrain, found: Torques) -> Mapping[str, float]:
     """What the collisions of each pair dissipate (W), where inertias and a rate are declared."""
     return {pair: impact.power for pair, impact in train.impacts(found.state).items()}
-
-
-def flow_of(train: GearTrain, found: Torques) -> PowerFlow:
-    """The streams of power under some torques of a train."""
-    from geartrain.dynamics.torques import find_power_flow
-
-    return find_power_flow(train.declaration, train.tree, train.signs, found)
 
 
 class _Amounts:
@@ -218,50 +213,11 @@ def _loss_row(flow: PowerFlow, amounts: _Amounts, lost: Fraction, blow: float | 
     return (amounts.text(lost), *parts, watts_text(blow), percent_text(Fraction(blow / whole)) if whole else "-")
 
 
-def losses_data(flow: PowerFlow, blows: Mapping[str, float]) -> list[dict[str, Any]]:
-    """Losses by pair and bearing as plain data; `impact` (W) where collisions are known."""
-    found = []
-    for node, lost in flow.losses.items():
-        item: dict[str, Any] = {
-            "kind": node.kind,
-            "name": node.name,
-            "power": as_float(lost),
-            "of_power_in": as_float(lost / flow.power_in) if flow.power_in else None,
-            "of_loss": as_float(lost / flow.loss),
-        }
-        if node.kind == "pair" and node.name in blows:
-            item["impact"] = blows[node.name]
-        found.append(item)
-    return found
-
-
 # ------------------------------------------------------------------------------------------------------ there and back
 
 
-def input_and_output(train: GearTrain, state: str | None) -> tuple[str, str] | None:
-    """The one input and the one link that power leaves by: an output, loaded or alone; None if that is not plain."""
-    case = train.declaration.case(state if state is not None or not train.states else train.states[0])
-    if len(case.inputs) != 1:
-        return None
-    source = train.declaration.crank or next(iter(case.inputs))
-    links = dict.fromkeys(output.of or name for name, output in case.outputs.items())
-    loads = [link for link in case.loads if link != source]
-    chosen = loads if len(loads) == 1 else [link for link in links if link != source]
-    return (source, chosen[0]) if len(chosen) == 1 else None
-
-
-def there_and_back(train: GearTrain, state: str | None) -> list[tuple[Torques, str, str]]:
-    """Torques driven from the input, and driven back from the output, each with where power enters and leaves.
-
-    A unit of power leaves; empty where it is not plain which link is the output.
-    """
-    found = input_and_output(train, state)
-    ways = [] if found is None else [found, found[::-1]]
-    return [(train.driven(load, source, state), source, load) for source, load in ways]
-
-
 def _there_and_back(train: GearTrain, state: str | None) -> Iterator[str]:
-    for torques, first, last in there_and_back(train, state):
+    for torques, first, last in train.drive_both_ways(state):
         efficiency = torques.efficiency
         if torques.verdict.kind == "self-locking":
             yield f"'{last}' cannot be driven from '{first}': the train locks."
@@ -270,24 +226,92 @@ def _there_and_back(train: GearTrain, state: str | None) -> Iterator[str]:
             yield f"Efficiency from '{first}' to '{last}': {figure(efficiency, 10)}{word}{uncounted_words(torques)}."
 
 
-def torques_data(train: GearTrain, found: Torques) -> dict[str, Any]:
-    """Torques of one state as plain data with stable keys."""
-    ways = zip(("forward", "backward"), there_and_back(train, found.state), strict=False)
-    drives = {name: _drive_data(each) for name, (each, _, _) in ways}
-    flow, watts = flow_of(train, found), _watts(train, found)
-    return found.to_dict() | {
-        "drives": drives or None,
-        "watts_per_unit": watts,
-        "losses": losses_data(flow, _blows(train, found)),
-        "flow": flow.to_dict(),
-    }
+# ---------------------------------------------------------------------------------------------------------- plain data
 
 
-def _drive_data(found: Torques) -> dict[str, Any]:
-    efficiency: Fraction | None = found.efficiency if found.verdict else None
-    return {
-        "verdict": found.verdict.to_dict(),
-        "efficiency": None if efficiency is None else as_float(efficiency),
-        "exact": None if efficiency is None else fraction_text(efficiency),
-        "left_out": [each.to_dict() for each in found.left_out],
-    }
+class Impact(NamedTuple):
+    """Power (W) that the collisions of a pair dissipate."""
+
+    impact: float
+
+
+@dataclass(frozen=True)
+class LossFigures:
+    """What a pair or bearing loses; of a pair whose collisions are known, their `impact`."""
+
+    KEYS = (Key("", "loss"), Key("", "collisions"))
+
+    loss: PowerLoss
+    collisions: Impact | None
+
+
+@dataclass(frozen=True)
+class DrivenFigures:
+    """The efficiency of a train driven one way; None where it is not determined."""
+
+    KEYS = ("verdict", Key("efficiency", to=as_float), Key("exact", "efficiency"), Key("left_out", "torques.left_out"))
+
+    torques: Torques
+
+    @property
+    def verdict(self) -> TorqueVerdict:
+        """Whether the train can be driven so."""
+        return self.torques.verdict
+
+    @property
+    def efficiency(self) -> Fraction | None:
+        """Power out over power in; None where it is not determined."""
+        return self.torques.efficiency if self.verdict else None
+
+
+class DrivenWays(NamedTuple):
+    """Driven from the input, and from the output."""
+
+    forward: DrivenFigures
+    backward: DrivenFigures
+
+
+@dataclass(frozen=True)
+class TorqueFigures(Result):
+    """Torques, flow of power and losses of one state.
+
+    drives           None where it is not plain which link is the output
+    watts_per_unit   None where torques or speeds are plain numbers
+    """
+
+    KEYS = (Key("", "torques"), "drives", "watts_per_unit", "losses", "flow")
+
+    torques: Torques
+    drives: DrivenWays | None
+    watts_per_unit: float | None
+    losses: tuple[LossFigures, ...]
+    flow: PowerFlow
+
+
+@dataclass(frozen=True)
+class TorqueReport(Result):
+    """Torques of a train in every state that was asked for."""
+
+    name: str
+    title: str
+    states: tuple[TorqueFigures, ...]
+
+
+def collect_torque_report(train: GearTrain, found: Sequence[Torques]) -> TorqueReport:
+    """Torques of some states."""
+    return TorqueReport(train.name, train.declaration.title, tuple(collect_torques(train, each) for each in found))
+
+
+def collect_torques(train: GearTrain, found: Torques) -> TorqueFigures:
+    """Torques of one state, with the flow of power and the efficiency there and back."""
+    flow, blows, ways = train.power_flow(found), _blows(train, found), train.drive_both_ways(found.state)
+    struck = {name: Impact(power) for name, power in blows.items()}
+    return TorqueFigures(
+        found,
+        DrivenWays(*(DrivenFigures(way.torques) for way in ways)) if ways else None,
+        _watts(train, found),
+        tuple(
+            LossFigures(loss, struck.get(loss.node.name) if loss.node.kind == "pair" else None) for loss in flow.shares
+        ),
+        flow,
+    )

@@ -17,6 +17,8 @@ if TYPE_CHECKING:
     from geartrain.kinematics.judged_outputs import Sensitivity
     from geartrain.kinematics.phasing import MeshPhasing
     from geartrain.kinematics.speeds import Mobility
+    from geartrain.report.motion_report import MotionFigures, UnfollowedMotion
+    from geartrain.report.power_report import TorqueFigures
     from geartrain.train.states import Erratum
 
 _MOST_LINKS = 500  # of a train whose adjacency is told
@@ -63,26 +65,6 @@ class StateSensitivity:
 
 
 @dataclass(frozen=True)
-class CircuitFigures:
-    """A fundamental circuit: a gear pair or coupling, its bodies and carrier, its ratio (w_i - w_k)/(w_j - w_k)."""
-
-    KEYS = tuple(
-        Key(name, f"circuit.{name}") for name in ("id", "kind", "i", "j", "carrier", "wheels", "ratio", "note")
-    )
-
-    circuit: Circuit
-
-
-@dataclass(frozen=True)
-class TrainRemark:
-    """A note on a sound declaration."""
-
-    KEYS = tuple(Key(name, f"problem.{name}") for name in ("place", "what", "why"))
-
-    problem: Problem
-
-
-@dataclass(frozen=True)
 class TrainReport(TrainAnswers):
     """All that a report on a train holds.
 
@@ -95,17 +77,24 @@ class TrainReport(TrainAnswers):
     motion      of every state of a train with real teeth or pins; where it cannot be followed, the `error`
     """
 
+    KEYS = (
+        *("name", "title", "unit", "mobility", "states", "gridlock", "closure", "sources"),
+        Key("circuits", keys=("id", "kind", "i", "j", "carrier", "wheels", "ratio", "note")),
+        *("adjacency", Key("remarks", keys=("place", "what", "why")), "sensitivity"),
+        *("teeth", "pins", "torques", "motion", "errata"),
+    )
+
     gridlock: Gridlock
     closure: MeshPhasing | None
     sources: Mapping[str, str]
-    circuits: tuple[CircuitFigures, ...]
+    circuits: tuple[Circuit, ...]
     adjacency: AdjacencyLetters | None
-    remarks: tuple[TrainRemark, ...]
+    remarks: tuple[Problem, ...]
     sensitivity: tuple[StateSensitivity, ...]
     teeth: list[Any]
     pins: list[Any]
-    torques: list[Any]
-    motion: list[Any]
+    torques: tuple[TorqueFigures, ...]
+    motion: tuple[MotionFigures | UnfollowedMotion, ...]
     errata: tuple[Erratum, ...]
 
 
@@ -118,8 +107,8 @@ def collect_report(train: GearTrain) -> TrainReport:
     """Everything a report holds: answers, structure, teeth, torques, motion, doubts and errata."""
     from geartrain.kinematics.graph import adjacency_labels
     from geartrain.report.gear_pairs import teeth_data
-    from geartrain.report.motion_report import moving_data
-    from geartrain.report.power_report import loaded_data
+    from geartrain.report.motion_report import moving_figures
+    from geartrain.report.power_report import loaded_figures
 
     declared, small = train.declaration, len(train.declaration.links) <= _MOST_LINKS
     answers = tuple(train.answers())
@@ -129,12 +118,12 @@ def collect_report(train: GearTrain) -> TrainReport:
         gridlock=train.gridlock,
         closure=train.closure if train.is_placed else None,
         sources={key: source.cite for key, source in declared.sources.items()},
-        circuits=tuple(map(CircuitFigures, train.circuits)),
+        circuits=train.circuits,
         adjacency=AdjacencyLetters(tuple(train.graph), adjacency_labels(train.graph)) if small else None,
-        remarks=tuple(map(TrainRemark, train.remarks)),
+        remarks=train.remarks,
         sensitivity=tuple(StateSensitivity(answer.state, change) for answer, change in doubts),
         **teeth_data(train),
-        torques=loaded_data(train),
-        motion=moving_data(train),
+        torques=loaded_figures(train),
+        motion=moving_figures(train),
         errata=tuple(declared.errata),
     )

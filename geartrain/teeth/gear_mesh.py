@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, Protocol, Self
 
+from geartrain.numerics.plain_data import Key, Result
 from geartrain.teeth.transmission import ExactRatio
 
 if TYPE_CHECKING:
@@ -76,19 +77,17 @@ class PairVerdict(Protocol):
 
 
 @dataclass(frozen=True)
-class MeshDriver:
+class MeshDriver(Result):
     """The wheel that drives a gear pair (of a coupling, the link), and how that is known.
 
     known   False where the way of power is not determined: `wheel` is then taken to go on with, and no more
     """
 
+    KEYS = (Key("driver", "wheel"), Key("driver_is", "why"), Key("determined", "known"))
+
     wheel: str
     why: str
     known: bool = True
-
-    def to_dict(self) -> dict[str, Any]:
-        """Plain data for JSON."""
-        return {"driver": self.wheel, "driver_is": self.why, "determined": self.known}
 
 
 _CONTRATE = "the contrate is taken for a spur wheel"

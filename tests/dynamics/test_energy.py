@@ -21,7 +21,6 @@ from reference_solver import find_carrier as carrier_of
 
 from geartrain import GearTrain, GearTrainError, load, shipped
 from geartrain.dynamics.torques import LoadedPair, TorqueBalance, Torques, find_flow_patterns
-from geartrain.report.power_report import flow_of, there_and_back
 from geartrain.teeth.transmission import TransmissionFunction
 from geartrain.train.mechanism import Efficiencies
 
@@ -82,7 +81,7 @@ def require_no_energy(train: GearTrain, found: Torques) -> None:
         assert sum(found.powers.values()) == lost
     if found.efficiency is not None:
         assert 0 <= found.efficiency <= 1
-    assert all(loss > 0 for loss in flow_of(train, found).losses.values())
+    assert all(loss > 0 for loss in train.power_flow(found).losses.values())
 
 
 def states(train: GearTrain) -> tuple[str | None, ...]:
@@ -93,7 +92,7 @@ def asked(train: GearTrain) -> Iterator[Torques]:
     """Under the declared loads, and driven from each end to the other."""
     for state in states(train):
         yield train.torques(state)
-        yield from (way for way, _, _ in there_and_back(train, state))
+        yield from (way for way, _, _ in train.drive_both_ways(state))
 
 
 # ------------------------------------------------------------------------------------------------------- shipped trains

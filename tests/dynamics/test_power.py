@@ -24,6 +24,7 @@ from geartrain.dynamics.torques import (
     PowerFlow,
     PowerNode,
     Torques,
+    input_and_output,
     percent_of_text,
     percent_text,
     watts_per_unit,
@@ -31,12 +32,9 @@ from geartrain.dynamics.torques import (
 )
 from geartrain.report.document import Document
 from geartrain.report.power_report import (
-    flow_of,
-    input_and_output,
-    there_and_back,
+    collect_torques,
+    describe_torques,
     torque_sections,
-    torques_data,
-    torques_document,
 )
 from geartrain.report.text import to_markdown
 
@@ -99,9 +97,9 @@ def states(train: GearTrain) -> tuple[str | None, ...]:
 def flows(train: GearTrain) -> Iterator[tuple[Torques, PowerFlow]]:
     """Under the declared loads, and driven from each end to the other."""
     for state in states(train):
-        for found in (train.torques(state), *(way for way, _, _ in there_and_back(train, state))):
+        for found in (train.torques(state), *(way for way, _, _ in train.drive_both_ways(state))):
             if found.verdict and not any(pair.loose for pair in found.pairs.values()):
-                yield found, flow_of(train, found)
+                yield found, train.power_flow(found)
 
 
 def require_balance(found: Torques, flow: PowerFlow) -> None:
@@ -154,7 +152,7 @@ def lossy(name: str) -> GearTrain:
 
 
 def load_of(train: GearTrain, state: str | None) -> dict[str, str]:
-    found = input_and_output(train, state)
+    found = input_and_output(train.declaration, train.declaration.case(state))
     speed = Fraction(train.solve(state).speeds[found[1]]) if found else Fraction(0)
     return {found[1]: str(-1 if speed > 0 else 1)} if found and speed else {}
 
@@ -211,7 +209,7 @@ def test_two_planetaries_in_any_arrangement_balance(z: list[int], eta: list[int]
     )
     found = train.torques()
     if found.verdict:
-        require_balance(found, flow_of(train, found))
+        require_balance(found, train.power_flow(found))
 
 
 # -------------------------------------------------------------------------------------------------------- known answers
@@ -225,7 +223,7 @@ def power(flow: PowerFlow, source: tuple[str, str], target: tuple[str, str]) -> 
 def test_half_the_power_of_this_planetary_goes_by_the_planet() -> None:
     """Sun at 7, arm at 2, planet at -14/3: torques 24, -42 and 18 to one another, so powers 168, -84 and -84."""
     train = load("planetary-24-18-60")
-    flow = flow_of(train, train.driven("carrier", "sun"))
+    flow = train.power_flow(train.driven("carrier", "sun"))
     assert power(flow, ("shaft", "sun"), ("pair", "s~p")) == 1
     assert power(flow, ("pair", "s~p"), ("shaft", "planet")) == Fraction(1, 2)
     assert power(flow, ("pair", "s~p"), ("shaft", "carrier")) == Fraction(1, 2)
@@ -236,7 +234,7 @@ def test_half_the_power_of_this_planetary_goes_by_the_planet() -> None:
 def test_power_circulates_in_the_compound_train_of_norton() -> None:
     train = load("norton-compound")
     found = train.torques()
-    flow = flow_of(train, found)
+    flow = train.power_flow(found)
     assert found.efficiency == Fraction(1250, 17117)
     (loop,) = flow.loops
     assert set(loop.pairs) == {"a82~b84", "c86~d82", "e82~f84"}
@@ -249,7 +247,7 @@ def test_power_circulates_in_the_compound_train_of_norton() -> None:
 
 def test_links_that_turn_together_are_one_shaft() -> None:
     train = load("extends: planetary\nloads: {carrier: -1}\n")
-    flow = flow_of(train, train.torques("direct drive"))
+    flow = train.power_flow(train.torques("direct drive"))
     shaft = PowerNode("shaft", "sun + carrier")
     assert [(stream.source, stream.target) for stream in flow.streams] == [
         (PowerNode("in", "sun"), shaft),
@@ -259,7 +257,7 @@ def test_links_that_turn_together_are_one_shaft() -> None:
 
 def test_a_bearing_on_a_carrier_takes_from_both() -> None:
     train = load(RUBBING_PLANET)
-    flow = flow_of(train, train.torques())
+    flow = train.power_flow(train.torques())
     bearing = PowerNode("bearing", "planet")
     taken = {stream.source.name: stream.power for stream in flow.streams if stream.target == bearing}
     # planet at -2/3, carrier at 2/7, rubbing with 1/2
@@ -290,7 +288,7 @@ def test_two_loops_that_share_no_shaft_are_told_apart() -> None:
         }
     )  # fmt: skip
     found = train.torques()
-    flow = flow_of(train, found)
+    flow = train.power_flow(found)
     require_balance(found, flow)
     assert {loop.pairs for loop in flow.loops} == {("a~b", "c~d", "e~f"), ("ax~bx", "cx~dx", "ex~fx")}
     assert flow.loops[0].power >= flow.loops[1].power
@@ -300,7 +298,7 @@ def test_what_is_shared_in_no_certain_way_has_no_flow() -> None:
     train = load(SHARED)
     found = train.torques()
     assert found.verdict.kind == "indeterminate"
-    assert flow_of(train, found).streams == ()
+    assert train.power_flow(found).streams == ()
 
 
 # -------------------------------------------------------------------------------------------------------------- amounts
@@ -370,7 +368,7 @@ outputs: {third: {}}
 
 
 def page(train: GearTrain) -> str:
-    return to_markdown([torques_document(train, [train.torques(state) for state in states(train)])])
+    return to_markdown([describe_torques(train, [train.torques(state) for state in states(train)])])
 
 
 def rows(text: str, first: str) -> list[list[str]]:
@@ -429,7 +427,7 @@ def test_collisions_stand_beside_sliding() -> None:
     assert table[0] == ["where", "sliding", "of power in", "of all sliding", "impact", "of power in"]
     law = train.meshes[0].law
     energy = law.impact((4 + 7 * (24 / 40) ** 2) * 1e-7, 2 * pi * 3)[1]
-    data = torques_data(train, found)["losses"]
+    data = collect_torques(train, found).to_dict()["losses"]
     assert data[0]["impact"] == pytest.approx(energy * 3 * 20, rel=1e-12)
     assert {loss["name"] for loss in data} == {"a~b", "c~d"}
     assert table[-1][4] == watts_text(sum(loss["impact"] for loss in data))
@@ -476,12 +474,12 @@ def test_every_key_is_documented() -> None:
     part = text[text.index("## torques --json") :]
     part = part[: part.index("\n## ", 5)]
     train = load(REVERSE)
-    data = torques_data(train, train.torques("R"))
+    data = collect_torques(train, train.torques("R")).to_dict()
     assert "`torques`" in text[: text.index("## compare --json")]
     for key in [*data, *data["flow"], *data["flow"]["loops"][0], *data["flow"]["streams"][0]]:
         assert f"`{key}`" in part, key
     train = load(CLOCK)
-    data = torques_data(train, train.torques())
+    data = collect_torques(train, train.torques()).to_dict()
     for key in (*data["losses"][0], "impact"):
         assert f"`{key}`" in part, key
     assert json.loads(json.dumps(data, allow_nan=False)) == data
@@ -495,7 +493,7 @@ def drawn(name: str, state: str | None) -> tuple[PowerFlow, Any]:
     from geartrain.drawing import power_figure
 
     train = load(TRAINS[name])
-    flow = flow_of(train, train.torques(state))
+    flow = train.power_flow(train.torques(state))
     return flow, power_figure(flow, f"{name}: how its power flows")
 
 
@@ -543,7 +541,7 @@ def test_bands_are_as_wide_as_their_powers_and_fill_their_nodes(name: str, state
     from geartrain.drawing.sankey import lay_out_sankey
 
     train = load(TRAINS[name])
-    flow = flow_of(train, train.torques(state))
+    flow = train.power_flow(train.torques(state))
     placed = lay_out_sankey(flow, lambda node, power: 0.5, lambda node, power: 0.4, 9.0)
     assert placed.width >= 9.0 - 1e-9
     pieces = [piece for band in placed.bands for piece in band] + [turn.piece for turn in placed.turns]

@@ -21,7 +21,7 @@ from strategies import Data, trains
 
 from geartrain import GearTrain, load
 from geartrain.dynamics.torques import Torques
-from geartrain.report.power_report import torques_data, torques_document
+from geartrain.report.power_report import collect_torques, describe_torques
 from geartrain.report.text import to_markdown
 from geartrain.report.train_report import report_train
 
@@ -285,11 +285,11 @@ def test_a_closed_clutch_and_a_brake_show_what_they_carry(tmp_path: Path) -> Non
     brake, lock = found.held
     assert (lock.links, lock.clutch, lock.torques) == (("a", "b"), "K", (-200, 200))
     assert (brake.links, brake.clutch, brake.torques) == (("c",), "S", (-30,))
-    page = to_markdown([torques_document(train, [found])])
+    page = to_markdown([describe_torques(train, [found])])
     assert "| lock K  | a, b | -200         | 200           |" in page
     assert "| brake S | c    | -30          |               |" in page
     assert "lock K" in to_markdown([report_train(train)])
-    data = torques_data(train, found)
+    data = collect_torques(train, found).to_dict()
     assert data["held"] == [
         {"links": ["c"], "clutch": "S", "cause": None, "torques": {"c": -30.0}},
         {"links": ["a", "b"], "clutch": "K", "cause": None, "torques": {"a": -200.0, "b": 200.0}},

@@ -14,7 +14,7 @@ from jsonschema import Draft202012Validator
 
 from geartrain import load, shipped
 from geartrain.report.json_schema import ANSWERS, answer_schema
-from geartrain.report.power_report import torques_data
+from geartrain.report.power_report import collect_torques
 
 ONE_STATE = RIGHT.replace("inputs: {a: 1}", "states: {only: {inputs: {a: 1}}}")
 TWO_STATES = RIGHT.replace("inputs: {a: 1}", "states: {only: {inputs: {a: 1}}, other: {inputs: {b: 1}}}").replace(
@@ -98,7 +98,7 @@ def test_reports_speeds_and_torques_of_every_shipped_train_hold(name: str) -> No
     holds("report", report)
     train = load(name)
     holds("solve", data("solve", name, "--json"))
-    states = [torques_data(train, train.torques(state)) for state in train.states or (None,)]
+    states = [collect_torques(train, train.torques(state)).to_dict() for state in train.states or (None,)]
     holds("torques", {"name": name, "title": "", "states": json.loads(json.dumps(states))})
     (entry,) = report
     assert [each["state"] for each in entry["states"]] == list(train.states or (None,))

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
 from math import gcd, lcm, pi
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -18,6 +18,7 @@ from geartrain.dynamics.motion.run_statistics import RunningStatistics, mean_spe
 from geartrain.errors import GearTrainError, Problem, QuestionError
 from geartrain.kinematics.circuits import Circuit
 from geartrain.numerics.exact import log10
+from geartrain.numerics.plain_data import Key, Result
 from geartrain.teeth.transmission import ConstantLag
 
 if TYPE_CHECKING:
@@ -33,12 +34,14 @@ _HALVINGS = 54  # of four pitches: the driver's start is found from its driven w
 
 
 @dataclass(frozen=True)
-class TransmissionErrorCurve:
+class TransmissionErrorCurve(Result):
     """What real teeth and pins do to one output over the positions asked for.
 
     ratio   exact mean speed over the input's
     error   transmission error (rad): angle less its mean motion; `speed` over the input's, both by position
     """
+
+    KEYS = (Key("", "tally"),)
 
     name: str
     ratio: Fraction
@@ -66,10 +69,6 @@ class TransmissionErrorCurve:
     def rms(self) -> float:
         """Root mean square of the error about its mean (rad)."""
         return self.tally.rms
-
-    def to_dict(self) -> dict[str, Any]:
-        """Plain data for JSON."""
-        return self.tally.to_dict()
 
 
 class Motion:

@@ -10,13 +10,13 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from geartrain.dynamics.motion.error_composition import InputPhase
 from geartrain.dynamics.motion.superposition import Superposition
-from geartrain.numerics.exact import fraction_text
+from geartrain.numerics.plain_data import Key, Result
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -31,29 +31,28 @@ _HARMONICS = 24  # of each pair that are looked at
 _FAINT = 1e-6  # of the strongest line
 
 
+class HarmonicShare(NamedTuple):
+    """A harmonic of a pair, and the amplitude (rad) it has in an output to first order."""
+
+    pair: str
+    harmonic: int
+    amplitude: float
+
+
 @dataclass(frozen=True)
-class SpectrumLine:
+class SpectrumLine(Result):
     """One order: periods per turn of the input; the pairs and harmonics that fall on it.
 
     expected   amplitude (rad) to first order, all pairs of this order together; `shares` by pair
     measured   amplitude (rad) in the composed motion
     """
 
+    KEYS = (Key("order", to=float), Key("exact", "order"), "expected", "measured", Key("pairs", "shares"))
+
     order: Fraction
-    shares: tuple[tuple[str, int, float], ...]
+    shares: tuple[HarmonicShare, ...]
     expected: float
     measured: float
-
-    def to_dict(self) -> dict[str, Any]:
-        """Plain data for JSON."""
-        pairs = [{"pair": pair, "harmonic": harmonic, "amplitude": share} for pair, harmonic, share in self.shares]
-        return {
-            "order": float(self.order),
-            "exact": fraction_text(self.order),
-            "expected": self.expected,
-            "measured": self.measured,
-            "pairs": pairs,
-        }
 
 
 def find_spectrum(
@@ -102,7 +101,10 @@ def _expected(superposed: Superposition, harmonics: list[Complex], output: int, 
             phasors.setdefault(k * source.cycles, []).append(line)
     lines = [
         SpectrumLine(
-            order, tuple((pair, k, abs(phasor)) for pair, k, phasor in parts), abs(sum(p for _, _, p in parts)), 0.0
+            order,
+            tuple(HarmonicShare(pair, k, abs(phasor)) for pair, k, phasor in parts),
+            abs(sum(p for _, _, p in parts)),
+            0.0,
         )
         for order, parts in phasors.items()
     ]

@@ -11,12 +11,13 @@ from __future__ import annotations
 from dataclasses import dataclass
 from fractions import Fraction
 from math import inf, sqrt
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from geartrain.errors import Problem, RangeError
-from geartrain.numerics.exact import as_float, fraction_text, log10
+from geartrain.numerics.exact import as_float, log10
+from geartrain.numerics.plain_data import Key, Result, group
 
 if TYPE_CHECKING:
     from geartrain.dynamics.motion.error_composition import ErrorComposition, ErrorSamples
@@ -33,14 +34,24 @@ def mean_speed(name: str, ratio: Fraction) -> float:
     return found
 
 
+class SpeedSpan(NamedTuple):
+    """Least and greatest speed over the mean (over the input's where that is 0), and the mean over the input's."""
+
+    min: float
+    max: float
+    mean: float
+
+
 @dataclass
-class RunningStatistics:
+class RunningStatistics(Result):
     """Error (rad) and speed of one output over all positions seen so far.
 
     ratio                exact mean speed over the input's
     centre, square       mean of the error, and the sum of its squared differences from it
     least, most          error; `slow`, `fast`, speed less its mean
     """
+
+    KEYS = (group("transmission_error", "peak_to_peak", "rms"), Key("speed", "speed_span"), "ratio")
 
     name: str
     ratio: Fraction
@@ -84,20 +95,16 @@ class RunningStatistics:
         return sqrt(self.square / self.count)
 
     @property
+    def speed_span(self) -> SpeedSpan:
+        """Least, greatest and mean speed."""
+        return SpeedSpan(*self.speeds, self.mean)
+
+    @property
     def speeds(self) -> tuple[float, float]:
         """Least and greatest speed over the mean, or over the input's where the mean is 0."""
         scale = self.mean or 1.0
         low, high = sorted(((self.mean + self.slow) / scale, (self.mean + self.fast) / scale))
         return low, high
-
-    def to_dict(self) -> dict[str, Any]:
-        """Plain data for JSON."""
-        low, high = self.speeds
-        return {
-            "transmission_error": {"peak_to_peak": self.peak_to_peak, "rms": self.rms},
-            "speed": {"min": low, "max": high, "mean": self.mean},
-            "ratio": fraction_text(self.ratio),
-        }
 
 
 _BIN = 1024  # positions of which the greatest is kept

@@ -12,12 +12,13 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 from math import hypot
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from geartrain.dynamics.motion.error_composition import InputPhase
 from geartrain.dynamics.motion.run_statistics import RunningStatistics
+from geartrain.numerics.plain_data import Key, Result, group
 
 if TYPE_CHECKING:
     from geartrain.dynamics.motion.error_composition import ErrorComposition
@@ -77,28 +78,37 @@ class Superposition:
 
 
 @dataclass(frozen=True)
-class SuperpositionEstimate:
+class SuperpositionEstimate(Result):
     """One way to superpose, beside the truth: tallies of its own error, and of its difference from composition."""
+
+    KEYS = (
+        Key("peak_to_peak", "own.peak_to_peak"),
+        Key("rms", "own.rms"),
+        group("difference", "greatest", Key("rms", "off.rms")),
+    )
 
     own: RunningStatistics
     off: RunningStatistics
 
-    def to_dict(self) -> dict[str, Any]:
-        """Plain data for JSON: `greatest` and `typical` difference, both about its mean."""
-        low, high = self.off.least - self.off.centre, self.off.most - self.off.centre
-        return {
-            "peak_to_peak": self.own.peak_to_peak,
-            "rms": self.own.rms,
-            "difference": {"greatest": max(-low, high), "rms": self.off.rms},
-        }
+    @property
+    def greatest(self) -> float:
+        """Greatest difference from the composed motion, about its mean (rad)."""
+        return max(self.off.centre - self.off.least, self.off.most - self.off.centre)
 
 
 @dataclass(frozen=True)
-class ErrorEstimates:
+class ErrorEstimates(Result):
     """Of one output: the sum that bounds its range, the rms of independent phases, and both superpositions.
 
     true   the tally of the exact composition over the same positions
     """
+
+    KEYS = (
+        group("bound", Key("peak_to_peak", "bound"), Key("error", "bound_error")),
+        group("independent", Key("rms", "independent"), Key("error", "independent_error")),
+        Key("superposed", "nominal"),
+        Key("superposed_with_lag", "lagged"),
+    )
 
     true: RunningStatistics
     bound: float
@@ -106,15 +116,15 @@ class ErrorEstimates:
     nominal: SuperpositionEstimate
     lagged: SuperpositionEstimate
 
-    def to_dict(self) -> dict[str, Any]:
-        """Plain data for JSON; errors are over the true value."""
-        peak, rms = self.true.peak_to_peak or 1.0, self.true.rms or 1.0
-        return {
-            "bound": {"peak_to_peak": self.bound, "error": (self.bound - self.true.peak_to_peak) / peak},
-            "independent": {"rms": self.independent, "error": (self.independent - self.true.rms) / rms},
-            "superposed": self.nominal.to_dict(),
-            "superposed_with_lag": self.lagged.to_dict(),
-        }
+    @property
+    def bound_error(self) -> float:
+        """By how much the bound is off, over the true range."""
+        return (self.bound - self.true.peak_to_peak) / (self.true.peak_to_peak or 1.0)
+
+    @property
+    def independent_error(self) -> float:
+        """By how much the rms of independent phases is off, over the true one."""
+        return (self.independent - self.true.rms) / (self.true.rms or 1.0)
 
 
 def find_estimates(

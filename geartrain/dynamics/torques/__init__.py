@@ -2,7 +2,7 @@
 
 from geartrain.dynamics.torques.drivers import find_drivers, undetermined_drivers
 from geartrain.dynamics.torques.flow_patterns import FlowPattern, find_flow_patterns
-from geartrain.dynamics.torques.load_case import LoadCase
+from geartrain.dynamics.torques.load_case import LoadCase, input_and_output
 from geartrain.dynamics.torques.power_flow import (
     PowerFlow,
     PowerNode,
@@ -17,10 +17,18 @@ from geartrain.dynamics.torques.power_flow import (
 )
 from geartrain.dynamics.torques.torque_analysis import drive, find_torques
 from geartrain.dynamics.torques.torque_balance import LoadedPair, SolvedTorques, TorqueBalance
-from geartrain.dynamics.torques.torque_results import HoldingTorque, NeglectedEffect, PairTorque, Torques, TorqueVerdict
+from geartrain.dynamics.torques.torque_results import (
+    DrivenWay,
+    HoldingTorque,
+    NeglectedEffect,
+    PairTorque,
+    Torques,
+    TorqueVerdict,
+)
 from geartrain.dynamics.torques.virtual_work import speed_forms
 
 __all__ = [
+    "DrivenWay",
     "FlowPattern",
     "HoldingTorque",
     "LoadCase",
@@ -41,6 +49,7 @@ __all__ = [
     "find_power_flow",
     "find_torques",
     "has_torque_units",
+    "input_and_output",
     "percent_of_text",
     "percent_text",
     "speed_forms",

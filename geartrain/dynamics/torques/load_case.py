@@ -98,3 +98,14 @@ class LoadCase:
         if torque is None or link == self.train.frame:
             return Fraction(0)
         return torque.base
+
+
+def input_and_output(train: Train, case: StateCase) -> tuple[str, str] | None:
+    """The one input and the one link that power leaves by: an output, loaded or alone; None if that is not plain."""
+    if len(case.inputs) != 1:
+        return None
+    source = train.crank or next(iter(case.inputs))
+    links = dict.fromkeys(output.of or name for name, output in case.outputs.items())
+    loads = [link for link in case.loads if link != source]
+    chosen = loads if len(loads) == 1 else [link for link in links if link != source]
+    return (source, chosen[0]) if len(chosen) == 1 else None

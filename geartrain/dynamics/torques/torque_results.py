@@ -151,6 +151,14 @@ class PairTorque(Result):
         return (self.power or Fraction(0)) * (1 - self.efficiency)
 
 
+class DrivenWay(NamedTuple):
+    """Torques of a train driven at `source` while a unit of power leaves at `load`."""
+
+    torques: Torques
+    source: str
+    load: str
+
+
 @dataclass(frozen=True)
 class LinkTorque(Result):
     """An external torque on a link, its power (None where the speed is open), and whether it was asked for."""

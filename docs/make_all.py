@@ -7,6 +7,7 @@ import sys
 from pathlib import Path
 
 import make_accuracy
+import make_architecture
 import make_commands
 import make_errata
 import make_extremes
@@ -39,7 +40,16 @@ def main() -> None:
         make_shapes_accuracy,
         make_uncertainty_accuracy,
     )
-    facts = (make_commands, make_errata, make_extremes, make_gallery, make_images, make_missing, make_outputs)
+    facts = (
+        make_architecture,
+        make_commands,
+        make_errata,
+        make_extremes,
+        make_gallery,
+        make_images,
+        make_missing,
+        make_outputs,
+    )
     for maker in (*accuracy, *facts):
         maker.main()
     subprocess.run([sys.executable, "-m", "mkdocs", "build", "--strict"], cwd=DOCS.parent, check=True)

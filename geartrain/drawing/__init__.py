@@ -1,6 +1,8 @@
-"""Figures: the law of a pair of triangular teeth, its wheels in contact, sweeps; motion of outputs; flow of power;
-conjugate tooth forms side by side; gears on a sphere; pictures of a train: plan, stick, graph, lever, dials; wheels
-cut by hand and counts in doubt: pointers that stray, maps of jams, sensitivities, likely counts, convergence.
+"""Still pictures: a train as plan, stick diagram, graph, lever and dials.
+
+And what it does: the law of a pair, its teeth in contact, tooth forms side by side, motion of outputs, flow of power,
+gears on a sphere; wheels cut by hand and counts in doubt: pointers that stray, maps of jams, sensitivities, likely
+counts, convergence.
 
 The figures need the `plot` extra: asking for one of these names without it raises `MissingExtraError`. Nothing here
 needs a display or touches the state of pyplot.

@@ -13,10 +13,10 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from geartrain.analysis.gear_train import GearTrain as GearTrain
     from geartrain.analysis.loader import load as load
-    from geartrain.analysis.loader import shipped as shipped
     from geartrain.errors import GearTrainError as GearTrainError
     from geartrain.kinematics.answer import Answer as Answer
     from geartrain.kinematics.verdict import Verdict as Verdict
+    from geartrain.train.declaration_files import shipped as shipped
 
 __version__ = "0.1.0"
 __all__ = ["Answer", "GearTrain", "GearTrainError", "Verdict", "__version__", "load", "shipped"]
@@ -27,7 +27,7 @@ _HOMES = {
     "GearTrainError": "geartrain.errors",
     "Verdict": "geartrain.kinematics.verdict",
     "load": "geartrain.analysis.loader",
-    "shipped": "geartrain.analysis.loader",
+    "shipped": "geartrain.train.declaration_files",
 }
 """Where each public name lives; it is imported when it is first asked for, so that no command waits for all of them."""
 

@@ -122,3 +122,10 @@ class MissingExtraError(GearTrainError):
                 fix=f"pip install 'geartrain[{extra}]'",
             )
         )
+
+
+def check_choice(kind: str, name: str, known: Iterable[str]) -> None:
+    """Raise `QuestionError` for a name that is none of those known."""
+    known = tuple(known)
+    if name not in known:
+        raise QuestionError(Problem(f"there is no {kind} '{name}'", "it is not known here", suggest(name, known)))

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from geartrain.dynamics.motion import Motion, PairErrorSource
-from geartrain.numerics.exact import LinearForm, eliminate
+from geartrain.numerics.elimination import LinearForm, eliminate
 from geartrain.teeth.pin_transmission import PinToSlotTransmission
 from geartrain.teeth.transmission import TransmissionFunction
 from geartrain.teeth.triangular.pair_geometry import TriangularSizes

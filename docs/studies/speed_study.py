@@ -16,8 +16,10 @@ from geartrain.analysis.loader import load
 from geartrain.kinematics.circuits import find_circuits, find_tree
 from geartrain.kinematics.components import Components, SolvedPart, find_components
 from geartrain.kinematics.speeds import solve
-from geartrain.kinematics.speeds.float_speeds import Floats, PaddedRows, prepare, solve_floats
+from geartrain.kinematics.speeds.float_speeds import prepare, solve_floats
+from geartrain.kinematics.speeds.padded_rows import PaddedRows
 from geartrain.kinematics.willis_system import WillisEquation, WillisSystem
+from geartrain.numerics.arrays import Floats
 from studies.measurement import Task, measure
 from studies.records import StudyRecords, distinct, error_text, number_text, ratio_text, seconds_text, table
 from studies.train_families import FAMILIES, Data

@@ -74,8 +74,8 @@ def run(
     force: Force = False,
 ) -> None:
     """Which tooth counts fit what the outputs show; exit 0 if any does, 1 if none."""
-    from geartrain.analysis.loader import read_declaration
     from geartrain.numerics.files import ColumnTable
+    from geartrain.train.declaration_files import read_declaration
     from geartrain.uncertainty.posterior import infer_counts
 
     to, drawing = sink(out, force, FORMS), check_plot(plot, force)

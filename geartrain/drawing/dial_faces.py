@@ -13,7 +13,7 @@ import numpy as np
 from geartrain.drawing.backend import Axes, Circle, Figure
 from geartrain.drawing.style import BLACK, BLUE, GREEN, GREY, ORANGE, PURPLE, RED, SMALL, sheet, title_of, write
 from geartrain.errors import Problem, QuestionError
-from geartrain.numerics.exact import decimal, is_short
+from geartrain.numerics.decimal_text import decimal, is_short
 from geartrain.scene import Pointer, Scene
 from geartrain.scene.pose import body_errors, turns_of
 

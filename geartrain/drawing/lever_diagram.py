@@ -17,7 +17,7 @@ from geartrain.drawing.style import BLACK, BLUE, GREY, LETTER, PALE, RED, SMALL,
 from geartrain.errors import Problem, QuestionError
 from geartrain.kinematics.answer import Answer
 from geartrain.kinematics.levers import Lever, find_levers
-from geartrain.numerics.exact import decimal, fraction_text, is_short
+from geartrain.numerics.decimal_text import decimal, fraction_text, is_short
 
 Point = tuple[Fraction, list[str], Fraction | None]
 """Abscissa, the members there, their speed; None where undetermined."""

@@ -10,7 +10,7 @@ from fractions import Fraction
 from geartrain.kinematics.judged_outputs import OutputResult, SpeedFigures, SpeedValue, speed_figures
 from geartrain.kinematics.verdict import Verdict
 from geartrain.numerics.containers import FrozenFields
-from geartrain.numerics.exact import abridged_text, decimal
+from geartrain.numerics.decimal_text import abridged_text, decimal
 from geartrain.numerics.long_float import Real, as_plain
 from geartrain.numerics.plain_data import Key, Result
 

@@ -16,7 +16,7 @@ from functools import cached_property
 from geartrain.kinematics.circuits import Circuit
 from geartrain.kinematics.verdict import Loop
 from geartrain.numerics.containers import collector_paused
-from geartrain.numerics.exact import LinearForm, add_into
+from geartrain.numerics.elimination import LinearForm, add_into
 from geartrain.numerics.factored_ratios import FactoredRatios
 from geartrain.numerics.graphs import chain_to_root, ways_to_common_ancestor
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Literal
 
-from geartrain.numerics.exact import abridged_text
+from geartrain.numerics.decimal_text import abridged_text
 from geartrain.numerics.plain_data import Result
 
 

@@ -8,7 +8,7 @@ from fractions import Fraction
 from typing import Literal, NamedTuple
 
 from geartrain.kinematics.circuits import Circuit
-from geartrain.numerics.exact import decimal, fraction_text
+from geartrain.numerics.decimal_text import decimal, fraction_text
 from geartrain.train import StateCase
 
 RowKind = Literal["frame", "gear", "pin_and_slot", "pin_follower", "input", "fixed", "lock"]

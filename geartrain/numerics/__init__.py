@@ -1,6 +1,8 @@
 """Numbers, arrays, files and independent work: nothing in this room knows what a gear is.
 
-exact, factored_ratios, long_float   integers and Fractions of any length; floats with an exponent of their own
+exact, decimal_text, factored_ratios integers and Fractions of any length, and their text
+long_float, error_free               floats with an exponent of their own; sums and products with their rounding error
+elimination                          sparse linear forms over the rationals
 integer_lattice, rational_angles     integer rows in a rational span; angles as parts of a turn
 vectors                              three numbers as a vector in space, exact where they are
 graphs                               paths in a rooted forest, groups of what is joined

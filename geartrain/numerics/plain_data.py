@@ -12,7 +12,7 @@ from functools import cache
 from operator import attrgetter
 from typing import Any, ClassVar
 
-from geartrain.numerics.exact import fraction_text
+from geartrain.numerics.decimal_text import fraction_text
 from geartrain.numerics.long_float import LongFloat
 
 

@@ -7,7 +7,8 @@ from itertools import islice
 
 from geartrain.analysis.gear_train import GearTrain
 from geartrain.kinematics.answer import Answer
-from geartrain.kinematics.judged_outputs import OutputResult, Sensitivity, magnitude
+from geartrain.kinematics.judged_outputs import OutputResult, magnitude
+from geartrain.kinematics.tooth_sensitivity import Sensitivity
 from geartrain.report.document import MOST_ROWS, Section, Table, cut, exact, figure, one_to, ppm
 from geartrain.train import Train
 

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 
-from geartrain.numerics.exact import abridged_text, decimal, fraction_text
+from geartrain.numerics.decimal_text import abridged_text, decimal, fraction_text
 from geartrain.numerics.long_float import Real
 
 

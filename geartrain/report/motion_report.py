@@ -9,7 +9,7 @@ from math import degrees
 from typing import TYPE_CHECKING, NamedTuple
 
 from geartrain.errors import GearTrainError
-from geartrain.numerics.exact import abridged_text
+from geartrain.numerics.decimal_text import abridged_text
 from geartrain.numerics.plain_data import Key, Result
 from geartrain.report.document import Document, Section, Table, figure
 

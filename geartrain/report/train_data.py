@@ -14,9 +14,9 @@ if TYPE_CHECKING:
     from geartrain.kinematics.answer import Answer
     from geartrain.kinematics.circuits import Circuit
     from geartrain.kinematics.gridlock.removal import Gridlock
-    from geartrain.kinematics.judged_outputs import Sensitivity
     from geartrain.kinematics.phasing import MeshPhasing
     from geartrain.kinematics.speeds import Mobility
+    from geartrain.kinematics.tooth_sensitivity import Sensitivity
     from geartrain.report.motion_report import MotionFigures, UnfollowedMotion
     from geartrain.report.power_report import TorqueFigures
     from geartrain.train.states import Erratum

@@ -9,7 +9,7 @@ from geartrain.analysis.gear_train import GearTrain
 from geartrain.kinematics.answer import Answer
 from geartrain.kinematics.circuits import Circuit
 from geartrain.kinematics.verdict import Loop
-from geartrain.numerics.exact import abridged_text
+from geartrain.numerics.decimal_text import abridged_text
 from geartrain.report.answers import answer_sections, doubtful_wheels, expectations_met, shift_table
 from geartrain.report.document import MOST_ROWS, Document, ExactText, Section, Table, cut
 from geartrain.report.gear_pairs import teeth_sections

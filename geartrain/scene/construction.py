@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from geartrain.analysis.gear_train import GearTrain
 from geartrain.errors import Problem
-from geartrain.numerics.exact import fraction_text
+from geartrain.numerics.decimal_text import fraction_text
 from geartrain.scene.bodies import find_bodies, find_profiles, find_wheels
 from geartrain.scene.context import SceneContext, exact
 from geartrain.scene.dial_pointers import find_dials, find_pointers

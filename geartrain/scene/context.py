@@ -9,7 +9,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 from geartrain.errors import GearTrainError, Problem
-from geartrain.numerics.exact import decimal, fraction_text
+from geartrain.numerics.decimal_text import decimal, fraction_text
 from geartrain.numerics.quantity import turns_in
 from geartrain.numerics.vectors import Vector, dot, unit_or_z
 

@@ -12,7 +12,7 @@ from math import gcd, lcm
 from typing import TYPE_CHECKING
 
 from geartrain.errors import GearTrainError, Problem
-from geartrain.numerics.exact import fraction_text
+from geartrain.numerics.decimal_text import fraction_text
 from geartrain.scene.context import SceneContext
 from geartrain.scene.elements import ErrorLawTable, ErrorSource, ErrorStep, Movement, plain
 

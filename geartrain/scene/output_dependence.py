@@ -12,7 +12,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
-from geartrain.numerics.exact import LinearForm, TooDenseError, eliminate
+from geartrain.numerics.elimination import LinearForm, TooDenseError, eliminate
 from geartrain.scene.context import SceneContext
 
 if TYPE_CHECKING:

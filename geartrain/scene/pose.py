@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from geartrain.errors import Problem, RangeError
-from geartrain.numerics.exact import read_fraction
+from geartrain.numerics.decimal_text import read_fraction
 from geartrain.scene.elements import ErrorLawTable, ErrorSource, ErrorStep, Scene
 
 if TYPE_CHECKING:

@@ -7,7 +7,8 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
-from geartrain.numerics.exact import as_float, fraction_text
+from geartrain.numerics.decimal_text import fraction_text
+from geartrain.numerics.exact import as_float
 
 
 @dataclass(frozen=True, slots=True)

@@ -15,7 +15,8 @@ from heapq import merge
 from typing import Any, Literal
 
 from geartrain.errors import Problem, QuestionError, RangeError
-from geartrain.numerics.exact import coprime, fraction_text
+from geartrain.numerics.decimal_text import fraction_text
+from geartrain.numerics.exact import coprime
 
 ApproximantKind = Literal["convergent", "best", "intermediate"]
 IntegerPair = tuple[int, int]

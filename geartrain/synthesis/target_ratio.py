@@ -10,7 +10,8 @@ from typing import Any, Literal
 from pydantic_core import PydanticCustomError
 
 from geartrain.errors import Problem, QuestionError
-from geartrain.numerics.exact import as_float, decimal, fraction_text
+from geartrain.numerics.decimal_text import decimal, fraction_text
+from geartrain.numerics.exact import as_float
 from geartrain.numerics.quantity import UNITS, Figure, Quantity
 from geartrain.train.periods import period_table, suggested_period
 

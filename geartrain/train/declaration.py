@@ -11,7 +11,7 @@ from typing import Annotated
 from pydantic import BeforeValidator, Field, PrivateAttr
 
 from geartrain.errors import Loc, Marks, dotted
-from geartrain.numerics.exact import abridged_text, decimal
+from geartrain.numerics.decimal_text import abridged_text, decimal
 from geartrain.numerics.quantity import Friction, Quantity, Speed, Torque, in_unit, same_kind
 from geartrain.teeth.pin_coupling import Coupling
 from geartrain.train.fields import ByName, Declared, DeclaredToothForm, Id, Nothing

@@ -14,8 +14,8 @@ import pytest
 from pydantic import BaseModel
 
 from geartrain import GearTrainError, load
-from geartrain.analysis.loader import shipped
 from geartrain.numerics.containers import FrozenDict
+from geartrain.train.declaration_files import shipped
 
 
 def mutable(value: Any, path: str, met: set[int]) -> Iterator[str]:

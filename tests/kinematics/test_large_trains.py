@@ -11,7 +11,7 @@ from typing import Any
 import pytest
 
 from geartrain import GearTrain, GearTrainError
-from geartrain.numerics.exact import decimal
+from geartrain.numerics.decimal_text import decimal
 
 Data = dict[str, Any]
 

@@ -13,19 +13,9 @@ from hypothesis import strategies as st
 from reference_solver import echelon
 from scipy.optimize import linprog
 
-from geartrain.numerics.exact import (
-    PRIME,
-    TooDenseError,
-    add_into,
-    as_float,
-    coprime,
-    decimal,
-    eliminate,
-    feasible,
-    log10,
-    rank_modulo,
-    residues,
-)
+from geartrain.numerics.decimal_text import decimal
+from geartrain.numerics.elimination import PRIME, TooDenseError, add_into, eliminate, feasible, rank_modulo, residues
+from geartrain.numerics.exact import as_float, coprime, log10
 
 coefficients = st.fractions(min_value=-5, max_value=5, max_denominator=4)
 

@@ -32,8 +32,6 @@ TOO_LONG = {
     "analysis/gear_train.py",
     "dynamics/motion/motion_model.py",
     "kinematics/speeds/exact_speeds.py",
-    "kinematics/speeds/float_speeds.py",
-    "numerics/exact.py",
     "report/json_schema.py",
     "scene/train_teeth.py",
     "train/references.py",

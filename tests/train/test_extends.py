@@ -10,7 +10,7 @@ import pytest
 import yaml
 
 from geartrain import GearTrain, GearTrainError, load
-from geartrain.analysis.loader import shipped
+from geartrain.train.declaration_files import shipped
 
 PARENT = """\
 name: parent
@@ -309,9 +309,9 @@ def test_a_mistake_in_plain_data_that_extend_a_file_has_its_path(tmp_path: Path)
         load({"extends": str(tmp_path / "parent.yaml"), "links": {"b": {"wheels": {"w": 0}}}})
 
 
-def test_data_that_extend_a_train_are_refused_where_no_files_are_known() -> None:
-    with pytest.raises(GearTrainError, match=r"use `geartrain\.load\(data\)`"):
-        GearTrain.declare({"extends": "planetary-24-18-60"})
+def test_plain_data_extend_a_train_however_they_are_read() -> None:
+    data = {"extends": "planetary-24-18-60", "inputs": {"sun": 7}}
+    assert GearTrain.declare(data).solve()["carrier"] == load(data).solve()["carrier"] == 2
 
 
 def test_a_removal_from_nothing_is_refused() -> None:
@@ -327,7 +327,7 @@ def test_a_chain_of_fifteen_hundred_parents_is_read(tmp_path: Path) -> None:
 
 
 def test_a_chain_of_parents_without_end_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("geartrain.analysis.loader._MOST_PARENTS", 3)
+    monkeypatch.setattr("geartrain.train.declaration_files._MOST_PARENTS", 3)
     (tmp_path / "t0.yaml").write_text(PARENT, encoding="utf-8")
     for at in range(1, 6):
         (tmp_path / f"t{at}.yaml").write_text(f"extends: t{at - 1}.yaml\n", encoding="utf-8")

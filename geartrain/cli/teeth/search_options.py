@@ -182,6 +182,6 @@ class SearchExecution:
 
 def is_train(text: str) -> bool:
     """True if a text names a file or a shipped train rather than a ratio."""
-    from geartrain.analysis.loader import shipped
+    from geartrain.train.declaration_files import shipped
 
     return text.endswith(YAML) or text in shipped()

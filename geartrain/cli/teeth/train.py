@@ -25,9 +25,9 @@ def run(
     where: list[str],
 ) -> None:
     """Answer for the free wheels of a train."""
-    from geartrain.analysis.loader import read_declaration
     from geartrain.report.tooth_numbers import assignment_rows, assignments_document
     from geartrain.synthesis.constraints.constraint_options import read_constraint_options
+    from geartrain.train.declaration_files import read_declaration
 
     train = read_declaration(file)
     _check_kept(file, asked.out.path)
@@ -110,7 +110,7 @@ def _parent(file: str, out: Path | None) -> str:
     """What a solution extends, as seen from the file it is written to."""
     import os
 
-    from geartrain.analysis.loader import shipped
+    from geartrain.train.declaration_files import shipped
 
     if file in shipped() or out is None:
         return file

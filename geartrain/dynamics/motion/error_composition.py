@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from geartrain.dynamics.motion.coupled_errors import CoupledErrors, solve_coupled_errors
+from geartrain.numerics.error_free import split
 
 if TYPE_CHECKING:
     from geartrain.dynamics.motion.error_propagation import ErrorPropagation, PropagationBlock
@@ -26,7 +27,6 @@ if TYPE_CHECKING:
 _CHUNK = 32768  # most positions worked on at once
 _NUMBERS = 1 << 23  # most angles kept at once: longer trains take shorter chunks
 _PLAIN = 1  # period up to which a plain product tells where in it the driver stands, to rounding
-_SPLITTER = 134217729.0  # 2^27 + 1: cuts a float in two halves
 
 
 @dataclass(frozen=True)
@@ -275,9 +275,7 @@ class InputPhase:
 
     @cached_property
     def _halves(self) -> tuple[Floats, Floats]:
-        c = _SPLITTER * self.turns
-        high = c - (c - self.turns)
-        return high, self.turns - high
+        return split(self.turns)
 
     def cycles(self, ratio: Fraction) -> Floats:
         """turns times an exact ratio, whole periods taken off where there are many: right to rounding at any length."""
@@ -286,9 +284,7 @@ class InputPhase:
         if factor * self.most <= _PLAIN:
             return product
         # Dekker's product: what rounding took from it is found exactly
-        c = _SPLITTER * factor
-        high = c - (c - factor)
-        low = factor - high
+        high, low = split(factor)
         left, right = self._halves
         lost = left * high - product
         lost += left * low

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from geartrain.numerics.block_triangular import Block, find_blocks
-from geartrain.numerics.exact import LinearForm, eliminate
+from geartrain.numerics.elimination import LinearForm, eliminate
 
 if TYPE_CHECKING:
     from geartrain.kinematics.willis_system import WillisSystem

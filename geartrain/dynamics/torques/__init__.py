@@ -1,6 +1,6 @@
 """Torques, power and losses: balances of links, directions of power, verdicts on self-locking."""
 
-from geartrain.dynamics.torques.drivers import find_drivers, undetermined_drivers
+from geartrain.dynamics.torques.drivers import find_drivers
 from geartrain.dynamics.torques.flow_patterns import FlowPattern, find_flow_patterns
 from geartrain.dynamics.torques.load_case import LoadCase, input_and_output
 from geartrain.dynamics.torques.power_flow import (
@@ -53,7 +53,6 @@ __all__ = [
     "percent_of_text",
     "percent_text",
     "speed_forms",
-    "undetermined_drivers",
     "watts_per_unit",
     "watts_text",
 ]

@@ -14,7 +14,8 @@ from math import inf
 from typing import TYPE_CHECKING
 
 from geartrain.dynamics.torques.load_case import LoadCase
-from geartrain.numerics.exact import LinearForm, as_float, eliminate
+from geartrain.numerics.elimination import LinearForm, eliminate
+from geartrain.numerics.exact import as_float
 
 if TYPE_CHECKING:
     from geartrain.teeth.transmission import TransmissionFunction

@@ -16,7 +16,7 @@ from itertools import combinations
 from typing import TYPE_CHECKING, NamedTuple
 
 from geartrain.dynamics.torques.load_influence import NOTHING, LoadGroup, find_load_influence
-from geartrain.dynamics.torques.torque_analysis import build_balance, power_inputs
+from geartrain.dynamics.torques.torque_analysis import build_balance, find_torques, power_inputs
 from geartrain.teeth.gear_mesh import MeshDriver
 
 if TYPE_CHECKING:
@@ -49,13 +49,17 @@ class FlowDirections(NamedTuple):
         return FlowDirections(ahead, back, self.shared or other.shared, self.note)
 
 
-def find_drivers(setting: LoadCase, loaded: Torques | None = None) -> dict[str, MeshDriver]:
-    """The driver of every pair, and of every coupling: a wheel, or a link.
+def find_drivers(train: Train, circuits: Sequence[Circuit], setting: LoadCase | None) -> dict[str, MeshDriver]:
+    """The driver of every pair, and of every coupling, in one case: a wheel, or a link.
 
-    loaded   torques under the declared loads, where there are some
+    circuits   those that are in; `setting` may have more
+    setting    the case with its speeds; None where they are not determined, and only what is declared tells
     """
-    found = _declared(setting.train)
-    if loaded is not None and loaded.verdict:
+    if setting is None:
+        return _undetermined(train, circuits, "the speeds of the train are not determined")
+    setting = replace(setting, circuits=circuits)
+    found = _declared(train)
+    if train.is_loaded(setting.case.state) and (loaded := find_torques(setting)).verdict:
         found = _under_loads(loaded) | found
     rest = [circuit for circuit in setting.circuits if circuit.id not in found]
     ways = _ways(setting, {circuit.id for circuit in rest if setting.turn(circuit)})
@@ -64,7 +68,7 @@ def find_drivers(setting: LoadCase, loaded: Torques | None = None) -> dict[str, 
     return {circuit.id: found[circuit.id] for circuit in setting.circuits}
 
 
-def undetermined_drivers(train: Train, circuits: Iterable[Circuit], why: str) -> dict[str, MeshDriver]:
+def _undetermined(train: Train, circuits: Iterable[Circuit], why: str) -> dict[str, MeshDriver]:
     """The drivers where no speeds are known: those that are declared, and no others."""
     declared = _declared(train)
     text = f"undetermined: {why}"

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING
 
 from geartrain.dynamics.torques.torque_balance import DrivingSides, SolvedTorques, TorqueBalance, TorqueUnknown
 from geartrain.numerics.block_triangular import Block
-from geartrain.numerics.exact import Echelon, LinearForm, eliminate, feasible
+from geartrain.numerics.elimination import Echelon, LinearForm, eliminate, feasible
 
 if TYPE_CHECKING:
     pass

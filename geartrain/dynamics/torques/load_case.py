@@ -11,7 +11,7 @@ from geartrain.dynamics.gear_meshes import PinMesh
 from geartrain.dynamics.torques.virtual_work import PRESCRIBED
 from geartrain.kinematics.circuits import Circuit, Tree
 from geartrain.kinematics.willis_system import WillisSystem, assemble_willis_system
-from geartrain.numerics.exact import LinearForm
+from geartrain.numerics.elimination import LinearForm
 from geartrain.teeth.gear_mesh import GearMesh as ToothMesh
 from geartrain.teeth.pin_coupling import Coupling
 from geartrain.train import GearPair, StateCase, Train

@@ -13,7 +13,7 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, NamedTuple
 
 from geartrain.numerics.block_triangular import Block, dulmage_mendelsohn_blocks
-from geartrain.numerics.exact import LinearForm, add_into, eliminate
+from geartrain.numerics.elimination import LinearForm, add_into, eliminate
 
 if TYPE_CHECKING:
     from geartrain.dynamics.torques.torque_balance import TorqueBalance

@@ -11,7 +11,8 @@ from geartrain.dynamics.torques.load_case import LoadCase
 from geartrain.dynamics.torques.mean_efficiencies import MeanEfficiencies
 from geartrain.dynamics.torques.torque_results import NeglectedEffect
 from geartrain.kinematics.circuits import Circuit
-from geartrain.numerics.exact import as_float, decimal
+from geartrain.numerics.decimal_text import decimal
+from geartrain.numerics.exact import as_float
 
 _MEAN = "the torques given are means over a turn"
 

@@ -14,7 +14,7 @@ from functools import cached_property
 
 from geartrain.errors import GearTrainError, Problem
 from geartrain.numerics.block_triangular import Block, dulmage_mendelsohn_blocks
-from geartrain.numerics.exact import LinearForm
+from geartrain.numerics.elimination import LinearForm
 
 DrivingSides = Mapping[str, int]
 """Mesh id -> 1 where its first link drives in the carrier's frame, -1 where the second does, 0 without loss."""

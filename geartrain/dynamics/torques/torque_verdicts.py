@@ -11,7 +11,7 @@ from geartrain.dynamics.torques.load_case import LoadCase
 from geartrain.dynamics.torques.torque_balance import TorqueBalance
 from geartrain.dynamics.torques.torque_results import NeglectedEffect, TorqueVerdict
 from geartrain.dynamics.torques.virtual_work import balancing_torque, unbalanced_motions
-from geartrain.numerics.exact import decimal
+from geartrain.numerics.decimal_text import decimal
 
 _GREAT = 10**12  # a load so many times as great makes constant friction as good as nothing
 

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from geartrain.kinematics.willis_system import WillisEquation, WillisSystem
-from geartrain.numerics.exact import LinearForm, eliminate
+from geartrain.numerics.elimination import LinearForm, eliminate
 
 PRESCRIBED = -1
 """The column of a form in which prescribed numbers stand."""

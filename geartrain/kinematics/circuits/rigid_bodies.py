@@ -15,7 +15,7 @@ from itertools import combinations
 from geartrain.errors import DeclarationError, Loc, Problem
 from geartrain.kinematics.circuits.axes import Axes, joint_sum_links
 from geartrain.kinematics.circuits.joint_tree import Tree
-from geartrain.numerics.exact import eliminate
+from geartrain.numerics.elimination import eliminate
 from geartrain.numerics.graphs import DisjointSets, ways_to_common_ancestor
 from geartrain.train import StateCase, Train
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 from geartrain.kinematics.verdict import Loop
-from geartrain.numerics.exact import abridged_text
+from geartrain.numerics.decimal_text import abridged_text
 from geartrain.numerics.plain_data import Result
 
 RemovalMethod = Literal["one", "loops", "matching", "search", "greedy"]

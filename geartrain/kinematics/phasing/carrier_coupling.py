@@ -9,7 +9,7 @@ from fractions import Fraction
 from geartrain.kinematics.circuits import Circuit
 from geartrain.kinematics.components import Components, ReducedSystem, reduce_components
 from geartrain.kinematics.phasing.cycle_basis import mesh_coefficient, primitive_row
-from geartrain.numerics.exact import LinearForm, TooDenseError, eliminate
+from geartrain.numerics.elimination import LinearForm, TooDenseError, eliminate
 
 _BUDGET = 10**7  # operations; past it, trains of coupled planetaries are judged loop by loop
 

@@ -13,7 +13,7 @@ from geartrain.kinematics.phasing.phase_system import (
     ResidueKnowledge,
     judge_residue,
 )
-from geartrain.numerics.exact import fraction_text
+from geartrain.numerics.decimal_text import fraction_text
 from geartrain.numerics.plain_data import Key, Result
 
 

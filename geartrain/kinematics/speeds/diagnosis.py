@@ -12,16 +12,8 @@ from typing import NamedTuple
 
 from geartrain.kinematics.components import ReducedSystem
 from geartrain.kinematics.verdict import Loop, Verdict
-from geartrain.numerics.exact import (
-    PRIME,
-    LinearForm,
-    TooDenseError,
-    abridged_text,
-    add_into,
-    eliminate,
-    rank_modulo,
-    residues,
-)
+from geartrain.numerics.decimal_text import abridged_text
+from geartrain.numerics.elimination import PRIME, LinearForm, TooDenseError, add_into, eliminate, rank_modulo, residues
 from geartrain.train import StateCase
 
 _ZERO = Fraction(0)

@@ -20,7 +20,7 @@ from geartrain.kinematics.speeds.diagnosis import (
 from geartrain.kinematics.speeds.propagation import propagate
 from geartrain.kinematics.verdict import Loop, Verdict
 from geartrain.numerics.containers import collector_paused
-from geartrain.numerics.exact import PRIME, LinearForm, TooDenseError, add_into, eliminate, rank_modulo, residues
+from geartrain.numerics.elimination import PRIME, LinearForm, TooDenseError, add_into, eliminate, rank_modulo, residues
 from geartrain.numerics.plain_data import Key, Result
 from geartrain.train import StateCase
 

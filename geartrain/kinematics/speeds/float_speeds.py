@@ -8,29 +8,30 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
-from copy import copy
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from geartrain.errors import Problem, RangeError
+from geartrain.kinematics.speeds.padded_rows import PaddedRows
 from geartrain.kinematics.speeds.scaling import find_exponents
 from geartrain.kinematics.willis_system import WillisEquation, WillisSystem
 from geartrain.numerics.containers import FrozenFields
-from geartrain.numerics.exact import PRIME, as_float, eliminate, residues
+from geartrain.numerics.elimination import PRIME, eliminate, residues
+from geartrain.numerics.exact import as_float
 from geartrain.numerics.labelled_array import LabelledArray, labelled_array
-from geartrain.numerics.long_float import HIGHEST, LOWEST, Real, scaled
+from geartrain.numerics.long_float import HIGHEST, LOWEST, UNIT_ROUNDOFF, Real, scaled
 
-Floats = NDArray[np.float64]
-_UNIT_ROUNDOFF = 2.0**-53
+if TYPE_CHECKING:
+    from geartrain.numerics.arrays import Floats
+
 _GIVEN = -1  # the column of what is prescribed
 _INVERTED, _ABREAST = 400, 64  # links up to which the inverse is made, and columns of it at a time
 _DRAWN = 12  # sets of signs beyond
 _ORDINARY = 400  # powers of two up to which speeds are solved as they are
-_LOW = 1e-200  # entries of a scaled row below this are dropped
 
 
 @dataclass(frozen=True, slots=True)
@@ -143,8 +144,8 @@ def _solve(
     left = lu.solve(rest)
     more = lu.solve(matrix.residual(left, rest, np.zeros_like(rest)))
     # what is left, the rounding of x itself, and what residuals in twice the precision and the last solution may hide
-    hidden = 16 * _UNIT_ROUNDOFF**2 * matrix.size(x) + 16 * _UNIT_ROUNDOFF * matrix.size(more) + matrix.sunk(x)
-    estimate = 2 * (np.abs(left) + np.abs(more)) + _UNIT_ROUNDOFF * np.abs(x) + _reach(lu, hidden)
+    hidden = 16 * UNIT_ROUNDOFF**2 * matrix.size(x) + 16 * UNIT_ROUNDOFF * matrix.size(more) + matrix.sunk(x)
+    estimate = 2 * (np.abs(left) + np.abs(more)) + UNIT_ROUNDOFF * np.abs(x) + _reach(lu, hidden)
     return x, estimate, {link: matrix.condition(lu, link, x[:, 0]) for link in way.condition_of}
 
 
@@ -268,108 +269,6 @@ def _right_sides(rows: Sequence[WillisEquation], given: Sequence[Sequence[Fracti
         right[at] = nearest
         remainder[at] = [float(value - Fraction(near)) for value, near in zip(line, right[at].tolist(), strict=True)]
     return right, remainder
-
-
-class PaddedRows:
-    """The integer rows as arrays, padded to a common number of terms."""
-
-    def __init__(self, links: Sequence[str], rows: Sequence[WillisEquation]) -> None:
-        self.at = {link: column for column, link in enumerate(links)}
-        width = max(len(row.terms) for row in rows)
-        self.columns = np.zeros((len(rows), width), dtype=np.intc)
-        self.coefficients = np.zeros((len(rows), width))
-        for at, row in enumerate(rows):
-            for position, (link, coefficient) in enumerate(term for term in row.terms if term[0] in self.at):
-                self.columns[at, position] = self.at[link]
-                self.coefficients[at, position] = coefficient
-        self.low = np.zeros_like(self.coefficients, dtype=bool)
-
-    def scaled(self, exponents: NDArray[np.int64]) -> tuple[PaddedRows, NDArray[np.int64]]:
-        """The rows in speeds over powers of two, and the power by which each was divided: entries of 1 to 2 lead.
-
-        All these scalings are exact. Entries that sink below 1e-200 of their row are dropped: no rounding is moved by
-        them, and their products would lose the bits that residuals are made of. What they may do is in `sunk`.
-        """
-        sizes = np.frexp(self.coefficients)[1] + exponents[self.columns]
-        shifts = np.where(self.coefficients != 0, sizes, np.iinfo(np.int64).min).max(axis=1) - 1
-        moved = np.clip(exponents[self.columns] - shifts[:, None], -2000, 2000).astype(np.intc)
-        near = copy(self)
-        near.coefficients = np.ldexp(self.coefficients, moved)
-        near.low = (self.coefficients != 0) & (np.abs(near.coefficients) < _LOW)
-        near.coefficients[near.low] = 0.0
-        return near, shifts
-
-    def matrix(self) -> Any:
-        """The rows as a sparse matrix, column compressed."""
-        from scipy.sparse import csc_array
-
-        size, width = self.columns.shape
-        lines = np.repeat(np.arange(size, dtype=np.intc), width)
-        used = self.coefficients.ravel() != 0
-        entries = (self.coefficients.ravel()[used], (lines[used], self.columns.ravel()[used]))
-        return csc_array(entries, shape=(size, size))
-
-    def factorise(self, ordering: str) -> Any:
-        """The sparse LU factors."""
-        from scipy.sparse import linalg
-
-        solver: Any = linalg
-        return solver.splu(self.matrix(), permc_spec=ordering)
-
-    def residual(self, x: Floats, right: Floats, remainder: Floats) -> Floats:
-        """right - A x, accumulated to twice the working precision."""
-        total, low = right.copy(), remainder.copy()
-        for position in range(self.columns.shape[1]):
-            product, error = _two_product(-self.coefficients[:, position, None], x[self.columns[:, position]])
-            total, carry = _two_sum(total, product)
-            low = low + carry + error
-        return total + low
-
-    def prescribe(self, x: Floats, right: Floats) -> None:
-        """Links whose row is their own speed get it to the last bit."""
-        single = np.flatnonzero((self.coefficients != 0).sum(axis=1) == 1)
-        own = self.coefficients[single, 0] == 1
-        x[self.columns[single[own], 0]] = right[single[own]]
-
-    def size(self, x: Floats) -> Floats:
-        """|A| |x|, row by row."""
-        total: Floats = np.einsum("rt,rtc->rc", np.abs(self.coefficients), np.abs(x[self.columns]))
-        return total
-
-    def sunk(self, x: Floats) -> Floats:
-        """The most that dropped entries come to, row by row."""
-        total: Floats = np.einsum("rt,rtc->rc", _LOW * self.low, np.abs(x[self.columns]))
-        return total
-
-    def condition(self, lu: Any, link: str, x: Floats) -> float:
-        """cond(A, x) of one link: one transposed solve, (|y|, |A||x|) / |x_link|."""
-        column = self.at[link]
-        unit = np.zeros(len(x))
-        unit[column] = 1.0
-        y = lu.solve(unit, trans="T")
-        total = float(np.abs(y) @ self.size(x[:, None])[:, 0])
-        return total / abs(float(x[column])) if x[column] else float("inf")
-
-
-def _two_sum(a: Floats, b: Floats) -> tuple[Floats, Floats]:
-    """a + b = s + e exactly (Knuth)."""
-    s = a + b
-    part = s - a
-    return s, (a - (s - part)) + (b - part)
-
-
-def _two_product(a: Floats, b: Floats) -> tuple[Floats, Floats]:
-    """a b = p + e exactly, barring underflow (Dekker)."""
-    p = a * b
-    a_high, a_low = _split(a)
-    b_high, b_low = _split(b)
-    return p, ((a_high * b_high - p) + a_high * b_low + a_low * b_high) + a_low * b_low
-
-
-def _split(a: Floats) -> tuple[Floats, Floats]:
-    big = 134217729.0 * a  # 2^27 + 1
-    high = big - (big - a)
-    return high, a - high
 
 
 def _check_range(matrix: PaddedRows, x: Floats, rest: Floats, rows: Sequence[WillisEquation]) -> None:

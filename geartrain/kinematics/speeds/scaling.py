@@ -15,7 +15,7 @@ from typing import Any
 
 from geartrain.errors import Problem, RangeError
 from geartrain.kinematics.willis_system import WillisEquation
-from geartrain.numerics.exact import TooDenseError, eliminate
+from geartrain.numerics.elimination import TooDenseError, eliminate
 from geartrain.numerics.long_float import LongFloat, split
 
 _GIVEN = -1  # the column of what is prescribed

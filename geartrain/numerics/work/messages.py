@@ -16,7 +16,7 @@ from typing import Any
 from zlib import crc32
 
 from geartrain.errors import GearTrainError, Problem
-from geartrain.numerics.exact import fraction_text
+from geartrain.numerics.decimal_text import fraction_text
 
 
 @dataclass(frozen=True, slots=True)

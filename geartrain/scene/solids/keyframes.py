@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from geartrain.errors import Problem, QuestionError
-from geartrain.numerics.exact import read_fraction
+from geartrain.numerics.decimal_text import read_fraction
 
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats

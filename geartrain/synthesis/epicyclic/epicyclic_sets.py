@@ -11,7 +11,8 @@ from fractions import Fraction
 from typing import Any, Literal
 
 from geartrain.errors import Problem, QuestionError
-from geartrain.numerics.exact import abridged_text, as_float, decimal, fraction_text
+from geartrain.numerics.decimal_text import abridged_text, decimal, fraction_text
+from geartrain.numerics.exact import as_float
 from geartrain.synthesis.epicyclic.set_kinds import CARRIER, EpicyclicKind, EpicyclicMode, epicyclic_kind
 from geartrain.synthesis.search_outcome import Shortfall
 

@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any, get_args
 import numpy as np
 
 from geartrain.errors import Problem, QuestionError
-from geartrain.numerics.exact import decimal
+from geartrain.numerics.decimal_text import decimal
 from geartrain.synthesis.epicyclic.epicyclic_sets import EpicyclicSet, RatioIs, SetFindings, SetOrder, set_rank
 from geartrain.synthesis.epicyclic.set_assembly import places, room
 from geartrain.synthesis.epicyclic.set_enumeration import SetBounds, blocks, ratio_terms, read_bounds

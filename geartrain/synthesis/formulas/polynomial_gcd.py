@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from fractions import Fraction
 from heapq import heapify, heappop, heappush
 
-from geartrain.numerics.exact import PRIME
+from geartrain.numerics.elimination import PRIME
 from geartrain.synthesis.formulas import laurent
 from geartrain.synthesis.formulas.laurent import Exponents, Laurent, TooLongError
 

@@ -12,7 +12,7 @@ from itertools import product
 from typing import TYPE_CHECKING, Any
 
 from geartrain.errors import Problem, QuestionError
-from geartrain.numerics.exact import fraction_text, is_short
+from geartrain.numerics.decimal_text import fraction_text, is_short
 from geartrain.synthesis.formulas.laurent import Laurent, Term, power_product
 from geartrain.synthesis.formulas.monomial_groups import MonomialGroup, MonomialGrouping, find_grouping
 from geartrain.synthesis.formulas.polynomial_gcd import common_divisor, divide

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from heapq import heapify, heappop, heappush
 
 from geartrain.numerics.block_triangular import find_blocks
-from geartrain.numerics.exact import PRIME
+from geartrain.numerics.elimination import PRIME
 from geartrain.synthesis.formulas.laurent import Laurent, minors, product
 
 Row = dict[int, Laurent]

@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from geartrain.numerics.exact import count_digits
+from geartrain.numerics.decimal_text import count_digits
+from geartrain.numerics.error_free import split
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -17,7 +18,6 @@ if TYPE_CHECKING:
     Ints = NDArray[Any]
     Places = NDArray[np.int64]
 
-_HALF = 134217729.0  # 2^27 + 1 parts a float64 into two of 26 bits
 ROUNDING = 1e-28
 """Errors from `errors` differ from the exact ones by less than this, or by 1e-12 of themselves."""
 
@@ -96,17 +96,10 @@ def errors(tops: Ints, beneaths: Ints, value: Fraction) -> Floats:
     tail = float(value - Fraction(head))
     q = beneaths.astype(np.float64)
     product = q * head
-    q_high, q_low = _parted(q)
-    head_high, head_low = _parted(np.float64(head))
+    q_high, q_low = split(q)
+    head_high, head_low = split(np.float64(head))
     lost = ((q_high * head_high - product) + q_high * head_low + q_low * head_high) + q_low * head_low
     return np.asarray(((tops - product) - (lost + q * tail)) / product)
-
-
-def _parted(number: Any) -> tuple[Any, Any]:
-    """Two halves of 26 bits that add up to the number exactly (Veltkamp)."""
-    scaled = number * _HALF
-    high = scaled - (scaled - number)
-    return high, number - high
 
 
 def reach_of_errors(value: Fraction, low: Fraction, high: Fraction) -> tuple[Fraction, Fraction]:

@@ -7,7 +7,7 @@ from dataclasses import replace
 from fractions import Fraction
 
 from geartrain.errors import RangeError
-from geartrain.numerics.exact import decimal
+from geartrain.numerics.decimal_text import decimal
 from geartrain.synthesis.ratio.product_windows import MOST_STAGES, multisets
 from geartrain.synthesis.ratio.ratio_windows import rounded_up
 from geartrain.synthesis.ratio.reverted_stages import tally

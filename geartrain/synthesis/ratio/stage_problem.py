@@ -12,7 +12,7 @@ from functools import cached_property
 from typing import Any
 
 from geartrain.errors import Problem, QuestionError
-from geartrain.numerics.exact import fraction_text
+from geartrain.numerics.decimal_text import fraction_text
 from geartrain.synthesis.ratio.product_windows import PLAIN, ProductWindows, multisets, products_of
 
 

@@ -18,7 +18,7 @@ from fractions import Fraction
 from typing import Any
 
 from geartrain.errors import Problem, QuestionError, RangeError
-from geartrain.numerics.exact import decimal
+from geartrain.numerics.decimal_text import decimal
 from geartrain.numerics.work import Journal
 from geartrain.synthesis.ratio.product_windows import MOST_STAGES, check_memory, multisets
 from geartrain.synthesis.ratio.segment_sweep import StageExecution, SweepOutcome, nearest, within

@@ -9,7 +9,7 @@ from itertools import chain
 from math import prod
 
 from geartrain.errors import Problem, QuestionError, RangeError, suggest
-from geartrain.numerics.exact import decimal
+from geartrain.numerics.decimal_text import decimal
 from geartrain.numerics.graphs import joined_groups
 from geartrain.synthesis.constraints.count_conditions import CountConstraint
 from geartrain.synthesis.formulas.output_formulas import find_formulas

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 
 from geartrain.kinematics.judged_outputs import RatioGoal, error_against, goal_of
-from geartrain.numerics.exact import decimal
+from geartrain.numerics.decimal_text import decimal
 from geartrain.numerics.quantity import Figure
 from geartrain.synthesis.join.wheel_monomials import Function, Interval, IntervalConstraint, WheelTerm
 from geartrain.synthesis.train.train_findings import ReachedSpeed

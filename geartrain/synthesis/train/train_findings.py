@@ -13,7 +13,8 @@ from math import prod
 from typing import Any, Literal
 
 from geartrain.errors import Problem, QuestionError
-from geartrain.numerics.exact import as_float, fraction_text
+from geartrain.numerics.decimal_text import fraction_text
+from geartrain.numerics.exact import as_float
 from geartrain.synthesis.search_outcome import Shortfall
 
 By = Literal["error", "total", "largest", "distinct", "change"]

@@ -7,7 +7,8 @@ from dataclasses import replace
 from fractions import Fraction
 from math import ceil, floor
 
-from geartrain.numerics.exact import decimal, log10
+from geartrain.numerics.decimal_text import decimal
+from geartrain.numerics.exact import log10
 from geartrain.synthesis.join.wheel_monomials import Interval, WheelTerm
 from geartrain.synthesis.search_outcome import Shortfall
 from geartrain.synthesis.train.output_requirements import OutputRequirement

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from geartrain.errors import Problem, QuestionError, suggest
-from geartrain.numerics.exact import decimal
+from geartrain.numerics.decimal_text import decimal
 from geartrain.numerics.work import Journal
 from geartrain.synthesis.constraints.assembly_constraints import find_constraints
 from geartrain.synthesis.constraints.constraint_options import ConstraintOptions

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from geartrain.dynamics.motion import ErrorComposition
 from geartrain.errors import Problem, QuestionError, RangeError
-from geartrain.numerics.exact import fraction_text
+from geartrain.numerics.decimal_text import fraction_text
 from geartrain.teeth.triangular.pair_geometry import TriangularSizes
 from geartrain.uncertainty.manufacturing_errors.cut_pair import sizes_of
 from geartrain.uncertainty.manufacturing_errors.declared_errors import (

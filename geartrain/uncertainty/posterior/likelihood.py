@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from geartrain.numerics.exact import log10
+from geartrain.numerics.long_float import UNIT_ROUNDOFF
 from geartrain.synthesis.formulas import Formula
 from geartrain.synthesis.formulas.laurent import Term
 from geartrain.synthesis.join.polynomial_constraints import PolynomialConstraint
@@ -29,7 +30,6 @@ from geartrain.uncertainty.posterior.observations import Observation, ObservedOu
 Bools = NDArray[np.bool_]
 Domains = Mapping[str, tuple[int, ...]]
 
-_U = 2.0**-53
 _SLACK = 1 + 1e-6
 """Covers the roundings of the bounds themselves, and the squares that first-order bounds leave out."""
 _SAFE = 250
@@ -51,7 +51,7 @@ class CountPolynomial:
     def relative(self) -> float | None:
         """A bound on the relative error; None where terms may cancel."""
         signs = {coefficient > 0 for coefficient, _ in self.terms}
-        return self.roundings * _U * _SLACK if len(signs) == 1 else None
+        return self.roundings * UNIT_ROUNDOFF * _SLACK if len(signs) == 1 else None
 
     def __call__(self, rows: MonomialColumns, plan: ProductPlan) -> tuple[Floats, Floats | None]:
         """The value, and a bound on its error where `relative` is None."""
@@ -62,7 +62,7 @@ class CountPolynomial:
         if self.relative is not None:
             return value, None
         size = reduce(np.add, map(np.abs, each))
-        return value, np.asarray(self.roundings * _U * _SLACK * size)
+        return value, np.asarray(self.roundings * UNIT_ROUNDOFF * _SLACK * size)
 
     def bounded(self, rows: MonomialColumns, plan: ProductPlan) -> tuple[Floats, Floats]:
         """The value, and a bound on its error in any case."""
@@ -140,7 +140,7 @@ def _divided(top: Floats, off: Floats, bottom: Floats, beside: Floats) -> tuple[
     with np.errstate(all="ignore"):
         value = top / bottom
         left = np.abs(bottom) - beside
-        room = _SLACK * ((off + np.abs(value) * beside) / left + 2 * _U * np.abs(value))
+        room = _SLACK * ((off + np.abs(value) * beside) / left + 2 * UNIT_ROUNDOFF * np.abs(value))
     return value, np.where((left > 0) & np.isfinite(room), room, np.inf)
 
 
@@ -236,7 +236,7 @@ def _folded(intervals: Sequence[Interval]) -> tuple[bool, list[tuple[float, floa
             found.append((0.0, 0.0, np.inf))
             continue
         ends = float(max(abs(low), abs(high)))
-        found.append((float((low + high) / 2), float((high - low) / 2), 8 * _U * ends))
+        found.append((float((low + high) / 2), float((high - low) / 2), 8 * UNIT_ROUNDOFF * ends))
     return fold, found
 
 

@@ -11,7 +11,8 @@ from fractions import Fraction
 from math import log2
 from typing import Any, Literal
 
-from geartrain.numerics.exact import as_float, decimal, fraction_text
+from geartrain.numerics.decimal_text import decimal, fraction_text
+from geartrain.numerics.exact import as_float
 from geartrain.uncertainty.posterior.observations import ObservedOutput
 from geartrain.uncertainty.posterior.priors import ToothCountPrior
 

@@ -1,0 +1,255 @@
+"""From a train and what is prescribed to an answer: the train or the part that matters, the method, judged outputs."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from functools import cached_property
+from math import isfinite
+from typing import TYPE_CHECKING, Any, Literal, get_args
+
+from geartrain.errors import Problem, QuestionError, RangeError, check_choice, suggest
+from geartrain.kinematics.answer import Answer, SpeedAccuracy
+from geartrain.kinematics.circuits import Circuit
+from geartrain.kinematics.components import ReducedSystem, SolvedPart, relevant_circuits
+from geartrain.kinematics.judged_outputs import Relative, SpeedValue, judge_outputs, relative_speed
+from geartrain.kinematics.speeds import EXACT_BUDGET, Solution, exact_verdict, solve
+from geartrain.kinematics.tooth_sensitivity import Sensitivity, sensitivity
+from geartrain.kinematics.verdict import Verdict
+from geartrain.kinematics.willis_system import WillisSystem, assemble_willis_system
+from geartrain.numerics.elimination import TooDenseError
+from geartrain.numerics.exact import as_float
+from geartrain.numerics.long_float import UNIT_ROUNDOFF, rounded, scaled
+from geartrain.train import StateCase, Train
+
+if TYPE_CHECKING:
+    from geartrain.kinematics.speeds import FloatSpeeds
+
+Method = Literal["auto", "exact", "floats"]
+
+
+@dataclass(frozen=True)
+class SpeedProblem:
+    """A train whose speeds are asked for, case by case.
+
+    signs         -1 for links whose axis points against the reference direction of its parallels
+    is_rotation   of two links, whether the axes between them are all parallel
+    """
+
+    declaration: Train
+    circuits: Sequence[Circuit]
+    signs: Mapping[str, int]
+    is_rotation: Callable[[str, str], bool]
+
+    @cached_property
+    def whole(self) -> SolvedPart:
+        """All links and circuits, ready to be solved."""
+        return self._part(self.circuits, tuple(self.declaration.links))
+
+    def solution(self, case: StateCase) -> Solution:
+        """Exact speeds and the verdict, however long they take."""
+        return solve(self.whole, case, self.signs, None)
+
+    def equations(self, case: StateCase) -> WillisSystem:
+        """The labelled Willis system of one case."""
+        return self._system(self.whole, case)
+
+    def answer(self, case: StateCase, output: str | None = None, method: Method = "auto") -> Answer:
+        """Speeds and judged outputs; with an `output` (or a link), only the circuits that drive it are solved."""
+        wanted, part = None, self.whole
+        if output is not None:
+            case, wanted = self.single_output(case, output)
+            part = self._pruned(case, wanted)
+        check_choice("method", method, get_args(Method))
+        if method == "floats":
+            return self._answer_in_floats(part, case, wanted)
+        try:
+            solution = solve(part, case, self.signs, None if method == "exact" else EXACT_BUDGET)
+        except TooDenseError:
+            return self._answer_in_floats(part, case, wanted)
+        if not case.exact:  # radians beside turns are no fractions, and none are shown
+            return self._rounded(part, case, wanted, solution)
+        verdict, speeds = solution.verdict, solution.speeds
+        return self._judged(case, verdict, speeds, solution.relative, wanted, len(part.circuits), solution.ratios)
+
+    def sensitivity(self, case: StateCase, answer: Answer) -> Iterator[Sensitivity]:
+        """What one tooth fewer or more on each uncertain wheel does to each output of an answer."""
+
+        def solve_with(circuits: Sequence[Circuit]) -> Any:
+            return solve(self._part(circuits, tuple(self.declaration.links)), case, self.signs).relative
+
+        return sensitivity(self.declaration, list(answer.outputs.values()), solve_with, self.circuits)
+
+    def floats(
+        self, case: StateCase, inputs: Mapping[str, Sequence[float]] | None, condition_of: Sequence[str]
+    ) -> FloatSpeeds:
+        """Float64 speeds; `inputs` give speeds, one a case, in place of the declared ones."""
+        from geartrain.kinematics.speeds import solve_floats
+
+        system = self.equations(case)
+        if inputs is not None:
+            _check_inputs(inputs, tuple(case.inputs))
+        for link in condition_of:
+            check_choice("link", link, system.links)
+        return solve_floats(system, _redundant(self.whole.reduced), inputs, condition_of)
+
+    def single_output(self, case: StateCase, output: str) -> tuple[StateCase, tuple[str, str]]:
+        """The case with one output, and the links that output is made of: what turns, and from where it is seen."""
+        train = self.declaration
+        declared = case.outputs.get(output)
+        if declared is None and output not in train.links:
+            known = dict.fromkeys([*case.outputs, *train.links])
+            raise QuestionError(
+                Problem(
+                    f"'{train.name}' has no output or link '{output}'", "it is not declared", suggest(output, known)
+                )
+            )
+        outputs = {output: declared} if declared else {}
+        links = (declared.of or output, declared.relative_to or train.frame) if declared else (output, train.frame)
+        return replace(case, outputs=outputs), links
+
+    # ------------------------------------------------------------------------------------------ the part that matters
+
+    def _part(self, circuits: Sequence[Circuit], links: tuple[str, ...]) -> SolvedPart:
+        declared = self.declaration
+        first = (*declared.inputs, *(link for state in declared.states.values() for link in state.inputs or ()))
+        return SolvedPart(links, declared.frame, circuits, first)
+
+    def _pruned(self, case: StateCase, wanted: Sequence[str]) -> SolvedPart:
+        """The part of the train that can matter to some links."""
+        held = {link for lock in case.locks for link in lock}
+        kept = {self.declaration.frame, *wanted, *case.inputs, *case.fixed, *held}
+        circuits = relevant_circuits(self.circuits, kept)
+        kept.update(link for circuit in circuits for link in (circuit.i, circuit.j, circuit.carrier))
+        return self._part(circuits, tuple(link for link in self.declaration.links if link in kept))
+
+    def _system(self, part: SolvedPart, case: StateCase) -> WillisSystem:
+        return assemble_willis_system(part.links, part.frame, part.circuits, case, self.signs)
+
+    # --------------------------------------------------------------------------------------------------- three methods
+
+    def _answer_in_floats(self, part: SolvedPart, case: StateCase, wanted: tuple[str, str] | None) -> Answer:
+        """Floats with their estimate, and with their true error where the exact answer is cheap."""
+        from geartrain.kinematics.speeds import solve_floats
+
+        truth: Mapping[str, Fraction] = {}
+        try:
+            solution = solve(part, case, self.signs)
+        except TooDenseError:
+            verdict = exact_verdict(part.reduced, case, self.signs)
+            still = verdict.kind == "locked" and not any(case.inputs.values())
+            solution = Solution(verdict, dict.fromkeys(part.links, Fraction(0)) if still else {}, {}, self.signs)
+        else:
+            truth = solution.speeds
+        if not solution.verdict:  # no square system to factorise
+            return self._rounded(part, case, wanted, solution)
+        found = solve_floats(self._system(part, case), _redundant(part.reduced))
+        powers = found.exponents.values[:, 0].tolist()
+        speeds = dict(zip(part.links, map(scaled, found.speeds.values[:, 0].tolist(), powers), strict=True))
+        estimates = dict(zip(part.links, map(scaled, found.estimate.values[:, 0].tolist(), powers), strict=True))
+        accuracy = {
+            link: SpeedAccuracy(estimates[link], rounded(abs(Fraction(speed) - truth[link])) if link in truth else None)
+            for link, speed in speeds.items()
+        }
+
+        def relative(of: str, base: str) -> SpeedValue | None:
+            return relative_speed(of, base, speeds.get, self.signs)
+
+        return self._judged(case, solution.verdict, speeds, relative, wanted, len(part.circuits), None, accuracy)
+
+    def _rounded(self, part: SolvedPart, case: StateCase, wanted: tuple[str, str] | None, solution: Solution) -> Answer:
+        """Exact speeds as floats."""
+
+        def relative(of: str, base: str) -> float | None:
+            speed = solution.relative(of, base)
+            return None if speed is None else _nearest(speed)
+
+        floats = {link: _nearest(speed) for link, speed in solution.speeds.items()}
+        accuracy = {link: SpeedAccuracy(abs(speed) * UNIT_ROUNDOFF, None) for link, speed in floats.items()}
+        return self._judged(case, solution.verdict, floats, relative, wanted, len(part.circuits), None, accuracy)
+
+    def _judged(
+        self,
+        case: StateCase,
+        verdict: Verdict,
+        speeds: Mapping[str, SpeedValue],
+        relative: Relative,
+        wanted: tuple[str, str] | None,
+        work: int,
+        ratios: Mapping[str, Mapping[str, Fraction]] | None,
+        accuracy: Mapping[str, SpeedAccuracy] | None = None,
+    ) -> Answer:
+        """The answer with its outputs judged, cut down to the links in `wanted`; no `ratios` means floats."""
+        declared = self.declaration
+        if wanted is not None:
+            verdict = self._narrowed(case, verdict, relative(*wanted) is not None, wanted)
+            shown = wanted if case.outputs else wanted[:1]
+            speeds = {link: speeds[link] for link in shown if link in speeds}
+            accuracy = {link: accuracy[link] for link in shown if link in accuracy} if accuracy else None
+        results = judge_outputs(declared, case, relative, self.is_rotation)
+        return Answer(
+            declared.name,
+            case.state,
+            declared.place(*case.loc),
+            declared.unit_name,
+            verdict,
+            speeds,
+            {result.name: result for result in results},
+            ratios or {},
+            "floats" if ratios is None else "exact",
+            accuracy or {},
+            work,
+        )
+
+    # -------------------------------------------------------------------------------------------- the verdict on a part
+
+    def _narrowed(self, case: StateCase, verdict: Verdict, known: bool, wanted: Sequence[str]) -> Verdict:
+        """The verdict on one output: it may be determined, or held still, in a train that is free.
+
+        known   whether the output's speed is determined
+        """
+        if not known:
+            return verdict
+        if not any(case.inputs.values()) and (whole := self._verdict(case)).kind == "locked":
+            return whole  # nothing is driven, and nothing could be
+        follows = f"follows from {', '.join(case.inputs)}" if case.inputs else "is 0, for it is held"
+        seen = f"{wanted[0]} seen from {wanted[1]}" if wanted[1] != self.declaration.frame else wanted[0]
+        return Verdict("determined", f"the speed of {seen} {follows}", loops=verdict.loops)
+
+    def _verdict(self, case: StateCase) -> Verdict:
+        """The verdict on the whole train."""
+        try:
+            return solve(self.whole, case, self.signs).verdict
+        except TooDenseError:
+            return exact_verdict(self.whole.reduced, case, self.signs)
+
+
+def _redundant(reduced: ReducedSystem) -> list[str]:
+    """The circuits that add nothing: they close loops."""
+    return [reduced.components.circuits[circuit].id for circuit in reduced.components.closing]
+
+
+def _nearest(speed: Fraction) -> float:
+    """The nearest float; `RangeError` where there is none."""
+    value = as_float(speed)
+    if value is None:
+        why = "its ratio would come out as 0 or infinity"
+        raise RangeError(Problem("a speed leaves the range of float64", why, "use the exact method, and no radians"))
+    return value
+
+
+def _check_inputs(inputs: Mapping[str, Sequence[float]], declared: Sequence[str]) -> None:
+    """Raise `QuestionError` unless each input, and no other link, has one finite speed a case."""
+    for link in inputs:
+        check_choice("input", link, declared)
+    for link in declared:
+        if link not in inputs:
+            why = "every input of the state needs its speeds"
+            raise QuestionError(Problem(f"input '{link}' is missing", why, f"give speeds of '{link}' too"))
+    if len({len(speeds) for speeds in inputs.values()}) > 1:
+        why = "there is one speed a case for each input"
+        raise QuestionError(Problem("the inputs have unequal numbers of cases", why, "give each as many"))
+    for link, speeds in inputs.items():
+        if not all(map(isfinite, speeds)):
+            raise QuestionError(Problem(f"a speed of '{link}' is not finite", "nothing follows from it", "mend it"))

@@ -1,0 +1,99 @@
+"""The integer rows of a Willis system as arrays: the sparse matrix, and residuals to twice the working precision."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from copy import copy
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from geartrain.kinematics.willis_system import WillisEquation
+from geartrain.numerics.error_free import two_product, two_sum
+
+if TYPE_CHECKING:
+    from geartrain.numerics.arrays import Floats
+
+_LOW = 1e-200  # entries of a scaled row below this are dropped
+
+
+class PaddedRows:
+    """The integer rows as arrays, padded to a common number of terms."""
+
+    def __init__(self, links: Sequence[str], rows: Sequence[WillisEquation]) -> None:
+        self.at = {link: column for column, link in enumerate(links)}
+        width = max(len(row.terms) for row in rows)
+        self.columns = np.zeros((len(rows), width), dtype=np.intc)
+        self.coefficients = np.zeros((len(rows), width))
+        for at, row in enumerate(rows):
+            for position, (link, coefficient) in enumerate(term for term in row.terms if term[0] in self.at):
+                self.columns[at, position] = self.at[link]
+                self.coefficients[at, position] = coefficient
+        self.low = np.zeros_like(self.coefficients, dtype=bool)
+
+    def scaled(self, exponents: NDArray[np.int64]) -> tuple[PaddedRows, NDArray[np.int64]]:
+        """The rows in speeds over powers of two, and the power by which each was divided: entries of 1 to 2 lead.
+
+        All these scalings are exact. Entries that sink below 1e-200 of their row are dropped: no rounding is moved by
+        them, and their products would lose the bits that residuals are made of. What they may do is in `sunk`.
+        """
+        sizes = np.frexp(self.coefficients)[1] + exponents[self.columns]
+        shifts = np.where(self.coefficients != 0, sizes, np.iinfo(np.int64).min).max(axis=1) - 1
+        moved = np.clip(exponents[self.columns] - shifts[:, None], -2000, 2000).astype(np.intc)
+        near = copy(self)
+        near.coefficients = np.ldexp(self.coefficients, moved)
+        near.low = (self.coefficients != 0) & (np.abs(near.coefficients) < _LOW)
+        near.coefficients[near.low] = 0.0
+        return near, shifts
+
+    def matrix(self) -> Any:
+        """The rows as a sparse matrix, column compressed."""
+        from scipy.sparse import csc_array
+
+        size, width = self.columns.shape
+        lines = np.repeat(np.arange(size, dtype=np.intc), width)
+        used = self.coefficients.ravel() != 0
+        entries = (self.coefficients.ravel()[used], (lines[used], self.columns.ravel()[used]))
+        return csc_array(entries, shape=(size, size))
+
+    def factorise(self, ordering: str) -> Any:
+        """The sparse LU factors."""
+        from scipy.sparse import linalg
+
+        solver: Any = linalg
+        return solver.splu(self.matrix(), permc_spec=ordering)
+
+    def residual(self, x: Floats, right: Floats, remainder: Floats) -> Floats:
+        """right - A x, accumulated to twice the working precision."""
+        total, low = right.copy(), remainder.copy()
+        for position in range(self.columns.shape[1]):
+            product, error = two_product(-self.coefficients[:, position, None], x[self.columns[:, position]])
+            total, carry = two_sum(total, product)
+            low = low + carry + error
+        return total + low
+
+    def prescribe(self, x: Floats, right: Floats) -> None:
+        """Links whose row is their own speed get it to the last bit."""
+        single = np.flatnonzero((self.coefficients != 0).sum(axis=1) == 1)
+        own = self.coefficients[single, 0] == 1
+        x[self.columns[single[own], 0]] = right[single[own]]
+
+    def size(self, x: Floats) -> Floats:
+        """|A| |x|, row by row."""
+        total: Floats = np.einsum("rt,rtc->rc", np.abs(self.coefficients), np.abs(x[self.columns]))
+        return total
+
+    def sunk(self, x: Floats) -> Floats:
+        """The most that dropped entries come to, row by row."""
+        total: Floats = np.einsum("rt,rtc->rc", _LOW * self.low, np.abs(x[self.columns]))
+        return total
+
+    def condition(self, lu: Any, link: str, x: Floats) -> float:
+        """cond(A, x) of one link: one transposed solve, (|y|, |A||x|) / |x_link|."""
+        column = self.at[link]
+        unit = np.zeros(len(x))
+        unit[column] = 1.0
+        y = lu.solve(unit, trans="T")
+        total = float(np.abs(y) @ self.size(x[:, None])[:, 0])
+        return total / abs(float(x[column])) if x[column] else float("inf")

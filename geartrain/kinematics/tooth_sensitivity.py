@@ -1,0 +1,71 @@
+"""What one tooth more or fewer on an uncertain wheel does to the outputs of a train."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass
+
+from geartrain.kinematics.circuits import Circuit
+from geartrain.kinematics.judged_outputs import OutputResult, Relative, is_near
+from geartrain.numerics.plain_data import Key, Result
+from geartrain.train import Train
+
+
+@dataclass(frozen=True, slots=True)
+class Sensitivity(Result):
+    """What one tooth fewer and one tooth more on an uncertain wheel do to an output, in ppm of its speed.
+
+    None stands for a train that no longer turns, or an output that stands still.
+    """
+
+    KEYS = ("wheel", "teeth", "output", Key("one_fewer_ppm", "less"), Key("one_more_ppm", "more"))
+
+    wheel: str
+    teeth: int
+    allowed: tuple[int, ...]
+    output: str
+    less: float | None
+    more: float | None
+
+
+def sensitivity(
+    train: Train,
+    outputs: Sequence[OutputResult],
+    solve_with: Callable[[Sequence[Circuit]], Relative],
+    circuits: Sequence[Circuit],
+) -> Iterator[Sensitivity]:
+    """Solve again, exactly, with each uncertain wheel one tooth off.
+
+    solve_with   circuits -> relative speeds, for changed circuits
+    """
+    for name, wheel in train.uncertain_wheels():
+        teeth = wheel.count
+        if teeth is None or not any(name in circuit.wheels for circuit in circuits):
+            continue
+        changed = {step: solve_with(list(_recut(circuits, name, teeth + step))) for step in (-1, 1) if teeth + step > 0}
+        for result in outputs:
+            shift = {step: _shift(result, relative) for step, relative in changed.items()}
+            if any(value != 0 for value in shift.values()):
+                allowed = wheel.doubt.allowed if wheel.doubt else ()
+                yield Sensitivity(name, teeth, allowed, result.name, shift.get(-1), shift.get(1))
+
+
+def _shift(result: OutputResult, relative: Relative) -> float | None:
+    speed = relative(result.of, result.relative_to)
+    if speed is None or result.speed is None:
+        return None
+    if speed == result.speed:
+        return 0.0
+    return is_near(speed / result.speed - 1, 10**6) if result.speed else None
+
+
+def _recut(circuits: Iterable[Circuit], wheel: str, teeth: int) -> Iterator[Circuit]:
+    """The circuits with another tooth count on one wheel."""
+    for circuit in circuits:
+        if circuit.kind == "gear" and wheel in circuit.wheels:
+            if circuit.wheels[0] == wheel:
+                yield circuit._replace(a=teeth if circuit.a > 0 else -teeth)
+            else:
+                yield circuit._replace(b=teeth if circuit.b > 0 else -teeth)
+        else:
+            yield circuit

@@ -1,0 +1,162 @@
+"""From a path, a shipped name, text or plain data to a declaration, with what it inherits."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from functools import cache
+from pathlib import Path
+from stat import S_ISDIR, S_ISREG
+from types import MappingProxyType
+from typing import Any
+
+from geartrain.errors import DeclarationError, Problem, suggest
+from geartrain.train.declaration import Train
+from geartrain.train.inheritance import merge_parent
+from geartrain.train.validation import declare
+from geartrain.train.yaml_nodes import YamlNode, node_from_data, parse_yaml
+
+_MOST_BYTES = 64 * 2**20
+_MOST_PARENTS = 2000
+
+
+@cache
+def shipped() -> Mapping[str, Path]:
+    """The trains that come with geartrain, by name."""
+    package = Path(__file__).resolve().parent.parent
+    home = next((folder for folder in (package / "trains", package.parent / "trains") if folder.is_dir()), None)
+    return MappingProxyType({path.stem: path for path in sorted(home.rglob("*.yaml"))} if home else {})
+
+
+def read_declaration(source: str | Path | Mapping[str, Any]) -> Train:
+    """A train from a YAML file, the name of a shipped train, YAML text (of several lines), or plain data.
+
+    Wheels may be without a tooth count that is still to be found. Raises `DeclarationError`.
+    """
+    if isinstance(source, Mapping):
+        if "extends" not in source and "remove" not in source:
+            return declare(source)
+        return _build(node_from_data(source), Path.cwd(), (), "train")
+    if isinstance(source, str) and "\n" in source:
+        return _build(parse_yaml(source, "text"), Path.cwd(), (), "train")
+    path = _find(source)
+    return _build(parse_yaml(_read(path), str(path)), path.parent, (path.resolve(),), path.stem)
+
+
+def _build(root: YamlNode, folder: Path, chain: tuple[Path, ...], stem: str) -> Train:
+    node = _with_parents(root, folder, chain)
+    data = node.plain()
+    data.setdefault("name", stem)
+    return declare(data, node.place_of)
+
+
+def _with_parents(child: YamlNode, folder: Path, chain: tuple[Path, ...]) -> YamlNode:
+    """The child laid over its parent, which is laid over its own before."""
+    line, met = [child], dict.fromkeys(chain)
+    while "extends" in line[-1].mapping:
+        place = line[-1].place_of(("extends",))
+        path = _parent(line[-1].mapping["extends"].text, folder, place)
+        if path.resolve() in met:
+            loop = " -> ".join(step.name for step in (*met, path))
+            raise DeclarationError(
+                Problem("`extends` goes round in a circle", loop, "let one of them stand alone", place)
+            )
+        met[path.resolve()] = None
+        folder = path.parent
+        line.append(parse_yaml(_read(path), str(path)))
+        if len(line) > _MOST_PARENTS + 1:
+            why = f"a train may change another one that changes another one, {_MOST_PARENTS} at most"
+            raise DeclarationError(Problem("the chain of `extends` is too long", why, "write one of them out", place))
+    result = line.pop()
+    while line:
+        result = merge_parent(result, line.pop())
+    return result
+
+
+def _parent(name: str, folder: Path, place: str) -> Path:
+    if not name:
+        raise DeclarationError(
+            Problem("`extends` names nothing", "it is the file or shipped train to change", "name one", place)
+        )
+    if _exists(folder / name):
+        return folder / name
+    if name in shipped():
+        return shipped()[name]
+    siblings = [*shipped(), *(path.name for path in folder.glob("*.yaml"))]
+    raise DeclarationError(
+        Problem(
+            f"`extends` names '{name}'",
+            f"there is no such file in {'this folder' if folder == Path() else folder} and no such shipped train",
+            suggest(name, siblings, otherwise="`geartrain list` shows the shipped trains", wide=True),
+            place,
+        )
+    )
+
+
+def _exists(path: Path) -> bool:
+    """True if something is there; a name that no file can have is none."""
+    try:
+        return path.exists()
+    except (OSError, ValueError):
+        return False
+
+
+def _find(source: str | Path) -> Path:
+    path = Path(source)
+    if _exists(path):
+        return path
+    if str(source) in shipped():
+        return shipped()[str(source)]
+    within = next((found for found in shipped().values() if str(found).endswith(f"/{str(source).lstrip('./')}")), None)
+    if within is not None:
+        return within
+    raise DeclarationError(
+        Problem(
+            "there is no such file",
+            f"and no shipped train is called '{path.stem}'",
+            suggest(path.stem, shipped(), otherwise="`geartrain list` shows the shipped trains", wide=True),
+            str(source),
+        )
+    )
+
+
+def _read(path: Path) -> str:
+    place = str(path)
+    try:
+        status = path.stat()
+        if not S_ISREG(status.st_mode) and not S_ISDIR(status.st_mode):
+            why = "a device or a pipe may have no end, and is read once"
+            raise DeclarationError(Problem("this is no regular file", why, "save the declaration as a file", place))
+        if status.st_size > _MOST_BYTES:
+            raise DeclarationError(
+                Problem(
+                    "the file is too large",
+                    f"a declaration has at most {_MOST_BYTES >> 20} MB",
+                    "build the train in Python",
+                    place,
+                )
+            )
+        raw = path.read_bytes()
+    except IsADirectoryError:
+        raise DeclarationError(
+            Problem("this is a directory", "a declaration is a file", "name a .yaml file in it", place)
+        ) from None
+    except OSError as error:
+        raise DeclarationError(
+            Problem(
+                "the file cannot be read",
+                error.strerror or str(error),
+                "check its path and permissions",
+                place,
+            )
+        ) from None
+    try:
+        text = raw.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        raise DeclarationError(
+            Problem("this is not a text file", f"byte {error.start} is not UTF-8", "save it as UTF-8 text", place)
+        ) from None
+    if "\0" in text:
+        raise DeclarationError(
+            Problem("this is not a text file", "it holds zero bytes", "name a YAML declaration", place)
+        )
+    return text

@@ -6,7 +6,7 @@ import hashlib
 import json as plain
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager, nullcontext, suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -33,10 +33,8 @@ from geartrain.cli.long_runs import means
 from geartrain.cli.uncertainty_plots import Picture, Plot, check_plot, draw_findings, with_map
 
 if TYPE_CHECKING:
-    from concurrent.futures import Executor
-
-    from geartrain.numerics.work import Journal
-    from geartrain.uncertainty.monte_carlo import MonteCarloResult, TrialExecution, TrialPlan, TrialRecord, TrialResults
+    from geartrain.numerics.work import Execution, Journal
+    from geartrain.uncertainty.monte_carlo import MonteCarloResult, TrialPlan, TrialRecord, TrialResults
 
 Names = list[str] | None
 TABLES = (".parquet", ".csv")
@@ -73,6 +71,7 @@ def run(
 ) -> None:
     """How often a train cut by hand jams, and how far its pointers stray; to a .parquet or .csv, every trial."""
     from geartrain.analysis.loader import load
+    from geartrain.numerics.work import Execution
     from geartrain.uncertainty.monte_carlo import (
         check_trials,
         find_trial_plan,
@@ -92,15 +91,16 @@ def run(
     asked_of = journal_key(plan, seed, trials)
     count = 1 if workers is None and scheduler is None else workers
     with means("trials", _kept(asked_of, out), asked_of, count, scheduler, resume) as given:
-        work = _Work(*given)
-        found = _trials(plan, trials, seed, work, _Table(plan, to, resume) if to.suffix in TABLES else None)
+        execution = Execution(*given)
+        later = replace(execution, journal=None)  # the journal is of the trials alone
+        found = _trials(plan, trials, seed, execution, _Table(plan, to, resume) if to.suffix in TABLES else None)
         if not found.complete:
-            work.stopped(found.done, trials)
-        asked = _Studies(plan, trials, seed, work.later())
+            _stopped(found.done, trials, execution.journal)
+        asked = _Studies(plan, trials, seed, later)
         findings = asked.findings(found, bool(output), sweep, sobol, tolerance, chance) if found.complete else None
-        drawn = with_map(findings, picture, sweep, work.later()) if findings is not None and plot is not None else None
-        if findings is not None:
-            work.finish()
+        drawn = with_map(findings, picture, sweep, later) if findings is not None and plot is not None else None
+        if findings is not None and execution.journal is not None:
+            execution.journal.finish()
     _answer(findings or _partial(found), json or to.suffix == ".json", STANDARD if to.suffix in TABLES else to)
     if to.suffix in TABLES and found.complete:
         tell(f"wrote {out}")
@@ -139,20 +139,27 @@ class _StoppedError(Exception):
     """The user interrupts."""
 
 
-def _trials(plan: TrialPlan, trials: int, seed: int, work: _Work, table: _Table | None) -> TrialResults:
+def _trials(plan: TrialPlan, trials: int, seed: int, execution: Execution, table: _Table | None) -> TrialResults:
     from geartrain.uncertainty.monte_carlo import run_trials
 
     with suppress(_StoppedError), nullcontext() if table is None else table.open() as take:
-        found = run_trials(plan, trials, seed, work.means(take))
+        found = run_trials(plan, trials, seed, execution, take)
         if not found.complete:
             raise _StoppedError  # so that the table stays partial
     return found
 
 
+def _stopped(done: int, wanted: int, journal: Journal | None) -> None:
+    """Say where an interrupted run can be taken up."""
+    tell(f"stopped after {done} of {wanted} trials; the figures are of those")
+    if journal is not None:
+        tell(f"what is done is in {journal.path}: give the same command with --resume")
+
+
 class _Studies:
     """What is asked beside the trials themselves."""
 
-    def __init__(self, plan: TrialPlan, trials: int, seed: int, means: TrialExecution) -> None:
+    def __init__(self, plan: TrialPlan, trials: int, seed: int, means: Execution) -> None:
         self.plan, self.count, self.seed, self.means = plan, trials, seed, means
 
     def findings(
@@ -179,36 +186,6 @@ class _Studies:
             else (),
             find_tolerance(plan, kind, chance, self.count, seed, means=means) if kind is not None else None,
         )
-
-
-class _Work:
-    """An executor, a journal and what is told of progress."""
-
-    def __init__(self, executor: Executor | None, journal: Journal | None, tell: Callable[[int, int], None]) -> None:
-        self.executor, self.journal, self.tell = executor, journal, tell
-
-    def means(self, take: Callable[[TrialRecord], None] | None) -> TrialExecution:
-        """For the trials: kept in the journal, and handed on block by block."""
-        from geartrain.uncertainty.monte_carlo import TrialExecution
-
-        return TrialExecution(self.executor, self.journal, self.tell, take)
-
-    def later(self) -> TrialExecution:
-        """For what is asked after the trials."""
-        from geartrain.uncertainty.monte_carlo import TrialExecution
-
-        return TrialExecution(self.executor, None, self.tell)
-
-    def stopped(self, done: int, wanted: int) -> None:
-        """Say where an interrupted run can be taken up."""
-        tell(f"stopped after {done} of {wanted} trials; the figures are of those")
-        if self.journal is not None:
-            tell(f"what is done is in {self.journal.path}: give the same command with --resume")
-
-    def finish(self) -> None:
-        """The journal is not needed any more."""
-        if self.journal is not None:
-            self.journal.finish()
 
 
 def _kept(question: Mapping[str, Any], out: Path | None) -> Path:

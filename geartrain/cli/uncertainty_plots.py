@@ -12,7 +12,8 @@ import typer
 from geartrain.cli.common import PICTURES, Sink, draw, sink
 
 if TYPE_CHECKING:
-    from geartrain.uncertainty.monte_carlo import MonteCarloResult, TrialExecution
+    from geartrain.numerics.work import Execution
+    from geartrain.uncertainty.monte_carlo import MonteCarloResult
     from geartrain.uncertainty.posterior import ToothCountPosterior
 
 Plot = Annotated[Path | None, typer.Option("--plot", help="Draw to this file (.svg, .png or .pdf).")]
@@ -34,7 +35,7 @@ def check_plot(plot: Path | None, force: bool, picture: str = "errors") -> Sink:
 
 
 def with_map(
-    findings: MonteCarloResult, picture: str, clearances: Sequence[float], means: TrialExecution
+    findings: MonteCarloResult, picture: str, clearances: Sequence[float], means: Execution
 ) -> MonteCarloResult:
     """The findings with what a map needs, where one is to be drawn: other clearances, and errors of other sizes."""
     if picture != "map":

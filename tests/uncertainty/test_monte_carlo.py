@@ -15,12 +15,11 @@ from sorge import Pair, least_play
 from test_hand_cut_batch import chance_that_none_rises
 
 from geartrain import GearTrain, load
-from geartrain.numerics.work import Journal, open_executor
+from geartrain.numerics.work import Execution, Journal, open_executor
 from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
 from geartrain.uncertainty.confidence_intervals import IntervalEstimate, deviation_of, mean_of, percentile_of, wilson
 from geartrain.uncertainty.manufacturing_errors import CutWheel, batch_verdicts, cut_transmission_function
 from geartrain.uncertainty.monte_carlo import (
-    TrialExecution,
     TrialPlan,
     find_sobol_indices,
     find_tolerance,
@@ -291,14 +290,14 @@ def test_cut_and_taken_up_or_by_two_workers_it_is_the_same_bit_for_bit(workers: 
     path = tmp_path / "journal"
     for stop in (1, 3):
         with Journal(path, asked) as journal, pytest.raises(CutError):
-            run_trials(plan, 900, 7, TrialExecution(None, journal, blocks_until(stop)))
+            run_trials(plan, 900, 7, Execution(None, journal, blocks_until(stop)))
     with Journal(path, asked) as journal:
         assert 0 < len(journal) < 4
     with workers() as executor, Journal(path, asked) as journal:
-        assert same(run_trials(plan, 900, 7, TrialExecution(executor, journal)), true)
+        assert same(run_trials(plan, 900, 7, Execution(executor, journal)), true)
         assert len(journal) == 4
     with workers() as executor:
-        assert same(run_trials(plan, 900, 7, TrialExecution(executor)), true)
+        assert same(run_trials(plan, 900, 7, Execution(executor)), true)
     fewer = run_trials(plan, 300, 7)
     assert (fewer.errors == true.errors[:300]).all()
     assert not (run_trials(plan, 300, 8).errors == fewer.errors).any()

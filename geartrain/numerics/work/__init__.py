@@ -6,8 +6,9 @@ up again and ends the same. Journals are the one thing that does not go through 
 result for a reader, and they live and die with the run.
 """
 
+from geartrain.numerics.work.execution import Execution
 from geartrain.numerics.work.executors import cores, open_executor
 from geartrain.numerics.work.journal import Journal, another_question
 from geartrain.numerics.work.task_runner import run
 
-__all__ = ["Journal", "another_question", "cores", "open_executor", "run"]
+__all__ = ["Execution", "Journal", "another_question", "cores", "open_executor", "run"]

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from concurrent.futures import Executor
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from math import log
 from typing import Any
 
 from geartrain.errors import Problem, RangeError
-from geartrain.numerics.work import Journal, run
+from geartrain.numerics.work import Execution
 from geartrain.synthesis.ratio.product_windows import multisets
 from geartrain.synthesis.ratio.ratio_windows import reach_of_errors, rounded_up
 from geartrain.synthesis.ratio.reverted_stages import search_sums, stages_of, sums_of
@@ -25,15 +24,6 @@ _ENOUGH = 2 * 10**9
 _MOST = 1e11
 """Pairs of sets that may have to be looked at one by one."""
 _PILOT = Fraction(1, 100)
-
-
-@dataclass(frozen=True, slots=True)
-class StageExecution:
-    """Who works, where finished work is kept, and who is told."""
-
-    executor: Executor | None = None
-    journal: Journal | None = None
-    tell: Callable[[int, int], None] | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,14 +47,14 @@ class SweepOutcome:
         return self.count + sum(self.removed.values())
 
 
-def within(question: StageProblem, means: StageExecution) -> SweepOutcome:
+def within(question: StageProblem, means: Execution) -> SweepOutcome:
     """All within the question's tolerance: counted, the best kept."""
     search = _search_for(question)
     search.check(question.tolerance)
     return search.sweep(question.tolerance, search.pilot(question.tolerance), means)
 
 
-def nearest(question: StageProblem, means: StageExecution) -> SweepOutcome:
+def nearest(question: StageProblem, means: Execution) -> SweepOutcome:
     """The best by |error|, proved: the tolerance is widened until enough are within it, so that none is nearer.
 
     The question's own tolerance is not looked at.
@@ -150,7 +140,7 @@ class _ByProducts:
         inside = result["count"] + sum(result["removed"].values())
         return (keys[-1][:3] if len(keys) == question.best else None), inside
 
-    def sweep(self, tolerance: Fraction, bound: Bound | None, means: StageExecution) -> SweepOutcome:
+    def sweep(self, tolerance: Fraction, bound: Bound | None, means: Execution) -> SweepOutcome:
         """All pieces."""
         tasks = [self._task(tolerance, segment, bound) for segment in self.plan.segments]
         return _swept(search_segment, tasks, self.question, tolerance, means)
@@ -184,7 +174,7 @@ class _BySums:
         """None: the pieces are small."""
         return None
 
-    def sweep(self, tolerance: Fraction, bound: Bound | None, means: StageExecution) -> SweepOutcome:
+    def sweep(self, tolerance: Fraction, bound: Bound | None, means: Execution) -> SweepOutcome:
         """All pieces."""
         del bound
         question = replace(self.question, tolerance=tolerance)
@@ -206,11 +196,11 @@ def _swept(
     tasks: list[Any],
     question: StageProblem,
     tolerance: Fraction,
-    means: StageExecution,
+    means: Execution,
 ) -> SweepOutcome:
     """The results of all pieces as one; what is there so far if the user interrupts."""
     alone = len(tasks) == 1
-    results = iter([work(tasks[0])]) if alone else run(work, tasks, means.executor, means.journal, means.tell)
+    results = iter([work(tasks[0])]) if alone else means.run(work, tasks)
     count, keys, complete = 0, list[Key](), True
     removed: dict[str, int] = {}
     try:

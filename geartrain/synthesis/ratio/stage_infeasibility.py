@@ -8,10 +8,11 @@ from fractions import Fraction
 
 from geartrain.errors import RangeError
 from geartrain.numerics.decimal_text import decimal
+from geartrain.numerics.work import Execution
 from geartrain.synthesis.ratio.product_windows import MOST_STAGES, multisets
 from geartrain.synthesis.ratio.ratio_windows import rounded_up
 from geartrain.synthesis.ratio.reverted_stages import tally
-from geartrain.synthesis.ratio.segment_sweep import StageExecution, SweepOutcome, nearest, within
+from geartrain.synthesis.ratio.segment_sweep import SweepOutcome, nearest, within
 from geartrain.synthesis.ratio.stage_problem import StageConstraints, StageProblem
 from geartrain.synthesis.ratio.stage_ranking import Key
 from geartrain.synthesis.search_outcome import Shortfall
@@ -38,9 +39,7 @@ def account(question: StageProblem, considered: int, outcome: SweepOutcome) -> M
     return {reason: number for reason, number in removed.items() if number}
 
 
-def explain(
-    question: StageProblem, considered: int, outcome: SweepOutcome, sense: int, means: StageExecution
-) -> Shortfall:
+def explain(question: StageProblem, considered: int, outcome: SweepOutcome, sense: int, means: Execution) -> Shortfall:
     """The account, and for an empty outcome the nearest miss and what to relax."""
     if not outcome.complete:
         return Shortfall(considered, {}, advice="the search was cut short; take it up again, or narrow the counts")
@@ -100,7 +99,7 @@ def _one_more(question: StageProblem, sense: int) -> Iterator[str]:
         yield f"try {size} stages"
         return
     try:
-        count = within(more, StageExecution()).count
+        count = within(more, Execution()).count
     except RangeError:
         return
     if count:

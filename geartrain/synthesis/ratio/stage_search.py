@@ -19,9 +19,9 @@ from typing import Any
 
 from geartrain.errors import Problem, QuestionError, RangeError
 from geartrain.numerics.decimal_text import decimal
-from geartrain.numerics.work import Journal
+from geartrain.numerics.work import Execution, Journal
 from geartrain.synthesis.ratio.product_windows import MOST_STAGES, check_memory, multisets
-from geartrain.synthesis.ratio.segment_sweep import StageExecution, SweepOutcome, nearest, within
+from geartrain.synthesis.ratio.segment_sweep import SweepOutcome, nearest, within
 from geartrain.synthesis.ratio.stage_infeasibility import SENSE, explain
 from geartrain.synthesis.ratio.stage_pairing import best_pairing
 from geartrain.synthesis.ratio.stage_problem import StageConstraints, StageProblem
@@ -141,7 +141,7 @@ def find_stages(
     if not (question.top and question.beneath):
         return _findings(wanted, question, SweepOutcome(question.tolerance), _too_large(question, considered), note)
     _check_reach(question)
-    means = StageExecution(executor, journal, tell)
+    means = Execution(executor, journal, tell)
     open_ended = tolerance is None and by == "error"
     try:
         outcome = nearest(question, means) if open_ended else within(question, means)

@@ -19,7 +19,6 @@ from geartrain.uncertainty.monte_carlo.sobol_indices import SobolIndex, SobolInd
 from geartrain.uncertainty.monte_carlo.tolerance_allocation import ToleranceAllocation, find_tolerance
 from geartrain.uncertainty.monte_carlo.trial_plan import TrialPlan, find_trial_plan
 from geartrain.uncertainty.monte_carlo.trial_run import (
-    TrialExecution,
     TrialRecord,
     check_trials,
     journal_key,
@@ -40,7 +39,6 @@ __all__ = [
     "SobolIndex",
     "SobolIndices",
     "ToleranceAllocation",
-    "TrialExecution",
     "TrialPlan",
     "TrialRecord",
     "TrialResults",

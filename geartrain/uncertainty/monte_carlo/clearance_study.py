@@ -10,12 +10,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from geartrain.errors import Problem, QuestionError
-from geartrain.numerics.work import run
+from geartrain.numerics.work import Execution
 from geartrain.uncertainty.confidence_intervals import ProbabilityEstimate
 from geartrain.uncertainty.monte_carlo.pointer_error import EVENTS
 from geartrain.uncertainty.monte_carlo.random_streams import BLOCK, RandomStreams
 from geartrain.uncertainty.monte_carlo.trial_block import UNCUT, draw_trial_wheels, judge_trial_pairs
-from geartrain.uncertainty.monte_carlo.trial_run import TrialExecution, block_tasks, check_trials
+from geartrain.uncertainty.monte_carlo.trial_run import block_tasks, check_trials
 
 if TYPE_CHECKING:
     from geartrain.uncertainty.monte_carlo.trial_plan import TrialPlan
@@ -59,7 +59,7 @@ def read_clearances(text: str) -> list[float]:
 
 
 def run_clearances(
-    plan: TrialPlan, clearances: Sequence[float], trials: int, seed: int = 1, means: TrialExecution | None = None
+    plan: TrialPlan, clearances: Sequence[float], trials: int, seed: int = 1, means: Execution | None = None
 ) -> list[ClearanceCase]:
     """The train at each clearance, by the same wheels."""
     return jamming_map(plan, clearances, (1.0,), trials, seed, means)
@@ -71,25 +71,25 @@ def jamming_map(
     scales: Sequence[float],
     trials: int,
     seed: int = 1,
-    means: TrialExecution | None = None,
+    means: Execution | None = None,
 ) -> list[ClearanceCase]:
     """The train at every clearance with its errors at every scale, the clearance running slowest."""
     check_trials(trials)
-    means = means or TrialExecution()
+    means = means or Execution()
     cases = [(clearance, scale, "") for clearance in clearances for scale in scales]
     return list(_judged(plan, cases, trials, seed, means))
 
 
-def judged_at(plan: TrialPlan, scale: float, kind: str, trials: int, seed: int, means: TrialExecution) -> ClearanceCase:
+def judged_at(plan: TrialPlan, scale: float, kind: str, trials: int, seed: int, means: Execution) -> ClearanceCase:
     """The train as declared, its errors of one kind (all for "") at one scale."""
     return next(_judged(plan, [(None, scale, kind)], trials, seed, means))
 
 
 def _judged(
-    plan: TrialPlan, cases: Sequence[tuple[float | None, float, str]], trials: int, seed: int, means: TrialExecution
+    plan: TrialPlan, cases: Sequence[tuple[float | None, float, str]], trials: int, seed: int, means: Execution
 ) -> Iterator[ClearanceCase]:
     tasks = [[*case, *block] for case in cases for block in block_tasks(trials)]
-    results = run(partial(work_case, plan, seed), tasks, means.executor, means.journal, means.tell)
+    results = means.run(partial(work_case, plan, seed), tasks)
     for clearance, scale, _ in cases:
         counts = np.sum([next(results) for _ in range(-(-trials // BLOCK))], axis=0)
         found = [

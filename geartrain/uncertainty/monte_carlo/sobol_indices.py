@@ -14,12 +14,12 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 
 from geartrain.errors import MissingExtraError, Problem, QuestionError
-from geartrain.numerics.work import run
+from geartrain.numerics.work import Execution, run
 from geartrain.uncertainty.confidence_intervals import CONFIDENCE, IntervalEstimate
 from geartrain.uncertainty.manufacturing_errors.declared_errors import ERROR_KINDS
 from geartrain.uncertainty.monte_carlo.random_streams import BLOCK, ECCENTRICITY, NUMBER, TOWARDS, RandomStreams
 from geartrain.uncertainty.monte_carlo.trial_block import draw_trial_wheels, input_positions, trial_pointers
-from geartrain.uncertainty.monte_carlo.trial_run import TrialExecution, block_tasks, check_trials
+from geartrain.uncertainty.monte_carlo.trial_run import block_tasks, check_trials
 
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
@@ -69,7 +69,7 @@ def find_sobol_indices(
     by: By = "wheel",
     trials: int = 1024,
     seed: int = 1,
-    means: TrialExecution | None = None,
+    means: Execution | None = None,
 ) -> SobolIndices:
     """Sobol indices of an output's error at random positions; pairs that jam move it by their pushing flanks.
 
@@ -77,7 +77,7 @@ def find_sobol_indices(
     """
     sobol = _sobol()
     check_trials(trials)
-    means, names = means or TrialExecution(), [name for name, _ in error_groups(plan, output, by)]
+    means, names = means or Execution(), [name for name, _ in error_groups(plan, output, by)]
     if len(names) < 2:
         what = f"no wheel that is off moves '{plan.outputs[output]}'"
         raise QuestionError(Problem(what, "its error does not vary", "ask for another output"))

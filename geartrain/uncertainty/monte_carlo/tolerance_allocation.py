@@ -8,10 +8,11 @@ from statistics import NormalDist
 from typing import TYPE_CHECKING, Any
 
 from geartrain.errors import Problem, QuestionError, RangeError
+from geartrain.numerics.work import Execution
 from geartrain.uncertainty.confidence_intervals import CONFIDENCE, ProbabilityEstimate, wilson
 from geartrain.uncertainty.manufacturing_errors.declared_errors import ERROR_KINDS
 from geartrain.uncertainty.monte_carlo.clearance_study import judged_at
-from geartrain.uncertainty.monte_carlo.trial_run import TrialExecution, check_trials, jamming_bounds
+from geartrain.uncertainty.monte_carlo.trial_run import check_trials, jamming_bounds
 
 if TYPE_CHECKING:
     from geartrain.uncertainty.monte_carlo.trial_plan import TrialPlan
@@ -62,7 +63,7 @@ def find_tolerance(
     trials: int = 4096,
     seed: int = 1,
     event: str = "jam",
-    means: TrialExecution | None = None,
+    means: Execution | None = None,
 ) -> ToleranceAllocation:
     """Bisection on the scale of the declared errors, the same errors at every scale.
 
@@ -70,7 +71,7 @@ def find_tolerance(
     wheels do it, or where no error that can be cut does.
     """
     check_trials(trials)
-    means = replace(means or TrialExecution(), journal=None, take=None)
+    means = replace(means or Execution(), journal=None)
     _check(plan, kind, chance, trials)
     tried: dict[float, ProbabilityEstimate] = {}
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from base64 import b64decode, b64encode
 from collections.abc import Callable, Mapping, Sequence
-from concurrent.futures import Executor
 from dataclasses import dataclass, field, replace
 from functools import partial
 from importlib.metadata import version
@@ -14,7 +13,7 @@ import numpy as np
 
 from geartrain.dynamics.motion import Superposition
 from geartrain.errors import Problem, QuestionError, RangeError
-from geartrain.numerics.work import Journal, run
+from geartrain.numerics.work import Execution
 from geartrain.uncertainty.manufacturing_errors import jamming_bound
 from geartrain.uncertainty.monte_carlo.pointer_error import PointerErrorCourse, TrialResults, turning_trials
 from geartrain.uncertainty.monte_carlo.random_streams import BLOCK, RandomStreams
@@ -39,16 +38,6 @@ VERSION = 1
 _CHECKED = 4  # blocks in which superposition is held against composition
 _COURSE = 1 << 20  # courses draw from streams of their own
 _MOST = 10**9
-
-
-@dataclass(frozen=True, slots=True)
-class TrialExecution:
-    """Who works, where finished work is kept, who is told, and who takes each block as it comes."""
-
-    executor: Executor | None = None
-    journal: Journal | None = None
-    tell: Callable[[int, int], None] | None = None
-    take: Callable[[TrialRecord], None] | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -82,22 +71,28 @@ def block_tasks(trials: int) -> list[list[int]]:
     return [[start // BLOCK, min(BLOCK, trials - start)] for start in range(0, trials, BLOCK)]
 
 
-def run_trials(plan: TrialPlan, trials: int, seed: int = 1, means: TrialExecution | None = None) -> TrialResults:
-    """All trials; those that are done where the user interrupts.
+def run_trials(
+    plan: TrialPlan,
+    trials: int,
+    seed: int = 1,
+    means: Execution | None = None,
+    take: Callable[[TrialRecord], None] | None = None,
+) -> TrialResults:
+    """All trials; those that are done where the user interrupts. `take` is given each block as it comes.
 
     The same for any number of workers, however often it was cut and taken up. Raises `QuestionError` for no trials,
     `RangeError` where most wheels cannot be cut.
     """
     check_trials(trials)
-    means, work = means or TrialExecution(), partial(work_block, plan, seed)
+    means, work = means or Execution(), partial(work_block, plan, seed)
     found: list[TrialRecord] = []
     try:
-        for block, packed in enumerate(run(work, block_tasks(trials), means.executor, means.journal, means.tell)):
+        for block, packed in enumerate(means.run(work, block_tasks(trials))):
             rows = unpack(plan, block, packed)
             if not block:
                 _check_cut(plan, rows)
-            if means.take is not None:
-                means.take(rows)
+            if take is not None:
+                take(rows)
             found.append(replace(rows, play=np.zeros((0, 0))))
     except KeyboardInterrupt:
         if not found:

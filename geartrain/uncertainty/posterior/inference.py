@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import Executor
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from fractions import Fraction
 from functools import partial
 from math import prod
 from typing import Any
 
 from geartrain.errors import Problem, QuestionError, RangeError, suggest
-from geartrain.numerics.work import Journal, run
+from geartrain.numerics.work import Execution, Journal, run
 from geartrain.train import Train
 from geartrain.uncertainty.posterior.enumeration import (
     LikelihoodBatch,
@@ -46,15 +46,6 @@ _ALONE = 200_000
 _DRAWN = 1 << 16
 _ENOUGH = 100
 METHODS: tuple[Method, ...] = ("enumerate", "decompose", "sample")
-
-
-@dataclass(frozen=True, slots=True)
-class InferenceExecution:
-    """Who does the work, what is kept of it, and who is told."""
-
-    executor: Executor | None = None
-    journal: Journal | None = None
-    tell: Callable[[int, int], None] | None = None
 
 
 def infer_counts(
@@ -109,7 +100,7 @@ def infer_counts(
         scale=scale,
         soft=soft,
     )
-    means = InferenceExecution(executor, journal, tell)
+    means = Execution(executor, journal, tell)
     chosen, found, cut = _find(question, method, most, limit, samples, seed, means)
     exact = found.evidence if chosen != "sample" else None
     shares = {
@@ -161,7 +152,7 @@ def _find(
     limit: int,
     samples: int,
     seed: int,
-    means: InferenceExecution,
+    means: Execution,
 ) -> tuple[Method, PosteriorSummary, bool]:
     """The way asked for, or the first that stays within the limit."""
     listed = prod(len(question.doubts[wheel].counts) for wheel in LikelihoodBatch(question).wheels)
@@ -183,7 +174,7 @@ def _passed(what: str, limit: int, other: str) -> RangeError:
     return RangeError(Problem(what, why, f"raise the limit, narrow the doubts, or let it {other}"))
 
 
-def _enumerated(question: InferenceProblem, most: int, means: InferenceExecution) -> tuple[PosteriorSummary, bool]:
+def _enumerated(question: InferenceProblem, most: int, means: Execution) -> tuple[PosteriorSummary, bool]:
     runs = grid_of(question).runs
     step = max(1, -(-runs // _TASKS))
     tasks = [[at, min(at + step, runs)] for at in range(0, runs, step)]
@@ -192,7 +183,7 @@ def _enumerated(question: InferenceProblem, most: int, means: InferenceExecution
 
 
 def _sampled(
-    question: InferenceProblem, most: int, samples: int, seed: int, means: InferenceExecution
+    question: InferenceProblem, most: int, samples: int, seed: int, means: Execution
 ) -> tuple[PosteriorSummary, bool]:
     size = max(1 << 14, -(-samples // 1000))
     tasks = [[seed, at, min(size, samples - at * size)] for at in range(-(-samples // size))]
@@ -205,7 +196,7 @@ def _added(
     most: int,
     work: Callable[[bytes, Any], dict[str, Any]],
     tasks: Sequence[Any],
-    means: InferenceExecution,
+    means: Execution,
 ) -> tuple[PosteriorTally, bool]:
     """The sum of all tasks; True if it was interrupted."""
     tally = PosteriorTally(LikelihoodBatch(question), most)
@@ -277,5 +268,5 @@ def _alone(question: InferenceProblem, seed: int) -> dict[str, CountProbability]
         try:
             found[witness.name] = _evidence(one, _ALONE)
         except EliminationLimitError:
-            found[witness.name] = _sampled(one, 1, _DRAWN, seed, InferenceExecution())[0].evidence
+            found[witness.name] = _sampled(one, 1, _DRAWN, seed, Execution())[0].evidence
     return found

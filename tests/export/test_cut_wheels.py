@@ -38,22 +38,28 @@ def workpiece(name: str, **making: float) -> SolidModel:
 
 def unrolled(points: Any, bulges: Any) -> np.ndarray:
     """A closed line with arcs as 48 chords each: a bulge b is an arc whose height is b times half its chord."""
-    ring, out = points @ np.array([1, 1j]), []
-    for start, end, bulge in zip(ring, np.roll(ring, -1), bulges, strict=True):
-        out.append(start)
-        if bulge:
-            sweep = 4 * np.arctan(bulge)
-            centre = start + (end - start) / 2 * (1 + 1j / np.tan(sweep / 2))
-            out += [centre + (start - centre) * np.exp(1j * sweep * k / 48) for k in range(1, 48)]
-    return np.array([(z.real, z.imag) for z in out])
+    start = points @ np.array([1, 1j])
+    end, bulge = np.roll(start, -1), np.asarray(bulges, dtype=float)
+    arcs = bulge != 0
+    sweep = 4 * np.arctan(bulge[arcs])
+    centre = start[arcs] + (end - start)[arcs] / 2 * (1 + 1j / np.tan(sweep / 2))
+    line = np.full((len(start), 48), np.nan, dtype=complex)
+    line[:, 0] = start
+    steps = np.exp(1j * sweep[:, None] * np.arange(1, 48) / 48)
+    line[arcs, 1:] = centre[:, None] + (start[arcs] - centre)[:, None] * steps
+    line = line[~np.isnan(line.real)]
+    return np.column_stack([line.real, line.imag])
 
 
 def material(blank: Any) -> Any:
     """A wheel as a polygon; of a lantern its pins, of a ring what stands round its hole."""
-    outer, *holes = (shapely.Polygon(unrolled(each.points, each.bulges)) for each in blank.contours)
+    outer, *holes = (unrolled(each.points, each.bulges) for each in blank.contours)
     if blank.kind == "pins":
-        return shapely.union_all([hole for hole in holes if hole.centroid.distance(shapely.Point(0, 0)) > 1e-6])
-    return outer.difference(shapely.union_all(holes)) if holes else outer
+        pins = map(shapely.Polygon, holes)
+        return shapely.union_all([pin for pin in pins if pin.centroid.distance(shapely.Point(0, 0)) > 1e-6])
+    whole = shapely.Polygon(outer, holes)
+    assert whole.is_valid, "holes lie inside and apart"
+    return whole
 
 
 class Meshed:

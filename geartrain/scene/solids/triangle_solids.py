@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from heapq import heapify, heappop, heappush
 from math import ceil, pi
 from typing import TYPE_CHECKING
 
@@ -78,32 +79,71 @@ def _turn(a: Floats, b: Floats, c: Floats) -> Floats:
 
 
 def _ears(points: Floats, loop: list[int]) -> list[tuple[int, int, int]]:
-    left = np.array(loop)
+    """Ear clipping: the fattest ear is cut off first."""
+    corners = _Corners(points[loop])
     found: list[tuple[int, int, int]] = []
-    while len(left) > 3:
-        at = _ear(points, left)
-        a, b, c = (int(left[(at + step) % len(left)]) for step in (-1, 0, 1))
-        if abs(float(_turn(points[a], points[b], points[c]))) > 0:
-            found.append((a, b, c))
-        left = np.delete(left, at)
-    return [*found, (int(left[0]), int(left[1]), int(left[2]))]
+    while len(corners.left) > 3:
+        at = corners.find_ear()
+        if abs(float(corners.turn[at])) > 0:
+            found.append((loop[corners.before[at]], loop[at], loop[corners.after[at]]))
+        corners.cut(at)
+    a, b, c = corners.left.tolist()
+    return [*found, (loop[a], loop[b], loop[c])]
 
 
-def _ear(points: Floats, left: Integers) -> int:
-    """A corner that can be cut off: convex, no other point in it; the fattest first."""
-    here = points[left]
-    before, after = np.roll(here, 1, axis=0), np.roll(here, -1, axis=0)
-    turn = _turn(before, here, after)
-    longest = np.maximum(((after - before) ** 2).sum(1), ((here - before) ** 2).sum(1) + ((after - here) ** 2).sum(1))
-    for at in np.argsort(-turn / np.where(longest > 0, longest, 1), kind="stable"):
-        if turn[at] <= _FLAT:
-            break
-        a, b, c = before[at], here[at], after[at]
-        own = (here == a).all(1) | (here == b).all(1) | (here == c).all(1)
+class _Corners:
+    """The corners that are left of a polygon. A cut changes two of them, and all others keep their place in a heap."""
+
+    def __init__(self, corners: Floats) -> None:
+        count = len(corners)
+        self.corners, self.left = corners, np.arange(count)
+        self.before, self.after = [count - 1, *range(count - 1)], [*range(1, count), 0]
+        self.turn, self.fatness = _shape(corners[self.before], corners, corners[self.after])
+        self.heap = [(-fat, at) for at, fat in enumerate(self.fatness.tolist())]
+        heapify(self.heap)
+
+    def find_ear(self) -> int:
+        """A corner that can be cut off: convex, no other point in it; the fattest first."""
+        passed, ear = [], -1
+        while self.heap:
+            fat, at = heappop(self.heap)
+            if -fat != self.fatness[at]:  # it was cut off, or its shape has changed since
+                continue
+            if self.turn[at] > _FLAT and self._empty(at):
+                ear = at
+                break
+            passed.append((fat, at))
+            if self.turn[at] <= _FLAT:
+                break
+        for each in passed:
+            heappush(self.heap, each)
+        # without an ear nothing but flat corners is left
+        return ear if ear >= 0 else int(self.left[np.argmin(np.abs(self.turn[self.left]))])
+
+    def _empty(self, at: int) -> bool:
+        """True if no point but its own lies in the triangle of a corner."""
+        here, own = self.corners[self.left], self.corners[[self.before[at], at, self.after[at]]]
+        a, b, c = own
         within = (_turn(a, b, here) >= 0) & (_turn(b, c, here) >= 0) & (_turn(c, a, here) >= 0)
-        if not (within & ~own).any():
-            return int(at)
-    return int(np.argmin(np.abs(turn)))  # nothing but flat corners is left
+        return bool((here[within][:, None] == own).all(-1).any(-1).all())
+
+    def cut(self, at: int) -> None:
+        """Cut a corner off."""
+        a, c = self.before[at], self.after[at]
+        self.left = np.delete(self.left, np.searchsorted(self.left, at))
+        self.after[a], self.before[c], self.fatness[at] = c, a, np.nan
+        for k in (a, c):
+            ends = self.corners[self.before[k]], self.corners[k], self.corners[self.after[k]]
+            self.turn[k], self.fatness[k] = _shape(*ends)
+            heappush(self.heap, (-float(self.fatness[k]), k))
+
+
+def _shape(before: Floats, here: Floats, after: Floats) -> tuple[Floats, Floats]:
+    """Twice the signed area of each corner's triangle, and that over the square of its greatest length."""
+    turn = _turn(before, here, after)
+    sides = ((here - before) ** 2).sum(-1) + ((after - here) ** 2).sum(-1)
+    longest = np.maximum(((after - before) ** 2).sum(-1), sides)
+    return turn, turn / np.where(longest > 0, longest, 1)
 
 
 FINE = 0.02  # mm, how far the chords of a solid may leave a curve

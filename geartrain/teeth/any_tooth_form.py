@@ -6,6 +6,7 @@ from typing import Annotated
 
 from pydantic import Field
 
+from geartrain.teeth.circular_arc import CircularArc
 from geartrain.teeth.cycloidal import Cycloidal
 from geartrain.teeth.ideal import Ideal
 from geartrain.teeth.involute import Involute
@@ -19,11 +20,12 @@ from geartrain.teeth.uniform_temperature import UniformTemperature
 ConjugateForm = Involute | Cycloidal | Lantern | UniformStress | UniformTemperature | LeastFriction
 """Teeth that keep their ratio at every instant at the distance they are made for."""
 
-AnyToothForm = Annotated[Ideal | ConjugateForm | Triangular, Field(discriminator="form")]
+AnyToothForm = Annotated[Ideal | ConjugateForm | Triangular | CircularArc, Field(discriminator="form")]
 """Whatever a declaration may say of the teeth of a pair."""
 
 __all__ = [
     "AnyToothForm",
+    "CircularArc",
     "ConjugateForm",
     "Cycloidal",
     "Ideal",

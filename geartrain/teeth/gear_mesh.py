@@ -8,11 +8,11 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, Protocol, Self
 
+from geartrain.errors import Problem
 from geartrain.numerics.plain_data import Key, Result
 from geartrain.teeth.transmission import ExactRatio
 
 if TYPE_CHECKING:
-    from geartrain.errors import Problem
     from geartrain.teeth.outlines.wheel_requirement import WheelRequirement
     from geartrain.teeth.transmission import TransmissionFunction
 
@@ -297,6 +297,15 @@ class GearMesh(ABC):
     def ways(self) -> tuple[Self, ...]:
         """The mesh as it is driven; where that is not determined, both ways."""
         return (self,) if self.who.known else (self, self.driven_by(replace(self.who, wheel=self.driven)))
+
+
+def friction_lock(friction: float, locking: float) -> Problem:
+    """The fault of teeth that lock from a friction of `locking` on."""
+    return Problem(
+        f"a friction of {friction:g} locks these teeth",
+        f"from {locking:.6g} on the driver pushes somewhere against more sliding than it can overcome",
+        f"give a friction below {locking:.4g}, or let the other wheel drive",
+    )
 
 
 def find_faults(ways: Sequence[GearMesh]) -> tuple[Problem, ...]:

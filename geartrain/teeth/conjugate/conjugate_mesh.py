@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Protocol
 
 from geartrain.errors import Problem
 from geartrain.teeth.conjugate.wheel_pair import WheelPair
-from geartrain.teeth.gear_mesh import GearMesh, NamedForm, PairSize
+from geartrain.teeth.gear_mesh import GearMesh, NamedForm, PairSize, friction_lock
 
 if TYPE_CHECKING:
     from geartrain.teeth.conjugate.conjugate_transmission import ConjugateTransmission, ConjugateVerdict
@@ -100,9 +100,4 @@ class ConjugateMesh(GearMesh):
     def _faults(self) -> Iterator[Problem]:
         yield from (Problem(fault.what, fault.why, fault.fix) for fault in self.verdict.faults)
         if self.law.friction >= self.law.locking_friction:
-            yield Problem(
-                f"a friction of {self.law.friction:g} locks these teeth",
-                f"from {self.law.locking_friction:.6g} on the driver pushes somewhere against more sliding than it "
-                "can overcome",
-                f"give a friction below {self.law.locking_friction:.4g}, or let the other wheel drive",
-            )
+            yield friction_lock(self.law.friction, self.law.locking_friction)

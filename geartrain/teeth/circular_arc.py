@@ -1,0 +1,296 @@
+"""Circular-arc clock teeth after British Standard 978, Part 2: radial flanks under tips that are arcs of circles.
+
+The wheel's addendum f comes from the epicycloid that the arc replaces: a circle half as wide as the pinion's pitch
+circle rolls on the wheel's, and f_a modules is where it meets its mirror image over a tooth half a pitch thick. For z
+leaves and ratio u, in units of the rolling circle's radius, with k = 1 + 2 u,
+
+    t = pi / z + 2 u b,   tan b = sin t / (k - cos t),   f_a = z / 4 (sqrt(1 + k^2 - 2 k cos t) - 2 u).
+
+The tip stands 0.95 f_a m over the pitch circle and the arc has a radius of 1.40 f_a m. It passes through the end of the
+tooth's thickness on the pitch circle and through the tip on the middle of the tooth; the flank below is the tangent to
+it from the axle. Leaves are thinner than half a pitch, and a wheel's teeth are exactly half.
+
+Sources: the iteration is H. Sparks's, "Designing Cycloidal Gears" (2013), who found it to agree with the standard's
+tables. The tables of f = 0.95 f_a and of the radius for the wheel, the three profiles of leaves and the tangent flank
+are as M. Robinson's OpenSCAD library (2016) transcribes them from the standard; the standard itself was not at hand.
+The depth of the leaves, the wheel's addendum and 0.4 modules, is Sparks's.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import lru_cache
+from math import asin, atan2, cos, hypot, pi, sin, sqrt, tan
+from typing import TYPE_CHECKING, Annotated, Literal
+
+from pydantic import BeforeValidator, Field, model_validator
+
+from geartrain.errors import Problem
+from geartrain.numerics.quantity import Length, Quantity
+from geartrain.teeth.outlines.wheel_requirement import FixedTooth
+from geartrain.teeth.tooth_form import IDEAL, ShaftAngle, ToothForm, TwoFigures, bad, refused
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from geartrain.numerics.arrays import Floats
+    from geartrain.teeth.contact.outline_curves import GearOutline
+    from geartrain.teeth.gear_mesh import GearMesh, MeshingWheels
+    from geartrain.teeth.outline_transmission import OutlineGears, OutlineTransmission
+    from geartrain.teeth.outlines.tooth_outline import Vertex
+
+_PRACTICAL, _ARC = 0.95, 1.40  # of f_a: the wheel's addendum, and the radius of its arc
+_BOTTOM = 0.4  # modules: what the spaces are deeper than the mate's tips are high
+_FEWEST, _MOST_TEETH = 5, 10_000
+_THIN = {False: 1.05, True: 1.25}  # modules: thickness of leaves, by whether there are more than ten
+_LEAVES = {  # addendum and radius of the arc (modules), by profile and by whether there are more than ten leaves
+    "A": {False: (0.525, 0.525), True: (0.625, 0.625)},
+    "B": {False: (0.67, 0.70), True: (0.805, 0.84)},
+    "C": {False: (0.855, 1.05), True: (1.05, 1.25)},
+}
+_SCOPE = "these teeth are for external pairs of spur wheels, no rings or bevels; a contrate is taken for a spur wheel"
+
+
+def addendum_factor(z: int, ratio: float) -> float:
+    """f_a of a wheel that drives a pinion of z leaves, wheel over pinion being `ratio`; see the equations above.
+
+    A fixed-point iteration that shrinks by b's slope, less than one, at each step.
+    """
+    k, b, t = 1 + 2 * ratio, 0.0, 0.0
+    for _ in range(200):
+        last, t = t, pi / z + 2 * ratio * b
+        b = atan2(sin(t), k - cos(t))
+        if abs(t - last) <= 1e-16:
+            break
+    return z / 4 * (sqrt(1 + k * k - 2 * k * cos(t)) - 2 * ratio)
+
+
+@dataclass(frozen=True, slots=True)
+class ArcTooth:
+    """A tooth with radial flanks and a tip of two arcs, lengths in modules.
+
+    z           teeth of the wheel; `thickness` of one along the pitch circle
+    addendum    height of the tip over the pitch circle; `radius` of the arcs
+    dedendum    depth of the root under it
+    """
+
+    z: int
+    thickness: float
+    addendum: float
+    radius: float
+    dedendum: float
+
+    @property
+    def tip(self) -> float:
+        """Radius of the tip (modules)."""
+        return self.z / 2 + self.addendum
+
+    @property
+    def root(self) -> float:
+        """Radius of the root circle (modules)."""
+        return self.z / 2 - self.dedendum
+
+    @property
+    def centre(self) -> tuple[float, float]:
+        """Of the arc on the side of positive x, the middle of the tooth along y; for a pointed tip beyond the middle."""
+        half = self.thickness / self.z
+        x, y = self.z / 2 * sin(half), self.z / 2 * cos(half)
+        chord = hypot(x, self.tip - y)
+        far = sqrt(self.radius**2 - chord**2 / 4) / chord
+        return x / 2 - far * (self.tip - y), (self.tip + y) / 2 - far * x
+
+    @property
+    def fits(self) -> bool:
+        """True if the arc spans from the pitch circle to the tip and rises all the way, and the flank ends on it."""
+        half = self.thickness / self.z
+        chord = hypot(self.z / 2 * sin(half), self.tip - self.z / 2 * cos(half))
+        if 2 * self.radius < chord or not 0 < half < pi / self.z:
+            return False
+        x, y = self.centre
+        start, lean = self.flank
+        return x <= 1e-3 * self.radius and hypot(x, y) > self.radius and self.root < start and 0 < lean < pi / self.z
+
+    @property
+    def flank(self) -> tuple[float, float]:
+        """Radius at which the flank ends and the arc begins, and angle (rad) of the flank from the tooth's middle."""
+        x, y = self.centre
+        far = hypot(x, y)
+        return sqrt(far**2 - self.radius**2), atan2(x, y) + asin(self.radius / far)
+
+    def outline(self) -> GearOutline:
+        """All teeth of the wheel, for the contact of outlines."""
+        import numpy as np
+
+        from geartrain.teeth.contact.outline_curves import GearOutline, OutlineCurve, ToothFlanks
+
+        (start, lean), (cx, cy), radius = self.flank, self.centre, self.radius
+        way = np.array([sin(lean), cos(lean)])
+        # angles on the arc, counted from x towards y
+        low, high = atan2(start * way[1] - cy, start * way[0] - cx), atan2(self.tip - cy, -cx)
+
+        def arc(turn: Floats) -> Floats:
+            return np.stack([cx + radius * np.cos(turn), cy + radius * np.sin(turn)], axis=1)
+
+        side = (OutlineCurve(lambda r: r[:, None] * way, self.root, start), OutlineCurve(arc, low, high))
+        return GearOutline((ToothFlanks.symmetric(side),), self.z)
+
+    def vertices(self) -> Iterator[Vertex]:
+        """The tooth about the x axis, from root to root, with the bulge of each edge; the arcs are exact."""
+        (start, lean), (cx, cy) = self.flank, self.centre
+        sweep = atan2(self.tip - cy, -cx) - atan2(start * cos(lean) - cy, start * sin(lean) - cx)
+        along, beside = cos(lean), sin(lean)
+        yield self.root * along, -self.root * beside, 0.0
+        yield start * along, -start * beside, tan(sweep / 4)
+        yield self.tip, 0.0, tan(sweep / 4)
+        yield start * along, start * beside, 0.0
+        yield self.root * along, self.root * beside, tan((pi / self.z - lean) / 2)
+
+
+def _wheel_number(raw: object) -> object:
+    """A declaration gives numbers as text."""
+    return int(raw) if raw in ("1", "2") else raw
+
+
+class CircularArc(ToothForm):
+    """Circular-arc clock teeth as BS 978 Part 2 has them: radial flanks, ogive tips, thin leaves."""
+
+    form: Literal["circular_arc"] = Field(description="The name of this form")
+    pinion: Annotated[Literal[1, 2], BeforeValidator(_wheel_number)] | None = Field(
+        None,
+        description="Which wheel of the pair has leaves; default the one with fewer teeth, of equal ones the second",
+    )
+    profile: Literal["A", "B", "C"] | None = Field(
+        None, description="Tips of the leaves: A round, B and C pointed; default C to 7 leaves, B to 9, A from 10"
+    )
+    addendum: TwoFigures | None = Field(
+        None, description="Height of the tips in modules, one or one a wheel; default the standard's"
+    )
+    radius: TwoFigures | None = Field(
+        None, description="Radius of the arcs in modules, one or one a wheel; default the standard's"
+    )
+    thickness: TwoFigures | None = Field(
+        None, description="Thickness on the pitch circle in modules, one or one a wheel; default the standard's"
+    )
+    backlash: Length | None = Field(
+        None, description="In place of the leaves' thickness: play on the pitch circle, in modules or with a unit"
+    )
+    centre_distance: Length | None = Field(
+        None, description="Distance of the two axes, in modules or with a unit; default half the sum of the teeth"
+    )
+
+    @model_validator(mode="after")
+    def _parameters_make_sense(self) -> CircularArc:
+        for name in ("addendum", "radius", "thickness"):
+            for figure in getattr(self, name) or ():
+                if figure.value <= 0:
+                    raise bad("length", f"{name} {figure.text} is no size of a tooth", "write modules above 0")
+        if self.thickness is not None and self.backlash is not None:
+            raise bad("backlash", "thickness and backlash are both given", "give one of them")
+        if self.backlash is not None and not self.backlash.value >= 0:
+            raise bad("backlash", f"backlash {self.backlash.text} would jam the teeth", "write 0 or more")
+        if self.centre_distance is not None and self.centre_distance.value <= 0:
+            raise bad("length", f"centre_distance {self.centre_distance.text} is no length", "write it above 0")
+        return self
+
+    # ----------------------------------------------------------------------------------------------- teeth of a pair
+
+    def teeth(self, z1: int, z2: int, module: float | None = None) -> tuple[ArcTooth, ArcTooth]:
+        """The teeth of both wheels; `module` (m) for lengths with a unit.
+
+        Raises `GearTrainError` where these sizes give no tooth.
+        """
+        for z in (z1, z2):
+            if not _FEWEST <= z <= _MOST_TEETH:
+                why = f"BS 978 has leaves from 6 on, and here {_FEWEST} to {_MOST_TEETH} teeth are made"
+                raise refused(f"a wheel of {z} teeth has no circular-arc teeth", why, IDEAL)
+        pinion = self.pinion or (1 if z1 < z2 else 2)
+        zp, zw = (z1, z2) if pinion == 1 else (z2, z1)
+        factor, many = addendum_factor(zp, zw / zp), zp > 10
+        profile = self.profile or ("C" if zp <= 7 else "B" if zp <= 9 else "A")
+        sizes = [(pi / 2, _PRACTICAL * factor, _ARC * factor), (_THIN[many], *_LEAVES[profile][many])]
+        if self.backlash is not None:
+            sizes[1] = (pi / 2 - _modules(self.backlash, module, "backlash"), *sizes[1][1:])
+        declared = (self.thickness, self.addendum, self.radius)
+        found = [
+            tuple(own if both is None else float(both[at].value) for own, both in zip(usual, declared, strict=True))
+            for at, usual in enumerate(sizes if pinion == 2 else sizes[::-1])
+        ]
+        made = []
+        for at, z in enumerate((z1, z2)):
+            thickness, addendum, radius = found[at]
+            # a wheel is cut half a pitch deep, or as deep as its mate's tips need
+            deep = found[1 - at][1] + _BOTTOM
+            tooth = ArcTooth(z, thickness, addendum, radius, deep if at + 1 == pinion else max(deep, pi / 2))
+            if not tooth.fits:
+                raise refused(
+                    f"no circular-arc tooth of {z} is {thickness:.4g} modules thick and {addendum:.4g} high on arcs of "
+                    f"{radius:.4g}",
+                    "the arc must rise from the pitch circle to the tip, and a flank be left under it",
+                    "leave addendum, radius and thickness to the standard, or take a greater radius or a thinner tooth",
+                )
+            made.append(tooth)
+        return made[0], made[1]
+
+    def distance(self, z1: int, z2: int, module: float | None = None) -> float:
+        """Of the axes, in modules."""
+        if self.centre_distance is None:
+            return (z1 + z2) / 2
+        return _modules(self.centre_distance, module, "centre_distance")
+
+    def law(
+        self, z1: int, z2: int, friction: float = 0.0, driver: int = 1, direction: int = 1, module: float | None = None
+    ) -> OutlineTransmission:
+        """The transmission function of a pair: `driver` 2 lets the second wheel drive, `direction` -1 turns back."""
+        from geartrain.teeth.outline_transmission import OutlineTransmission
+
+        gears = _gears(*self.teeth(z1, z2, module), self.distance(z1, z2, module))
+        return OutlineTransmission(gears, friction, driver, direction)
+
+    def mesh(self, wheels: MeshingWheels, shaft_angle: ShaftAngle) -> GearMesh:
+        """The mesh of a pair, its first wheel driving."""
+        from geartrain.teeth.outline_mesh import OutlineMesh
+
+        del shaft_angle
+        odd = [kind for kind in wheels.kinds if kind not in ("spur", "contrate")]
+        if odd or any(wheels.internal):
+            why = f"a {odd[0]} wheel does not mesh as spur wheels do" if odd else "a ring has its teeth inside"
+            raise refused("it cannot have circular-arc teeth", why, f"{_SCOPE}; {IDEAL}")
+        law = self.law(*wheels.counts, wheels.friction or 0.0, module=wheels.module)
+        teeth = self.teeth(*wheels.counts, wheels.module)
+        cut = [FixedTooth(each.tip, each.root, tuple(each.vertices())) for each in teeth]
+        return OutlineMesh(wheels, self, wheels.driver, law, (cut[0], cut[1]))
+
+    # ------------------------------------------------------------------------------------------------- a maker's play
+
+    def own_play(self, pair: str) -> Problem | None:
+        """Declared play or thickness wins over a maker's."""
+        if self.backlash is None and self.thickness is None:
+            return None
+        why = "it declares its backlash or thickness, and what is declared wins"
+        fix = "leave --backlash out, or take it out of the file"
+        return Problem(f"pair '{pair}' has a backlash of its own", why, fix)
+
+    def thinned(self, backlash: Quantity) -> CircularArc:
+        """The same teeth, the leaves as thick as leaves this play."""
+        return self.model_copy(update={"backlash": backlash})
+
+
+def _modules(length: Quantity, module: float | None, name: str) -> float:
+    if length.unit is None:
+        return float(length.value)
+    if module is None:
+        raise refused(
+            f"the {name} {length.text} has nothing to be compared with",
+            "the wheels declare no module with a unit",
+            f"give the `module` of both wheels, or the {name} as a plain number of modules",
+        )
+    return length.si / module
+
+
+@lru_cache(maxsize=256)
+def _gears(first: ArcTooth, second: ArcTooth, distance: float) -> OutlineGears:
+    """Equal pairs of a long train are looked at once."""
+    from geartrain.teeth.outline_transmission import OutlineGears
+
+    lead = (first.thickness + second.thickness) / 2
+    return OutlineGears(first.outline(), second.outline(), distance, lead, pi - 2 * lead)

@@ -7,7 +7,7 @@ from math import degrees, isfinite
 from typing import TYPE_CHECKING, Any
 
 from geartrain.report.document import Document, Section, Table, figure
-from geartrain.report.gear_pairs import efficiency_data
+from geartrain.teeth.pair_account import efficiency_data
 
 if TYPE_CHECKING:
     from geartrain.teeth.conjugate.conjugate_transmission import ConjugateTransmission

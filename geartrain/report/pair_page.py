@@ -11,7 +11,7 @@ from math import degrees, isfinite, isnan, pi, sqrt
 from typing import TYPE_CHECKING, Any
 
 from geartrain.report.document import Document, Section, Table, figure
-from geartrain.teeth.triangular.triangular_mesh import explain_clearance, explain_friction_lock
+from geartrain.teeth.triangular.triangular_explanations import explain_clearance, explain_friction_lock
 
 if TYPE_CHECKING:
     from geartrain.teeth.pin_transmission import PinTransmission

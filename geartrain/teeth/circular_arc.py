@@ -92,7 +92,7 @@ class ArcTooth:
 
     @property
     def centre(self) -> tuple[float, float]:
-        """Of the arc on the side of positive x, the middle of the tooth along y; for a pointed tip beyond the middle."""
+        """Of the arc on the side of positive x, the middle of the tooth along y; beyond it for a pointed tip."""
         half = self.thickness / self.z
         x, y = self.z / 2 * sin(half), self.z / 2 * cos(half)
         chord = hypot(x, self.tip - y)

@@ -14,6 +14,7 @@ from geartrain.teeth.transmission import ExactRatio
 
 if TYPE_CHECKING:
     from geartrain.teeth.outlines.wheel_requirement import WheelRequirement
+    from geartrain.teeth.pair_account import PairAccount
     from geartrain.teeth.transmission import TransmissionFunction
 
 
@@ -244,6 +245,10 @@ class GearMesh(ABC):
     def cut_sizes(self) -> object | None:
         """The sizes about which manufacturing errors are drawn, tooth by tooth; None for forms without such a law."""
         return None
+
+    @abstractmethod
+    def account(self) -> PairAccount:
+        """What is told of the pair, as it is driven."""
 
     def play_apart(self, gap: float) -> float | None:
         """Play on the pitch circle (modules) of axes that stand `gap` modules too far apart; below 0 they jam.

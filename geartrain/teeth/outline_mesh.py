@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from math import pi
+from math import degrees, pi
 from typing import TYPE_CHECKING
 
 from geartrain.errors import Problem
@@ -15,6 +15,17 @@ if TYPE_CHECKING:
     from geartrain.teeth.conjugate.conjugate_transmission import ConjugateVerdict
     from geartrain.teeth.outline_transmission import OutlineTransmission
     from geartrain.teeth.outlines.wheel_requirement import FixedTooth
+    from geartrain.teeth.pair_account import PairAccount
+
+_WORDS = (
+    "Teeth whose motion is found by the contact of their outlines, each pair in its carrier's frame. Speed ratio over "
+    "its mean; error peak to peak and least play in degrees of the driven wheel; mean efficiency at constant driver "
+    "torque, exact in friction, one pair of teeth carrying the load, as the pair is driven and driven back."
+)
+_HEADER = (
+    *("pair", "drives", "teeth", "speed/mean", "error p-p (deg)", "play (deg)"),
+    *("efficiency", "driven back", "verdict"),
+)
 
 
 @dataclass(frozen=True)
@@ -49,6 +60,42 @@ class OutlineMesh(GearMesh):
         """The tooth as the form has it, arcs and all."""
         del scale, tolerance
         return self.teeth[self.gear.pair.index(wheel)]
+
+    def account(self) -> PairAccount:
+        """Speed, error, play and efficiency, as the pair is driven and driven back."""
+        from geartrain.teeth.pair_account import (
+            AccountTable,
+            PairAccount,
+            efficiency_data,
+            efficiency_text,
+            error_text,
+            motion_data,
+        )
+
+        law, verdict = self.law, self.verdict
+        runs, known = bool(verdict), self.friction is not None and bool(verdict)
+        least, most = (speed / float(law.ratio) for speed in law.speed_range())
+        row = (
+            self.name,
+            f"{self.driver} -> {self.driven}",
+            self.tooth_form.words,
+            f"{least:.5f}..{most:.5f}" if runs else "-",
+            error_text(law, runs),
+            f"{degrees(verdict.play):.4g}",
+            *(efficiency_text(way) if known else "-" for way in (law, self.reversed)),
+            verdict.kind,
+        )
+        fault = verdict.faults[0] if verdict.faults else None
+        data = {
+            "teeth": list(self.wheels.counts if self.driver == self.gear.pair[0] else self.wheels.counts[::-1]),
+            "verdict": {**verdict.to_dict(), "why": fault.why if fault else "", "fix": fault.fix if fault else ""},
+            "gears": list(self.gear.pair),
+            "note": self.note,
+            "play": verdict.play,
+            **motion_data(law, runs),
+            "efficiency": efficiency_data(law) if runs else None,
+        }
+        return PairAccount(_WORDS, (AccountTable(_HEADER, row, wide=True),), data)
 
     def _faults(self) -> Iterator[Problem]:
         yield from (Problem(fault.what, fault.why, fault.fix) for fault in self.verdict.faults)

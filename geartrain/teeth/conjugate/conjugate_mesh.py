@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from geartrain.teeth.conjugate.off_design import OffDesignTransmission
     from geartrain.teeth.outlines.tooth_requirement import ToothRequirement
     from geartrain.teeth.outlines.wheel_requirement import LanternPins
+    from geartrain.teeth.pair_account import PairAccount
 
 
 class ConjugateDetails(NamedForm, Protocol):
@@ -96,6 +97,12 @@ class ConjugateMesh(GearMesh):
         """The pair, with which wheel is which gear."""
         first, second = self.gears
         return f"pair '{self.name}' (gear 1 is '{first}', gear 2 '{second}')"
+
+    def account(self) -> PairAccount:
+        """Arcs and contact ratio of its design, error, play and efficiency."""
+        from geartrain.teeth.conjugate.conjugate_account import conjugate_account
+
+        return conjugate_account(self)
 
     def _faults(self) -> Iterator[Problem]:
         yield from (Problem(fault.what, fault.why, fault.fix) for fault in self.verdict.faults)

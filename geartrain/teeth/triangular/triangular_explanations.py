@@ -1,0 +1,38 @@
+"""Why triangular teeth do not turn, in words, and what would let them."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from geartrain.teeth.triangular.clearance_window import ClearanceWindow
+    from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
+
+
+def explain_clearance(law: TriangularTransmission, window: ClearanceWindow | None) -> tuple[str, str]:
+    """Why a pair does not turn, and what would let it: the window of clearance, and which end was passed."""
+    if window is None:
+        return "", "use more teeth or a smaller half_angle"
+    excess = law.sizes.excess
+    if not window:
+        return (
+            f"up to a clearance factor of {1 + window.jam:.6g} there is {window.jam_kind}, and from "
+            f"{1 + window.run:.6g} on {window.run_kind}: no clearance works",
+            "use more teeth, a ratio nearer to 1, or another half_angle",
+        )
+    end = "below" if excess < window.jam else "above"
+    return (
+        f"the clearance factor {1 + excess:.6g} is {end} the window of this pair, {1 + window.jam:.6g} "
+        f"({window.jam_kind}) to {1 + window.run:.6g} ({window.run_kind})",
+        f"give a clearance between the two, or `window: 0.5`, which is {1 + window.at(0.5):.6g}",
+    )
+
+
+def explain_friction_lock(law: TriangularTransmission) -> tuple[str, str, str]:
+    """What, why, and what to do, where friction locks."""
+    return (
+        f"a friction of {law.friction:g} locks these teeth",
+        "before the line of centres the driver pushes the driven apex against its own sliding: friction times the "
+        f"tangent of the flank's lean reaches 1 at {law.locking_friction:.6g}",
+        f"give a friction below {law.locking_friction:.4g}, or let the other wheel drive",
+    )

@@ -240,22 +240,19 @@ _PAIR = {
     "states": TEXTS,
     "form": TEXT,
 }
-_CONJUGATE = {
+_FORMED = {
     "teeth": _list(COUNT, 2),
     "gears": _list(TEXT, 2),
     "note": TEXT,
     "verdict": _has(
         {"kind": TEXT, "text": TEXT, "why": TEXT, "fix": TEXT, "play": SOME, "faults": _list(_of("object"))}
     ),
-    "arcs": _maybe(NUMBERS),
-    "contact_ratio": SOME,
-    "pressure_angle": SOME,
-    "shaft_angle": SOME,
     "play": SOME,
     "speed_ratio": RATIO,
     "transmission_error": ERROR,
     "efficiency": EFFICIENCY,
 }
+_PATH = {"arcs": _maybe(NUMBERS), "contact_ratio": SOME, "pressure_angle": SOME, "shaft_angle": SOME}
 
 # ------------------------------------------------------------------------------------------------------------- reports
 
@@ -310,7 +307,7 @@ REPORT = _has(
                 }
             )
         ),
-        "teeth": _list(_or(_has(_PAIR | MESH), _has(_PAIR | _CONJUGATE))),
+        "teeth": _list(_or(_has(_PAIR | MESH), _has(_PAIR | _FORMED, _PATH))),
         "pins": _list(
             _has(
                 {

@@ -207,9 +207,14 @@ class CircularArc(ToothForm):
         zp, zw = (z1, z2) if pinion == 1 else (z2, z1)
         factor, many = addendum_factor(zp, zw / zp), zp > 10
         profile = self.profile or ("C" if zp <= 7 else "B" if zp <= 9 else "A")
-        sizes = [(pi / 2, _PRACTICAL * factor, _ARC * factor), (_THIN[many], *_LEAVES[profile][many])]
+        sizes: list[tuple[float, ...]] = [
+            (pi / 2, _PRACTICAL * factor, _ARC * factor),
+            (_THIN[many], *_LEAVES[profile][many]),
+        ]
         if self.backlash is not None:
-            sizes[1] = (pi / 2 - _modules(self.backlash, module, "backlash"), *sizes[1][1:])
+            # a leaf of another thickness has a tip of the same shape, as the standard's two have within a few percent
+            thickness = pi / 2 - _modules(self.backlash, module, "backlash")
+            sizes[1] = tuple(size * thickness / _THIN[many] for size in sizes[1])
         declared = (self.thickness, self.addendum, self.radius)
         found = [
             tuple(own if both is None else float(both[at].value) for own, both in zip(usual, declared, strict=True))

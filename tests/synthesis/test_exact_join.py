@@ -16,14 +16,15 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import geartrain.synthesis.join.exact_join as joining
+import geartrain.synthesis.join.partial_assignments as rows
 import geartrain.synthesis.join.product_lists as items
-import geartrain.synthesis.join.product_lists as rows
 from geartrain.synthesis.constraints.count_conditions import Condition, CountConstraint, CountEquation
 from geartrain.synthesis.join.exact_join import ExactJoin
 from geartrain.synthesis.join.join_plan import JoinProblem, find_join_problem
+from geartrain.synthesis.join.partial_assignments import PartialAssignments
 from geartrain.synthesis.join.polynomial_constraints import PolynomialConstraint, possible
 from geartrain.synthesis.join.polynomial_signs import SignPolynomial
-from geartrain.synthesis.join.product_lists import Item, ItemRecipe, PartialAssignments, forecast
+from geartrain.synthesis.join.product_lists import Item, ItemRecipe, forecast
 from geartrain.synthesis.join.solution_windows import PolynomialInequality
 from geartrain.synthesis.join.wheel_monomials import IntervalConstraint, find_wheel_monomials
 from geartrain.synthesis.train.best_assignments import AssignmentOrder, BestAssignments
@@ -66,7 +67,7 @@ def test_an_item_lists_every_product_with_all_its_ways(lots: list[tuple[set[int]
         tops = [count**power for count, (_, power) in zip(counts[::2], wheels[::2], strict=True)]
         bottoms = [count**power for count, (_, power) in zip(counts[1::2], wheels[1::2], strict=True)]
         ways.setdefault(Fraction(prod(tops), prod(bottoms)), Counter())[counts] += 1
-    item = Item(ItemRecipe(wheels[::2], wheels[1::2]), domains, np.int64)
+    item = Item(ItemRecipe(wheels[::2], wheels[1::2]), domains, {}, np.int64)
     assert (np.diff(item.x) >= 0).all()
     bottoms = np.ones(len(item), dtype=np.int64) if item.bottoms is None else item.bottoms
     listed = [Fraction(int(top), int(bottom)) for top, bottom in zip(item.tops, bottoms, strict=True)]
@@ -83,9 +84,10 @@ def test_an_item_lists_every_product_with_all_its_ways(lots: list[tuple[set[int]
 def test_long_lists_are_made_in_blocks_and_forecast_within_a_factor_of_three(monkeypatch: pytest.MonkeyPatch) -> None:
     domains = {wheel: tuple(range(15, 81)) for wheel in "abcd"}
     wheels = tuple((wheel, 1) for wheel in "abcd")
-    whole = items.ProductLists([domains[wheel] for wheel in "abcd"], np.int64)
+    ones = [(1,) * 66] * 4
+    whole = items.ProductLists([domains[wheel] for wheel in "abcd"], ones, np.int64)
     monkeypatch.setattr(items, "_LONGEST", 5000)
-    parts = items.ProductLists([domains[wheel] for wheel in "abcd"], object)
+    parts = items.ProductLists([domains[wheel] for wheel in "abcd"], ones, object)
     assert (whole.levels[-1] == parts.levels[-1]).all()
     assert (whole.times == parts.times).all()
     assert whole.times.sum() == 66**4
@@ -126,7 +128,7 @@ def some_items(kinds: Sequence[tuple[list[int], list[int]]]) -> list[Item]:
         for at, kind in enumerate(kinds)
         for side, counts in zip("tb", kind, strict=True)
     }
-    return [Item(ItemRecipe(((f"t{at}", 1),), ((f"b{at}", 1),)), domains, np.int64) for at in range(len(kinds))]
+    return [Item(ItemRecipe(((f"t{at}", 1),), ((f"b{at}", 1),)), domains, {}, np.int64) for at in range(len(kinds))]
 
 
 def points(rows: PartialAssignments) -> list[list[Fraction]]:
@@ -314,7 +316,7 @@ def test_a_join_of_any_functions_and_rules_finds_what_loops_find(
         count, found, removed = answered(made, tasks)
     assert found == truth
     assert count == len(truth)
-    assert sum(removed) + count == made.considered
+    assert sum(removed) + count == made.total
     assert sorted(made.order) == list(range(len(made.reasons)))
 
 
@@ -326,7 +328,7 @@ def test_numbers_of_assignments_beyond_a_machine_word_are_exact() -> None:
     question = find_join_problem(domains, asked, [], {"half or more": 0.5})
     join = ExactJoin(question)
     counts, removed = join.count(question.plan, join.start())
-    assert question.considered == 9**20 > 2**62
+    assert question.total == 9**20 > 2**62
     ways: Counter[int] = Counter({1: 1})
     for _ in range(10):
         grown: Counter[int] = Counter()

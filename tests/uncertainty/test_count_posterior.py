@@ -502,7 +502,7 @@ def test_a_batch_says_what_the_solver_says() -> None:
         ({"scale": Fraction(-1)}, "a distance"),
         ({"tolerance": Fraction(-1)}, "a distance"),
         ({"method": "enumerate", "limit": 10}, "144 combinations"),
-        ({"method": "decompose", "limit": 3}, "too many rows"),
+        ({"method": "decompose", "limit": 1}, "too many steps"),
     ],
 )
 def test_what_cannot_be_asked_is_refused_with_a_way_out(options: dict[str, Any], said: str) -> None:

@@ -9,9 +9,11 @@ from typing import Any
 import numpy as np
 
 from geartrain.synthesis.constraints.count_conditions import CountConstraint, CountEquation
+from geartrain.synthesis.join.item_monomials import find_item_monomials
 from geartrain.synthesis.join.join_plan import JoinProblem, PlanNode, extents
+from geartrain.synthesis.join.partial_assignments import BLOCK, ItemMonomial, PartialAssignments
 from geartrain.synthesis.join.polynomial_constraints import PolynomialConstraint, RelaxedInequality, possible
-from geartrain.synthesis.join.product_lists import BLOCK, Ints, PartialAssignments, Tallies, find_item
+from geartrain.synthesis.join.product_lists import Ints, Tallies, find_item
 from geartrain.synthesis.join.solution_windows import Bools, spread
 
 Slices = Mapping[int, tuple[int, int]]
@@ -46,16 +48,17 @@ class ExactJoin:
     """
 
     def __init__(self, question: JoinProblem, slices: Slices | None = None, budget: float = np.inf) -> None:
-        self.question, self.budget, self.steps = question, budget, 0
-        self.dtype: Any = np.int64 if question.considered < 1 << 62 else object
-        self.items = [find_item(recipe, question.domains, self.dtype) for recipe in question.recipes]
+        self.question = question
+        self.dtype: Any = np.int64 if question.total < 1 << 62 else object
+        self.items = [find_item(one, question.domains, question.weights, self.dtype) for one in question.recipes]
         self.extents = extents(question)
         self.constraints: list[CountConstraint | PolynomialConstraint] = [*question.rules, *question.bands]
         self.wheel_of = {
             recipe.top[0][0]: at for at, recipe in enumerate(question.recipes) if len(recipe.wheels) == 1 and recipe.top
         }
+        self._views: dict[int, tuple[ItemMonomial, ...]] = {}
         self._reaches: dict[int, list[tuple[int, list[list[RelaxedInequality]]]]] = {}
-        self.cut(slices or {})
+        self.cut(slices or {}, budget)
 
     def cut(self, slices: Slices, budget: float = np.inf) -> None:
         """Take up another piece of the work."""
@@ -80,11 +83,11 @@ class ExactJoin:
         """For each row how many assignments below it meet everything, and how many each constraint refuses."""
         total = np.zeros(rows.size, dtype=self.dtype)
         removed = RefusalCounts(rows.size, self.dtype)
-        at, alive = self._pruned(node, rows, removed)
+        at, alive = self.pruned(node, rows, removed)
         if not node.children and not node.checks and node.guide >= len(self.question.rules):
             total[at] = self._windowed(node, at, alive, removed)
             return total, removed.by
-        for parents, grown in self._grown(node, alive, at, removed):
+        for parents, grown in self.grown(node, alive, at, removed):
             counts = self._below(node, parents, grown, removed)
             np.add.at(total, parents, counts)
         return total, removed.by
@@ -95,8 +98,8 @@ class ExactJoin:
             yield rows
             return
         node = nodes[0]
-        _, alive = self._pruned(node, rows, None)
-        for _, grown in self._grown(node, alive, np.arange(alive.size), None):
+        _, alive = self.pruned(node, rows, None)
+        for _, grown in self.grown(node, alive, np.arange(alive.size), None):
             if len(node.children) > 1:
                 grown = self._promising(node, grown)
             yield from self.stream((*node.children, *nodes[1:]), grown)
@@ -107,7 +110,7 @@ class ExactJoin:
         for item, column in rows.columns.items():
             sizes = sizes * self.items[item].times[column]
         for first, last in rows.blocks(sizes):
-            self._spend(int(sizes[first:last].sum()))
+            self.spend(int(sizes[first:last].sum()))
             part = rows.pick(np.arange(first, last))
             columns: AssignmentColumns = {}
             owner = np.arange(part.size)
@@ -123,7 +126,15 @@ class ExactJoin:
                 columns |= {wheel: counts[at] for wheel, counts in more.items()}
             yield {wheel: columns[wheel] for wheel in self.question.wheels}
 
-    def _spend(self, steps: int) -> None:
+    def seen(self, node: PlanNode, rows: PartialAssignments) -> tuple[PartialAssignments, Ints | None]:
+        """The distinct rows as far as a node and those below can tell, and for each row which of them it is."""
+        if id(node) not in self._views:
+            reached = [self.constraints[number] for number in node.reach]
+            self._views[id(node)] = tuple(find_item_monomials(node.interface, reached, self.items))
+        return rows.distinct(node.interface, self._views[id(node)])
+
+    def spend(self, steps: int) -> None:
+        """Count steps against the budget."""
         self.steps += steps
         if self.steps > self.budget:
             raise BudgetSpentError
@@ -131,7 +142,7 @@ class ExactJoin:
     def _run(self, item: int) -> tuple[int, int]:
         return self.slices.get(item, (0, len(self.items[item])))
 
-    def _pruned(
+    def pruned(
         self, node: PlanNode, rows: PartialAssignments, removed: RefusalCounts | None
     ) -> tuple[Ints, PartialAssignments]:
         """The rows that no band surely refuses, whatever is set below; and which they are."""
@@ -163,7 +174,7 @@ class ExactJoin:
         """The count of a last item with one band: its windows, without a look at what is inside."""
         band, item = self.constraints[node.guide], self.items[node.item]
         assert isinstance(band, PolynomialConstraint)
-        self._spend(rows.size)
+        self.spend(rows.size)
         total = np.zeros(rows.size, dtype=self.dtype)
         for number, window in enumerate(band.windows(rows, node.item)):
             window = window.clipped(*self._run(node.item))
@@ -173,7 +184,7 @@ class ExactJoin:
         removed.charge(node.guide, at, self.full(node) - total)
         return total
 
-    def _grown(
+    def grown(
         self, node: PlanNode, rows: PartialAssignments, at: Ints, removed: RefusalCounts | None
     ) -> Iterator[tuple[Ints, PartialAssignments]]:
         """Rows with the node's item set as its guide says, checked; `at` says which row of the caller's each is."""
@@ -184,7 +195,7 @@ class ExactJoin:
             removed.charge(node.guide, at, np.full(rows.size, total * below, dtype=self.dtype))
         for parents, indices in self._candidates(node, rows):
             grown = rows.plus(parents, node.item, indices)
-            self._spend(grown.size)
+            self.spend(grown.size)
             if banded:
                 met = self._holds(node.guide, grown)
                 parents, indices, grown = parents[met], indices[met], grown.pick(met)
@@ -242,7 +253,7 @@ class ExactJoin:
         later = self.full(node) // self._total(node.item)
         for child in node.children:
             later //= self.full(child)
-            distinct, which = grown.pick(alive).only(child.interface)
+            distinct, which = self.seen(child, grown.pick(alive))
             found, gone = self.count(child, distinct)
             for number, numbers in gone.items():
                 spread_out = numbers if which is None else numbers[which]
@@ -254,7 +265,7 @@ class ExactJoin:
     def _promising(self, node: PlanNode, grown: PartialAssignments) -> PartialAssignments:
         """The rows that have assignments below in every child: none of the others' need be brought out in vain."""
         for child in node.children:
-            distinct, which = grown.only(child.interface)
+            distinct, which = self.seen(child, grown)
             found, _ = self.count(child, distinct)
             grown = grown.pick((found if which is None else found[which]) > 0)
         return grown

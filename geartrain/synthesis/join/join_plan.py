@@ -6,7 +6,7 @@ counted each by themselves, for each distinct setting of what they share, and th
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import product
@@ -15,9 +15,8 @@ from math import prod
 from geartrain.numerics.graphs import joined_groups
 from geartrain.synthesis.constraints.count_conditions import Condition, CountConstraint, CountEquation
 from geartrain.synthesis.join.polynomial_constraints import PolynomialConstraint
-from geartrain.synthesis.join.product_lists import ItemRecipe, forecast
+from geartrain.synthesis.join.product_lists import Domains, ItemRecipe, Weights, forecast
 from geartrain.synthesis.join.wheel_monomials import (
-    Domains,
     IntervalConstraint,
     extent,
     find_polynomial_constraints,
@@ -75,6 +74,7 @@ class JoinProblem:
     recipes   the items
     plan      the tree; its root is the first item
     steps     about how many partial assignments the join will look at
+    weights   wheel -> a whole weight for each count, where assignments are weighed and not counted
     """
 
     domains: Domains
@@ -84,6 +84,7 @@ class JoinProblem:
     recipes: tuple[ItemRecipe, ...]
     plan: PlanNode
     steps: float
+    weights: Weights = field(default_factory=dict)
 
     @cached_property
     def bands(self) -> tuple[PolynomialConstraint, ...]:
@@ -96,9 +97,9 @@ class JoinProblem:
         return tuple(self.domains)
 
     @property
-    def considered(self) -> int:
-        """Assignments there are."""
-        return prod(len(counts) for counts in self.domains.values())
+    def total(self) -> int:
+        """The weight of all assignments there are: their number, where each counts once."""
+        return prod(sum(self.weights.get(wheel, (1,) * len(counts))) for wheel, counts in self.domains.items())
 
     @property
     def order(self) -> tuple[int, ...]:
@@ -117,10 +118,12 @@ def find_join_problem(
     asked: Sequence[IntervalConstraint],
     rules: Sequence[CountConstraint],
     chances: Mapping[str, float],
+    weights: Weights | None = None,
 ) -> JoinProblem:
     """The cheapest question found: which wheels to bundle, which rules to ask late, in which order to set items.
 
     chances   name of a rule or demand -> about which part of all assignments meets it
+    weights   of `JoinProblem`
     """
     found = [
         _planned(domains, asked, early, late, recipes, chances)
@@ -129,7 +132,7 @@ def find_join_problem(
             find_wheel_monomials(tuple(domains), asked, frozenset(w for rule in early for w in rule.wheels)), domains
         )
     ]
-    return min(found, key=lambda question: question.steps)
+    return replace(min(found, key=lambda question: question.steps), weights=weights or {})
 
 
 def _lateness(
@@ -208,8 +211,8 @@ class _Planner:
         kept = looked * prod((self.likely[at] for at in checks), start=1.0)
         rest = open_ - {item}
         children, cost = [], rows + (looked if rest or checks or guide < 0 else 0)
-        for part in self._parts(rest, active):
-            child, more = self._grow(part, known | {item}, max(kept, 1e-3), first, shared)
+        for part in joined_groups(sorted(rest), (self.scopes[at] for at in active)):
+            child, more = self._grow(frozenset(part), known | {item}, max(kept, 1e-3), first, shared)
             children.append(child)
             cost += more
         children.sort(key=lambda child: len(list(child.below())))
@@ -249,10 +252,6 @@ class _Planner:
                 return at
         bands = [at for at in complete if at >= len(self.rules) and self.bands[at - len(self.rules)].opens(item)]
         return min(bands, key=lambda at: self.likely[at], default=-1)
-
-    def _parts(self, items: Items, active: Iterable[int]) -> list[Items]:
-        """The items parted by the constraints that join them."""
-        return [frozenset(part) for part in joined_groups(sorted(items), (self.scopes[at] for at in active))]
 
 
 def extents(question: JoinProblem) -> list[tuple[float, float]]:

@@ -13,7 +13,7 @@ cannot place are settled by exact signs.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import product
@@ -21,8 +21,9 @@ from math import prod
 
 import numpy as np
 
+from geartrain.synthesis.join.partial_assignments import PartialAssignments
 from geartrain.synthesis.join.polynomial_signs import SignPolynomial, Signs
-from geartrain.synthesis.join.product_lists import Floats, Ints, PartialAssignments
+from geartrain.synthesis.join.product_lists import Floats, Ints
 from geartrain.synthesis.join.solution_windows import Bools, PolynomialInequality, SolutionWindow, find_window, spread
 
 Corners = Mapping[int, tuple[float, float]]
@@ -112,20 +113,32 @@ def _factors(polynomial: SignPolynomial, inside: Sequence[int], point: Sequence[
 class PolynomialConstraint:
     """A demand: at least one case holds, that is, all of its halves. No two cases hold at once.
 
-    name   what is demanded, in words
+    name       what is demanded, in words
+    function   numerator and denominator of what the demand is on, where its value is asked for too
     """
 
     name: str
     cases: tuple[tuple[PolynomialInequality, ...], ...]
+    function: tuple[SignPolynomial, SignPolynomial] | None = None
 
     @cached_property
     def items(self) -> tuple[int, ...]:
         """The items it depends on, ascending."""
-        return tuple(sorted({item for half in self._halves for item in half.polynomial.items}))
+        polynomials = [*(half.polynomial for half in self._halves), *(self.function or ())]
+        return tuple(sorted({item for polynomial in polynomials for item in polynomial.items}))
 
     @property
     def _halves(self) -> Iterable[PolynomialInequality]:
         return (half for case in self.cases for half in case)
+
+    def steps(self, item: int) -> Iterator[int]:
+        """Powers of an item in the terms of its polynomials, each less that in the polynomial's first term."""
+        sums = [half.polynomial.terms for half in self._halves]
+        if self.function is not None:
+            sums.append(self.function[0].terms + self.function[1].terms)
+        for terms in sums:
+            powers = [dict(monomial).get(item, 0) for _, monomial in terms]
+            yield from (power - powers[0] for power in powers)
 
     def opens(self, item: int) -> bool:
         """True if `windows` can be found in an item: each polynomial has at most two powers of it."""
@@ -138,6 +151,13 @@ class PolynomialConstraint:
         for case in self.cases:
             found |= _case_holds(case, rows, known)
         return found
+
+    def value(self, rows: PartialAssignments) -> Floats:
+        """The value of its function, to rounding."""
+        assert self.function is not None, "the demand is graded"
+        scale = max(side.scale for side in self.function)
+        (above, _), (below, _) = (side.values(rows, scale) for side in self.function)
+        return np.asarray(above / below)
 
     def reaches(self, corners: Corners) -> list[list[RelaxedInequality]]:
         """Its halves, case by case, with some items open; for `possible`."""

@@ -15,7 +15,8 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from geartrain.synthesis.join.product_lists import Floats, Ints, PartialAssignments
+from geartrain.synthesis.join.partial_assignments import PartialAssignments
+from geartrain.synthesis.join.product_lists import Floats, Ints
 
 Signs = NDArray[np.int8]
 Monomial = tuple[tuple[int, int], ...]

@@ -2,14 +2,12 @@
 
 An output sees most wheels through one monomial only, such as a c / (b d). So not wheels are joined but items: a list of
 products of counts, or of quotients of two such products. A wheel that a fitter's rule looks at is an item by itself.
-
-Partial assignments of a join: for some items, which of their values each row has.
 """
 
 from __future__ import annotations
 
 from collections import OrderedDict
-from collections.abc import Callable, Hashable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Hashable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache, reduce
 from math import prod
@@ -21,7 +19,10 @@ from numpy.typing import NDArray
 Ints = NDArray[np.int64]
 Floats = NDArray[np.float64]
 Tallies = NDArray[Any]
-"""Numbers of assignments: int64 where all of them fit, Python integers otherwise."""
+"""Numbers or weights of assignments: int64 where all of them fit, Python integers otherwise."""
+Domains = Mapping[str, tuple[int, ...]]
+Weights = Mapping[str, tuple[int, ...]]
+"""Wheel -> a whole weight for each of its counts; 1 for all of a wheel that is missing: counting is weight 1."""
 
 _LONGEST = 1 << 23
 _TRIED = 4_000_000
@@ -71,18 +72,18 @@ def greatest(factors: Sequence[Sequence[int]]) -> int:
 
 
 class ProductLists:
-    """Distinct products of one number of each of some lists, ascending, with the number of ways to each.
+    """Distinct products of one number of each of some lists, ascending, with the weight of all ways to each.
 
     levels   products of the first so many lists, int64
-    times    ways to the products of all, of the given dtype
+    times    weight of the ways to the products of all, of the given dtype
     """
 
-    def __init__(self, factors: Sequence[tuple[int, ...]], dtype: Any) -> None:
+    def __init__(self, factors: Sequence[tuple[int, ...]], weights: Sequence[tuple[int, ...]], dtype: Any) -> None:
         self.factors = [np.array(some, dtype=np.int64) for some in factors]
         self.levels = [np.ones(1, dtype=np.int64)]
         self.times: Tallies = np.ones(1, dtype=dtype)
-        for some in self.factors:
-            values, self.times = _times(self.levels[-1], self.times, some)
+        for some, own in zip(self.factors, weights, strict=True):
+            values, self.times = _times(self.levels[-1], self.times, some, np.array(own, dtype=dtype))
             self.levels.append(values)
 
 
@@ -105,17 +106,36 @@ class ListCache(Generic[Made]):
         return self._kept[key]
 
 
+@dataclass(frozen=True, slots=True)
+class ProductStep:
+    """What the counts of one wheel make of the products of the wheels before it.
+
+    parents         product before, in parallel to the others
+    choices         index of the count
+    children        product after
+    before, after   how many products there are
+    """
+
+    wheel: str
+    parents: Ints
+    choices: Ints
+    children: Ints
+    before: int
+    after: int
+
+
 class CountProducts:
     """Distinct products of one count of each wheel (to its power).
 
     values   (m,) int64, ascending
-    times    (m,) ways to each, of the given dtype
+    times    (m,) weight of the ways to each, of the given dtype
     """
 
-    def __init__(self, wheels: Sequence[tuple[str, int]], domains: Mapping[str, Sequence[int]], dtype: Any) -> None:
+    def __init__(self, wheels: Sequence[tuple[str, int]], domains: Domains, weights: Weights, dtype: Any) -> None:
         self.wheels = tuple(wheels)
         factors = tuple(tuple(count**power for count in domains[wheel]) for wheel, power in wheels)
-        lists = _LISTS.get((factors, dtype is object), lambda: ProductLists(factors, dtype))
+        own = tuple(weights.get(wheel, (1,) * len(domains[wheel])) for wheel, _ in wheels)
+        lists = _LISTS.get((factors, own, dtype is object), lambda: ProductLists(factors, own, dtype))
         self.powers, self.levels, self.times = lists.factors, lists.levels, lists.times
         self.counts = [np.array(domains[wheel], dtype=np.int64) for wheel, _ in wheels]
         self.values = self.levels[-1]
@@ -131,15 +151,27 @@ class CountProducts:
             found[self.wheels[level][0]] = self.counts[level][factor]
         return owner, found
 
+    def steps(self, indices: Ints) -> list[ProductStep]:
+        """How some products, each once, are made up: one step for each wheel, from the one empty product on."""
+        values, found = self.values[indices], []
+        for level in range(len(self.wheels) - 1, -1, -1):
+            children, choices, rest = _made(values, self.powers[level], self.levels[level])
+            before, parents = np.unique(rest, return_inverse=True)
+            found.append(
+                ProductStep(self.wheels[level][0], parents, choices, children, len(before), len(values)),
+            )
+            values = before
+        return found[::-1]
 
-def _times(values: Ints, times: Tallies, factors: Ints) -> tuple[Ints, Tallies]:
+
+def _times(values: Ints, times: Tallies, factors: Ints, weights: Tallies) -> tuple[Ints, Tallies]:
     """Distinct products of two lists; in blocks, so that the whole table is never held."""
     step = max(1, _LONGEST // len(values))
     found: list[tuple[Ints, Tallies]] = []
     for at in range(0, len(factors), step):
         block = factors[at : at + step]
         products = np.multiply.outer(block, values).ravel()
-        found.append(_distinct(products, np.tile(times, len(block))))
+        found.append(_distinct(products, np.multiply.outer(weights[at : at + step], times).ravel()))
         last = at + step >= len(factors)
         while len(found) > 1 and (last or len(found[-2][0]) <= 2 * len(found[-1][0])):
             (left, p), (right, q) = found.pop(), found.pop()
@@ -167,19 +199,34 @@ def _divided(rest: Ints, factors: Ints, shorter: Ints) -> tuple[Ints, Ints, Ints
     return rows, columns, quotients
 
 
+def _made(values: Ints, factors: Ints, shorter: Ints) -> tuple[Ints, Ints, Ints]:
+    """As `_divided`, of distinct ascending products, the cheaper way round."""
+    if len(values) <= len(shorter):
+        return _divided(values, factors, shorter)
+    found = []
+    step = max(1, _LONGEST // len(factors))
+    for at in range(0, len(shorter), step):
+        products = np.multiply.outer(shorter[at : at + step], factors)
+        place = np.minimum(np.searchsorted(values, products), len(values) - 1)
+        rows, columns = np.nonzero(values[place] == products)
+        found.append((place[rows, columns], columns, shorter[rows + at]))
+    rows, columns, quotients = (np.concatenate(parts) for parts in zip(*found, strict=True))
+    return rows, columns, quotients
+
+
 class Item:
-    """The values of a recipe: top over bottom, ascending, with the ways to each.
+    """The values of a recipe: top over bottom, ascending, with the weight of the ways to each.
 
     x               (m,) float64, ascending; a few roundings off
     tops, bottoms   (m,) int64, x exactly; `bottoms` is None where all are 1. Equal quotients may stand several times
-    times           (m,) ways
-    sums            (m + 1,) ways to the first so many
+    times           (m,) weight of the ways
+    sums            (m + 1,) that to the first so many
     """
 
-    def __init__(self, recipe: ItemRecipe, domains: Mapping[str, Sequence[int]], dtype: Any) -> None:
+    def __init__(self, recipe: ItemRecipe, domains: Domains, weights: Weights, dtype: Any) -> None:
         self.recipe = recipe
-        self._top = CountProducts(recipe.top, domains, dtype)
-        self._bottom = CountProducts(recipe.bottom, domains, dtype) if recipe.bottom else None
+        self._top = CountProducts(recipe.top, domains, weights, dtype)
+        self._bottom = CountProducts(recipe.bottom, domains, weights, dtype) if recipe.bottom else None
         self.tops, self.times = self._top.values, self._top.times
         self.bottoms: Ints | None = None
         self._at: tuple[Ints, Ints] | None = None
@@ -207,6 +254,12 @@ class Item:
             self._rooms[power] = reduce(np.multiply, [self.x] * power)
         return self._rooms[power]
 
+    def sides(self, indices: Ints) -> list[tuple[CountProducts, Ints]]:
+        """The products above, and below if there are any, with their places in some of the values."""
+        if self._bottom is None or self._at is None:
+            return [(self._top, indices)]
+        return [(self._top, self._at[0][indices]), (self._bottom, self._at[1][indices])]
+
     def ways(self, indices: Ints) -> tuple[Ints, dict[str, Ints]]:
         """Every way to some of the values: (owner, wheel -> count), owner an index into `indices`, ascending."""
         if self._bottom is None or self._at is None:
@@ -220,76 +273,7 @@ _LISTS: ListCache[ProductLists] = ListCache()
 _ITEMS: ListCache[Item] = ListCache()
 
 
-def find_item(recipe: ItemRecipe, domains: Mapping[str, tuple[int, ...]], dtype: Any) -> Item:
+def find_item(recipe: ItemRecipe, domains: Domains, weights: Weights, dtype: Any) -> Item:
     """An item, made or remembered."""
-    key = recipe, tuple(domains[wheel] for wheel in recipe.wheels), dtype is object
-    return _ITEMS.get(key, lambda: Item(recipe, domains, dtype))
-
-
-BLOCK = 1 << 18
-"""Rows worked on at a time: bounds the memory of a join to some tens of megabytes, beside its lists."""
-
-
-class PartialAssignments:
-    """Rows over some items.
-
-    columns   item -> index of its value, (size,)
-    """
-
-    __slots__ = ("_x", "columns", "items", "size")
-
-    def __init__(self, items: Sequence[Item], columns: Mapping[int, Ints], size: int) -> None:
-        self.items, self.columns, self.size = items, columns, size
-        self._x: dict[int, Floats] = {}
-
-    def x(self, item: int) -> Floats:
-        """Values of an item, float64."""
-        if item not in self._x:
-            self._x[item] = self.items[item].x[self.columns[item]]
-        return self._x[item]
-
-    def top(self, item: int) -> Ints:
-        """Numerators of an item's values."""
-        return self.items[item].tops[self.columns[item]]
-
-    def bottom(self, item: int) -> Ints | None:
-        """Denominators of an item's values; None for 1."""
-        bottoms = self.items[item].bottoms
-        return None if bottoms is None else bottoms[self.columns[item]]
-
-    def pick(self, where: NDArray[Any]) -> PartialAssignments:
-        """Some rows, by mask or by index."""
-        columns = {item: column[where] for item, column in self.columns.items()}
-        size = int(where.sum()) if where.dtype == np.bool_ else len(where)
-        return PartialAssignments(self.items, columns, size)
-
-    def plus(self, parents: Ints, item: int, indices: Ints) -> PartialAssignments:
-        """Rows grown out of these: `parents` says which, `indices` the value of one more item."""
-        columns = {known: column[parents] for known, column in self.columns.items()}
-        return PartialAssignments(self.items, {**columns, item: indices}, len(parents))
-
-    def only(self, items: Sequence[int]) -> tuple[PartialAssignments, Ints | None]:
-        """The distinct rows on some items, and for each row which of them it is; None for itself."""
-        if len(items) == len(self.columns):
-            return self, None
-        if not items:
-            return PartialAssignments(self.items, {}, min(self.size, 1)), np.zeros(self.size, dtype=np.int64)
-        key, most = np.zeros(self.size, dtype=np.int64), 1
-        for item in items:
-            if most * len(self.items[item]) >= 1 << 62:  # renumbered, so that it never overflows
-                _, key = np.unique(key, return_inverse=True)
-                most = self.size
-            key = key * len(self.items[item]) + self.columns[item]
-            most *= len(self.items[item])
-        _, first, inverse = np.unique(key, return_index=True, return_inverse=True)
-        return PartialAssignments(self.items, {item: self.columns[item][first] for item in items}, len(first)), inverse
-
-    def blocks(self, sizes: Tallies) -> Iterator[tuple[int, int]]:
-        """Runs of rows whose `sizes` add up to about `BLOCK`; a row of more stands alone."""
-        ends = np.cumsum(sizes)
-        at = 0
-        while at < self.size:
-            done = ends[at - 1] if at else 0
-            upto = max(int(np.searchsorted(ends, done + BLOCK, side="right")), at + 1)
-            yield at, upto
-            at = upto
+    key = recipe, tuple((domains[wheel], weights.get(wheel)) for wheel in recipe.wheels), dtype is object
+    return _ITEMS.get(key, lambda: Item(recipe, domains, weights, dtype))

@@ -11,8 +11,8 @@ import numpy as np
 
 from geartrain.numerics.exact import as_float
 from geartrain.synthesis.constraints.count_conditions import CountConstraint, CountEquation
-from geartrain.synthesis.join.product_lists import Floats, Ints
-from geartrain.synthesis.join.wheel_monomials import Domains, Function, Interval, IntervalConstraint, WheelTerm
+from geartrain.synthesis.join.product_lists import Domains, Floats, Ints
+from geartrain.synthesis.join.wheel_monomials import Function, Interval, IntervalConstraint, WheelTerm
 
 _DRAWN = 4096
 _NEIGHBOURS = 40

@@ -12,8 +12,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from geartrain.synthesis.join.partial_assignments import PartialAssignments
 from geartrain.synthesis.join.polynomial_signs import ROUNDING, SignPolynomial, Signs
-from geartrain.synthesis.join.product_lists import Floats, Ints, Item, PartialAssignments
+from geartrain.synthesis.join.product_lists import Floats, Ints, Item
 
 Bools = NDArray[np.bool_]
 

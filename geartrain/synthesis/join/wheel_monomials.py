@@ -10,12 +10,12 @@ from itertools import product
 from typing import Protocol
 
 from geartrain.errors import Problem, RangeError
+from geartrain.synthesis.join.partial_assignments import PartialAssignments
 from geartrain.synthesis.join.polynomial_constraints import PolynomialConstraint, possible
 from geartrain.synthesis.join.polynomial_signs import Monomial, SignPolynomial
-from geartrain.synthesis.join.product_lists import ItemRecipe, PartialAssignments, forecast, greatest
+from geartrain.synthesis.join.product_lists import Domains, ItemRecipe, forecast, greatest
 from geartrain.synthesis.join.solution_windows import PolynomialInequality
 
-Domains = Mapping[str, tuple[int, ...]]
 Factors = tuple[tuple[str, int], ...]
 Interval = tuple[Fraction | None, Fraction | None]
 """Closed, least to greatest; None for an infinite end."""
@@ -52,12 +52,14 @@ class IntervalConstraint:
 
     name    the demand in words
     strict  True: not on their ends either
+    graded  True: it matters where within the intervals the value lies, so that all wheels of the function must be known
     """
 
     name: str
     function: Function
     intervals: tuple[Interval, ...]
     strict: bool = False
+    graded: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -161,7 +163,8 @@ def find_polynomial_constraints(
         polynomials = [(term[0], monomial) for term, monomial in zip(terms, monomials, strict=True)]
         N = SignPolynomial.of(polynomials[: len(function.numerator)])
         D = SignPolynomial.of(polynomials[len(function.numerator) :])
-        bands.append(PolynomialConstraint(one.name, _feasible(list(_cases(N, D, one)), extremes)))
+        cases = _feasible(list(_cases(N, D, one)), extremes)
+        bands.append(PolynomialConstraint(one.name, cases, (N, D) if one.graded else None))
     return bands
 
 

@@ -14,7 +14,8 @@ from geartrain.numerics.graphs import joined_groups
 from geartrain.synthesis.constraints.count_conditions import CountConstraint
 from geartrain.synthesis.formulas.output_formulas import find_formulas
 from geartrain.synthesis.formulas.rational_functions import Formula
-from geartrain.synthesis.join.wheel_monomials import Domains, IntervalConstraint
+from geartrain.synthesis.join.product_lists import Domains
+from geartrain.synthesis.join.wheel_monomials import IntervalConstraint
 from geartrain.synthesis.train.output_requirements import OutputRequirement, find_output_requirements, value_of
 from geartrain.train import Teeth, Train
 

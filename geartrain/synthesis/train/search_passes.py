@@ -12,8 +12,9 @@ from typing import cast
 from geartrain.numerics.work import Journal, run
 from geartrain.synthesis.constraints.count_conditions import CountConstraint
 from geartrain.synthesis.join.join_plan import find_join_problem
+from geartrain.synthesis.join.product_lists import Domains
 from geartrain.synthesis.join.selectivity import SelectivitySample
-from geartrain.synthesis.join.wheel_monomials import Domains, IntervalConstraint
+from geartrain.synthesis.join.wheel_monomials import IntervalConstraint
 from geartrain.synthesis.train.best_assignments import AssignmentOrder
 from geartrain.synthesis.train.independent_parts import SearchPart
 from geartrain.synthesis.train.output_requirements import OutputRequirement

@@ -18,7 +18,6 @@ import numpy as np
 
 from geartrain.synthesis.join.product_lists import Floats, Ints
 from geartrain.synthesis.join.wheel_monomials import IntervalConstraint
-from geartrain.uncertainty.posterior.forward_backward import plain_number
 from geartrain.uncertainty.posterior.inference_problem import InferenceProblem
 from geartrain.uncertainty.posterior.likelihood import Bools, ExactConstraint, FormulaValues, OutputLikelihood
 from geartrain.uncertainty.posterior.monomial_columns import (
@@ -254,6 +253,11 @@ class PosteriorTally:
             "best": [[misfit, list(at)] for misfit, at in self.best],
             "ranked": self.ranked,
         }
+
+
+def plain_number(value: Any) -> int | float:
+    """A sum as Python's own number, which does not overflow."""
+    return float(value) if isinstance(value, float | np.floating) else int(value)
 
 
 def origin_of(doubt: ToothCountPrior) -> int:

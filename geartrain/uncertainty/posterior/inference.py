@@ -12,6 +12,7 @@ from typing import Any
 
 from geartrain.errors import Problem, QuestionError, RangeError, suggest
 from geartrain.numerics.work import Execution, Journal, run
+from geartrain.synthesis.join.exact_join import BudgetSpentError
 from geartrain.train import Train
 from geartrain.uncertainty.posterior.enumeration import (
     LikelihoodBatch,
@@ -21,21 +22,16 @@ from geartrain.uncertainty.posterior.enumeration import (
     packed,
     sample_task,
 )
-from geartrain.uncertainty.posterior.forward_backward import BestCombinations, ForwardBackwardSums
 from geartrain.uncertainty.posterior.inference_problem import InferenceProblem, build_inference_problem
+from geartrain.uncertainty.posterior.joined_posterior import evidence_of, find_joined_posterior
 from geartrain.uncertainty.posterior.observations import LikelihoodKind
 from geartrain.uncertainty.posterior.posterior_result import CountProbability, Method, ToothCountPosterior
 from geartrain.uncertainty.posterior.posterior_summary import (
     PosteriorSummary,
-    combine_parts,
-    correlations_of_sums,
-    first_with_ties,
     rank_combinations,
     summary_of_tally,
-    wheel_posterior,
 )
 from geartrain.uncertainty.posterior.priors import find_priors
-from geartrain.uncertainty.posterior.variable_elimination import EliminationLimitError, eliminate_wheels
 from geartrain.uncertainty.posterior.variance_shares import find_variance_shares
 
 LIMIT = 2_000_000
@@ -162,10 +158,10 @@ def _find(
         return "enumerate", *_enumerated(question, most, means)
     if method != "sample":
         try:
-            return "decompose", _decomposed(question, most, limit), False
-        except EliminationLimitError:
+            return "decompose", find_joined_posterior(question, most, limit), False
+        except BudgetSpentError:
             if method is not None:
-                raise _passed("too many rows", limit, "sample") from None
+                raise _passed("too many steps", limit, "sample") from None
     return "sample", *_sampled(question, most, samples, seed, means)
 
 
@@ -211,54 +207,6 @@ def _added(
     return tally, False
 
 
-def _decomposed(question: InferenceProblem, most: int, limit: int) -> PosteriorSummary:
-    parts = eliminate_wheels(question, limit)
-    sums = [ForwardBackwardSums(part, question.doubts, question.soft) for part in parts]
-    moved = [one for one in sums if any(step.wheel in LikelihoodBatch(question).wheels for step in one.part.steps)]
-    share: Any = prod((one.evidence for one in moved), start=1.0 if question.soft else 1)
-    total = prod(one.total for one in moved)
-    evidence = CountProbability(float(share)) if question.soft else CountProbability(Fraction(int(share), total))
-    posteriors = {}
-    for one in sums:
-        for wheel, weights in one.posteriors.items():
-            idle = one not in moved
-            posteriors[wheel] = wheel_posterior(
-                question.doubts[wheel], None if idle else weights, one.evidence if share else 0, None
-            )
-    lists = [first_with_ties(iter(BestCombinations(one.part, question.doubts)), most) for one in moved]
-    return PosteriorSummary(
-        sum(len(step.choices) for part in parts for step in part.steps),
-        evidence,
-        _turning(question, limit),
-        None if question.soft else _count(question, sums),
-        {wheel: posteriors[wheel] for wheel in question.doubts},
-        correlations_of_sums(question, moved) if share else {},
-        combine_parts([some for some, _ in lists], most) if share else (),
-        all(whole for _, whole in lists),
-        float("inf"),
-    )
-
-
-def _count(question: InferenceProblem, sums: Sequence[ForwardBackwardSums]) -> int:
-    """How many combinations fit: the same sums with every weight 1."""
-    alike = {w: replace(doubt, weights=(1,) * len(doubt.counts)) for w, doubt in question.doubts.items()}
-    return prod(int(ForwardBackwardSums(one.part, alike, False).evidence) for one in sums)
-
-
-def _turning(question: InferenceProblem, limit: int) -> CountProbability:
-    """The share of the prior weight with which the train turns, whatever its outputs do."""
-    if not question.conditions:
-        return CountProbability(Fraction(1))
-    return _evidence(replace(question, witnesses=(), soft=False), limit)
-
-
-def _evidence(question: InferenceProblem, limit: int) -> CountProbability:
-    sums = [ForwardBackwardSums(part, question.doubts, question.soft) for part in eliminate_wheels(question, limit)]
-    if question.soft:
-        return CountProbability(float(prod(float(one.evidence) for one in sums)))
-    return CountProbability(Fraction(prod(int(one.evidence) for one in sums), prod(one.total for one in sums)))
-
-
 def _alone(question: InferenceProblem, seed: int) -> dict[str, CountProbability]:
     """What each output would tell by itself; of a sample where that is more than a little work."""
     found = {}
@@ -266,7 +214,7 @@ def _alone(question: InferenceProblem, seed: int) -> dict[str, CountProbability]
         doubts = {wheel: question.doubts[wheel] for wheel in witness.formula.wheels}
         one = replace(question, doubts=doubts, witnesses=(witness,), conditions=())
         try:
-            found[witness.name] = _evidence(one, _ALONE)
-        except EliminationLimitError:
+            found[witness.name] = evidence_of(one, _ALONE)
+        except BudgetSpentError:
             found[witness.name] = _sampled(one, 1, _DRAWN, seed, Execution())[0].evidence
     return found

@@ -9,7 +9,8 @@ from math import prod
 
 from geartrain.errors import Problem, QuestionError, suggest
 from geartrain.synthesis.formulas import Formula, Formulas, find_formulas
-from geartrain.synthesis.join.wheel_monomials import Domains, IntervalConstraint
+from geartrain.synthesis.join.product_lists import Domains
+from geartrain.synthesis.join.wheel_monomials import IntervalConstraint
 from geartrain.synthesis.train.output_requirements import find_output_requirements
 from geartrain.train import Train
 from geartrain.uncertainty.posterior.observations import (
@@ -49,6 +50,13 @@ class InferenceProblem:
     def domains(self) -> Domains:
         """Wheel -> its counts, ascending."""
         return {wheel: doubt.counts for wheel, doubt in self.doubts.items()}
+
+    @property
+    def moved(self) -> dict[str, ToothCountPrior]:
+        """The doubts that matter to a witness, or to whether the train turns, in the order declared."""
+        functions = [witness.formula for witness in self.witnesses] + [one.function for one in self.conditions]
+        wheels = {wheel for function in functions for wheel in function.wheels}
+        return {wheel: doubt for wheel, doubt in self.doubts.items() if wheel in wheels}
 
     @property
     def combinations(self) -> int:

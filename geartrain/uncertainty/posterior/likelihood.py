@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property, reduce
@@ -191,7 +191,7 @@ class OutputLikelihood:
         self._poles = ExactConstraint(
             IntervalConstraint(witness.name, witness.formula, ((None, None),)), monomials, domains
         )
-        self._scales = [_Scale.of(claim) for claim in witness.claims if not claim.is_exact]
+        self._misfit = misfit_of(witness)
 
     def judge(self, rows: MonomialColumns, plan: ProductPlan | None = None) -> tuple[Bools, Floats]:
         """Which rows are in order, exactly; and their misfit, sum of (error / tolerance)^2, to rounding."""
@@ -202,7 +202,7 @@ class OutputLikelihood:
             met[unsure] = (self._gate or self._poles).holds(rows.pick(unsure))
         misfit = np.full(rows.size, np.inf)
         some = np.flatnonzero(met)
-        misfit[some] = sum((one.misfit(value[some]) for one in self._scales), np.zeros(len(some)))
+        misfit[some] = self._misfit(value[some])
         return met, misfit
 
     def _decided(self, value: Floats, room: Floats | None) -> tuple[Bools, Bools]:
@@ -258,6 +258,16 @@ class _Scale:
         off = (value if self.signed else np.abs(value)) - self.wanted
         found: Floats = (off * np.where(off > 0, self.above, self.below)) ** 2
         return found
+
+
+def misfit_of(witness: ObservedOutput) -> Callable[[Floats], Floats]:
+    """What speeds of an output miss its claims by: the sum of (error / tolerance)^2, to rounding."""
+    scales = [_Scale.of(claim) for claim in witness.claims if not claim.is_exact]
+
+    def misfit(speeds: Floats) -> Floats:
+        return sum((scale.misfit(speeds) for scale in scales), np.zeros(len(speeds)))
+
+    return misfit
 
 
 class ExactConstraint:

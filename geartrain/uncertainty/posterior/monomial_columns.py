@@ -8,7 +8,8 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from geartrain.synthesis.join.product_lists import Floats, Ints, ItemRecipe, PartialAssignments
+from geartrain.synthesis.join.partial_assignments import PartialAssignments
+from geartrain.synthesis.join.product_lists import Floats, Ints, ItemRecipe
 from geartrain.synthesis.join.wheel_monomials import IntervalConstraint, find_wheel_monomials
 
 LARGEST = 1 << 62
@@ -182,18 +183,14 @@ def recipe_of(powers: Powers) -> ItemRecipe:
     return ItemRecipe(above, tuple((wheel, -power) for wheel, power in powers.items() if power < 0))
 
 
-def find_monomials(
-    asked: Sequence[IntervalConstraint], domains: Mapping[str, Sequence[int]], atoms: Sequence[Powers] | None = None
-) -> tuple[Powers, ...]:
+def find_monomials(asked: Sequence[IntervalConstraint], domains: Mapping[str, Sequence[int]]) -> tuple[Powers, ...]:
     """As few monomials as possible through which all functions see the wheels, each exact in int64.
 
     domains   the wheels in question; only those on which a function depends are in a monomial
-    atoms     monomials that must not be torn: seen as one by all these functions; default the wheels themselves
     """
     moving = {wheel for one in asked for wheel in one.function.wheels}
     bundles = find_wheel_monomials([wheel for wheel in domains if wheel in moving], asked, frozenset())
-    whole = atoms if atoms is not None else [{wheel: 1} for wheel in domains]
-    return tuple(part for bundle in bundles for part in _parts(bundle.powers, whole, domains))
+    return tuple(part for bundle in bundles for part in _parts(bundle.powers, domains))
 
 
 def primitive(powers: Powers) -> dict[str, int]:
@@ -203,16 +200,14 @@ def primitive(powers: Powers) -> dict[str, int]:
     return {wheel: power // common for wheel, power in powers.items()}
 
 
-def _parts(powers: Powers, atoms: Sequence[Powers], domains: Mapping[str, Sequence[int]]) -> Iterator[Powers]:
-    """A monomial cut between atoms where its products would not fit int64."""
+def _parts(powers: Powers, domains: Mapping[str, Sequence[int]]) -> Iterator[Powers]:
+    """A monomial cut between wheels where its products would not fit int64."""
     held: dict[str, int] = {}
-    for atom in atoms:
-        if next(iter(atom)) not in powers:
-            continue
-        both = {**held, **{wheel: powers[wheel] for wheel in atom}}
+    for wheel in (wheel for wheel in domains if wheel in powers):
+        both = {**held, wheel: powers[wheel]}
         if held and not fits(primitive(both), domains):
             yield primitive(held)
-            both = {wheel: powers[wheel] for wheel in atom}
+            both = {wheel: powers[wheel]}
         held = both
     yield primitive(held)
 
@@ -223,13 +218,3 @@ def fits(powers: Powers, domains: Mapping[str, Sequence[int]]) -> bool:
     for wheel, power in powers.items():
         sizes[power > 0] *= max(domains[wheel]) ** abs(power)
     return max(sizes) < LARGEST
-
-
-def product(parts: Sequence[tuple[Ints, Ints, int]], size: int) -> tuple[Ints, Ints]:
-    """The product of some quotients (top, bottom, power), above and below."""
-    top, bottom = np.ones(size, dtype=np.int64), np.ones(size, dtype=np.int64)
-    for above, below, power in parts:
-        up, down = (above, below) if power > 0 else (below, above)
-        for _ in range(abs(power)):
-            top, bottom = top * up, bottom * down
-    return top, bottom

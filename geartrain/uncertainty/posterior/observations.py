@@ -113,6 +113,10 @@ class ObservedOutput:
             common = meet(common, (claim.scaled(FAR) if soft else claim).allowed())
         return None if common == (_LINE,) else IntervalConstraint(self.name, self.formula, common)
 
+    def constraint(self, soft: bool, graded: bool) -> IntervalConstraint:
+        """As `asked`, for a join: where every speed is in order it must have one. `graded`: how well it agrees, too."""
+        return replace(self.asked(soft) or IntervalConstraint(self.name, self.formula, (_LINE,)), graded=graded)
+
     def to_dict(self) -> dict[str, Any]:
         """Plain data for JSON."""
         return {"output": self.name, "claims": [claim.label for claim in self.claims], "formula": str(self.formula)}

@@ -13,9 +13,10 @@ from typing import Any
 
 import numpy as np
 
+from geartrain.numerics.graphs import joined_groups
+from geartrain.synthesis.join.inside_outside import GradedAssignment
 from geartrain.uncertainty.confidence_intervals import deviations, wilson
-from geartrain.uncertainty.posterior.enumeration import PosteriorTally, origin_of
-from geartrain.uncertainty.posterior.forward_backward import CombinationCandidate, ForwardBackwardSums, plain_number
+from geartrain.uncertainty.posterior.enumeration import PosteriorTally, origin_of, plain_number
 from geartrain.uncertainty.posterior.inference_problem import InferenceProblem
 from geartrain.uncertainty.posterior.posterior_result import CountCombination, CountProbability, WheelPosterior
 from geartrain.uncertainty.posterior.priors import ToothCountPrior
@@ -24,9 +25,9 @@ _NEAR = 1 + 1e-9
 _MOST = 2000
 
 
-def first_with_ties(candidates: Iterator[CombinationCandidate], most: int) -> tuple[list[CombinationCandidate], bool]:
+def first_with_ties(candidates: Iterator[GradedAssignment], most: int) -> tuple[list[GradedAssignment], bool]:
     """The first `most` of an ascending list and all equals of the last; False if equals had to be left out."""
-    found: list[CombinationCandidate] = []
+    found: list[GradedAssignment] = []
     for candidate in candidates:
         if len(found) >= most and candidate.misfit > found[most - 1].misfit * _NEAR:
             return found, True
@@ -36,22 +37,8 @@ def first_with_ties(candidates: Iterator[CombinationCandidate], most: int) -> tu
     return found, True
 
 
-def combine_parts(parts: Sequence[Sequence[CombinationCandidate]], most: int) -> list[CombinationCandidate]:
-    """Combinations of one candidate of each part, the best of them and their equals."""
-    found = [CombinationCandidate(0.0, {})]
-    for part in parts:
-        joined = (
-            CombinationCandidate(left.misfit + right.misfit, {**left.teeth, **right.teeth})
-            for left in found
-            for right in part
-        )
-        ordered = sorted(joined, key=lambda one: one.misfit)
-        found, _ = first_with_ties(iter(ordered), most)
-    return found
-
-
 def rank_combinations(
-    question: InferenceProblem, candidates: Iterable[CombinationCandidate], most: int, evidence: CountProbability | None
+    question: InferenceProblem, candidates: Iterable[GradedAssignment], most: int, evidence: CountProbability | None
 ) -> tuple[CountCombination, ...]:
     """Exact figures of the candidates, best first: by misfit, then prior weight, then nearness to what is declared.
 
@@ -110,6 +97,9 @@ _CERTAIN = 1e-4
 """Spread over range below which a count has no correlation to tell: other counts have a chance under 10^-8, and
 covariances in float64 would be rounding."""
 
+_NONE = 1e-13
+"""Correlation below which it is rounding, and none."""
+
 
 @dataclass(frozen=True, slots=True)
 class PosteriorSummary:
@@ -124,7 +114,7 @@ class PosteriorSummary:
     fits: int | None
     posteriors: Mapping[str, WheelPosterior]
     correlations: Mapping[tuple[str, str], float]
-    candidates: Sequence[CombinationCandidate]
+    candidates: Sequence[GradedAssignment]
     ranked: bool
     effective: float
 
@@ -133,7 +123,7 @@ def summary_of_tally(question: InferenceProblem, tally: PosteriorTally, drawn: b
     """What a listing of combinations comes to, or a sample of them."""
     wheels = tally.batch.wheels
     candidates = [
-        CombinationCandidate(misfit, {w: tally.batch.domains[w][index] for w, index in zip(wheels, at, strict=True)})
+        GradedAssignment(misfit, {w: tally.batch.domains[w][index] for w, index in zip(wheels, at, strict=True)})
         for misfit, at in tally.best
     ]
     by = dict(zip(wheels, tally.by, strict=True))
@@ -232,18 +222,22 @@ def _of_sizes(question: InferenceProblem, tally: PosteriorTally) -> dict[tuple[s
     return _correlated(found, spreads)
 
 
-def correlations_of_sums(
-    question: InferenceProblem, sums: Sequence[ForwardBackwardSums]
+def correlations_of(
+    question: InferenceProblem,
+    marginals: Mapping[str, Sequence[Any]],
+    total: Any,
+    covariances: Mapping[tuple[str, str], float],
 ) -> dict[tuple[str, str], float]:
-    """Correlations from decomposed parts; wheels of different parts have none."""
-    found: dict[tuple[str, str], float] = {}
-    order = {wheel: at for at, wheel in enumerate(question.doubts)}
-    for one in sums:
-        if one.evidence:
-            _, spreads = _moments(question, one.posteriors, one.evidence)
-            pairs = {(a, b) if order[a] < order[b] else (b, a): value for (a, b), value in one.covariances.items()}
-            found |= _correlated(pairs, spreads)
-    return dict(sorted(found.items(), key=lambda pair: -abs(pair[1])))
+    """Correlations from covariances; wheels that no output and no condition joins have none."""
+    scopes = [
+        *(one.formula.wheels for one in question.witnesses),
+        *(one.function.wheels for one in question.conditions),
+    ]
+    group = {wheel: at for at, wheels in enumerate(joined_groups(marginals, scopes)) for wheel in wheels}
+    _, spreads = _moments(question, marginals, total)
+    return _correlated(
+        {pair: value for pair, value in covariances.items() if group[pair[0]] == group[pair[1]]}, spreads
+    )
 
 
 def _moments(
@@ -268,5 +262,6 @@ def _correlated(
     for (first, second), covariance in covariances.items():
         size = spreads[first] * spreads[second]
         if size:
-            found[first, second] = min(1.0, max(-1.0, covariance / size))
+            value = min(1.0, max(-1.0, covariance / size))
+            found[first, second] = value if abs(value) > _NONE else 0.0
     return dict(sorted(found.items(), key=lambda pair: -abs(pair[1])))

@@ -1,0 +1,165 @@
+"""Sums over all assignments of a recorded join: their weight, and that of those with each count of each wheel.
+
+The inside-outside algorithm (Baker 1979; on a chain forward-backward, Baum 1970): weights of what is below a row are
+summed from the leaves up, of what is beside it from the root down. Whole numbers stay exact. All sums are linear in the
+weights of each wheel, which may have either sign: with weights w(z) (z - mean) of one wheel in place of w(z), the sums
+of the others are their covariances with it.
+
+The best assignments, best first, by a search along the tree that knows the least that is to come (A*).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from functools import reduce
+from heapq import heappop, heappush
+from typing import Any
+
+import numpy as np
+
+from geartrain.synthesis.join.product_lists import Floats, Tallies
+from geartrain.synthesis.join.recorded_join import CountWeights, RecordedNode, sums_by
+
+
+@dataclass(frozen=True)
+class _Inside:
+    """Weights of all that is below.
+
+    own     of each transition: ways to its value, and how well it agrees
+    onward  for each child, of all below the row that each transition leads to
+    rows    of each row
+    """
+
+    node: RecordedNode
+    own: Tallies
+    onward: tuple[Tallies, ...]
+    below: tuple[_Inside, ...]
+    rows: Tallies
+
+
+class AssignmentSums:
+    """Sums over the assignments of a recorded join.
+
+    graded   True: the weight of an assignment, the product of the weights of its counts, is multiplied by
+             exp(-misfit / 2)
+    """
+
+    def __init__(self, root: RecordedNode, graded: bool) -> None:
+        self.root, self.graded = root, graded
+
+    def total(self, weights: CountWeights) -> Any:
+        """The weight of all assignments."""
+        return self._inside(self.root, weights).rows.sum()
+
+    def marginals(self, weights: CountWeights) -> dict[str, Tallies]:
+        """Wheel -> the weight of all assignments with each of its counts."""
+        found: dict[str, Tallies] = {}
+        inside = self._inside(self.root, weights)
+        stack = [(inside, np.ones(self.root.size, dtype=inside.rows.dtype))]
+        while stack:
+            here, outside = stack.pop()
+            node, into = here.node, outside[here.node.parents]
+            beside = reduce(np.multiply, here.onward, self._with_grades(node, into))
+            found |= node.values.flows(weights, sums_by(node.places, beside, node.values.size))
+            for at, (child, to) in enumerate(node.children):
+                siblings = here.onward[:at] + here.onward[at + 1 :]
+                flow = reduce(np.multiply, siblings, into * here.own)
+                stack.append((here.below[at], sums_by(to, flow, child.size)))
+        return found
+
+    def covariances(self, weights: CountWeights, counts: Mapping[str, Sequence[int]]) -> dict[tuple[str, str], float]:
+        """The covariance of the counts of every two wheels, in the order of `counts`, to rounding.
+
+        weights   float64, none negative
+        """
+        total, marginals = float(self.total(weights)), self.marginals(weights)
+        wheels = [wheel for wheel in counts if wheel in marginals]
+        steps, found = {}, {}
+        for wheel in wheels:
+            sizes = np.array(counts[wheel], dtype=np.float64)
+            steps[wheel] = sizes - float((marginals[wheel] * sizes).sum()) / total
+        for at, first in enumerate(wheels):
+            tilted = self.marginals({**weights, first: weights[first] * steps[first]})
+            for second in wheels[at + 1 :]:
+                found[first, second] = float((tilted[second] * steps[second]).sum()) / total
+        return found
+
+    def _inside(self, node: RecordedNode, weights: CountWeights) -> _Inside:
+        own = self._with_grades(node, node.values.weights(weights)[node.places])
+        below = tuple(self._inside(child, weights) for child, _ in node.children)
+        onward = tuple(found.rows[to] for found, (_, to) in zip(below, node.children, strict=True))
+        rows = sums_by(node.parents, reduce(np.multiply, onward, own), node.size)
+        return _Inside(node, own, onward, below, rows)
+
+    def _with_grades(self, node: RecordedNode, values: Tallies) -> Tallies:
+        """Weights of transitions times how well each agrees."""
+        if not self.graded or node.misfit is None:
+            return values
+        return np.asarray(values * np.exp(-node.misfit / 2))
+
+
+@dataclass(frozen=True, slots=True)
+class GradedAssignment:
+    """An assignment and its misfit to rounding."""
+
+    misfit: float
+    teeth: Mapping[str, int]
+
+
+class BestFirst:
+    """The assignments of a recorded join that agree best, best first.
+
+    counts   wheel -> its counts
+    """
+
+    def __init__(self, root: RecordedNode, counts: Mapping[str, Sequence[int]]) -> None:
+        self._counts = counts
+        self._nodes: list[RecordedNode] = []
+        self._ahead: list[Floats] = []
+        self._below: list[tuple[int, ...]] = []
+        self._add(root)
+
+    def _add(self, node: RecordedNode) -> int:
+        """Number a node and all below, with the least misfit to come from each row on."""
+        at = len(self._nodes)
+        self._nodes.append(node)
+        self._ahead.append(np.full(node.size, np.inf))
+        self._below.append(())
+        self._below[at] = tuple(self._add(child) for child, _ in node.children)
+        least = np.zeros(len(node.parents)) if node.misfit is None else node.misfit.copy()
+        for number, (_, to) in zip(self._below[at], node.children, strict=True):
+            least += self._ahead[number][to]
+        np.minimum.at(self._ahead[at], node.parents, least)
+        return at
+
+    def __iter__(self) -> Iterator[GradedAssignment]:
+        """Rows to be gone on from are kept as (node, row), values set as (node, place)."""
+        heap: list[tuple[float, int, float, tuple[tuple[int, int], ...], tuple[tuple[int, int], ...]]] = []
+        if np.isfinite(self._ahead[0][0]):
+            heappush(heap, (float(self._ahead[0][0]), 0, 0.0, ((0, 0),), ()))
+        while heap:
+            bound, depth, spent, agenda, taken = heappop(heap)
+            if not agenda:
+                yield from (GradedAssignment(spent, teeth) for teeth in self._teeth(taken))
+                continue
+            (number, row), *later = agenda
+            node = self._nodes[number]
+            first, last = np.searchsorted(node.parents, [row, row + 1])
+            for at in range(int(first), int(last)):
+                so_far = spent + (0.0 if node.misfit is None else float(node.misfit[at]))
+                below = zip(self._below[number], node.children, strict=True)
+                then = (*((child, int(to[at])) for child, (_, to) in below), *later)
+                ahead = so_far + sum(float(self._ahead[one][its]) for one, its in then)
+                # rounding must not let a child come before its parent
+                heappush(heap, (max(ahead, bound), depth - 1, so_far, then, (*taken, (number, int(node.places[at])))))
+
+    def _teeth(self, taken: Sequence[tuple[int, int]]) -> Iterator[dict[str, int]]:
+        """All assignments of wheels that make up some values."""
+        if not taken:
+            yield {}
+            return
+        (number, value), *others = taken
+        for way in self._nodes[number].values.ways(value):
+            named = {wheel: self._counts[wheel][index] for wheel, index in way.items()}
+            yield from (named | more for more in self._teeth(others))

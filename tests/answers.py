@@ -96,7 +96,7 @@ LIMIT = 200
 LONGEST = 20_000
 """Letters up to which a text is kept as it is; longer ones, and all that is no text, by a hash."""
 TRIALS = 128
-"""Trials up to which the `errors` of the pages are asked."""
+"""Trials up to which shipped trains are cut in the pages."""
 NOT_COMPARED = "a file whose content is not compared"
 SHOWN = 10
 """Differing keys of an answer that are printed."""
@@ -181,7 +181,9 @@ def _asked(line: str, texts: dict[str, str]) -> Iterator[dict[str, str]]:
         for each in texts[words[1]].splitlines():
             yield from _asked(each, texts)
     elif words[0] == "geartrain":
-        command = _TRIALS.sub(_fewer, re.split(r" (?:2?>|\|)", line)[0].strip())
+        command = re.split(r" (?:2?>|\|)", line)[0].strip()
+        if words[2:] and not words[2].endswith(".yaml"):
+            command = _TRIALS.sub(_fewer, command)
         if not any(each in command for each in ("--open", "completion")):
             yield _run(command)
             if words[1] in TELLING and not re.search(r" (--json|--csv|-o|--plot|--profile|--vary|--survey)\b", command):

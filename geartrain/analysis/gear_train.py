@@ -9,21 +9,12 @@ from typing import TYPE_CHECKING, Any
 
 from geartrain.errors import Problem, QuestionError, check_choice, suggest
 from geartrain.kinematics.answer import Answer
-from geartrain.kinematics.circuits import (
-    Circuit,
-    Tree,
-    are_parallel,
-    close_joints,
-    find_circuits,
-    find_tree,
-    joint_sum_links,
-    link_signs,
-)
+from geartrain.kinematics.circuits import Axes, Circuit, Tree, close_joints, find_circuits, find_tree
 from geartrain.kinematics.speed_problem import Method, SpeedProblem
 from geartrain.kinematics.speeds import Mobility, find_mobility
 from geartrain.kinematics.tooth_sensitivity import Sensitivity
 from geartrain.kinematics.willis_system import WillisSystem
-from geartrain.train import GearPair, StateCase, Train, declare
+from geartrain.train import StateCase, Train, declare
 
 if TYPE_CHECKING:
     from geartrain.dynamics.driven_meshes import DrivenWays
@@ -98,20 +89,22 @@ class GearTrain:
         return {case.state: case for case in close_joints(self.declaration, self.tree, declared)}
 
     @cached_property
+    def _axes(self) -> Axes:
+        return Axes(self.declaration, self.tree)
+
+    @cached_property
     def signs(self) -> Mapping[str, int]:
         """-1 for links whose axis points against the reference direction of its parallels."""
-        return link_signs(self.declaration, self.tree)
+        return self._axes.link_signs
 
     @cached_property
     def bookkeeping(self) -> frozenset[str]:
         """Links whose speed is a sum over non-parallel joints, and no rotation."""
-        return joint_sum_links(self.declaration, self.tree)
+        return self._axes.joint_sums
 
     def is_rotation(self, of: str, base: str) -> bool:
         """True if the axes between two links are parallel: the speed of one seen from the other is then a rotation."""
-        if not self.bookkeeping:
-            return True
-        return are_parallel(self.declaration, self.tree, of, base)
+        return not self.bookkeeping or self._axes.is_rotation(of, base)
 
     @cached_property
     def _speeds(self) -> SpeedProblem:
@@ -132,9 +125,7 @@ class GearTrain:
     @cached_property
     def is_placed(self) -> bool:
         """True if it can be asked whether teeth meet: axes have positions or directions, and pairs close loops."""
-        axes = self.declaration.axes.values()
-        placed = any(axis.position is not None or "direction" in axis.model_fields_set for axis in axes)
-        return placed and bool(self.mobility.redundant or self.mobility.locked)
+        return self.declaration.has_placed_axes and bool(self.mobility.redundant or self.mobility.locked)
 
     @cached_property
     def closure(self) -> MeshPhasing:
@@ -155,8 +146,10 @@ class GearTrain:
     def _teeth(self) -> tuple[GearMesh, ...]:
         """The gear pairs with real teeth, whoever drives them."""
         from geartrain.dynamics.gear_meshes import find_meshes
+        from geartrain.kinematics.circuits.shaft_angles import shaft_angle
 
-        return find_meshes(self.declaration, self._shaft_angle)
+        train, circuits = self.declaration, {circuit.id: circuit for circuit in self.circuits}
+        return find_meshes(train, lambda gear: shaft_angle(train, self.tree, circuits[gear.name]))
 
     @cached_property
     def meshes(self) -> tuple[GearMesh, ...]:
@@ -203,15 +196,6 @@ class GearTrain:
             self._drivers[key] = find_drivers(self.declaration, circuits, self._setting(state))
         return self._drivers[key]
 
-    def _shaft_angle(self, gear: GearPair) -> float | None:
-        from geartrain.kinematics.circuits.shaft_angles import shaft_angle
-
-        return shaft_angle(self.declaration, self.tree, self._circuit_of[gear.name])
-
-    @cached_property
-    def _circuit_of(self) -> Mapping[str, Circuit]:
-        return {circuit.id: circuit for circuit in self.circuits}
-
     @cached_property
     def pins(self) -> tuple[PinMesh, ...]:
         """The pins in slots whose dimensions are declared, each with its law."""
@@ -221,23 +205,19 @@ class GearTrain:
 
     def torques(self, state: str | None = None) -> Torques:
         """Torques on links and pairs, and the flow of power, under the loads of one state."""
-        from geartrain.dynamics.torques import Torques, TorqueVerdict, find_torques
+        from geartrain.dynamics.torques import find_torques, torques_unknown
 
         setting = self._setting(state)
-        if setting is None:
-            return Torques(state, TorqueVerdict("still", "the speeds of this state are not determined"))
-        return find_torques(setting)
+        return torques_unknown(state) if setting is None else find_torques(setting)
 
     def driven(self, load: str, source: str, state: str | None = None) -> Torques:
         """Torques while a unit of power leaves at `load`, driven from `source`: efficiency, or self-locking."""
-        from geartrain.dynamics.torques import Torques, TorqueVerdict, drive
+        from geartrain.dynamics.torques import drive, torques_unknown
 
         for link in (load, source):
             check_choice("link", link, tuple(self.declaration.links))
         setting = self._setting(state)
-        if setting is None:
-            return Torques(state, TorqueVerdict("still", "the speeds of this state are not determined"))
-        return drive(setting, load, source)
+        return torques_unknown(state) if setting is None else drive(setting, load, source)
 
     def drive_both_ways(self, state: str | None = None) -> list[DrivenWay]:
         """The train driven from its input, and from its output, a unit of power leaving at the other.
@@ -273,9 +253,7 @@ class GearTrain:
 
         case = self._case(state)
         names = outputs or tuple(case.outputs) or tuple(self.declaration.links)
-        wanted = {}
-        for name in names:
-            _, wanted[name] = self._speeds.single_output(case, name)
+        wanted = {name: self._speeds.single_output(case, name)[1] for name in names}
         return Motion(self._moving(case, without), wanted, tolerance)
 
     def impacts(self, state: str | None = None) -> Mapping[str, ToothImpact]:
@@ -293,20 +271,19 @@ class GearTrain:
         from geartrain.dynamics.motion import build_motion_problem
 
         solution = self._speeds.solution(case)
-        verdict, speeds = solution.verdict, solution.speeds
-        if not verdict or not any(case.inputs.values()):
-            raise QuestionError(Problem(f"'{self.name}' does not move", verdict.text, "drive it from an input"))
+        if not solution.verdict or not any(case.inputs.values()):
+            what = f"'{self.name}' does not move"
+            raise QuestionError(Problem(what, solution.verdict.text, "drive it from an input"))
         circuits, drivers = self._circuits_without(without), self.drivers(case.state, without)
         return build_motion_problem(
-            self.declaration, case, circuits, self.signs, speeds, self._teeth, self.pins, drivers
+            self.declaration, case, circuits, self.signs, solution.speeds, self._teeth, self.pins, drivers
         )
 
     def _circuits_without(self, names: Sequence[str]) -> tuple[Circuit, ...]:
         known = [circuit.id for circuit in self.circuits]
-        for name in names:
-            if name not in known:
-                what = Problem(f"'{self.name}' has no pair '{name}'", "it is not declared", suggest(name, known))
-                raise QuestionError(what)
+        for name in (name for name in names if name not in known):
+            what = f"'{self.name}' has no pair '{name}'"
+            raise QuestionError(Problem(what, "it is not declared", suggest(name, known)))
         return tuple(circuit for circuit in self.circuits if circuit.id not in names)
 
     def _setting(self, state: str | None) -> LoadCase | None:
@@ -361,21 +338,7 @@ class GearTrain:
         return self._speeds.floats(self._case(state), inputs, condition_of)
 
     def _case(self, state: str | None) -> StateCase:
-        known = self.states
-        if state is None and len(known) > 1:
-            raise QuestionError(
-                Problem(
-                    f"'{self.name}' has states",
-                    "speeds differ between them",
-                    f"name one of: {', '.join(known)}",
-                )
-            )
-        if state is None and known:
-            state = known[0]
-        if state is not None and state not in known:
-            fix = suggest(state, known) if known else "leave the state out"
-            raise QuestionError(Problem(f"'{self.name}' has no state '{state}'", "it is not declared", fix))
-        return self.cases[state]
+        return self.cases[self.declaration.single_state(state)]
 
     def _repr_html_(self) -> str:
         declared = self.declaration

@@ -10,7 +10,7 @@ from typing import Annotated
 
 from pydantic import BeforeValidator, Field, PrivateAttr
 
-from geartrain.errors import Loc, Marks, dotted
+from geartrain.errors import Loc, Marks, Problem, QuestionError, dotted, suggest
 from geartrain.numerics.decimal_text import abridged_text, decimal
 from geartrain.numerics.quantity import Friction, Quantity, Speed, Torque, in_unit, same_kind
 from geartrain.teeth.pin_coupling import Coupling
@@ -185,6 +185,27 @@ class Train(Declared):
             solve_for=self.solve_for if own.solve_for is None else own.solve_for,
             exact=all(self._is_exact(speed) for speed in inputs.values()),
         )
+
+    def check_state(self, state: str | None) -> None:
+        """Raise `QuestionError` for a state that is not declared."""
+        if state is not None and state not in self.states:
+            fix = suggest(state, self.states) if self.states else "leave the state out"
+            raise QuestionError(Problem(f"'{self.name}' has no state '{state}'", "it is not declared", fix))
+
+    def single_state(self, state: str | None) -> str | None:
+        """The state to be asked: the one given, or the only one. Raises `QuestionError` where there are several."""
+        if state is None and len(self.states) > 1:
+            names = ", ".join(self.states)
+            raise QuestionError(
+                Problem(f"'{self.name}' has states", "speeds differ between them", f"name one of: {names}")
+            )
+        self.check_state(state)
+        return next(iter(self.states), None) if state is None else state
+
+    @property
+    def has_placed_axes(self) -> bool:
+        """True if an axis has a position, or a direction of its own."""
+        return any(axis.position is not None or "direction" in axis.model_fields_set for axis in self.axes.values())
 
     def is_loaded(self, state: str | None) -> bool:
         """True if torques follow from something declared: loads, or friction of bearings."""

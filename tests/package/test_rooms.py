@@ -29,12 +29,8 @@ WAITING = {
 LONGEST = 350
 # each waits to be split; nothing may be added
 TOO_LONG = {
-    "analysis/gear_train.py",
-    "dynamics/motion/motion_model.py",
-    "kinematics/speeds/exact_speeds.py",
     "report/json_schema.py",
     "scene/train_teeth.py",
-    "train/references.py",
 }
 
 
@@ -103,7 +99,7 @@ def imported(body: list[ast.stmt]) -> Iterator[str]:
                 for each in names:
                     inner = f"{source}.{each.name}"
                     yield inner if inner in modules() else source
-            case ast.Try(body=inner_body):
+            case ast.Try(body=inner_body) | ast.If(body=inner_body):  # what only a checker of types reads counts too
                 yield from imported(inner_body)
 
 

@@ -1,7 +1,8 @@
 """Motion with real teeth and pins: errors composed through the whole train."""
 
 from geartrain.dynamics.motion.error_composition import ErrorComposition, ErrorSamples, PairErrorSource
-from geartrain.dynamics.motion.motion_model import Motion, TransmissionErrorCurve
+from geartrain.dynamics.motion.error_curve import TransmissionErrorCurve
+from geartrain.dynamics.motion.motion_model import Motion
 from geartrain.dynamics.motion.motion_problem import MotionProblem, build_motion_problem
 from geartrain.dynamics.motion.motion_run import MotionRun
 from geartrain.dynamics.motion.order_spectrum import SpectrumLine, find_spectrum

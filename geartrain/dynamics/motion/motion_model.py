@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from fractions import Fraction
 from functools import cached_property
 from math import gcd, lcm, pi
@@ -11,14 +11,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from geartrain.dynamics.motion.error_composition import ErrorComposition, ErrorSamples, PairErrorSource
-from geartrain.dynamics.motion.error_propagation import ErrorPath, find_error_propagation
+from geartrain.dynamics.motion.error_composition import ErrorComposition, ErrorSamples
+from geartrain.dynamics.motion.error_curve import TransmissionErrorCurve
 from geartrain.dynamics.motion.motion_problem import MotionProblem
-from geartrain.dynamics.motion.run_statistics import RunningStatistics, mean_speed
+from geartrain.dynamics.motion.pair_errors import PairErrors
+from geartrain.dynamics.motion.run_statistics import RunningStatistics
 from geartrain.errors import GearTrainError, Problem, QuestionError
-from geartrain.kinematics.circuits import Circuit
-from geartrain.numerics.exact import log10
-from geartrain.numerics.plain_data import Key, Result
 from geartrain.teeth.transmission import ConstantLag
 
 if TYPE_CHECKING:
@@ -26,49 +24,6 @@ if TYPE_CHECKING:
 
     from geartrain.dynamics.motion.error_propagation import ErrorPropagation
     from geartrain.numerics.arrays import Floats
-    from geartrain.teeth.transmission import TransmissionFunction
-
-
-_FASTEST = 2**90  # periods a turn: a position is a float, and its product with the ratio is kept to 106 bits
-_HALVINGS = 54  # of four pitches: the driver's start is found from its driven wheel's to rounding
-
-
-@dataclass(frozen=True)
-class TransmissionErrorCurve(Result):
-    """What real teeth and pins do to one output over the positions asked for.
-
-    ratio   exact mean speed over the input's
-    error   transmission error (rad): angle less its mean motion; `speed` over the input's, both by position
-    """
-
-    KEYS = (Key("", "tally"),)
-
-    name: str
-    ratio: Fraction
-    error: Floats
-    speed: Floats
-
-    @property
-    def mean(self) -> float:
-        """Mean speed over the input's."""
-        return mean_speed(self.name, self.ratio)
-
-    @cached_property
-    def tally(self) -> RunningStatistics:
-        """Peaks and moments."""
-        tally = RunningStatistics(self.name, self.ratio)
-        tally.add(self.error, self.speed - self.mean)
-        return tally
-
-    @property
-    def peak_to_peak(self) -> float:
-        """Greatest less least error (rad)."""
-        return self.tally.peak_to_peak
-
-    @property
-    def rms(self) -> float:
-        """Root mean square of the error about its mean (rad)."""
-        return self.tally.rms
 
 
 class Motion:
@@ -82,7 +37,8 @@ class Motion:
         self, train: MotionProblem, outputs: Mapping[str, tuple[str, str]], tolerance: float | None = None
     ) -> None:
         self.train, self.outputs, self.tolerance = train, outputs, tolerance
-        self._index = {link: at for at, link in enumerate(train.system.links)}
+        self._errors = PairErrors(train, tolerance)
+        self._index = self._errors.index
         if tolerance is not None and not 0 < tolerance < 1:
             why = "a table's accuracy is a part of a pitch"
             fix = "give a part of a pitch such as 1e-9, or none"
@@ -91,41 +47,10 @@ class Motion:
 
     # ----------------------------------------------------------------------------------------------- what it is made of
 
-    @cached_property
+    @property
     def spread(self) -> ErrorPropagation:
         """The solved order of the train, over all pairs."""
-        joints = {circuit.id: self._joint(circuit) for circuit in self.train.circuits}
-        held = {row.label for row in self.train.system.equations}
-        found = find_error_propagation(
-            self.train.system, {name: joint for name, joint in joints.items() if name in held}
-        )
-        if found is None:
-            raise GearTrainError(
-                Problem(
-                    "the motion of this train has no solved order",
-                    "some of its pairs say what others say already, though they close no loop on one carrier",
-                    "leave out a pair that is redundant (`geartrain check` names the link at which they meet)",
-                )
-            )
-        return found
-
-    def _joint(self, circuit: Circuit) -> ErrorPath:
-        driven = self._driven_side(circuit)
-        ends = (circuit.i, circuit.j)
-        driver, follower, carrier = (self._index[link] for link in (ends[1 - driven], ends[driven], circuit.carrier))
-        return ErrorPath(driver, follower, carrier, (circuit.a, circuit.b)[driven])
-
-    def _driven_side(self, circuit: Circuit) -> int:
-        """0 where the circuit's first link is driven, 1 where its second is.
-
-        A pin's law gives the angle of its slot, whichever of the two drives: there is no play between them.
-        """
-        return int(circuit.kind == "gear" and self.train.drivers[circuit.id].wheel == circuit.wheels[0])
-
-    @cached_property
-    def _stands(self) -> Mapping[str, float]:
-        """Where a tooth of the driven wheel stands when its angle is 0 (pitches past the line of centres), by pair."""
-        return {mesh.name: mesh.stands for mesh in self.train.rippling}
+        return self._errors.spread
 
     @cached_property
     def ahead(self) -> ErrorComposition:
@@ -166,8 +91,8 @@ class Motion:
 
     def _hung(self, way: int, outputs: tuple[tuple[int, int], ...]) -> ErrorComposition:
         """The composition with every link as its teeth hold it: at turn 0 it lags by what they do."""
-        found = ErrorComposition(self.spread, tuple(self._sources(way)), outputs)
-        error = self._play(way)
+        found = ErrorComposition(self.spread, tuple(self._errors.sources(way)), outputs)
+        error = self._errors.play(way)
         if error is None:
             return found
         sources = tuple(replace(each, start=each.start + found.driver_shift(each, error)) for each in found.sources)
@@ -188,9 +113,9 @@ class Motion:
 
         Only links that are asked for, or that carry pins, are looked at.
         """
-        if not self.train.rippling and self._play(1) is None:
+        if not self.train.rippling and self._errors.play(1) is None:
             return None
-        pins = [each for each in self._sources(1) if each.id in self._pins]
+        pins = [each for each in self._errors.sources(1) if each.id in self._pins]
         joints = [self.spread.joints[each.pair] for each in pins]
         links = sorted({*(link for ends in self._ends for link in ends), *(j.driver for j in joints),
                         *(j.carrier for j in joints)})  # fmt: skip
@@ -205,84 +130,6 @@ class Motion:
         setting = np.zeros_like(ideal)
         setting[links] = ideal[links] - real
         return setting
-
-    def _play(self, way: int) -> Floats | None:
-        """What the play of teeth that keep their ratio adds to the angle of each link (rad); None where it is nothing.
-
-        It is the same at every position, so that no position is asked for it.
-        """
-        laws = {mesh.name: mesh.law if way > 0 else mesh.law.turned_back() for mesh in self.train.rigid}
-        ahead = {name: law.error_moments()[0] for name, law in laws.items()}
-        if not any(ahead.values()):
-            return None
-        circuits = {circuit.id: circuit for circuit in self.train.circuits}
-        deltas = [ahead[name] * self._sense(circuits[name]) if name in ahead else 0.0 for name in self.spread.pairs]
-        return np.asarray(self.spread.errors(np.array(deltas)[:, None])[:, 0])
-
-    def _sense(self, circuit: Circuit) -> int:
-        """1, or -1 where the driven wheel turns backwards on average, seen from its carrier."""
-        driver = (circuit.i, circuit.j)[1 - self._driven_side(circuit)]
-        forward = -1 if self.train.relative(driver, circuit.carrier) < 0 else 1
-        return forward if circuit.a * circuit.b < 0 else -forward
-
-    def _sources(self, way: int) -> Iterator[PairErrorSource]:
-        laws: dict[str, TransmissionFunction] = {mesh.name: mesh.law for mesh in self.train.rippling}
-        laws |= {joint.coupling.name: joint.law for joint in self.train.pins}
-        circuits = {circuit.id: circuit for circuit in self.train.circuits}
-        for at, name in enumerate(self.spread.pairs):
-            if name in laws:
-                law = laws[name] if way > 0 else laws[name].turned_back()
-                yield self._source(at, circuits[name], laws[name], self._read(law))
-
-    def _read(self, law: TransmissionFunction) -> TransmissionFunction:
-        if self.tolerance is None:
-            return law
-        from geartrain.teeth.transmission_table import TabulatedTransmission
-
-        return TabulatedTransmission(law, self.tolerance)
-
-    def _source(
-        self, at: int, circuit: Circuit, ahead: TransmissionFunction, law: TransmissionFunction
-    ) -> PairErrorSource:
-        driven = self._driven_side(circuit)
-        ends, signs, carrier = (circuit.i, circuit.j), self.train.signs, circuit.carrier
-        driver = self.train.relative(ends[1 - driven], carrier)
-        forward = -1 if driver < 0 else 1
-        sense = self._sense(circuit)
-        teeth = 1
-        if circuit.kind != "gear":  # a pin's error has the sense of the slot's own angle
-            sense = forward
-        else:
-            teeth = abs((circuit.b, circuit.a)[driven])
-        senses = signs.get(ends[1 - driven], 1), signs.get(carrier, 1)
-        angles = [self.train.angles.get(link, 0.0) for link in (ends[1 - driven], carrier)]
-        start = self._phase(circuit, ahead, driven) + forward * (senses[0] * angles[0] - senses[1] * angles[1])
-        cycles = abs(driver) * teeth
-        if cycles > _FASTEST:
-            raise GearTrainError(
-                Problem(
-                    f"pair '{circuit.id}' passes 10^{log10(cycles):.0f} teeth while '{self.train.lead}' turns once",
-                    "no position of the input can be told so finely that it says where these teeth stand",
-                    "drive the train nearer to this pair, or give it ideal teeth",
-                )
-            )
-        return PairErrorSource(circuit.id, law, at, *senses, cycles, start, forward, sense)
-
-    def _phase(self, circuit: Circuit, law: TransmissionFunction, driven: int) -> float:
-        """The driver's forward angle (rad) that puts a tooth of the first wheel at the pair's phase.
-
-        A pin's phase is that of the pin itself. Where the first wheel is the driven one its law is read backwards.
-        """
-        phase = self.train.phases.get(circuit.id, 0.0)
-        if driven == 1 or circuit.kind != "gear":
-            return phase * law.period
-        phase -= self._stands[circuit.id]
-        wanted = phase * float(law.ratio) * law.period
-        low, high = (phase - 2) * law.period, (phase + 2) * law.period
-        for _ in range(_HALVINGS):
-            middle = (low + high) / 2
-            low, high = (middle, high) if float(law.angle(middle)) < wanted else (low, middle)
-        return (low + high) / 2
 
     def _refuse_loops(self) -> None:
         for loop, real in self.train.contradictions():

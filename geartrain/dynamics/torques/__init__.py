@@ -15,7 +15,7 @@ from geartrain.dynamics.torques.power_flow import (
     watts_per_unit,
     watts_text,
 )
-from geartrain.dynamics.torques.torque_analysis import drive, find_torques
+from geartrain.dynamics.torques.torque_analysis import drive, find_torques, torques_unknown
 from geartrain.dynamics.torques.torque_balance import LoadedPair, SolvedTorques, TorqueBalance
 from geartrain.dynamics.torques.torque_results import (
     DrivenWay,
@@ -53,6 +53,7 @@ __all__ = [
     "percent_of_text",
     "percent_text",
     "speed_forms",
+    "torques_unknown",
     "watts_per_unit",
     "watts_text",
 ]

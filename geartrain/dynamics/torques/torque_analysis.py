@@ -18,7 +18,7 @@ from geartrain.dynamics.torques.neglected_effects import find_neglected_effects
 from geartrain.dynamics.torques.torque_balance import LoadedPair, TorqueBalance
 from geartrain.dynamics.torques.torque_results import HoldingTorque, NeglectedEffect, PairTorque, Torques, TorqueVerdict
 from geartrain.dynamics.torques.torque_verdicts import LoadedBalance, find_imbalance, find_torque_verdict
-from geartrain.kinematics.circuits import Circuit, joint_sum_links
+from geartrain.kinematics.circuits import Axes, Circuit
 
 
 @dataclass(frozen=True)
@@ -45,6 +45,11 @@ def find_torques(setting: LoadCase) -> Torques:
     if verdict is None:
         verdict = _still(setting, asked.links)
     return _balanced(setting, loads, asked) if verdict is None else Torques(setting.case.state, verdict)
+
+
+def torques_unknown(state: str | None) -> Torques:
+    """What is said where no torques can be asked for: the speeds of the state are not determined."""
+    return Torques(state, TorqueVerdict("still", "the speeds of this state are not determined"))
 
 
 def drive(setting: LoadCase, load: str, source: str) -> Torques:
@@ -101,7 +106,7 @@ def power_inputs(setting: LoadCase) -> tuple[str, ...]:
 
 def _summed(setting: LoadCase, links: Iterable[str]) -> TorqueVerdict | None:
     """A torque about an axis that moves does no work with a sum of joint speeds, which is no rotation."""
-    sums = joint_sum_links(setting.train, setting.tree)
+    sums = Axes(setting.train, setting.tree).joint_sums
     for link in links:
         if link in sums:
             why = "the axes between it and the frame are not parallel, and its sum of joint speeds is no rotation"

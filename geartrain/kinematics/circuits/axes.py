@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from fractions import Fraction
 from typing import Any
 
@@ -22,7 +22,7 @@ class Axes:
     """
 
     def __init__(self, train: Train, tree: Tree) -> None:
-        self.tree = tree
+        self.tree, self.links = tree, tuple(train.links)
         self.positions = {label: axis.position for label, axis in train.axes.items() if axis.position}
         self.directions = {label: _vector(axis.direction) for label, axis in train.axes.items()}
         self.plain = all(direction == _Z for direction in self.directions.values())
@@ -38,6 +38,29 @@ class Axes:
         """-1 if the axis points against the first declared direction parallel to it."""
         own = self.direction(label)
         return 1 if dot(self._first[_line(own)], own) > 0 else -1
+
+    @property
+    def link_signs(self) -> Mapping[str, int]:
+        """-1 for links whose axis points against the reference direction of its parallels: their speeds change sign."""
+        if self.plain:
+            return {}
+        return {link: -1 for link in self.links if self.sign(self.tree.axis(link)) < 0}
+
+    @property
+    def joint_sums(self) -> frozenset[str]:
+        """Links several non-parallel joints from the frame: their speed is a sum of joint speeds, not a rotation."""
+        if self.plain:
+            return frozenset()
+        sums: set[str] = set()
+        parent = self.tree.parent
+        for link, (up, label) in parent.items():  # from the frame outwards
+            if up in sums or (up in parent and not self.are_parallel((label, self.tree.axis(up)))):
+                sums.add(link)
+        return frozenset(sums)
+
+    def is_rotation(self, of: str, base: str) -> bool:
+        """True if the axes of all joints between two links are parallel, so that each turns seen from the other."""
+        return self.plain or self.are_parallel(self.tree.path(of, base)[1])
 
     def are_parallel(self, labels: Iterable[str | None]) -> bool:
         """True if all these axes have one direction, or the opposite, in the pose where all angles are zero."""
@@ -96,31 +119,6 @@ class Axes:
             return z_i, (-1 if turn > 0 else 1) * flip * z_j, ""
         note = "sense by convention (a right-hand worm reverses): axes and positions of worm and wheel do not fix it"
         return z_i, hand * flip * z_j, note
-
-
-def link_signs(train: Train, tree: Tree) -> dict[str, int]:
-    """Links whose own axis points against the reference direction of its parallels: their speeds change sign."""
-    axes = Axes(train, tree)
-    if axes.plain:
-        return {}
-    return {link: -1 for link in train.links if axes.sign(tree.axis(link)) < 0}
-
-
-def joint_sum_links(train: Train, tree: Tree) -> frozenset[str]:
-    """Links several non-parallel joints from the frame: their speed is a sum of joint speeds, not a rotation."""
-    axes = Axes(train, tree)
-    if axes.plain:
-        return frozenset()
-    sums: set[str] = set()
-    for link, (up, label) in tree.parent.items():  # from the frame outwards
-        if up in sums or (up in tree.parent and not axes.are_parallel((label, tree.axis(up)))):
-            sums.add(link)
-    return frozenset(sums)
-
-
-def are_parallel(train: Train, tree: Tree, of: str, base: str) -> bool:
-    """True if the axes of all joints between two links are parallel."""
-    return Axes(train, tree).are_parallel(tree.path(of, base)[1])
 
 
 def _vector(figures: Iterable[Any]) -> ExactVector:

@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 from itertools import combinations
 
 from geartrain.errors import DeclarationError, Loc, Problem
-from geartrain.kinematics.circuits.axes import Axes, joint_sum_links
+from geartrain.kinematics.circuits.axes import Axes
 from geartrain.kinematics.circuits.joint_tree import Tree
 from geartrain.numerics.elimination import eliminate
 from geartrain.numerics.graphs import DisjointSets, ways_to_common_ancestor
@@ -46,7 +46,7 @@ def close_joints(train: Train, tree: Tree, cases: Sequence[StateCase]) -> list[S
     `DeclarationError` for all that would be linkages, and for inputs whose link has no one axis in the frame.
     """
     lines = _Lines(train, tree)
-    problems = list(_driven_sums(train, cases, joint_sum_links(train, tree)))
+    problems = list(_driven_sums(train, cases, Axes(train, tree).joint_sums))
     closed = []
     for case in cases:
         across = [rigid for rigid in rigid_connections(lines, case) if len(rigid.joints) > 1]

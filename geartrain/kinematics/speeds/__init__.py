@@ -4,14 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from geartrain.kinematics.speeds.exact_speeds import (
-    EXACT_BUDGET,
-    Mobility,
-    Solution,
-    exact_verdict,
-    find_mobility,
-    solve,
-)
+from geartrain.kinematics.speeds.exact_speeds import EXACT_BUDGET, Solution, exact_verdict, solve
+from geartrain.kinematics.speeds.mobility import Mobility, find_mobility
 
 if TYPE_CHECKING:
     from geartrain.kinematics.speeds.float_speeds import FloatSpeeds, solve_floats

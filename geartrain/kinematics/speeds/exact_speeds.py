@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from contextlib import suppress
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
@@ -18,64 +17,15 @@ from geartrain.kinematics.speeds.diagnosis import (
     unwitnessed_verdict,
 )
 from geartrain.kinematics.speeds.propagation import propagate
-from geartrain.kinematics.verdict import Loop, Verdict
+from geartrain.kinematics.verdict import Verdict
 from geartrain.numerics.containers import collector_paused
-from geartrain.numerics.elimination import PRIME, LinearForm, TooDenseError, add_into, eliminate, rank_modulo, residues
-from geartrain.numerics.plain_data import Key, Result
+from geartrain.numerics.elimination import PRIME, LinearForm, add_into, eliminate, rank_modulo, residues
 from geartrain.train import StateCase
 
 _GIVEN = -1  # the column in which prescribed numbers stand
 
 EXACT_BUDGET = 400_000
 """Coefficient operations after which exact elimination gives way to floats; about a second."""
-
-
-@dataclass(frozen=True, slots=True)
-class Mobility(Result):
-    """Degrees of freedom by count and by exact rank, and what makes them differ.
-
-    by_count    turning pairs less gear pairs and couplings; right only without redundancy
-    by_rank     links less one less the rank of all circuits; always right
-    redundant   circuits that add nothing, and the loops they close
-    locked      loops that do not close, and hold their component on its carrier
-    still       links that stand still whatever drives the train
-    idle        circuits whose wheels never roll on each other
-    certain     False where the rank was taken modulo two primes (exact but for accidents of 1e-36)
-    """
-
-    KEYS = (
-        "by_count",
-        "by_rank",
-        "rank",
-        "redundant",
-        Key("redundant_loops", "loops"),
-        Key("locked_loops", "locked"),
-        "still",
-        Key("never_rolling", "idle"),
-    )
-
-    links: int
-    turning_pairs: int
-    gear_pairs: int
-    couplings: int
-    by_rank: int
-    redundant: int
-    loops: tuple[Loop, ...]
-    shared: tuple[str, ...]
-    locked: tuple[Loop, ...]
-    still: tuple[str, ...]
-    idle: tuple[str, ...]
-    certain: bool = True
-
-    @property
-    def by_count(self) -> int:
-        """j_R - j_G, couplings counted with the gear pairs."""
-        return self.turning_pairs - self.gear_pairs - self.couplings
-
-    @property
-    def rank(self) -> int:
-        """Rank of the circuits' rows."""
-        return self.links - 1 - self.by_rank
 
 
 @dataclass(frozen=True, slots=True)
@@ -301,66 +251,3 @@ def _value(form: LinearForm | None) -> Fraction | None:
     if form is None or any(column >= 0 for column in form):
         return None
     return form.get(_GIVEN, Fraction(0))
-
-
-def _idle(reduced: ReducedSystem, forms: Mapping[int, LinearForm]) -> list[str]:
-    """Circuits of components whose unknown is always 0."""
-    parts = reduced.components
-    null = {column for column, form in forms.items() if not form and column < len(parts.group_carrier)}
-    if not null:
-        return []
-    return [c.id for c in parts.circuits if c.b and parts.group_of(c) in null]
-
-
-def _still(reduced: ReducedSystem, forms: Mapping[int, LinearForm]) -> list[str]:
-    """Links that stand still in every motion: their form vanishes."""
-    parts = reduced.components
-    if not forms:
-        return []
-    null = {column for column, form in forms.items() if not form}
-    found = []
-    for at, name in enumerate(parts.links):
-        moving = [column for column in reduced.unknowns_of(at) if column not in null]
-        if at != parts.frame and (not moving or (len(moving) > 1 and not resolve_form(reduced.form(at), forms))):
-            found.append(name)
-    return found
-
-
-@collector_paused()
-def find_mobility(reduced: ReducedSystem, turning_pairs: int, budget: int | None = EXACT_BUDGET) -> Mobility:
-    """Mobility of the train itself, nothing prescribed, decided exactly."""
-    parts = reduced.components
-    gears = sum(circuit.kind == "gear" for circuit in parts.circuits)
-    shared: list[str] = []
-    still: list[str] = []
-    idle: list[str] = []
-    certain = True
-    try:
-        budget = elimination_budget(reduced, budget)
-        echelon = eliminate(reduced.equations, budget)
-    except TooDenseError:
-        certain = False
-        rank = max(rank_modulo(reduced.equations, PRIME), rank_modulo(reduced.equations, (1 << 61) - 31))
-    else:
-        rank = echelon.rank
-        with suppress(TooDenseError):
-            forms = echelon.forms(budget)
-            still, idle = _still(reduced, forms), _idle(reduced, forms)
-        repeated = (reduced.origin[row] for row in echelon.redundant)
-        shared = [parts.links[link] for kind, link, _ in repeated if kind == "share"]
-    freedom = reduced.unknowns - rank
-    redundant = len(parts.circuits) - (len(parts.links) - 1 - freedom)
-    return Mobility(
-        len(parts.links),
-        turning_pairs,
-        gears,
-        len(parts.circuits) - gears,
-        freedom,
-        redundant,
-        tuple(parts.loop(circuit) for circuit in parts.closing[:1000]),
-        tuple(shared),
-        tuple(parts.loop(circuit) for circuit in parts.breaking[:1000]),
-        tuple(still),
-        tuple(idle),
-        certain,
-    )

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from geartrain.errors import Problem, QuestionError, suggest
-from geartrain.kinematics.circuits import Circuit, Tree, close_joints, find_circuits, find_tree, link_signs
+from geartrain.kinematics.circuits import Axes, Circuit, Tree, close_joints, find_circuits, find_tree
 from geartrain.kinematics.components import relevant_circuits
 from geartrain.synthesis.formulas.laurent import Laurent, TooLongError
 from geartrain.synthesis.formulas.laurent import Term as Term
@@ -132,7 +132,7 @@ def _equations(
     kept |= {link for circuit in circuits for link in (circuit.i, circuit.j, circuit.carrier)}
     links = [link for link in train.links if link in kept]
     variables = {name: at for at, name in enumerate(wheels)}
-    return SymbolicEquations(links, train.frame, circuits, case, link_signs(train, tree), variables)
+    return SymbolicEquations(links, train.frame, circuits, case, Axes(train, tree).link_signs, variables)
 
 
 def _resized(circuit: Circuit, sizes: Mapping[str, int]) -> Circuit:
@@ -199,9 +199,7 @@ def _declared(train: Train, wheels: Sequence[str]) -> list[int] | None:
 
 def _check(train: Train, state: str | None, free: Mapping[str, Counts]) -> None:
     _check_wheels(train, free)
-    if state is not None and state not in train.states:
-        known = suggest(state, train.states) if train.states else "leave the state out"
-        raise QuestionError(Problem(f"'{train.name}' has no state '{state}'", "it is not declared", known))
+    train.check_state(state)
     for name, counts in free.items():
         if not counts:
             place = train.place("links", train.wheels[name][0], "wheels", name)

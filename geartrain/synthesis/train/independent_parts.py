@@ -107,9 +107,7 @@ def find_requirements(
     train: Train, state: str | None, domains: Domains, tolerance: Fraction | None
 ) -> TrainRequirements:
     """All that is asked of the outputs, in one state or in all of them."""
-    if state is not None and state not in train.states:
-        fix = suggest(state, train.states) if train.states else "leave the state out"
-        raise QuestionError(Problem(f"'{train.name}' has no state '{state}'", "it is not declared", fix))
+    train.check_state(state)
     states: Sequence[str | None] = tuple(train.states) or (None,) if state is None else (state,)
     askings: list[OutputRequirement] = []
     conditions: dict[IntervalConstraint, None] = {}

@@ -149,9 +149,7 @@ def _remarks(witness: ObservedOutput) -> Iterator[str]:
 def _check(
     train: Train, state: str | None, against: LikelihoodKind, tolerance: Fraction | None, scale: Fraction
 ) -> None:
-    if state is not None and state not in train.states:
-        fix = suggest(state, train.states) if train.states else "leave the state out"
-        raise QuestionError(Problem(f"'{train.name}' has no state '{state}'", "it is not declared", fix))
+    train.check_state(state)
     if against not in LIKELIHOOD_KINDS:
         raise QuestionError(
             Problem(f"there are no claims called '{against}'", "others are", suggest(against, LIKELIHOOD_KINDS))

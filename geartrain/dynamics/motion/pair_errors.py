@@ -1,0 +1,157 @@
+"""The errors of each pair of a train that moves: who drives, where its teeth stand, and how its error spreads."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from geartrain.dynamics.motion.error_composition import PairErrorSource
+from geartrain.dynamics.motion.error_propagation import ErrorPath, find_error_propagation
+from geartrain.dynamics.motion.motion_problem import MotionProblem
+from geartrain.errors import GearTrainError, Problem
+from geartrain.kinematics.circuits import Circuit
+from geartrain.numerics.exact import log10
+
+if TYPE_CHECKING:
+    from geartrain.dynamics.motion.error_propagation import ErrorPropagation
+    from geartrain.numerics.arrays import Floats
+    from geartrain.teeth.transmission import TransmissionFunction
+
+
+_FASTEST = 2**90  # periods a turn: a position is a float, and its product with the ratio is kept to 106 bits
+_HALVINGS = 54  # of four pitches: the driver's start is found from its driven wheel's to rounding
+
+
+@dataclass(frozen=True)
+class PairErrors:
+    """The pairs of a train with their laws, as paths of error.
+
+    tolerance   laws are read from tables of this accuracy (in pitches); None asks the laws themselves
+    """
+
+    train: MotionProblem
+    tolerance: float | None
+
+    @cached_property
+    def index(self) -> Mapping[str, int]:
+        """The column of each link."""
+        return {link: at for at, link in enumerate(self.train.system.links)}
+
+    @cached_property
+    def spread(self) -> ErrorPropagation:
+        """The solved order of the train, over all pairs."""
+        joints = {circuit.id: self._joint(circuit) for circuit in self.train.circuits}
+        held = {row.label for row in self.train.system.equations}
+        found = find_error_propagation(
+            self.train.system, {name: joint for name, joint in joints.items() if name in held}
+        )
+        if found is None:
+            raise GearTrainError(
+                Problem(
+                    "the motion of this train has no solved order",
+                    "some of its pairs say what others say already, though they close no loop on one carrier",
+                    "leave out a pair that is redundant (`geartrain check` names the link at which they meet)",
+                )
+            )
+        return found
+
+    def _joint(self, circuit: Circuit) -> ErrorPath:
+        driven = self.driven_side(circuit)
+        ends = (circuit.i, circuit.j)
+        driver, follower, carrier = (self.index[link] for link in (ends[1 - driven], ends[driven], circuit.carrier))
+        return ErrorPath(driver, follower, carrier, (circuit.a, circuit.b)[driven])
+
+    def driven_side(self, circuit: Circuit) -> int:
+        """0 where the circuit's first link is driven, 1 where its second is.
+
+        A pin's law gives the angle of its slot, whichever of the two drives: there is no play between them.
+        """
+        return int(circuit.kind == "gear" and self.train.drivers[circuit.id].wheel == circuit.wheels[0])
+
+    @cached_property
+    def _stands(self) -> Mapping[str, float]:
+        """Where a tooth of the driven wheel stands when its angle is 0 (pitches past the line of centres), by pair."""
+        return {mesh.name: mesh.stands for mesh in self.train.rippling}
+
+    def play(self, way: int) -> Floats | None:
+        """What the play of teeth that keep their ratio adds to the angle of each link (rad); None where it is nothing.
+
+        It is the same at every position, so that no position is asked for it.
+        """
+        laws = {mesh.name: mesh.law if way > 0 else mesh.law.turned_back() for mesh in self.train.rigid}
+        ahead = {name: law.error_moments()[0] for name, law in laws.items()}
+        if not any(ahead.values()):
+            return None
+        circuits = {circuit.id: circuit for circuit in self.train.circuits}
+        deltas = [ahead[name] * self.sense(circuits[name]) if name in ahead else 0.0 for name in self.spread.pairs]
+        return np.asarray(self.spread.errors(np.array(deltas)[:, None])[:, 0])
+
+    def sense(self, circuit: Circuit) -> int:
+        """1, or -1 where the driven wheel turns backwards on average, seen from its carrier."""
+        driver = (circuit.i, circuit.j)[1 - self.driven_side(circuit)]
+        forward = -1 if self.train.relative(driver, circuit.carrier) < 0 else 1
+        return forward if circuit.a * circuit.b < 0 else -forward
+
+    def sources(self, way: int) -> Iterator[PairErrorSource]:
+        """The pairs whose error changes as they turn, and pins, with their laws while the input turns that way."""
+        laws: dict[str, TransmissionFunction] = {mesh.name: mesh.law for mesh in self.train.rippling}
+        laws |= {joint.coupling.name: joint.law for joint in self.train.pins}
+        circuits = {circuit.id: circuit for circuit in self.train.circuits}
+        for at, name in enumerate(self.spread.pairs):
+            if name in laws:
+                law = laws[name] if way > 0 else laws[name].turned_back()
+                yield self._source(at, circuits[name], laws[name], self._read(law))
+
+    def _read(self, law: TransmissionFunction) -> TransmissionFunction:
+        if self.tolerance is None:
+            return law
+        from geartrain.teeth.transmission_table import TabulatedTransmission
+
+        return TabulatedTransmission(law, self.tolerance)
+
+    def _source(
+        self, at: int, circuit: Circuit, ahead: TransmissionFunction, law: TransmissionFunction
+    ) -> PairErrorSource:
+        driven = self.driven_side(circuit)
+        ends, signs, carrier = (circuit.i, circuit.j), self.train.signs, circuit.carrier
+        driver = self.train.relative(ends[1 - driven], carrier)
+        forward = -1 if driver < 0 else 1
+        sense = self.sense(circuit)
+        teeth = 1
+        if circuit.kind != "gear":  # a pin's error has the sense of the slot's own angle
+            sense = forward
+        else:
+            teeth = abs((circuit.b, circuit.a)[driven])
+        senses = signs.get(ends[1 - driven], 1), signs.get(carrier, 1)
+        angles = [self.train.angles.get(link, 0.0) for link in (ends[1 - driven], carrier)]
+        start = self._phase(circuit, ahead, driven) + forward * (senses[0] * angles[0] - senses[1] * angles[1])
+        cycles = abs(driver) * teeth
+        if cycles > _FASTEST:
+            raise GearTrainError(
+                Problem(
+                    f"pair '{circuit.id}' passes 10^{log10(cycles):.0f} teeth while '{self.train.lead}' turns once",
+                    "no position of the input can be told so finely that it says where these teeth stand",
+                    "drive the train nearer to this pair, or give it ideal teeth",
+                )
+            )
+        return PairErrorSource(circuit.id, law, at, *senses, cycles, start, forward, sense)
+
+    def _phase(self, circuit: Circuit, law: TransmissionFunction, driven: int) -> float:
+        """The driver's forward angle (rad) that puts a tooth of the first wheel at the pair's phase.
+
+        A pin's phase is that of the pin itself. Where the first wheel is the driven one its law is read backwards.
+        """
+        phase = self.train.phases.get(circuit.id, 0.0)
+        if driven == 1 or circuit.kind != "gear":
+            return phase * law.period
+        phase -= self._stands[circuit.id]
+        wanted = phase * float(law.ratio) * law.period
+        low, high = (phase - 2) * law.period, (phase + 2) * law.period
+        for _ in range(_HALVINGS):
+            middle = (low + high) / 2
+            low, high = (middle, high) if float(law.angle(middle)) < wanted else (low, middle)
+        return (low + high) / 2

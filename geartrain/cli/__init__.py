@@ -59,6 +59,6 @@ def main() -> None:
     """Run the command. What is wrong with the input is said on standard error, with exit code 2; a fault is code 3."""
     # modules and models are some hundred thousand objects that stay: to look through them at every 700 new ones is a
     # tenth of a short command's time, and to look for plugins of pydantic in every installed package is another
-    gc.set_threshold(50_000, 20, 20)
+    gc.set_threshold(100_000, 20, 20)
     os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "__all__")
     sys.exit(guarded(app))

@@ -47,7 +47,7 @@ wherever it stands ("--free": "--in-doubt")."""
 
 EACH = (
     *("solve {} --json", "solve {}", "solve {} --method floats --json", "check {}", "report {} --json", "report {}"),
-    *("equations {}", "equations {} --latex", "torques {} --json", "torques {}", "sweep {} --limit 20000 --json"),
+    *("equations {}", "equations {} --latex", "torques {} --json", "torques {}", "posterior {} --limit 20000 --json"),
     *(f"graph {{}} --as {form}" for form in ("labels", "edges", "matrix", "dot", "graphml", "json")),
     "view {} -o -",
     "draw {} -o -",
@@ -58,12 +58,12 @@ EACH = (
 RUNS = (
     "motion {} --turns 2 --samples 400 --links --estimates --spectrum --json",
     "motion {} --turns -1/3 --samples 50 --csv",
-    "errors {} --trials 4 --json",
-    'errors {} --trials 4 --set placement="0.1 deg" --set tip="0.3 %" --json',
+    "montecarlo {} --trials 4 --json",
+    'montecarlo {} --trials 4 --set placement="0.1 deg" --set tip="0.3 %" --json',
 )
 """What is asked of every state of every shipped train."""
 
-SEARCHED = ("teeth {} --by total --best 5 --json", "teeth {} --csv")
+SEARCHED = ("teeth train {} --by total --best 5 --json", "teeth train {} --csv")
 """What is asked of trains with wheels to be found."""
 
 OTHERS = (
@@ -77,18 +77,18 @@ OTHERS = (
     "mesh triangular --teeth 48 96 --vary clearance=1.002:1.02:7 --vary friction=0:0.3:4 -o sweep.csv",
     "mesh pin --pin-radius 9.6mm --offset 1.1mm --friction 0.1 --json",
     *(
-        f"teeth 142 --kind {kind} --planets 3 --range 12:70 --best 5 --json"
+        f"teeth set 142 --kind {kind} --planets 3 --range 12:70 --best 5 --json"
         for kind in ("wolfrom", "3k-two-suns", "stepped-rings")
     ),
-    "teeth 235/19 --stages 2 --range 15:90 --tolerance 1e-5 --hunting --by total --json",
-    "teeth 3.14159 --stages 2 --range 12:80 --internal 1 --reverted --tolerance 1e-4 --csv",
+    "teeth ratio 235/19 --stages 2 --range 15:90 --tolerance 1e-5 --hunting --by total --json",
+    "teeth ratio 3.14159 --stages 2 --range 12:80 --internal 1 --reverted --tolerance 1e-4 --csv",
     "compare price-1974 freeth-2006 freeth-2008 voulgaris-2022 pennestri-2002 --all --json",
     "compare planetary-24-18-60 planetary wolfrom-175 norton-planetary --all --json",
     "compare gosper-2005 clock-10000-years clock-10000-years-exact --all",
 )
 """What is asked of no train, or of several."""
 
-TELLING = ("solve", "report", "compare", "torques", "motion", "errors", "sphere", "teeth", "sweep", "mesh")
+TELLING = ("solve", "report", "compare", "torques", "motion", "montecarlo", "sphere", "teeth", "posterior", "mesh")
 """Verbs with `--json`: where a page shows their text, their data are asked for too."""
 
 LIMIT = 200
@@ -210,13 +210,29 @@ def _states(train: str) -> list[str]:
 
 def respelled(command: str) -> list[str]:
     """The words of a command in today's spelling."""
-    words = shlex.split(command)
+    words = _searched(shlex.split(command))
     verbs = [old.split() for old in RENAMED if not old.startswith("-")]
     begins = [verb for verb in verbs if words[: len(verb)] == verb]
     if begins:
         verb = max(begins, key=len)
         words = RENAMED[" ".join(verb)].split() + words[len(verb) :]
     return [RENAMED.get(word, word) if word.startswith("-") else word for word in words]
+
+
+def _searched(words: list[str]) -> list[str]:
+    """What `geartrain teeth` was asked before it was said what is searched for, with the word for that."""
+    if words[:2] != ["geartrain", "teeth"] or words[2] in ("ratio", "approximants", "train", "set", "orrery"):
+        return words
+    asked = words[2:]
+    if "--kind" in asked:
+        word = "set"
+    elif "--approximants" in asked:
+        word = "approximants"
+    elif "=" in asked[0]:
+        word = "orrery"
+    else:
+        word = "train" if asked[0].endswith(".yaml") or list(ROOT.glob(f"trains/*/{asked[0]}.yaml")) else "ratio"
+    return [*words[:2], word, *(each for each in asked if each != "--approximants")]
 
 
 def answers(group: Group, wanted: Callable[[str], bool]) -> list[Answer]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import re
 import sys
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from pathlib import Path
@@ -198,3 +198,10 @@ def as_json(data: Any) -> str:
     """JSON as this command prints it; characters that a terminal would obey are escaped, as JSON does."""
     text = json.dumps(data, indent=2, ensure_ascii=False, allow_nan=False)
     return text if printable(text) == text else json.dumps(data, indent=2, allow_nan=False)
+
+
+def table_text(rows: Sequence[Mapping[str, Any]]) -> str:
+    """Rows with the same keys as CSV with a header; empty without rows."""
+    from geartrain.numerics.files import csv_text
+
+    return csv_text(list(rows[0]), [list(row.values()) for row in rows]).rstrip("\n") if rows else ""

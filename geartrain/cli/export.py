@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import time
 from collections.abc import Iterable, Iterator, Sequence
 from fractions import Fraction
 from pathlib import Path
@@ -11,6 +10,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from geartrain.cli.common import GOOD, INTERRUPTED, VERDICT, File, Force, StateName, is_sound, plural, sink, tell
+from geartrain.cli.long_runs import progress
 from geartrain.cli.option_values import quantity
 from geartrain.cli.option_values import turns as read_turns
 from geartrain.errors import GearTrainError, Problem
@@ -123,14 +123,7 @@ def _remark(problems: Sequence[Problem]) -> None:
 
 def _shown(files: Iterable[tuple[str, bytes]], count: int) -> Iterator[tuple[str, bytes]]:
     """The same files, with a progress bar once it takes long."""
-    from rich.console import Console
-    from rich.progress import Progress
-
-    start, done = time.monotonic(), 0
-    with Progress(console=Console(stderr=True), transient=True, disable=False, auto_refresh=False) as progress:
-        task = progress.add_task("export", total=count, visible=False)
+    with progress("export", count, _PATIENCE) as bar:
         for each in files:
             yield each
-            done += 1
-            if time.monotonic() - start > _PATIENCE:
-                progress.update(task, completed=done, visible=True, refresh=True)
+            bar.advance()

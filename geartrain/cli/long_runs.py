@@ -2,51 +2,106 @@
 
 from __future__ import annotations
 
+import hashlib
 import json
+import os
 import sys
-from collections.abc import Callable, Iterator, Mapping, Sequence
+import time
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
+from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
 
 from geartrain.cli.common import tell
 
 if TYPE_CHECKING:
-    from concurrent.futures import Executor
+    from rich.progress import Progress, TaskID
 
-    from geartrain.numerics.work import Journal
+    from geartrain.numerics.work import Execution, Journal
 
-    RunExecution = tuple[Executor | None, Journal | None, Callable[[int, int], None]]
+Scheduler = Annotated[str | None, typer.Option("--scheduler", help="Address of a dask scheduler, tcp://...")]
+Resume = Annotated[bool, typer.Option("--resume", help="Go on with an interrupted run.")]
+SingleWorker = Annotated[int | None, typer.Option("--workers", help="Processes; default this one alone.")]
+
+
+class ProgressBar:
+    """How far a run has come, on a terminal; nothing anywhere else."""
+
+    def __init__(self, shown: Progress, task: TaskID, patience: float) -> None:
+        self._shown, self._task, self._from = shown, task, time.monotonic() + patience
+
+    def advance(self, steps: int = 1) -> None:
+        """So many more steps are done."""
+        self._shown.update(self._task, advance=steps, visible=time.monotonic() >= self._from)
+
+    def reach(self, done: int, total: int) -> None:
+        """So much is done of all; a single step is not shown."""
+        self._shown.update(self._task, completed=done, total=total or None, visible=total > 1)
 
 
 @contextmanager
-def means(
-    what: str, path: Path, question: Mapping[str, Any], workers: int | None, scheduler: str | None, resume: bool
-) -> Iterator[RunExecution]:
-    """An executor, a journal at `path` and a progress bar; where no file can be made, there is no journal."""
+def progress(what: str, total: int | None = None, patience: float = 0.0) -> Iterator[ProgressBar]:
+    """A progress bar on standard error, where that is a terminal; `patience` (s) is waited before it is shown."""
     from rich.console import Console
     from rich.progress import Progress, TimeElapsedColumn
 
-    from geartrain.numerics.work import open_executor
-
     columns = (*Progress.get_default_columns(), TimeElapsedColumn())
+    hidden = not sys.stderr.isatty()
+    with Progress(*columns, console=Console(stderr=True), transient=True, disable=hidden) as shown:
+        task = shown.add_task(what, total=total, visible=total is not None and not patience)
+        yield ProgressBar(shown, task, patience)
+
+
+@dataclass(frozen=True)
+class RunOptions:
+    """Who does the work, and whether an interrupted run is taken up; workers None: all cores, or the scheduler's."""
+
+    workers: int | None
+    scheduler: str | None
+    resume: bool
+
+    @classmethod
+    def alone(cls, workers: int | None, scheduler: str | None, resume: bool) -> RunOptions:
+        """The same, but this process alone works where nothing else is asked."""
+        return cls(1 if workers is None and scheduler is None else workers, scheduler, resume)
+
+
+def close_journal(journal: Journal | None, cut: bool) -> None:
+    """A run that is whole needs no journal; for one that was cut, say where it can be taken up."""
+    if not cut:
+        if journal is not None:
+            journal.finish()
+    elif journal is not None and len(journal):
+        tell(f"stopped; what is done is in {journal.path}: give the same command with --resume")
+    else:
+        tell("stopped before anything was done that could be kept")
+
+
+@contextmanager
+def long_run(what: str, question: Mapping[str, Any], out: Path | None, options: RunOptions) -> Iterator[Execution]:
+    """How one run is done: an executor, a journal where a file can be made, a progress bar.
+
+    The journal stands beside the output, and is called after the question.
+    """
+    from geartrain.numerics.work import Execution, open_executor
+
+    plain = json.loads(json.dumps(question, default=str))
+    mark = hashlib.sha256(json.dumps(plain, sort_keys=True).encode()).hexdigest()[:8]
+    path = (out.parent if out else Path()) / f"{what}-{mark}.partial.jsonl"
     with (
-        open_executor(workers, scheduler) as executor,
-        _journal(path, json.loads(json.dumps(question, default=str)), resume) as journal,
-        Progress(*columns, console=Console(stderr=True), transient=True, disable=not sys.stderr.isatty()) as progress,
+        open_executor(options.workers, options.scheduler) as executor,
+        _journal(path, plain, options.resume) as journal,
+        progress(what) as bar,
     ):
-        task = progress.add_task(what, total=None, visible=False)
-        yield (
-            executor,
-            journal,
-            lambda done, total: progress.update(task, completed=done, total=total or None, visible=total > 1),
-        )
+        yield Execution(executor, journal, bar.reach)
 
 
 @contextmanager
 def _journal(path: Path, question: Mapping[str, Any], resume: bool) -> Iterator[Journal | None]:
-    import os
-
+    """The journal at `path`; None where no file can be made."""
     from geartrain.numerics.work import Journal
 
     if not resume and not os.access(path.parent, os.W_OK):
@@ -71,21 +126,3 @@ def _check_others(path: Path, question: Mapping[str, Any]) -> None:
     others = sorted(path.parent.glob(f"{path.name.partition('-')[0]}-*.partial.jsonl"))
     if problems := [another_question(other, question) for other in others]:
         raise QuestionError(problems)
-
-
-def close_journal(journal: Journal | None, cut: bool) -> None:
-    """A run that is whole needs no journal; for one that was cut, say where it can be taken up."""
-    if not cut:
-        if journal is not None:
-            journal.finish()
-    elif journal is not None and len(journal):
-        tell(f"stopped; what is done is in {journal.path}: give the same command with --resume")
-    else:
-        tell("stopped before anything was done that could be kept")
-
-
-def table_text(rows: Sequence[Mapping[str, Any]]) -> str:
-    """Rows with the same keys as CSV with a header; empty without rows."""
-    from geartrain.numerics.files import csv_text
-
-    return csv_text(list(rows[0]), [list(row.values()) for row in rows]).rstrip("\n") if rows else ""

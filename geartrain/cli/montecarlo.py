@@ -2,12 +2,9 @@
 
 from __future__ import annotations
 
-import hashlib
-import json as plain
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager, nullcontext, suppress
 from dataclasses import dataclass, replace
-from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
@@ -29,11 +26,11 @@ from geartrain.cli.common import (
     sink,
     tell,
 )
-from geartrain.cli.long_runs import means
+from geartrain.cli.long_runs import Resume, RunOptions, Scheduler, SingleWorker, close_journal, long_run
 from geartrain.cli.uncertainty_plots import Picture, Plot, check_plot, draw_findings, with_map
 
 if TYPE_CHECKING:
-    from geartrain.numerics.work import Execution, Journal
+    from geartrain.numerics.work import Execution
     from geartrain.uncertainty.monte_carlo import MonteCarloResult, TrialPlan, TrialRecord, TrialResults
 
 Names = list[str] | None
@@ -60,9 +57,9 @@ def run(
         str | None, typer.Option("--tolerance", help="Greatest error for --jam: a kind of error, or 'all'.")
     ] = None,
     jam: Annotated[str, typer.Option("--jam", help="The chance of a jam that --tolerance allows.")] = "1%",
-    workers: Annotated[int | None, typer.Option("--workers", help="Processes; default 1.")] = None,
-    scheduler: Annotated[str | None, typer.Option("--scheduler", help="Address of a dask scheduler.")] = None,
-    resume: Annotated[bool, typer.Option("--resume", help="Go on with an interrupted run.")] = False,
+    workers: SingleWorker = None,
+    scheduler: Scheduler = None,
+    resume: Resume = False,
     plot: Plot = None,
     picture: Picture = "errors",
     json: Json = False,
@@ -71,8 +68,8 @@ def run(
 ) -> None:
     """How often a train cut by hand jams, and how far its pointers stray; to a .parquet or .csv, every trial."""
     from geartrain.analysis.loader import load
-    from geartrain.numerics.work import Execution
     from geartrain.uncertainty.monte_carlo import (
+        MonteCarloResult,
         check_trials,
         find_trial_plan,
         journal_key,
@@ -88,20 +85,21 @@ def run(
     chance = float(read_share(jam, "--jam"))
     plan = find_trial_plan(load(file), read_error_overrides(set_ or ()), output or (), state, without or ())
     _check_extras(sobol)
-    asked_of = journal_key(plan, seed, trials)
-    count = 1 if workers is None and scheduler is None else workers
-    with means("trials", _kept(asked_of, out), asked_of, count, scheduler, resume) as given:
-        execution = Execution(*given)
-        later = replace(execution, journal=None)  # the journal is of the trials alone
-        found = _trials(plan, trials, seed, execution, _Table(plan, to, resume) if to.suffix in TABLES else None)
-        if not found.complete:
-            _stopped(found.done, trials, execution.journal)
-        asked = _Studies(plan, trials, seed, later)
-        findings = asked.findings(found, bool(output), sweep, sobol, tolerance, chance) if found.complete else None
-        drawn = with_map(findings, picture, sweep, later) if findings is not None and plot is not None else None
-        if findings is not None and execution.journal is not None:
-            execution.journal.finish()
-    _answer(findings or _partial(found), json or to.suffix == ".json", STANDARD if to.suffix in TABLES else to)
+    options = RunOptions.alone(workers, scheduler, resume)
+    table = _Table(plan, to, resume) if to.suffix in TABLES else None
+    findings = drawn = None
+    with long_run("montecarlo", journal_key(plan, seed, trials), out, options) as given:
+        found = _trials(plan, trials, seed, given, table)
+        if found.complete:
+            later = replace(given, journal=None)  # the journal is of the trials alone
+            findings = _studied(found, bool(output), sweep, sobol, tolerance, chance, later)
+            drawn = with_map(findings, picture, sweep, later) if plot is not None else None
+            close_journal(given.journal, cut=False)
+        else:
+            tell(f"stopped after {found.done} of {trials} trials; the figures are of those")
+            if given.journal is not None:
+                tell(f"what is done is in {given.journal.path}: give the same command with --resume")
+    _answer(findings or MonteCarloResult(found), json or to.suffix == ".json", STANDARD if to.suffix in TABLES else to)
     if to.suffix in TABLES and found.complete:
         tell(f"wrote {out}")
     if drawn is not None and plot is not None:
@@ -129,69 +127,51 @@ def _answer(findings: MonteCarloResult, json: bool, to: Sink) -> None:
         show([trials_document(findings)], to)
 
 
-def _partial(found: TrialResults) -> MonteCarloResult:
-    from geartrain.uncertainty.monte_carlo import MonteCarloResult
-
-    return MonteCarloResult(found)
-
-
 class _StoppedError(Exception):
     """The user interrupts."""
 
 
-def _trials(plan: TrialPlan, trials: int, seed: int, execution: Execution, table: _Table | None) -> TrialResults:
+def _trials(plan: TrialPlan, trials: int, seed: int, given: Execution, table: _Table | None) -> TrialResults:
+    """The trials, kept in the journal, and handed on to a table block by block."""
     from geartrain.uncertainty.monte_carlo import run_trials
 
     with suppress(_StoppedError), nullcontext() if table is None else table.open() as take:
-        found = run_trials(plan, trials, seed, execution, take)
+        found = run_trials(plan, trials, seed, given, take)
         if not found.complete:
             raise _StoppedError  # so that the table stays partial
     return found
 
 
-def _stopped(done: int, wanted: int, journal: Journal | None) -> None:
-    """Say where an interrupted run can be taken up."""
-    tell(f"stopped after {done} of {wanted} trials; the figures are of those")
-    if journal is not None:
-        tell(f"what is done is in {journal.path}: give the same command with --resume")
+def _studied(
+    trials: TrialResults,
+    named: bool,
+    sweep: list[float],
+    sobol: bool,
+    tolerance: str | None,
+    chance: float,
+    means: Execution,
+) -> MonteCarloResult:
+    """The trials with all that is asked beside them; courses only of outputs that were named."""
+    from geartrain.uncertainty.monte_carlo import (
+        MonteCarloResult,
+        find_sobol_indices,
+        find_tolerance,
+        run_clearances,
+        run_course,
+    )
 
-
-class _Studies:
-    """What is asked beside the trials themselves."""
-
-    def __init__(self, plan: TrialPlan, trials: int, seed: int, means: Execution) -> None:
-        self.plan, self.count, self.seed, self.means = plan, trials, seed, means
-
-    def findings(
-        self, trials: TrialResults, named: bool, sweep: list[float], sobol: bool, tolerance: str | None, chance: float
-    ) -> MonteCarloResult:
-        """All of them; the courses only of outputs that were named."""
-        from geartrain.uncertainty.monte_carlo import (
-            MonteCarloResult,
-            find_sobol_indices,
-            find_tolerance,
-            run_clearances,
-            run_course,
-        )
-
-        plan, seed, means = self.plan, self.seed, self.means
-        few = range(min(_FEW, len(plan.outputs)))
-        kind = "" if tolerance == "all" else tolerance
-        return MonteCarloResult(
-            trials,
-            run_clearances(plan, sweep, self.count, seed, means) if sweep else (),
-            [run_course(plan, at, _COURSE[0], seed, _COURSE[1]) for at in few] if named else (),
-            [find_sobol_indices(plan, at, by, self.count, seed, means) for at in few for by in ("wheel", "kind")]
-            if sobol
-            else (),
-            find_tolerance(plan, kind, chance, self.count, seed, means=means) if kind is not None else None,
-        )
-
-
-def _kept(question: Mapping[str, Any], out: Path | None) -> Path:
-    """Where the journal of these trials is."""
-    mark = hashlib.sha256(plain.dumps(question, sort_keys=True).encode()).hexdigest()[:8]
-    return (out.parent if out else Path()) / f"montecarlo-{mark}.partial.jsonl"
+    plan, seed, count = trials.plan, trials.seed, trials.wanted
+    few = range(min(_FEW, len(plan.outputs)))
+    kind = "" if tolerance == "all" else tolerance
+    return MonteCarloResult(
+        trials,
+        run_clearances(plan, sweep, count, seed, means) if sweep else (),
+        [run_course(plan, at, _COURSE[0], seed, _COURSE[1]) for at in few] if named else (),
+        [find_sobol_indices(plan, at, by, count, seed, means) for at in few for by in ("wheel", "kind")]
+        if sobol
+        else (),
+        find_tolerance(plan, kind, chance, count, seed, means=means) if kind is not None else None,
+    )
 
 
 @dataclass(frozen=True)

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -27,6 +26,7 @@ from geartrain.cli.common import (
     sink,
     tell,
 )
+from geartrain.cli.long_runs import progress
 from geartrain.cli.option_values import MOST_COUNT
 from geartrain.cli.option_values import turns as read_turns
 
@@ -86,8 +86,8 @@ def run(
     if plot is not None:
         from geartrain.drawing import motion_figure
 
-        with _progress("drawing", samples) as on_done:
-            draw(motion_figure(asked, on_done), picture)
+        with progress("drawing", samples) as bar:
+            draw(motion_figure(asked, bar.advance), picture)
 
 
 def _turns(text: str, motion: Motion) -> float:
@@ -122,14 +122,14 @@ def _report(
 
     work = asked.samples * (1 + phases + estimates + spectrum)
     stopped = False
-    with _progress("motion", work) as on_done:
+    with progress("motion", work) as bar:
         try:
-            asked.go(on_done)
-            asked.try_phases(phases, seed, on_done)
+            asked.go(bar.advance)
+            asked.try_phases(phases, seed, bar.advance)
             if estimates:
-                asked.estimate(on_done)
+                asked.estimate(bar.advance)
             if spectrum:
-                asked.analyse(on_done)
+                asked.analyse(bar.advance)
         except KeyboardInterrupt:
             if not asked.done:
                 raise
@@ -154,10 +154,10 @@ def _write_table(asked: MotionRun, out: Path, resume: bool, force: bool) -> None
             if table.rows:
                 asked.check_resumed(table.last(), table.rows)
             first = table.rows
-            with _progress("motion", asked.samples - first) as on_done:
+            with progress("motion", asked.samples - first) as bar:
                 for rows in _rows(asked, first, header=False):
                     table.write(rows)
-                    on_done(len(rows))
+                    bar.advance(len(rows))
     except KeyboardInterrupt:
         tell(f"stopped after {table.rows} of {asked.samples} positions: {table.partial}")
         tell("give the same command with --resume to go on")
@@ -178,13 +178,3 @@ def _lines(asked: MotionRun, passage: ErrorSamples) -> list[str]:
     from geartrain.numerics.files import csv_lines
 
     return csv_lines(zip(*(column.tolist() for column in asked.values(passage)), strict=True))
-
-
-@contextmanager
-def _progress(what: str, total: int) -> Iterator[Callable[[int], None]]:
-    from rich.console import Console
-    from rich.progress import Progress
-
-    with Progress(console=Console(stderr=True), transient=True) as progress:
-        task = progress.add_task(what, total=total)
-        yield lambda done: progress.update(task, advance=done)

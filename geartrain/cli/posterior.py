@@ -2,10 +2,7 @@
 
 from __future__ import annotations
 
-import hashlib
-import json as plain_json
 from collections.abc import Mapping, Sequence
-from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
@@ -26,9 +23,10 @@ from geartrain.cli.common import (
     read_share,
     show,
     sink,
+    table_text,
     tell,
 )
-from geartrain.cli.long_runs import close_journal, means, table_text
+from geartrain.cli.long_runs import Resume, RunOptions, Scheduler, SingleWorker, close_journal, long_run
 from geartrain.cli.option_values import MOST_COUNT
 from geartrain.cli.uncertainty_plots import Plot, check_plot, draw_counts
 
@@ -65,9 +63,9 @@ def run(
         int, typer.Option("--samples", min=1, max=MOST_COUNT, help="Combinations of a sample.")
     ] = 1_000_000,
     seed: Annotated[int, typer.Option("--seed", min=0, help="Seed of the sample.")] = 1,
-    workers: Annotated[int | None, typer.Option("--workers", help="Processes; default this one alone.")] = None,
-    scheduler: Annotated[str | None, typer.Option("--scheduler", help="Address of a dask scheduler.")] = None,
-    resume: Annotated[bool, typer.Option("--resume", help="Go on with an interrupted run.")] = False,
+    workers: SingleWorker = None,
+    scheduler: Scheduler = None,
+    resume: Resume = False,
     plot: Plot = None,
     json: Json = False,
     out: Out = None,
@@ -98,10 +96,9 @@ def run(
         "seed": seed,
     }
     question = {"train": train.model_dump(mode="json"), **asked}
-    count = 1 if workers is None and scheduler is None else workers
-    with means("posterior", _kept(question, out), question, count, scheduler, resume) as (executor, journal, progress):
-        found = infer_counts(train, **asked, executor=executor, journal=journal, tell=progress)
-        close_journal(journal, found.cut)
+    with long_run("posterior", question, out, RunOptions.alone(workers, scheduler, resume)) as given:
+        found = infer_counts(train, **asked, executor=given.executor, journal=given.journal, tell=given.tell)
+        close_journal(given.journal, found.cut)
     if drawing.path is not None and not found.best:
         tell(f"nothing fits, so {drawing.path} is not written")
     if plot is not None and found.best and not found.cut:
@@ -151,13 +148,6 @@ def _run(text: str) -> Sequence[int]:
     if ends[1] - ends[0] > 10**6:
         raise typer.BadParameter(f"the range {text} is too wide", param_hint="--free")
     return range(ends[0], ends[1] + 1)
-
-
-def _kept(question: Mapping[str, Any], out: Path | None) -> Path:
-    """Where the journal of this sweep is."""
-    train = plain_json.loads(plain_json.dumps(question["train"], default=str))
-    mark = hashlib.sha256(plain_json.dumps(train, sort_keys=True).encode()).hexdigest()[:8]
-    return (out.parent if out else Path()) / f"posterior-{train['name']}-{mark}.partial.jsonl"
 
 
 def _write_parquet(rows: Sequence[Mapping[str, Any]], to: Sink, about: Mapping[str, str]) -> None:

@@ -22,11 +22,13 @@ from geartrain.cli.common import (
     show,
     sink,
 )
+from geartrain.cli.long_runs import progress
 from geartrain.cli.option_values import decimal
 
 if TYPE_CHECKING:
     from geartrain.report.spherical_report import SphereAnswers
     from geartrain.spherical import Configuration, GraphSet
+    from geartrain.spherical.polyhedron_survey import SurveyRow
 
 _YAML = (".yaml", ".yml")
 _FILES = (".txt", ".csv", ".dat")
@@ -96,15 +98,15 @@ def _check_listed(to: Sink, picture: Sink) -> None:
 
 
 def _survey(json: bool, to: Sink) -> None:
-    from rich.console import Console
-    from rich.progress import track
-
     from geartrain.report.spherical_report import survey_document
     from geartrain.spherical.polyhedron_survey import SURVEYED
     from geartrain.spherical.polyhedron_survey import survey as survey_solids
 
-    names = track(SURVEYED, "survey", console=Console(stderr=True), transient=True)
-    rows = [row for name in names for row in survey_solids((name,))]
+    rows: list[SurveyRow] = []
+    with progress("survey", len(SURVEYED)) as bar:
+        for name in SURVEYED:
+            rows += survey_solids((name,))
+            bar.advance()
     if json:
         emit(as_json([row.to_dict() for row in rows]), to)
     else:

@@ -18,7 +18,8 @@ Command = Any
 class Verbs(Mapping[str, Command]):
     """The commands of a group by their names, each made when it is asked for.
 
-    A verb is a module of `package` with a function `run`, or with a `typer.Typer` named `app` for a group.
+    A verb is a module of `package` with a function `run`, and with `context_settings` where it has any; or with a
+    `typer.Typer` named `app` for a group.
 
     Parameters
     ----------
@@ -57,17 +58,16 @@ class Verbs(Mapping[str, Command]):
         return len(self.names)
 
     def _command(self, name: str) -> Command:
-        run = self._make(name)
+        run, settings = self._make(name), None
         if run is None:
             module = import_module(f"{self.package}.{name}")
             if hasattr(module, "app"):
                 command = typer.main.get_command(module.app)
                 command.name = name
                 return command
-            run = module.run
+            run, settings = module.run, getattr(module, "context_settings", None)
         one = typer.Typer(add_completion=False, pretty_exceptions_enable=False)
-        # an argument that begins with a minus may be a negative number; the verb that takes one complains of others
-        one.command(name, context_settings=getattr(run, "context_settings", None))(run)
+        one.command(name, context_settings=settings)(run)
         return typer.main.get_command(one)
 
 

@@ -117,9 +117,12 @@ CASES: list[tuple[tuple[str, ...], tuple[str, ...]]] = [
         ("posterior", "{pair}", "--free", "x=47:49"),
         ("tolerance", "scale", "most", "limit", "samples:few", "seed", "free"),
     ),
-    (("teeth", "5.25"), ("stages", "range", "wheels", "pinions", "tolerance", "best", "most-total", "pick", "shift")),
-    (("teeth", "5.25", "--kind", "simple"), ("planets", "clearance", "ratio-is", "best", "tolerance", "mode")),
-    (("teeth", "a=3.2", "b=7.1"), ("effort", "walk", "tolerance", "best", "range")),
+    (("teeth", "ratio", "5.25"), ("stages", "range", "wheels", "pinions", "tolerance", "best", "most-total")),
+    (
+        ("teeth", "set", "5.25", "--kind", "simple"),
+        ("planets", "clearance", "ratio-is", "best", "tolerance", "mode", "pick", "shift"),
+    ),
+    (("teeth", "orrery", "a=3.2", "b=7.1"), ("effort", "walk", "tolerance", "best", "range")),
     (("sphere", "cube"), ("teeth", "radius", "suggest", "best")),
     (("draw", "{pair}", "-o", "{out}/d.svg"), ("turns",)),
     (("export", "{pair}", "--to", "{out}/e", "--as", "svg"), ("module:length", "thickness:length", "bore:length")),
@@ -208,8 +211,8 @@ KEPT = [
     ("draw {pair} -o {out}/d.svg", "turns", "inf"),
     ("sphere cube", "radius", "inf"),
     ("sphere cube", "radius", "nan"),
-    ("teeth 5.25", "best", "9" * 25),
-    ("teeth 5.25", "most-total", "0"),
+    ("teeth ratio 5.25", "best", "9" * 25),
+    ("teeth ratio 5.25", "most-total", "0"),
     ("posterior {pair} --free x=47:49", "seed", "-1"),
 ]
 """What once ended in a traceback, in nonsense or never."""

@@ -44,7 +44,11 @@ ASKED: dict[tuple[str, str], tuple[tuple[str, ...], tuple[str, ...]]] = {
     ("montecarlo", "--plot"): (ERRORS, (".svg",)),
     ("sphere", "-o"): (("sphere", "cube"), (".md", ".json")),
     ("sphere", "--plot"): (("sphere", "cube", "--teeth", "4=12"), (".svg",)),
-    ("teeth", "-o"): (("teeth", "7/3", "--stages", "1", "--best", "1"), (".md", ".json", ".csv")),
+    ("teeth ratio", "-o"): (("teeth", "ratio", "7/3", "--stages", "1", "--best", "1"), (".md", ".json", ".csv")),
+    ("teeth approximants", "-o"): (("teeth", "approximants", "7/3"), (".md", ".json", ".csv")),
+    ("teeth train", "-o"): (("teeth", "train", "{hands}", "--best", "1", "--workers", "1"), (".md", ".json", ".yaml")),
+    ("teeth set", "-o"): (("teeth", "set", "7/2", "--kind", "planetary"), (".md", ".json", ".yaml")),
+    ("teeth orrery", "-o"): (("teeth", "orrery", "a=3", "b=5/2", "--range", "12:40"), (".md", ".json", ".yaml")),
     ("posterior", "-o"): (DOUBT, (".md", ".json", ".csv", ".parquet")),
     ("posterior", "--plot"): (DOUBT, (".svg",)),
     ("bench", "-o"): (("bench", "worm"), (".md", ".html", ".json")),
@@ -82,7 +86,8 @@ def _trains(tmp_path_factory: pytest.TempPathFactory) -> None:
     """Trains that no shipped one stands for."""
     folder = tmp_path_factory.mktemp("trains")
     doubt = RIGHT.replace("expect: 1/2", "targets: [{speed: 1/2, tolerance: 10 %}]")
-    for name, text in {"doubt": doubt, "loaded": RIGHT + "loads: {c: -1 N m}\n"}.items():
+    hands = RIGHT.replace("z: 40", "z: {teeth: {search: [30, 50]}}")
+    for name, text in {"doubt": doubt, "hands": hands, "loaded": RIGHT + "loads: {c: -1 N m}\n"}.items():
         TRAINS[f"{{{name}}}"] = folder / f"{name}.yaml"
         TRAINS[f"{{{name}}}"].write_text(text, encoding="utf-8")
 

@@ -49,7 +49,8 @@ def hands(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 
 def answer(*arguments: object) -> dict[str, object]:
-    done = call("teeth", *arguments, "--workers", 1, "--json")
+    alone = () if arguments[0] == "approximants" else ("--workers", 1)
+    done = call("teeth", *arguments, *alone, "--json")
     assert done.exit_code in (0, 1), done.stderr
     return json.loads(done.stdout)
 
@@ -62,7 +63,7 @@ def test_a_month_has_the_solutions_that_trying_everything_finds(
     stages: int, pinions: str, wheels: str, tolerance: str, count: int, hands: Path
 ) -> None:
     options = ("--stages", stages, "--pinions", pinions, "--wheels", wheels, "--tolerance", tolerance, "--best", 100)
-    found = answer("13.368267", *options)
+    found = answer("ratio", "13.368267", *options)
     assert found["complete"] is True
     assert found["count"] == len(found["solutions"]) == count
     for one in found["solutions"]:
@@ -78,7 +79,7 @@ def test_a_month_has_the_solutions_that_trying_everything_finds(
 
 
 def test_csv_and_json_tell_the_same(hands: Path) -> None:
-    asked = ("235 months / 19 years", "--range", "15:60", "--best", 4)
+    asked = ("ratio", "235 months / 19 years", "--range", "15:60", "--best", 4)
     rows = list(csv.DictReader(io.StringIO(call("teeth", *asked, "--workers", 1, "--csv").stdout)))
     for row, one in zip(rows, answer(*asked)["solutions"], strict=True):
         assert [list(map(int, row[side].split("*"))) for side in ("top", "beneath")] == one["teeth"]
@@ -90,27 +91,30 @@ def test_csv_and_json_tell_the_same(hands: Path) -> None:
 
 
 def test_an_unwanted_sense_is_refused_by_name(hands: Path) -> None:
-    done = call("teeth", "+235/19", "--stages", 1, "--range", "15:240", "--workers", 1)
+    done = call("teeth", "ratio", "+235/19", "--stages", 1, "--range", "15:240", "--workers", 1)
     assert done.exit_code == 1
     assert "idler" in done.stdout
-    assert call("teeth", "--stages", 1, "--range", "15:240", "--workers", 1, "--", "-235/19").exit_code == 0
-    assert call("teeth", "+235/19", "--stages", 1, "--range", "15:240", "--internal", 1, "--workers", 1).exit_code == 0
+    assert call("teeth", "ratio", "--stages", 1, "--range", "15:240", "--workers", 1, "--", "-235/19").exit_code == 0
+    assert (
+        call("teeth", "ratio", "+235/19", "--stages", 1, "--range", "15:240", "--internal", 1, "--workers", 1).exit_code
+        == 0
+    )
 
 
 def test_fractions_on_the_way_are_told_with_their_kinds(hands: Path) -> None:
-    found = answer("365.2422", "--approximants", "--range", "1:60000")["solutions"]
+    found = answer("approximants", "365.2422", "--range", "1:60000")["solutions"]
     kinds = {row["value"]: row["kind"] for row in found}  # type: ignore[index]
     assert kinds["1461/4"] == kinds["10592/29"] == kinds["12053/33"] == "convergent"
 
 
 def test_long_ranges_are_searched_by_the_tree(hands: Path) -> None:
-    found = answer("3.14159265358979", "--stages", 1, "--range", "12:1000000000", "--best", 1)
+    found = answer("ratio", "3.14159265358979", "--stages", 1, "--range", "12:1000000000", "--best", 1)
     assert found["solutions"][0]["teeth"][0][0] > 10**6  # type: ignore[index]
     assert abs(found["solutions"][0]["error"]) < 1e-14  # type: ignore[index]
 
 
 def test_the_wheels_of_a_train_are_those_that_looking_at_all_of_them_finds(hands: Path) -> None:
-    found = answer(hands, "--best", 100)
+    found = answer("train", hands, "--best", 100)
     rows = {tuple(one["teeth"].values()) for one in found["solutions"]}  # type: ignore[union-attr]
     expected = {
         (a, b, c, d)
@@ -126,7 +130,9 @@ def test_the_wheels_of_a_train_are_those_that_looking_at_all_of_them_finds(hands
 
 
 def test_a_solution_is_written_as_a_train_that_does_what_is_asked(hands: Path) -> None:
-    done = call("teeth", hands, "--by", "total", "--pick", 2, "-o", hands.parent / "found.yaml", "--workers", 1)
+    done = call(
+        "teeth", "train", hands, "--by", "total", "--pick", 2, "-o", hands.parent / "found.yaml", "--workers", 1
+    )
     assert done.exit_code == 0
     made = load(hands.parent / "found.yaml")
     assert made.solve()["hour"] == Fraction(1, 12)
@@ -135,14 +141,23 @@ def test_a_solution_is_written_as_a_train_that_does_what_is_asked(hands: Path) -
 
 
 def test_nothing_found_tells_what_to_relax_and_exits_with_one(hands: Path) -> None:
-    done = call("teeth", hands, "--least", 40, "--workers", 1)
+    done = call("teeth", "train", hands, "--least", 40, "--workers", 1)
     assert done.exit_code == 1
     assert "To relax" in done.stdout
     assert "candidates" in done.stdout
 
 
 def test_where_a_printed_row_stands(hands: Path) -> None:
-    asked = ("pennestri-2002-missing", "--best", 1, "--where", "VO1=32,VO2=50,VX=40", "--where", "VO1=32,VO2=48,VX=41")
+    asked = (
+        "train",
+        "pennestri-2002-missing",
+        "--best",
+        1,
+        "--where",
+        "VO1=32,VO2=50,VX=40",
+        "--where",
+        "VO1=32,VO2=48,VX=41",
+    )
     right, wrong = answer(*asked)["where"]  # type: ignore[misc]
     assert right["rank"] == 21
     assert right["refused"] == []
@@ -151,17 +166,17 @@ def test_where_a_printed_row_stands(hands: Path) -> None:
 
 
 def test_an_exact_wolfrom_set_is_found_and_written(hands: Path) -> None:
-    asked = ("teeth", 142, "--kind", "wolfrom", "--planets", 3, "--range", "12:100")
+    asked = ("teeth", "set", 142, "--kind", "wolfrom", "--planets", 3, "--range", "12:100")
     done = call(*asked, "-o", hands.parent / "set.yaml")
     assert done.exit_code == 0
     made = load(hands.parent / "set.yaml")
     (output,) = made.solve().outputs.values()
     assert output.ratio == Fraction(1, 142)
-    assert "wolfrom" in call("teeth", "x", "--kind", "list").stdout
+    assert "wolfrom" in call("teeth", "set", "--kind", "list").stdout
 
 
 def test_an_orrery_is_found_and_holds_as_a_train(hands: Path) -> None:
-    asked = ("teeth", "moon=29.53059", "venus=224.701", "--range", "12:120", "--tolerance", "1e-4")
+    asked = ("teeth", "orrery", "moon=29.53059", "venus=224.701", "--range", "12:120", "--tolerance", "1e-4")
     done = call(*asked, "-o", hands.parent / "orrery.yaml")
     assert done.exit_code == 0
     made = load(hands.parent / "orrery.yaml").solve()
@@ -172,21 +187,21 @@ def test_an_orrery_is_found_and_holds_as_a_train(hands: Path) -> None:
 @pytest.mark.parametrize(
     ("arguments", "what"),
     [
-        (["13.3683x"], "half a pair of counts"),
-        (["months_per_yea"], "did you mean"),
-        (["3", "--range", "5:2"], "backwards"),
-        (["3", "--kind", "planetry"], "no kind"),
-        (["3", "--by", "size"], "no order"),
-        (["3", "--tolerance", "-1"], "tolerance"),
-        (["hands.yaml", "--free", "nut,screw"], "screw"),
-        (["hands.yaml", "--where", "nut"], "wheel=32"),
-        (["3", "-o", "x.yaml"], "no train"),
-        (["moon=29.5", "29.5"], "moon=29.53"),
+        (["ratio", "13.3683x"], "half a pair of counts"),
+        (["ratio", "months_per_yea"], "did you mean"),
+        (["ratio", "3", "--range", "5:2"], "backwards"),
+        (["set", "3", "--kind", "planetry"], "no kind"),
+        (["ratio", "3", "--by", "size"], "no order"),
+        (["ratio", "3", "--tolerance", "-1"], "tolerance"),
+        (["train", "hands.yaml", "--free", "nut,screw"], "screw"),
+        (["train", "hands.yaml", "--where", "nut"], "wheel=32"),
+        (["ratio", "3", "-o", "x.yaml"], "no train"),
+        (["orrery", "moon=29.5", "29.5"], "moon=29.53"),
     ],
     ids=lambda each: " ".join(each) if isinstance(each, list) else "",
 )
 def test_bad_input_is_refused_with_a_way_out(arguments: list[str], what: str, hands: Path) -> None:
-    done = call("teeth", *arguments, "--workers", 1)
+    done = call("teeth", *arguments)
     assert isinstance(done.exception, GearTrainError) or done.exit_code == 2  # the command makes 2 of both
     assert what in f"{done.exception} {done.stderr}"
     assert not list(hands.parent.glob("*.partial.jsonl"))
@@ -194,7 +209,20 @@ def test_bad_input_is_refused_with_a_way_out(arguments: list[str], what: str, ha
 
 # cut and taken up ----------------------------------------------------------------------------------------------------
 
-LONG = ("teeth", "13.36838", "--stages", "4", "--range", "12:150", "--tolerance", "1e-9", "--best", "5", "--json")
+LONG = (
+    "teeth",
+    "ratio",
+    "13.36838",
+    "--stages",
+    "4",
+    "--range",
+    "12:150",
+    "--tolerance",
+    "1e-9",
+    "--best",
+    "5",
+    "--json",
+)
 
 
 def start(folder: Path, *more: str) -> subprocess.Popen[str]:
@@ -239,17 +267,23 @@ def test_a_search_that_was_cut_is_taken_up_and_ends_the_same(cut: signal.Signals
 @pytest.mark.parametrize(
     ("asked", "said"),
     [
-        (("hands.yaml", "--range", "12:20"), "--range"),
-        (("hands.yaml", "-o", "hands.yaml", "--force"), "train itself"),
-        (("hands.yaml", "--tolerance", "-1"), "--tolerance"),
-        (("235/19", "--least", "20"), "--least"),
-        (("235/19", "--planets", "3"), "--planets"),
-        (("235/19", "--tolerance", "1e400"), "--tolerance"),
-        (("235/19", "--tolrance", "1e-6"), "--tolrance"),
-        (("4", "--kind", "planetary", "--hunting"), "--hunting"),
-        (("4", "--kind", "planetary", "--clearance", "1"), "--planets"),
-        (("moon=29.5", "--by", "total"), "--by"),
-        (("moon=-29.5",), "sense"),
+        (("train", "hands.yaml", "--range", "12:20"), "--range"),
+        (("train", "hands.yaml", "-o", "hands.yaml", "--force"), "train itself"),
+        (("train", "hands.yaml", "--tolerance", "-1"), "--tolerance"),
+        (("ratio", "235/19", "--least", "20"), "--least"),
+        (("ratio", "235/19", "--planets", "3"), "--planets"),
+        (("ratio", "235/19", "--tolerance", "1e400"), "--tolerance"),
+        (("ratio", "235/19", "--tolrance", "1e-6"), "--tolrance"),
+        (("set", "4", "--kind", "planetary", "--hunting"), "--hunting"),
+        (("set", "4", "--kind", "planetary", "--clearance", "1"), "--planets"),
+        (("orrery", "moon=29.5", "--by", "total"), "--by"),
+        (
+            (
+                "orrery",
+                "moon=-29.5",
+            ),
+            "sense",
+        ),
     ],
 )
 def test_what_a_search_would_pass_over_is_refused(hands: Path, asked: tuple[str, ...], said: str) -> None:
@@ -260,26 +294,52 @@ def test_what_a_search_would_pass_over_is_refused(hands: Path, asked: tuple[str,
 
 
 def test_a_negative_ratio_is_no_option() -> None:
-    found = answer("-4", "--range", "12:48", "--stages", 1, "--best", 1)
+    found = answer("ratio", "-4", "--range", "12:48", "--stages", 1, "--best", 1)
     assert (found["wanted"]["sense"], found["solutions"][0]["teeth"]) == (-1, [[48], [12]])
 
 
 def test_conditions_on_one_pair_hold_in_long_ranges_too() -> None:
-    found = answer("3", "--stages", 1, "--range", "12:100050", "--hunting", "--best", 3)
+    found = answer("ratio", "3", "--stages", 1, "--range", "12:100050", "--hunting", "--best", 3)
     assert [one["error"] != 0 for one in found["solutions"]] == [True] * 3  # 3 n over n is never coprime
-    assert answer("+3", "--stages", 1, "--range", "12:100050")["count"] == 0  # an external pair reverses
+    assert answer("ratio", "+3", "--stages", 1, "--range", "12:100050")["count"] == 0  # an external pair reverses
 
 
 @pytest.mark.parametrize("ratio", ["1e300", "1e-300"])
 def test_a_ratio_beyond_all_pairs_is_refused_at_once(ratio: str) -> None:
-    done = call("teeth", ratio, "--stages", 1, "--range", "12:2000000")
+    done = call("teeth", "ratio", ratio, "--stages", 1, "--range", "12:2000000")
     assert isinstance(done.exception, GearTrainError)
     assert "far out of reach" in str(done.exception)
 
 
 def test_a_file_is_written_in_the_form_of_its_name_whatever_is_printed(hands: Path) -> None:
-    done = call("teeth", "235/19", "--best", 1, "--workers", 1, "--json", "-o", "found.csv")
+    done = call("teeth", "ratio", "235/19", "--best", 1, "--workers", 1, "--json", "-o", "found.csv")
     assert json.loads(done.stdout)["solutions"]
     assert (hands.parent / "found.csv").read_text(encoding="utf-8").startswith("top,beneath,ratio")
-    assert not call("teeth", "235/19", "--best", 1, "--workers", 1, "--json", "-o", "found").stdout
+    assert not call("teeth", "ratio", "235/19", "--best", 1, "--workers", 1, "--json", "-o", "found").stdout
     assert json.loads((hands.parent / "found").read_text(encoding="utf-8"))["solutions"]
+
+
+@pytest.mark.parametrize(
+    ("asked", "said"),
+    [
+        ("5.31 --stages 1", "ratio 5.31 --stages 1"),
+        ("-235/19", "ratio -235/19"),
+        ("hands.yaml --by total", "train hands.yaml --by total"),
+        ("pennestri-2002-missing", "train pennestri-2002-missing"),
+        ("365.2422 --approximants --range 1:400", "approximants 365.2422 --range 1:400"),
+        ("--kind list any", "set --kind list any"),
+        ("142 --kind wolfrom", "set 142 --kind wolfrom"),
+        ("moon=29.53 venus=224.7", "orrery moon=29.53 venus=224.7"),
+    ],
+)
+def test_a_question_without_its_word_is_answered_with_the_word(asked: str, said: str) -> None:
+    done = call("teeth", *asked.split())
+    assert done.exit_code == 2
+    words = " ".join(done.stderr.replace("│", " ").split())
+    assert f"`geartrain teeth {said}`" in words
+
+
+def test_a_misspelt_search_is_answered_with_its_name() -> None:
+    done = call("teeth", "orery", "moon=29.53")
+    assert done.exit_code == 2
+    assert "Did you mean 'orrery'?" in done.stderr

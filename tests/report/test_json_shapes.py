@@ -60,10 +60,10 @@ CLOSED = {
     "solve",
     "torques",
     "motion",
-    "teeth RATIO",
-    "teeth RATIO --approximants",
+    "teeth ratio",
+    "teeth approximants",
     "mesh triangular",
-    "teeth --kind list",
+    "teeth set --kind list",
 }
 
 
@@ -148,7 +148,7 @@ def test_json_is_what_a_file_of_that_name_holds(files: Path) -> None:
 
 # ------------------------------------------------------------------------------------------------- all other questions
 
-RATIO = ("teeth", "7/3", "--stages", "1", "--best", "2")
+RATIO = ("teeth", "ratio", "7/3", "--stages", "1", "--best", "2")
 CUT = ("montecarlo", "moon-triangular", "--trials", "16", "--set", "placement=2 %")
 DOUBT = ("posterior", "target.yaml", "--free", "x=18:22", "--free", "z=38:42")
 PAIR = ("--teeth", "20", "30")
@@ -172,19 +172,19 @@ ASKED: dict[str, list[tuple[str, ...]]] = {
         ("sphere", "--graph", "cube.txt"),
     ],
     "sphere --suggest": [("sphere", "icosidodecahedron", "--suggest", "24")],
-    "teeth RATIO": [
+    "teeth ratio": [
         RATIO,
         (*RATIO, "--tolerance", "1e-9"),
         (*RATIO, "--range", "12:200000"),
         (*RATIO, "--range", "12:200000", "--tolerance", "1e-9"),
-        ("teeth", "3/1000", "--stages", "1", "--range", "12:200000", "--best", "1"),
-        ("teeth", "1000003", "--stages", "1", "--range", "12:20", "--tolerance", "1e-9"),
+        ("teeth", "ratio", "3/1000", "--stages", "1", "--range", "12:200000", "--best", "1"),
+        ("teeth", "ratio", "1000003", "--stages", "1", "--range", "12:20", "--tolerance", "1e-9"),
     ],
-    "teeth RATIO --approximants": [("teeth", "235/19", "--approximants")],
-    "teeth RATIO --kind": [("teeth", "7/2", "--kind", "planetary"), ("teeth", "10000", "--kind", "planetary")],
-    "teeth --kind list": [("teeth", "1", "--kind", "list")],
-    "teeth TRAIN": [("teeth", "pennestri-2002-missing", "--best", "1", "--workers", "1")],
-    "teeth NAME=PERIOD": [("teeth", "a=3", "b=5/2", "--range", "12:40")],
+    "teeth approximants": [("teeth", "approximants", "235/19")],
+    "teeth set": [("teeth", "set", "7/2", "--kind", "planetary"), ("teeth", "set", "10000", "--kind", "planetary")],
+    "teeth set --kind list": [("teeth", "set", "--kind", "list")],
+    "teeth train": [("teeth", "train", "pennestri-2002-missing", "--best", "1", "--workers", "1")],
+    "teeth orrery": [("teeth", "orrery", "a=3", "b=5/2", "--range", "12:40")],
     "mesh triangular": [
         (*TRIANGULAR, "--window", "0.5", "--friction", "0.2"),
         (*TRIANGULAR, "--window", "0.5", "--friction", "0.9"),
@@ -214,7 +214,7 @@ def test_one_shape_for_one_question(files: Path, question: str) -> None:
     found = [data(*words, "--json") for words in ASKED[question]]
     for each in found:
         holds(question, each)
-    if isinstance(found[0], dict) and question != "teeth --kind list":
+    if isinstance(found[0], dict) and question != "teeth set --kind list":
         assert all(list(each) == list(found[0]) for each in found), [list(each) for each in found]
 
 

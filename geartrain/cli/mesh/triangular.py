@@ -28,6 +28,7 @@ from geartrain.cli.common import (
     sink,
     tell,
 )
+from geartrain.cli.long_runs import progress
 from geartrain.cli.option_values import at_option, quantity
 from geartrain.cli.option_values import friction as _friction
 from geartrain.cli.option_values import quantity as _quantity
@@ -110,9 +111,6 @@ def _problem(item: Any) -> Problem:
 
 def sweep(pair: TriangularOptions, vary: list[str], picture: Sink, json: bool, to: Sink) -> None:
     """The table of a sweep, as text and as a picture."""
-    from rich.console import Console
-    from rich.progress import Progress
-
     from geartrain.numerics.files import csv_text
     from geartrain.teeth.triangular.parameter_sweep import sweep as run_sweep
 
@@ -125,9 +123,8 @@ def sweep(pair: TriangularOptions, vary: list[str], picture: Sink, json: bool, t
     count = 1
     for values in ranges.values():
         count *= len(values)
-    with Progress(console=Console(stderr=True), transient=True) as progress:
-        task = progress.add_task("sweep", total=count)
-        found = run_sweep(make, ranges, lambda: progress.update(task, advance=1))
+    with progress("sweep", count) as bar:
+        found = run_sweep(make, ranges, bar.advance)
     if json or to.suffix == ".json":
         emit(as_json([dict(zip(found.header, _plain(row), strict=True)) for row in found.rows()]), to)
     else:

@@ -1,82 +1,128 @@
-"""`geartrain teeth RATIO`: stages of gear pairs, or the fractions on the way to the ratio."""
+"""`geartrain teeth ratio RATIO`: stages of gear pairs."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
-from geartrain.cli.long_runs import close_journal
-from geartrain.cli.teeth.search_options import SearchExecution, SearchOptions
+import typer
+
+from geartrain.cli.common import Force, Json, Out
+from geartrain.cli.long_runs import Resume, RunOptions, Scheduler, close_journal, long_run
+from geartrain.cli.teeth.search_options import (
+    ANY_COUNT,
+    NEGATIVE_NUMBERS,
+    Best,
+    Csv,
+    Per,
+    Pinions,
+    Range,
+    Ratio,
+    SearchAnswer,
+    Tolerance,
+    Wheels,
+    Workers,
+    check_number,
+    read_tolerance,
+)
 
 if TYPE_CHECKING:
-    from geartrain.synthesis.ratio.stage_search import StageFindings
-    from geartrain.synthesis.target_ratio import TargetRatio
+    from fractions import Fraction
 
+    from geartrain.synthesis.target_ratio import TargetRatio
+    from geartrain.synthesis.tooth_count_ranges import CountRuns
+
+Flag = bool
 _LONG = 100_000
+context_settings = NEGATIVE_NUMBERS
 
 
 def run(
-    asked: SearchOptions,
-    means: SearchExecution,
-    text: str,
-    per: str | None,
-    stages: int,
-    fit: dict[str, Any],
-    approximants: bool,
+    context: typer.Context,
+    ratio: Ratio,
+    stages: Annotated[int, typer.Option("--stages", min=1, max=5, help="Gear pairs one after the other.")] = 2,
+    counts: Range = ANY_COUNT,
+    wheels: Wheels = None,
+    pinions: Pinions = None,
+    tolerance: Tolerance = None,
+    best: Best = 20,
+    by: Annotated[
+        str, typer.Option("--by", help="Order: error, total, largest, distinct, hunting, centres.")
+    ] = "error",
+    per: Per = None,
+    internal: Annotated[int, typer.Option("--internal", min=0, help="Pairs with a ring, which keep the sense.")] = 0,
+    hunting: Annotated[Flag, typer.Option("--hunting", help="Wheels that mesh have no common divisor.")] = False,
+    reverted: Annotated[Flag, typer.Option("--reverted", help="All pairs have one centre distance.")] = False,
+    different: Annotated[Flag, typer.Option("--different", help="No count is there twice.")] = False,
+    most_total: Annotated[int | None, typer.Option("--most-total", min=2, help="Greatest sum of all counts.")] = None,
+    workers: Workers = None,
+    scheduler: Scheduler = None,
+    resume: Resume = False,
+    csv: Csv = False,
+    json: Json = False,
+    out: Out = None,
+    force: Force = False,
 ) -> None:
-    """Answer for one ratio."""
+    """Stages of gear pairs with a wanted ratio: every solution within a tolerance counted, the best proved."""
     from geartrain.report.tooth_numbers import stages_document, stages_row
     from geartrain.synthesis.ratio.stage_problem import StageConstraints
-    from geartrain.synthesis.target_ratio import read_ratio
-
-    wanted = read_ratio(text, per)
-    if approximants:
-        _fractions(asked, wanted)
-    long = stages == 1 and max(len(asked.wheels), len(asked.pinions)) > _LONG
-    if long and asked.by == "error" and StageConstraints(**fit) == StageConstraints() and wanted.sense <= 0:
-        # anything else that is asked is for the search that looks at every pair
-        _pairs(asked, wanted)
-    found, cut = _search(asked, means, wanted, stages, fit)
-    data = {**found.to_dict(), "ended": "interrupted" if cut else "whole"}
-    rows = [stages_row(solution) for solution in found]
-    asked.answer(data, rows, lambda: stages_document(found))
-
-
-def _search(
-    asked: SearchOptions, means: SearchExecution, wanted: TargetRatio, stages: int, fit: dict[str, Any]
-) -> tuple[StageFindings, bool]:
-    from geartrain.synthesis.ratio.stage_problem import StageConstraints
     from geartrain.synthesis.ratio.stage_search import find_stages
+    from geartrain.synthesis.target_ratio import read_ratio
+    from geartrain.synthesis.tooth_count_ranges import read_counts
 
+    answer = SearchAnswer.of(csv, json, out, force)
+    wanted = read_ratio(check_number(context, ratio), per)
+    larger, smaller = (read_counts(text or counts) for text in (wheels, pinions))
+    most_error = read_tolerance(tolerance)
+    fit: dict[str, Any] = {
+        "internal": internal,
+        "hunting": hunting,
+        "reverted": reverted,
+        "different": different,
+        "most_total": most_total,
+    }
+    constraints = StageConstraints(**fit)
+    long = stages == 1 and max(len(larger), len(smaller)) > _LONG
+    if long and by == "error" and constraints == StageConstraints() and wanted.sense <= 0:
+        # anything else that is asked is for the search that looks at every pair
+        _pairs(answer, wanted, larger, smaller, most_error, best)
+        return
     question = {
         "ratio": str(wanted.value),
         "stages": stages,
-        "wheels": str(asked.wheels),
-        "pinions": str(asked.pinions),
-        "tolerance": str(asked.tolerance),
-        "best": asked.best,
-        "by": asked.by,
+        "wheels": str(larger),
+        "pinions": str(smaller),
+        "tolerance": str(most_error),
+        "best": best,
+        "by": by,
         "fit": fit,
     }
-    with means.work(question) as (executor, journal, tell):
+    with long_run("teeth", question, out, RunOptions(workers, scheduler, resume)) as given:
         found = find_stages(
             wanted,
             stages,
-            asked.wheels,
-            asked.pinions,
-            tolerance=asked.tolerance,
-            best=asked.best,
-            by=asked.by,
-            fit=StageConstraints(**fit),
-            executor=executor,
-            journal=journal,
-            tell=tell,
+            larger,
+            smaller,
+            tolerance=most_error,
+            best=best,
+            by=by,
+            fit=constraints,
+            executor=given.executor,
+            journal=given.journal,
+            tell=given.tell,
         )
-        cut = not found.complete
-        close_journal(journal, cut)
-    return found, cut
+        close_journal(given.journal, cut=not found.complete)
+    data = {**found.to_dict(), "ended": "whole" if found.complete else "interrupted"}
+    answer.give(data, [stages_row(solution) for solution in found], lambda: stages_document(found))
 
 
-def _pairs(asked: SearchOptions, wanted: TargetRatio) -> None:
+def _pairs(
+    answer: SearchAnswer,
+    wanted: TargetRatio,
+    wheels: CountRuns,
+    pinions: CountRuns,
+    tolerance: Fraction | None,
+    best: int,
+) -> None:
     """One pair in long ranges: by the tree, without a list of counts."""
     from geartrain.report.tooth_numbers import pairs_document, stages_row
     from geartrain.synthesis.gear_pair_search import count_pairs, find_pairs
@@ -84,9 +130,9 @@ def _pairs(asked: SearchOptions, wanted: TargetRatio) -> None:
     from geartrain.synthesis.ratio.stage_problem import StageConstraints
     from geartrain.synthesis.search_outcome import Shortfall
 
-    solutions = find_pairs(wanted, asked.wheels, asked.pinions, asked.tolerance, asked.best)
-    count = None if asked.tolerance is None else count_pairs(wanted, asked.wheels, asked.pinions, asked.tolerance)
-    top, beneath = (asked.wheels, asked.pinions) if wanted.value >= 1 else (asked.pinions, asked.wheels)
+    solutions = find_pairs(wanted, wheels, pinions, tolerance, best)
+    count = None if tolerance is None else count_pairs(wanted, wheels, pinions, tolerance)
+    top, beneath = (wheels, pinions) if wanted.value >= 1 else (pinions, wheels)
     considered = len(top) * len(beneath)
     data = {
         "wanted": wanted.to_dict(),
@@ -94,8 +140,8 @@ def _pairs(asked: SearchOptions, wanted: TargetRatio) -> None:
         "top": str(top),
         "beneath": str(beneath),
         "fit": StageConstraints().to_dict(),
-        "order": asked.by,
-        "tolerance": None if asked.tolerance is None else float(asked.tolerance),
+        "order": "error",
+        "tolerance": None if tolerance is None else float(tolerance),
         "complete": True,
         "count": count,
         "considered": considered,
@@ -105,14 +151,4 @@ def _pairs(asked: SearchOptions, wanted: TargetRatio) -> None:
         "ended": "whole",
     }
     rows = [stages_row(solution) for solution in solutions]
-    asked.answer(data, rows, lambda: pairs_document(wanted, solutions, count))
-
-
-def _fractions(asked: SearchOptions, wanted: TargetRatio) -> None:
-    from geartrain.report.tooth_numbers import approximants_document
-    from geartrain.synthesis.stern_brocot import approximants
-
-    most = max(asked.wheels.most, asked.pinions.most)
-    found = approximants(wanted.value, most)
-    data = {"wanted": wanted.to_dict(), "most": most, "solutions": [each.to_dict() for each in found]}
-    asked.answer(data, data["solutions"], lambda: approximants_document(wanted, most, found))  # type: ignore[arg-type]
+    answer.give(data, rows, lambda: pairs_document(wanted, solutions, count))

@@ -1,94 +1,135 @@
-"""`geartrain teeth TRAIN`: the free wheels of a train."""
+"""`geartrain teeth train FILE`: the free wheels of a train."""
 
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Annotated, Any
 
 import typer
 
-from geartrain.cli.long_runs import close_journal
-from geartrain.cli.teeth.search_options import SearchExecution, SearchOptions
+from geartrain.cli.common import File, Force, Json, Out, StateName
+from geartrain.cli.long_runs import Resume, RunOptions, Scheduler, close_journal, long_run
+from geartrain.cli.teeth.search_options import Best, Csv, Pick, SearchAnswer, Tolerance, Workers, read_tolerance
 
-if TYPE_CHECKING:
-    from geartrain.synthesis.train.train_findings import Standing, TrainFindings
-    from geartrain.train import Train
+Names = list[str] | None
+Flag = bool
 
 
 def run(
-    asked: SearchOptions,
-    means: SearchExecution,
-    file: str,
-    state: str | None,
-    free: str,
-    rules: dict[str, Any],
-    where: list[str],
+    file: File,
+    free: Annotated[
+        str, typer.Option("--free", help="Which wheels: search, uncertain, or wheels by name with commas.")
+    ] = "search",
+    state: StateName = None,
+    tolerance: Tolerance = None,
+    best: Best = 20,
+    by: Annotated[
+        str, typer.Option("--by", help="Order: error, total, largest, distinct, hunting, centres, change.")
+    ] = "error",
+    planets: Annotated[str | None, typer.Option("--planets", help="Equal planets: 3, or carrier=3,...")] = None,
+    clearance: Annotated[
+        str | None, typer.Option("--clearance", help="Room between the tips of neighbouring planets, in modules.")
+    ] = None,
+    undercut: Annotated[
+        str | None, typer.Option("--undercut", help="No wheel is undercut at this pressure angle.")
+    ] = None,
+    interference: Annotated[
+        str | None, typer.Option("--interference", help="Tips keep to the involute of their mates at this angle.")
+    ] = None,
+    largest_radius: Annotated[
+        str | None, typer.Option("--largest-radius", help="Of a free wheel: a length, or modules.")
+    ] = None,
+    addendum: Annotated[str | None, typer.Option("--addendum", help="Of wheels, in modules.")] = None,
+    ring_addendum: Annotated[str | None, typer.Option("--ring-addendum", help="Of rings, in modules.")] = None,
+    least: Annotated[int | None, typer.Option("--least", help="Least teeth of a free wheel.")] = None,
+    most_teeth: Annotated[int | None, typer.Option("--most-teeth", help="Most teeth of a free wheel.")] = None,
+    shift: Annotated[
+        int, typer.Option("--shift", min=0, help="Half modules by which centre distances may differ.")
+    ] = 0,
+    coaxial: Annotated[
+        bool | None, typer.Option("--coaxial/--no-coaxial", help="Wheels between the same axes fit in one module.")
+    ] = None,
+    hunting: Annotated[Flag, typer.Option("--hunting", help="Wheels that mesh have no common divisor.")] = False,
+    different: Annotated[Flag, typer.Option("--different", help="No count is there twice.")] = False,
+    closure: Annotated[Flag, typer.Option("--closure", help="Teeth of loops meet at the declared positions.")] = False,
+    where: Annotated[
+        Names, typer.Option("--where", help="Where an assignment stands: wheel=32,wheel=50; may be repeated.")
+    ] = None,
+    pick: Pick = 1,
+    workers: Workers = None,
+    scheduler: Scheduler = None,
+    resume: Resume = False,
+    csv: Csv = False,
+    json: Json = False,
+    out: Out = None,
+    force: Force = False,
 ) -> None:
-    """Answer for the free wheels of a train."""
+    """Counts of the free wheels of a train that meet all its targets at once, under the rules given."""
     from geartrain.report.tooth_numbers import assignment_rows, assignments_document
     from geartrain.synthesis.constraints.constraint_options import read_constraint_options
+    from geartrain.synthesis.train.train_search import search
     from geartrain.train.declaration_files import read_declaration
 
+    answer = SearchAnswer.of(csv, json, out, force, pick)
     train = read_declaration(file)
-    _check_kept(file, asked.out.path)
-    options = {name: value for name, value in rules.items() if value is not None}
-    chosen = free if free in ("search", "uncertain") else tuple(name.strip() for name in free.split(","))
-    stands = [_assignment(text) for text in where]
-    found, standings, cut = _search(
-        asked, means, train, state, chosen, read_constraint_options(**options), options, stands
-    )
+    _check_kept(file, answer.out.path)
+    asked = {
+        "planets": planets,
+        "clearance": clearance,
+        "undercut": undercut,
+        "interference": interference,
+        "largest_radius": largest_radius,
+        "addendum": addendum,
+        "ring_addendum": ring_addendum,
+        "least": least,
+        "most_teeth": most_teeth,
+        "shift": shift,
+        "coaxial": coaxial,
+        "hunting": hunting,
+        "different": different,
+        "closure": closure,
+    }
+    options: dict[str, Any] = {name: value for name, value in asked.items() if value is not None}
+    rules = read_constraint_options(**options)
+    chosen: Any = free if free in ("search", "uncertain") else tuple(name.strip() for name in free.split(","))
+    stands = [_assignment(text) for text in where or ()]
+    most_error = read_tolerance(tolerance)
+    question = {
+        "train": train.model_dump(mode="json"),
+        "state": state,
+        "free": chosen,
+        "rules": options,
+        "tolerance": str(most_error),
+        "best": best,
+        "by": by,
+    }
+    with long_run("teeth", question, out, RunOptions(workers, scheduler, resume)) as given:
+        found = search(
+            train,
+            state,
+            free=chosen,
+            rules=rules,
+            tolerance=most_error,
+            best=best,
+            by=by,  # type: ignore[arg-type]
+            executor=given.executor,
+            journal=given.journal,
+            tell=given.tell,
+        )
+        cut = any(part.reason.startswith("interrupted") for part in found.parts)
+        standings = [standing for teeth in stands for standing in found.standing(teeth)]
+        close_journal(given.journal, cut)
     data = {
         **found.to_dict(),
         "where": [standing.to_dict() for standing in standings],
         "ended": "interrupted" if cut else "whole",
     }
-    solutions = found.solutions
-    asked.answer(
+    answer.give(
         data,
         assignment_rows(found),
         lambda: assignments_document(found, standings),
-        lambda at: found.declaration(solutions[at], _parent(file, asked.out.path)),
+        lambda at: found.declaration(found.solutions[at], _parent(file, answer.out.path)),
     )
-
-
-def _search(
-    asked: SearchOptions,
-    means: SearchExecution,
-    train: Train,
-    state: str | None,
-    free: Any,
-    rules: Any,
-    options: dict[str, Any],
-    stands: list[dict[str, int]],
-) -> tuple[TrainFindings, list[Standing], bool]:
-    from geartrain.synthesis.train.train_search import search
-
-    question = {
-        "train": train.model_dump(mode="json"),
-        "state": state,
-        "free": free,
-        "rules": options,
-        "tolerance": str(asked.tolerance),
-        "best": asked.best,
-        "by": asked.by,
-    }
-    with means.work(question) as (executor, journal, tell):
-        found = search(
-            train,
-            state,
-            free=free,
-            rules=rules,
-            tolerance=asked.tolerance,
-            best=asked.best,
-            by=asked.by,  # type: ignore[arg-type]
-            executor=executor,
-            journal=journal,
-            tell=tell,
-        )
-        cut = any(part.reason.startswith("interrupted") for part in found.parts)
-        standings = [standing for teeth in stands for standing in found.standing(teeth)]
-        close_journal(journal, cut)
-    return found, standings, cut
 
 
 def _assignment(text: str) -> dict[str, int]:

@@ -9,6 +9,7 @@ import time
 from collections.abc import Callable, Iterable, Sequence
 from multiprocessing.connection import Connection
 from pathlib import Path
+from statistics import median
 from typing import Any, NamedTuple
 
 LIMIT = 120.0
@@ -33,6 +34,29 @@ def timed(task: Task, clock: Callable[[], float] = time.perf_counter) -> tuple[f
     start = clock()
     found = task()
     return clock() - start, found
+
+
+class Rounds(NamedTuple):
+    """What a task took in each of some rounds (s), and what it returned in the first."""
+
+    seconds: list[float]
+    found: Any
+
+    @property
+    def median(self) -> float:
+        """The median of the rounds (s)."""
+        return median(self.seconds)
+
+    def over(self, other: Rounds) -> float:
+        """How many times as long as another task: the median of the ratios within each round."""
+        return median(own / base for own, base in zip(self.seconds, other.seconds, strict=True))
+
+
+def in_turns(tasks: Iterable[Task], rounds: int, clock: Callable[[], float] = time.perf_counter) -> list[Rounds]:
+    """Every task once a round, one after the other, so that ratios are of neighbours in time."""
+    asked = list(tasks)
+    taken = [[timed(task, clock) for task in asked] for _ in range(rounds)]
+    return [Rounds([seconds for seconds, _ in own], own[0][1]) for own in zip(*taken, strict=True)]
 
 
 class Cost(NamedTuple):

@@ -7,7 +7,6 @@ import tracemalloc
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from functools import cached_property, partial
-from statistics import median
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -17,7 +16,7 @@ from geartrain.analysis.gear_train import GearTrain
 from geartrain.analysis.loader import load
 from geartrain.dynamics.motion import Motion, RunningStatistics, Superposition
 from geartrain.teeth.triangular import clearance_window, triangular_transmission
-from studies.measurement import timed
+from studies.measurement import Rounds, Task, in_turns, timed
 from studies.motion_records import (
     ADAPTIVE,
     BOUND,
@@ -84,8 +83,8 @@ class MotionCase:
     outputs: tuple[str, ...]
     turns: float
     effort: Effort
-    times: dict[str, list[float]] = field(default_factory=dict)
-    prepared: dict[str, list[float]] = field(default_factory=dict)
+    taken: dict[str, Rounds] = field(default_factory=dict)
+    prepared: dict[str, Rounds] = field(default_factory=dict)
     off: dict[str, _Off] = field(default_factory=dict)
     doubted: dict[int, tuple[float, float]] = field(default_factory=dict)
     marched: dict[str, float] = field(default_factory=dict)
@@ -95,8 +94,7 @@ class MotionCase:
 
     def steps(self) -> Iterator[tuple[str, Callable[[], None]]]:
         """What there is to measure, in order; each fills in a part of the case."""
-        for at in range(self.effort.rounds):
-            yield f"round {at + 1}", self._round
+        yield "every method in turn", self._take_turns
         yield "comparing", self._compare
         yield "40 digits", self._judge
         yield "memory", self._trace
@@ -148,28 +146,30 @@ class MotionCase:
 
     # --------------------------------------------------------------------------------------------------- measurements
 
-    def _round(self) -> None:
-        """Every method once, one after the other, so that ratios are of neighbours in time."""
+    def _take_turns(self) -> None:
+        """Every method from the declaration to a first answer, then over all positions or to its estimate."""
+        answers: dict[str, Task] = {m: partial(self.run, m, self.effort.positions) for m in PER_POSITION}
+        answers |= {method: partial(self._estimate, method) for method in (BOUND, INDEPENDENT)}
         for method in PER_POSITION:
             self.asked[method](np.zeros(2))  # tables are made when first asked
-        for method in PER_POSITION:
-            self.prepared.setdefault(method, []).append(self._prepare(method))
-            self.times.setdefault(method, []).append(timed(partial(self.run, method, self.effort.positions))[0])
-        for method in (BOUND, INDEPENDENT):
-            forget()
-            built = load(self.source).motion(outputs=self.outputs)
-            self.prepared.setdefault(method, []).append(timed(partial(built.hung.at, np.zeros(1)))[0])
-            self.times.setdefault(method, []).append(timed(partial(_estimate, built, method))[0])
+        tasks = [task for method, answer in answers.items() for task in (partial(self._prepare, method), answer)]
+        found = in_turns(tasks, self.effort.rounds)
+        self.prepared = dict(zip(answers, found[::2], strict=True))
+        self.taken = dict(zip(answers, found[1::2], strict=True))
 
-    def _prepare(self, method: str) -> float:
-        """Seconds from the declaration to the first answer."""
+    def _prepare(self, method: str) -> None:
+        """From the declaration to the first answer, every law and window found anew."""
         forget()
+        self.built = load(self.source).motion(outputs=self.outputs, tolerance=_tolerance(method))
+        if method in PER_POSITION:
+            self._ask(self.built, method)(np.zeros(1))
+        else:
+            self.built.hung.at(np.zeros(1))
 
-        def first_answer() -> None:
-            built = load(self.source).motion(outputs=self.outputs, tolerance=_tolerance(method))
-            self._ask(built, method)(np.zeros(1))
-
-        return timed(first_answer)[0]
+    def _estimate(self, method: str) -> list[float]:
+        """What is worked out without any position, by output (rad), of the train that was prepared last."""
+        superposed = Superposition(self.built.ahead)
+        return superposed.bounds if method == BOUND else superposed.independent
 
     def _compare(self) -> None:
         """All methods against the direct composition, over all positions."""
@@ -221,61 +221,56 @@ class MotionCase:
 
     def rows(self) -> list[MotionRecord]:
         """A record for each method."""
-        found = [self._scalar(BOUND), self._scalar(INDEPENDENT)]
-        for method in (NOMINAL, LAGGED, *TABLES, DIRECT):
-            at, greatest, rms = self.off[method].worst()
-            times = (median(self.times[method]), self._ratio(method), median(self.prepared[method]))
-            note = f"judged at {self.off[method].count} positions" if method == DIRECT else ""
-            positions = self.effort.positions
-            found.append(self._record(method, times, greatest, rms, at, self.memory[method], note, positions))
-        return [*found, *(self._of_marching(method) for method in self.marched)]
+        estimates = [self._of_estimate(method) for method in (BOUND, INDEPENDENT)]
+        composed = [self._of_positions(method) for method in (NOMINAL, LAGGED, *TABLES, DIRECT)]
+        return [*estimates, *composed, *(self._of_marching(method) for method in self.marched)]
+
+    def _record(self, method: str, output: int, **more: Any) -> MotionRecord:
+        return MotionRecord(self.name, self.links, method, output=self.outputs[output], **more)
+
+    def _of_positions(self, method: str) -> MotionRecord:
+        at, greatest, rms = self.off[method].worst()
+        return self._record(
+            method,
+            at,
+            error=greatest,
+            rms=rms,
+            **self._times(method),
+            megabytes=self.memory[method],
+            note=f"judged at {self.off[method].count} positions" if method == DIRECT else "",
+            positions=self.effort.positions,
+        )
 
     def _of_marching(self, method: str) -> MotionRecord:
         at, greatest, rms = self.off[method].worst()
-        times = (self.marched[method], self.marched[method] / median(self.times[DIRECT]), None)
-        note = f"extrapolated from {self.off[method].count} positions"
-        return self._record(method, times, greatest, rms, at, None, note, self.effort.positions)
-
-    def _scalar(self, method: str) -> MotionRecord:
-        """A method that gives one number an output: the output on which it is farthest off."""
-        values = getattr(Superposition(self.direct.ahead), "bounds" if method == BOUND else "independent")
-        true = [tally.peak_to_peak if method == BOUND else tally.rms for tally in self.tallies]
-        at = int(np.argmax(np.abs(np.array(values) - true)))
-        off = math.degrees(abs(values[at] - true[at]))
-        times = (median(self.times[method]), self._ratio(method), median(self.prepared[method]))
-        note = f"{(values[at] / true[at] - 1) * 100:+.1f} % of its {'peak-to-peak' if method == BOUND else 'rms'}"
-        error, rms = (off, None) if method == BOUND else (None, off)
-        return self._record(method, times, error, rms, at, None, note, 0)
-
-    def _record(
-        self,
-        method: str,
-        times: tuple[float, float, float | None],
-        error: float | None,
-        rms: float | None,
-        output: int,
-        megabytes: float | None,
-        note: str,
-        positions: int,
-    ) -> MotionRecord:
-        seconds, ratio, prepared = times
-        return MotionRecord(
-            self.name,
-            self.links,
+        seconds = self.marched[method]
+        return self._record(
             method,
-            seconds,
-            megabytes,
-            error,
-            note,
-            rms,
-            ratio,
-            prepared,
-            positions,
-            self.outputs[output],
+            at,
+            error=greatest,
+            rms=rms,
+            seconds=seconds,
+            ratio=seconds / self.taken[DIRECT].median,
+            note=f"extrapolated from {self.off[method].count} positions",
+            positions=self.effort.positions,
         )
 
-    def _ratio(self, method: str) -> float:
-        return median(own / base for own, base in zip(self.times[method], self.times[DIRECT], strict=True))
+    def _of_estimate(self, method: str) -> MotionRecord:
+        """The output on which one number an output is farthest off: of the peak to peak, or of the rms."""
+        values, bound = self.taken[method].found, method == BOUND
+        true = [tally.peak_to_peak if bound else tally.rms for tally in self.tallies]
+        at = int(np.argmax(np.abs(np.array(values) - true)))
+        off = math.degrees(abs(values[at] - true[at]))
+        note = f"{(values[at] / true[at] - 1) * 100:+.1f} % of its {'peak-to-peak' if bound else 'rms'}"
+        return self._record(method, at, **{"error" if bound else "rms": off}, **self._times(method), note=note)
+
+    def _times(self, method: str) -> dict[str, float]:
+        own = self.taken[method]
+        return {
+            "seconds": own.median,
+            "ratio": own.over(self.taken[DIRECT]),
+            "prepared": self.prepared[method].median,
+        }
 
     def summary(self) -> TrainRecord:
         """What the train is and does."""
@@ -300,11 +295,6 @@ class MotionCase:
 def _tolerance(method: str) -> float | None:
     name, _, tolerance = method.partition(", ")
     return float(tolerance) if name == TABULATED else None
-
-
-def _estimate(built: Motion, method: str) -> list[float]:
-    superposed = Superposition(built.ahead)
-    return superposed.bounds if method == BOUND else superposed.independent
 
 
 def _peak(task: Callable[[], Any]) -> float:

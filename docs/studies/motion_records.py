@@ -33,9 +33,9 @@ class MotionRecord:
     family: str
     links: int
     method: str
-    seconds: float | None
-    megabytes: float | None
-    error: float | None
+    seconds: float | None = None
+    megabytes: float | None = None
+    error: float | None = None
     note: str = ""
     rms: float | None = None
     ratio: float | None = None

@@ -20,7 +20,7 @@ from geartrain.synthesis.target_ratio import TargetRatio, read_ratio
 from geartrain.synthesis.train.train_search import search
 from geartrain.train import Train
 from studies import tooth_number_methods as ways
-from studies.measurement import Cost, Step, measure, taken, timed
+from studies.measurement import Cost, Step, in_turns, measure, taken
 from studies.tooth_number_methods import Found, Pair, RatioCase
 from studies.tooth_number_records import (
     CHAIN,
@@ -106,14 +106,8 @@ def asked(case: RatioCase, rounds: int, tries: Sequence[int], patience: float) -
         (PRODUCTS, partial(ways.by_products, case)),
         (TRAIN, partial(ways.in_train, train, case)),
     ]
-    taken: list[list[float]] = [[] for _ in tasks]
-    found: list[Found] = []
-    for at in range(rounds):
-        for (_, task), seconds in zip(tasks, taken, strict=True):
-            took, one = timed(partial(_afresh, task))
-            seconds.append(took)
-            found += [one] if not at else []
-    rows = [_row(case, name, one, median(each)) for (name, _), one, each in zip(tasks, found, taken, strict=True)]
+    found = in_turns((partial(_afresh, task) for _, task in tasks), rounds)
+    rows = [_row(case, name, each.found, each.median) for (name, _), each in zip(tasks, found, strict=True)]
     return [*rows, *(_row(case, EVERY, one, one.seconds or 0.0) for one in ways.every_set(case, patience))]
 
 

@@ -10,12 +10,11 @@ import time
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from functools import partial
-from statistics import median
 from typing import Any
 
 from studies.count_trials import Counted
 from studies.cut_pair_trials import BLOCK, EVERY, EXACT, NORMAL, PLACES, Batch, errors_of, jams
-from studies.measurement import Step, measure, taken, timed
+from studies.measurement import Step, in_turns, measure, taken
 from studies.uncertainty_records import (
     COUNTS,
     SINGLY,
@@ -110,21 +109,15 @@ def _measured(
     family: str, case: str, work: int, ways: list[tuple[str, int, Callable[[], Any]]], rounds: int
 ) -> tuple[list[RateRecord], Any]:
     """All ways round by round, the loop first; and what the loop came to."""
-    taken: list[list[float]] = [[] for _ in ways]
-    loop: Any = None
-    for _ in range(rounds):
-        for at, (_, _, task) in enumerate(ways):
-            seconds, found = timed(task, time.process_time)  # other work on the machine is not counted
-            taken[at].append(seconds)
-            loop = found if not at else loop
+    # other work on the machine is not counted
+    loop, *_ = found = in_turns((task for _, _, task in ways), rounds, time.process_time)
     rows = []
-    each = [seconds / ways[0][1] for seconds in taken[0]]
-    for (name, trials, task), own in zip(ways, taken, strict=True):
-        ratio = median(one * trials / seconds for one, seconds in zip(each, own, strict=True))
+    for (name, trials, task), own in zip(ways, found, strict=True):
+        ratio = loop.over(own) * trials / ways[0][1]
         # a loop takes what one solution takes
         memory = None if name == SINGLY else measure(task).megabytes
-        rows.append(RateRecord(family, case, name, trials, work, median(own), ratio, memory))
-    return rows, loop
+        rows.append(RateRecord(family, case, name, trials, work, own.median, ratio, memory))
+    return rows, loop.found
 
 
 def _checked(row: RateRecord, error: float | None, differing: int, checked: int, note: str) -> RateRecord:
@@ -141,23 +134,11 @@ def _estimates(case: str, effort: Effort) -> list[ErrorRecord]:
 def _by_workers(effort: Effort) -> list[WorkerRecord]:
     """The same blocks by one process and by more, against a loop over single solutions."""
     batch = Batch(64, 38, 0.02, PLACES, effort.solved)
-    taken: dict[int, list[float]] = {workers: [] for workers in _WORKERS}
-    alone: list[float] = []
-    results = {}
-    for _ in range(min(3, effort.rounds)):
-        alone.append(timed(partial(batch.singly, effort.solved))[0] / effort.solved)
-        for workers in _WORKERS:
-            seconds, results[workers] = timed(partial(jams, NORMAL, effort.shared, 2, workers))
-            taken[workers].append(seconds)
+    tasks = [partial(jams, NORMAL, effort.shared, 2, workers) for workers in _WORKERS]
+    loop, *found = in_turns([partial(batch.singly, effort.solved), *tasks], min(3, effort.rounds))
     trials = effort.shared * BLOCK
-    return [
-        WorkerRecord(
-            NORMAL,
-            workers,
-            trials,
-            median(taken[workers]),
-            median(one * trials / own for one, own in zip(alone, taken[workers], strict=True)),
-            bool((results[workers] == results[1]).all()),
-        )
-        for workers in _WORKERS
-    ]
+    rows = []
+    for workers, own in zip(_WORKERS, found, strict=True):
+        same = bool((own.found == found[0].found).all())
+        rows.append(WorkerRecord(NORMAL, workers, trials, own.median, loop.over(own) * trials / effort.solved, same))
+    return rows

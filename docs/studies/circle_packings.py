@@ -3,19 +3,22 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from functools import partial
 from math import degrees, pi
 from statistics import median
 from typing import Any
+from unittest.mock import patch
 
 import numpy as np
 from numpy.typing import NDArray
 
-from geartrain.spherical import GraphSet, from_graph, size_gears
+from geartrain.spherical import GraphSet, from_graph, graph_set, size_gears
 from geartrain.spherical.circle_packing import SpherePacking, pack_circles
 from geartrain.spherical.graph_set import Aim
 from geartrain.spherical.planar_map import checked_graph, regions_of, with_region_circles
-from geartrain.spherical.planar_packing import PackingNewtonStep, PlanarPacking, angle_excess
+from geartrain.spherical.planar_packing import PlanarPacking, angle_excess
 from studies.measurement import timed
 from studies.planar_graphs import graph
 from studies.reference_solutions import numbers
@@ -30,7 +33,7 @@ def packed(family: str, given: int, rounds: int) -> list[PackRecord]:
     """One circle packing by both ways, its time the median of some rounds."""
     named = checked_graph(graph(family, given))
     gears, regions = with_region_circles(len(named), regions_of(named), list(named))
-    radii = [PlanarPacking(gears, regions).radii()[1] for _ in range(3 * rounds)]
+    radii = [_timed_steps(PlanarPacking(gears, regions)) for _ in range(3 * rounds)]
     whole = [timed(lambda: pack_circles(gears, regions)) for _ in range(rounds)]
     sweeps = FixedPoint(PlanarPacking(gears, regions))
     sweeps.run(TARGET)
@@ -52,15 +55,26 @@ def packed(family: str, given: int, rounds: int) -> list[PackRecord]:
     return [record]
 
 
-def _middle(rounds: Sequence[Sequence[PackingNewtonStep]]) -> list[tuple[float, float]]:
+def _timed_steps(plane: PlanarPacking) -> list[tuple[float, float]]:
+    """Seconds and residual of each Newton step; what is prepared for all of them counts to the first."""
+    marks = [time.perf_counter()]
+    _, residuals = plane.radii(lambda: marks.append(time.perf_counter()))
+    return list(zip(np.diff(marks).tolist(), residuals, strict=True))
+
+
+def _middle(rounds: Sequence[Sequence[tuple[float, float]]]) -> list[tuple[float, float]]:
     """Each step's median time over the rounds, and its residual, which is the same in all."""
-    return [(median(step.seconds for step in each), each[0].residual) for each in zip(*rounds, strict=True)]
+    return [(median(seconds for seconds, _ in each), each[0][1]) for each in zip(*rounds, strict=True)]
 
 
 def fitted(family: str, given: int, aim: Aim, least: int, rounds: int) -> list[FitRecord]:
     """One set of gears fitted to its graph."""
     edges = graph(family, given)
-    runs = [timed(lambda: from_graph(edges, least, aim)) for _ in range(rounds)]
+    runs, moving = [], []
+    for _ in range(rounds):
+        with _clocked_fits() as spent:
+            runs.append(timed(lambda: from_graph(edges, least, aim)))
+        moving.append(sum(spent))
     found: GraphSet = runs[0][1]
     sized = [timed(lambda: size_gears(found.configuration))[0] for _ in range(rounds)]
     return [
@@ -70,16 +84,34 @@ def fitted(family: str, given: int, aim: Aim, least: int, rounds: int) -> list[F
             aim=aim,
             least=least,
             most=max(found.configuration.teeth.values()),
-            steps=len(found.steps),
-            seconds=median(sum(step.seconds for step in run.steps) for _, run in runs),
+            steps=len(found.residuals),
+            seconds=median(moving),
             whole=median(seconds for seconds, _ in runs),
             sizing=median(sized),
             residual=found.sizing.mismatch if aim == "pitch" else found.residue,
             exact=aim in found.exact,
             moved=degrees(float(found.moved.max())),
-            track=[step.residual for step in found.steps],
+            track=list(found.residuals),
         )
     ]
+
+
+@contextmanager
+def _clocked_fits() -> Iterator[list[float]]:
+    """Seconds of every fit of axes that `from_graph` asks for."""
+    spent: list[float] = []
+
+    def clocked(fit: Callable[..., Any]) -> Callable[..., Any]:
+        def run(*given: Any, **options: Any) -> Any:
+            seconds, found = timed(partial(fit, *given, **options))
+            spent.append(seconds)
+            return found
+
+        return run
+
+    fits: Any = {name: clocked(getattr(graph_set, name)) for name in ("fit_pitch", "fit_phases")}
+    with patch.multiple(graph_set, **fits):
+        yield spent
 
 
 class FixedPoint:

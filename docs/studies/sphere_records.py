@@ -22,7 +22,7 @@ _QUADRATIC = (0.1, 1e-11)  # rad: residuals between which the steps are near the
 class PackRecord:
     """The circles of one graph.
 
-    steps       seconds and largest residual (rad) after each Newton step for the radii
+    steps       seconds and largest residual (rad) after each Newton step for the radii; the first with its preparation
     seconds     of the whole packing: radii, places, centre and polish
     residual    largest error of a tangency or right angle that the packing states (rad)
     judged      the same in 40 digits, from axes and half-angles (rad)
@@ -74,7 +74,7 @@ class FitRecord:
     """Axes moved from a packing until whole teeth fit.
 
     least      teeth of the smallest gear, `most` those of the largest
-    steps      of the fit, and `seconds` of these; `whole` of everything from the graph to the sizes; `sizing` of sizes
+    steps      of the fit, and `seconds` of it; `whole` of everything from the graph to the sizes; `sizing` of sizes
     residual   ln(greatest pitch / least pitch) for the aim "pitch", largest residue of a loop (pitches) for "phases"
     moved      the farthest that an axis moved (deg)
     track      residual (rad for "pitch", pitches for "phases") that each step tells of

@@ -4,13 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from time import perf_counter
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from geartrain.spherical.pitch_cones import angle_rows, azimuth_rows, frames, mesh_angles, moved, operating_pitch
-from geartrain.spherical.planar_packing import PackingNewtonStep
 
 if TYPE_CHECKING:
     from scipy.sparse import csr_array
@@ -122,12 +120,12 @@ def corners_of(loops: Sequence[Sequence[int]], side: Ints) -> LoopCorners:
 
 @dataclass(frozen=True)
 class AxisAdjustment:
-    """Axes after a fit, the pitch (radii of the sphere), what is left of the conditions, and the steps taken."""
+    """Axes after a fit, the pitch (radii of the sphere), what is left of the conditions, now and after each step."""
 
     axes: Floats
     pitch: float
     residual: float
-    steps: tuple[PackingNewtonStep, ...]
+    residuals: tuple[float, ...]
 
     @property
     def exact(self) -> bool:
@@ -143,17 +141,17 @@ def fit_pitch(axes: Floats, meshes: Meshes, teeth: Ints, pitch: float, seed: int
     """
     z = np.asarray(teeth, dtype=float)
     random = np.random.default_rng(seed)
-    steps: list[PackingNewtonStep] = []
+    residuals: list[float] = []
     best: AxisAdjustment | None = None
     for size in _TRIES:
         start = moved(axes, random.normal(size=(len(axes), 2)) * size) if size else axes
-        fit = _levenberg(start, meshes, z, pitch, steps)
+        fit = _levenberg(start, meshes, z, pitch, residuals)
         if best is None or fit.residual < best.residual:
             best = fit
         if best.exact or not tangencies_dependent(axes, meshes):
             break
     assert best is not None
-    return AxisAdjustment(best.axes, best.pitch, best.residual, tuple(steps))
+    return AxisAdjustment(best.axes, best.pitch, best.residual, tuple(residuals))
 
 
 def tangencies_dependent(axes: Floats, meshes: Meshes) -> bool:
@@ -168,12 +166,11 @@ def tangencies_dependent(axes: Floats, meshes: Meshes) -> bool:
     return bool((values > 1e-9 * values[0]).sum() < len(meshes) - 1)
 
 
-def _levenberg(axes: Floats, meshes: Meshes, z: Floats, pitch: float, steps: list[PackingNewtonStep]) -> AxisAdjustment:
+def _levenberg(axes: Floats, meshes: Meshes, z: Floats, pitch: float, residuals: list[float]) -> AxisAdjustment:
     error, J = tangency(axes, meshes, z, pitch)
     size, damping = float(np.abs(error).max()), 1e-12
     stalled = 0
     for _ in range(_MOST_STEPS):
-        start = perf_counter()
         step = least_step(J, error, damping)
         step *= min(1.0, _LONGEST / max(float(np.abs(step[:-1]).max()), 1e-300))
         tried = moved(axes, step[:-1].reshape(-1, 2))
@@ -185,7 +182,7 @@ def _levenberg(axes: Floats, meshes: Meshes, z: Floats, pitch: float, steps: lis
         if better:
             axes, pitch, error, J, size = tried, width, there, slopes, min(new, size)
         damping = max(damping / 10, 1e-12) if better else damping * 100
-        steps.append(PackingNewtonStep(perf_counter() - start, float(np.abs(error).max())))
+        residuals.append(float(np.abs(error).max()))
         if size < 1e-15 or stalled > 12 or (stalled and size < 1e-13) or damping > 1e6:
             break
     return AxisAdjustment(axes, pitch, float(np.abs(error).max()), ())
@@ -208,26 +205,25 @@ def fit_phases(axes: Floats, meshes: Meshes, teeth: Ints, corners: LoopCorners) 
     z = np.asarray(teeth, dtype=float)
     sums, _ = loop_sums(axes, corners, z)
     target = np.round(sums)
-    steps: list[PackingNewtonStep] = []
+    residuals: list[float] = []
     best = (np.inf, axes)
-    for taken in _phase_steps(axes, meshes, z, corners, target, steps):
+    for taken in _phase_steps(axes, meshes, z, corners, target, residuals):
         best = taken
     residual, axes = best
     S = mesh_angles(axes, meshes)
     i, j = np.array(meshes).T
     pitch = float(np.exp(np.log(operating_pitch(S, z[i], z[j])).mean()))
-    return AxisAdjustment(axes, pitch, residual, tuple(steps))
+    return AxisAdjustment(axes, pitch, residual, tuple(residuals))
 
 
 def _phase_steps(
-    axes: Floats, meshes: Meshes, z: Floats, corners: LoopCorners, target: Floats, steps: list[PackingNewtonStep]
+    axes: Floats, meshes: Meshes, z: Floats, corners: LoopCorners, target: Floats, residuals: list[float]
 ) -> Iterator[tuple[float, Floats]]:
     previous = np.inf
     sums, J = loop_sums(axes, corners, z)
     residual = float(np.abs(sums - target).max(initial=0.0))
     yield residual, axes
     for _ in range(_MOST_STEPS):
-        start = perf_counter()
         logs, A = pitch_rows(axes, meshes, z)
         step = phase_step(J, sums - target, A, logs - logs.mean(), _PHASE_DAMPING)
         longest = float(np.abs(step).max())
@@ -235,7 +231,7 @@ def _phase_steps(
         axes = moved(axes, step.reshape(-1, 2))
         sums, J = loop_sums(axes, corners, z)
         residual = float(np.abs(sums - target).max(initial=0.0))
-        steps.append(PackingNewtonStep(perf_counter() - start, residual))
+        residuals.append(residual)
         yield residual, axes
         if longest < 1e-12 or (longest < 1e-7 and longest > previous / 2 and residual < 1e-12):
             return

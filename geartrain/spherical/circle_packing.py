@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from geartrain.spherical.pitch_cones import angle_rows, moved
-from geartrain.spherical.planar_packing import PackingNewtonStep, PlanarPacking
+from geartrain.spherical.planar_packing import PlanarPacking
 
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
@@ -51,13 +51,13 @@ def pack_circles(gears: int, regions: Sequence[Sequence[int]]) -> SpherePacking:
     regions   the gears round each region, all in the same sense; every mesh lies between two of them
     """
     plane = PlanarPacking(gears, regions)
-    u, steps = plane.radii()
+    u, residuals = plane.radii()
     vectors = plane.layout(u)
     vectors = _centred(vectors, plane.meshes)
-    packing = _polished(vectors, gears, plane, steps)
+    packing = _polished(vectors, gears, plane, residuals)
     # rounding of the polish shifts the centre by as much: once more, from there
     both = np.concatenate([packing.axes, packing.region_axes]), np.concatenate([packing.cones, packing.region_cones])
-    return _polished(_upright(_centred(_vectors(*both), plane.meshes), plane.meshes[0]), gears, plane, steps)
+    return _polished(_upright(_centred(_vectors(*both), plane.meshes), plane.meshes[0]), gears, plane, residuals)
 
 
 def _vectors(axes: Floats, cones: Floats) -> Floats:
@@ -108,7 +108,7 @@ def _shorter(points: Floats, v: Floats) -> float:
     return share
 
 
-def _polished(vectors: Floats, gears: int, plane: PlanarPacking, steps: tuple[PackingNewtonStep, ...]) -> SpherePacking:
+def _polished(vectors: Floats, gears: int, plane: PlanarPacking, residuals: tuple[float, ...]) -> SpherePacking:
     """Newton on all tangencies and right angles at once, until rounding is all that is left."""
     axes, cones = _circles(vectors)
     tangent = [*plane.meshes, *((gears + plane.left[m], gears + plane.left[m[::-1]]) for m in plane.meshes)]
@@ -125,7 +125,7 @@ def _polished(vectors: Floats, gears: int, plane: PlanarPacking, steps: tuple[Pa
         cones = cones + moves[2 * len(axes) :]
     size, axes, cones = best
     circles = axes[:gears], cones[:gears], axes[gears:], cones[gears:]
-    return SpherePacking(*circles, plane.meshes, tuple(plane.regions), size, steps)
+    return SpherePacking(*circles, plane.meshes, tuple(plane.regions), size, residuals)
 
 
 def _newton(axes: Floats, cones: Floats, pairs: Sequence[tuple[int, int]], tangent: int) -> tuple[float, Floats]:
@@ -158,7 +158,7 @@ class SpherePacking:
     meshes                     pairs of gears
     regions                    gears round each region, counterclockwise from outside
     residual                   largest error of a tangency or right angle (rad)
-    steps                      Newton steps for the radii
+    residuals                  largest residual (rad) of the radii after each Newton step
     """
 
     axes: Floats
@@ -168,7 +168,7 @@ class SpherePacking:
     meshes: tuple[tuple[int, int], ...]
     regions: tuple[tuple[int, ...], ...]
     residual: float
-    steps: tuple[PackingNewtonStep, ...]
+    residuals: tuple[float, ...]
 
     @property
     def pitch_points(self) -> Floats:

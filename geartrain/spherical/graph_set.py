@@ -23,7 +23,6 @@ from geartrain.spherical.circle_packing import SpherePacking, pack_circles
 from geartrain.spherical.configuration import Configuration
 from geartrain.spherical.gear_sizes import SphereSizing, size_gears
 from geartrain.spherical.planar_map import Edges, checked_graph, regions_of, turning_senses, with_region_circles
-from geartrain.spherical.planar_packing import PackingNewtonStep
 
 if TYPE_CHECKING:
     import networkx as nx
@@ -118,7 +117,7 @@ def _answer(
     residue = float(np.abs(sums - np.round(sums)).max(initial=0.0))
     apart = np.linalg.norm(axes - packing.axes[: len(names)], axis=1)
     return GraphSet(
-        configuration, aim, packing, size_gears(configuration), residue, 2 * np.arcsin(apart / 2), fit.steps
+        configuration, aim, packing, size_gears(configuration), residue, 2 * np.arcsin(apart / 2), fit.residuals
     )
 
 
@@ -141,7 +140,7 @@ class GraphSet:
     sizing         cones, pitches and pressure angles
     residue        largest residue of a loop, in pitches
     moved          how far each axis moved from the packing (rad)
-    steps          steps of the fit; those of the packing are in `packing.steps`
+    residuals      what was left (rad for pitches, pitches for phases) after each step of the fit
     """
 
     configuration: Configuration
@@ -150,7 +149,7 @@ class GraphSet:
     sizing: SphereSizing
     residue: float
     moved: Floats
-    steps: tuple[PackingNewtonStep, ...]
+    residuals: tuple[float, ...]
 
     @property
     def exact(self) -> tuple[str, ...]:

@@ -6,10 +6,8 @@ Koebe, Andreev and Thurston; radii by A. Bobenko and B. Springborn, Trans. AMS 3
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
 from math import inf, pi
-from time import perf_counter
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -54,8 +52,8 @@ def line_vector(normal: complex, offset: float) -> Floats:
     return np.array([normal.real, normal.imag, offset, offset])
 
 
-def _stalls(steps: Sequence[PackingNewtonStep]) -> bool:
-    return len(steps) > 1 and steps[-1].residual > steps[-2].residual / 4
+def _stalls(residuals: Sequence[float]) -> bool:
+    return len(residuals) > 1 and residuals[-1] > residuals[-2] / 4
 
 
 def _no_packing(residual: float) -> RangeError:
@@ -66,14 +64,6 @@ def _no_packing(residual: float) -> RangeError:
             "split the graph into smaller sets",
         )
     )
-
-
-@dataclass(frozen=True)
-class PackingNewtonStep:
-    """One Newton step: its seconds, and the largest residual after it (rad)."""
-
-    seconds: float
-    residual: float
 
 
 class PlanarPacking:
@@ -113,8 +103,11 @@ class PlanarPacking:
             key=lambda m: size[m[0]] + size[m[1]] + sum(size[self.gears + self.left[e]] for e in (m, m[::-1])),
         )
 
-    def radii(self) -> tuple[Floats, tuple[PackingNewtonStep, ...]]:
-        """Log radii of all nodes, inf for the four at infinity: sparse Newton on a convex function."""
+    def radii(self, on_step: Callable[[], None] = lambda: None) -> tuple[Floats, tuple[float, ...]]:
+        """Log radii of all nodes, inf for the four at infinity: sparse Newton on a convex function.
+
+        on_step   called after each step, of which the largest residual (rad) is returned too
+        """
         from scipy.sparse import coo_array
         from scipy.sparse.linalg import splu
 
@@ -126,10 +119,9 @@ class PlanarPacking:
         far_ends = [pair[0] for pair in pairs if not near[pair[1]]]
         target = np.asarray(2 * pi - pi * np.bincount(far_ends, minlength=self.count), dtype=float)[near]
         i, j, n = place[i], place[j], int(near.sum())
-        u, steps = np.zeros(n), []
+        u, residuals = np.zeros(n), []
         excess = angle_excess(u, i, j, target)
         for _ in range(_MOST_STEPS):
-            start = perf_counter()
             w = stiffness(u, i, j)
             rows, columns = np.concatenate([i, np.arange(n)]), np.concatenate([j, np.arange(n)])
             matrix = coo_array((np.concatenate([-w, np.bincount(i, w, n)]), (rows, columns)), shape=(n, n)).tocsc()
@@ -139,14 +131,15 @@ class PlanarPacking:
             step *= min(1.0, _LONGEST / max(float(np.abs(step).max()), 1e-300))
             u = u + step
             excess = angle_excess(u, i, j, target)
-            steps.append(PackingNewtonStep(perf_counter() - start, float(np.abs(excess).max())))
-            if np.abs(step).max() < 1e-13 or (steps[-1].residual < 1e-11 and _stalls(steps)):
+            residuals.append(float(np.abs(excess).max()))
+            on_step()
+            if np.abs(step).max() < 1e-13 or (residuals[-1] < 1e-11 and _stalls(residuals)):
                 break
         else:
-            raise _no_packing(steps[-1].residual)
+            raise _no_packing(residuals[-1])
         full = np.full(self.count, inf)
         full[near] = u - u.max()
-        return full, tuple(steps)
+        return full, tuple(residuals)
 
     def layout(self, u: Floats) -> Floats:
         """All circles on the sphere, from radii in the plane, walking from circle to circle."""

@@ -169,20 +169,19 @@ def test_regions_stay_counterclockwise_from_outside() -> None:
 
 def test_newton_converges_quadratically_and_keeps_a_record() -> None:
     packing, _ = packing_of(faces_and_vertices_of_hull(60, 1))
-    residuals = [step.residual for step in packing.steps]
+    residuals = packing.residuals
     fast = [k for k in range(1, len(residuals)) if residuals[k] > 1e-12 and residuals[k - 1] < 0.5]
     assert fast
     for k in fast:
         assert residuals[k] < 5 * residuals[k - 1] ** 2
     assert len(residuals) <= 10
-    assert all(step.seconds > 0 for step in packing.steps)
 
 
 def test_a_thousand_gears_pack_and_close() -> None:
     found = from_graph(faces_and_vertices_of_hull(334, 1), aim="phases")
     assert len(found.configuration.axes) == 998
     assert found.packing.residual < 3e-14
-    assert len(found.packing.steps) <= 12
+    assert len(found.packing.residuals) <= 12
     assert found.exact == ("phases",)
 
 

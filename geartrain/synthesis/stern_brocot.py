@@ -148,22 +148,6 @@ def neighbours(value: Fraction, most_numerator: int, most_denominator: int) -> t
             return low, high
 
 
-def fractions_within(low: Fraction, high: Fraction, most_numerator: int, most_denominator: int) -> Iterator[Fraction]:
-    """Every fraction from `low` > 0 to `high`, both included, whose reduced terms are within the bounds, ascending.
-
-    Lazy: the first one costs a logarithm of the bounds and every other one a division, as in a Farey series, to which
-    this reduces where only the denominator is bounded.
-
-    >>> [str(found) for found in fractions_within(Fraction(1, 3), Fraction(2, 3), 5, 5)]
-    ['1/3', '2/5', '1/2', '3/5', '2/3']
-    """
-    before, first = neighbours(low, most_numerator, most_denominator)
-    for p, q in _onward(before, first, (most_numerator, most_denominator)):
-        if p * high.denominator > high.numerator * q:
-            return
-        yield coprime(p, q)
-
-
 def nearest_first(value: Fraction, most_numerator: int, most_denominator: int) -> Iterator[Fraction]:
     """Every positive fraction within the bounds, in the order of its distance from `value` > 0; lazy.
 
@@ -175,30 +159,6 @@ def nearest_first(value: Fraction, most_numerator: int, most_denominator: int) -
     # turned upside down, the fractions below ascend too
     down = (coprime(p, q) for q, p in _onward(high[::-1], low[::-1], most[::-1]))
     return merge(down, up, key=lambda fraction: abs(fraction - value))
-
-
-def simplest_between(low: Fraction, high: Fraction) -> Fraction:
-    """The fraction of least terms from `low` > 0 to `high`, both included: it stands highest in the tree.
-
-    >>> simplest_between(Fraction("3.14159"), Fraction("3.14160"))
-    Fraction(355, 113)
-    """
-    if not 0 < low <= high:
-        raise QuestionError(
-            Problem(
-                f"there is no simplest fraction from {low} to {high}",
-                "the ends must be positive, the first not above the second",
-                "give an interval of positive numbers, such as 1/3 to 1/2",
-            )
-        )
-    p, q, P, Q = 0, 1, 1, 0
-    while True:
-        whole = -(-low.numerator // low.denominator)
-        if whole <= high:
-            return coprime(p + whole * P, q + whole * Q)
-        whole -= 1
-        p, q, P, Q = P, Q, p + whole * P, q + whole * Q
-        low, high = 1 / (high - whole), 1 / (low - whole)
 
 
 def _first_best(value: Fraction, near: IntegerPair, far: IntegerPair, length: int) -> int:

@@ -1,4 +1,4 @@
-"""Quotients of two polynomials in float64, with bounds on the error, and their range over boxes.
+"""Quotients of two polynomials in float64, with bounds on the error.
 
 Everything here takes the monomials of the groups (positive floats, arrays that broadcast) and terms with exponents
 parallel to them. Error bounds are a priori ones: n roundings in a term change it by at most n u / (1 - n u) of
@@ -8,7 +8,6 @@ itself, u = 2^-53 (Higham, Accuracy and Stability of Numerical Algorithms, secti
 from __future__ import annotations
 
 from collections.abc import Sequence
-from itertools import product
 from typing import NamedTuple
 
 import numpy as np
@@ -62,50 +61,6 @@ class EnclosedQuotient:
                 bound, sure = np.zeros_like(bound), np.abs(bottom.value) > bottom.error
         return np.where(sure & np.isfinite(bound), bound, np.inf)
 
-    def range_at_corners(self, lows: Sequence[Floats], highs: Sequence[Floats]) -> tuple[Floats, Floats]:
-        """Range over boxes of monomials, for degree 1 in each: least and greatest value at the corners.
-
-        The denominator is then linear in each monomial, so it has no zero in a box if it has one sign at all
-        corners; and a function that is Moebius in each variable, without a pole, is monotone in each.
-        """
-        low, high = np.full((), np.inf), np.full((), -np.inf)
-        above = below = sure = np.ones((), dtype=np.bool_)
-        with np.errstate(all="ignore"):
-            for corner in product((0, 1), repeat=len(lows)):
-                at = [(lows, highs)[side][group] for group, side in enumerate(corner)]
-                top, bottom = self._sum(self._upper, at), self._sum(self._lower, at)
-                value = top.value / bottom.value
-                room = np.abs(bottom.value) - bottom.error
-                error = _SLACK * ((top.error + np.abs(value) * bottom.error) / room + 2 * _U * np.abs(value))
-                low, high = np.minimum(low, value - error), np.maximum(high, value + error)
-                above, below = above & (bottom.value > bottom.error), below & (bottom.value < -bottom.error)
-                sure = sure & np.isfinite(value) & np.isfinite(error)
-        return _unless((above | below) & sure, low, high)
-
-    def range_by_terms(self, lows: Sequence[Floats], highs: Sequence[Floats]) -> tuple[Floats, Floats]:
-        """Range over boxes of monomials by interval arithmetic, term by term: valid for every degree, not tight."""
-        with np.errstate(all="ignore"):
-            top, bottom = (self._interval(terms, lows, highs) for terms in (self._upper, self._lower))
-            ends = [above / below for above in top for below in bottom]
-            low, high = np.minimum.reduce(ends), np.maximum.reduce(ends)
-            error = 4 * _U * np.maximum(np.abs(low), np.abs(high))
-            sure = ((bottom[0] > 0) | (bottom[1] < 0)) & np.isfinite(error)
-            return _unless(sure, low - error, high + error)
-
-    def _interval(self, terms: Sequence[Term], lows: Sequence[Floats], highs: Sequence[Floats]) -> list[Floats]:
-        """The least and the greatest value of a polynomial, rounded outwards; nan outside float64."""
-        positive = [term for term in terms if term.coefficient > 0]
-        negative = [term for term in terms if term.coefficient < 0]
-        sums = [
-            [self._sum(positive, lows), self._sum(negative, highs)],
-            [self._sum(positive, highs), self._sum(negative, lows)],
-        ]
-        found = []
-        for sign, (one, other) in zip((-1, 1), sums, strict=True):
-            total = one.value + other.value
-            found.append(np.asarray(total + sign * _SLACK * (one.error + other.error + _U * np.abs(total))))
-        return found
-
     def _total(self, terms: Sequence[Term], monomials: Sequence[Floats]) -> Floats:
         total = np.zeros(np.broadcast_shapes(*(np.shape(x) for x in monomials)))
         for term in terms:
@@ -132,8 +87,3 @@ class EnclosedQuotient:
             for _ in range(power):
                 value = value * x
         return value
-
-
-def _unless(sure: NDArray[np.bool_], low: Floats, high: Floats) -> tuple[Floats, Floats]:
-    """The bounds where they are sure, and the whole line elsewhere."""
-    return np.where(sure, low, -np.inf), np.where(sure, high, np.inf)

@@ -156,13 +156,6 @@ def _sum(
     return total
 
 
-def power_product(point: Sequence[Fraction | int], exponents: Sequence[int]) -> Fraction:
-    """The product of the numbers to their powers, exact."""
-    top = math.prod(base**power for base, power in zip(point, exponents, strict=True) if power > 0)
-    bottom = math.prod(base**-power for base, power in zip(point, exponents, strict=True) if power < 0)
-    return Fraction(top, bottom)
-
-
 def product(factors: Iterable[Laurent], width: int) -> Laurent:
     """The product of some polynomials; 1 of none."""
     return reduce(Laurent.__mul__, factors, Laurent.constant(1, width))

@@ -5,10 +5,9 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
-from geartrain.synthesis.formulas.laurent import Exponents, Laurent, power_product
+from geartrain.synthesis.formulas.laurent import Exponents, Laurent
 
 if TYPE_CHECKING:
     import numpy as np
@@ -29,18 +28,9 @@ class MonomialGroup:
     degree: int
 
     @property
-    def is_moebius(self) -> bool:
-        """True if the function is (a x + b) / (c x + d) in this group's monomial."""
-        return self.degree <= 1
-
-    @property
     def roundings(self) -> int:
         """Roundings in one `monomials`: its relative error is below this times 2^-53, but for its square."""
         return sum(map(abs, self.exponents))
-
-    def monomial(self, counts: Mapping[str, int]) -> Fraction:
-        """x of one assignment, exact."""
-        return power_product([int(counts[wheel]) for wheel in self.wheels], self.exponents)
 
     def monomials(self, columns: Mapping[str, Any]) -> NDArray[np.float64]:
         """x of many assignments (wheel -> counts, which broadcast); see `roundings` for the error."""
@@ -56,15 +46,6 @@ class MonomialGroup:
                 else:
                     bottom = bottom * column
         return np.asarray(top / bottom, dtype=np.float64)
-
-    def ends(self, box: Mapping[str, tuple[Any, Any]]) -> tuple[dict[str, Any], dict[str, Any]]:
-        """The counts at which x is least and greatest in a box (wheel -> least and greatest count)."""
-        least = {}
-        greatest = {}
-        for wheel, power in zip(self.wheels, self.exponents, strict=True):
-            low, high = box[wheel]
-            least[wheel], greatest[wheel] = (low, high) if power > 0 else (high, low)
-        return least, greatest
 
     def to_dict(self) -> dict[str, Any]:
         """Plain data for JSON."""

@@ -1,6 +1,6 @@
 """Sums of terms as a formula holds them: whole coefficients, powers from 0 up, exact values, and words.
 
-A rational function of tooth counts: exact values, fast values with their accuracy, and bounds over boxes.
+A rational function of tooth counts: exact values, and fast values with their accuracy.
 """
 
 from __future__ import annotations
@@ -8,12 +8,10 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from itertools import product
 from typing import TYPE_CHECKING, Any
 
-from geartrain.errors import Problem, QuestionError
 from geartrain.numerics.decimal_text import fraction_text, is_short
-from geartrain.synthesis.formulas.laurent import Laurent, Term, power_product
+from geartrain.synthesis.formulas.laurent import Laurent, Term
 from geartrain.synthesis.formulas.monomial_groups import MonomialGroup, MonomialGrouping, find_grouping
 from geartrain.synthesis.formulas.polynomial_gcd import common_divisor, divide
 
@@ -31,32 +29,6 @@ def whole(terms: Iterable[Term], point: Sequence[int]) -> int:
                 coefficient *= count if power == 1 else count**power
         total += coefficient
     return total
-
-
-def rational(terms: Iterable[Term], monomials: Sequence[Fraction]) -> Fraction:
-    """A polynomial in the groups' monomials."""
-    return sum((power_product(monomials, term.exponents) * term.coefficient for term in terms), Fraction(0))
-
-
-def interval(terms: Iterable[Term], sides: Sequence[tuple[Fraction, Fraction]]) -> tuple[Fraction, Fraction]:
-    """Bounds of a polynomial over a box of positive monomials, term by term."""
-    low = high = Fraction(0)
-    for coefficient, exponents in terms:
-        ends = [coefficient * power_product([side[end] for side in sides], exponents) for end in (0, 1)]
-        low, high = low + min(ends), high + max(ends)
-    return low, high
-
-
-def linear(terms: Iterable[Term], at: int, others: Mapping[int, Any], zero: Any) -> tuple[Any, Any]:
-    """Coefficients of x and of 1, where x is the monomial of one group and enters to the power 0 or 1."""
-    found = [zero, zero]
-    for coefficient, exponents in terms:
-        value = coefficient
-        for group, power in enumerate(exponents):
-            if group != at and power:
-                value = value * others[group] ** power
-        found[exponents[at]] = found[exponents[at]] + value
-    return found[1], found[0]
 
 
 def substituted(
@@ -90,10 +62,6 @@ def in_words(terms: Sequence[Term], wheels: Sequence[str]) -> str:
     return " ".join(words) or "0"
 
 
-Moebius = tuple[Fraction, Fraction, Fraction, Fraction]
-_MOST_CORNERS = 10
-
-
 @dataclass(frozen=True, slots=True)
 class Formula:
     """A rational function of tooth counts, reduced: numerator and denominator have no factor in common.
@@ -120,11 +88,6 @@ class Formula:
     def constant(self) -> Fraction | None:
         """The value, if it depends on no wheel and has one."""
         return None if self.wheels else self.value({})
-
-    @property
-    def is_moebius(self) -> bool:
-        """True if it is (a x + b) / (c x + d) in the monomial of every group, the others given."""
-        return all(group.is_moebius for group in self.groups)
 
     @property
     def has_poles(self) -> bool:
@@ -154,61 +117,6 @@ class Formula:
         """
         return self._quotient().accuracy([group.monomials(columns) for group in self.groups])
 
-    def of_groups(self, monomials: Sequence[Fraction]) -> Fraction | None:
-        """The exact value from the groups' monomials, in the order of `groups`; None at a pole."""
-        bottom = rational(self.lower, monomials)
-        return rational(self.upper, monomials) / bottom if bottom else None
-
-    def moebius(self, at: int, others: Mapping[int, Fraction]) -> Moebius:
-        """a, b, c, d of (a x + b) / (c x + d), x the monomial of group `at`, the other groups' monomials given.
-
-        others   index of a group -> its monomial, for every group but `at`
-
-        Exact. Raises `QuestionError` where the group's degree is above 1.
-        """
-        a, b = linear(self._moebius_terms(self.upper, at), at, others, Fraction(0))
-        c, d = linear(self._moebius_terms(self.lower, at), at, others, Fraction(0))
-        return a, b, c, d
-
-    def moebius_columns(self, at: int, others: Mapping[int, Floats]) -> tuple[Floats, Floats, Floats, Floats]:
-        """The same in float64 for many values of the others (arrays that broadcast); no bound on the error."""
-        import numpy as np
-
-        a, b = linear(self._moebius_terms(self.upper, at), at, others, np.zeros(()))
-        c, d = linear(self._moebius_terms(self.lower, at), at, others, np.zeros(()))
-        return a, b, c, d
-
-    def bounds(self, box: Mapping[str, tuple[Any, Any]]) -> tuple[Floats, Floats]:
-        """Bounds over boxes of counts, rounded outwards: every exact value in a box lies within them.
-
-        box   wheel -> (least, greatest) count, whole numbers or arrays of them that broadcast
-
-        Tight but for rounding where `is_moebius`: the function is then monotone in each monomial. A pole in a box,
-        or a result beyond the range of float64, gives -inf and inf.
-        """
-        ends = [group.ends(box) for group in self.groups]
-        lows = [group.monomials(least) for group, (least, _) in zip(self.groups, ends, strict=True)]
-        highs = [group.monomials(greatest) for group, (_, greatest) in zip(self.groups, ends, strict=True)]
-        quotient = self._quotient()
-        return (quotient.range_at_corners if self._has_corners() else quotient.range_by_terms)(lows, highs)
-
-    def exact_bounds(self, box: Mapping[str, tuple[int, int]]) -> tuple[Fraction | None, Fraction | None]:
-        """Bounds over one box as Fractions, tight where `is_moebius`; None and None where a pole may lie in it."""
-        ends = [(group, *group.ends(box)) for group in self.groups]
-        sides = [(group.monomial(least), group.monomial(greatest)) for group, least, greatest in ends]
-        if self._has_corners():
-            corners = list(product(*sides))
-            bottoms = [rational(self.lower, corner) for corner in corners]
-            if not (min(bottoms) > 0 or max(bottoms) < 0):
-                return None, None
-            found = [rational(self.upper, corner) / b for corner, b in zip(corners, bottoms, strict=True)]
-            return min(found), max(found)
-        top, bottom = (interval(terms, sides) for terms in (self.upper, self.lower))
-        if bottom[0] <= 0 <= bottom[1]:
-            return None, None
-        found = [one / other for one in top for other in bottom]
-        return min(found), max(found)
-
     def fixed(self, counts: Mapping[str, int]) -> Formula:
         """The function of the remaining wheels when some have their counts; wheels it lacks are passed over."""
         left = tuple(wheel for wheel in self.wheels if wheel not in counts)
@@ -234,25 +142,10 @@ class Formula:
             return top
         return " / ".join(f"({text})" if " " in text else text for text in (top, bottom))
 
-    def _has_corners(self) -> bool:
-        return self.is_moebius and len(self.groups) <= _MOST_CORNERS
-
     def _quotient(self) -> EnclosedQuotient:
         from geartrain.synthesis.formulas.float_enclosures import EnclosedQuotient
 
         return EnclosedQuotient(self.upper, self.lower, [group.roundings for group in self.groups])
-
-    def _moebius_terms(self, terms: tuple[Term, ...], at: int) -> tuple[Term, ...]:
-        group = self.groups[at]
-        if not group.is_moebius:
-            raise QuestionError(
-                Problem(
-                    f"'{self.label}' is no Moebius function of the counts of {', '.join(group.wheels)}",
-                    f"they enter to the power {group.degree}",
-                    "choose another group, or enumerate this one",
-                )
-            )
-        return terms
 
 
 def make_formula(

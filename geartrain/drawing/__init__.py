@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from geartrain.drawing.jam_map import jam_map_figure
     from geartrain.drawing.monte_carlo_plots import ConvergenceTrace, convergence_figure, monte_carlo_figure
     from geartrain.drawing.output_error_plots import motion_figure
+    from geartrain.drawing.pair_transmission import transmission_figure
     from geartrain.drawing.parameter_sweep_plot import sweep_figure
     from geartrain.drawing.pointer_error_plots import ErrorBands, histogram_figure, pointer_error_figure
     from geartrain.drawing.power_sankey import power_figure
@@ -52,6 +53,7 @@ __all__ = [
     "sweep_figure",
     "teeth_figure",
     "tornado_figure",
+    "transmission_figure",
 ]
 
 _PLACES = {
@@ -77,6 +79,7 @@ _PLACES = {
     "sweep_figure": "parameter_sweep_plot",
     "teeth_figure": "tooth_contact",
     "tornado_figure": "tornado_chart",
+    "transmission_figure": "pair_transmission",
 }
 
 

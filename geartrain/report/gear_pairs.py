@@ -7,7 +7,7 @@ from math import degrees
 from typing import TYPE_CHECKING, Any
 
 from geartrain.analysis.gear_train import GearTrain
-from geartrain.report.document import Section, Table
+from geartrain.report.document import Document, Section, Table
 from geartrain.report.pair_page import Running, find_impacts
 from geartrain.teeth.gear_mesh import GearMesh
 from geartrain.teeth.pair_account import AccountTable, PairAccount
@@ -43,6 +43,24 @@ def _teeth(train: GearTrain) -> Section:
 def _joined(rows: Sequence[AccountTable]) -> Table:
     """One table of all pairs of a kind."""
     return Table(rows[0].header, [each.row for each in rows], wide=rows[0].wide)
+
+
+def pair_document(mesh: GearMesh) -> Document:
+    """A page on one pair, as its mesh tells of itself."""
+    account = mesh.account()
+    first, second = mesh.wheels.counts
+    lead = [mesh.verdict.text.capitalize() + ".", account.words]
+    lead += [
+        f"{each.what}; {each.why}. {each.fix}." if each.why else f"{each.what}. {each.fix}." for each in mesh.faults
+    ]
+    tables = [_joined([each]) for each in account.tables]
+    title = f"{mesh.tooth_form.words.capitalize()} teeth {first}/{second}"
+    return Document(title, lead, [Section("Motion and losses", (), tables)])
+
+
+def pair_data(mesh: GearMesh) -> dict[str, Any]:
+    """The same as plain data."""
+    return {"form": mesh.form, "driver": mesh.driver, **mesh.account().data}
 
 
 def driven_ways(train: GearTrain) -> Iterator[tuple[GearMesh, tuple[str, ...]]]:

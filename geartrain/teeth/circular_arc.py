@@ -21,7 +21,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import lru_cache
 from math import asin, atan2, cos, hypot, pi, sin, sqrt, tan
-from typing import TYPE_CHECKING, Annotated, Literal
+from typing import TYPE_CHECKING, Annotated, ClassVar, Literal
 
 from pydantic import BeforeValidator, Field, model_validator
 
@@ -154,12 +154,14 @@ def _wheel_number(raw: object) -> object:
 class CircularArc(ToothForm):
     """Circular-arc clock teeth as BS 978 Part 2 has them: radial flanks, ogive tips, thin leaves."""
 
+    any_distance: ClassVar[bool] = True
+
     form: Literal["circular_arc"] = Field(description="The name of this form")
     pinion: Annotated[Literal[1, 2], BeforeValidator(_wheel_number)] | None = Field(
         None,
         description="Which wheel of the pair has leaves; default the one with fewer teeth, of equal ones the second",
     )
-    profile: Literal["A", "B", "C"] | None = Field(
+    leaf: Literal["A", "B", "C"] | None = Field(
         None, description="Tips of the leaves: A round, B and C pointed; default C to 7 leaves, B to 9, A from 10"
     )
     addendum: TwoFigures | None = Field(
@@ -206,7 +208,7 @@ class CircularArc(ToothForm):
         pinion = self.pinion or (1 if z1 < z2 else 2)
         zp, zw = (z1, z2) if pinion == 1 else (z2, z1)
         factor, many = addendum_factor(zp, zw / zp), zp > 10
-        profile = self.profile or ("C" if zp <= 7 else "B" if zp <= 9 else "A")
+        profile = self.leaf or ("C" if zp <= 7 else "B" if zp <= 9 else "A")
         sizes: list[tuple[float, ...]] = [
             (pi / 2, _PRACTICAL * factor, _ARC * factor),
             (_THIN[many], *_LEAVES[profile][many]),

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from math import pi, tan
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, ClassVar, Literal
 
 from pydantic import Field, model_validator
 
@@ -24,6 +24,8 @@ _PAIR = "give a sum of 0, such as `shift: [0.3, -0.3]`"
 
 class Involute(ConjugateToothForm):
     """Involute teeth as a rack cuts them, shifted or not; spherical involutes on bevels."""
+
+    any_distance: ClassVar[bool] = True
 
     form: Literal["involute"] = Field(description="The name of this form")
     pressure_angle: Angle = Field("20 deg", validate_default=True, description="Pressure angle of the rack")

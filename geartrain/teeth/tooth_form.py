@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Annotated, Self
+from typing import TYPE_CHECKING, Annotated, ClassVar, Self
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, WithJsonSchema
 from pydantic_core import PydanticCustomError
@@ -42,6 +42,9 @@ class ToothForm(BaseModel, ABC):
     """The teeth of a gear pair as declared: what knows how to make a mesh of two wheels, whatever the form."""
 
     model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
+
+    any_distance: ClassVar[bool] = False
+    """True for teeth that are told of at any centre distance, not at that of their design only."""
 
     if TYPE_CHECKING:
         form: str

@@ -2,11 +2,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import typer
 
-from geartrain.cli.mesh import conjugate
-from geartrain.cli.mesh.conjugate_options import FORMS
+from geartrain.cli.mesh import any_form, conjugate
+from geartrain.cli.mesh.conjugate_options import CONJUGATE, form_names
 from geartrain.cli.verbs import LazyGroup, Verbs
+
+
+def _of_form(name: str) -> Callable[..., None] | None:
+    """The command of a tooth form; None for commands that are modules."""
+    if name in CONJUGATE:
+        return conjugate.command(name)
+    return any_form.command(name) if name in form_names() else None
 
 
 class PairGroup(LazyGroup):
@@ -14,8 +23,8 @@ class PairGroup(LazyGroup):
 
     verbs = Verbs(
         __name__,
-        ("triangular", "pin", "compare", *FORMS),
-        make=lambda name: conjugate.command(name) if name in FORMS else None,
+        ("triangular", "pin", "compare", *form_names()),
+        make=_of_form,
     )
 
 

@@ -23,9 +23,9 @@ from geartrain.cli.common import (
     sink,
 )
 from geartrain.cli.mesh.conjugate_options import (
-    FORMS,
     NAMES,
     ConjugateOptions,
+    own_options,
     pair,
     read_form,
     read_wheels,
@@ -171,7 +171,7 @@ def _made(name: str, asked: ConjugateOptions, arcs: tuple[float, float], angle: 
     reading = name[-1] if name.startswith("uniform_temperature_") else None
     form = name[:-2] if reading else name
     given: dict[str, str | None] = {"arcs": ",".join(map(repr, arcs)), "reading": reading}
-    if "pressure_angle" in FORMS[form]:
+    if "pressure_angle" in own_options(form):
         given["pressure_angle"] = angle
     try:
         if form == "lantern":

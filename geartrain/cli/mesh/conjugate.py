@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
-from inspect import Parameter, Signature
+from inspect import Signature
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -25,7 +25,8 @@ from geartrain.cli.common import (
     show,
     sink,
 )
-from geartrain.cli.mesh.conjugate_options import FORMS, ConjugateOptions, pair, read_form, read_wheels
+from geartrain.cli.mesh.conjugate_options import ConjugateOptions, own_options, pair, read_form, read_wheels
+from geartrain.cli.mesh.form_options import own_parameters, signed
 from geartrain.cli.option_values import friction as _friction
 from geartrain.cli.option_values import quantity
 from geartrain.errors import GearTrainError, Problem
@@ -79,22 +80,13 @@ def command(form: str) -> Callable[..., None]:
     """The command of a form: the options all have, and its own."""
 
     def run(**given: Any) -> None:
-        own = {name: given.pop(name) for name in FORMS[form]}
+        own = {name: given.pop(name) for name in own_options(form)}
         _run(form, own, **given)
 
     common = list(Signature.from_callable(_common, eval_str=True).parameters.values())
-    own = [_option(name, text) for name, text in FORMS[form].items()]
-    parameters = [common[0], *own, *common[1:]]
-    run.__signature__ = Signature(parameters)  # type: ignore[attr-defined]
-    run.__annotations__ = {parameter.name: parameter.annotation for parameter in parameters}
+    signed(run, [common[0], *own_parameters(form), *common[1:]])
     run.__doc__ = f"Costs, faults and outlines of a pair with {form.replace('_', '-')} teeth."
     return run
-
-
-def _option(name: str, text: str) -> Parameter:
-    """A form's own option, its text left to the form."""
-    kind = Annotated[str | None, typer.Option(f"--{name.replace('_', '-')}", help=text)]
-    return Parameter(name, Parameter.POSITIONAL_OR_KEYWORD, default=None, annotation=kind)
 
 
 def _run(
@@ -115,7 +107,7 @@ def _run(
     from geartrain.teeth.conjugate.conjugate_transmission import ConjugateTransmission
 
     to, picture = sink(out, force, (".md", ".html", ".json")), sink(plot, force, PICTURES, "--plot")
-    outlined = _outlined(profile, force)
+    outlined = outline_sink(profile, force)
     check_distinct_outputs(to, outlined, picture)
     asked = read_wheels(given["teeth"], given["internal"], given["bevel"], given["module"], given["backlash"])
     found = pair(read_form(form, own, asked.backlash), asked)
@@ -135,8 +127,8 @@ def _run(
 # ------------------------------------------------------------------------------------------------------------ outlines
 
 
-def _outlined(profile: Path | None, force: bool) -> Sink:
-    """Where an outline goes; a form that there is not is refused before the work."""
+def outline_sink(profile: Path | None, force: bool) -> Sink:
+    """Where an outline goes; a file that there is not is refused before the work."""
     from geartrain.export import OUTLINES
 
     to = sink(profile, force, option="--profile")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, get_args
 
 from geartrain.cli.option_values import at_option, quantity
 from geartrain.errors import GearTrainError, Problem, suggest
@@ -12,46 +12,10 @@ if TYPE_CHECKING:
     from geartrain.teeth.conjugate.conjugate_form import ConjugateToothForm
     from geartrain.teeth.conjugate.conjugate_transmission import ConjugatePair
     from geartrain.teeth.conjugate.wheel_pair import WheelPair
+    from geartrain.teeth.tooth_form import ToothForm
 
-FORMS: dict[str, dict[str, str]] = {
-    "involute": {
-        "pressure_angle": "Of the rack; default 20deg.",
-        "shift": "Of the rack outwards, in modules; two with a comma.",
-        "addendum": "In modules, default 1; two with a comma.",
-        "dedendum": "In modules, default 1.25; two with a comma.",
-        "centre_distance": "In modules, or with a unit; default without play.",
-    },
-    "cycloidal": {
-        "rolling": "Radius of the rolling circles in modules, or with a unit; two with a comma: approach, recess.",
-        "rolling_fraction": "The same over the pitch radius of the wheel whose dedendum it makes; default 1/2.",
-        "arcs": "Approach and recess in pitches; default 0.5,0.5.",
-        "addendum": "In place of arcs, in modules; two with a comma.",
-    },
-    "lantern": {
-        "pins": "Which wheel has the pins, 1 or 2; default 2.",
-        "pin_diameter": "In modules, or with a unit; default 1.5.",
-        "pin_radius": "Of the circle of pins, in modules or with a unit; default the pitch circle.",
-        "arcs": "Approach and recess in pitches; default one, where the teeth's addenda push.",
-        "addendum": "In place of arcs: of the teeth that the pins mate with, in modules.",
-    },
-    "uniform_stress": {
-        "pressure_angle": "At the pitch point, below 45deg; default 20deg.",
-        "arcs": "Approach and recess in pitches; default 0.5,0.5.",
-    },
-    "uniform_temperature": {
-        "reading": "a, on the first wheel; b, on the hotter surface; c, as b with bounded stress. Default b.",
-        "heat": "Heat per area over friction times tangential force.",
-        "depth": "In place of heat: working depth in modules; default that of the 20 deg involute.",
-        "least_angle": "At the pitch point, with reading c; default 12deg.",
-        "arcs": "Approach and recess in pitches; default 0.5,0.5.",
-    },
-    "least_friction": {
-        "pressure_angle": "The greatest, at the pitch point, below 45deg; default 25deg.",
-        "margin": "Least speed along a dedendum over the pitch-line speed; default 0.15.",
-        "arcs": "Approach and recess in pitches; default 0.5,0.5.",
-    },
-}
-"""The options of each form, by the names of its fields."""
+CONJUGATE = ("involute", "cycloidal", "lantern", "uniform_stress", "uniform_temperature", "least_friction")
+"""Forms with a path of contact, whose pages show its costs; others are told of by what their mesh says of itself."""
 
 NAMES = (
     *("involute", "cycloidal", "lantern", "uniform_stress", "uniform_temperature"),
@@ -116,7 +80,26 @@ def _plain(backlash: str) -> None:
         raise GearTrainError(Problem(f"a backlash of {backlash} has nothing to be compared with", why, fix, "--module"))
 
 
+def own_options(form: str) -> dict[str, str]:
+    """The options of a form by the names of its fields, each with what the field says of itself.
+
+    Of forms that keep their design at any distance there is none for the distance; play is an option of all.
+    """
+    fields = form_model(form).model_fields
+    common = {"form", "backlash"} | (set() if form_model(form).any_distance else {"centre_distance"})
+    return {name: f"{field.description}." for name, field in fields.items() if name not in common}
+
+
 def read_form(form: str, given: dict[str, str | None], backlash: str | None = None) -> ConjugateToothForm:
+    """The conjugate form with the options given. Raises `GearTrainError` for options it cannot have."""
+    from geartrain.teeth.conjugate.conjugate_form import ConjugateToothForm
+
+    found = read_any_form(form, given, backlash)
+    assert isinstance(found, ConjugateToothForm)
+    return found
+
+
+def read_any_form(form: str, given: dict[str, str | None], backlash: str | None = None) -> ToothForm:
     """The tooth form with the options given. Raises `GearTrainError` for options it cannot have."""
     from pydantic import ValidationError
 
@@ -126,7 +109,7 @@ def read_form(form: str, given: dict[str, str | None], backlash: str | None = No
     if backlash is not None:
         data["backlash"] = backlash
     try:
-        return _model(form).model_validate({"form": form, **data})
+        return form_model(form).model_validate({"form": form, **data})
     except ValidationError as error:
         problems = (_problem(item, form) for item in error.errors(include_url=False))
         raise GearTrainError(dict.fromkeys(problems)) from None
@@ -146,17 +129,33 @@ def _parts(value: str) -> Any:
     return [part.strip() for part in value.split(",")] if "," in value else value
 
 
-def _model(form: str) -> type[ConjugateToothForm]:
-    from importlib import import_module
+def form_model(form: str) -> type[ToothForm]:
+    """The tooth form of this name."""
+    return {_name(model): model for model in form_models()}[form]
 
-    model: type[ConjugateToothForm] = getattr(import_module(f"geartrain.teeth.{form}"), form.title().replace("_", ""))
-    return model
+
+def form_models() -> tuple[type[ToothForm], ...]:
+    """All tooth forms."""
+    from geartrain.teeth.any_tooth_form import AnyToothForm
+
+    models: tuple[type[ToothForm], ...] = get_args(get_args(AnyToothForm)[0])
+    return models
+
+
+def form_names() -> tuple[str, ...]:
+    """Forms that `geartrain mesh` has no command of its own for, as the union lists them."""
+    return tuple(name for model in form_models() if (name := _name(model)) not in ("ideal", "triangular"))
+
+
+def _name(model: type[ToothForm]) -> str:
+    name: str = get_args(model.model_fields["form"].annotation)[0]
+    return name
 
 
 def _problem(item: Any, form: str) -> Problem:
     context = item.get("ctx") or {}
     loc = [str(step) for step in item["loc"]]
-    name = loc[0] if loc else item["type"] if item["type"] in FORMS[form] else ""
+    name = loc[0] if loc else item["type"] if item["type"] in own_options(form) else ""
     fix = str(context.get("fix") or f"see geartrain mesh {form} --help")
     what = item["msg"] if "fix" in context else f"'{item['input']}' does not fit here"
     place = f"--{name.replace('_', '-')}" if name else f"mesh {form}"

@@ -9,14 +9,17 @@ from dataclasses import dataclass
 from math import cos, isfinite, pi, sin
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from geartrain.errors import Problem, QuestionError
 from geartrain.teeth.outlines.contour import Contour
-from geartrain.teeth.outlines.tooth_outline import ToothOutline
+from geartrain.teeth.outlines.tooth_outline import ToothOutline, repeated
 from geartrain.teeth.outlines.tooth_requirement import CLEARANCE, ToothRequirement, check_flat, cut_tooth
 from geartrain.teeth.outlines.wheel_requirement import LanternPins
 
 if TYPE_CHECKING:
     from geartrain.teeth.conjugate.conjugate_transmission import ConjugatePair
+    from geartrain.teeth.gear_mesh import GearMesh
 
 
 @dataclass(frozen=True, slots=True)
@@ -113,6 +116,40 @@ def outline(pair: ConjugatePair, gear: int, cut: BlankSizes, pins: LanternPins |
     if pins is not None and gear == pins.gear:
         return both.lantern(pins)
     return both.toothed(gear)
+
+
+def mesh_outline(mesh: GearMesh, gear: int, cut: BlankSizes) -> WheelOutline:
+    """The outline of the first or the second wheel of any mesh, as its form wants it cut.
+
+    Raises `GearTrainError` where no such wheel can be cut.
+    """
+    size = mesh.size({})
+    scale, tolerance = 1.0 if size is None else size.scale, cut.tolerance / cut.module
+    tooth, mate = (mesh.requirement(name, scale, tolerance).cut() for name in mesh.gear.pair[:: 3 - 2 * gear])
+    z, other = mesh.wheels.counts[:: 3 - 2 * gear]
+    distance = mesh.wheels.touching if size is None else size.distance
+    contours = [Contour.of(repeated(tooth.tooth, z)).scaled(cut.module), *_bore(cut, tooth.root * cut.module)]
+    points = Contour.of((*tooth.tooth[:-1], (*tooth.tooth[-1][:2], 0.0))).flattened(tolerance)
+    side = points[points[:, 1] >= 0]
+    side = side[np.argsort(np.hypot(*side.T))]
+    half = float(np.interp(z / 2, np.hypot(*side.T), np.arctan2(side[:, 1], side[:, 0])))
+    return WheelOutline(
+        gear=gear,
+        z=z,
+        kind=tooth.kind,
+        contours=tuple(contours),
+        module=cut.module,
+        pitch_radius=z / 2 * cut.module,
+        tip_radius=tooth.tip * cut.module,
+        root_radius=tooth.root * cut.module,
+        thickness=half * z * cut.module,
+        fillet=0.0,
+        relief=0.0,
+        clearance=(distance - mate.tip - tooth.root) * cut.module,
+        backlash=mesh.verdict.play * (z if mesh.driven == mesh.gear.pair[gear - 1] else other) / 2 * cut.module,
+        centre_distance=distance * cut.module,
+        tolerance=cut.tolerance,
+    )
 
 
 class _Both:

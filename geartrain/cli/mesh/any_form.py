@@ -1,0 +1,138 @@
+"""`geartrain mesh FORM` for any tooth form: what its mesh tells of itself, its law as a picture, its wheels to cut."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from inspect import Signature
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from geartrain.cli.common import (
+    GOOD,
+    PICTURES,
+    VERDICT,
+    Force,
+    Json,
+    Out,
+    as_json,
+    check_distinct_outputs,
+    draw,
+    emit,
+    show,
+    sink,
+)
+from geartrain.cli.mesh.conjugate import outline_sink
+from geartrain.cli.mesh.conjugate_options import own_options, read_any_form
+from geartrain.cli.mesh.form_options import own_parameters, signed
+from geartrain.cli.option_values import at_option, quantity
+from geartrain.cli.option_values import friction as _friction
+from geartrain.errors import GearTrainError, Problem
+
+if TYPE_CHECKING:
+    from geartrain.teeth.gear_mesh import GearMesh
+    from geartrain.teeth.outlines.wheel_outline import WheelOutline
+
+
+def _common(
+    teeth: Annotated[tuple[int, int], typer.Option("--teeth", help="Teeth of the first and the second wheel.")],
+    friction: Annotated[str, typer.Option("--friction", help="Coefficient of friction.")] = "0",
+    driver: Annotated[int, typer.Option("--driver", min=1, max=2, help="Which wheel drives, 1 or 2.")] = 1,
+    backlash: Annotated[
+        str | None, typer.Option("--backlash", help="Play on the pitch circle, in modules or with a unit.")
+    ] = None,
+    module: Annotated[str | None, typer.Option("--module", help="Pitch diameter over teeth, such as 2mm.")] = None,
+    profile: Annotated[
+        Path | None, typer.Option("--profile", help="Write the outline of a whole wheel, to scale: .svg, .dxf, .csv.")
+    ] = None,
+    wheel: Annotated[int, typer.Option("--wheel", min=1, max=2, help="With --profile: which wheel, 1 or 2.")] = 1,
+    bore: Annotated[str | None, typer.Option("--bore", help="With --profile: diameter of the hole.")] = None,
+    plot: Annotated[
+        Path | None, typer.Option("--plot", help="Draw error, speed ratio and efficiency over a pitch to this file.")
+    ] = None,
+    json: Json = False,
+    out: Out = None,
+    force: Force = False,
+) -> None:
+    """Only its parameters count: those that all forms have."""
+
+
+def command(form: str) -> Callable[..., None]:
+    """The command of a form: the options all have, and its own."""
+
+    def run(**given: Any) -> None:
+        own = {name: given.pop(name) for name in own_options(form)}
+        _run(form, own, **given)
+
+    common = list(Signature.from_callable(_common, eval_str=True).parameters.values())
+    signed(run, [common[0], *own_parameters(form), *common[1:]])
+    run.__doc__ = f"Motion, losses and outlines of a pair with {form.replace('_', '-')} teeth."
+    return run
+
+
+def _run(
+    form: str,
+    own: dict[str, str | None],
+    *,
+    driver: int,
+    wheel: int,
+    bore: str | None,
+    profile: Path | None,
+    plot: Path | None,
+    json: bool,
+    out: Out,
+    force: bool,
+    **given: Any,
+) -> None:
+    from geartrain.report.gear_pairs import pair_data, pair_document
+
+    to, picture = sink(out, force, (".md", ".html", ".json")), sink(plot, force, PICTURES, "--plot")
+    outlined = outline_sink(profile, force)
+    check_distinct_outputs(to, outlined, picture)
+    mesh = _mesh(form, own, driver, given)
+    if profile is not None:
+        from geartrain.export import outline_text
+
+        emit(outline_text(_outline(mesh, wheel, bore), outlined.suffix), outlined)
+    if json or to.suffix == ".json":
+        emit(as_json(pair_data(mesh)), to)
+    else:
+        show([pair_document(mesh)], to)
+    if plot is not None:
+        from geartrain.drawing import transmission_figure
+
+        draw(transmission_figure(mesh.law, f"{mesh.tooth_form.words} teeth, {mesh.name}"), picture)
+    raise typer.Exit(GOOD if not mesh.faults else VERDICT)
+
+
+def _mesh(form: str, own: dict[str, str | None], driver: int, given: dict[str, Any]) -> GearMesh:
+    """The two wheels in mesh. Raises `GearTrainError` where the form gives no such pair."""
+    from geartrain.teeth.gear_mesh import MeshDriver, MeshingWheels
+    from geartrain.train import GearPair
+
+    size = None if given["module"] is None else quantity("--module", given["module"], "length")
+    if size is not None and size <= 0:
+        what = f"a module of {given['module']} is no size"
+        raise GearTrainError(Problem(what, "", "give a module above 0", "--module"))
+    teeth = given["teeth"]
+    pair = GearPair(pair=("wheel 1", "wheel 2"))
+    distance = None if size is None else size * sum(teeth) / 2
+    wheels = MeshingWheels(pair, "", teeth, friction=_friction(given["friction"]), distance=distance)
+    try:
+        mesh = read_any_form(form, own, given["backlash"]).mesh(wheels, lambda: None)
+    except GearTrainError as error:
+        raise at_option(error, "--teeth") from None
+    assert mesh is not None
+    return mesh.driven_by(MeshDriver(pair.pair[driver - 1], ""))
+
+
+def _outline(mesh: GearMesh, wheel: int, bore: str | None) -> WheelOutline:
+    """A wheel of the pair, to scale."""
+    from geartrain.teeth.outlines.wheel_outline import BlankSizes, mesh_outline
+
+    if mesh.wheels.module is None:
+        why = "an outline is to scale, and nothing gives these wheels a size"
+        raise GearTrainError(Problem("there is no module", why, "give for example --module 2mm", "--module"))
+    hole = None if bore is None else 1000 * quantity("--bore", bore, "length")
+    return mesh_outline(mesh, wheel, BlankSizes(1000 * mesh.wheels.module, bore=hole))

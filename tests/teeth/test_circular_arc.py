@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import json
 from math import asin, atan2, cos, hypot, isclose, pi, sin, sqrt
+from pathlib import Path
+from typing import get_args
 
 import numpy as np
 import pytest
@@ -13,6 +16,8 @@ from shapely import affinity
 from shapely.geometry import Polygon
 
 from geartrain import GearTrain, load
+from geartrain.cli.mesh import PairGroup
+from geartrain.cli.mesh.conjugate_options import form_models
 from geartrain.errors import GearTrainError
 from geartrain.scene import make_scene
 from geartrain.teeth import CircularArc
@@ -224,3 +229,35 @@ def test_what_is_drawn_has_the_standards_tips(clock: GearTrain) -> None:
     assert leaf.tip == pytest.approx(4.67, rel=1e-12)
     outline = Polygon(great.contours(1.0)[0].flattened(1e-4))
     assert outline.is_valid
+
+
+# without a line for it anywhere else ---------------------------------------------------------------------------------
+
+
+def test_the_command_of_the_form_tells_what_its_law_does() -> None:
+    data = json.loads(call("mesh", "circular_arc", "--teeth", "60", "8", "--friction", "0.15", "--json").output)
+    law = FORM.law(60, 8, 0.15)
+    low, high = law.error_range()
+    assert data["form"] == "circular_arc"
+    assert data["transmission_error"]["peak_to_peak"] == pytest.approx(high - low, rel=1e-12)
+    assert data["efficiency"]["mean"] == pytest.approx(law.efficiency_mean(), rel=1e-12)
+
+
+def test_a_wheel_is_cut_to_scale_and_its_law_drawn(tmp_path: Path) -> None:
+    made, plot = tmp_path / "leaf.csv", tmp_path / "law.svg"
+    words = ("--teeth", "60", "8", "--module", "2mm", "--wheel", "2", "--profile", str(made), "--plot", str(plot))
+    assert call("mesh", "circular_arc", *words).exit_code == 0
+    points = np.loadtxt(made, delimiter=",", skiprows=1)[:, 1:]
+    outline = Polygon(points)
+    assert outline.is_valid
+    radii = np.hypot(*points.T)
+    assert radii.max() == pytest.approx(2 * 4.67, abs=1e-6)
+    assert "transmission error" in plot.read_text() or plot.stat().st_size > 10_000
+
+
+def test_every_form_has_a_command_whose_options_are_its_fields() -> None:
+    said = call("mesh", "circular_arc", "--help").output
+    assert "--centre-distance" in said
+    assert "Radius of the arcs in modules" in " ".join(said.replace("\u2502", " ").split())
+    names = {get_args(model.model_fields["form"].annotation)[0] for model in form_models()}
+    assert names - {"ideal"} <= set(PairGroup.verbs)

@@ -12,6 +12,8 @@ from pathlib import Path
 from statistics import median
 from typing import Any, NamedTuple
 
+ENOUGH = 0.2
+"""Seconds of repeats after which a task is not repeated."""
 LIMIT = 120.0
 """Seconds after which a method is said not to finish."""
 
@@ -69,7 +71,7 @@ class Cost(NamedTuple):
 
 
 def measure(task: Task, error_of: Callable[[Any], float | None] = lambda _: None, limit: float = LIMIT) -> Cost:
-    """Time `task` in a forked process, best of repeats within a fifth of a second, and judge what it returned.
+    """Time `task` in a forked process, best of repeats within `ENOUGH`, and judge what it returned.
 
     error_of   result -> its greatest error, outside the time measured
     """
@@ -94,7 +96,7 @@ def _child(pipe: Connection, task: Task, error_of: Callable[[Any], float | None]
     before = _reset_peak()
     try:
         best, total, result = float("inf"), 0.0, None
-        while total < 0.2:
+        while not total or total < ENOUGH:
             took, result = timed(task)
             best, total = min(best, took), total + took
         memory = None if before is None else (_status("VmHWM") or 0) / 1024 - before

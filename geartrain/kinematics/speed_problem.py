@@ -20,7 +20,8 @@ from geartrain.kinematics.verdict import Verdict
 from geartrain.kinematics.willis_system import WillisSystem, assemble_willis_system
 from geartrain.numerics.elimination import TooDenseError
 from geartrain.numerics.exact import as_float
-from geartrain.numerics.long_float import UNIT_ROUNDOFF, rounded, scaled
+from geartrain.numerics.long_float import rounded, scaled
+from geartrain.numerics.rounding_bounds import UNIT_ROUNDOFF
 from geartrain.train import StateCase, Train
 
 if TYPE_CHECKING:

@@ -11,9 +11,6 @@ from typing import Any, Self
 
 from geartrain.numerics.decimal_text import decimal
 
-UNIT_ROUNDOFF = 2.0**-53
-"""The most by which rounding to float64 changes a number, over its size."""
-
 LOWEST, HIGHEST = -1021, 1024
 """Exponents of mantissas from 1/2 to 1 that float64 holds with all its bits."""
 

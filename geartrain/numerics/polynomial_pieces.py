@@ -1,36 +1,32 @@
-"""Smooth curves as polynomials of one degree on short pieces, evaluated for many pieces at once.
+"""Smooth curves as polynomials of one degree on short pieces: fitting, values, extremes and moments, many at once.
 
-Named arrays whose last axis counts the same things: some of them, or several sets in one row.
-
-Roots of many functions at once, each kept inside its bracket.
+A piece is a polynomial in u, which runs from -1 to 1 along it; coefficients are (COUNT, pieces), by powers of u.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
+from collections.abc import Callable
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from numpy.polynomial import chebyshev as cheb
 
 from geartrain.errors import Problem, RangeError
+from geartrain.numerics.chebyshev import points
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
     from geartrain.numerics.arrays import Floats, Indices
-
-    Flags = NDArray[np.bool_]
 
 COUNT = 16  # coefficients of a piece
 FINE = 2e-15  # of the size: as good as given
 _NOISE = 1e-10  # of the size: less may be the rounding of what is given, if halving does not lessen it
 _DEEPEST = 40
 _TAIL = 3  # coefficients that tell whether a piece is short enough
-_NODES = -np.cos(np.pi * np.arange(COUNT) / (COUNT - 1))
+_NODES, _SERIES = points(COUNT)
 _BETWEEN = -np.cos(np.pi * (np.arange(COUNT - 1) + 0.5) / (COUNT - 1))
-_SERIES = np.linalg.inv(cheb.chebvander(_NODES, COUNT - 1))
 POWERS = np.array([np.pad(cheb.cheb2poly(row[: at + 1]), (0, COUNT - 1 - at)) for at, row in enumerate(np.eye(COUNT))])
+
+_GAUSS = np.polynomial.legendre.leggauss(20)
 
 
 class PolynomialPiece(NamedTuple):
@@ -92,64 +88,37 @@ def value(coefficients: Floats, piece: Indices, u: Floats) -> tuple[Floats, Floa
     return found, slope
 
 
-NamedArrays = TypeVar("NamedArrays", bound=tuple[Any, ...])
+def moments(coefficients: Floats, halves: Floats) -> tuple[float, float]:
+    """Mean over all pieces, and the root mean square about it; pieces have half lengths `halves`."""
+    nodes, weights = _GAUSS
+    values = np.polynomial.polynomial.polyval(nodes, coefficients)
+    share = halves / halves.sum() / 2
+    mean = float(share @ values @ weights)
+    return mean, float(np.sqrt(share @ (values - mean) ** 2 @ weights))
 
 
-def some(columns: NamedArrays, which: Indices | Flags) -> NamedArrays:
-    """Those that are numbered, or flagged, in `which`."""
-    kind: Any = type(columns)
-    found: NamedArrays = kind(*(each[..., which] for each in columns))
-    return found
+def extremes(coefficients: Floats) -> tuple[float, float]:
+    """Least and greatest value over all pieces; those that are NaN are left out."""
+    held = coefficients[:, ~np.isnan(coefficients[0])]
+    values = np.concatenate([ends(held).ravel(), *(_polynomial(column, _turns(column)) for column in held.T)])
+    return float(values.min()), float(values.max())
 
 
-def joined(sets: Sequence[NamedArrays]) -> NamedArrays:
-    """Several sets, one after another."""
-    kind: Any = type(sets[0])
-    found: NamedArrays = kind(*(np.concatenate(each, axis=-1) for each in zip(*sets, strict=True)))
-    return found
+def _polynomial(column: Floats, u: Floats) -> Floats:
+    return np.asarray(np.polynomial.polynomial.polyval(u, column))
 
 
-_MOST = 100
-_PATIENCE = 4  # steps without half the bracket: halve it
+def ends(coefficients: Floats) -> Floats:
+    """Values at both ends of the pieces, (2, pieces)."""
+    signs = np.where(np.arange(len(coefficients)) % 2, -1.0, 1.0)
+    return np.stack([signs @ coefficients, coefficients.sum(axis=0)])
 
 
-def roots(
-    value: Callable[[Floats, Indices], Floats],
-    low: Floats,
-    high: Floats,
-    at_low: Floats,
-    at_high: Floats,
-    fine: float = 1e-15,
-) -> Floats:
-    """Where `value` changes its sign between low and high; steps end when they are below `fine`.
-
-    value(x, which)   the functions numbered `which` at x
-    The method is Anderson's and Bjorck's false position; where an end is stuck, halving. A bracket without a change of
-    sign gives its end with the lesser value.
-    """
-    found = np.where(np.abs(at_low) < np.abs(at_high), low, high)
-    which = np.flatnonzero(np.sign(at_low) * np.sign(at_high) < 0)
-    a, b, f, g = low[which], high[which], at_low[which], at_high[which]
-    width, stuck = np.abs(b - a), np.zeros(len(which), int)
-    for _ in range(_MOST):
-        if not len(which):
-            break
-        with np.errstate(invalid="ignore", divide="ignore"):
-            x = b - g * (b - a) / (g - f)
-        inside = (x - a) * (x - b) < 0
-        x = np.where(inside & (stuck < _PATIENCE), x, a + (b - a) / 2)
-        at = value(x, which)
-        step = np.abs(x - b)
-        crossed = np.sign(at) != np.sign(g)
-        with np.errstate(invalid="ignore", divide="ignore"):
-            share = 1 - at / g
-        f = np.where(crossed, g, f * np.where(share > 0, share, 0.5))
-        a = np.where(crossed, b, a)
-        b, g = x, at
-        found[which] = x
-        now = np.abs(b - a)
-        shrunk = now < width / 2
-        width, stuck = np.where(shrunk, now, width), np.where(shrunk | (stuck >= _PATIENCE), 0, stuck + 1)
-        left = (at != 0) & (step > fine) & (now > fine)
-        which, a, b, f, g, width, stuck = (each[left] for each in (which, a, b, f, g, width, stuck))
+def _turns(column: Floats) -> Floats:
+    """Where the slope of a polynomial changes its sign; being off by a little changes little there."""
+    slope = np.asarray(np.polynomial.polynomial.polyder(column), dtype=np.float64)
+    u = np.linspace(-1, 1, 257)
+    at = _polynomial(slope, u)
+    here = np.flatnonzero(np.sign(at[:-1]) * np.sign(at[1:]) < 0)
+    found: Floats = u[here] - at[here] * (u[1] - u[0]) / (at[here + 1] - at[here])
     return found

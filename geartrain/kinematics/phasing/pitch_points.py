@@ -12,12 +12,13 @@ import numpy as np
 
 from geartrain.kinematics.circuits import Circuit
 from geartrain.kinematics.components import Components
+from geartrain.numerics.rounding_bounds import UNIT_ROUNDOFF
 
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
 
 
-EPS = float(np.finfo(float).eps)
+EPS = 2 * UNIT_ROUNDOFF
 HALF = Fraction(1, 2)
 
 

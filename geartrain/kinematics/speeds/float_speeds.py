@@ -23,7 +23,8 @@ from geartrain.numerics.containers import FrozenFields
 from geartrain.numerics.elimination import PRIME, eliminate, residues
 from geartrain.numerics.exact import as_float
 from geartrain.numerics.labelled_array import LabelledArray, labelled_array
-from geartrain.numerics.long_float import HIGHEST, LOWEST, UNIT_ROUNDOFF, Real, scaled
+from geartrain.numerics.long_float import HIGHEST, LOWEST, Real, scaled
+from geartrain.numerics.rounding_bounds import UNIT_ROUNDOFF
 
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats

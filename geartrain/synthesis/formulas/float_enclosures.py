@@ -1,8 +1,7 @@
 """Quotients of two polynomials in float64, with bounds on the error.
 
 Everything here takes the monomials of the groups (positive floats, arrays that broadcast) and terms with exponents
-parallel to them. Error bounds are a priori ones: n roundings in a term change it by at most n u / (1 - n u) of
-itself, u = 2^-53 (Higham, Accuracy and Stability of Numerical Algorithms, section 3.1).
+parallel to them. Error bounds are those of `rounding_bounds`.
 """
 
 from __future__ import annotations
@@ -13,13 +12,11 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from geartrain.numerics.rounding_bounds import SLACK, UNIT_ROUNDOFF, sum_error
 from geartrain.synthesis.formulas.laurent import Term
 
 Floats = NDArray[np.float64]
 
-_U = 2.0**-53
-_SLACK = 1 + 1e-6
-"""Covers the roundings of the bounds themselves, and the squares that first-order bounds leave out."""
 _TINY = 1e-280
 """Terms below this are near the end of float64, where relative errors are not bounded."""
 
@@ -55,7 +52,7 @@ class EnclosedQuotient:
             top, bottom = self._sum(self._upper, monomials), self._sum(self._lower, monomials)
             up = top.error / (np.abs(top.value) - top.error)
             down = bottom.error / np.abs(bottom.value)
-            bound = _SLACK * (up + down + up * down + 2 * _U)
+            bound = SLACK * (up + down + up * down + 2 * UNIT_ROUNDOFF)
             sure = (np.abs(top.value) > top.error) & (np.abs(bottom.value) > bottom.error)
             if not self._upper and self._lower:
                 bound, sure = np.zeros_like(bound), np.abs(bottom.value) > bottom.error
@@ -75,7 +72,7 @@ class EnclosedQuotient:
             value = self._term(term, monomials)
             total, size, least = total + value, size + np.abs(value), np.minimum(least, np.abs(value))
         each = [1 + sum(e * (n + 1) for e, n in zip(t.exponents, self._roundings, strict=True)) for t in terms]
-        bound = _SLACK * (max(each, default=0) + len(terms)) * _U * size
+        bound = sum_error(max(each, default=0) + len(terms), size)
         safe = np.isfinite(total) & (least > _TINY)
         if any(abs(term.coefficient) / self._largest < _TINY for term in terms):
             safe = safe & False

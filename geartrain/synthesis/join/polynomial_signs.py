@@ -15,6 +15,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from geartrain.numerics.rounding_bounds import UNIT_ROUNDOFF
 from geartrain.synthesis.join.partial_assignments import PartialAssignments
 from geartrain.synthesis.join.product_lists import Floats, Ints
 
@@ -22,7 +23,7 @@ Signs = NDArray[np.int8]
 Monomial = tuple[tuple[int, int], ...]
 """(item, power) pairs, items ascending, powers 1 or more."""
 
-ROUNDING = 2.0**-52
+ROUNDING = 2 * UNIT_ROUNDOFF
 _WRAP = (1 << 64) - 1
 
 

@@ -15,12 +15,13 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from geartrain.numerics.polynomial_pieces import joined, roots, some, value
+from geartrain.numerics.named_arrays import joined, some
+from geartrain.numerics.polynomial_pieces import value
+from geartrain.numerics.simultaneous_roots import roots_by_false_position
 from geartrain.teeth.contact.driven_frame import DrivenFrame
 
 if TYPE_CHECKING:
-    from geartrain.numerics.arrays import Floats, Indices
-    from geartrain.numerics.polynomial_pieces import Flags
+    from geartrain.numerics.arrays import Bools, Floats, Indices
     from geartrain.teeth.contact.driven_frame import AxlePlacement
     from geartrain.teeth.contact.flank_table import FlankTable
 
@@ -104,7 +105,7 @@ class FlankSegmentation:
             found: Floats = self._seen(x[these], turning.piece1[these], u)[2]
             return found
 
-        middle = roots(slope, *turning.u, *turning.seen[2])
+        middle = roots_by_false_position(slope, *turning.u, *turning.seen[2])
         seen = self._seen(x, turning.piece1, middle)
         cells.u[1, which], cells.seen[:, 1, which] = middle, seen
         turning.u[0], turning.seen[:, 0] = middle, seen
@@ -125,7 +126,7 @@ class FlankSegmentation:
                 a, _ = value(self.first.azimuth, piece[these], at)
                 return self.sight.look(r, a + x[these]).radius - goal[these]
 
-            u[side, which] = roots(off, *cells.u[:, which], *(cells.seen[0][:, which] - goal))
+            u[side, which] = roots_by_false_position(off, *cells.u[:, which], *(cells.seen[0][:, which] - goal))
             seen[:, side, which] = self._seen(x, piece, u[side, which])
             cells.v[side, which] = np.where(above, 1.0, -1.0)
         return cells._replace(u=u, seen=seen)
@@ -181,11 +182,11 @@ class FirstTouchSearch(FlankSegmentation):
         np.maximum.at(best, position, ends.max(axis=0) - place)
         return some(segments, ends.max(axis=0) + _WIDE * rise - place >= best[position] - margin)
 
-    def _stalled(self, segments: FlankSegments) -> Flags:
+    def _stalled(self, segments: FlankSegments) -> Bools:
         """(2, n): ends of segments at which one of the two curves stands still, so that slopes there tell nothing."""
         first, second = self.first.stalls[:, segments.piece1], self.second.stalls[:, segments.piece2]
         at_end = (segments.u == np.array([[-1.0], [1.0]])) & first
-        found: Flags = at_end | ((segments.v == -1) & second[0]) | ((segments.v == 1) & second[1])
+        found: Bools = at_end | ((segments.v == -1) & second[0]) | ((segments.v == 1) & second[1])
         return found
 
     def _rough(self, segments: FlankSegments) -> tuple[Floats, Floats]:
@@ -227,7 +228,9 @@ class FirstTouchSearch(FlankSegmentation):
             slopes[side, which] = rising(ends_u[side, which], which)
         inner = np.flatnonzero((slopes[0] > 0) & (slopes[1] < 0))
         (low_u, high_u), (at_low, at_high) = ends_u[:, inner], slopes[:, inner]
-        middle = roots(lambda u, these: rising(u, inner[these]), low_u, high_u, at_low, at_high, _FINE)
+        middle = roots_by_false_position(
+            lambda u, these: rising(u, inner[these]), low_u, high_u, at_low, at_high, _FINE
+        )
         ends = [self._found(couples, segments, segments.u[side], segments.v[side]) for side in (0, 1)]
         within = self._found(couples, some(segments, inner), middle, np.full(len(inner), np.nan))
         return joined([*ends, within])

@@ -8,11 +8,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from geartrain.numerics.polynomial_pieces import COUNT, value
+from geartrain.numerics.polynomial_pieces import COUNT, ends, value
 
 if TYPE_CHECKING:
-    from geartrain.numerics.arrays import Floats, Indices
-    from geartrain.numerics.polynomial_pieces import Flags
+    from geartrain.numerics.arrays import Bools, Floats, Indices
 
 _CELLS = 8  # of a side, at least: the furthest point is looked for in each
 _CLOSER, _CLOSE = 0.75, 30  # steps towards an end that stands still: what happens there has no size of its own
@@ -36,8 +35,8 @@ class FlankTable:
 
     radius: Floats
     azimuth: Floats
-    corners: Flags
-    flat: Flags
+    corners: Bools
+    flat: Bools
     first: Indices
     curve: Indices
     error: tuple[float, float]
@@ -50,15 +49,14 @@ class FlankTable:
     @cached_property
     def ends(self) -> Floats:
         """Radii at the ends of the pieces, (2, pieces)."""
-        signs = np.where(np.arange(COUNT) % 2, -1.0, 1.0)
-        return np.stack([signs @ self.radius, self.radius.sum(axis=0)])
+        return ends(self.radius)
 
     @cached_property
-    def stalls(self) -> Flags:
+    def stalls(self) -> Bools:
         """(2, pieces): whether a piece begins, ends, with hardly any radius gained by u."""
         powers = np.arange(COUNT)
         slopes = np.stack([np.where(powers % 2, powers, -powers) @ self.radius, powers @ self.radius])
-        found: Flags = slopes < _STALLED * (self.ends[1] - self.ends[0])
+        found: Bools = slopes < _STALLED * (self.ends[1] - self.ends[0])
         return found
 
     @cached_property
@@ -86,7 +84,7 @@ class FlankTable:
     # ------------------------------------------------------------------------------------------------- as the driver
 
     @cached_property
-    def nodes(self) -> tuple[Indices, Floats, Flags]:
+    def nodes(self) -> tuple[Indices, Floats, Bools]:
         """Of each tooth, (teeth, nodes): piece and u of its nodes, and whether a cell begins at a node."""
         cells = np.repeat(np.maximum(1, -(-_CELLS // np.diff(self.first))), np.diff(self.first))
         each = [self._marks(piece, int(number)) for piece, number in enumerate(cells)]

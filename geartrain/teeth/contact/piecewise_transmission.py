@@ -9,16 +9,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from geartrain.numerics.decimal_text import fraction_text
-from geartrain.numerics.polynomial_pieces import value
+from geartrain.numerics.polynomial_pieces import extremes, moments, value
 from geartrain.teeth.contact.outline_contact import KINDS
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
     from geartrain.numerics.arrays import Floats, Indices
-
-
-_GAUSS = np.polynomial.legendre.leggauss(20)
 
 
 @dataclass(frozen=True)
@@ -72,19 +69,15 @@ class PiecewiseTransmission:
 
     def extremes(self) -> tuple[float, float]:
         """Least and greatest transmission error (rad): at corners, or where its slope is 0."""
-        return _range(self.errors)
+        return extremes(self.errors)
 
     def speed_range(self) -> tuple[float, float]:
         """Least and greatest speed ratio."""
-        return _range(self.speeds)
+        return extremes(self.speeds)
 
     def moments(self) -> tuple[float, float]:
         """Mean of the transmission error over a period, and its rms about that mean (rad); NaN with gaps in contact."""
-        points, weights = _GAUSS
-        error = np.polynomial.polynomial.polyval(points, self.errors)
-        share = self.halves / self.halves.sum() / 2
-        mean = float(share @ error @ weights)
-        return mean, float(np.sqrt(share @ (error - mean) ** 2 @ weights))
+        return moments(self.errors, self.halves)
 
     def to_dict(self) -> dict[str, Any]:
         """Plain data for JSON."""
@@ -101,30 +94,3 @@ class PiecewiseTransmission:
             "uncertainty": self.uncertainty,
             "speed_uncertainty": self.speed_uncertainty,
         }
-
-
-def _range(coefficients: Floats) -> tuple[float, float]:
-    """Least and greatest value of polynomials over u from -1 to 1; those that are NaN are left out."""
-    held = coefficients[:, ~np.isnan(coefficients[0])]
-    values = np.concatenate([ends(held).ravel(), *(_polynomial(column, _turns(column)) for column in held.T)])
-    return float(values.min()), float(values.max())
-
-
-def _polynomial(column: Floats, u: Floats) -> Floats:
-    return np.asarray(np.polynomial.polynomial.polyval(u, column))
-
-
-def ends(coefficients: Floats) -> Floats:
-    """Values of polynomials at u = -1 and 1; coefficients (COUNT, n), values (2, n)."""
-    signs = np.where(np.arange(len(coefficients)) % 2, -1.0, 1.0)
-    return np.stack([signs @ coefficients, coefficients.sum(axis=0)])
-
-
-def _turns(column: Floats) -> Floats:
-    """Where the slope of a polynomial changes its sign; being off by a little changes little there."""
-    slope = np.asarray(np.polynomial.polynomial.polyder(column), dtype=np.float64)
-    u = np.linspace(-1, 1, 257)
-    at = _polynomial(slope, u)
-    here = np.flatnonzero(np.sign(at[:-1]) * np.sign(at[1:]) < 0)
-    found: Floats = u[here] - at[here] * (u[1] - u[0]) / (at[here + 1] - at[here])
-    return found

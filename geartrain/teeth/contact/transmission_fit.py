@@ -10,13 +10,13 @@ import numpy as np
 from numpy.polynomial import chebyshev as cheb
 
 from geartrain.errors import Problem, RangeError
-from geartrain.numerics.polynomial_pieces import COUNT, POWERS, joined, some
+from geartrain.numerics.named_arrays import joined, some
+from geartrain.numerics.polynomial_pieces import COUNT, POWERS, ends
 from geartrain.teeth.contact.outline_contact import OutlinePair
-from geartrain.teeth.contact.piecewise_transmission import PiecewiseTransmission, ends
+from geartrain.teeth.contact.piecewise_transmission import PiecewiseTransmission
 
 if TYPE_CHECKING:
-    from geartrain.numerics.arrays import Floats, Indices
-    from geartrain.numerics.polynomial_pieces import Flags
+    from geartrain.numerics.arrays import Bools, Floats, Indices
     from geartrain.teeth.contact.outline_curves import GearOutline
 
 _NODES = -np.cos(np.pi * (np.arange(COUNT) + 0.5) / COUNT)  # inside, so that a stretch never asks beyond its corners
@@ -112,11 +112,11 @@ class _Maker:
                 raise _endless(self.tolerance)
         return self._ordered(done, np.concatenate(corners))
 
-    def _good(self, stretches: _Stretches, before: Floats) -> Flags:
+    def _good(self, stretches: _Stretches, before: Floats) -> Bools:
         """Within tolerance, thin, or as good as rounding lets it be."""
         thin = np.diff(stretches.ends, axis=0)[0] < _THIN * self.pitch
         stuck = (stretches.off > before / 4) & (before < 1e-10)
-        good: Flags = (_SAFETY * stretches.off <= self.tolerance) | thin | stuck
+        good: Bools = (_SAFETY * stretches.off <= self.tolerance) | thin | stuck
         return good
 
     def _fitted(self, ends: Floats) -> tuple[_Stretches, Indices]:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from geartrain.numerics.chandrupatla import roots_by_chandrupatla
+from geartrain.numerics.simultaneous_roots import roots_by_chandrupatla
 from geartrain.uncertainty.manufacturing_errors.contact_envelope import ContactEnvelope, FirstContact
 
 if TYPE_CHECKING:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
-from geartrain.numerics.chandrupatla import roots_by_chandrupatla
+from geartrain.numerics.simultaneous_roots import roots_by_chandrupatla
 from geartrain.uncertainty.manufacturing_errors.contact_envelope import LEFT, ContactEnvelope
 from geartrain.uncertainty.manufacturing_errors.contact_intervals import (
     ContactIntervals,

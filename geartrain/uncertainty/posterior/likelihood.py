@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from geartrain.numerics.exact import log10
-from geartrain.numerics.long_float import UNIT_ROUNDOFF
+from geartrain.numerics.rounding_bounds import SLACK, UNIT_ROUNDOFF, quotient_error, sum_error
 from geartrain.synthesis.formulas import Formula
 from geartrain.synthesis.formulas.laurent import Term
 from geartrain.synthesis.join.polynomial_constraints import PolynomialConstraint
@@ -30,8 +30,6 @@ from geartrain.uncertainty.posterior.observations import Observation, ObservedOu
 Bools = NDArray[np.bool_]
 Domains = Mapping[str, tuple[int, ...]]
 
-_SLACK = 1 + 1e-6
-"""Covers the roundings of the bounds themselves, and the squares that first-order bounds leave out."""
 _SAFE = 250
 """Monomials between 10^-250 and 10^250 are never near the ends of float64, where relative errors are not bounded."""
 
@@ -51,7 +49,7 @@ class CountPolynomial:
     def relative(self) -> float | None:
         """A bound on the relative error; None where terms may cancel."""
         signs = {coefficient > 0 for coefficient, _ in self.terms}
-        return self.roundings * UNIT_ROUNDOFF * _SLACK if len(signs) == 1 else None
+        return self.roundings * UNIT_ROUNDOFF * SLACK if len(signs) == 1 else None
 
     def __call__(self, rows: MonomialColumns, plan: ProductPlan) -> tuple[Floats, Floats | None]:
         """The value, and a bound on its error where `relative` is None."""
@@ -62,7 +60,7 @@ class CountPolynomial:
         if self.relative is not None:
             return value, None
         size = reduce(np.add, map(np.abs, each))
-        return value, np.asarray(self.roundings * UNIT_ROUNDOFF * _SLACK * size)
+        return value, np.asarray(sum_error(self.roundings, size))
 
     def bounded(self, rows: MonomialColumns, plan: ProductPlan) -> tuple[Floats, Floats]:
         """The value, and a bound on its error in any case."""
@@ -140,7 +138,7 @@ def _divided(top: Floats, off: Floats, bottom: Floats, beside: Floats) -> tuple[
     with np.errstate(all="ignore"):
         value = top / bottom
         left = np.abs(bottom) - beside
-        room = _SLACK * ((off + np.abs(value) * beside) / left + 2 * UNIT_ROUNDOFF * np.abs(value))
+        room = quotient_error(value, off, left, beside)
     return value, np.where((left > 0) & np.isfinite(room), room, np.inf)
 
 

@@ -1,4 +1,8 @@
-"""Roots of many functions at once, each in its own bracket."""
+"""Roots of many functions at once, each kept inside its own bracket.
+
+Chandrupatla's method ends at neighbouring floats however the functions bend; false position takes fewer evaluations
+where they are smooth and values at the ends are known, and ends where a step is short enough.
+"""
 
 from __future__ import annotations
 
@@ -10,11 +14,12 @@ import numpy as np
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from geartrain.numerics.arrays import Floats
+    from geartrain.numerics.arrays import Floats, Indices
 
     Value = Callable[[NDArray[np.int64], Floats], Floats]
 
 _MOST_STEPS = 100
+_PATIENCE = 4  # steps without half the bracket: halve it
 
 
 def roots_by_chandrupatla(value: Value, low: Floats, high: Floats) -> Floats:
@@ -57,3 +62,45 @@ def _next(a: Floats, b: Floats, c: Floats, at_a: Floats, at_b: Floats, at_c: Flo
         share += (c - a) / (b - a) * at_a / (at_c - at_a) * at_b / (at_c - at_b)
     share = np.where(safe & np.isfinite(share), share, 0.5)
     return np.clip(share, np.minimum(least, 0.5), np.maximum(1 - least, 0.5))
+
+
+def roots_by_false_position(
+    value: Callable[[Floats, Indices], Floats],
+    low: Floats,
+    high: Floats,
+    at_low: Floats,
+    at_high: Floats,
+    fine: float = 1e-15,
+) -> Floats:
+    """Where each function changes its sign between low and high, from the values there; steps end below `fine`.
+
+    value(x, which)   the functions numbered `which` at x
+    The method is Anderson's and Bjorck's false position; where an end is stuck, halving. A bracket without a change of
+    sign gives its end with the lesser value.
+    """
+    found = np.where(np.abs(at_low) < np.abs(at_high), low, high)
+    which = np.flatnonzero(np.sign(at_low) * np.sign(at_high) < 0)
+    a, b, f, g = low[which], high[which], at_low[which], at_high[which]
+    width, stuck = np.abs(b - a), np.zeros(len(which), int)
+    for _ in range(_MOST_STEPS):
+        if not len(which):
+            break
+        with np.errstate(invalid="ignore", divide="ignore"):
+            x = b - g * (b - a) / (g - f)
+        inside = (x - a) * (x - b) < 0
+        x = np.where(inside & (stuck < _PATIENCE), x, a + (b - a) / 2)
+        at = value(x, which)
+        step = np.abs(x - b)
+        crossed = np.sign(at) != np.sign(g)
+        with np.errstate(invalid="ignore", divide="ignore"):
+            share = 1 - at / g
+        f = np.where(crossed, g, f * np.where(share > 0, share, 0.5))
+        a = np.where(crossed, b, a)
+        b, g = x, at
+        found[which] = x
+        now = np.abs(b - a)
+        shrunk = now < width / 2
+        width, stuck = np.where(shrunk, now, width), np.where(shrunk | (stuck >= _PATIENCE), 0, stuck + 1)
+        left = (at != 0) & (step > fine) & (now > fine)
+        which, a, b, f, g, width, stuck = (each[left] for each in (which, a, b, f, g, width, stuck))
+    return found

@@ -9,7 +9,7 @@ import sys
 from functools import cache
 from math import cos, isclose, pi, radians, sin, sqrt, tan
 from pathlib import Path as File
-from typing import Any
+from typing import Any, get_args
 
 import numpy as np
 import pytest
@@ -316,3 +316,28 @@ def test_a_friction_that_locks_is_part_of_the_verdict() -> None:
     assert done.exit_code == 1
     assert "but friction locks them" in done.output
     assert "the teeth run" not in done.output
+
+
+def test_every_field_of_a_conjugate_form_is_an_option_of_its_command() -> None:
+    import typer.main
+
+    from geartrain.cli import app
+    from geartrain.teeth.any_tooth_form import ConjugateForm
+
+    mesh = typer.main.get_command(app).commands["mesh"]  # type: ignore[attr-defined]
+    for form in get_args(ConjugateForm):
+        schema = form.model_json_schema()
+        (name,) = (schema["properties"]["form"]["const"],)
+        fields = {f"--{field.replace('_', '-')}" for field in schema["properties"]} - {"--form", "--centre-distance"}
+        options = {option for each in mesh.commands[name].params for option in each.opts}
+        assert fields <= options, name
+        assert ("--centre-distance" in options) == form.any_distance
+
+
+def test_an_option_that_is_no_text_is_read_as_its_form_has_it() -> None:
+    done = call("mesh", "least_friction", "--teeth", 24, 36, "--literal", "--json")
+    assert json.loads(done.stdout)["form"] == "least_friction"
+    plain = call("mesh", "least_friction", "--teeth", 24, 36, "--json")
+    assert json.loads(done.stdout) != json.loads(plain.stdout)
+    pins = ("mesh", "lantern", "--teeth", 12, 45)
+    assert call(*pins, "--pins", 1).stdout != call(*pins).stdout == call(*pins, "--pins", 2).stdout

@@ -24,7 +24,7 @@ from geartrain.cli.common import (
     sink,
 )
 from geartrain.cli.mesh.conjugate import outline_sink
-from geartrain.cli.mesh.conjugate_options import own_options, read_any_form
+from geartrain.cli.mesh.conjugate_options import FormOptions, own_options, read_any_form
 from geartrain.cli.mesh.form_options import own_parameters, signed
 from geartrain.cli.option_values import at_option, quantity
 from geartrain.cli.option_values import friction as _friction
@@ -73,7 +73,7 @@ def command(form: str) -> Callable[..., None]:
 
 def _run(
     form: str,
-    own: dict[str, str | None],
+    own: FormOptions,
     *,
     driver: int,
     wheel: int,
@@ -106,7 +106,7 @@ def _run(
     raise typer.Exit(GOOD if not mesh.faults else VERDICT)
 
 
-def _mesh(form: str, own: dict[str, str | None], driver: int, given: dict[str, Any]) -> GearMesh:
+def _mesh(form: str, own: FormOptions, driver: int, given: dict[str, Any]) -> GearMesh:
     """The two wheels in mesh. Raises `GearTrainError` where the form gives no such pair."""
     from geartrain.teeth.gear_mesh import MeshDriver, MeshingWheels
     from geartrain.train import GearPair

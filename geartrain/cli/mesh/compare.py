@@ -25,6 +25,7 @@ from geartrain.cli.common import (
 from geartrain.cli.mesh.conjugate_options import (
     NAMES,
     ConjugateOptions,
+    FormOptions,
     own_options,
     pair,
     read_form,
@@ -170,7 +171,7 @@ def _made(name: str, asked: ConjugateOptions, arcs: tuple[float, float], angle: 
 
     reading = name[-1] if name.startswith("uniform_temperature_") else None
     form = name[:-2] if reading else name
-    given: dict[str, str | None] = {"arcs": ",".join(map(repr, arcs)), "reading": reading}
+    given: FormOptions = {"arcs": ",".join(map(repr, arcs)), "reading": reading}
     if "pressure_angle" in own_options(form):
         given["pressure_angle"] = angle
     try:

@@ -25,7 +25,14 @@ from geartrain.cli.common import (
     show,
     sink,
 )
-from geartrain.cli.mesh.conjugate_options import ConjugateOptions, own_options, pair, read_form, read_wheels
+from geartrain.cli.mesh.conjugate_options import (
+    ConjugateOptions,
+    FormOptions,
+    own_options,
+    pair,
+    read_form,
+    read_wheels,
+)
 from geartrain.cli.mesh.form_options import own_parameters, signed
 from geartrain.cli.option_values import friction as _friction
 from geartrain.cli.option_values import quantity
@@ -91,7 +98,7 @@ def command(form: str) -> Callable[..., None]:
 
 def _run(
     form: str,
-    own: dict[str, str | None],
+    own: FormOptions,
     *,
     friction: str,
     driver: int,
@@ -140,7 +147,7 @@ def outline_sink(profile: Path | None, force: bool) -> Sink:
 
 def _cut(
     form: str,
-    own: dict[str, str | None],
+    own: FormOptions,
     found: ConjugatePair,
     asked: ConjugateOptions,
     wheel: int,
@@ -172,7 +179,7 @@ def _sizes(given: dict[str, Any]) -> BlankSizes:
     return BlankSizes(**sizes)  # type: ignore[arg-type]
 
 
-def _rack_clearance(own: dict[str, str | None], asked: ConjugateOptions, wheel: int) -> float:
+def _rack_clearance(own: FormOptions, asked: ConjugateOptions, wheel: int) -> float:
     """What the rack's dedendum leaves between a wheel's root and its mate's tip, in modules."""
     from geartrain.teeth.involute import Involute
 
@@ -194,7 +201,7 @@ def _rack_clearance(own: dict[str, str | None], asked: ConjugateOptions, wheel: 
     return free
 
 
-def _pins(form: str, own: dict[str, str | None], asked: ConjugateOptions) -> LanternPins | None:
+def _pins(form: str, own: FormOptions, asked: ConjugateOptions) -> LanternPins | None:
     """Which wheel has pins, and where."""
     if form != "lantern":
         return None

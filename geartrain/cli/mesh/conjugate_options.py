@@ -3,17 +3,20 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, get_args
+from typing import TYPE_CHECKING, Any, get_args, get_origin
 
 from geartrain.cli.option_values import at_option, quantity
 from geartrain.errors import GearTrainError, Problem, suggest
 
 if TYPE_CHECKING:
+    from pydantic.fields import FieldInfo
+
     from geartrain.teeth.conjugate.conjugate_form import ConjugateToothForm
     from geartrain.teeth.conjugate.conjugate_transmission import ConjugatePair
     from geartrain.teeth.conjugate.wheel_pair import WheelPair
     from geartrain.teeth.tooth_form import ToothForm
 
+FormOptions = dict[str, str | bool | None]
 CONJUGATE = ("involute", "cycloidal", "lantern", "uniform_stress", "uniform_temperature", "least_friction")
 """Forms with a path of contact, whose pages show its costs; others are told of by what their mesh says of itself."""
 
@@ -80,17 +83,32 @@ def _plain(backlash: str) -> None:
         raise GearTrainError(Problem(f"a backlash of {backlash} has nothing to be compared with", why, fix, "--module"))
 
 
-def own_options(form: str) -> dict[str, str]:
-    """The options of a form by the names of its fields, each with what the field says of itself.
+def own_options(form: str) -> dict[str, tuple[type, str]]:
+    """The options of a form by the names of its fields: of which type, and what the field says of itself.
 
     Of forms that keep their design at any distance there is none for the distance; play is an option of all.
     """
     fields = form_model(form).model_fields
     common = {"form", "backlash"} | (set() if form_model(form).any_distance else {"centre_distance"})
-    return {name: f"{field.description}." for name, field in fields.items() if name not in common}
+    return {name: _option(field) for name, field in fields.items() if name not in common}
 
 
-def read_form(form: str, given: dict[str, str | None], backlash: str | None = None) -> ConjugateToothForm:
+def _option(field: FieldInfo) -> tuple[type, str]:
+    text = field.description or ""
+    if isinstance(field.default, bool):
+        return bool, f"{text}."
+    if field.default is not None and not field.is_required():
+        text += f"; default {field.default}"
+    if _is_pair(field.annotation) and "two" not in text:
+        text += "; two with a comma"
+    return str, f"{text}."
+
+
+def _is_pair(annotation: Any) -> bool:
+    return get_origin(annotation) is tuple or any(map(_is_pair, get_args(annotation)))
+
+
+def read_form(form: str, given: FormOptions, backlash: str | None = None) -> ConjugateToothForm:
     """The conjugate form with the options given. Raises `GearTrainError` for options it cannot have."""
     from geartrain.teeth.conjugate.conjugate_form import ConjugateToothForm
 
@@ -99,13 +117,12 @@ def read_form(form: str, given: dict[str, str | None], backlash: str | None = No
     return found
 
 
-def read_any_form(form: str, given: dict[str, str | None], backlash: str | None = None) -> ToothForm:
+def read_any_form(form: str, given: FormOptions, backlash: str | None = None) -> ToothForm:
     """The tooth form with the options given. Raises `GearTrainError` for options it cannot have."""
     from pydantic import ValidationError
 
-    data: dict[str, Any] = {name: _parts(value) for name, value in given.items() if value is not None}
-    if str(data.get("pins")).isdigit():
-        data["pins"] = int(data["pins"])
+    fields = form_model(form).model_fields
+    data = {name: _value(fields[name], value) for name, value in given.items() if value is not None}
     if backlash is not None:
         data["backlash"] = backlash
     try:
@@ -125,8 +142,13 @@ def pair(form: ConjugateToothForm, asked: ConjugateOptions) -> ConjugatePair:
         raise at_option(error, "--teeth") from None
 
 
-def _parts(value: str) -> Any:
-    return [part.strip() for part in value.split(",")] if "," in value else value
+def _value(field: FieldInfo, given: str | bool) -> Any:
+    """What an option says, as a declaration would: a list where there is a comma, a number where one can be chosen."""
+    if isinstance(given, bool):
+        return given
+    if given.isdigit() and int(given) in get_args(field.annotation):
+        return int(given)
+    return [part.strip() for part in given.split(",")] if "," in given else given
 
 
 def form_model(form: str) -> type[ToothForm]:

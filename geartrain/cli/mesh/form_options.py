@@ -12,15 +12,15 @@ from geartrain.cli.mesh.conjugate_options import own_options
 
 
 def own_parameters(form: str) -> list[Parameter]:
-    """A form's own options, as text that is left to the form."""
+    """A form's own options, their text left to the form."""
     return [
         Parameter(
             name,
             Parameter.POSITIONAL_OR_KEYWORD,
             default=None,
-            annotation=Annotated[str | None, typer.Option(f"--{name.replace('_', '-')}", help=text)],
+            annotation=Annotated[kind | None, typer.Option(f"--{name.replace('_', '-')}", help=text)],
         )
-        for name, text in own_options(form).items()
+        for name, (kind, text) in own_options(form).items()
     ]
 
 

@@ -111,7 +111,7 @@ def find_accuracy(train: GearTrain, state: str | None = None, positions: int = 1
 def _best(task: Callable[..., Any], fresh: Callable[[], Sequence[Any]] = tuple) -> _Timed:
     """The least time of a task, and what it returned; `fresh` makes its arguments anew before every run, untimed."""
     best, total, runs, found = math.inf, 0.0, 0, None
-    while total < _ENOUGH or (runs < 2 and total < _LONG):  # the first may have had to load a library
+    while not runs or total < _ENOUGH or (runs < 2 and total < _LONG):  # the first may have had to load a library
         given = fresh()
         runs += 1
         start = time.perf_counter()
@@ -306,7 +306,7 @@ def _torques(train: GearTrain, state: str | None) -> Iterator[MethodAccuracy]:
     if len(found.asked) != 1 or not asked:
         return
     (link,) = asked
-    loads = [name for name in powers if name != link]
+    loads = [name for name in train.declaration.case(state).loads if name != link]  # and no friction of bearings
 
     def virtual_work(fresh: GearTrain) -> Any:
         speeds = fresh.solve(state).speeds

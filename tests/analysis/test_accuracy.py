@@ -87,6 +87,14 @@ def test_virtual_work_is_off_by_what_the_losses_take() -> None:
     assert row_of(found, TORQUES, "virtual work, without losses").error == pytest.approx(0.1, rel=1e-12)
 
 
+def test_virtual_work_leaves_the_friction_of_bearings_out_too() -> None:
+    """A bearing that takes a tenth of what the load takes: 1/2 without it, 1/2 + 1/20 with it; 1/11 less."""
+    links = PAIR["links"] | {"b": {"wheels": {"w": 40}, "bearing": 0.1}}
+    found = find_accuracy(GearTrain.declare(PAIR | {"links": links, "loads": {"b": 1}}))
+    assert row_of(found, TORQUES, "balance with losses").error == 0
+    assert row_of(found, TORQUES, "virtual work, without losses").error == pytest.approx(1 / 11, rel=1e-12)
+
+
 def test_a_train_that_does_not_turn_says_so_and_measures_nothing(train_file: object) -> None:
     path = train_file(LOCKED)  # type: ignore[operator]
     done = call("bench", path, "--json")

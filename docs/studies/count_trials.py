@@ -14,10 +14,11 @@ from numpy.typing import NDArray
 from geartrain.analysis.gear_train import GearTrain
 from geartrain.analysis.loader import load
 from geartrain.synthesis.formulas import with_counts
-from geartrain.uncertainty.posterior.enumeration import BLOCK, CombinationGrid, LikelihoodBatch
 from geartrain.uncertainty.posterior.inference_problem import InferenceProblem, build_inference_problem
 from geartrain.uncertainty.posterior.monomial_columns import MonomialColumns
 from geartrain.uncertainty.posterior.priors import find_priors
+from geartrain.uncertainty.posterior.sampled_posterior import BLOCK, LikelihoodBatch
+from studies.count_grid import CombinationGrid
 
 Bools = NDArray[np.bool_]
 Floats = NDArray[np.float64]

@@ -53,7 +53,7 @@ def run(
         bool, typer.Option("--soft", help="Agreement by degree, tolerances as standard deviations.")
     ] = False,
     method: Annotated[
-        str | None, typer.Option("--method", help="enumerate, decompose or sample; default the first that fits.")
+        str | None, typer.Option("--method", help="exact or sample; default exact where the limit allows it.")
     ] = None,
     most: Annotated[int, typer.Option("--most", min=0, max=1_000_000, help="Combinations to list.")] = 20,
     limit: Annotated[

@@ -425,7 +425,7 @@ SHARE = _has({"value": SOME, "exact": EXACT, "low": SOME, "high": SOME})
 SWEEP = _has(
     {
         "train": TEXT,
-        "method": _enum("enumerate", "decompose", "sample"),
+        "method": _enum("exact", "sample"),
         "soft": FLAG,
         "combinations": COUNT,
         "looked": COUNT,

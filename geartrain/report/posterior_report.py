@@ -52,8 +52,7 @@ def sweep_document(found: ToothCountPosterior) -> Document:
 
 def _lead(found: ToothCountPosterior) -> Iterator[str]:
     how = {
-        "enumerate": f"every one was looked at ({_many(found.looked)} of the wheels that matter)",
-        "decompose": f"all were taken together, in {_many(found.looked)} steps; only what has an interval is estimated",
+        "exact": f"all were taken together, in {_many(found.looked)} steps; only what has an interval is estimated",
         "sample": f"{_many(found.looked)} were drawn, seed {found.seed}; intervals are of 95 %",
     }[found.method]
     yield f"{_many(found.combinations)} combinations of {len(found.posteriors)} wheels; {how}."

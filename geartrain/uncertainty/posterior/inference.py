@@ -1,4 +1,4 @@
-"""Counts in doubt: every combination looked at, one by one, all at once, or by a sample."""
+"""Counts in doubt: all combinations taken together, or a sample of them."""
 
 from __future__ import annotations
 
@@ -7,21 +7,13 @@ from concurrent.futures import Executor
 from dataclasses import replace
 from fractions import Fraction
 from functools import partial
-from math import prod
+from math import inf, prod
 from typing import Any
 
 from geartrain.errors import Problem, QuestionError, RangeError, suggest
 from geartrain.numerics.work import Execution, Journal, run
 from geartrain.synthesis.join.exact_join import BudgetSpentError
 from geartrain.train import Train
-from geartrain.uncertainty.posterior.enumeration import (
-    LikelihoodBatch,
-    PosteriorTally,
-    enumerate_task,
-    grid_of,
-    packed,
-    sample_task,
-)
 from geartrain.uncertainty.posterior.inference_problem import InferenceProblem, build_inference_problem
 from geartrain.uncertainty.posterior.joined_posterior import evidence_of, find_joined_posterior
 from geartrain.uncertainty.posterior.observations import LikelihoodKind
@@ -29,19 +21,26 @@ from geartrain.uncertainty.posterior.posterior_result import CountProbability, M
 from geartrain.uncertainty.posterior.posterior_summary import (
     PosteriorSummary,
     rank_combinations,
-    summary_of_tally,
+    summary_of_sample,
 )
 from geartrain.uncertainty.posterior.priors import find_priors
+from geartrain.uncertainty.posterior.sampled_posterior import (
+    LikelihoodBatch,
+    PosteriorTally,
+    packed,
+    sample_task,
+)
 from geartrain.uncertainty.posterior.variance_shares import find_variance_shares
 
 LIMIT = 2_000_000
-"""Combinations that are listed one by one, and transitions of a decomposition, by default: some seconds."""
+"""Steps that the exact way may take by default: some seconds."""
 SAMPLES = 1_000_000
-_TASKS = 64
 _ALONE = 200_000
 _DRAWN = 1 << 16
 _ENOUGH = 100
-METHODS: tuple[Method, ...] = ("enumerate", "decompose", "sample")
+METHODS: tuple[Method, ...] = ("exact", "sample")
+_FORMER: dict[str, Method] = {"enumerate": "exact", "decompose": "exact"}
+"""What a method was called when combinations could also be listed one by one."""
 
 
 def infer_counts(
@@ -72,19 +71,20 @@ def infer_counts(
     against    which claims count: "targets", "figures" (`expect` and `published`), or "all"
     scale      multiplies every tolerance
     soft       False: within its tolerances or not; True: Gaussian, the tolerances taken as standard deviations
-    method     None: "enumerate" where there are at most `limit` combinations, else "decompose" with at most `limit`
-               transitions, else "sample"
+    method     "exact": all combinations taken together; "sample"; None: the former where there are at most `limit`
+               combinations or it takes at most `limit` steps, else the latter
     most       combinations to list
-    limit      bounds the work of the first two ways; both are exact
-    samples    combinations drawn in the third
+    limit      bounds the work of the exact way
+    samples    combinations drawn otherwise
     seed       of the sample, and of variance shares that are not exact
     executor   None: in this process; see `geartrain.numerics.work.open_executor`. The answer does not depend on it
     journal    where finished work is kept, for a run that may be cut
     tell       called with (tasks done, tasks in all)
 
-    Interrupted while it lists or samples, it returns what is known, with `cut` True. Raises `QuestionError` for what
+    Interrupted while it samples, it returns what is known, with `cut` True. Raises `QuestionError` for what
     cannot be asked, `RangeError` where the method asked for would pass the limit.
     """
+    method = None if method is None else _FORMER.get(method, method)
     _check(method, most, limit, samples, seed)
     question = build_inference_problem(
         train,
@@ -151,60 +151,32 @@ def _find(
     means: Execution,
 ) -> tuple[Method, PosteriorSummary, bool]:
     """The way asked for, or the first that stays within the limit."""
-    listed = prod(len(question.doubts[wheel].counts) for wheel in LikelihoodBatch(question).wheels)
-    if method == "enumerate" and listed > limit:
-        raise _passed(f"{listed} combinations to list", limit, "decompose")
-    if method == "enumerate" or (method is None and listed <= limit):
-        return "enumerate", *_enumerated(question, most, means)
     if method != "sample":
+        few = prod(len(doubt.counts) for doubt in question.moved.values()) <= limit
         try:
-            return "decompose", find_joined_posterior(question, most, limit), False
+            return "exact", find_joined_posterior(question, most, inf if few else limit), False
         except BudgetSpentError:
             if method is not None:
-                raise _passed("too many steps", limit, "sample") from None
+                fix = "raise the limit, narrow the doubts, or let it sample"
+                raise RangeError(Problem("too many steps", f"the limit is {limit}", fix)) from None
     return "sample", *_sampled(question, most, samples, seed, means)
-
-
-def _passed(what: str, limit: int, other: str) -> RangeError:
-    why = f"the limit is {limit}"
-    return RangeError(Problem(what, why, f"raise the limit, narrow the doubts, or let it {other}"))
-
-
-def _enumerated(question: InferenceProblem, most: int, means: Execution) -> tuple[PosteriorSummary, bool]:
-    runs = grid_of(question).runs
-    step = max(1, -(-runs // _TASKS))
-    tasks = [[at, min(at + step, runs)] for at in range(0, runs, step)]
-    tally, cut = _added(question, most, enumerate_task, tasks, means)
-    return summary_of_tally(question, tally, drawn=False), cut
 
 
 def _sampled(
     question: InferenceProblem, most: int, samples: int, seed: int, means: Execution
 ) -> tuple[PosteriorSummary, bool]:
+    """A sample; True if it was interrupted."""
     size = max(1 << 14, -(-samples // 1000))
     tasks = [[seed, at, min(size, samples - at * size)] for at in range(-(-samples // size))]
-    tally, cut = _added(question, most, sample_task, tasks, means)
-    return summary_of_tally(question, tally, drawn=True), cut
-
-
-def _added(
-    question: InferenceProblem,
-    most: int,
-    work: Callable[[bytes, Any], dict[str, Any]],
-    tasks: Sequence[Any],
-    means: Execution,
-) -> tuple[PosteriorTally, bool]:
-    """The sum of all tasks; True if it was interrupted."""
-    tally = PosteriorTally(LikelihoodBatch(question), most)
-    results: Iterable[Any] = run(
-        partial(work, packed(question, most)), tasks, means.executor, means.journal, means.tell
-    )
+    tally, cut = PosteriorTally(LikelihoodBatch(question), most), False
+    work = partial(sample_task, packed(question, most))
+    results: Iterable[Any] = run(work, tasks, means.executor, means.journal, means.tell)
     try:
         for result in results:
             tally.join(result)
     except KeyboardInterrupt:
-        return tally, True
-    return tally, False
+        cut = True
+    return summary_of_sample(question, tally), cut
 
 
 def _alone(question: InferenceProblem, seed: int) -> dict[str, CountProbability]:

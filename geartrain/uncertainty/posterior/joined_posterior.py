@@ -19,7 +19,6 @@ from geartrain.synthesis.join.inside_outside import AssignmentSums, BestFirst
 from geartrain.synthesis.join.join_plan import JoinProblem, find_join_problem
 from geartrain.synthesis.join.recorded_join import CountWeights, RecordedNode, record_join
 from geartrain.synthesis.join.selectivity import SelectivitySample
-from geartrain.uncertainty.posterior.enumeration import plain_number
 from geartrain.uncertainty.posterior.inference_problem import InferenceProblem
 from geartrain.uncertainty.posterior.likelihood import misfit_of
 from geartrain.uncertainty.posterior.posterior_result import CountProbability
@@ -30,11 +29,12 @@ from geartrain.uncertainty.posterior.posterior_summary import (
     wheel_posterior,
 )
 from geartrain.uncertainty.posterior.priors import ToothCountPrior
+from geartrain.uncertainty.posterior.sampled_posterior import plain_number
 
 _LONG = 1 << 62
 
 
-def find_joined_posterior(question: InferenceProblem, most: int, limit: int) -> PosteriorSummary:
+def find_joined_posterior(question: InferenceProblem, most: int, limit: float) -> PosteriorSummary:
     """All that is asked, exactly. Raises `BudgetSpentError` where it takes more than `limit` steps.
 
     most   combinations to list
@@ -63,7 +63,7 @@ def find_joined_posterior(question: InferenceProblem, most: int, limit: int) -> 
     )
 
 
-def evidence_of(question: InferenceProblem, limit: int) -> CountProbability:
+def evidence_of(question: InferenceProblem, limit: float) -> CountProbability:
     """The share of the prior weight that fits. Raises `BudgetSpentError` where that takes more than `limit` steps."""
     doubts = question.moved
     if question.soft:
@@ -74,7 +74,7 @@ def evidence_of(question: InferenceProblem, limit: int) -> CountProbability:
     return _probability(question, doubts, int(counted[0]))
 
 
-def turning_of(question: InferenceProblem, limit: int) -> CountProbability:
+def turning_of(question: InferenceProblem, limit: float) -> CountProbability:
     """The share of the prior weight with which the train turns, whatever its outputs do."""
     if not question.conditions:
         return CountProbability(Fraction(1))
@@ -94,7 +94,7 @@ def _join_problem(question: InferenceProblem, graded: bool) -> JoinProblem:
     return find_join_problem(domains, asked, (), {one.name: sample.of_demand(one) for one in asked}, weights)
 
 
-def _recorded(question: InferenceProblem, limit: int) -> tuple[RecordedNode, int]:
+def _recorded(question: InferenceProblem, limit: float) -> tuple[RecordedNode, int]:
     misfits = {at: misfit_of(witness) for at, witness in enumerate(question.witnesses)}
     return record_join(_join_problem(question, graded=True), limit, misfits)
 

@@ -124,38 +124,6 @@ class CombinationColumns(MonomialColumns):
         )
 
 
-class ScaledColumns(MonomialColumns):
-    """Rows that are others, every item multiplied by a number of its own.
-
-    rows   the others
-    by     one row with the numbers
-    """
-
-    __slots__ = ("_by", "_rows")
-
-    def __init__(self, rows: MonomialColumns, by: MonomialColumns) -> None:
-        super().__init__((), (), rows.size)
-        self._rows, self._by = rows, by
-
-    def x(self, item: int) -> Floats:
-        """Values of an item: the roundings of both, and one."""
-        if item not in self._x:
-            self._x[item] = self._rows.x(item) * self._by.x(item)
-        return self._x[item]
-
-    def top(self, item: int) -> Ints:
-        """As of `MonomialColumns`."""
-        return self._rows.top(item) * self._by.top(item)
-
-    def bottom(self, item: int) -> Ints:
-        """As of `MonomialColumns`."""
-        return self._rows.bottom(item) * self._by.bottom(item)
-
-    def pick(self, where: NDArray[np.generic]) -> MonomialColumns:
-        """As of `MonomialColumns`."""
-        return ScaledColumns(self._rows.pick(where), self._by)
-
-
 ProductPlan = Mapping[Key, tuple[Key, Key]]
 """Product -> a shorter one that it holds, and what is still to be multiplied."""
 

@@ -16,7 +16,7 @@ from geartrain.numerics.exact import as_float
 from geartrain.uncertainty.posterior.observations import ObservedOutput
 from geartrain.uncertainty.posterior.priors import ToothCountPrior
 
-Method = Literal["enumerate", "decompose", "sample"]
+Method = Literal["exact", "sample"]
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,6 +1,6 @@
 """The combinations that agree best, in an order that no rounding and no way of searching can change.
 
-What the three ways of looking at all combinations have in common when they are done.
+What the two ways of looking at combinations have in common when they are done.
 """
 
 from __future__ import annotations
@@ -16,10 +16,10 @@ import numpy as np
 from geartrain.numerics.graphs import joined_groups
 from geartrain.synthesis.join.inside_outside import GradedAssignment
 from geartrain.uncertainty.confidence_intervals import deviations, wilson
-from geartrain.uncertainty.posterior.enumeration import PosteriorTally, origin_of, plain_number
 from geartrain.uncertainty.posterior.inference_problem import InferenceProblem
 from geartrain.uncertainty.posterior.posterior_result import CountCombination, CountProbability, WheelPosterior
 from geartrain.uncertainty.posterior.priors import ToothCountPrior
+from geartrain.uncertainty.posterior.sampled_posterior import PosteriorTally, origin_of, plain_number
 
 _NEAR = 1 + 1e-9
 _MOST = 2000
@@ -119,48 +119,31 @@ class PosteriorSummary:
     effective: float
 
 
-def summary_of_tally(question: InferenceProblem, tally: PosteriorTally, drawn: bool) -> PosteriorSummary:
-    """What a listing of combinations comes to, or a sample of them."""
+def summary_of_sample(question: InferenceProblem, tally: PosteriorTally) -> PosteriorSummary:
+    """What a sample of combinations comes to."""
     wheels = tally.batch.wheels
     candidates = [
         GradedAssignment(misfit, {w: tally.batch.domains[w][index] for w, index in zip(wheels, at, strict=True)})
         for misfit, at in tally.best
     ]
     by = dict(zip(wheels, tally.by, strict=True))
-    if drawn:
-        evidence, turning = _share(tally.weight, tally.looked, tally, question.soft), _counted(tally)
-    else:
-        total = int(np.prod([question.doubts[wheel].total for wheel in wheels], dtype=object))
-        evidence = (
-            CountProbability(float(tally.weight))
-            if question.soft
-            else CountProbability(Fraction(int(tally.weight), total))
-        )
-        turning = CountProbability(Fraction(int(tally.turning), total))
-    trials = tally.weight**2 / tally.square if drawn and tally.square else None
+    trials = tally.weight**2 / tally.square if tally.square else None
     posteriors = {
         wheel: wheel_posterior(doubt, by.get(wheel), tally.weight, trials) for wheel, doubt in question.doubts.items()
     }
-    fits = None if drawn or question.soft else _all(question, wheels) * tally.fits
+    evidence = _share(tally.weight, tally.looked, tally, question.soft)
+    correlations = _of_sizes(question, tally)
     return PosteriorSummary(
         tally.looked,
         evidence,
-        turning,
-        fits,
+        _counted(tally),
+        None,
         posteriors,
-        _of_sizes(question, tally),
+        correlations,
         candidates,
         tally.ranked,
-        (trials or 0.0) if drawn else float("inf"),
+        trials or 0.0,
     )
-
-
-def _all(question: InferenceProblem, wheels: Sequence[str]) -> int:
-    """Combinations of the wheels on which nothing depends."""
-    found = 1
-    for wheel, doubt in question.doubts.items():
-        found *= 1 if wheel in wheels else len(doubt.counts)
-    return found
 
 
 def _share(weight: float, looked: int, tally: PosteriorTally, soft: bool) -> CountProbability:

@@ -1,17 +1,14 @@
-"""Very many combinations one by one: what every output does, and whether each combination fits.
+"""A sample of combinations: what every output does in each, whether it fits, and what all of them come to.
 
 The structure is solved once, as formulas; each combination then costs a few multiplications an output. Combinations are
-taken in blocks that fit the processor's cache.
-
-What combinations looked at one by one come to, in plain data that adds up: tasks of any size, in any order.
+taken in blocks that fit the processor's cache. Sums are plain data that add up: tasks of any size, in any order.
 """
 
 from __future__ import annotations
 
 import pickle
-from collections.abc import Collection, Iterator, Mapping, Sequence
-from functools import cached_property, lru_cache
-from math import prod
+from collections.abc import Mapping, Sequence
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -23,8 +20,6 @@ from geartrain.uncertainty.posterior.likelihood import Bools, ExactConstraint, F
 from geartrain.uncertainty.posterior.monomial_columns import (
     CombinationColumns,
     MonomialColumns,
-    Powers,
-    ScaledColumns,
     find_monomials,
     find_product_plan,
 )
@@ -101,61 +96,6 @@ class LikelihoodBatch:
         return {name: value.bounded(rows, self._plan) for name, value in self._values.items()}
 
 
-class CombinationGrid:
-    """All combinations of a batch, numbered: the first wheels turn slowest, as digits of a number.
-
-    A run of neighbours shares the counts of the outer wheels, so only the inner ones are multiplied out, once.
-    """
-
-    def __init__(self, batch: LikelihoodBatch) -> None:
-        self.batch = batch
-        sizes = [len(batch.domains[wheel]) for wheel in batch.wheels]
-        split, inner = len(sizes), 1
-        while split and inner * sizes[split - 1] <= BLOCK:
-            split -= 1
-            inner *= sizes[split]
-        self.outer, self.inner = batch.wheels[:split], batch.wheels[split:]
-        self.block = inner
-        self.runs = prod(sizes[:split])
-
-    @cached_property
-    def digits(self) -> dict[str, Ints]:
-        """Inner wheel -> index of its count, for one run."""
-        return _digits(np.arange(self.block), self._sizes(self.inner))
-
-    @cached_property
-    def _table(self) -> MonomialColumns:
-        counts = {wheel: np.array(self.batch.domains[wheel])[at] for wheel, at in self.digits.items()}
-        return CombinationColumns(self._parts(self.inner), counts, self.block)
-
-    def _parts(self, wheels: Collection[str]) -> list[Powers]:
-        """The monomials as far as some wheels go."""
-        return [{w: p for w, p in powers.items() if w in wheels} for powers in self.batch.monomials]
-
-    def runs_from(self, start: int, stop: int) -> Iterator[tuple[dict[str, int], MonomialColumns]]:
-        """Runs by number: the indices of the outer wheels' counts, and the rows."""
-        parts, sizes = self._parts(self.outer), self._sizes(self.outer)
-        for run in range(start, stop):
-            at = _digits(run, sizes)
-            counts = {wheel: np.array([self.batch.domains[wheel][int(index)]]) for wheel, index in at.items()}
-            yield (
-                {wheel: int(index) for wheel, index in at.items()},
-                ScaledColumns(self._table, CombinationColumns(parts, counts, 1)),
-            )
-
-    def _sizes(self, wheels: tuple[str, ...]) -> dict[str, int]:
-        return {wheel: len(self.batch.domains[wheel]) for wheel in wheels}
-
-
-def _digits(number: Any, sizes: Mapping[str, int]) -> dict[str, Any]:
-    """The digits of a number, or of an array of them, whose places have these sizes, the last one least."""
-    found: dict[str, Any] = {}
-    rest = number
-    for wheel in reversed(tuple(sizes)):
-        rest, found[wheel] = divmod(rest, sizes[wheel])
-    return {wheel: found[wheel] for wheel in sizes}
-
-
 KEPT = 2000
 """Combinations that a task brings out to find the best; equals beyond are left out."""
 _LONG = 1 << 53
@@ -166,9 +106,8 @@ class PosteriorTally:
     """Sums over combinations.
 
     looked    combinations
-    turning   prior weight of those with which the train turns (in a sample: their number)
-    weight    of those that fit: prior weight, by degree of agreement where that is asked for
-    fits      their number
+    turning   number of those with which the train turns
+    weight    of those that fit: their number, or their degrees of agreement where that is asked for
     square    sum of squared degrees of agreement, for intervals
     by        for each wheel the weight of what fits with each of its counts
     sizes     sums of count x count', each from the wheel's `origin_of` on, weighted
@@ -178,8 +117,7 @@ class PosteriorTally:
 
     def __init__(self, batch: LikelihoodBatch, most: int) -> None:
         self.batch, self.most = batch, most
-        self.looked = self.fits = 0
-        self.turning: Any = 0
+        self.looked = self.turning = 0
         self.weight: Any = 0
         self.square = 0.0
         self.by: list[list[Any]] = [[0] * len(batch.domains[wheel]) for wheel in batch.wheels]
@@ -200,7 +138,6 @@ class PosteriorTally:
         if not size:
             return
         at = [np.broadcast_to(places[wheel], (size,)) for wheel in self.batch.wheels]
-        self.fits += size
         self.weight += plain_number(weights.sum())
         self.square += float((weights.astype(np.float64) ** 2).sum())
         for sums, index in zip(self.by, at, strict=True):
@@ -230,7 +167,6 @@ class PosteriorTally:
     def join(self, other: Mapping[str, Any]) -> None:
         """Add what another tally came to."""
         self.looked += other["looked"]
-        self.fits += other["fits"]
         self.turning += other["turning"]
         self.weight += other["weight"]
         self.square += other["square"]
@@ -244,8 +180,7 @@ class PosteriorTally:
         """Plain data, for `join`."""
         return {
             "looked": self.looked,
-            "fits": self.fits,
-            "turning": plain_number(self.turning),
+            "turning": self.turning,
             "weight": plain_number(self.weight),
             "square": self.square,
             "by": [[plain_number(value) for value in sums] for sums in self.by],
@@ -271,46 +206,14 @@ def packed(question: InferenceProblem, most: int) -> bytes:
 
 
 @lru_cache(maxsize=1)
-def _unpacked(shared: bytes) -> tuple[LikelihoodBatch, CombinationGrid, int]:
+def _unpacked(shared: bytes) -> tuple[LikelihoodBatch, int]:
     question, most = pickle.loads(shared)
-    batch = LikelihoodBatch(question)
-    return batch, CombinationGrid(batch), most
-
-
-def grid_of(question: InferenceProblem) -> CombinationGrid:
-    """All combinations of the wheels that matter, in runs."""
-    return CombinationGrid(LikelihoodBatch(question))
-
-
-def enumerate_task(shared: bytes, task: Sequence[int]) -> dict[str, Any]:
-    """The runs from task[0] up to task[1] of all combinations."""
-    batch, grid, most = _unpacked(shared)
-    tally = PosteriorTally(batch, most)
-    doubts = batch.question.doubts
-    total = int(np.prod([doubts[wheel].total for wheel in batch.wheels], dtype=object))
-    kind: Any = np.int64 if total < _LONG else object
-    inner = np.ones(grid.block, dtype=kind)
-    for wheel, at in grid.digits.items():
-        inner = inner * np.array(doubts[wheel].weights, dtype=kind)[at]
-    for places, rows in grid.runs_from(*task):
-        outer = 1
-        for wheel, index in places.items():
-            outer *= doubts[wheel].weights[index]
-        met, misfit = batch.judged(rows)
-        tally.looked += rows.size
-        turning = batch.turns(rows) if batch.question.conditions else slice(None)
-        tally.turning += plain_number(inner[turning].sum()) * outer
-        fit = np.flatnonzero(met)
-        weights = inner[fit] * outer
-        if batch.question.soft:
-            weights = weights.astype(np.float64) / total * np.exp(-misfit[fit] / 2)
-        tally.add({**places, **{wheel: at[fit] for wheel, at in grid.digits.items()}}, misfit[fit], weights)
-    return tally.to_dict()
+    return LikelihoodBatch(question), most
 
 
 def sample_task(shared: bytes, task: Sequence[int]) -> dict[str, Any]:
     """Combinations drawn by their prior chances: task is the seed, the number of the block, and how many."""
-    batch, _, most = _unpacked(shared)
+    batch, most = _unpacked(shared)
     tally = PosteriorTally(batch, most)
     seed, block, size = task
     draw = np.random.Generator(np.random.PCG64(np.random.SeedSequence([seed, block])))

@@ -174,7 +174,8 @@ class CircularArc(ToothForm):
         None, description="Thickness on the pitch circle in modules, one or one a wheel; default the standard's"
     )
     backlash: Length | None = Field(
-        None, description="In place of the leaves' thickness: play on the pitch circle, in modules or with a unit"
+        None,
+        description="Least play on the pitch circle, in modules or with a unit; thins the leaves where they have less",
     )
     centre_distance: Length | None = Field(
         None, description="Distance of the two axes, in modules or with a unit; default half the sum of the teeth"
@@ -214,8 +215,8 @@ class CircularArc(ToothForm):
             (_THIN[many], *_LEAVES[profile][many]),
         ]
         if self.backlash is not None:
-            # a leaf of another thickness has a tip of the same shape, as the standard's two have within a few percent
-            thickness = pi / 2 - _modules(self.backlash, module, "backlash")
+            # a thinner leaf has a tip of the same shape, as the standard's two have within a few percent
+            thickness = min(_THIN[many], pi / 2 - _modules(self.backlash, module, "backlash"))
             sizes[1] = tuple(size * thickness / _THIN[many] for size in sizes[1])
         declared = (self.thickness, self.addendum, self.radius)
         found = [
@@ -278,7 +279,7 @@ class CircularArc(ToothForm):
         return Problem(f"pair '{pair}' has a backlash of its own", why, fix)
 
     def thinned(self, backlash: Quantity) -> CircularArc:
-        """The same teeth, the leaves as thick as leaves this play."""
+        """The same teeth, the leaves thinner where they leave less play."""
         return self.model_copy(update={"backlash": backlash})
 
 

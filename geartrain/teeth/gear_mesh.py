@@ -30,10 +30,6 @@ class DeclaredPair(Protocol):
         """The two wheels."""
 
     @property
-    def tooth_form(self) -> Any:
-        """The form of its own; None: the train's."""
-
-    @property
     def fitting(self) -> Any:
         """How exactly it is mounted; None: as the train says."""
 

@@ -113,6 +113,10 @@ class OutlineTransmission(TransmissionFunction):
         """Speed ratio at driver angles S (rad)."""
         return self.table.speed(self._forward(S))
 
+    def speed_leaps(self) -> tuple[float, ...]:
+        """Where the next tooth takes over faster than the last one left; the other flanks do the same turning back."""
+        return self.table.speed_leaps()
+
     def corners(self) -> list[float]:
         """Driver angles (rad) where something else begins to touch."""
         return [self.direction * float(at) for at in self.table.corners]

@@ -76,6 +76,10 @@ class TransmissionFunction(ABC):
         """Driver angles (rad) where the law or a slope of it is not smooth; none by default."""
         return []
 
+    def speed_leaps(self) -> tuple[float, ...] | None:
+        """What the speed ratio leaps up by at each collision of a pitch; None for laws without an account of them."""
+        return None
+
     def error_and_speed(self, S: ArrayLike) -> tuple[Floats, Floats]:
         """Both at driver angles S (rad), for less than the two apart where a law can."""
         return self.error(S), self.speed(S)

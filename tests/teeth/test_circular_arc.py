@@ -152,6 +152,16 @@ def test_the_ratio_holds_in_the_mean_and_the_other_flanks_are_the_mirror_image()
     assert law.verdict.play == pytest.approx(least, abs=1e-4)
 
 
+def test_the_next_tooth_strikes_where_the_speed_leaps() -> None:
+    law = FORM.law(60, 8)
+    leaps = law.speed_leaps()
+    fine = np.linspace(0, law.period, 200_001)
+    steps = np.diff(law.angle(fine)) / np.diff(fine)  # a leap of speed is one of slope
+    at = int(np.argmax(np.diff(steps)))
+    assert leaps == pytest.approx([steps[at + 2] - steps[at - 1]], abs=1e-4)
+    assert law.turned_back().speed_leaps() == leaps
+
+
 def test_friction_costs_and_no_friction_costs_nothing() -> None:
     assert FORM.law(60, 8).efficiency_mean() == pytest.approx(1, abs=1e-12)
     better, worse = (FORM.law(60, 8, friction).efficiency_mean() for friction in (0.05, 0.2))
@@ -159,8 +169,10 @@ def test_friction_costs_and_no_friction_costs_nothing() -> None:
 
 
 def test_backlash_and_sizes_may_be_declared() -> None:
-    form = CircularArc.model_validate({"form": "circular_arc", "backlash": "0.1"})
-    assert form.teeth(60, 8)[1].thickness == pytest.approx(pi / 2 - 0.1)
+    # leaves of the standard have half a module of play, and are thinned for more
+    for backlash, thickness in (("0.1", 1.05), ("0.6", pi / 2 - 0.6)):
+        form = CircularArc.model_validate({"form": "circular_arc", "backlash": backlash})
+        assert form.teeth(60, 8)[1].thickness == pytest.approx(thickness, rel=1e-15)
     # teeth of the standard for pairs in which either wheel drives
     same = CircularArc.model_validate(
         {"form": "circular_arc", "thickness": "1.41", "addendum": "1.29", "radius": "2.06"}

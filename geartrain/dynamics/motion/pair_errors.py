@@ -82,7 +82,7 @@ class PairErrors:
 
         It is the same at every position, so that no position is asked for it.
         """
-        laws = {mesh.name: mesh.law if way > 0 else mesh.law.turned_back() for mesh in self.train.rigid}
+        laws = {mesh.name: mesh.law if way > 0 else mesh.coast for mesh in self.train.rigid}
         ahead = {name: law.error_moments()[0] for name, law in laws.items()}
         if not any(ahead.values()):
             return None

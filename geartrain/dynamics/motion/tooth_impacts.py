@@ -1,4 +1,4 @@
-"""What the collisions of triangular teeth cost: where tau jumps up, the driven side is struck to its new speed.
+"""What the collisions of teeth cost: where the speed ratio leaps up, the driven side is struck to its new speed.
 
 The input keeps its speed. A pair whose driven side jumps by one radian a second makes every link l jump by its response
 g_l, so that side strikes with the inertia sum J_l g_l^2; an inelastic blow of a speed difference v takes half of it
@@ -12,8 +12,6 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
-
-from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
 
 if TYPE_CHECKING:
     from geartrain.dynamics.motion.motion_model import Motion
@@ -37,7 +35,7 @@ class ToothImpact:
 
 
 def find_impacts(motion: Motion, inertias: Mapping[str, float], speed: float) -> dict[str, ToothImpact]:
-    """The collisions of every pair with triangular teeth, the input turning at `speed` (rad/s).
+    """The collisions of every pair whose speed ratio leaps, the input turning at `speed` (rad/s).
 
     inertias   of links about their own axes (kg m2); links without one count as having none
     """
@@ -46,12 +44,13 @@ def find_impacts(motion: Motion, inertias: Mapping[str, float], speed: float) ->
     found = {}
     for source in motion.ahead.sources:
         law = source.law
-        if not isinstance(law, TriangularTransmission):
+        leaps = law.speed_leaps()
+        if leaps is None:
             continue
         unit = np.zeros((len(spread.pairs), 1))
         unit[source.pair] = 1.0
         struck = float(weight @ spread.errors(unit)[:, 0] ** 2)
         driver = abs(source.mean * speed)
-        blows = tuple((jump.after - jump.before) * driver for jump in law.jumps)
+        blows = tuple(leap * driver for leap in leaps)
         found[source.id] = ToothImpact(struck, driver / law.period, blows)
     return found

@@ -73,11 +73,9 @@ class ConjugateMesh(GearMesh):
     def size(self, tips: Mapping[str, float]) -> PairSize | None:
         """Lengths of the law are modules already."""
         del tips
-        pitch = self.law.path.pitch
-        if pitch.bevel:
+        if self.law.path.pitch.bevel:
             return None
-        distance = float(getattr(self.law, "distance", abs(pitch.R1 + pitch.R2)))
-        return PairSize(1.0, distance, distance / self.wheels.touching)
+        return PairSize(1.0, self.law.distance, self.law.distance / self.wheels.touching)
 
     def requirement(self, wheel: str, scale: float, tolerance: float) -> ToothRequirement:
         """The flank of the design, with a root that lets the mate pass."""

@@ -119,6 +119,11 @@ class ConjugateTransmission(ExactRatio):
         return ConjugateVerdict(found[0].kind if found else "runs", text, self._play, found)
 
     @property
+    def distance(self) -> float:
+        """Of the axles as designed (modules); without meaning on cones."""
+        return abs(self.path.pitch.R1 + self.path.pitch.R2)
+
+    @property
     def reversed(self) -> ConjugateTransmission:
         """The law with the other wheel driving."""
         return ConjugateTransmission(self.pair, self.friction, 3 - self.driver, self.direction)

@@ -9,13 +9,16 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from geartrain.numerics.decimal_text import fraction_text
-from geartrain.numerics.polynomial_pieces import extremes, moments, value
+from geartrain.numerics.polynomial_pieces import ends, extremes, moments, value
 from geartrain.teeth.contact.outline_contact import KINDS
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
     from geartrain.numerics.arrays import Floats, Indices
+
+
+_LEAP = 1e-6  # of the ratio: less is rounding at a corner
 
 
 @dataclass(frozen=True)
@@ -74,6 +77,12 @@ class PiecewiseTransmission:
     def speed_range(self) -> tuple[float, float]:
         """Least and greatest speed ratio."""
         return extremes(self.speeds)
+
+    def speed_leaps(self) -> tuple[float, ...]:
+        """What the speed ratio leaps up by where one stretch follows another, but for rounding, in order of angle."""
+        start, end = ends(self.speeds)
+        leaps = np.roll(start, -1) - end
+        return tuple(leaps[leaps > _LEAP * float(self.ratio)].tolist())
 
     def moments(self) -> tuple[float, float]:
         """Mean of the transmission error over a period, and its rms about that mean (rad); NaN with gaps in contact."""

@@ -332,6 +332,10 @@ class TriangularTransmission(TransmissionFunction):
             )
         return found
 
+    def speed_leaps(self) -> tuple[float, ...]:
+        """Every collision of a pitch."""
+        return tuple(jump.after - jump.before for jump in self.jumps)
+
     def impact(self, inertia: float, omega1: float) -> tuple[float, float, float]:
         """Energies of one pitch's collisions (J): handed to the driven side, dissipated, and their sum.
 

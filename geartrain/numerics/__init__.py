@@ -4,6 +4,7 @@ exact, decimal_text, factored_ratios integers and Fractions of any length, and t
 long_float, error_free               floats with an exponent of their own; sums and products with their rounding error
 rounding_bounds                      a priori bounds on the rounding of sums and quotients
 elimination                          sparse linear forms over the rationals
+sparse_least_squares                 least squares with a few entries a row
 integer_lattice, rational_angles     integer rows in a rational span; angles as parts of a turn
 vectors                              three numbers as a vector in space, exact where they are
 graphs                               paths in a rooted forest, groups of what is joined

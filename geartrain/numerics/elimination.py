@@ -10,6 +10,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from heapq import heapify, heappop, heappush
+from typing import Any
 
 PRIME = (1 << 61) - 1
 """A Mersenne prime: rank modulo it is a lower bound that is exact but for accidents of probability 1e-18."""
@@ -62,10 +63,10 @@ class TooDenseError(Exception):
     """Elimination passed its budget of operations; the caller has another way."""
 
 
-def add_into(row: LinearForm, other: Mapping[int, Fraction], factor: Fraction | int) -> None:
-    """row += factor * other, dropping the entries that cancel."""
+def add_into(row: dict[int, Any], other: Mapping[int, Any], factor: Any) -> None:
+    """row += factor * other, dropping the entries that cancel; entries are numbers or polynomials, all of one kind."""
     for column, coefficient in other.items():
-        value = row.get(column, 0) + factor * coefficient
+        value = row[column] + factor * coefficient if column in row else factor * coefficient
         if value:
             row[column] = value
         else:

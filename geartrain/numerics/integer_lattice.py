@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
+from geartrain.numerics.elimination import add_into
+
 Row = dict[int, int]
 
 
@@ -29,7 +31,7 @@ def saturated_lattice(rows: Sequence[Mapping[int, int]]) -> tuple[list[Row], lis
         column, move = columns.pop(pivot), moves.pop(pivot)
         rest = dict(row)
         for known, before in zip(basis, pivots, strict=True):
-            _add(rest, known, -before.get(at, 0))
+            add_into(rest, known, -before.get(at, 0))
         basis.append({key: value // column[at] for key, value in rest.items()})
         pivots.append(column)
         dual.append(move)
@@ -46,19 +48,7 @@ def _reduce(columns: dict[int, Row], moves: dict[int, Row], at: int) -> int | No
         for key in live:
             if key != least:
                 times = columns[key][at] // size
-                _add(columns[key], columns[least], -times)
-                _add(moves[key], moves[least], -times)
+                add_into(columns[key], columns[least], -times)
+                add_into(moves[key], moves[least], -times)
         live = [key for key in live if at in columns[key]]
     return live[0] if live else None
-
-
-def _add(row: Row, other: Mapping[int, int], factor: int) -> None:
-    """row += factor * other."""
-    if not factor:
-        return
-    for key, value in other.items():
-        total = row.get(key, 0) + factor * value
-        if total:
-            row[key] = total
-        else:
-            row.pop(key, None)

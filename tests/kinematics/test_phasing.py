@@ -847,7 +847,7 @@ def test_a_lattice_is_judged_by_its_squares() -> None:
 
 
 def test_both_ways_of_least_squares_leave_the_same_errors(monkeypatch: pytest.MonkeyPatch) -> None:
-    from geartrain.kinematics.phasing import least_squares as squares
+    from geartrain.numerics import sparse_least_squares as squares
 
     asked = spherical_phasing(icosidodecahedron(), {"5": 12, "3": 6}).problem
     rows, right = asked._by_nodes, asked.errors(asked.tree_angles)

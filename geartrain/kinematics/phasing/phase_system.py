@@ -15,11 +15,11 @@ from geartrain.kinematics.circuits import Circuit
 from geartrain.kinematics.components import Components
 from geartrain.kinematics.phasing.carrier_coupling import CarrierCoupling, find_carrier_coupling
 from geartrain.kinematics.phasing.cycle_basis import PhaseCycle, find_cycle_basis, node_depths
-from geartrain.kinematics.phasing.least_squares import SparseRows
 from geartrain.kinematics.phasing.pitch_points import PitchPoints, mesh_nodes
 from geartrain.numerics.containers import collector_paused
 from geartrain.numerics.integer_lattice import saturated_lattice
 from geartrain.numerics.rational_angles import centred_residue
+from geartrain.numerics.sparse_least_squares import SparseRows
 
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats

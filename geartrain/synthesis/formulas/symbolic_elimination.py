@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from heapq import heapify, heappop, heappush
 
 from geartrain.numerics.block_triangular import find_blocks
-from geartrain.numerics.elimination import PRIME
+from geartrain.numerics.elimination import PRIME, add_into
 from geartrain.synthesis.formulas.laurent import Laurent, minors, product
 
 Row = dict[int, Laurent]
@@ -90,16 +90,6 @@ def solve_rows(rows: Sequence[Row], width: int, preferred: Sequence[int] | None 
             left = _combined(row, values, determinants, width).numerator
             conditions += [(origin, left)] if left else []
     return SymbolicSolution(width, point, pivots, values, determinants, span, conditions)
-
-
-def add_into(row: Row, other: Mapping[int, Laurent], factor: Laurent) -> None:
-    """row += factor * other, dropping the entries that cancel."""
-    for column, entry in other.items():
-        value = row[column] + factor * entry if column in row else factor * entry
-        if value:
-            row[column] = value
-        else:
-            row.pop(column, None)
 
 
 def _divide_out(

@@ -12,8 +12,9 @@ from fractions import Fraction
 
 from geartrain.kinematics.circuits import Circuit
 from geartrain.kinematics.components import Components, find_components, reduce_components
+from geartrain.numerics.elimination import add_into
 from geartrain.synthesis.formulas.laurent import Laurent
-from geartrain.synthesis.formulas.symbolic_elimination import GIVEN, Row, add_into
+from geartrain.synthesis.formulas.symbolic_elimination import GIVEN, Row
 from geartrain.train import StateCase
 
 

@@ -7,12 +7,15 @@ import json
 import subprocess
 import sys
 from collections.abc import Callable, Iterator
+from contextlib import redirect_stderr, redirect_stdout
+from io import StringIO
 from typing import Any
+from unittest.mock import patch
 
 import typer.main
 from typer.testing import CliRunner, Result
 
-from geartrain.cli import app
+from geartrain.cli import app, main
 
 LOCKED = """
 links: {frame: {}, a: {wheels: {x: 20}}, b: {wheels: {y: 30}}, c: {wheels: {z: 40}}}
@@ -46,6 +49,19 @@ main()
 
 def call(*arguments: object) -> Result:
     return CliRunner().invoke(app, [str(argument) for argument in arguments])
+
+
+def ended(*arguments: object) -> subprocess.CompletedProcess[str]:
+    """How the console script ends, in this process: exit code, standard output, standard error."""
+    words = ["geartrain", *map(str, arguments)]
+    out, err, code = StringIO(), StringIO(), None
+    with patch.object(sys, "argv", words), redirect_stdout(out), redirect_stderr(err):
+        try:
+            main()
+        except SystemExit as end:
+            code = end.code
+    assert isinstance(code, int)
+    return subprocess.CompletedProcess(words, code, out.getvalue(), err.getvalue())
 
 
 def without(*missing: str, arguments: list[object]) -> subprocess.CompletedProcess[str]:

@@ -11,16 +11,11 @@ from math import degrees
 from pathlib import Path
 
 import pytest
-from commands import call
+from commands import call, ended
 
 PAIR = ("mesh", "triangular", "--teeth", 48, 96, "--half-angle", "30deg", "--friction", 0.2)
 KEYS = {"teeth", "verdict", "clearance", "window", "sizes", "play", "speed_ratio", "transmission_error"}
 KEYS |= {"efficiency", "intervals", "jumps", "impacts"}
-
-
-def process(*arguments: object) -> subprocess.CompletedProcess[str]:
-    command = [sys.executable, "-m", "geartrain", *map(str, arguments)]
-    return subprocess.run(command, capture_output=True, text=True, check=False)
 
 
 # printed under Figs. 3 to 5 of F. Sorge's note: relative jumps, and the phases of the text
@@ -112,7 +107,7 @@ REFUSED = [
 
 @pytest.mark.parametrize(("arguments", "said"), REFUSED, ids=lambda value: str(value)[:40])
 def test_what_cannot_be_a_pair_is_refused_kindly(arguments: list[object], said: str) -> None:
-    done = process("mesh", "triangular", *arguments)
+    done = ended("mesh", "triangular", *arguments)
     assert (done.returncode, done.stdout) == (2, "")
     assert said in " ".join(done.stderr.replace("│", " ").split())
     assert "Traceback" not in done.stderr
@@ -225,6 +220,6 @@ def test_a_pin_has_a_page_and_its_limits() -> None:
         (["--pin-radius", "9mm", "--offset", "-1mm"], "an offset of 0 or more"),
         (["--pin-radius", "9mm", "--offset", "8mm", "--driver", "slot", "--friction", "2"], "locks"),
     ):
-        done = process("mesh", "pin", *arguments)
+        done = ended("mesh", "pin", *arguments)
         assert done.returncode == 2
         assert said in done.stderr

@@ -6,6 +6,7 @@ A failure names the seed: `pytest tests/kinematics/test_random_trains.py --train
 from __future__ import annotations
 
 from collections.abc import Iterator
+from functools import lru_cache
 from typing import Any
 
 from joint_rates import TURNS_A_SECOND, Motion, move
@@ -15,6 +16,17 @@ from geartrain import GearTrain, GearTrainError
 from geartrain.kinematics.answer import Answer
 from geartrain.kinematics.components import SolvedPart
 from geartrain.kinematics.speeds import exact_verdict
+
+
+@lru_cache(maxsize=1000)
+def moving(seed: int) -> tuple[RandomTrain, dict[str | None, Motion]]:
+    """A random train and how it moves in each of its states, by the oracle: once for all laws."""
+    train = random_train(seed)
+    return train, motions_of(train)
+
+
+def motions_of(train: RandomTrain) -> dict[str | None, Motion]:
+    return {state: move(train, state) for state in train.states}
 
 
 def told(train: RandomTrain, motion: Motion, answer: Answer) -> str:
@@ -52,9 +64,8 @@ def told_speed(answer: Answer, name: str) -> Any:
     return answer.outputs[name].speed if name in answer.outputs else answer.speeds.get(name)
 
 
-def judged(train: RandomTrain) -> list[str]:
+def judged(train: RandomTrain, motions: dict[str | None, Motion]) -> list[str]:
     """What is wrong about one train in its states; a linkage in any of them must be refused."""
-    motions = {state: move(train, state) for state in train.states}
     refused = any(motion.kind == "refused" for motion in motions.values())
     try:
         answers = list(GearTrain.declare(train.data).answers())
@@ -66,14 +77,13 @@ def judged(train: RandomTrain) -> list[str]:
 
 
 def test_random_trains_do_what_their_joints_do(seeds: range) -> None:
-    assert not [said for seed in seeds for said in judged(random_train(seed))]
+    assert not [said for seed in seeds for said in judged(*moving(seed))]
 
 
 def test_an_output_asked_for_alone_is_what_it_is_among_all(seeds: range) -> None:
     wrong = []
     for seed in seeds[:: max(1, len(seeds) // 700)]:
-        train = random_train(seed)
-        motions = {state: move(train, state) for state in train.states}
+        train, motions = moving(seed)
         if any(motion.kind == "refused" for motion in motions.values()):
             continue
         asked = GearTrain.declare(train.data)
@@ -84,8 +94,8 @@ def test_an_output_asked_for_alone_is_what_it_is_among_all(seeds: range) -> None
 
 def test_floats_know_what_fractions_know() -> None:
     for seed in range(150):
-        train = random_train(seed)
-        if any(move(train, state).kind == "refused" for state in train.states):
+        train, motions = moving(seed)
+        if any(motion.kind == "refused" for motion in motions.values()):
             continue
         asked = GearTrain.declare(train.data)
         for exact in asked.answers():
@@ -99,8 +109,8 @@ def test_floats_know_what_fractions_know() -> None:
 
 def test_the_verdict_modulo_a_prime_is_that_of_fractions() -> None:
     for seed in range(400):
-        train = random_train(seed)
-        if any(move(train, state).kind == "refused" for state in train.states):
+        train, motions = moving(seed)
+        if any(motion.kind == "refused" for motion in motions.values()):
             continue
         asked = GearTrain.declare(train.data)
         reduced = SolvedPart(tuple(train.data["links"]), "frame", asked.circuits, ()).reduced
@@ -110,8 +120,9 @@ def test_the_verdict_modulo_a_prime_is_that_of_fractions() -> None:
 
 
 def test_the_random_trains_are_of_every_kind() -> None:
-    trains = [random_train(seed) for seed in range(400)]
-    kinds = [move(train, state).kind for train in trains for state in train.states]
+    moved = [moving(seed) for seed in range(400)]
+    kinds = [motion.kind for _, motions in moved for motion in motions.values()]
+    trains = [train for train, _ in moved]
     assert min(kinds.count(kind) for kind in ("determined", "free", "locked")) > 50
     assert min(kinds.count(kind) for kind in ("contradictory", "refused")) > 0
     data = [train.data for train in trains]
@@ -122,4 +133,4 @@ def test_the_random_trains_are_of_every_kind() -> None:
 
 def test_driven_trains_turn_as_their_joints_do(seeds: range) -> None:
     trains = map(driven_train, seeds[:: max(1, len(seeds) // 300)])
-    assert not [said for train in trains for said in judged(train)]
+    assert not [said for train in trains for said in judged(train, motions_of(train))]

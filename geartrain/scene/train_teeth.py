@@ -192,7 +192,7 @@ class _Toothing:
         flat = [(gear.name, self._gear(mate), self.standard[mate]) for gear, mate in mates if mate in self.standard]
         for pair, mate, its in flat or [("", lone_mate(own), teeth)]:
             form, wheels, at = self._standard_pair((own, teeth), (mate, its), name)
-            clearance = form.bottom_clearance(wheels, at)
+            clearance = max(form.bottom_clearance(wheels, at), 0.0)
             required = ToothRequirement(conjugate_pair_of(form, wheels), at, _CHORD, clearance)
             yield _Asked(pair, STANDARD, teeth.words, required)
 

@@ -71,13 +71,13 @@ class Involute(ConjugateToothForm):
     # ------------------------------------------------------------------------------------------------ parallel axes
 
     def bottom_clearance(self, wheels: WheelPair, gear: int) -> float:
-        """What the dedendum leaves under the mate's tip (modules)."""
+        """What the dedendum leaves under the mate's tip (modules); below 0 the root stands in its way."""
         found = self.involutes(wheels)
         own, mate = (found.first, found.second) if gear == 1 else (found.second, found.first)
         if not found.second.ring:
-            return max(found.distance - mate.tip - own.root, 0.0)
+            return found.distance - mate.tip - own.root
         free = own.root - mate.tip if gear == 2 else mate.tip - own.root
-        return max(free - found.distance, 0.0)
+        return free - found.distance
 
     def play_apart(self, wheels: WheelPair, gap: float) -> float | None:
         """Involutes run at any distance, with other play; None where their base circles would not reach."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from math import asin, atan2, cos, hypot, isclose, pi, sin, sqrt
 from pathlib import Path
 from typing import get_args
@@ -15,6 +16,7 @@ from pydantic import ValidationError
 from shapely import affinity
 from shapely.geometry import Polygon
 
+import geartrain
 from geartrain import GearTrain, load
 from geartrain.cli.mesh import PairGroup
 from geartrain.cli.mesh.conjugate_options import form_models
@@ -265,6 +267,15 @@ def test_a_wheel_is_cut_to_scale_and_its_law_drawn(tmp_path: Path) -> None:
     radii = np.hypot(*points.T)
     assert radii.max() == pytest.approx(2 * 4.67, abs=1e-6)
     assert "transmission error" in plot.read_text() or plot.stat().st_size > 10_000
+
+
+def test_no_file_of_the_package_but_its_own_and_the_union_names_it() -> None:
+    package = Path(geartrain.__file__).parent
+    files = (path for path in package.rglob("*.py") if re.search(r"circular[_-]arc|CircularArc", path.read_text()))
+    assert {path.relative_to(package).as_posix() for path in files} == {
+        "teeth/circular_arc.py",
+        "teeth/any_tooth_form.py",
+    }
 
 
 def test_every_form_has_a_command_whose_options_are_its_fields() -> None:

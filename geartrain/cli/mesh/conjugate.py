@@ -39,9 +39,9 @@ from geartrain.cli.option_values import quantity
 from geartrain.errors import GearTrainError, Problem
 
 if TYPE_CHECKING:
+    from geartrain.teeth.conjugate.conjugate_form import ConjugateToothForm
     from geartrain.teeth.conjugate.conjugate_transmission import ConjugatePair
     from geartrain.teeth.outlines.wheel_outline import BlankSizes, WheelOutline
-    from geartrain.teeth.outlines.wheel_requirement import LanternPins
 
 _SIZES = ("module", "clearance", "fillet", "bore", "rim")
 
@@ -117,9 +117,10 @@ def _run(
     outlined = outline_sink(profile, force)
     check_distinct_outputs(to, outlined, picture)
     asked = read_wheels(given["teeth"], given["internal"], given["bevel"], given["module"], given["backlash"])
-    found = pair(read_form(form, own, asked.backlash), asked)
+    model = read_form(form, own, asked.backlash)
+    found = pair(model, asked)
     law = ConjugateTransmission(found, _friction(friction), driver)
-    wheels = [] if profile is None else [_cut(form, own, found, asked, wheel, outlined, given)]
+    wheels = [] if profile is None else [_cut(model, found, asked, wheel, outlined, given)]
     if json or to.suffix == ".json":
         emit(as_json(shape_data(form, law, wheels)), to)
     else:
@@ -146,8 +147,7 @@ def outline_sink(profile: Path | None, force: bool) -> Sink:
 
 
 def _cut(
-    form: str,
-    own: FormOptions,
+    model: ConjugateToothForm,
     found: ConjugatePair,
     asked: ConjugateOptions,
     wheel: int,
@@ -162,9 +162,9 @@ def _cut(
         why = "an outline is to scale, and nothing gives these wheels a size"
         raise GearTrainError(Problem("there is no module", why, "give for example --module 2mm", "--module"))
     sizes = _sizes(given)
-    if form == "involute" and sizes.clearance is None:
-        sizes = replace(sizes, clearance=_rack_clearance(own, asked, wheel) * sizes.module)
-    made = outline(found, wheel, sizes, _pins(form, own, asked))
+    if sizes.clearance is None and (free := _bottom_clearance(model, asked, wheel)) is not None:
+        sizes = replace(sizes, clearance=free * sizes.module)
+    made = outline(found, wheel, sizes, model.lantern_pins(asked.wheels))
     emit(outline_text(made, to.suffix), to)
     return made
 
@@ -179,17 +179,10 @@ def _sizes(given: dict[str, Any]) -> BlankSizes:
     return BlankSizes(**sizes)  # type: ignore[arg-type]
 
 
-def _rack_clearance(own: FormOptions, asked: ConjugateOptions, wheel: int) -> float:
-    """What the rack's dedendum leaves between a wheel's root and its mate's tip, in modules."""
-    from geartrain.teeth.involute import Involute
-
-    model = read_form("involute", own, asked.backlash)
-    assert isinstance(model, Involute)
-    found = model.involutes(asked.wheels)
-    first, second = found.first, found.second
-    ends = (second.tip, first.root) if wheel == 1 else (first.tip, second.root)
-    free = found.distance - sum(ends) if not second.ring else abs(ends[0] - ends[1]) - found.distance
-    if free < 0:
+def _bottom_clearance(model: ConjugateToothForm, asked: ConjugateOptions, wheel: int) -> float | None:
+    """What the form leaves between a wheel's root and its mate's tip, in modules; None where it does not say."""
+    free = model.bottom_clearance(asked.wheels, wheel)
+    if free is not None and free < 0:
         raise GearTrainError(
             Problem(
                 f"the root of gear {wheel} stands in the way of its mate's tip",
@@ -199,17 +192,3 @@ def _rack_clearance(own: FormOptions, asked: ConjugateOptions, wheel: int) -> fl
             )
         )
     return free
-
-
-def _pins(form: str, own: FormOptions, asked: ConjugateOptions) -> LanternPins | None:
-    """Which wheel has pins, and where."""
-    if form != "lantern":
-        return None
-    from geartrain.teeth.lantern import Lantern
-    from geartrain.teeth.outlines.wheel_requirement import LanternPins
-
-    model = read_form(form, own)
-    assert isinstance(model, Lantern)
-    z = asked.z1 if model.pins == 1 else asked.z2
-    radius = z / 2 if model.pin_radius is None else asked.wheels.modules(model.pin_radius, "pin_radius")
-    return LanternPins(model.pins, radius, asked.wheels.modules(model.pin_diameter, "pin_diameter") / 2)

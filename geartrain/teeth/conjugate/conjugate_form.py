@@ -93,7 +93,7 @@ class ConjugateToothForm(ToothForm):
         return self.model_copy(update={"backlash": backlash})
 
     def bottom_clearance(self, wheels: WheelPair, gear: int) -> float | None:
-        """What is free under the mate's tip at the root of gear 1 or 2 (modules); None where the form does not say."""
+        """Room under the mate's tip at the root of gear 1 or 2 (modules); None where the form does not say."""
         del wheels, gear
         return None
 

@@ -84,7 +84,7 @@ class ConjugateMesh(GearMesh):
         del scale
         gear, wheels = self.gears.index(wheel) + 1, self.wheel_pair
         free, pins = self.tooth_form.bottom_clearance(wheels, gear), self.tooth_form.lantern_pins(wheels)
-        return ToothRequirement(self.law.pair, gear, tolerance, CLEARANCE if free is None else free, pins)
+        return ToothRequirement(self.law.pair, gear, tolerance, CLEARANCE if free is None else max(free, 0.0), pins)
 
     def play_apart(self, gap: float) -> float | None:
         """As the form has it: involutes run at any distance."""

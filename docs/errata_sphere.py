@@ -8,8 +8,8 @@ from math import asin, atan, atan2, cos, degrees, radians, sin
 
 import numpy as np
 
-from geartrain.report.spherical_report import SphereAnswers
 from geartrain.spherical import Configuration, from_polyhedron, ratio_windows, size_gears
+from geartrain.spherical.gear_sphere import GearSphere
 
 NOTE = "icosidodecahedron"
 PRINTED_BETA = 41.8103148828  # deg
@@ -110,14 +110,14 @@ def middle_of_an_edge(faces: Configuration) -> float:
 
 def teeth() -> Iterator[tuple[str, str]]:
     """Which tooth numbers close and fit."""
-    rules = {name: SphereAnswers(from_polyhedron(name, "faces")).rule for name in (NOTE, "cuboctahedron", "octahedron")}
+    rules = {name: GearSphere(from_polyhedron(name, "faces")).rule for name in (NOTE, "cuboctahedron", "octahedron")}
     yield (
         "multiples of 5 and 3, because of the number of neighbours",
         f"the right condition here ({rules[NOTE]}), for another reason: on the cuboctahedron, whose squares have four "
         f"neighbours, it is: {rules['cuboctahedron']}; on the octahedron: {rules['octahedron']}",
     )
     first, second, third = (gears(*numbers) for numbers in ((5, 6), (10, 3), (10, 6)))
-    closes = [bool(SphereAnswers(each).closure) for each in (first, second, third)]
+    closes = [bool(GearSphere(each).closure) for each in (first, second, third)]
     assert closes == [True] * 3
     undercut = " and ".join(size_gears(third).undercut)
     yield (
@@ -154,7 +154,7 @@ def senses(faces: Configuration) -> tuple[int, int]:
 def kinds() -> Iterator[tuple[str, str]]:
     """The name of the solid, and more than two kinds of gears."""
     ball = "truncated icosahedron"
-    moves = SphereAnswers(from_polyhedron(ball, "faces")).moves
+    moves = GearSphere(from_polyhedron(ball, "faces")).moves
     yield "it is called a buckyball", f"that is the {ball}, which {'turns' if moves else 'is locked'}"
     three = size_gears(from_polyhedron("rhombicosidodecahedron", "faces", teeth={"5": 25, "4": 14, "3": 12}))
     idle = size_gears(from_polyhedron(NOTE, "faces+edges", teeth=IDLERS))

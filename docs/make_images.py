@@ -17,10 +17,10 @@ import geartrain
 from geartrain.drawing import law_figure, motion_figure, picture, power_figure, render, sphere_figure, teeth_figure
 from geartrain.dynamics.motion import MotionRun
 from geartrain.report.document import Document
-from geartrain.report.spherical_report import SphereAnswers
 from geartrain.report.text import to_terminal
 from geartrain.report.train_report import report_train
 from geartrain.spherical import from_polyhedron
+from geartrain.spherical.gear_sphere import GearSphere
 
 IMAGES = Path(__file__).resolve().parent / "images"
 SECTIONS = ("Fundamental circuits", "Mobility", "Against the targets")
@@ -86,7 +86,7 @@ def shapes() -> None:
 
 def sphere() -> None:
     """The gears of the icosidodecahedron, 20 and 12 teeth."""
-    found = SphereAnswers(from_polyhedron("icosidodecahedron", teeth={"5": 20, "3": 12}))
+    found = GearSphere(from_polyhedron("icosidodecahedron", teeth={"5": 20, "3": 12}))
     (IMAGES / "sphere.svg").write_bytes(render(sphere_figure(*found.pose()), ".svg"))
     print("wrote docs/images/sphere.svg")
 

@@ -26,8 +26,8 @@ from geartrain.cli.long_runs import progress
 from geartrain.cli.option_values import decimal
 
 if TYPE_CHECKING:
-    from geartrain.report.spherical_report import SphereAnswers
     from geartrain.spherical import Configuration, GraphSet
+    from geartrain.spherical.gear_sphere import GearSphere
     from geartrain.spherical.polyhedron_survey import SurveyRow
 
 _YAML = (".yaml", ".yml")
@@ -57,7 +57,8 @@ def run(
     force: Force = False,
 ) -> None:
     """Gears on a sphere: mobility, gridlock, closure of the teeth, sizes; with -o x.yaml as a train."""
-    from geartrain.report.spherical_report import SphereAnswers, sphere_data, sphere_document
+    from geartrain.report.spherical_report import describe_sphere
+    from geartrain.spherical.gear_sphere import GearSphere
 
     to = sink(out, force, (".md", ".html", ".json", *_YAML))
     picture = sink(plot, force, PICTURES, "--plot")
@@ -74,16 +75,16 @@ def run(
     if suggest:
         _suggest(configuration, suggest, best, json or to.suffix == ".json", to)
         return
-    found = SphereAnswers(configuration, _sphere_radius(configuration, radius), made)
+    found = GearSphere(configuration, _sphere_radius(configuration, radius), made)
     if to.suffix in _YAML:
         from geartrain.spherical import to_train
         from geartrain.train.yaml_nodes import as_yaml
 
         emit(as_yaml(to_train(configuration)), to)
     elif json or to.suffix == ".json":
-        emit(as_json(sphere_data(found)), to)
+        emit(as_json(found.to_dict()), to)
     else:
-        show([sphere_document(found)], to)
+        show([describe_sphere(found)], to)
     if plot is not None:
         _draw(found, picture)
     raise typer.Exit(GOOD if found.moves and (found.closure is None or found.closure) else VERDICT)
@@ -98,7 +99,7 @@ def _check_listed(to: Sink, picture: Sink) -> None:
 
 
 def _survey(json: bool, to: Sink) -> None:
-    from geartrain.report.spherical_report import survey_document
+    from geartrain.report.spherical_report import describe_survey
     from geartrain.spherical.polyhedron_survey import SURVEYED
     from geartrain.spherical.polyhedron_survey import survey as survey_solids
 
@@ -110,18 +111,18 @@ def _survey(json: bool, to: Sink) -> None:
     if json:
         emit(as_json([row.to_dict() for row in rows]), to)
     else:
-        show([survey_document(rows)], to)
+        show([describe_survey(rows)], to)
 
 
 def _suggest(configuration: Configuration, most: int, best: int, json: bool, to: Sink) -> None:
-    from geartrain.report.spherical_report import suggestions_data, suggestions_document
+    from geartrain.report.spherical_report import describe_suggestions
     from geartrain.spherical.tooth_count_search import suggest_tooth_counts
 
     found = suggest_tooth_counts(configuration, most, best)
     if json:
-        emit(as_json(suggestions_data(found)), to)
+        emit(as_json(found.to_dict()), to)
     else:
-        show([suggestions_document(found)], to)
+        show([describe_suggestions(found)], to)
     raise typer.Exit(GOOD if len(found) else VERDICT)
 
 
@@ -172,7 +173,7 @@ def _sphere_radius(configuration: Configuration, text: str) -> float:
     return sphere_radius(value, float(cones[configuration.kinds.index(kind)]))
 
 
-def _draw(found: SphereAnswers, picture: Sink) -> None:
+def _draw(found: GearSphere, picture: Sink) -> None:
     from geartrain.drawing import sphere_figure
 
     draw(sphere_figure(*found.pose()), picture)

@@ -9,6 +9,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, fields, is_dataclass
 from fractions import Fraction
 from functools import cache
+from math import isfinite
 from operator import attrgetter
 from typing import Any, ClassVar
 
@@ -21,7 +22,7 @@ class Key:
     """A key of a result's plain data that is more than the attribute of that name.
 
     name   in the data; "" puts the keys of a part in among those of the whole
-    of     the attribute, `part.attribute` for one of a part; by default that called `name`
+    of     the attribute, `part.attribute` for one of a part, "." the object itself; by default that called `name`
     to     what is made of each number or object in it, at any depth; the kind of that is in its return annotation
     keys   what is told of each object in it, where that is not what its class says
     """
@@ -67,7 +68,7 @@ def plain(value: Any, to: Callable[[Any], Any] | None = None, keys: tuple[str | 
     if hasattr(value, "_asdict"):  # a named tuple
         return _told(value, keys) if keys else plain(value._asdict(), to)
     if isinstance(value, Mapping):
-        return {key: plain(each, to, keys) for key, each in value.items()}
+        return {str(key): plain(each, to, keys) for key, each in value.items()}
     if isinstance(value, Sequence) and not isinstance(value, str):
         return [plain(each, to, keys) for each in value]
     if hasattr(value, "tolist"):  # an array, or one of its numbers
@@ -83,6 +84,11 @@ def plain(value: Any, to: Callable[[Any], Any] | None = None, keys: tuple[str | 
     if hasattr(value, "model_dump"):  # a part of a declaration
         return value.model_dump(mode="json")
     return value.to_dict() if hasattr(value, "to_dict") and not keys else _told(value, keys)
+
+
+def finite(value: float) -> float | None:
+    """None for what is infinite or undetermined: JSON has neither."""
+    return value if isfinite(value) else None
 
 
 def _told(result: Any, keys: tuple[str | Key, ...] = ()) -> dict[str, Any]:

@@ -19,7 +19,7 @@ from types import ModuleType, NoneType, UnionType
 from typing import Annotated, Any, ForwardRef, Literal, NotRequired, Required, Union, get_args, get_origin, is_typeddict
 
 from geartrain.numerics.long_float import LongFloat
-from geartrain.numerics.plain_data import Key, keys_of, whole
+from geartrain.numerics.plain_data import Key, Result, keys_of, whole
 
 Schema = dict[str, Any]
 
@@ -66,6 +66,8 @@ def _of_one(kind: Any, to: Callable[[Any], Any] | None, keys: tuple[str | Key, .
         return _typed_dict(kind)
     if hasattr(kind, "model_json_schema"):
         return dict(kind.model_json_schema())
+    if hasattr(kind, "to_dict") and not issubclass(kind, Result):  # one of its own
+        return shape_of(_returned(kind.to_dict))
     return _record(kind, keys_of(kind))
 
 
@@ -113,7 +115,8 @@ def _object(properties: Mapping[str, Schema], required: Any, kind: type) -> Sche
 
 def _summary(what: Any) -> str:
     """The first paragraph of a docstring, on one line; "" for what has none of its own."""
-    text = what.__doc__ if isinstance(what, type | property) or hasattr(what, "func") else ""
+    own = getattr(what, "__module__", "geartrain").startswith("geartrain")
+    text = what.__doc__ if own and (isinstance(what, type | property) or hasattr(what, "func")) else ""
     return " ".join((text or "").split("\n\n")[0].split())
 
 

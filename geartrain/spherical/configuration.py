@@ -119,6 +119,11 @@ class MeshKind:
     angle: float
     meshes: tuple[int, ...]
 
+    @property
+    def kinds(self) -> tuple[str, str]:
+        """The kinds of its gears."""
+        return self.a, self.b
+
     def __str__(self) -> str:
         return f"{self.a}-{self.b} at {degrees(self.angle):.6f} deg"
 

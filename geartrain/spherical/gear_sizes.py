@@ -10,11 +10,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import cached_property
 from math import atan, degrees, inf, log, pi, sqrt
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from geartrain.errors import Problem, QuestionError, RangeError
+from geartrain.numerics.plain_data import Key, Result, finite
 from geartrain.spherical.configuration import (
     Configuration,
     MeshKind,
@@ -200,8 +201,17 @@ class TipCollision:
         return f"{self.gears[0]} and {self.gears[1]}: {self.room:.2f} modules apart, {self.short:.2f} too few"
 
 
+class MeshSize(NamedTuple):
+    """Sizes of one mesh: its gears, their operating cones (deg), pitch, and pressure angle (deg) if there is one."""
+
+    gears: tuple[str, str]
+    cones: tuple[float, float]
+    pitch: float
+    pressure_angle: float | None
+
+
 @dataclass(frozen=True)
-class SphereSizing:
+class SphereSizing(Result):
     """Sizes of a set with teeth. Rows run over the meshes.
 
     teeth      of each gear
@@ -210,6 +220,16 @@ class SphereSizing:
     base       base pitch c that all gears share: base cones sin g = c z
     pressure   operating pressure angle of each mesh (rad); nan where involutes on one base pitch cannot mesh
     """
+
+    KEYS = (
+        Key("teeth", "by_gear"),
+        "module",
+        "exact",
+        "mismatch",
+        Key("meshes", "mesh_sizes"),
+        "collisions",
+        "undercut",
+    )
 
     configuration: Configuration
     teeth: NDArray[np.int64]
@@ -246,6 +266,21 @@ class SphereSizing:
         for side in (0, 1):
             np.maximum.at(largest, [mesh[side] for mesh in self.configuration.meshes], self.cones[:, side])
         return np.where(largest > 0, largest, alone)
+
+    @property
+    def by_gear(self) -> dict[str, int]:
+        """Tooth numbers by gear."""
+        return dict(zip(self.configuration.names, self.teeth.tolist(), strict=True))
+
+    @property
+    def mesh_sizes(self) -> list[MeshSize]:
+        """Sizes of every mesh."""
+        names = self.configuration.names
+        cones, pressure = np.degrees(self.cones).tolist(), np.degrees(self.pressure).tolist()
+        return [
+            MeshSize((names[i], names[j]), tuple(cones[at]), float(self.pitches[at]), finite(pressure[at]))
+            for at, (i, j) in enumerate(self.configuration.meshes)
+        ]
 
     @cached_property
     def collisions(self) -> tuple[TipCollision, ...]:
@@ -290,25 +325,3 @@ class SphereSizing:
             lines.append(f"  {len(self.collisions)} pairs collide, worst {self.collisions[0]}")
         lines += [f"  {kind} is undercut: {count:.1f} virtual teeth" for kind, count in self.undercut.items()]
         return "\n".join(lines)
-
-    def to_dict(self) -> dict[str, Any]:
-        """Plain data for JSON: angles in degrees."""
-        return {
-            "teeth": dict(zip(self.configuration.names, self.teeth.tolist(), strict=True)),
-            "module": self.module,
-            "exact": self.exact,
-            "mismatch": self.mismatch,
-            "meshes": [
-                {
-                    "gears": [self.configuration.names[i], self.configuration.names[j]],
-                    "cones": np.degrees(self.cones[at]).tolist(),
-                    "pitch": float(self.pitches[at]),
-                    "pressure_angle": None if np.isnan(self.pressure[at]) else degrees(self.pressure[at]),
-                }
-                for at, (i, j) in enumerate(self.configuration.meshes)
-            ],
-            "collisions": [
-                {"gears": list(found.gears), "room": found.room, "short": found.short} for found in self.collisions
-            ],
-            "undercut": self.undercut,
-        }

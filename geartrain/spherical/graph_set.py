@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 
 from geartrain.errors import Problem, QuestionError
+from geartrain.numerics.plain_data import Key, Result
 from geartrain.spherical.axis_adjustment import (
     AxisAdjustment,
     LoopCorners,
@@ -131,7 +132,7 @@ def _teeth(names: Sequence[Hashable], teeth: Mapping[Hashable, int]) -> Ints:
 
 
 @dataclass(frozen=True)
-class GraphSet:
+class GraphSet(Result):
     """Gears made from a graph, and what of them is exact.
 
     configuration  axes, meshes and teeth; every gear is a kind of its own
@@ -142,6 +143,16 @@ class GraphSet:
     moved          how far each axis moved from the packing (rad)
     residuals      what was left (rad for pitches, pitches for phases) after each step of the fit
     """
+
+    KEYS = (
+        "aim",
+        "exact",
+        Key("axes", "axes_by_gear"),
+        Key("moved", "greatest_move", degrees),
+        "spread",
+        "residue",
+        Key("sizes", "sizing"),
+    )
 
     configuration: Configuration
     aim: Aim
@@ -162,6 +173,16 @@ class GraphSet:
         """How much the greatest pitch exceeds the least, in percent."""
         return 100 * (exp(self.sizing.mismatch) - 1)
 
+    @property
+    def axes_by_gear(self) -> dict[str, list[float]]:
+        """Unit vectors of the axes by gear."""
+        return dict(zip(self.configuration.names, self.configuration.axes.tolist(), strict=True))
+
+    @property
+    def greatest_move(self) -> float:
+        """How far an axis was moved at most (rad)."""
+        return float(self.moved.max())
+
     def __str__(self) -> str:
         known = self.sizing.pressure[~np.isnan(self.sizing.pressure)]
         angles = f"{degrees(known.min()):.2f} to {degrees(known.max()):.2f} deg" if known.size else "none"
@@ -179,15 +200,3 @@ class GraphSet:
         if self.sizing.collisions:
             lines.append(f"  {len(self.sizing.collisions)} pairs collide, worst {self.sizing.collisions[0]}")
         return "\n".join(lines)
-
-    def to_dict(self) -> dict[str, Any]:
-        """Plain data for JSON: angles in degrees, spread in percent."""
-        return {
-            "aim": self.aim,
-            "exact": list(self.exact),
-            "axes": dict(zip(self.configuration.names, self.configuration.axes.tolist(), strict=True)),
-            "moved": degrees(float(self.moved.max())),
-            "spread": self.spread,
-            "residue": self.residue,
-            "sizes": self.sizing.to_dict(),
-        }

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from dataclasses import asdict, dataclass
-from typing import TYPE_CHECKING, Any
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
+from geartrain.numerics.plain_data import Result
 from geartrain.spherical.configuration import Configuration
 from geartrain.spherical.gear_places import places_on_polyhedron
 from geartrain.spherical.named_solids import solid
@@ -27,7 +28,7 @@ SURVEYED = (
 
 
 @dataclass(frozen=True)
-class SurveyRow:
+class SurveyRow(Result):
     """Gears on all faces of one solid.
 
     gears, meshes  their numbers
@@ -38,6 +39,20 @@ class SurveyRow:
     positions      free parameters of the axes while all symmetries are kept
     angles         of the meshes (deg), those that differ by more than 1e-9, ascending
     """
+
+    KEYS = (
+        "solid",
+        "gears",
+        "meshes",
+        "bipartite",
+        "gruebler",
+        "drop",
+        "types",
+        "mesh_kinds",
+        "positions",
+        "angles",
+        "exact",
+    )
 
     solid: str
     gears: int
@@ -54,10 +69,6 @@ class SurveyRow:
     def exact(self) -> bool:
         """Equal pitches have as many unknowns, positions and the pitch, as there are kinds of mesh to satisfy."""
         return self.positions + 1 >= self.mesh_kinds
-
-    def to_dict(self) -> dict[str, Any]:
-        """Plain data for JSON."""
-        return asdict(self) | {"angles": list(self.angles), "exact": self.exact}
 
 
 def survey(

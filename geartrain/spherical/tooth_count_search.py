@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 
 from geartrain.errors import Problem, QuestionError, RangeError
+from geartrain.numerics.plain_data import Key, Result
 from geartrain.spherical.assembly_loops import closes, divisors, loop_rules, residue
 from geartrain.spherical.configuration import Configuration, MeshKind, kinds_in_order, mesh_kinds, nearest_unmeshed
 from geartrain.spherical.gear_sizes import TIP_ROOM
@@ -146,13 +147,31 @@ class ToothCountCompromise:
 
 
 @dataclass(frozen=True)
-class ToothCountSuggestions:
+class ToothCountSuggestions(Result):
     """What a search found, best first, and what removed the rest.
 
     considered   all tooth sets up to the bound
     removed      how many each condition removed, in the order in which the conditions were asked
     beyond       sets that meet every condition but are worse than the last one listed
     """
+
+    KEYS = (
+        "considered",
+        "removed",
+        Key("meshes", keys=("kinds", Key("angle", to=degrees))),
+        Key(
+            "solutions",
+            "found",
+            keys=(
+                "teeth",
+                "mismatch",
+                Key("cones", to=degrees),
+                Key("pressure_angles", "pressure", degrees),
+                "room",
+                "residue",
+            ),
+        ),
+    )
 
     configuration: Configuration
     meshes: tuple[MeshKind, ...]

@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from abc import ABC, abstractmethod
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import Any
 
-from geartrain.numerics.decimal_text import fraction_text
 from geartrain.numerics.exact import as_float
+from geartrain.numerics.plain_data import Key, Result
 
 
 @dataclass(frozen=True, slots=True)
-class Shortfall:
+class Shortfall(Result):
     """Where candidates went: what an empty or short list says for itself.
 
     considered  candidates there were before anything was asked of them
@@ -21,23 +21,47 @@ class Shortfall:
     advice      what to relax, and what that would give; empty where something was found
     """
 
+    KEYS = ("considered", Key("removed", "removals"), "nearest", "advice")
+
     considered: int = 0
     removed: Mapping[str, int] | None = None
     nearest: str = ""
     advice: str = ""
 
-    def to_dict(self) -> dict[str, Any]:
-        """Plain data for JSON."""
-        return {
-            "considered": self.considered,
-            "removed": dict(self.removed or {}),
-            "nearest": self.nearest,
-            "advice": self.advice,
-        }
+    @property
+    def removals(self) -> Mapping[str, int]:
+        """The same; nothing where it was not counted."""
+        return self.removed or {}
+
+
+class CountSizes(ABC):
+    """How large tooth counts are, taken together."""
+
+    __slots__ = ()
+
+    @property
+    @abstractmethod
+    def counts(self) -> Collection[int]:
+        """All the counts."""
+
+    @property
+    def total(self) -> int:
+        """Their sum."""
+        return sum(self.counts)
+
+    @property
+    def largest(self) -> int:
+        """The greatest; 0 where there are none."""
+        return max(self.counts, default=0)
+
+    @property
+    def distinct(self) -> int:
+        """How many different ones there are."""
+        return len(set(self.counts))
 
 
 @dataclass(frozen=True, slots=True)
-class GearStages:
+class GearStages(CountSizes, Result):
     """Tooth numbers of one ratio: the counts on top over the counts beneath, each an unordered set.
 
     top, beneath  ascending, as many as there are stages
@@ -45,6 +69,18 @@ class GearStages:
     error         ratio over the wanted magnitude, less 1; exact
     pairs         the stages as they are best paired: (count on top, count beneath)
     """
+
+    KEYS = (
+        Key("teeth", "sides"),
+        "ratio",
+        Key("value", "ratio", as_float),
+        Key("error", to=float),
+        Key("exact_error", "error"),
+        Key("stages", "pairs"),
+        "total",
+        "largest",
+        "distinct",
+    )
 
     top: tuple[int, ...]
     beneath: tuple[int, ...]
@@ -57,16 +93,12 @@ class GearStages:
         """All counts, those on top first."""
         return self.top + self.beneath
 
-    def to_dict(self) -> dict[str, Any]:
-        """Plain data for JSON."""
-        return {
-            "teeth": [list(self.top), list(self.beneath)],
-            "ratio": fraction_text(self.ratio),
-            "value": as_float(self.ratio),
-            "error": float(self.error),
-            "exact_error": fraction_text(self.error),
-            "stages": [list(pair) for pair in self.pairs],
-            "total": sum(self.teeth),
-            "largest": max(self.teeth),
-            "distinct": len(set(self.teeth)),
-        }
+    @property
+    def counts(self) -> tuple[int, ...]:
+        """All counts."""
+        return self.teeth
+
+    @property
+    def sides(self) -> tuple[tuple[int, ...], tuple[int, ...]]:
+        """The counts on top, and those beneath."""
+        return self.top, self.beneath

@@ -12,11 +12,11 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 from heapq import merge
-from typing import Any, Literal
+from typing import Literal
 
 from geartrain.errors import Problem, QuestionError, RangeError
-from geartrain.numerics.decimal_text import fraction_text
 from geartrain.numerics.exact import coprime
+from geartrain.numerics.plain_data import Key, Result
 
 ApproximantKind = Literal["convergent", "best", "intermediate"]
 IntegerPair = tuple[int, int]
@@ -26,7 +26,7 @@ _MOST_LISTED = 10**5
 
 
 @dataclass(frozen=True, slots=True)
-class Approximant:
+class Approximant(Result):
     """A fraction on the walk to a number.
 
     value  the fraction
@@ -35,18 +35,11 @@ class Approximant:
            whose denominator is not larger (best of the first kind); "intermediate": neither
     """
 
+    KEYS = ("value", "kind", Key("error", to=float), Key("exact_error", "error"))
+
     value: Fraction
     error: Fraction
     kind: ApproximantKind
-
-    def to_dict(self) -> dict[str, Any]:
-        """Plain data for JSON."""
-        return {
-            "value": fraction_text(self.value),
-            "kind": self.kind,
-            "error": float(self.error),
-            "exact_error": fraction_text(self.error),
-        }
 
 
 @dataclass(frozen=True, slots=True)

@@ -5,13 +5,14 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import Any, Literal
+from typing import Literal
 
 from pydantic_core import PydanticCustomError
 
 from geartrain.errors import Problem, QuestionError
 from geartrain.numerics.decimal_text import decimal, fraction_text
 from geartrain.numerics.exact import as_float
+from geartrain.numerics.plain_data import Key, Result
 from geartrain.numerics.quantity import UNITS, Figure, Quantity
 from geartrain.train.periods import period_table, suggested_period
 
@@ -35,7 +36,7 @@ _WAYS = "235/19, 13.368267, 1:30, '235 months / 19 years', '365.2422 d / 29.5305
 
 
 @dataclass(frozen=True, slots=True)
-class TargetRatio:
+class TargetRatio(Result):
     """A ratio that tooth numbers shall make.
 
     value  its magnitude, exact, above 0
@@ -43,6 +44,8 @@ class TargetRatio:
     label  the ratio as it was asked for
     note   where the number comes from, with its source
     """
+
+    KEYS = ("label", Key("ratio", "value"), Key("value", to=as_float), "sense", "note")
 
     value: Fraction
     sense: Literal[-1, 0, 1] = 0
@@ -56,16 +59,6 @@ class TargetRatio:
                 "tooth counts make the magnitude, which is above 0; the sense is told apart",
                 "give a number above 0",
             )
-
-    def to_dict(self) -> dict[str, Any]:
-        """Plain data for JSON."""
-        return {
-            "label": self.label,
-            "ratio": fraction_text(self.value),
-            "value": as_float(self.value),
-            "sense": self.sense,
-            "note": self.note,
-        }
 
 
 @dataclass(frozen=True, slots=True)

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import ceil, floor, inf, nan, sqrt
+from math import ceil, degrees, floor, inf, nan, sqrt
 from statistics import NormalDist
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
+
+from geartrain.numerics.plain_data import Key, Result, finite
 
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
@@ -23,8 +25,10 @@ def deviations(confidence: float = CONFIDENCE) -> float:
 
 
 @dataclass(frozen=True, slots=True)
-class ProbabilityEstimate:
+class ProbabilityEstimate(Result):
     """So many of so many trials: a probability, estimated."""
+
+    KEYS = ("count", "of", Key("share", "value", finite), "interval")
 
     count: int
     of: int
@@ -38,11 +42,6 @@ class ProbabilityEstimate:
     def interval(self) -> tuple[float, float]:
         """Wilson's interval: it holds at shares of 0 and 1 too."""
         return wilson(self.count, self.of)
-
-    def to_dict(self) -> dict[str, Any]:
-        """Plain data for JSON."""
-        low, high = self.interval
-        return {"count": self.count, "of": self.of, "share": self.value if self.of else None, "interval": [low, high]}
 
 
 def wilson(count: float, of: float, z: float | None = None) -> tuple[float, float]:
@@ -69,7 +68,12 @@ class IntervalEstimate:
 
     def to_dict(self) -> list[float | None]:
         """Plain data for JSON: value, low, high; null where there is none."""
-        return [each if abs(each) < inf else None for each in (self.value, self.low, self.high)]
+        return [finite(each) for each in (self.value, self.low, self.high)]
+
+
+def in_degrees(figure: IntervalEstimate) -> list[float | None]:
+    """An angle (rad) as JSON has it, in degrees: value, low, high."""
+    return [finite(degrees(each)) for each in (figure.value, figure.low, figure.high)]
 
 
 def mean_of(values: Floats) -> IntervalEstimate:
@@ -104,3 +108,9 @@ def percentile_of(ordered: Floats, percent: float) -> IntervalEstimate:
     low, high = floor(n * p - half) - 1, ceil(n * p + half)
     ends = (float(ordered[low]) if low >= 0 else -inf, float(ordered[high]) if high < n else inf)
     return IntervalEstimate(float(np.quantile(ordered, p)), *ends)
+
+
+def percentiles_of(values: Floats) -> dict[float, IntervalEstimate]:
+    """The percentiles that are told."""
+    ordered = np.sort(values)
+    return {percent: percentile_of(ordered, percent) for percent in PERCENTILES}

@@ -12,8 +12,8 @@ from commands import call
 from places import DOCS
 
 from geartrain import GearTrainError, load
-from geartrain.report.spherical_report import SphereAnswers
 from geartrain.spherical import from_polyhedron
+from geartrain.spherical.gear_sphere import GearSphere
 
 
 def data(*arguments: object) -> dict:
@@ -69,7 +69,7 @@ def test_a_set_becomes_a_train_that_turns_as_it_should(tmp_path: Path) -> None:
 
 
 def test_a_picture_has_the_teeth_of_every_mesh_in_the_gaps() -> None:
-    configuration, cones, phases = SphereAnswers(from_polyhedron("cuboctahedron", teeth={"4": 18, "3": 12})).pose()
+    configuration, cones, phases = GearSphere(from_polyhedron("cuboctahedron", teeth={"4": 18, "3": 12})).pose()
     for i, j in configuration.meshes:
         z = [configuration.teeth[configuration.kinds[gear]] for gear in (i, j)]
         towards = [configuration.azimuth(i, j), configuration.azimuth(j, i)]

@@ -5,7 +5,7 @@ An epicyclic set as a declaration: with its counts, or with wheels still to be f
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any, Literal
@@ -13,15 +13,16 @@ from typing import Any, Literal
 from geartrain.errors import Problem, QuestionError
 from geartrain.numerics.decimal_text import abridged_text, decimal, fraction_text
 from geartrain.numerics.exact import as_float
-from geartrain.synthesis.epicyclic.set_kinds import CARRIER, EpicyclicKind, EpicyclicMode, epicyclic_kind
-from geartrain.synthesis.search_outcome import Shortfall
+from geartrain.numerics.plain_data import Key, Result, finite
+from geartrain.synthesis.epicyclic.set_kinds import CARRIER, EpicyclicKind, EpicyclicMode, epicyclic_kind, mode_key
+from geartrain.synthesis.search_outcome import CountSizes, Shortfall
 
 RatioIs = Literal["input/output", "output/input"]
 SetOrder = Literal["error", "total", "largest"]
 
 
 @dataclass(frozen=True, slots=True)
-class EpicyclicSet:
+class EpicyclicSet(CountSizes, Result):
     """Tooth counts of a set in one mode.
 
     teeth    by wheel
@@ -32,6 +33,23 @@ class EpicyclicSet:
     room     between the tips of neighbouring planets, equally spaced (modules); negative where they overlap
     """
 
+    KEYS = (
+        "kind",
+        "mode",
+        "teeth",
+        Key("input/output", "ratio"),
+        Key("output/input", "inverse"),
+        Key("value", "ratio", as_float),
+        Key("error", to=float),
+        Key("exact_error", "error"),
+        "planets",
+        "places",
+        "equally_spaced",
+        Key("room", to=finite),
+        "total",
+        "largest",
+    )
+
     kind: str
     mode: EpicyclicMode
     teeth: Mapping[str, int]
@@ -40,6 +58,11 @@ class EpicyclicSet:
     planets: int
     places: int
     room: float
+
+    @property
+    def counts(self) -> Collection[int]:
+        """The counts of all wheels."""
+        return self.teeth.values()
 
     @property
     def inverse(self) -> Fraction:
@@ -60,28 +83,9 @@ class EpicyclicSet:
         teeth = ", ".join(f"{wheel} = {count}" for wheel, count in self.teeth.items())
         return f"{teeth}: {abridged_text(self.ratio)} = {decimal(self.ratio, 7)} ({self.mode})"
 
-    def to_dict(self) -> dict[str, Any]:
-        """Plain data for JSON."""
-        return {
-            "kind": self.kind,
-            "mode": {"input": self.mode.input, "output": self.mode.output, "held": self.mode.held},
-            "teeth": dict(self.teeth),
-            "input/output": fraction_text(self.ratio),
-            "output/input": fraction_text(self.inverse),
-            "value": as_float(self.ratio),
-            "error": float(self.error),
-            "exact_error": fraction_text(self.error),
-            "planets": self.planets,
-            "places": self.places,
-            "equally_spaced": self.equally_spaced,
-            "room": None if self.room in (float("inf"), float("-inf")) else self.room,
-            "total": sum(self.teeth.values()),
-            "largest": max(self.teeth.values()),
-        }
-
 
 @dataclass(frozen=True, slots=True)
-class SetFindings:
+class SetFindings(Result):
     """The best sets of a kind, best first.
 
     complete   True: all sets within the bounds were looked at
@@ -89,6 +93,18 @@ class SetFindings:
     solutions  the best of them
     shortfall  what became of the others; a set in each mode counts as one candidate
     """
+
+    KEYS = (
+        "kind",
+        "wanted",
+        "ratio_is",
+        Key("modes", to=mode_key),
+        Key("tolerance", to=float),
+        "complete",
+        "count",
+        "solutions",
+        Key("", "shortfall"),
+    )
 
     kind: str
     wanted: Fraction
@@ -102,20 +118,6 @@ class SetFindings:
 
     def __bool__(self) -> bool:
         return bool(self.solutions)
-
-    def to_dict(self) -> dict[str, Any]:
-        """Plain data for JSON."""
-        return {
-            "kind": self.kind,
-            "wanted": str(self.wanted),
-            "ratio_is": self.ratio_is,
-            "modes": [mode.key for mode in self.modes],
-            "tolerance": None if self.tolerance is None else float(self.tolerance),
-            "complete": self.complete,
-            "count": self.count,
-            "solutions": [found.to_dict() for found in self.solutions],
-            **self.shortfall.to_dict(),
-        }
 
 
 def set_rank(found: EpicyclicSet, by: SetOrder, mode: int) -> tuple[Any, ...]:

@@ -12,9 +12,9 @@ from dataclasses import dataclass
 from functools import cache
 from itertools import permutations
 from types import MappingProxyType
-from typing import Any
 
 from geartrain.errors import Problem, QuestionError
+from geartrain.numerics.plain_data import Key, Result
 
 CARRIER = "carrier"
 
@@ -56,8 +56,13 @@ class EpicyclicMode:
         return f"{self.input} in, {self.output} out, {self.held} held"
 
 
+def mode_key(mode: EpicyclicMode) -> str:
+    """A mode as it is asked for."""
+    return mode.key
+
+
 @dataclass(frozen=True, slots=True)
-class EpicyclicKind:
+class EpicyclicKind(Result):
     """A kind of epicyclic set.
 
     members     its central wheels
@@ -69,6 +74,8 @@ class EpicyclicKind:
     mirrored    link -> link: exchanging these gives the same set again, so half of the modes say all
     bevel       True if the planets' axes cross the central one
     """
+
+    KEYS = ("title", "wheels", Key("modes", to=mode_key))
 
     name: str
     title: str
@@ -102,10 +109,6 @@ class EpicyclicKind:
             if EpicyclicMode(*(swap.get(link, link) for link in (mode.input, mode.output, mode.held))) not in found:
                 found[mode] = None
         return tuple(found)
-
-    def to_dict(self) -> dict[str, Any]:
-        """Plain data for JSON."""
-        return {"title": self.title, "wheels": list(self.wheels), "modes": [mode.key for mode in self.modes]}
 
     def member(self, link: str) -> CentralWheel | None:
         """The central wheel of a link; None for the carrier."""

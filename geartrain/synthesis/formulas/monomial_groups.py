@@ -7,6 +7,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
+from geartrain.numerics.plain_data import Key, Result
 from geartrain.synthesis.formulas.laurent import Exponents, Laurent
 
 if TYPE_CHECKING:
@@ -15,7 +16,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, slots=True)
-class MonomialGroup:
+class MonomialGroup(Result):
     """Wheels of one class: the function sees only x, the product of their counts to the powers `exponents`.
 
     wheels      in the order declared
@@ -23,9 +24,16 @@ class MonomialGroup:
     degree      greatest power of x in the function's numerator or denominator; 1 makes it a Moebius function of x
     """
 
+    KEYS = (Key("exponents", "by_wheel"), "degree")
+
     wheels: tuple[str, ...]
     exponents: Exponents
     degree: int
+
+    @property
+    def by_wheel(self) -> dict[str, int]:
+        """The exponents by wheel."""
+        return dict(zip(self.wheels, self.exponents, strict=True))
 
     @property
     def roundings(self) -> int:
@@ -46,10 +54,6 @@ class MonomialGroup:
                 else:
                     bottom = bottom * column
         return np.asarray(top / bottom, dtype=np.float64)
-
-    def to_dict(self) -> dict[str, Any]:
-        """Plain data for JSON."""
-        return {"exponents": dict(zip(self.wheels, self.exponents, strict=True)), "degree": self.degree}
 
 
 @dataclass(frozen=True, slots=True)

@@ -5,11 +5,11 @@ from __future__ import annotations
 import random
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
 
 from geartrain.errors import Problem, QuestionError, suggest
 from geartrain.kinematics.circuits import Axes, Circuit, Tree, close_joints, find_circuits, find_tree
 from geartrain.kinematics.components import relevant_circuits
+from geartrain.numerics.plain_data import Result
 from geartrain.synthesis.formulas.laurent import Laurent, TooLongError
 from geartrain.synthesis.formulas.laurent import Term as Term
 from geartrain.synthesis.formulas.monomial_groups import MonomialGroup as MonomialGroup
@@ -24,7 +24,7 @@ Counts = tuple[int, ...]
 
 
 @dataclass(frozen=True, slots=True)
-class Formulas(Mapping[str, Formula]):
+class Formulas(Mapping[str, Formula], Result):
     """The outputs of a train in one state, as functions of its free wheels. As a mapping it is `outputs`.
 
     outputs        output name -> its speed in the train's unit (or the difference, for `relative_to`), exactly
@@ -57,15 +57,6 @@ class Formulas(Mapping[str, Formula]):
         """True if every condition holds at these counts, and no exclusion strikes."""
         met = all(condition.value(counts) == 0 for condition in self.conditions)
         return met and all(exclusion.value(counts) != 0 for exclusion in self.exclusions)
-
-    def to_dict(self) -> dict[str, Any]:
-        """Plain data for JSON."""
-        return {
-            "outputs": {name: formula.to_dict() for name, formula in self.outputs.items()},
-            "conditions": [formula.to_dict() for formula in self.conditions],
-            "exclusions": [formula.to_dict() for formula in self.exclusions],
-            "undetermined": list(self.undetermined),
-        }
 
 
 def find_formulas(train: Train, state: str | None, free: Mapping[str, Counts]) -> Formulas:

@@ -9,10 +9,11 @@ from typing import Any
 
 from geartrain.numerics.decimal_text import fraction_text
 from geartrain.numerics.exact import as_float
+from geartrain.numerics.plain_data import Key, Result
 
 
 @dataclass(frozen=True, slots=True)
-class OrreryArbor:
+class OrreryArbor(Result):
     """One arbor.
 
     name    the period it shows, or `arbor 1`, `arbor 2`...; the first is named by who asks
@@ -22,26 +23,17 @@ class OrreryArbor:
     shows   True if a period was asked of it
     """
 
+    KEYS = ("name", "period", Key("value", "period", as_float), "sense", "wheels", "shows")
+
     name: str
     period: Fraction
     sense: int
     wheels: tuple[int, ...]
     shows: bool
 
-    def to_dict(self) -> dict[str, Any]:
-        """Plain data for JSON."""
-        return {
-            "name": self.name,
-            "period": fraction_text(self.period),
-            "value": as_float(self.period),
-            "sense": self.sense,
-            "wheels": list(self.wheels),
-            "shows": self.shows,
-        }
-
 
 @dataclass(frozen=True, slots=True)
-class OrreryPair:
+class OrreryPair(Result):
     """One gear pair: teeth of the driver on arbor `parent`, and of the driven wheel on arbor `child`."""
 
     driver: int
@@ -49,13 +41,9 @@ class OrreryPair:
     parent: str
     child: str
 
-    def to_dict(self) -> dict[str, Any]:
-        """Plain data for JSON."""
-        return {"driver": self.driver, "driven": self.driven, "parent": self.parent, "child": self.child}
-
 
 @dataclass(frozen=True, slots=True)
-class Orrery:
+class Orrery(Result):
     """A tree of gear pairs that shows every period asked for.
 
     periods      name -> period asked for, in turns of the first arbor
@@ -68,6 +56,17 @@ class Orrery:
     complete     True if no orrery has fewer wheels: `wheels` equals `least_wheels`
     ended        why the search ended: "proved", "effort", "time" or "interrupt"
     """
+
+    KEYS = (
+        "wheels",
+        "pairs",
+        "arbors",
+        Key("errors", keys=(Key("value", ".", float), Key("exact", "."))),
+        "least_pairs",
+        "least_wheels",
+        "complete",
+        "ended",
+    )
 
     periods: Mapping[str, Fraction]
     tolerances: Mapping[str, Fraction]
@@ -92,19 +91,6 @@ class Orrery:
     def worst(self) -> Fraction:
         """Greatest relative error in magnitude."""
         return max(map(abs, self.errors.values()))
-
-    def to_dict(self) -> dict[str, Any]:
-        """Plain data for JSON."""
-        return {
-            "wheels": self.wheels,
-            "pairs": [pair.to_dict() for pair in self.pairs],
-            "arbors": [arbor.to_dict() for arbor in self.arbors],
-            "errors": {name: {"value": float(error), "exact": str(error)} for name, error in self.errors.items()},
-            "least_pairs": self.least_pairs,
-            "least_wheels": self.least_wheels,
-            "complete": self.complete,
-            "ended": self.ended,
-        }
 
     def to_train(self, name: str = "orrery", unit: str = "d") -> dict[str, Any]:
         """A declaration as plain data: the first arbor turns once a `unit`, every output expects its exact speed.

@@ -6,18 +6,19 @@ One ratio by stages as a question in plain data: what every piece of the search 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass, replace
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
 from typing import Any
 
 from geartrain.errors import Problem, QuestionError
 from geartrain.numerics.decimal_text import fraction_text
+from geartrain.numerics.plain_data import Result
 from geartrain.synthesis.ratio.product_windows import PLAIN, ProductWindows, multisets, products_of
 
 
 @dataclass(frozen=True, slots=True)
-class StageConstraints:
+class StageConstraints(Result):
     """Conditions on the counts of a train of stages, and on how they can be paired; all in one and the same pairing.
 
     hunting      the two counts of every stage have no common divisor
@@ -78,10 +79,6 @@ class StageConstraints:
         if least > most:
             what = f"least_total is {least}, most_total is {most}"
             raise QuestionError(Problem(what, "no sum is between them", "exchange them, or leave one out"))
-
-    def to_dict(self) -> dict[str, Any]:
-        """Plain data for JSON."""
-        return asdict(self)
 
 
 Set = tuple[int, ...]

@@ -15,24 +15,25 @@ from collections.abc import Callable, Iterator
 from concurrent.futures import Executor
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import Any
 
 from geartrain.errors import Problem, QuestionError, RangeError
 from geartrain.numerics.decimal_text import decimal
+from geartrain.numerics.plain_data import Key, Result
 from geartrain.numerics.work import Execution, Journal
 from geartrain.synthesis.ratio.product_windows import MOST_STAGES, check_memory, multisets
 from geartrain.synthesis.ratio.segment_sweep import SweepOutcome, nearest, within
 from geartrain.synthesis.ratio.stage_infeasibility import SENSE, explain
 from geartrain.synthesis.ratio.stage_pairing import best_pairing
 from geartrain.synthesis.ratio.stage_problem import StageConstraints, StageProblem
-from geartrain.synthesis.ratio.stage_ranking import Key, check_order
+from geartrain.synthesis.ratio.stage_ranking import Key as RankingKey
+from geartrain.synthesis.ratio.stage_ranking import check_order
 from geartrain.synthesis.search_outcome import GearStages, Shortfall
 from geartrain.synthesis.target_ratio import TargetRatio
 from geartrain.synthesis.tooth_count_ranges import CountRuns, Counts
 
 
 @dataclass(frozen=True, slots=True)
-class StageFindings:
+class StageFindings(Result):
     """Solutions of one ratio by stages: pairs of unordered sets of counts.
 
     wanted      the ratio
@@ -48,6 +49,22 @@ class StageFindings:
     shortfall   where the other pairs of sets went
     note        what was assumed, in words; empty if nothing
     """
+
+    KEYS = (
+        "wanted",
+        "stages",
+        Key("top", "top_runs"),
+        Key("beneath", "beneath_runs"),
+        "fit",
+        Key("order", "by"),
+        Key("tolerance", to=float),
+        "complete",
+        "count",
+        "considered",
+        "solutions",
+        "shortfall",
+        "note",
+    )
 
     wanted: TargetRatio
     stages: int
@@ -67,6 +84,16 @@ class StageFindings:
         """Number of pairs of unordered sets that the admissible counts make."""
         return self.shortfall.considered
 
+    @property
+    def top_runs(self) -> str:
+        """The counts that may stand on top, as they are asked for: `15:60`."""
+        return str(CountRuns.of(self.top)) if self.top else ""
+
+    @property
+    def beneath_runs(self) -> str:
+        """The counts that may stand beneath."""
+        return str(CountRuns.of(self.beneath)) if self.beneath else ""
+
     def __len__(self) -> int:
         return len(self.solutions)
 
@@ -75,24 +102,6 @@ class StageFindings:
 
     def __getitem__(self, at: int) -> GearStages:
         return self.solutions[at]
-
-    def to_dict(self) -> dict[str, Any]:
-        """Plain data for JSON."""
-        return {
-            "wanted": self.wanted.to_dict(),
-            "stages": self.stages,
-            "top": str(CountRuns.of(self.top)) if self.top else "",
-            "beneath": str(CountRuns.of(self.beneath)) if self.beneath else "",
-            "fit": self.fit.to_dict(),
-            "order": self.by,
-            "tolerance": float(self.tolerance),
-            "complete": self.complete,
-            "count": self.count,
-            "considered": self.considered,
-            "solutions": [solution.to_dict() for solution in self.solutions],
-            "shortfall": self.shortfall.to_dict(),
-            "note": self.note,
-        }
 
 
 __all__ = ["StageConstraints", "StageFindings", "find_stages"]
@@ -200,7 +209,7 @@ def _findings(
     )
 
 
-def _stages(key: Key, question: StageProblem) -> GearStages:
+def _stages(key: RankingKey, question: StageProblem) -> GearStages:
     """One solution, paired."""
     _, _, _, _, top, beneath = key
     ratio = Fraction(1)

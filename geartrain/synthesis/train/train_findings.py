@@ -5,7 +5,7 @@ What a search for the tooth numbers of a train found: part by part, with where a
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 from heapq import heappop, heappush
@@ -13,16 +13,16 @@ from math import prod
 from typing import Any, Literal
 
 from geartrain.errors import Problem, QuestionError
-from geartrain.numerics.decimal_text import fraction_text
 from geartrain.numerics.exact import as_float
-from geartrain.synthesis.search_outcome import Shortfall
+from geartrain.numerics.plain_data import Key, Result
+from geartrain.synthesis.search_outcome import CountSizes, Shortfall
 
 By = Literal["error", "total", "largest", "distinct", "change"]
 ORDERS: tuple[By, ...] = ("error", "total", "largest", "distinct", "change")
 
 
 @dataclass(frozen=True, slots=True)
-class ReachedSpeed:
+class ReachedSpeed(Result):
     """What an output does under an assignment.
 
     speed   exact, in the train's unit
@@ -32,25 +32,23 @@ class ReachedSpeed:
     met     True if the output meets all that is demanded of it
     """
 
+    KEYS = (
+        "speed",
+        Key("value", "speed", as_float),
+        Key("target", "label"),
+        Key("error", to=float),
+        Key("exact_error", "error"),
+        "met",
+    )
+
     speed: Fraction
     label: str
     error: Fraction
     met: bool
 
-    def to_dict(self) -> dict[str, Any]:
-        """Plain data for JSON."""
-        return {
-            "speed": fraction_text(self.speed),
-            "value": as_float(self.speed),
-            "target": self.label,
-            "error": float(self.error),
-            "exact_error": fraction_text(self.error),
-            "met": self.met,
-        }
-
 
 @dataclass(frozen=True, slots=True)
-class Assignment:
+class Assignment(CountSizes, Result):
     """Tooth counts of the free wheels, and what the outputs do with them.
 
     teeth     wheel -> count, in the order declared
@@ -58,9 +56,16 @@ class Assignment:
     changed   wheels whose count is not the declared value
     """
 
+    KEYS = ("teeth", "outputs", Key("error", to=float), "total", "largest", "distinct", "changed")
+
     teeth: Mapping[str, int]
     outputs: Mapping[str, ReachedSpeed]
     changed: tuple[str, ...] = ()
+
+    @property
+    def counts(self) -> Collection[int]:
+        """The counts of all wheels."""
+        return self.teeth.values()
 
     @property
     def error(self) -> Fraction:
@@ -69,33 +74,19 @@ class Assignment:
 
     def measure(self, by: By) -> tuple[Fraction | int, ...]:
         """What it is ordered by: the order asked for, then error, total and largest; least is best."""
-        sizes = tuple(self.teeth.values())
-        total, largest = sum(sizes), max(sizes, default=0)
+        total, largest = self.total, self.largest
         first: dict[By, Fraction | int] = {
             "error": self.error,
             "total": total,
             "largest": largest,
-            "distinct": len(set(sizes)),
+            "distinct": self.distinct,
             "change": len(self.changed),
         }
         return first[by], self.error, total, largest
 
-    def to_dict(self) -> dict[str, Any]:
-        """Plain data for JSON."""
-        sizes = tuple(self.teeth.values())
-        return {
-            "teeth": dict(self.teeth),
-            "outputs": {name: reached.to_dict() for name, reached in self.outputs.items()},
-            "error": float(self.error),
-            "total": sum(sizes),
-            "largest": max(sizes, default=0),
-            "distinct": len(set(sizes)),
-            "changed": list(self.changed),
-        }
-
 
 @dataclass(frozen=True, slots=True)
-class PartFindings:
+class PartFindings(Result):
     """Free wheels that belong together, because outputs or rules join them, and all that meets their demands.
 
     wheels       in the order declared; parts share none
@@ -113,6 +104,21 @@ class PartFindings:
                  stand in the order in which they are decided
     """
 
+    KEYS = (
+        "wheels",
+        "outputs",
+        "demands",
+        "rules",
+        "complete",
+        "ranked",
+        "reason",
+        "considered",
+        "count",
+        Key("tolerance", to=float),
+        "solutions",
+        "shortfall",
+    )
+
     wheels: tuple[str, ...]
     outputs: tuple[str, ...]
     demands: tuple[str, ...]
@@ -126,26 +132,9 @@ class PartFindings:
     solutions: tuple[Assignment, ...]
     shortfall: Shortfall
 
-    def to_dict(self) -> dict[str, Any]:
-        """Plain data for JSON."""
-        return {
-            "wheels": list(self.wheels),
-            "outputs": list(self.outputs),
-            "demands": list(self.demands),
-            "rules": list(self.rules),
-            "complete": self.complete,
-            "ranked": self.ranked,
-            "reason": self.reason,
-            "considered": self.considered,
-            "count": self.count,
-            "tolerance": None if self.tolerance is None else float(self.tolerance),
-            "solutions": [solution.to_dict() for solution in self.solutions],
-            "shortfall": self.shortfall.to_dict(),
-        }
-
 
 @dataclass(frozen=True, slots=True)
-class Standing:
+class Standing(Result):
     """Where one assignment of a part's wheels stands.
 
     wheels       the part's wheels
@@ -165,18 +154,9 @@ class Standing:
         """True if it meets every demand and rule."""
         return not self.refused
 
-    def to_dict(self) -> dict[str, Any]:
-        """Plain data for JSON."""
-        return {
-            "wheels": list(self.wheels),
-            "assignment": None if self.assignment is None else self.assignment.to_dict(),
-            "rank": self.rank,
-            "refused": list(self.refused),
-        }
-
 
 @dataclass(frozen=True, slots=True)
-class TrainFindings:
+class TrainFindings(Result):
     """All that a search in a train found.
 
     name      of the train
@@ -186,6 +166,8 @@ class TrainFindings:
     links     free wheel -> its link
     remarks   what the reader should know: outputs that no free wheel moves, and whether they are right
     """
+
+    KEYS = (Key("train", "name"), "by", "complete", "ranked", "considered", "count", "remarks", "parts", "solutions")
 
     name: str
     by: By
@@ -259,20 +241,6 @@ class TrainFindings:
             if wheel not in self.links:
                 fix = f"the free wheels are {', '.join(self.links)}"
                 raise QuestionError(Problem(f"wheel '{wheel}' is not free", "the search did not look for it", fix))
-
-    def to_dict(self) -> dict[str, Any]:
-        """Plain data for JSON."""
-        return {
-            "train": self.name,
-            "by": self.by,
-            "complete": self.complete,
-            "ranked": self.ranked,
-            "considered": self.considered,
-            "count": self.count,
-            "remarks": list(self.remarks),
-            "parts": [part.to_dict() for part in self.parts],
-            "solutions": [solution.to_dict() for solution in self.solutions],
-        }
 
 
 def _together(parts: Sequence[Sequence[Assignment]], by: By, best: int) -> Iterator[Assignment]:

@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from math import degrees, inf, pi
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
+from geartrain.numerics.plain_data import Key, Result, finite
 from geartrain.numerics.simultaneous_roots import roots_by_chandrupatla
 from geartrain.uncertainty.manufacturing_errors.contact_envelope import LEFT, ContactEnvelope
 from geartrain.uncertainty.manufacturing_errors.contact_intervals import (
@@ -28,7 +29,7 @@ MeshingEventKind = Literal["jam", "clash", "standstill", "disengaged"]
 
 
 @dataclass(frozen=True, slots=True)
-class MeshingEvent:
+class MeshingEvent(Result):
     """Something a pair does beside turning.
 
     jam         a front flank against a back flank: the driven wheel can neither lag nor run ahead
@@ -43,12 +44,27 @@ class MeshingEvent:
     turn               of the driver, from 0
     """
 
+    KEYS = (
+        "kind",
+        Key("start_deg", "start", degrees),
+        Key("end_deg", "end", degrees),
+        Key("amount_deg", "reach", degrees),
+        "pushing",
+        "stopping",
+        "turn",
+    )
+
     kind: MeshingEventKind
     start: float
     end: float
     amount: float
     pushing: tuple[int, int] | None
     stopping: tuple[int, int] | None
+
+    @property
+    def reach(self) -> float | None:
+        """The amount; None where nothing is in reach."""
+        return finite(self.amount)
 
     @property
     def turn(self) -> int:
@@ -65,18 +81,6 @@ class MeshingEvent:
 
     def _couples(self) -> Iterator[tuple[int, int]]:
         yield from (each for each in (self.pushing, self.stopping) if each is not None)
-
-    def to_dict(self) -> dict[str, Any]:
-        """Plain data for JSON."""
-        return {
-            "kind": self.kind,
-            "start_deg": degrees(self.start),
-            "end_deg": degrees(self.end),
-            "amount_deg": None if self.amount == inf else degrees(self.amount),
-            "pushing": self.pushing,
-            "stopping": self.stopping,
-            "turn": self.turn,
-        }
 
 
 @dataclass(frozen=True, slots=True)

@@ -5,14 +5,15 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 
 from geartrain.errors import Problem, QuestionError
+from geartrain.numerics.plain_data import Key, Result
 from geartrain.numerics.work import Execution
 from geartrain.uncertainty.confidence_intervals import ProbabilityEstimate
-from geartrain.uncertainty.monte_carlo.pointer_error import EVENTS
+from geartrain.uncertainty.monte_carlo.pointer_error import EVENTS, EventRates
 from geartrain.uncertainty.monte_carlo.random_streams import BLOCK, RandomStreams
 from geartrain.uncertainty.monte_carlo.trial_block import UNCUT, draw_trial_wheels, judge_trial_pairs
 from geartrain.uncertainty.monte_carlo.trial_run import block_tasks, check_trials
@@ -24,25 +25,23 @@ _MOST = 1000
 
 
 @dataclass(frozen=True, slots=True)
-class ClearanceCase:
+class ClearanceCase(Result):
     """The train at one clearance (None: as declared), its errors `scale` times as great.
 
     events   by event, in any pair; `pairs`, the same by pair
     """
+
+    KEYS = ("clearance", "scale", Key("", "rates"), "pairs")
 
     clearance: float | None
     scale: float
     events: Mapping[str, ProbabilityEstimate]
     pairs: Mapping[str, Mapping[str, ProbabilityEstimate]]
 
-    def to_dict(self) -> dict[str, Any]:
-        """Plain data for JSON."""
-        return {
-            "clearance": self.clearance,
-            "scale": self.scale,
-            **{name: share.to_dict() for name, share in self.events.items()},
-            "pairs": {pair: {n: each.to_dict() for n, each in events.items()} for pair, events in self.pairs.items()},
-        }
+    @property
+    def rates(self) -> EventRates:
+        """How often any pair does what."""
+        return cast("EventRates", self.events)
 
 
 def read_clearances(text: str) -> list[float]:

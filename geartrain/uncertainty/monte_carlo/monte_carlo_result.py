@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from math import degrees
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
+from geartrain.numerics.plain_data import Key, Result, group
 from geartrain.uncertainty.confidence_intervals import CONFIDENCE
 from geartrain.uncertainty.monte_carlo.random_streams import BLOCK
 
@@ -17,9 +18,38 @@ if TYPE_CHECKING:
     from geartrain.uncertainty.monte_carlo.tolerance_allocation import ToleranceAllocation
 
 
+ErrorSizes = dict[str, dict[str, dict[str, float]]]
+
+
+class PartialTrials(NamedTuple):
+    """Trials that were done, of how many."""
+
+    done: int
+    of: int
+
+
 @dataclass(frozen=True, slots=True)
-class MonteCarloResult:
+class MonteCarloResult(Result):
     """Trials, and what else was asked: other clearances, courses along a turn, indices, a tolerance."""
+
+    KEYS = (
+        Key("train", "trials.plan.name"),
+        Key("seed", "trials.seed"),
+        Key("trials", "trials.done"),
+        "block",
+        "confidence",
+        "assumptions",
+        group("errors", Key("wheels", "wheel_errors"), Key("pairs", "pair_errors")),
+        Key("any_pair", "trials.train"),
+        Key("pairs", "trials.pairs"),
+        Key("outputs", "trials.pointers"),
+        group("convergence", Key("jam", "trials.jams"), Key("stops", "trials.stops")),
+        "partial",
+        Key("clearances", "cleared"),
+        "courses",
+        "indices",
+        "tolerance",
+    )
 
     trials: TrialResults
     cleared: Sequence[ClearanceCase] = ()
@@ -58,33 +88,30 @@ class MonteCarloResult:
             "even teeth, with which pointers are set, is taken off. Laws of pairs and pins are composed exactly."
         )
 
-    def to_dict(self) -> dict[str, Any]:
-        """Plain data for JSON; angles in degrees, sizes of errors as fractions of pitch, half angle and depth.
+    @property
+    def block(self) -> int:
+        """Trials that are drawn from one stream of random numbers."""
+        return BLOCK
 
-        What was not asked for is an empty list, or None.
-        """
-        trials, plan = self.trials, self.trials.plan
-        return {
-            "train": plan.name,
-            "seed": trials.seed,
-            "trials": trials.done,
-            "block": BLOCK,
-            "confidence": CONFIDENCE,
-            "assumptions": list(self.assumptions),
-            "errors": {"wheels": _errors(plan.wheels, "errors"), "pairs": _errors(plan.pairs, "fitting")},
-            "any_pair": trials.train.to_dict(),
-            "pairs": [pair.to_dict() for pair in trials.pairs],
-            "outputs": [pointer.to_dict() for pointer in trials.pointers],
-            "convergence": {
-                event: [{"trials": count, **share.to_dict()} for count, share in trials.convergence(event)]
-                for event in ("jam", "stops")
-            },
-            "partial": None if trials.complete else {"done": trials.done, "of": trials.wanted},
-            "clearances": [one.to_dict() for one in self.cleared],
-            "courses": [one.to_dict() for one in self.courses],
-            "indices": [one.to_dict() for one in self.indices],
-            "tolerance": None if self.tolerance is None else self.tolerance.to_dict(),
-        }
+    @property
+    def confidence(self) -> float:
+        """Of all intervals."""
+        return CONFIDENCE
+
+    @property
+    def wheel_errors(self) -> ErrorSizes:
+        """Sizes of errors by wheel, kind and way: fractions of pitch, half angle and depth."""
+        return _sizes({wheel.name: wheel.errors for wheel in self.trials.plan.wheels})
+
+    @property
+    def pair_errors(self) -> ErrorSizes:
+        """Sizes of errors of fitting by pair, kind and way."""
+        return _sizes({pair.name: pair.fitting for pair in self.trials.plan.pairs})
+
+    @property
+    def partial(self) -> PartialTrials | None:
+        """What was done of a run that was interrupted."""
+        return None if self.trials.complete else PartialTrials(self.trials.done, self.trials.wanted)
 
     def pointer_convergence(self, at: int) -> list[tuple[int, float, float, float]]:
         """Trials, and the standard deviation of an output with its interval (deg)."""
@@ -92,9 +119,5 @@ class MonteCarloResult:
         return [(n, degrees(each.value), degrees(each.low), degrees(each.high)) for n, each in rows]
 
 
-def _errors(things: Sequence[Any], key: str) -> dict[str, Any]:
-    return {
-        each.name: {kind: {off.way: off.size} for kind, off in getattr(each, key).items()}
-        for each in things
-        if getattr(each, key)
-    }
+def _sizes(errors: Mapping[str, Mapping[str, Any]]) -> ErrorSizes:
+    return {name: {kind: {off.way: off.size} for kind, off in each.items()} for name, each in errors.items() if each}

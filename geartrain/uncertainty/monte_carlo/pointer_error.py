@@ -6,17 +6,18 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from math import degrees, nan, sqrt
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, NamedTuple, TypedDict, cast
 
 import numpy as np
 
+from geartrain.numerics.plain_data import Key, Result, finite
 from geartrain.uncertainty.confidence_intervals import (
-    PERCENTILES,
     IntervalEstimate,
     ProbabilityEstimate,
     deviation_of,
+    in_degrees,
     mean_of,
-    percentile_of,
+    percentiles_of,
 )
 from geartrain.uncertainty.monte_carlo.trial_block import CLASH, DISENGAGED, JAM, LOST, STANDSTILL, STOPS, UNCUT
 
@@ -33,8 +34,25 @@ FEWEST = 30
 EVENTS = {"jam": JAM, "clash": CLASH, "stops": STOPS, "standstill": STANDSTILL, "disengaged": DISENGAGED}
 
 
+class EventRates(TypedDict):
+    """How often wheels do what beside turning."""
+
+    jam: ProbabilityEstimate
+    clash: ProbabilityEstimate
+    stops: ProbabilityEstimate
+    standstill: ProbabilityEstimate
+    disengaged: ProbabilityEstimate
+
+
+class FirstOrderError(NamedTuple):
+    """Root mean square (rad) of what superposition to first order is off, and of the errors there."""
+
+    off: float
+    rms: float
+
+
 @dataclass(frozen=True, slots=True)
-class PairEventRates:
+class PairEventRates(Result):
     """How often one pair, or any pair of the train, does what over its full cycle of teeth.
 
     events   jam, clash, stops (jam or clash), standstill, disengaged: of the trials whose wheels can be cut
@@ -43,21 +61,22 @@ class PairEventRates:
     bound    bound on the probability of a jam by placement alone; NaN where other errors take part
     """
 
+    KEYS = (Key("pair", "name"), "uncut", Key("play", to=finite), Key("bound", to=finite), Key("", "rates"))
+
     name: str
     events: Mapping[str, ProbabilityEstimate]
     uncut: int
     play: float = nan
     bound: float = nan
 
-    def to_dict(self) -> dict[str, Any]:
-        """Plain data for JSON."""
-        known = {key: value if value == value else None for key, value in (("play", self.play), ("bound", self.bound))}
-        events = {name: share.to_dict() for name, share in self.events.items()}
-        return {"pair": self.name, "uncut": self.uncut, **known, **events}
+    @property
+    def rates(self) -> EventRates:
+        """The events, by name."""
+        return cast("EventRates", self.events)
 
 
 @dataclass(frozen=True, slots=True)
-class PointerErrorStatistics:
+class PointerErrorStatistics(Result):
     """How far one output is from where even teeth would have it on average, at random positions of the input.
 
     errors    (rad) of the trials in which no pair that moves it jams or is lost, in their order
@@ -67,12 +86,31 @@ class PointerErrorStatistics:
     shares    of the variance by pair, from superposition: they sum to 1
     """
 
+    KEYS = (
+        Key("output", "name"),
+        Key("trials", "runs"),
+        "stopped",
+        "of_all",
+        Key("mean_deg", "mean", in_degrees),
+        Key("deviation_deg", "deviation", in_degrees),
+        Key("percentiles_deg", "percentiles", in_degrees),
+        Key("greatest_deg", "greatest", degrees),
+        Key("deviation_of_all_deg", "deviation_of_all", in_degrees),
+        Key("first_order", "first", keys=(Key("off_deg", "off", degrees), Key("rms_deg", "rms", degrees))),
+        Key("variance_shares", "shares"),
+    )
+
     name: str
     errors: Floats
     all: Floats
     stopped: int
-    first: tuple[float, float]
+    first: FirstOrderError
     shares: Mapping[str, float]
+
+    @property
+    def runs(self) -> int:
+        """Trials that run."""
+        return len(self.errors)
 
     @property
     def kept(self) -> Floats:
@@ -95,10 +133,14 @@ class PointerErrorStatistics:
         return deviation_of(self.kept)
 
     @property
+    def deviation_of_all(self) -> IntervalEstimate:
+        """Standard deviation in all trials, as the pushing flanks alone would have it (rad)."""
+        return deviation_of(self.all)
+
+    @property
     def percentiles(self) -> dict[float, IntervalEstimate]:
         """Percentiles (rad)."""
-        ordered = np.sort(self.kept)
-        return {percent: percentile_of(ordered, percent) for percent in PERCENTILES}
+        return percentiles_of(self.kept)
 
     @property
     def greatest(self) -> float:
@@ -109,30 +151,18 @@ class PointerErrorStatistics:
         """How often the error exceeds an angle (rad), either way."""
         return ProbabilityEstimate(int(np.count_nonzero(np.abs(self.kept) > angle)), len(self.kept))
 
-    def to_dict(self) -> dict[str, Any]:
-        """Plain data for JSON; angles in degrees."""
-
-        def in_degrees(figure: IntervalEstimate) -> list[float | None]:
-            return IntervalEstimate(*(degrees(each) for each in (figure.value, figure.low, figure.high))).to_dict()
-
-        return {
-            "output": self.name,
-            "trials": len(self.errors),
-            "stopped": self.stopped,
-            "of_all": self.of_all,
-            "mean_deg": in_degrees(self.mean),
-            "deviation_deg": in_degrees(self.deviation),
-            "percentiles_deg": {str(percent): in_degrees(each) for percent, each in self.percentiles.items()},
-            "greatest_deg": degrees(self.greatest),
-            "deviation_of_all_deg": in_degrees(deviation_of(self.all)),
-            "first_order": {"off_deg": degrees(self.first[0]), "rms_deg": degrees(self.first[1])},
-            "variance_shares": dict(self.shares),
-        }
-
 
 @dataclass(frozen=True, slots=True)
-class PointerErrorCourse:
+class PointerErrorCourse(Result):
     """Errors of one output along one turn of it: `turns` of the input (n,), errors (rad) by trial (trials, n)."""
+
+    KEYS = (
+        Key("output", "name"),
+        Key("trials", "count"),
+        "turns",
+        "bands_deg",
+        Key("greatest_deg", "percentiles", in_degrees),
+    )
 
     name: str
     turns: Floats
@@ -144,21 +174,36 @@ class PointerErrorCourse:
         found: Floats = np.abs(self.errors).max(axis=1)
         return found
 
+    @property
+    def count(self) -> int:
+        """Number of trials."""
+        return len(self.errors)
+
+    @property
+    def percentiles(self) -> dict[float, IntervalEstimate]:
+        """Percentiles of the greatest errors (rad)."""
+        return percentiles_of(self.greatest)
+
+    @property
+    def bands_deg(self) -> Floats:
+        """The bands in degrees, (7, n)."""
+        found: Floats = np.degrees(self.bands())
+        return found
+
     def bands(self) -> Floats:
         """Least, 2.5, 25, 50, 75, 97.5 % and greatest at each position (rad), (7, n)."""
         found: Floats = np.quantile(self.errors, (0, 0.025, 0.25, 0.5, 0.75, 0.975, 1), axis=0)
         return found
 
-    def to_dict(self) -> dict[str, Any]:
-        """Plain data for JSON; angles in degrees."""
-        ordered = np.sort(np.degrees(self.greatest))
-        return {
-            "output": self.name,
-            "trials": len(self.errors),
-            "turns": self.turns.tolist(),
-            "bands_deg": np.degrees(self.bands()).tolist(),
-            "greatest_deg": {str(percent): percentile_of(ordered, percent).to_dict() for percent in PERCENTILES},
-        }
+
+@dataclass(frozen=True)
+class ConvergenceStep:
+    """A probability from the first so many trials."""
+
+    KEYS = ("trials", Key("", "share"))
+
+    trials: int
+    share: ProbabilityEstimate
 
 
 @dataclass(frozen=True)
@@ -222,7 +267,7 @@ class TrialResults:
         errors = self.errors[:, at]
         runs = turning_trials(self.marks, self.plan.reach[at]) & np.isfinite(errors)
         off, size, count = self.first[at]
-        first = (sqrt(off / count), sqrt(size / count)) if count else (nan, nan)
+        first = FirstOrderError(sqrt(off / count), sqrt(size / count)) if count else FirstOrderError(nan, nan)
         return PointerErrorStatistics(
             self.plan.outputs[at],
             errors[runs],
@@ -231,6 +276,16 @@ class TrialResults:
             first,
             _shares(self.sums[at]),
         )
+
+    @property
+    def jams(self) -> list[ConvergenceStep]:
+        """How often some pair jams, in ever more trials."""
+        return [ConvergenceStep(*each) for each in self.convergence("jam")]
+
+    @property
+    def stops(self) -> list[ConvergenceStep]:
+        """How often some pair jams or clashes, in ever more trials."""
+        return [ConvergenceStep(*each) for each in self.convergence("stops")]
 
     def convergence(self, event: str = "jam") -> list[tuple[int, ProbabilityEstimate]]:
         """The share of trials in which any pair does this, after 1/16, 1/8, ... and all of them."""

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 
 from geartrain.errors import MissingExtraError, Problem, QuestionError
+from geartrain.numerics.plain_data import Key, Result
 from geartrain.numerics.work import Execution, run
 from geartrain.uncertainty.confidence_intervals import CONFIDENCE, IntervalEstimate
 from geartrain.uncertainty.manufacturing_errors.declared_errors import ERROR_KINDS
@@ -32,35 +33,24 @@ _RESAMPLES = 200
 
 
 @dataclass(frozen=True, slots=True)
-class SobolIndex:
+class SobolIndex(Result):
     """First-order and total index of one input, with 95 % intervals by resampling."""
+
+    KEYS = (Key("of", "name"), "first", "total")
 
     name: str
     first: IntervalEstimate
     total: IntervalEstimate
 
-    def to_dict(self) -> dict[str, Any]:
-        """Plain data for JSON."""
-        return {"of": self.name, "first": self.first.to_dict(), "total": self.total.to_dict()}
-
 
 @dataclass(frozen=True, slots=True)
-class SobolIndices:
+class SobolIndices(Result):
     """Shares of the variance of one output by wheel or kind, the greatest first; `trials` of base samples."""
 
     output: str
     by: By
     trials: int
     indices: tuple[SobolIndex, ...]
-
-    def to_dict(self) -> dict[str, Any]:
-        """Plain data for JSON."""
-        return {
-            "output": self.output,
-            "by": self.by,
-            "trials": self.trials,
-            "indices": [each.to_dict() for each in self.indices],
-        }
 
 
 def find_sobol_indices(

@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from statistics import NormalDist
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, NamedTuple
 
 from geartrain.errors import Problem, QuestionError, RangeError
+from geartrain.numerics.plain_data import Key, Result
 from geartrain.numerics.work import Execution
 from geartrain.uncertainty.confidence_intervals import CONFIDENCE, ProbabilityEstimate, wilson
 from geartrain.uncertainty.manufacturing_errors.declared_errors import ERROR_KINDS
@@ -21,8 +22,15 @@ _STEPS = 12  # halvings: the scale to 0.02 % of the widest
 _WIDEST = 64.0
 
 
+class FailedScale(NamedTuple):
+    """A scale of errors with which the event is not rare enough, and what the trials say there."""
+
+    scale: float
+    share: ProbabilityEstimate
+
+
 @dataclass(frozen=True, slots=True)
-class ToleranceAllocation:
+class ToleranceAllocation(Result):
     """The greatest scale of errors at which P(event) < `chance` with `confidence`, one-sided.
 
     kind    the kind of error that was scaled, "" for all; `sizes`, by wheel or pair, at that scale
@@ -31,29 +39,32 @@ class ToleranceAllocation:
     bound   the scale at which the bound on jams by placement reaches `chance`; None where it does not apply
     """
 
+    KEYS = (
+        Key("kind", "scaled"),
+        "event",
+        "chance",
+        "confidence",
+        "scale",
+        Key("", "share"),
+        Key("next", keys=("scale", Key("", "share"))),
+        Key("bound_scale", "bound"),
+        "sizes",
+    )
+
     kind: str
     event: str
     chance: float
     confidence: float
     scale: float
     share: ProbabilityEstimate
-    next: tuple[float, ProbabilityEstimate] | None
+    next: FailedScale | None
     bound: float | None
     sizes: dict[str, float]
 
-    def to_dict(self) -> dict[str, Any]:
-        """Plain data for JSON."""
-        return {
-            "kind": self.kind or "all",
-            "event": self.event,
-            "chance": self.chance,
-            "confidence": self.confidence,
-            "scale": self.scale,
-            **self.share.to_dict(),
-            "next": {"scale": self.next[0], **self.next[1].to_dict()} if self.next else None,
-            "bound_scale": self.bound,
-            "sizes": self.sizes,
-        }
+    @property
+    def scaled(self) -> str:
+        """The kind of error that was scaled, or `all`."""
+        return self.kind or "all"
 
 
 def find_tolerance(
@@ -84,7 +95,7 @@ def find_tolerance(
         what = f"with errors of {kind or 'every kind'} taken away the train still does '{event}' too often"
         fix = "give more clearance, or take away other errors too"
         raise RangeError(Problem(what, f"{tried[0.0].count} of {tried[0.0].of} trials do", fix))
-    later = (failed, tried[failed]) if failed is not None else None
+    later = FailedScale(failed, tried[failed]) if failed is not None else None
     return ToleranceAllocation(
         kind,
         event,

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from typing import Any, Literal
+from typing import Literal
 
 from geartrain.synthesis.formulas import Formula
 from geartrain.synthesis.join.wheel_monomials import Interval, IntervalConstraint
@@ -116,10 +116,6 @@ class ObservedOutput:
     def constraint(self, soft: bool, graded: bool) -> IntervalConstraint:
         """As `asked`, for a join: where every speed is in order it must have one. `graded`: how well it agrees, too."""
         return replace(self.asked(soft) or IntervalConstraint(self.name, self.formula, (_LINE,)), graded=graded)
-
-    def to_dict(self) -> dict[str, Any]:
-        """Plain data for JSON."""
-        return {"output": self.name, "claims": [claim.label for claim in self.claims], "formula": str(self.formula)}
 
 
 def observations_of(

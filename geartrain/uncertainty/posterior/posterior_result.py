@@ -9,10 +9,11 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from math import log2
-from typing import Any, Literal
+from typing import Literal, NotRequired, TypedDict
 
-from geartrain.numerics.decimal_text import decimal, fraction_text
+from geartrain.numerics.decimal_text import decimal
 from geartrain.numerics.exact import as_float
+from geartrain.numerics.plain_data import Key, Result
 from geartrain.uncertainty.posterior.observations import ObservedOutput
 from geartrain.uncertainty.posterior.priors import ToothCountPrior
 
@@ -20,16 +21,23 @@ Method = Literal["exact", "sample"]
 
 
 @dataclass(frozen=True, slots=True)
-class CountProbability:
+class CountProbability(Result):
     """A probability.
 
     value      exact where it is a Fraction, to rounding where it is a float
     low, high  95 % interval where it is estimated from a sample; None where it is not
     """
 
+    KEYS = (Key("value", to=float), "exact", "low", "high")
+
     value: Fraction | float
     low: float | None = None
     high: float | None = None
+
+    @property
+    def exact(self) -> Fraction | None:
+        """The value where it is exact."""
+        return self.value if isinstance(self.value, Fraction) else None
 
     @property
     def is_exact(self) -> bool:
@@ -43,20 +51,17 @@ class CountProbability:
         text = decimal(self.value, 4) if isinstance(self.value, Fraction) else f"{self.value:.4g}"
         return text if self.low is None or self.high is None else f"{text} ({self.low:.3g} to {self.high:.3g})"
 
-    def to_dict(self) -> dict[str, Any]:
-        """Plain data for JSON."""
-        exact = fraction_text(self.value) if isinstance(self.value, Fraction) else None
-        return {"value": float(self.value), "exact": exact, "low": self.low, "high": self.high}
-
 
 @dataclass(frozen=True, slots=True)
-class WheelPosterior:
+class WheelPosterior(Result):
     """A wheel's counts once the outputs have spoken.
 
     doubt    its counts and their chances before
     chances  in parallel to its counts; they sum to 1. Empty where nothing fits
     idle     True if no output that is known depends on it
     """
+
+    KEYS = (Key("", "doubt"), Key("posterior", "chances"), "likeliest", "bits", "idle")
 
     doubt: ToothCountPrior
     chances: tuple[CountProbability, ...]
@@ -82,19 +87,19 @@ class WheelPosterior:
             return CountProbability(Fraction(0))
         return self.chances[self.doubt.counts.index(count)]
 
-    def to_dict(self) -> dict[str, Any]:
-        """Plain data for JSON."""
-        return {
-            **self.doubt.to_dict(),
-            "posterior": [chance.to_dict() for chance in self.chances],
-            "likeliest": self.likeliest,
-            "bits": self.bits,
-            "idle": self.idle,
-        }
+
+@dataclass(frozen=True, slots=True)
+class CombinedOutput:
+    """The speed of an output under a combination of counts, and its relative error."""
+
+    KEYS = (Key("exact", "speed"), Key("value", "speed", as_float), Key("error", to=float))
+
+    speed: Fraction
+    error: Fraction
 
 
 @dataclass(frozen=True, slots=True)
-class CountCombination:
+class CountCombination(Result):
     """Counts of all wheels that some known output depends on.
 
     teeth    wheel -> count, in the order declared
@@ -105,6 +110,8 @@ class CountCombination:
     changed  wheels whose count is not the declared one
     """
 
+    KEYS = ("teeth", "outputs", Key("misfit", to=float), "chance", "changed")
+
     teeth: Mapping[str, int]
     speeds: Mapping[str, Fraction]
     errors: Mapping[str, Fraction]
@@ -112,22 +119,14 @@ class CountCombination:
     chance: CountProbability | None
     changed: tuple[str, ...]
 
-    def to_dict(self) -> dict[str, Any]:
-        """Plain data for JSON."""
-        return {
-            "teeth": dict(self.teeth),
-            "outputs": {
-                name: {"exact": fraction_text(speed), "value": as_float(speed), "error": float(self.errors[name])}
-                for name, speed in self.speeds.items()
-            },
-            "misfit": float(self.misfit),
-            "chance": None if self.chance is None else self.chance.to_dict(),
-            "changed": list(self.changed),
-        }
+    @property
+    def outputs(self) -> Mapping[str, CombinedOutput]:
+        """Speed and error by output."""
+        return {name: CombinedOutput(speed, self.errors[name]) for name, speed in self.speeds.items()}
 
 
 @dataclass(frozen=True, slots=True)
-class VarianceShares:
+class VarianceShares(Result):
     """Which wheel decides an output: parts of the variance of its speed over the counts as they are before evidence.
 
     output   its name
@@ -138,6 +137,8 @@ class VarianceShares:
     exact    True where the shares are exact; False where they are estimated from `samples` combinations
     """
 
+    KEYS = ("output", Key("mean", to=float), "spread", Key("own", to=float), Key("whole", to=float), "exact", "samples")
+
     output: str
     mean: Fraction | float
     spread: float
@@ -146,21 +147,18 @@ class VarianceShares:
     exact: bool
     samples: int = 0
 
-    def to_dict(self) -> dict[str, Any]:
-        """Plain data for JSON."""
-        return {
-            "output": self.output,
-            "mean": float(self.mean),
-            "spread": self.spread,
-            "own": {wheel: float(share) for wheel, share in self.own.items()},
-            "whole": {wheel: float(share) for wheel, share in self.whole.items()},
-            "exact": self.exact,
-            "samples": self.samples,
-        }
+
+class KnownOutput(TypedDict):
+    """An output of which something is known, its formula, and the share of the prior weight that fits it `alone`."""
+
+    output: str
+    claims: list[str]
+    formula: str
+    alone: NotRequired[CountProbability]
 
 
 @dataclass(frozen=True, slots=True)
-class ToothCountPosterior:
+class ToothCountPosterior(Result):
     """Everything a sweep found.
 
     name          of the train
@@ -181,6 +179,27 @@ class ToothCountPosterior:
     seed          of the sample; None without one
     cut           True if it was interrupted: figures are of what had been looked at
     """
+
+    KEYS = (
+        Key("train", "name"),
+        "method",
+        "soft",
+        "combinations",
+        "looked",
+        "evidence",
+        "turning",
+        "fits",
+        "ranked",
+        "seed",
+        "ended",
+        "assumed",
+        "remarks",
+        Key("witnesses", "known"),
+        Key("wheels", "posteriors"),
+        Key("correlations", "correlated"),
+        "shares",
+        "best",
+    )
 
     name: str
     method: Method
@@ -205,6 +224,27 @@ class ToothCountPosterior:
         return self.posteriors[wheel]
 
     @property
+    def ended(self) -> Literal["whole", "interrupted"]:
+        """How the search ended."""
+        return "interrupted" if self.cut else "whole"
+
+    @property
+    def known(self) -> list[KnownOutput]:
+        """The witnesses, and how far each goes alone where that was found."""
+        found = []
+        for one in self.witnesses:
+            known = KnownOutput(output=one.name, claims=[claim.label for claim in one.claims], formula=str(one.formula))
+            if one.name in self.alone:
+                known["alone"] = self.alone[one.name]
+            found.append(known)
+        return found
+
+    @property
+    def correlated(self) -> list[tuple[str, str, float]]:
+        """Two wheels and the correlation of their counts, strongest first."""
+        return [(*pair, value) for pair, value in self.correlations.items()]
+
+    @property
     def assumed(self) -> Sequence[str]:
         """The assumptions behind the figures, in sentences."""
         agree = (
@@ -218,33 +258,6 @@ class ToothCountPosterior:
             agree,
             "What the outputs show is taken to be what they were meant to show; no misprint or repair is allowed for.",
         )
-
-    def to_dict(self) -> dict[str, Any]:
-        """Plain data for JSON."""
-        return {
-            "train": self.name,
-            "method": self.method,
-            "soft": self.soft,
-            "combinations": self.combinations,
-            "looked": self.looked,
-            "evidence": self.evidence.to_dict(),
-            "turning": self.turning.to_dict(),
-            "fits": self.fits,
-            "ranked": self.ranked,
-            "seed": self.seed,
-            "ended": "interrupted" if self.cut else "whole",
-            "assumed": list(self.assumed),
-            "remarks": list(self.remarks),
-            "witnesses": [
-                witness.to_dict()
-                | ({"alone": self.alone[witness.name].to_dict()} if witness.name in self.alone else {})
-                for witness in self.witnesses
-            ],
-            "wheels": {wheel: posterior.to_dict() for wheel, posterior in self.posteriors.items()},
-            "correlations": [[*pair, value] for pair, value in self.correlations.items()],
-            "shares": {name: shares.to_dict() for name, shares in self.shares.items()},
-            "best": [combination.to_dict() for combination in self.best],
-        }
 
 
 Again = Callable[[Mapping[str, Sequence[int]]], ToothCountPosterior]

@@ -6,9 +6,9 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import Any
 
 from geartrain.errors import Problem, QuestionError, RangeError, suggest
+from geartrain.numerics.plain_data import Result
 from geartrain.train import Teeth, Train
 from geartrain.train.fields import MOST_TEETH
 
@@ -17,7 +17,7 @@ MOST_COUNTS = 10**5
 
 
 @dataclass(frozen=True, slots=True)
-class ToothCountPrior:
+class ToothCountPrior(Result):
     """The counts one wheel may have.
 
     wheel     its id
@@ -26,6 +26,8 @@ class ToothCountPrior:
     declared  the count the train declares; None where it declares none
     assumed   where the counts come from, in words; all are as likely unless it says that they are weighted
     """
+
+    KEYS = ("wheel", "declared", "counts", "priors", "assumed")
 
     wheel: str
     counts: tuple[int, ...]
@@ -42,16 +44,6 @@ class ToothCountPrior:
     def priors(self) -> tuple[Fraction, ...]:
         """The chance of each count before the outputs are looked at; they sum to 1."""
         return tuple(Fraction(weight, self.total) for weight in self.weights)
-
-    def to_dict(self) -> dict[str, Any]:
-        """Plain data for JSON."""
-        return {
-            "wheel": self.wheel,
-            "declared": self.declared,
-            "counts": list(self.counts),
-            "priors": [str(prior) for prior in self.priors],
-            "assumed": self.assumed,
-        }
 
 
 def find_priors(train: Train, free: Mapping[str, Sequence[int]] | None = None) -> tuple[ToothCountPrior, ...]:

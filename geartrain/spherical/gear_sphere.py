@@ -1,0 +1,153 @@
+"""A set of gears on a sphere: whether it turns, whether its teeth meet, and its sizes."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from functools import cached_property
+from math import degrees, pi, sin
+from typing import TYPE_CHECKING
+
+from geartrain.analysis.gear_train import GearTrain
+from geartrain.errors import Problem, QuestionError
+from geartrain.numerics.plain_data import Key, Result
+from geartrain.spherical.configuration import Configuration, mesh_kinds, to_train
+from geartrain.spherical.gear_sizes import SphereSizing, size_gears
+
+if TYPE_CHECKING:
+    from geartrain.kinematics.gridlock.removal import Gridlock
+    from geartrain.kinematics.phasing import MeshPhasing
+    from geartrain.numerics.arrays import Floats
+    from geartrain.spherical.graph_set import GraphSet
+
+_SPREAD = Key("pitch_spread", "spread")
+
+
+@dataclass(frozen=True)
+class GearSphere(Result):
+    """A set of gears on a sphere, and what is asked of it; each part is made when it is first needed.
+
+    radius   of the sphere, in the unit of the reader; wheels are sized by it
+    graph    how the set was fitted to a graph, where it was
+    """
+
+    KEYS = (
+        Key("title", "configuration.title"),
+        *(Key("gears", "gear_count"), Key("meshes", "mesh_count"), "kinds", Key("teeth", "configuration.teeth")),
+        *(
+            Key("mobility", "train.mobility.by_rank"),
+            "gridlock",
+            "rule",
+            "closes",
+            "residue",
+            "loop_residue",
+            "closure",
+        ),
+        *(Key("sphere_radius", "radius"), "radii", Key("cones", to=degrees), Key("angles", to=degrees)),
+        Key("graph", keys=("aim", "exact", Key("axes_moved", "greatest_move", degrees), _SPREAD, "residue")),
+        "sizing",
+    )
+
+    configuration: Configuration
+    radius: float = 1.0
+    graph: GraphSet | None = None
+
+    @cached_property
+    def chosen(self) -> bool:
+        """True if every kind has its tooth number."""
+        return all(kind in self.configuration.teeth for kind in self.configuration.kinds)
+
+    @cached_property
+    def train(self) -> GearTrain:
+        """The set as a train; where teeth are not chosen, with ten on every gear: signs do not hang on them."""
+        whole = {kind: self.configuration.teeth.get(kind, 10) for kind in self.configuration.kinds}
+        return GearTrain.declare(to_train(replace(self.configuration, teeth=whole)))
+
+    @cached_property
+    def moves(self) -> bool:
+        """True if the set can turn."""
+        return self.train.mobility.by_rank > 0 and not self.train.mobility.locked
+
+    @cached_property
+    def sizing(self) -> SphereSizing | None:
+        """Cones, pitches and pressure angles; None while teeth are not chosen."""
+        return size_gears(self.configuration) if self.chosen else None
+
+    @cached_property
+    def closure(self) -> MeshPhasing | None:
+        """Whether the teeth of every loop meet; None while teeth are not chosen, and for a set that cannot turn."""
+        from geartrain.kinematics.phasing import spherical_phasing
+
+        return spherical_phasing(self.configuration) if self.chosen and self.moves else None
+
+    def pose(self) -> tuple[Configuration, Floats, list[float]]:
+        """What a picture needs: the set, its pitch cones (rad), and how far its teeth are turned (pitches)."""
+        sizing = self.sizing
+        if sizing is None:
+            raise QuestionError(Problem("the sphere cannot be drawn", "its gears have no teeth", "give --teeth"))
+        angles = {} if self.closure is None else self.closure.angles
+        counts = zip(self.configuration.names, sizing.teeth.tolist(), strict=True)
+        phases = [angles.get(name, 0.0) * z / (2 * pi) for name, z in counts]
+        return self.configuration, sizing.outer, phases
+
+    @cached_property
+    def rule(self) -> str | None:
+        """The condition on tooth numbers, where contacts stand at known parts of a turn."""
+        from geartrain.kinematics.phasing import spherical_divisibility_rule
+
+        rule = spherical_divisibility_rule(self.configuration) if self.moves else None
+        return None if rule is None else rule.text
+
+    @property
+    def gear_count(self) -> int:
+        """Number of gears."""
+        return len(self.configuration.names)
+
+    @property
+    def mesh_count(self) -> int:
+        """Number of meshes."""
+        return len(self.configuration.meshes)
+
+    @property
+    def kinds(self) -> Mapping[str, int]:
+        """Number of gears of each kind."""
+        return {kind: self.configuration.kinds.count(kind) for kind in self.cones}
+
+    @property
+    def gridlock(self) -> Gridlock | None:
+        """What holds the set; None where it turns."""
+        return None if self.moves else self.train.gridlock
+
+    @property
+    def closes(self) -> bool | None:
+        """True if all teeth meet; None where that is not asked."""
+        return None if self.closure is None else bool(self.closure)
+
+    @property
+    def residue(self) -> float | None:
+        """How far the last meshes are off when gears are put in one after the other (pitches)."""
+        return None if self.closure is None else self.closure.last
+
+    @property
+    def loop_residue(self) -> float | None:
+        """The residue of the worst loop (pitches)."""
+        return None if self.closure is None else float(self.closure.worst)
+
+    @cached_property
+    def cones(self) -> Mapping[str, float | None]:
+        """Pitch cone of each kind (rad), the largest in operation; None while teeth are not chosen."""
+        kinds = dict.fromkeys(self.configuration.kinds)
+        if self.sizing is None:
+            return dict.fromkeys(kinds)
+        cones = dict(zip(self.configuration.kinds, self.sizing.outer.tolist(), strict=True))
+        return {kind: cones[kind] for kind in kinds}
+
+    @property
+    def radii(self) -> Mapping[str, float | None]:
+        """Radius of the pitch circles of each kind, in the unit of the sphere's."""
+        return {kind: None if cone is None else self.radius * sin(cone) for kind, cone in self.cones.items()}
+
+    @property
+    def angles(self) -> Mapping[str, float]:
+        """Angle (rad) between the axes of each kind of mesh."""
+        return {f"{each.a}-{each.b}": each.angle for each in mesh_kinds(self.configuration)}

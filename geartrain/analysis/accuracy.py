@@ -10,13 +10,14 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import asdict, dataclass, replace
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import partial
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from geartrain.analysis.gear_train import GearTrain
 from geartrain.errors import GearTrainError
+from geartrain.numerics.plain_data import Result
 from geartrain.teeth.transmission import ExactRatio, TransmissionFunction
 
 if TYPE_CHECKING:
@@ -52,18 +53,16 @@ class MethodAccuracy:
 
 
 @dataclass(frozen=True, slots=True)
-class TrainAccuracy:
+class TrainAccuracy(Result):
     """All methods on one train in one state; `left_out` says of a stage that it does not have why."""
+
+    KEYS = ("state", "positions", "methods", "left_out")
 
     train: str
     state: str | None
     positions: int
     methods: tuple[MethodAccuracy, ...]
     left_out: dict[str, str]
-
-    def to_dict(self) -> dict[str, Any]:
-        """Plain data for JSON, without the name of the train."""
-        return {key: value for key, value in asdict(self).items() if key != "train"}
 
 
 class _AbsentError(Exception):

@@ -8,15 +8,19 @@ from typing import Any
 
 from numpy.typing import NDArray
 
+from geartrain.numerics.plain_data import Result
+
 
 @dataclass(frozen=True, slots=True)
-class LabelledArray:
+class LabelledArray(Result):
     """A read-only array whose every axis has a name and a label for each position.
 
     values  array of any shape
     axes    one name an axis, such as ("link", "case")
     labels  one tuple of labels an axis
     """
+
+    KEYS = ("axes", "labels", "values")
 
     values: NDArray[Any]
     axes: tuple[str, ...]
@@ -37,14 +41,6 @@ class LabelledArray:
             return self.labels[axis].index(label)
         except ValueError:
             raise KeyError(f"no {self.axes[axis]} '{label}'") from None
-
-    def to_dict(self) -> dict[str, Any]:
-        """Plain data for JSON."""
-        return {
-            "axes": list(self.axes),
-            "labels": [list(names) for names in self.labels],
-            "values": self.values.tolist(),
-        }
 
     def _repr_html_(self) -> str:
         if len(self.axes) != 2:

@@ -75,6 +75,8 @@ def plain(value: Any, to: Callable[[Any], Any] | None = None, keys: tuple[str | 
         return plain(value.tolist(), to)
     if to is not None:
         return to(value)
+    if keys:
+        return _told(value, keys)
     if isinstance(value, str | bool | int | float):
         return value
     if isinstance(value, Fraction):
@@ -83,7 +85,7 @@ def plain(value: Any, to: Callable[[Any], Any] | None = None, keys: tuple[str | 
         return None  # float64 has no such number
     if hasattr(value, "model_dump"):  # a part of a declaration
         return value.model_dump(mode="json")
-    return value.to_dict() if hasattr(value, "to_dict") and not keys else _told(value, keys)
+    return value.to_dict() if hasattr(value, "to_dict") else _told(value)
 
 
 def finite(value: float) -> float | None:

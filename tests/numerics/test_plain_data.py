@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from geartrain.numerics.long_float import LongFloat
-from geartrain.numerics.plain_data import Key, Result, plain
+from geartrain.numerics.plain_data import Key, Result, group, plain
 
 
 class Place(NamedTuple):
@@ -72,6 +72,27 @@ def test_keys_rename_convert_and_put_parts_among_the_whole() -> None:
 def test_a_conversion_reaches_every_number_and_leaves_none() -> None:
     halves = {"a": Fraction(1, 2), "b": (Fraction(3, 2), None), "c": [np.array([1.0])]}
     assert plain(halves, float) == {"a": 0.5, "b": [1.5, None], "c": [[1.0]]}
+
+
+@dataclass(frozen=True)
+class Grouped(Result):
+    """Keys in objects of their own, and numbers told in two ways."""
+
+    KEYS = (
+        group("size", "least", Key("most", to=float)),
+        Key("errors", keys=(Key("exact", "."), Key("value", ".", float))),
+    )
+
+    least: Fraction
+    most: Fraction
+    errors: dict[str, Fraction]
+
+
+def test_keys_can_stand_in_a_group_and_tell_one_number_twice() -> None:
+    assert Grouped(Fraction(1, 2), Fraction(3, 2), {"a": Fraction(1, 4)}).to_dict() == {
+        "size": {"least": "1/2", "most": 1.5},
+        "errors": {"a": {"exact": "1/4", "value": 0.25}},
+    }
 
 
 def test_what_float64_cannot_hold_is_none_and_long_fractions_keep_their_digits() -> None:

@@ -13,7 +13,7 @@ from commands import LOCKED, RIGHT, WRONG, call
 from jsonschema import Draft202012Validator
 
 from geartrain import load, shipped
-from geartrain.report.json_schema import ANSWERS, answer_schema
+from geartrain.report.json_schema import answer_schema, answers
 from geartrain.report.power_report import collect_torques
 
 ONE_STATE = RIGHT.replace("inputs: {a: 1}", "states: {only: {inputs: {a: 1}}}")
@@ -50,7 +50,7 @@ def closed(schema: Any) -> Any:
 
 
 def holds(question: str, data: Any) -> None:
-    for schema in (ANSWERS[question], closed(ANSWERS[question]) if question in CLOSED else {}):
+    for schema in (answers()[question], closed(answers()[question]) if question in CLOSED else {}):
         faults = sorted(Draft202012Validator(schema).iter_errors(data), key=lambda fault: list(map(str, fault.path)))
         assert not faults, [(list(fault.path), fault.message[:300]) for fault in faults[:5]]
 
@@ -219,7 +219,26 @@ def test_one_shape_for_one_question(files: Path, question: str) -> None:
 
 
 def test_every_question_is_tried() -> None:
-    assert {*ASKED, "solve", "report", "compare", "torques", "sphere --survey"} == set(ANSWERS)
+    others = {"solve", "report", "compare", "torques", "sphere --survey", "graph --as json", "graph --as matrix"}
+    assert {*ASKED, *others} == set(answers())
+
+
+@pytest.mark.parametrize("form", ["json", "matrix"])
+def test_graphs_for_other_tools_hold(files: Path, form: str) -> None:
+    holds(f"graph --as {form}", data("graph", "planetary-24-18-60", "--as", form))
+
+
+def test_what_is_derived_is_as_strict_as_what_was_written_by_hand() -> None:
+    """Kinds of values, choices and keys that may be left out, for one answer in full."""
+    loop = {key: {"type": "array", "items": {"type": "string"}} for key in ("links", "pairs")}
+    text = {"type": "string"}
+    verdict = answers()["solve"]["properties"]["states"]["items"]["properties"]["verdict"]
+    assert verdict["required"] == ["kind", "text", "links", "fixes", "prescriptions", "loops"]
+    assert verdict["properties"]["kind"] == {"enum": ["determined", "free", "locked", "contradictory"]}
+    assert verdict["properties"]["loops"]["items"]["properties"] == {"carrier": text, **loop, "product": text}
+    speeds = answers()["solve"]["properties"]["states"]["items"]["properties"]["speeds"]
+    assert speeds["additionalProperties"]["required"] == ["exact", "value"]
+    assert set(speeds["additionalProperties"]["properties"]) == {"exact", "value", "decimal", "estimate", "true_error"}
 
 
 def test_the_schema_is_printed_and_is_one(files: Path) -> None:
@@ -240,7 +259,7 @@ def _without(schema: Any, path: tuple[str, ...] = ()) -> Iterator[tuple[str, ...
 def test_an_answer_that_lacks_a_key_or_has_a_strange_one_is_seen(files: Path) -> None:
     """The check itself can fail."""
     whole = data("solve", "plain.yaml", "--json")
-    for path in _without(ANSWERS["solve"]):
+    for path in _without(answers()["solve"]):
         less = copy.deepcopy(whole)
         inner = less
         for step in path[:-1]:

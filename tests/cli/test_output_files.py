@@ -21,7 +21,7 @@ pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="no FIFO, no soc
 
 PAIR = ("--teeth", "20", "30")
 SIZED = (*PAIR, "--module", "1mm")
-FORMS = ("involute", "cycloidal", "lantern", "uniform-stress", "uniform-temperature", "least-friction")
+FORMS = ("involute", "cycloidal", "lantern", "circular-arc", "uniform-stress", "uniform-temperature", "least-friction")
 MOTION = ("motion", "moon-triangular", "--turns", "1", "--samples", "64", "--output", "moon")
 DOUBT = ("posterior", "{doubt}", "--free", "x=18:22", "--free", "z=38:42")
 ERRORS = ("montecarlo", "moon-triangular", "--trials", "2", "--output", "moon", "--set", "placement=2 %")

@@ -28,6 +28,7 @@ if TYPE_CHECKING:
 SPEEDS, LAWS, MOTION, TORQUES = "speeds", "transmission functions", "motion", "torques"
 TURNS = 20.0
 """Turns of the input over which motion is followed."""
+_NO_FORM = "no pair has a tooth form, and no pin its sizes"
 _TOLERANCES = (1e-6, 1e-12)  # of tables, in pitches
 _ENOUGH, _LONG = 0.1, 5.0  # seconds after which a task is not repeated, even if it ran but once
 
@@ -205,7 +206,7 @@ def _laws(train: GearTrain, state: str | None, positions: int) -> Iterator[Metho
     laws = {mesh.name: mesh.law for mesh in train.meshes_in(state) if not isinstance(mesh.law, ExactRatio)}
     laws |= {pin.coupling.id: pin.law for pin in train.pins}
     if not laws:
-        raise _AbsentError("no pair has teeth or pins of a form")
+        raise _AbsentError("the law of each pair with a tooth form is its exact ratio" if train.meshes else _NO_FORM)
     import numpy as np
 
     from geartrain.teeth.transmission_table import TabulatedTransmission
@@ -252,7 +253,7 @@ def _farthest(
 def _motion(train: GearTrain, state: str | None, positions: int) -> Iterator[MethodAccuracy]:
     """Errors composed in the solved order, composed from tables, and superposed to first order."""
     if not train.meshes_in(state) and not train.pins:
-        raise _AbsentError("no pair has teeth or pins of a form")
+        raise _AbsentError(_NO_FORM)
     try:
         prepared, motion = _best(partial(_composed, train, state))
     except GearTrainError as error:

@@ -79,6 +79,13 @@ def test_motion_is_off_as_a_sum_of_the_laws_themselves_is(moon: TrainAccuracy) -
     assert 0 < tables < 1e-9 < lagged < off / 2
 
 
+def test_teeth_whose_law_is_their_ratio_have_nothing_to_measure_and_it_is_said_so() -> None:
+    found = find_accuracy(load("planetary-24-18-60-involute"), positions=10)
+    assert "exact ratio" in found.left_out[LAWS]
+    assert "no error" in found.left_out[MOTION]
+    assert {row.stage for row in found.methods} == {SPEEDS, TORQUES}
+
+
 def test_virtual_work_is_off_by_what_the_losses_take() -> None:
     """A pair of efficiency 0.9 under a load of 1 takes 1/2 of it without losses, 1/1.8 with them: a tenth less."""
     data = PAIR | {"gears": [{"pair": ["p", "w"], "efficiency": 0.9}], "loads": {"b": 1}}

@@ -8,12 +8,12 @@ from typing import TYPE_CHECKING, Any
 
 from geartrain.analysis.gear_train import GearTrain
 from geartrain.report.document import Document, Section, Table
-from geartrain.report.pair_page import Running, find_impacts
 from geartrain.teeth.gear_mesh import GearMesh
 from geartrain.teeth.pair_account import AccountTable, PairAccount
 from geartrain.teeth.triangular.triangular_account import triangular_data
 
 if TYPE_CHECKING:
+    from geartrain.dynamics.motion.pair_impacts import PairOperation
     from geartrain.teeth.triangular.clearance_window import ClearanceWindow
     from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
 
@@ -117,25 +117,10 @@ def teeth_data(train: GearTrain) -> dict[str, Any]:
 
 
 def mesh_data(
-    law: TriangularTransmission, window: ClearanceWindow | None, running: Running | None = None
+    law: TriangularTransmission, window: ClearanceWindow | None, operation: PairOperation | None = None
 ) -> dict[str, Any]:
     """One pair with triangular teeth as plain data with stable keys, and what its collisions cost; angles in rad."""
-    impacts = _impact_data(law, running or Running()) if law.intervals else None
-    return triangular_data(law, window, impacts)
+    from geartrain.dynamics.motion.pair_impacts import find_pair_impacts
 
-
-def _impact_data(law: TriangularTransmission, running: Running) -> dict[str, Any] | None:
-    """None where no inertia is given; what takes a rate or a load that is not given is None in it."""
-    found = find_impacts(law, running)
-    if found is None:
-        return None
-    handed, dissipated, work = found.energies or (None, None, None)
-    return {
-        "inertia": found.inertia,
-        "rate": running.rate,
-        "handed": handed,
-        "dissipated": dissipated,
-        "work": work,
-        "load_to_stay_in_contact": found.least_load,
-        "void_above": found.void,
-    }
+    found = find_pair_impacts(law, operation) if operation is not None and law.intervals else None
+    return triangular_data(law, window, None if found is None else found.to_dict())

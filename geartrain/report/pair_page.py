@@ -6,66 +6,21 @@ A page on one pin in a slot.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
-from math import degrees, isfinite, isnan, pi, sqrt
+from math import degrees, isfinite, isnan, pi
 from typing import TYPE_CHECKING, Any
 
 from geartrain.report.document import Document, Section, Table, figure
 from geartrain.teeth.triangular.triangular_explanations import explain_clearance, explain_friction_lock
 
 if TYPE_CHECKING:
+    from geartrain.dynamics.motion.pair_impacts import PairOperation
     from geartrain.teeth.pin_transmission import PinTransmission
     from geartrain.teeth.triangular.clearance_window import ClearanceWindow
     from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
 
 
-@dataclass(frozen=True)
-class Running:
-    """How a pair is run, as far as it is known: SI units, `rate` of the driver in turns per second."""
-
-    inertia: float | None = None
-    rate: float | None = None
-    load: float | None = None
-
-    @property
-    def omega1(self) -> float | None:
-        """Speed of the driver (rad/s)."""
-        return None if self.rate is None else 2 * pi * self.rate
-
-
-@dataclass(frozen=True)
-class PairImpacts:
-    """What collisions of one pair cost, and where its law is void, as far as `Running` tells.
-
-    inertia      kg m2, of all that turns with the driven wheel
-    energies     of one pitch (J): handed to the driven side, dissipated, and their sum
-    least_load   load torque (N m) that keeps the teeth in contact at this rate
-    void         driver's speed (turns per second) above which they part under the declared load
-    """
-
-    inertia: float
-    energies: tuple[float, float, float] | None = None
-    least_load: float | None = None
-    void: float | None = None
-
-
-def find_impacts(law: TriangularTransmission, running: Running) -> PairImpacts | None:
-    """The figures that page and data give; None where no inertia is known."""
-    if running.inertia is None:
-        return None
-    steepest, omega1 = law.steepest_fall(), running.omega1
-    void = None
-    if running.load is not None and steepest > 0:
-        void = sqrt(running.load / (running.inertia * steepest)) / (2 * pi)
-    if omega1 is None:
-        return PairImpacts(running.inertia, void=void)
-    return PairImpacts(
-        running.inertia, law.impact(running.inertia, omega1), running.inertia * omega1**2 * steepest, void
-    )
-
-
 def mesh_document(
-    law: TriangularTransmission, window: ClearanceWindow | None, running: Running, notes: tuple[str, ...] = ()
+    law: TriangularTransmission, window: ClearanceWindow | None, operation: PairOperation, notes: tuple[str, ...] = ()
 ) -> Document:
     """Sizes, clearance, path, law, collisions and losses of one pair."""
     sizes = law.sizes
@@ -74,7 +29,7 @@ def mesh_document(
     if window is not None:
         sections.append(_clearance(law, window))
     if law.intervals:
-        sections += [_path(law), _law(law), _collisions(law), _losses(law), *_impacts(law, running)]
+        sections += [_path(law), _law(law), _collisions(law), _losses(law), *_impacts(law, operation)]
     return Document(f"Triangular teeth {sizes.z1}/{sizes.z2}", lead, sections)
 
 
@@ -188,18 +143,20 @@ def _losses(law: TriangularTransmission) -> Section:
     return Section("Friction", lines)
 
 
-def _impacts(law: TriangularTransmission, running: Running) -> Iterator[Section]:
-    found = find_impacts(law, running)
+def _impacts(law: TriangularTransmission, operation: PairOperation) -> Iterator[Section]:
+    from geartrain.dynamics.motion.pair_impacts import find_pair_impacts
+
+    found = find_pair_impacts(law, operation)
     if found is None:
         return
     lines = []
-    if found.energies is not None:
-        handed, dissipated, work = found.energies
+    if found.work is not None:
+        watts = found.work * (operation.rate or 0) * law.sizes.z1
         lines.append(
-            f"At {running.rate:g} turns of the driver a second the collisions of one pitch hand {handed:.6g} J to the "
-            f"driven side, dissipate {dissipated:.6g} J, and cost the driver their sum, {work:.6g} J, or "
-            f"{work * (running.rate or 0) * law.sizes.z1:.6g} W. The source counts the first as lost; inelastic teeth "
-            "lose the second."
+            f"At {operation.rate:g} turns of the driver a second the collisions of one pitch hand "
+            f"{found.handed:.6g} J to the driven side, dissipate {found.dissipated:.6g} J, and cost the driver their "
+            f"sum, {found.work:.6g} J, or {watts:.6g} W. The source counts the first as lost; inelastic teeth lose "
+            "the second."
         )
         lines.append(
             f"The driven inertia stays in contact as tau falls if the load torque is at least {found.least_load:.6g} "
@@ -207,7 +164,7 @@ def _impacts(law: TriangularTransmission, running: Running) -> Iterator[Section]
         )
     if found.void is not None:
         lines.append(
-            f"With a load torque of {running.load:g} N m the quasi-static law is void above {found.void:.6g} "
+            f"With a load torque of {operation.load:g} N m the quasi-static law is void above {found.void:.6g} "
             f"turns of the driver a second ({2 * pi * found.void:.6g} rad/s)."
         )
     if not lines:

@@ -267,19 +267,20 @@ def _page(
     json: bool,
     to: Sink,
 ) -> None:
+    from geartrain.dynamics.motion.pair_impacts import PairOperation
     from geartrain.numerics.quantity import RADIANS_PER_TURN
     from geartrain.report.gear_pairs import mesh_data
-    from geartrain.report.pair_page import Running, mesh_document
+    from geartrain.report.pair_page import mesh_document
     from geartrain.teeth.triangular.clearance_window import find_window
 
     inertia, rate, load = run
-    running = Running(
+    operation = PairOperation(
         None if inertia is None else _quantity("--inertia", inertia, "inertia", least="above 0"),
         None if rate is None else _quantity("--rate", rate, "speed", least="above 0") / RADIANS_PER_TURN,
         None if load is None else _quantity("--load", load, "torque", least="0"),
     )
     found = find_window(law.sizes) if law.sizes.has_valleys else None
     if json or to.suffix == ".json":
-        emit(as_json(mesh_data(law, found, running)), to)
+        emit(as_json(mesh_data(law, found, operation)), to)
     else:
-        show([mesh_document(law, found, running)], to)
+        show([mesh_document(law, found, operation)], to)

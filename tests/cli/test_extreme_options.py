@@ -241,7 +241,7 @@ def test_what_once_broke_the_command_is_answered_or_refused(text: str, option: s
 
 
 @given(st.sampled_from(ALL), st.integers(0, 10**9))
-@settings(max_examples=120, deadline=None, phases=(Phase.reuse, Phase.generate))
+@settings(max_examples=60, deadline=None, phases=(Phase.reuse, Phase.generate))
 def test_any_option_of_a_number_takes_or_refuses_any_number(
     tmp_path_factory: pytest.TempPathFactory, one: tuple[str, str, str], number: int
 ) -> None:

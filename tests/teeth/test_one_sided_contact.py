@@ -179,7 +179,7 @@ def possible(pair: Drawn) -> bool:
 @example(AFTER)
 @example(BEFORE)
 @given(pairs())
-@settings(max_examples=80, deadline=None, phases=(Phase.explicit, Phase.reuse, Phase.generate))
+@settings(max_examples=40, deadline=None, phases=(Phase.explicit, Phase.reuse, Phase.generate))
 def test_a_pair_runs_where_its_drawn_flanks_keep_the_ratio_and_nowhere_else(pair: Drawn) -> None:
     assume(possible(pair) and pair.whole() and abs(pair.ratio - 1) > 0.02)
     if pair.ratio <= 0:

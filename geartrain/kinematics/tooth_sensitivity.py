@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
 from geartrain.kinematics.circuits import Circuit
@@ -42,7 +42,11 @@ def sensitivity(
         teeth = wheel.count
         if teeth is None or not any(name in circuit.wheels for circuit in circuits):
             continue
-        changed = {step: solve_with(list(_recut(circuits, name, teeth + step))) for step in (-1, 1) if teeth + step > 0}
+        changed = {
+            step: solve_with([circuit.with_counts({name: teeth + step}) for circuit in circuits])
+            for step in (-1, 1)
+            if teeth + step > 0
+        }
         for result in outputs:
             shift = {step: _shift(result, relative) for step, relative in changed.items()}
             if any(value != 0 for value in shift.values()):
@@ -57,15 +61,3 @@ def _shift(result: OutputResult, relative: Relative) -> float | None:
     if speed == result.speed:
         return 0.0
     return is_near(speed / result.speed - 1, 10**6) if result.speed else None
-
-
-def _recut(circuits: Iterable[Circuit], wheel: str, teeth: int) -> Iterator[Circuit]:
-    """The circuits with another tooth count on one wheel."""
-    for circuit in circuits:
-        if circuit.kind == "gear" and wheel in circuit.wheels:
-            if circuit.wheels[0] == wheel:
-                yield circuit._replace(a=teeth if circuit.a > 0 else -teeth)
-            else:
-                yield circuit._replace(b=teeth if circuit.b > 0 else -teeth)
-        else:
-            yield circuit

@@ -7,7 +7,7 @@ axis nearest the frame gives the same answer for every equivalent tree of coaxia
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from fractions import Fraction
 from typing import NamedTuple
 
@@ -56,6 +56,13 @@ class Circuit(NamedTuple):
         c = -self.a - self.b
         terms = (self.i, self.a), (self.j, self.b), (self.carrier, c)
         return terms if self.b and c else tuple(term for term in terms if term[1])
+
+    def with_counts(self, counts: Mapping[str, int]) -> Circuit:
+        """The same pair with other tooth counts on its wheels; senses, and wheels not named, stay as they are."""
+        if self.kind != "gear" or counts.keys().isdisjoint(self.wheels):
+            return self
+        a, b = (counts.get(wheel, abs(old)) for wheel, old in zip(self.wheels, (self.a, self.b), strict=True))
+        return self._replace(a=a if self.a > 0 else -a, b=b if self.b > 0 else -b)
 
 
 @collector_paused()

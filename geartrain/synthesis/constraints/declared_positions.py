@@ -60,14 +60,7 @@ class LoopPhasing:
 
     def holds(self, counts: Mapping[str, int]) -> bool:
         """True if the loops close with these counts."""
-        return bool(find_phasing(self.train, self.tree, [_with(circuit, counts) for circuit in self.circuits]))
-
-
-def _with(circuit: Circuit, counts: Mapping[str, int]) -> Circuit:
-    if circuit.kind != "gear":
-        return circuit
-    a, b = (counts.get(wheel, abs(z)) for wheel, z in zip(circuit.wheels, (circuit.a, circuit.b), strict=True))
-    return circuit._replace(a=a if circuit.a > 0 else -a, b=b if circuit.b > 0 else -b)
+        return bool(find_phasing(self.train, self.tree, [circuit.with_counts(counts) for circuit in self.circuits]))
 
 
 @dataclass(frozen=True)

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from geartrain.errors import Problem, QuestionError, suggest
-from geartrain.kinematics.circuits import Axes, Circuit, Tree, close_joints, find_circuits, find_tree
+from geartrain.kinematics.circuits import Axes, Tree, close_joints, find_circuits, find_tree
 from geartrain.kinematics.components import relevant_circuits
 from geartrain.numerics.plain_data import Result
 from geartrain.synthesis.formulas.laurent import Laurent, TooLongError
@@ -116,7 +116,7 @@ def _equations(
     stand_in = with_counts(train, {name: free[name][0] for name in wheels})
     draw = random.Random(0)
     sizes = {name: draw.randrange(10**6, 10**9) for name in wheels}
-    circuits = [_resized(circuit, sizes) for circuit in find_circuits(stand_in, tree)]
+    circuits = [circuit.with_counts(sizes) for circuit in find_circuits(stand_in, tree)]
     asked = {link for name, output in case.outputs.items() for link in (output.of or name, output.relative_to)}
     kept = {train.frame, *asked, *case.inputs, *case.fixed, *(link for lock in case.locks for link in lock)} - {None}
     circuits = relevant_circuits(circuits, (link for link in kept if link))
@@ -124,16 +124,6 @@ def _equations(
     links = [link for link in train.links if link in kept]
     variables = {name: at for at, name in enumerate(wheels)}
     return SymbolicEquations(links, train.frame, circuits, case, Axes(train, tree).link_signs, variables)
-
-
-def _resized(circuit: Circuit, sizes: Mapping[str, int]) -> Circuit:
-    if circuit.kind != "gear":
-        return circuit
-    a, b = (
-        (sizes[wheel] if old > 0 else -sizes[wheel]) if wheel in sizes else old
-        for wheel, old in zip(circuit.wheels, (circuit.a, circuit.b), strict=True)
-    )
-    return circuit._replace(a=a, b=b)
 
 
 def _read_off(train: Train, case: StateCase, equations: SymbolicEquations, wheels: Sequence[str]) -> Formulas:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
-from difflib import get_close_matches
 from itertools import islice
 
 Loc = tuple[str | int, ...]
@@ -42,6 +41,8 @@ def nearest_names(name: str, known: Iterable[str], wide: bool = False) -> list[s
     wide   where names are long and made of parts, as those of periods and files: less likeness will do, and one more
            is named
     """
+    from difflib import get_close_matches  # most runs misspell nothing
+
     return get_close_matches(name, tuple(dict.fromkeys(known)), n=3 if wide else 2, cutoff=0.5 if wide else 0.6)
 
 

@@ -19,7 +19,7 @@ def run(
     force: Force = False,
 ) -> None:
     """Put the outputs of several trains side by side, with their errors against the targets."""
-    from geartrain.report.reconstructions_compared import compare_trains
+    from geartrain.report.reconstruction_comparison import compare_trains
     from geartrain.report.train_data import train_data
 
     to = sink(out, force, (".md", ".html", ".json"))

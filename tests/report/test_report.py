@@ -23,7 +23,7 @@ from rich.console import Console
 
 from geartrain import load, shipped
 from geartrain.report.html_page import to_html
-from geartrain.report.reconstructions_compared import compare_trains
+from geartrain.report.reconstruction_comparison import compare_trains
 from geartrain.report.text import to_markdown, to_terminal
 from geartrain.report.train_report import report_train
 

@@ -16,7 +16,7 @@ from commands import LOCKED, call, without
 from geartrain import GearTrainError, load
 from geartrain.report.document import Picture
 from geartrain.report.html_page import inline, is_web, to_html
-from geartrain.report.reconstructions_compared import compare_trains
+from geartrain.report.reconstruction_comparison import compare_trains
 from geartrain.report.shared_page import shared_document
 from geartrain.report.text import to_markdown
 from geartrain.report.train_report import report_train

@@ -17,7 +17,7 @@ from hypothesis import strategies as st
 
 import geartrain
 from geartrain import GearTrain
-from geartrain.report.reconstructions_compared import compare_trains
+from geartrain.report.reconstruction_comparison import compare_trains
 from geartrain.report.text import to_markdown
 from geartrain.report.train_report import report_train
 from geartrain.synthesis.formulas import with_counts

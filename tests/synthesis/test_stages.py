@@ -22,7 +22,7 @@ from geartrain.numerics.work import Journal, open_executor
 from geartrain.synthesis.ratio import search_segments as stages_work
 from geartrain.synthesis.ratio.product_windows import expand, products_of
 from geartrain.synthesis.ratio.ratio_windows import cuts, errors, neighbours, rounded_up
-from geartrain.synthesis.ratio.stage_pairing import best_pairing, suited
+from geartrain.synthesis.ratio.stage_pairs import best_pairing, suited
 from geartrain.synthesis.ratio.stage_problem import StageConstraints
 from geartrain.synthesis.ratio.stage_search import StageFindings, find_stages
 from geartrain.synthesis.target_ratio import TargetRatio

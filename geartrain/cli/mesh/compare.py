@@ -36,7 +36,7 @@ from geartrain.cli.option_values import quantity
 from geartrain.errors import GearTrainError, Problem
 
 if TYPE_CHECKING:
-    from geartrain.report.tooth_forms_compared import FormComparison, MeasuredForm
+    from geartrain.report.tooth_form_comparison import FormComparison, MeasuredForm
     from geartrain.teeth.conjugate.conjugate_transmission import ConjugatePair
 
 _BASE = 20.0  # deg
@@ -61,7 +61,7 @@ def run(
     force: Force = False,
 ) -> None:
     """Loss, stress, heat, flash, depth of tooth forms as ratios to the 20 degree involute of the same pair and arcs."""
-    from geartrain.report.tooth_forms_compared import compared_data, compared_document
+    from geartrain.report.tooth_form_comparison import compared_data, compared_document
 
     to, picture = sink(out, force, (".md", ".html", ".json")), sink(plot, force, PICTURES, "--plot")
     check_distinct_outputs(to, picture)
@@ -119,7 +119,7 @@ def _angle(text: str | None) -> float | None:
 def _compared(
     asked: ConjugateOptions, names: list[str], arcs: tuple[float, float], angle: float | None, text: str | None
 ) -> FormComparison:
-    from geartrain.report.tooth_forms_compared import FormComparison
+    from geartrain.report.tooth_form_comparison import FormComparison
 
     base = _shaped("involute", _involute(asked, arcs, radians(_BASE)))
     if not base.runs:
@@ -167,7 +167,7 @@ def _involute(asked: ConjugateOptions, arcs: tuple[float, float], psi: float) ->
 
 
 def _made(name: str, asked: ConjugateOptions, arcs: tuple[float, float], angle: str | None) -> MeasuredForm:
-    from geartrain.report.tooth_forms_compared import MeasuredForm
+    from geartrain.report.tooth_form_comparison import MeasuredForm
 
     reading = name[-1] if name.startswith("uniform_temperature_") else None
     form = name[:-2] if reading else name
@@ -189,7 +189,7 @@ def _lost(asked: ConjugateOptions) -> float:
 
 
 def _shaped(name: str, found: ConjugatePair) -> MeasuredForm:
-    from geartrain.report.tooth_forms_compared import MeasuredForm
+    from geartrain.report.tooth_form_comparison import MeasuredForm
     from geartrain.teeth.conjugate.path_costs import measure
 
     return MeasuredForm(name, found.path, None if found.faults else measure(found.path), found.faults)

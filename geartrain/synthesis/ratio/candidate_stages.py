@@ -11,15 +11,15 @@ import numpy as np
 
 from geartrain.synthesis.ratio.distinct_ratios import distinct, weight
 from geartrain.synthesis.ratio.ratio_windows import cuts, errors
-from geartrain.synthesis.ratio.stage_pairing import suited
-from geartrain.synthesis.ratio.stage_ranking import BestStages, RankedStages, first_of, margin
+from geartrain.synthesis.ratio.solution_order import BestStages, RankedStages, first_of, margin
+from geartrain.synthesis.ratio.stage_pairs import suited
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from geartrain.numerics.arrays import Bools
     from geartrain.synthesis.ratio.search_segments import Range
-    from geartrain.synthesis.ratio.stage_pairing import FeasiblePairings
+    from geartrain.synthesis.ratio.stage_pairs import FeasiblePairings
     from geartrain.synthesis.ratio.stage_problem import StageProblem
 
     Ints = NDArray[Any]

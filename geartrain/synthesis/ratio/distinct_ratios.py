@@ -9,7 +9,7 @@ import numpy as np
 
 from geartrain.synthesis.ratio.product_windows import expand
 from geartrain.synthesis.ratio.ratio_windows import cuts, errors
-from geartrain.synthesis.ratio.stage_ranking import Key, key_of, margin, merged
+from geartrain.synthesis.ratio.solution_order import Key, key_of, margin, merged
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

@@ -14,8 +14,8 @@ from geartrain.synthesis.ratio.product_windows import multisets
 from geartrain.synthesis.ratio.ratio_windows import reach_of_errors, rounded_up
 from geartrain.synthesis.ratio.reverted_stages import search_sums, stages_of, sums_of
 from geartrain.synthesis.ratio.search_segments import SegmentPlan, lay_out, listed_by_value, search_segment, task_of
+from geartrain.synthesis.ratio.solution_order import Key, key_of, merged
 from geartrain.synthesis.ratio.stage_problem import StageProblem
-from geartrain.synthesis.ratio.stage_ranking import Key, key_of, merged
 
 Bound = tuple[int, Fraction, int]
 _WIDER = 16

@@ -13,8 +13,8 @@ from geartrain.synthesis.ratio.product_windows import MOST_STAGES, multisets
 from geartrain.synthesis.ratio.ratio_windows import rounded_up
 from geartrain.synthesis.ratio.reverted_stages import tally
 from geartrain.synthesis.ratio.segment_sweep import SweepOutcome, nearest, within
+from geartrain.synthesis.ratio.solution_order import Key
 from geartrain.synthesis.ratio.stage_problem import StageConstraints, StageProblem
-from geartrain.synthesis.ratio.stage_ranking import Key
 from geartrain.synthesis.search_outcome import Shortfall
 
 OUTSIDE = "outside the tolerance"

@@ -22,11 +22,11 @@ from geartrain.numerics.plain_data import Key, Result
 from geartrain.numerics.work import Execution, Journal
 from geartrain.synthesis.ratio.product_windows import MOST_STAGES, check_memory, multisets
 from geartrain.synthesis.ratio.segment_sweep import SweepOutcome, nearest, within
+from geartrain.synthesis.ratio.solution_order import Key as RankingKey
+from geartrain.synthesis.ratio.solution_order import check_order
 from geartrain.synthesis.ratio.stage_infeasibility import SENSE, explain
-from geartrain.synthesis.ratio.stage_pairing import best_pairing
+from geartrain.synthesis.ratio.stage_pairs import best_pairing
 from geartrain.synthesis.ratio.stage_problem import StageConstraints, StageProblem
-from geartrain.synthesis.ratio.stage_ranking import Key as RankingKey
-from geartrain.synthesis.ratio.stage_ranking import check_order
 from geartrain.synthesis.search_outcome import GearStages, Shortfall
 from geartrain.synthesis.target_ratio import TargetRatio
 from geartrain.synthesis.tooth_count_ranges import CountRuns, Counts

@@ -12,14 +12,14 @@ import numpy as np
 
 from geartrain.errors import Problem, QuestionError
 from geartrain.synthesis.ratio.ratio_windows import ROUNDING
-from geartrain.synthesis.ratio.stage_pairing import suited
+from geartrain.synthesis.ratio.stage_pairs import suited
 from geartrain.synthesis.ratio.stage_problem import StageConstraints
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from geartrain.numerics.arrays import Floats
-    from geartrain.synthesis.ratio.stage_pairing import FeasiblePairings
+    from geartrain.synthesis.ratio.stage_pairs import FeasiblePairings
 
     Ints = NDArray[Any]
 

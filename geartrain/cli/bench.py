@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from geartrain.cli.common import GOOD, VERDICT, File, Force, Json, Out, StateName, as_json, emit, show, sink
+from geartrain.cli.common import GOOD, VERDICT, File, Force, Json, Out, StateName, give, sink
 
 
 def run(
@@ -28,9 +28,6 @@ def run(
     train = load(file)
     states = (state,) if state is not None else train.states or (None,)
     found = [find_accuracy(train, name, positions) for name in states]
-    if json or to.suffix == ".json":
-        states_data = [each.to_dict() for each in found]
-        emit(as_json({"name": train.name, "title": train.declaration.title, "states": states_data}), to)
-    else:
-        show([accuracy_document(found)], to)
+    data = {"name": train.name, "title": train.declaration.title, "states": [each.to_dict() for each in found]}
+    give(to, json, lambda: data, lambda: [accuracy_document(found)])
     raise typer.Exit(VERDICT if any(SPEEDS in each.left_out for each in found) else GOOD)

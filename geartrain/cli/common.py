@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import re
 import sys
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from pathlib import Path
@@ -153,6 +153,14 @@ def show(documents: Sequence[Document], out: Sink, suffix: str | None = None) ->
         to_terminal(documents, Console(highlight=False))
     else:
         emit(to_markdown(documents), out)
+
+
+def give(out: Sink, json: bool, data: Callable[[], Any], documents: Callable[[], Sequence[Document]]) -> None:
+    """A result: as JSON where that is asked for or the file is called so, else as documents; made as one only."""
+    if json or out.suffix == ".json":
+        emit(as_json(data()), out)
+    else:
+        show(documents(), out)
 
 
 def draw(figure: Any, out: Sink) -> None:

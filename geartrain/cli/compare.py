@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from geartrain.cli.common import GOOD, VERDICT, Files, Force, Json, Out, as_json, emit, load_all, show, sink
+from geartrain.cli.common import GOOD, VERDICT, Files, Force, Json, Out, give, load_all, sink
 
 
 def run(
@@ -25,8 +25,5 @@ def run(
     to = sink(out, force, (".md", ".html", ".json"))
     trains = load_all(files)
     sound = all(answer for train in trains for answer in train.answers())
-    if json or to.suffix == ".json":
-        emit(as_json([train_data(train) for train in trains]), to)
-    else:
-        show([compare_trains(trains, everything)], to)
+    give(to, json, lambda: [train_data(train) for train in trains], lambda: [compare_trains(trains, everything)])
     raise typer.Exit(GOOD if sound else VERDICT)

@@ -18,11 +18,9 @@ from geartrain.cli.common import (
     Out,
     Sink,
     StateName,
-    as_json,
     check_distinct_outputs,
-    emit,
+    give,
     read_share,
-    show,
     sink,
     tell,
 )
@@ -121,10 +119,7 @@ def _check_extras(sobol: bool) -> None:
 def _answer(findings: MonteCarloResult, json: bool, to: Sink) -> None:
     from geartrain.report.monte_carlo_report import trials_data, trials_document
 
-    if json:
-        emit(as_json(trials_data(findings)), to)
-    else:
-        show([trials_document(findings)], to)
+    give(to, json, lambda: trials_data(findings), lambda: [trials_document(findings)])
 
 
 class _StoppedError(Exception):

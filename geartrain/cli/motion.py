@@ -18,11 +18,10 @@ from geartrain.cli.common import (
     Out,
     Sink,
     StateName,
-    as_json,
     check_distinct_outputs,
     draw,
     emit,
-    show,
+    give,
     sink,
     tell,
 )
@@ -82,7 +81,7 @@ def run(
         for rows in _rows(asked, 0):
             emit("\n".join(rows))
     else:
-        _report(asked, json or to.suffix == ".json", (to, cut), (train.name, state), phases, seed, estimates, spectrum)
+        _report(asked, json, (to, cut), (train.name, state), phases, seed, estimates, spectrum)
     if plot is not None:
         from geartrain.drawing import motion_figure
 
@@ -135,10 +134,7 @@ def _report(
                 raise
             stopped = True
     to = into[stopped]
-    if json:
-        emit(as_json(collect_motion(asked, *of).to_dict()), to)
-    else:
-        show([describe_motion(asked)], to)
+    give(to, json, lambda: collect_motion(asked, *of).to_dict(), lambda: [describe_motion(asked)])
     if stopped:
         tell(f"stopped after {asked.done} of {asked.samples} positions; the figures are of those")
         raise typer.Exit(INTERRUPTED)

@@ -15,11 +15,10 @@ from geartrain.cli.common import (
     Json,
     Out,
     Sink,
-    as_json,
     check_distinct_outputs,
     draw,
     emit,
-    show,
+    give,
     sink,
 )
 from geartrain.cli.long_runs import progress
@@ -66,14 +65,14 @@ def run(
     if survey or suggest:
         _check_listed(to, picture)
     if survey:
-        _survey(json or to.suffix == ".json", to)
+        _survey(json, to)
         return
     if (solid is None) == (graph is None):
         raise typer.BadParameter("name a solid or a graph, or ask for --survey", param_hint="SOLID")
     made = _graph(graph, aim, least) if graph else None
     configuration = made.configuration if made else _solid(solid or "", gears, teeth, drop or [], exact)
     if suggest:
-        _suggest(configuration, suggest, best, json or to.suffix == ".json", to)
+        _suggest(configuration, suggest, best, json, to)
         return
     found = GearSphere(configuration, _sphere_radius(configuration, radius), made)
     if to.suffix in _YAML:
@@ -81,10 +80,8 @@ def run(
         from geartrain.train.yaml_nodes import as_yaml
 
         emit(as_yaml(to_train(configuration)), to)
-    elif json or to.suffix == ".json":
-        emit(as_json(found.to_dict()), to)
     else:
-        show([describe_sphere(found)], to)
+        give(to, json, lambda: found.to_dict(), lambda: [describe_sphere(found)])
     if plot is not None:
         _draw(found, picture)
     raise typer.Exit(GOOD if found.moves and (found.closure is None or found.closure) else VERDICT)
@@ -108,10 +105,7 @@ def _survey(json: bool, to: Sink) -> None:
         for name in SURVEYED:
             rows += survey_solids((name,))
             bar.advance()
-    if json:
-        emit(as_json([row.to_dict() for row in rows]), to)
-    else:
-        show([describe_survey(rows)], to)
+    give(to, json, lambda: [row.to_dict() for row in rows], lambda: [describe_survey(rows)])
 
 
 def _suggest(configuration: Configuration, most: int, best: int, json: bool, to: Sink) -> None:
@@ -119,10 +113,7 @@ def _suggest(configuration: Configuration, most: int, best: int, json: bool, to:
     from geartrain.spherical.tooth_count_search import suggest_tooth_counts
 
     found = suggest_tooth_counts(configuration, most, best)
-    if json:
-        emit(as_json(found.to_dict()), to)
-    else:
-        show([describe_suggestions(found)], to)
+    give(to, json, lambda: found.to_dict(), lambda: [describe_suggestions(found)])
     raise typer.Exit(GOOD if len(found) else VERDICT)
 
 

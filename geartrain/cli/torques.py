@@ -18,11 +18,9 @@ from geartrain.cli.common import (
     Out,
     Sink,
     StateName,
-    as_json,
     check_distinct_outputs,
     draw,
-    emit,
-    show,
+    give,
     sink,
 )
 
@@ -50,14 +48,11 @@ def run(
     check_distinct_outputs(to, picture)
     train = load(file)
     states = (state,) if state is not None else train.states or (None,)
-    found = {name: train.torques(name) for name in states}
-    sound = all(each.verdict or each.verdict.kind == "unloaded" for each in found.values())
+    found = [train.torques(name) for name in states]
+    sound = all(each.verdict or each.verdict.kind == "unloaded" for each in found)
     if plot is not None:
-        _draw(train, list(found.values()), picture)
-    if json or to.suffix == ".json":
-        emit(as_json(collect_torque_report(train, list(found.values())).to_dict()), to)
-    else:
-        show([describe_torques(train, list(found.values()))], to)
+        _draw(train, found, picture)
+    give(to, json, lambda: collect_torque_report(train, found).to_dict(), lambda: [describe_torques(train, found)])
     raise typer.Exit(GOOD if sound else VERDICT)
 
 

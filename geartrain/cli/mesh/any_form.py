@@ -16,11 +16,10 @@ from geartrain.cli.common import (
     Force,
     Json,
     Out,
-    as_json,
     check_distinct_outputs,
     draw,
     emit,
-    show,
+    give,
     sink,
 )
 from geartrain.cli.mesh.conjugate import outline_sink
@@ -95,10 +94,7 @@ def _run(
         from geartrain.export import outline_text
 
         emit(outline_text(_outline(mesh, wheel, bore), outlined.suffix), outlined)
-    if json or to.suffix == ".json":
-        emit(as_json(pair_data(mesh)), to)
-    else:
-        show([pair_document(mesh)], to)
+    give(to, json, lambda: pair_data(mesh), lambda: [pair_document(mesh)])
     if plot is not None:
         from geartrain.drawing import transmission_figure
 

@@ -15,11 +15,9 @@ from geartrain.cli.common import (
     Force,
     Json,
     Out,
-    as_json,
     check_distinct_outputs,
     draw,
-    emit,
-    show,
+    give,
     sink,
 )
 from geartrain.cli.mesh.conjugate_options import (
@@ -67,10 +65,7 @@ def run(
     check_distinct_outputs(to, picture)
     asked = read_wheels(teeth, internal, bevel)
     found = _compared(asked, _names(forms), _arcs(arcs), _angle(pressure_angle), pressure_angle)
-    if json or to.suffix == ".json":
-        emit(as_json(compared_data(found)), to)
-    else:
-        show([compared_document(found)], to)
+    give(to, json, lambda: compared_data(found), lambda: [compared_document(found)])
     if plot is not None:
         from geartrain.drawing import shapes_figure
 

@@ -18,11 +18,10 @@ from geartrain.cli.common import (
     Json,
     Out,
     Sink,
-    as_json,
     check_distinct_outputs,
     draw,
     emit,
-    show,
+    give,
     sink,
 )
 from geartrain.cli.mesh.conjugate_options import (
@@ -121,10 +120,7 @@ def _run(
     found = pair(model, asked)
     law = ConjugateTransmission(found, _friction(friction), driver)
     wheels = [] if profile is None else [_cut(model, found, asked, wheel, outlined, given)]
-    if json or to.suffix == ".json":
-        emit(as_json(shape_data(form, law, wheels)), to)
-    else:
-        show([shape_document(form, law, wheels)], to)
+    give(to, json, lambda: shape_data(form, law, wheels), lambda: [shape_document(form, law, wheels)])
     if plot is not None:
         from geartrain.drawing import shapes_figure
 

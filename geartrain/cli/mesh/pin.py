@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from geartrain.cli.common import Force, Json, Out, as_json, emit, show, sink
+from geartrain.cli.common import Force, Json, Out, give, sink
 from geartrain.cli.option_values import at_option
 from geartrain.cli.option_values import friction as _friction
 from geartrain.cli.option_values import quantity as _quantity
@@ -30,10 +30,7 @@ def run(
 
     to = sink(out, force, (".md", ".html", ".json"))
     law = _pin_law(pin_radius, offset, _friction(friction), driver)
-    if json or to.suffix == ".json":
-        emit(as_json(pin_data(law)), to)
-    else:
-        show([pin_document(law, driver)], to)
+    give(to, json, lambda: pin_data(law), lambda: [pin_document(law, driver)])
 
 
 def _pin_law(pin_radius: str, offset: str, friction: float, driver: str) -> PinTransmission:

@@ -24,7 +24,7 @@ from geartrain.cli.common import (
     check_distinct_outputs,
     draw,
     emit,
-    show,
+    give,
     sink,
     tell,
 )
@@ -280,7 +280,4 @@ def _page(
         None if load is None else _quantity("--load", load, "torque", least="0"),
     )
     found = find_window(law.sizes) if law.sizes.has_valleys else None
-    if json or to.suffix == ".json":
-        emit(as_json(mesh_data(law, found, operation)), to)
-    else:
-        show([mesh_document(law, found, operation)], to)
+    give(to, json, lambda: mesh_data(law, found, operation), lambda: [mesh_document(law, found, operation)])

@@ -6,7 +6,7 @@ from typing import Annotated, Any
 
 import typer
 
-from geartrain.cli.common import Force, Json, Out, as_json, emit, show
+from geartrain.cli.common import Force, Json, Out, give
 from geartrain.cli.option_values import decimal
 from geartrain.cli.teeth.search_options import (
     ANY_COUNT,
@@ -93,7 +93,6 @@ def _list(answer: SearchAnswer) -> None:
     from geartrain.report.tooth_numbers import kinds_document
     from geartrain.synthesis.epicyclic.set_kinds import kinds
 
-    if answer.json:
-        emit(as_json({name: kind.to_dict() for name, kind in kinds().items()}), answer.out)
-    else:
-        show([kinds_document(kinds())], answer.out)
+    found = kinds()
+    data = {name: kind.to_dict() for name, kind in found.items()}
+    give(answer.out, answer.json, lambda: data, lambda: [kinds_document(found)])

@@ -429,7 +429,8 @@ def _words(value: Json) -> str:
 
 def _told(old: Answer, new: Answer) -> list[str]:
     """The lines on one command; none where nothing differs."""
-    found = list(differences(old, new))
+    # a progress bar may leave an empty line behind, and says nothing by it
+    found = list(differences(*({**each, "err": [line for line in each["err"] if line]} for each in (old, new))))
     if not found:
         return []
     spelled = shlex.join(respelled(old["command"])) if RENAMED else old["command"]

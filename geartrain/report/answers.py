@@ -9,7 +9,7 @@ from geartrain.analysis.gear_train import GearTrain
 from geartrain.kinematics.answer import Answer
 from geartrain.kinematics.judged_outputs import OutputResult, magnitude
 from geartrain.kinematics.tooth_sensitivity import Sensitivity
-from geartrain.report.document import MOST_ROWS, Section, Table, cut, exact, figure, one_to, ppm
+from geartrain.report.document import MOST_ROWS, Section, Table, cut, exact, figure, filled_table, one_to, ppm
 from geartrain.train import Train
 
 
@@ -69,8 +69,7 @@ def answer_sections(train: GearTrain, answer: Answer) -> Iterator[Section]:
     ]
     if targets:
         header = ("output", "target", "target speed", "by", "error ppm", "days a century", "degrees a unit", "within")
-        used = len(header) if any(row[-1] for row in targets) else -1
-        table = Table(header[:used], [row[:used] for row in targets])
+        table = filled_table(header, targets, len(header) - 1)
         said = ["A positive error is fast."]
         if any(row[3] == "magnitude" for row in targets):
             said.append("By magnitude: the target has no `sense`, so that either sense of rotation meets it.")
@@ -107,18 +106,8 @@ def _speeds(train: GearTrain, answer: Answer) -> Iterator[Table]:
 def _outputs(train: GearTrain, answer: Answer, head: str) -> Section:
     rows = [_output(train, result) for result in answer.outputs.values()]
     header = ("output", "of", "speed", "decimal", "output/input", "expect", "published", "as read")
-    used = [at for at in range(len(header)) if at < 4 or any(row[at] for row in rows)]
-    marks = [result.output.note for result in answer.outputs.values() if result.output.note]
-    notes = (
-        [f"{name}: {result.output.note}." for name, result in answer.outputs.items() if result.output.note]
-        if marks
-        else []
-    )
-    return Section(
-        _title(head, "outputs"),
-        notes,
-        (Table([header[at] for at in used], [[row[at] for at in used] for row in rows]),),
-    )
+    notes = [f"{name}: {result.output.note}." for name, result in answer.outputs.items() if result.output.note]
+    return Section(_title(head, "outputs"), notes, (filled_table(header, rows, 4),))
 
 
 def _output(train: GearTrain, result: OutputResult) -> tuple[str, ...]:

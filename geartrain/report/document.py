@@ -44,6 +44,12 @@ class Table:
     wide: bool = False
 
 
+def filled_table(header: Sequence[str], rows: Sequence[Sequence[str]], always: int) -> Table:
+    """A table without the columns in which no row says anything, but for the first so many."""
+    used = [at for at in range(len(header)) if at < always or any(row[at] for row in rows)]
+    return Table([header[at] for at in used], [[row[at] for at in used] for row in rows])
+
+
 @dataclass(frozen=True, slots=True)
 class Section:
     """A heading with paragraphs, then tables."""

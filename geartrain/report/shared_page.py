@@ -7,7 +7,16 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 from geartrain.analysis.gear_train import GearTrain
-from geartrain.report.document import CitedText, Document, PageExtras, Picture, Section, SourceReference, Table, cut
+from geartrain.report.document import (
+    CitedText,
+    Document,
+    PageExtras,
+    Picture,
+    Section,
+    SourceReference,
+    cut,
+    filled_table,
+)
 from geartrain.report.train_report import report_train, source_line
 from geartrain.train import Train
 
@@ -63,7 +72,6 @@ def _wheels(declared: Train) -> Iterator[Section]:
         note = "; ".join(filter(None, (wheel.note, doubt.note if doubt else None)))
         rows.append((name, link, str(wheel.count), allowed, wheel.status or "", CitedText(source), note))
     header = ("wheel", "link", "teeth", "allowed", "status", "source", "note")
-    used = [at for at in range(len(header)) if at < 3 or any(row[at] for row in rows)]
-    if len(used) > 3:
-        table = Table([header[at] for at in used], cut([[row[at] for at in used] for row in rows]))
-        yield Section("Wheels and their sources", (), (table,))
+    table = filled_table(header, rows, 3)
+    if len(table.header) > 3:
+        yield Section("Wheels and their sources", (), (replace(table, rows=cut(table.rows)),))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from math import degrees
 
 from geartrain.analysis.gear_train import GearTrain
@@ -11,7 +12,7 @@ from geartrain.kinematics.circuits import Circuit
 from geartrain.kinematics.verdict import Loop
 from geartrain.numerics.decimal_text import abridged_text
 from geartrain.report.answers import answer_sections, doubtful_wheels, expectations_met, shift_table
-from geartrain.report.document import MOST_ROWS, Document, ExactText, Section, Table, cut
+from geartrain.report.document import MOST_ROWS, Document, ExactText, Section, Table, cut, filled_table
 from geartrain.report.gear_pairs import teeth_sections
 from geartrain.report.motion_report import moving_sections
 from geartrain.report.power_report import loaded_sections
@@ -79,10 +80,8 @@ def _structure(train: GearTrain) -> Iterator[Section]:
         f"{wheels} wheels."
     )
     rows = [(name, _wheels(link.wheels), _joint(train, name), link.note or "") for name, link in declared.links.items()]
-    notes = any(row[3] for row in rows)
-    header = ("link", "wheels and teeth", "turns in (axis)", "note")
-    table = Table(header if notes else header[:3], cut([row if notes else row[:3] for row in rows]))
-    yield Section("Structure", (counts,), (table,))
+    table = filled_table(("link", "wheels and teeth", "turns in (axis)", "note"), rows, 3)
+    yield Section("Structure", (counts,), (replace(table, rows=cut(table.rows)),))
     from geartrain.kinematics.graph import MOST_SQUARE, adjacency_labels
 
     if len(declared.links) <= MOST_SQUARE:

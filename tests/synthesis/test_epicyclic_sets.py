@@ -314,6 +314,25 @@ def test_room_between_neighbours_is_that_of_circles_set_down_in_the_plane(name: 
         assert one.room == pytest.approx(placed(kind, dict(one.teeth), planets), abs=1e-9)
 
 
+@pytest.mark.parametrize("name", [name for name in NAMES if name != "bevel"])
+def test_a_clearance_keeps_exactly_the_sets_whose_circles_stand_so_far_apart(name: str) -> None:
+    kind, asked = kinds()[name], {"counts": range(8, 30), "planets": 3, "best": 10**6}
+    everything = find_sets(F(3), kind, [kind.modes[0]], **asked, clearance=-1000)
+    kept = find_sets(F(3), kind, [kind.modes[0]], **asked, clearance=F(1, 2))
+    rooms = {tuple(one.teeth.values()): placed(kind, dict(one.teeth), 3) for one in everything.solutions}
+    if not kind.idle:  # other idle wheels stand where more room is asked
+        assert {tuple(one.teeth.values()) for one in kept.solutions} == {
+            counts for counts, room in rooms.items() if room > 0.5 - 1e-9
+        }
+
+
+def test_planets_that_stand_exactly_as_far_apart_as_is_asked_are_kept_and_none_nearer() -> None:
+    """Six planets of 18 teeth about a sun of 24 stand 42 sin 30 degrees = 21 modules apart, tips 1 module."""
+    one: dict[str, Any] = {"counts": {"s": (24,), "p": (18,), "r": (60,)}, "planets": 6}
+    assert find_sets(F(7, 2), "planetary", "sun:carrier:ring", **one, clearance=1.0).count == 1
+    assert find_sets(F(7, 2), "planetary", "sun:carrier:ring", **one, clearance=F(10**6 + 1, 10**6)).count == 0
+
+
 def test_planets_in_mesh_touch_nothing_but_their_mates() -> None:
     for one in find_sets(F(3), "meshed-planets", "sun:ring:carrier", range(10, 90), best=50).solutions:
         s, p, r = teeth(one, "s", "p1", "r")

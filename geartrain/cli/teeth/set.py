@@ -81,7 +81,7 @@ def run(
         ratio_is=ratio_is,  # type: ignore[arg-type]
         by=by,  # type: ignore[arg-type]
         spaced=planets is not None,
-        clearance=float(room),
+        clearance=room,
         slack=shift,
     )
     rows = [set_row(solution) for solution in found.solutions]

@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from fractions import Fraction
 from itertools import combinations
 from math import pi, sin
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from geartrain.synthesis.constraints.decimal_sines import cosine, is_positive, sine
+from geartrain.synthesis.constraints.planet_clearance import neighbour_terms, passing_terms
 from geartrain.synthesis.epicyclic.set_kinds import EpicyclicKind
 
 if TYPE_CHECKING:
@@ -20,6 +23,8 @@ if TYPE_CHECKING:
 
 TIPS = 2.0
 """Twice the addendum, in modules: what a wheel's tips stand out over its pitch diameter."""
+_BEVEL = 1e-9
+_NEAR = 1e-6  # modules; what floats say of the room is nearer than this
 
 
 def places(kind: EpicyclicKind, columns: Columns) -> Ints:
@@ -76,7 +81,7 @@ def room(kind: EpicyclicKind, columns: Columns, planets: int) -> Floats:
         return np.full(columns[kind.members[0].wheel].shape, np.inf)
     if kind.bevel:
         return _bevel_room(columns, planets)
-    distances = [_distance(kind, columns, link) for link in kind.planets]
+    distances = [_distance(kind, columns, link).astype(np.float64) for link in kind.planets]
     tips = [np.maximum.reduce([columns[wheel] for wheel in link]) + TIPS for link in kind.planets]
     own: list[Floats] = [d * sin(pi / planets) - tip for d, tip in zip(distances, tips, strict=True)]
     if len(own) == 1:
@@ -91,11 +96,41 @@ def room(kind: EpicyclicKind, columns: Columns, planets: int) -> Floats:
     return np.asarray(np.minimum.reduce(own), dtype=np.float64)
 
 
-def _distance(kind: EpicyclicKind, columns: Columns, link: tuple[str, ...]) -> Floats:
+def clears(kind: EpicyclicKind, columns: Columns, planets: int, clearance: Fraction) -> NDArray[np.bool_]:
+    """True where the room between the tips of neighbouring planets is at least so many modules.
+
+    Near ties are decided as the clearance of a declared train is, exactly; of bevel wheels, whose room is an angle, in
+    floats.
+    """
+    found, least = room(kind, columns, planets), float(clearance)
+    good = np.asarray(found >= least - _BEVEL)
+    near = np.flatnonzero(np.abs(found - least) <= _NEAR)
+    if len(near) and not kind.bevel:
+        good[near] = _clears_exactly(kind, {w: column[near] for w, column in columns.items()}, planets, clearance)
+    return good
+
+
+def _clears_exactly(kind: EpicyclicKind, columns: Columns, planets: int, clearance: Fraction) -> NDArray[np.bool_]:
+    # all lengths are multiplied by the denominator, so that they are whole
+    unit, least = clearance.denominator, clearance.numerator
+    reaches = [unit * _distance(kind, columns, link) for link in kind.planets]
+    tips = [unit * (np.maximum.reduce([columns[wheel] for wheel in link]) + int(TIPS)) for link in kind.planets]
+    chord, good = sine(Fraction(1, 2 * planets)), np.ones(reaches[0].shape, dtype=bool)
+    for reach, tip in zip(reaches, tips, strict=True):
+        good &= is_positive(neighbour_terms, [reach, tip + least], [chord], strictly=False)
+    for a, b in kind.between:
+        mesh, both = unit * (columns[a] + columns[b]), tips[0] + tips[1] + 2 * least
+        for turn in (Fraction(step, planets) for step in range(1, planets)):
+            lengths = [reaches[0], reaches[1], mesh, both]
+            good &= is_positive(passing_terms, lengths, [cosine(turn), sine(turn)], strictly=False)
+    return good
+
+
+def _distance(kind: EpicyclicKind, columns: Columns, link: tuple[str, ...]) -> Ints:
     """From the central axis to a planet's, in half modules."""
     member = next(member for member in kind.members if member.mesh in link)
     planet = columns[member.mesh]
-    return np.asarray(columns[member.wheel] + (-planet if member.internal else planet), dtype=np.float64)
+    return columns[member.wheel] + (-planet if member.internal else planet)
 
 
 def _side_cosine(columns: Columns, own: str, other: str) -> Floats:

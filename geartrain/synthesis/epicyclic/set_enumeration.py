@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from fractions import Fraction
 from itertools import product
 from math import prod
 from typing import TYPE_CHECKING
@@ -10,7 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from geartrain.errors import Problem, QuestionError, RangeError
-from geartrain.synthesis.epicyclic.set_assembly import fits, room
+from geartrain.synthesis.epicyclic.set_assembly import clears, fits
 from geartrain.synthesis.epicyclic.set_kinds import CentralWheel, EpicyclicKind, EpicyclicMode
 
 if TYPE_CHECKING:
@@ -57,7 +58,7 @@ def size(kind: EpicyclicKind, bounds: SetBounds, slack: int = 0) -> int:
 
 
 def blocks(
-    kind: EpicyclicKind, bounds: SetBounds, planets: int, clearance: float | None, slack: int = 0
+    kind: EpicyclicKind, bounds: SetBounds, planets: int, clearance: Fraction | None, slack: int = 0
 ) -> Iterator[tuple[int, Columns]]:
     """All sets, block by block: how many a block had, and those of them whose wheels are whole, allowed and fit.
 
@@ -94,7 +95,12 @@ def _followers(kind: EpicyclicKind) -> list[tuple[CentralWheel, CentralWheel]]:
 
 
 def _completed(
-    kind: EpicyclicKind, bounds: SetBounds, chosen: Columns, extra: Sequence[int], planets: int, clearance: float | None
+    kind: EpicyclicKind,
+    bounds: SetBounds,
+    chosen: Columns,
+    extra: Sequence[int],
+    planets: int,
+    clearance: Fraction | None,
 ) -> Columns:
     """The sets with their remaining wheels, without those that cannot be."""
     columns = dict(chosen)
@@ -108,7 +114,7 @@ def _completed(
 
 
 def _with_idle(
-    kind: EpicyclicKind, bounds: SetBounds, columns: Columns, planets: int, clearance: float | None
+    kind: EpicyclicKind, bounds: SetBounds, columns: Columns, planets: int, clearance: Fraction | None
 ) -> dict[str, Ints]:
     """The least count of the idle wheels that fits, in every set that has one."""
     common = set[int].intersection(*(set(bounds[wheel]) for wheel in kind.idle))
@@ -119,7 +125,7 @@ def _with_idle(
         tried |= {wheel: np.full(len(open_), count, dtype=np.int64) for wheel in kind.idle}
         at = np.flatnonzero(fits(kind, tried))
         if clearance is not None:
-            at = at[room(kind, {wheel: column[at] for wheel, column in tried.items()}, planets) >= clearance - 1e-9]
+            at = at[clears(kind, _kept(tried, at), planets, clearance)]
         found[open_[at]] = count
     full = {**columns, **dict.fromkeys(kind.idle, found)}
     return _kept(full, found > 0)
@@ -131,7 +137,7 @@ def _allowed(column: Ints, allowed: tuple[int, ...]) -> NDArray[np.bool_]:
     return np.isin(column, allowed)
 
 
-def _kept(columns: Columns, good: NDArray[np.bool_]) -> dict[str, Ints]:
+def _kept(columns: Columns, good: NDArray[np.bool_] | Ints) -> dict[str, Ints]:
     return {wheel: column[good] for wheel, column in columns.items()}
 
 

@@ -19,7 +19,7 @@ import numpy as np
 from geartrain.errors import Problem, QuestionError
 from geartrain.numerics.decimal_text import decimal
 from geartrain.synthesis.epicyclic.epicyclic_sets import EpicyclicSet, RatioIs, SetFindings, SetOrder, set_rank
-from geartrain.synthesis.epicyclic.set_assembly import places, room
+from geartrain.synthesis.epicyclic.set_assembly import clears, places, room
 from geartrain.synthesis.epicyclic.set_enumeration import SetBounds, blocks, ratio_terms, read_bounds
 from geartrain.synthesis.epicyclic.set_kinds import EpicyclicKind, EpicyclicMode, epicyclic_kind
 from geartrain.synthesis.search_outcome import Shortfall
@@ -37,6 +37,8 @@ _MARGIN = 1e-12
 """Relative margin of float comparisons; what falls inside is compared exactly. Rounding stays below 1e-15."""
 
 _FARTHEST = Fraction(10**18)
+_FINEST = 10**6
+"""Greatest denominator of a clearance: lengths in such parts of a module stay whole numbers of a machine word."""
 
 NO_PLACE = "a wheel out of its bounds, or a planet without a place between the wheels"
 NO_SPACING = "planets that cannot be put in equally spaced"
@@ -59,7 +61,7 @@ def find_sets(
     ratio_is: RatioIs = "input/output",
     by: SetOrder = "error",
     spaced: bool = True,
-    clearance: float = 0.0,
+    clearance: Fraction | float = 0.0,
     slack: int = 0,
 ) -> SetFindings:
     """The best tooth sets of a kind for a ratio, over modes, out of all within bounds.
@@ -85,13 +87,14 @@ def find_sets(
         tolerance = Fraction(tolerance)
     _check(asked.value, planets, tolerance, best, slack)
     _check_words(by, ratio_is, clearance)
+    least = Fraction(clearance).limit_denominator(_FINEST)
     bounds, chosen = read_bounds(kind, counts), kind.chosen(modes)
     search = _Search(kind, asked.value, tolerance, best, ratio_is, by, planets, sense or asked.sense)
-    for number, columns in blocks(kind, bounds, planets, clearance if spaced else None, slack):
+    for number, columns in blocks(kind, bounds, planets, least if spaced else None, slack):
         search.considered += number * len(chosen)
         search.charge(NO_PLACE, (number - _length(columns)) * len(chosen))
         if spaced:
-            columns = search.assembled(columns, clearance, len(chosen))
+            columns = search.assembled(columns, least, len(chosen))
         if _length(columns):
             for at, mode in enumerate(chosen):
                 search.judge(columns, at, mode)
@@ -115,7 +118,7 @@ def _check(wanted: Fraction, planets: int, tolerance: Fraction | None, best: int
             raise QuestionError(Problem(what, why, fix))
 
 
-def _check_words(by: str, ratio_is: str, clearance: float) -> None:
+def _check_words(by: str, ratio_is: str, clearance: Fraction | float) -> None:
     for word, what, words in (
         (by, "order of sets", get_args(SetOrder)),
         (ratio_is, "kind of ratio", get_args(RatioIs)),
@@ -150,12 +153,12 @@ class _Search:
         if number:
             self.removed[reason] = self.removed.get(reason, 0) + number
 
-    def assembled(self, columns: Columns, clearance: float, modes: int) -> Columns:
+    def assembled(self, columns: Columns, clearance: Fraction, modes: int) -> Columns:
         """The sets whose planets can be put in and clear each other."""
         even = places(self.kind, columns) % self.planets == 0
         self.charge(NO_SPACING, int((~even).sum()) * modes)
         columns = _rows(columns, even)
-        clear = room(self.kind, columns, self.planets) >= clearance - 1e-9
+        clear = clears(self.kind, columns, self.planets, clearance)
         self.charge(NO_ROOM, int((~clear).sum()) * modes)
         return _rows(columns, clear)
 

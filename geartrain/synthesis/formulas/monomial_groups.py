@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from geartrain.numerics.plain_data import Key, Result
 from geartrain.synthesis.formulas.laurent import Exponents, Laurent
@@ -80,6 +80,24 @@ class MonomialGrouping:
         return Laurent(width, {spread(exponents): value for exponents, value in p.terms.items()})
 
 
+Key = TypeVar("Key")
+
+
+def proportional_classes(lists: Iterable[tuple[Key, Sequence[int]]]) -> dict[Exponents, dict[Key, int]]:
+    """Keys whose lists of whole numbers are multiples of one list: that list -> each key with its multiple.
+
+    The lists of the classes have no common divisor, and begin with a positive number beside zeros. Keys with nothing
+    but zeros are in none.
+    """
+    classes: dict[Exponents, dict[Key, int]] = {}
+    for key, steps in lists:
+        size = math.gcd(*steps)
+        if size:
+            size = size if next(step for step in steps if step) > 0 else -size
+            classes.setdefault(tuple(step // size for step in steps), {})[key] = size
+    return classes
+
+
 def find_grouping(polynomials: Sequence[Laurent]) -> MonomialGrouping:
     """The coarsest classes of variables such that a quotient of the polynomials sees each through one monomial.
 
@@ -88,13 +106,8 @@ def find_grouping(polynomials: Sequence[Laurent]) -> MonomialGrouping:
     over all terms, are multiples of one list. For a quotient in lowest terms no coarser classes exist.
     """
     terms = [exponents for p in polynomials for exponents in p.terms]
-    classes: dict[Exponents, dict[int, int]] = {}
-    for variable, powers in enumerate(zip(*terms, strict=True)):
-        steps = [power - powers[0] for power in powers]
-        size = math.gcd(*steps)
-        if size:
-            size = size if next(step for step in steps if step) > 0 else -size
-            classes.setdefault(tuple(step // size for step in steps), {})[variable] = size
+    columns = enumerate(zip(*terms, strict=True))
+    classes = proportional_classes((variable, [power - powers[0] for power in powers]) for variable, powers in columns)
     members = []
     lists = []
     for list_, found in classes.items():

@@ -7,9 +7,9 @@ rows of a join are merged so as soon as they may be (bucket elimination, Dechter
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from math import gcd
 
 from geartrain.synthesis.constraints.count_conditions import CountConstraint
+from geartrain.synthesis.formulas.monomial_groups import proportional_classes
 from geartrain.synthesis.join.partial_assignments import ItemMonomial
 from geartrain.synthesis.join.polynomial_constraints import PolynomialConstraint
 from geartrain.synthesis.join.product_lists import Item
@@ -36,17 +36,11 @@ def find_item_monomials(
         for item in items
         if not set(lists[item].recipe.wheels).isdisjoint(rule.wheels)
     }
-    groups: dict[tuple[int, ...], list[tuple[int, int]]] = {}
-    for item in items:
-        steps = [step for one in constraints if isinstance(one, PolynomialConstraint) for step in one.steps(item)]
-        size = gcd(*steps)
-        if item in alone:
-            yield ((item, 1),)
-        elif size:
-            size = size if next(step for step in steps if step) > 0 else -size
-            groups.setdefault(tuple(step // size for step in steps), []).append((item, size))
-    for group in groups.values():
-        yield from _cut(group, lists)
+    bands = [one for one in constraints if isinstance(one, PolynomialConstraint)]
+    yield from (((item, 1),) for item in items if item in alone)
+    steps = ((item, [step for band in bands for step in band.steps(item)]) for item in items if item not in alone)
+    for group in proportional_classes(steps).values():
+        yield from _cut(tuple(group.items()), lists)
 
 
 def _cut(group: Sequence[tuple[int, int]], lists: Sequence[Item]) -> Iterator[ItemMonomial]:

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import product
 from typing import Protocol
 
 from geartrain.errors import Problem, RangeError
+from geartrain.synthesis.formulas.monomial_groups import proportional_classes
 from geartrain.synthesis.join.partial_assignments import PartialAssignments
 from geartrain.synthesis.join.polynomial_constraints import PolynomialConstraint, possible
 from geartrain.synthesis.join.polynomial_signs import Monomial, SignPolynomial
@@ -94,15 +95,10 @@ def find_wheel_monomials(
         for wheel, steps in lists.items():
             powers = [term[1][at[wheel]] if wheel in at else 0 for term in terms]
             steps.extend(power - powers[0] for power in powers)
-    found: dict[tuple[object, ...], dict[str, int]] = {}
-    for wheel, steps in lists.items():
-        size = math.gcd(*steps)
-        if wheel in alone or not size:
-            found[(wheel,)] = {wheel: 1}
-            continue
-        size = size if next(step for step in steps if step) > 0 else -size
-        found.setdefault(tuple(step // size for step in steps), {})[wheel] = size
-    return [WheelMonomial(powers if next(iter(powers.values())) > 0 else _turned(powers)) for powers in found.values()]
+    classes = proportional_classes((wheel, steps) for wheel, steps in lists.items() if wheel not in alone)
+    single = ({wheel: 1} for wheel, steps in lists.items() if wheel in alone or not any(steps))
+    found = sorted((*classes.values(), *single), key=lambda powers: wheels.index(next(iter(powers))))
+    return [WheelMonomial(powers if next(iter(powers.values())) > 0 else _turned(powers)) for powers in found]
 
 
 def _turned(powers: Mapping[str, int]) -> dict[str, int]:
@@ -166,6 +162,11 @@ def find_polynomial_constraints(
         cases = _feasible(list(_cases(N, D, one)), extremes)
         bands.append(PolynomialConstraint(one.name, cases, (N, D) if one.graded else None))
     return bands
+
+
+def is_within(value: Fraction, intervals: Iterable[Interval]) -> bool:
+    """True if a value lies in one of some closed intervals."""
+    return any((low is None or value >= low) and (high is None or value <= high) for low, high in intervals)
 
 
 def extent(recipe: ItemRecipe, domains: Domains) -> tuple[float, float]:

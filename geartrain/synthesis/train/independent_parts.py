@@ -13,14 +13,17 @@ from geartrain.numerics.decimal_text import decimal
 from geartrain.numerics.graphs import joined_groups
 from geartrain.synthesis.constraints.count_conditions import CountConstraint
 from geartrain.synthesis.formulas.output_formulas import find_formulas
-from geartrain.synthesis.formulas.rational_functions import Formula
 from geartrain.synthesis.join.product_lists import Domains
 from geartrain.synthesis.join.wheel_monomials import IntervalConstraint
-from geartrain.synthesis.train.output_requirements import OutputRequirement, find_output_requirements, value_of
+from geartrain.synthesis.train.output_requirements import (
+    OutputRequirement,
+    find_output_requirements,
+    find_turning_conditions,
+    value_of,
+)
 from geartrain.train import Teeth, Train
 
 _MOST_COUNTS = 10**6
-_ANYTHING_ELSE = (None, Fraction(0)), (Fraction(0), None)
 
 
 @dataclass(frozen=True, slots=True)
@@ -115,10 +118,7 @@ def find_requirements(
     for one in states:
         prefix = f"{one}: " if len(states) > 1 else ""
         case, formulas = train.case(one), find_formulas(train, one, domains)
-        for condition in formulas.conditions:
-            conditions[_vanishing(train, condition)] = None
-        for exclusion in formulas.exclusions:
-            conditions[IntervalConstraint(exclusion.label, exclusion, _ANYTHING_ELSE, strict=True)] = None
+        conditions |= dict.fromkeys(find_turning_conditions(train, formulas))
         for asking in find_output_requirements(train, case, formulas.outputs, tolerance):
             asking = OutputRequirement(prefix + asking.name, asking.function, asking.demands)
             if asking.function.wheels:
@@ -127,15 +127,6 @@ def find_requirements(
                 remarks.extend(_idle(asking))
         remarks.extend(f"the inputs do not determine '{prefix}{name}'" for name in formulas.undetermined)
     return TrainRequirements(tuple(askings), tuple(conditions), tuple(remarks))
-
-
-def _vanishing(train: Train, condition: Formula) -> IntervalConstraint:
-    """A demand that a function is 0."""
-    if not condition.wheels:
-        what = f"'{train.name}' does not turn, whatever counts the free wheels have"
-        raise QuestionError(Problem(what, condition.label, "`geartrain solve` shows what holds it"))
-    zero = Fraction(0)
-    return IntervalConstraint(condition.label, condition, ((zero, zero),))
 
 
 def _idle(asking: OutputRequirement) -> Iterator[str]:

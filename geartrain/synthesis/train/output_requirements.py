@@ -6,12 +6,16 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 
+from geartrain.errors import Problem, QuestionError
 from geartrain.kinematics.judged_outputs import RatioGoal, error_against, goal_of
 from geartrain.numerics.decimal_text import decimal
 from geartrain.numerics.quantity import Figure
-from geartrain.synthesis.join.wheel_monomials import Function, Interval, IntervalConstraint, WheelTerm
+from geartrain.synthesis.formulas.output_formulas import Formulas
+from geartrain.synthesis.join.wheel_monomials import Function, Interval, IntervalConstraint, WheelTerm, is_within
 from geartrain.synthesis.train.train_findings import ReachedSpeed
 from geartrain.train import Output, Published, StateCase, Train
+
+_ANYTHING_ELSE = (None, Fraction(0)), (Fraction(0), None)
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,7 +69,7 @@ class SpeedRequirement:
 
     def met(self, speed: Fraction) -> bool:
         """True if a speed is in order."""
-        return self.allowed is None or any(_holds(interval, speed) for interval in self.allowed)
+        return self.allowed is None or is_within(speed, self.allowed)
 
 
 def _around(middle: Fraction, half: Fraction) -> Interval:
@@ -74,13 +78,12 @@ def _around(middle: Fraction, half: Fraction) -> Interval:
 
 def _magnitudes(wanted: Fraction, share: Fraction) -> tuple[Interval, ...]:
     """Speeds of either sense whose magnitude is within a share of the wanted one."""
-    least, most = wanted * (1 - share), wanted * (1 + share)
+    return of_either_sense(wanted * (1 - share), wanted * (1 + share))
+
+
+def of_either_sense(least: Fraction, most: Fraction) -> tuple[Interval, ...]:
+    """Speeds whose magnitude lies between two numbers."""
     return ((-most, most),) if least <= 0 else ((-most, -least), (least, most))
-
-
-def _holds(interval: Interval, speed: Fraction) -> bool:
-    low, high = interval
-    return (low is None or speed >= low) and (high is None or speed <= high)
 
 
 def meet(left: Sequence[Interval], right: Sequence[Interval]) -> tuple[Interval, ...]:
@@ -138,6 +141,20 @@ class OutputRequirement:
         worst = max(graded, key=lambda demand: abs(demand.error(speed)))
         met = all(demand.met(speed) for demand in self.demands)
         return ReachedSpeed(speed, worst.label, worst.error(speed), met)
+
+
+def find_turning_conditions(train: Train, formulas: Formulas) -> Iterator[IntervalConstraint]:
+    """What must hold for a train to turn: loops that close, links driven in one way.
+
+    Raises `QuestionError` where it does not whatever the counts.
+    """
+    for condition in formulas.conditions:
+        if not condition.wheels:
+            what = f"'{train.name}' does not turn, whatever counts are chosen"
+            raise QuestionError(Problem(what, condition.label, "`geartrain solve` shows what holds it"))
+        yield IntervalConstraint(condition.label, condition, ((Fraction(0), Fraction(0)),))
+    for exclusion in formulas.exclusions:
+        yield IntervalConstraint(exclusion.label, exclusion, _ANYTHING_ELSE, strict=True)
 
 
 def find_output_requirements(

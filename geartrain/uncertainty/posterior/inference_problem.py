@@ -8,10 +8,10 @@ from fractions import Fraction
 from math import prod
 
 from geartrain.errors import Problem, QuestionError, suggest
-from geartrain.synthesis.formulas import Formula, Formulas, find_formulas
+from geartrain.synthesis.formulas import Formula, find_formulas
 from geartrain.synthesis.join.product_lists import Domains
 from geartrain.synthesis.join.wheel_monomials import IntervalConstraint
-from geartrain.synthesis.train.output_requirements import find_output_requirements
+from geartrain.synthesis.train.output_requirements import find_output_requirements, find_turning_conditions
 from geartrain.train import Train
 from geartrain.uncertainty.posterior.observations import (
     LIKELIHOOD_KINDS,
@@ -20,8 +20,6 @@ from geartrain.uncertainty.posterior.observations import (
     observations_of,
 )
 from geartrain.uncertainty.posterior.priors import ToothCountPrior
-
-_NOT_ZERO = (None, Fraction(0)), (Fraction(0), None)
 
 
 @dataclass(frozen=True, slots=True)
@@ -107,7 +105,7 @@ def build_inference_problem(
     remarks: list[str] = []
     for one, formulas in found:
         prefix = f"{one}: " if len(states) > 1 else ""
-        conditions |= dict.fromkeys(_conditions(train, formulas))
+        conditions |= dict.fromkeys(find_turning_conditions(train, formulas))
         here = {name: f for name, f in formulas.outputs.items() if f.wheels and (not outputs or name in outputs)}
         moved |= here.keys()
         shown |= {prefix + name: formula for name, formula in here.items()}
@@ -125,17 +123,6 @@ def build_inference_problem(
     _check_known(moved, known, outputs)
     by_wheel = {doubt.wheel: doubt for doubt in doubts}
     return InferenceProblem(train.name, by_wheel, tuple(witnesses), shown, tuple(conditions), tuple(remarks), soft)
-
-
-def _conditions(train: Train, formulas: Formulas) -> Iterator[IntervalConstraint]:
-    for condition in formulas.conditions:
-        if not condition.wheels:
-            what = f"'{train.name}' does not turn, whatever counts the wheels in doubt have"
-            raise QuestionError(Problem(what, condition.label, "`geartrain solve` shows what holds it"))
-        zero = Fraction(0)
-        yield IntervalConstraint(condition.label, condition, ((zero, zero),))
-    for exclusion in formulas.exclusions:
-        yield IntervalConstraint(exclusion.label, exclusion, _NOT_ZERO, strict=True)
 
 
 def _remarks(witness: ObservedOutput) -> Iterator[str]:

@@ -8,8 +8,8 @@ from fractions import Fraction
 from typing import Literal
 
 from geartrain.synthesis.formulas import Formula
-from geartrain.synthesis.join.wheel_monomials import Interval, IntervalConstraint
-from geartrain.synthesis.train.output_requirements import SpeedRequirement, meet
+from geartrain.synthesis.join.wheel_monomials import Interval, IntervalConstraint, is_within
+from geartrain.synthesis.train.output_requirements import SpeedRequirement, meet, of_either_sense
 
 LikelihoodKind = Literal["all", "targets", "figures"]
 LIKELIHOOD_KINDS: tuple[LikelihoodKind, ...] = ("all", "targets", "figures")
@@ -50,14 +50,14 @@ class Observation:
 
     def half(self, above: bool) -> Fraction | None:
         """How far the speed may lie above or below what is wanted; None for any distance."""
-        own = [each for each in self.intervals if _holds(each, self.wanted)]
+        own = [each for each in self.intervals if is_within(self.wanted, (each,))]
         end = own[0][1 if above else 0] if own else None
         return None if end is None else abs(end - self.wanted)
 
     def met(self, speed: Fraction) -> bool:
         """True if a speed is in order."""
         value = speed if self.signed else abs(speed)
-        return any(_holds(each, value) for each in self.intervals)
+        return is_within(value, self.intervals)
 
     def misfit(self, speed: Fraction) -> Fraction:
         """(error / tolerance)^2; 0 without a bound on that side, and for an exact claim, which is met or not."""
@@ -72,12 +72,7 @@ class Observation:
         ((low, high),) = self.intervals
         assert low is not None, "a target has a tolerance on both sides"
         assert high is not None, "a target has a tolerance on both sides"
-        return ((-high, high),) if low <= 0 else ((-high, -low), (low, high))
-
-
-def _holds(interval: Interval, value: Fraction) -> bool:
-    low, high = interval
-    return (low is None or value >= low) and (high is None or value <= high)
+        return of_either_sense(low, high)
 
 
 @dataclass(frozen=True, slots=True)

@@ -80,16 +80,16 @@ class MonomialGrouping:
         return Laurent(width, {spread(exponents): value for exponents, value in p.terms.items()})
 
 
-Key = TypeVar("Key")
+Member = TypeVar("Member")
 
 
-def proportional_classes(lists: Iterable[tuple[Key, Sequence[int]]]) -> dict[Exponents, dict[Key, int]]:
+def proportional_classes(lists: Iterable[tuple[Member, Sequence[int]]]) -> dict[Exponents, dict[Member, int]]:
     """Keys whose lists of whole numbers are multiples of one list: that list -> each key with its multiple.
 
     The lists of the classes have no common divisor, and begin with a positive number beside zeros. Keys with nothing
     but zeros are in none.
     """
-    classes: dict[Exponents, dict[Key, int]] = {}
+    classes: dict[Exponents, dict[Member, int]] = {}
     for key, steps in lists:
         size = math.gcd(*steps)
         if size:

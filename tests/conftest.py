@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import sys
 from collections.abc import Callable
 from pathlib import Path
 from textwrap import dedent
@@ -28,7 +27,7 @@ def pytest_addoption(parser: pytest.Parser) -> None:
     parser.addoption("--slow", action="store_true", help="also run the tests marked slow")
     parser.addoption("--trains", type=int, default=1000, help="how many random trains each law is held on (1000)")
     parser.addoption("--first-train", type=int, default=0, help="the seed of the first random train (0)")
-    parser.addoption("--mutants", type=int, default=400, help="how many spoilt declarations are tried (400)")
+    parser.addoption("--mutants", type=int, default=1000, help="how many spoilt declarations are tried (1000)")
     parser.addoption("--first-mutant", type=int, default=0, help="the seed of the first spoilt declaration (0)")
 
 
@@ -36,15 +35,6 @@ def pytest_configure(config: pytest.Config) -> None:
     config.addinivalue_line("markers", "slow: more than a few seconds; runs with --slow only")
     if config.getoption("--slow"):
         settings.load_profile("hunt")
-    if sys.dont_write_bytecode and hasattr(config, "cache"):
-        _compile_once(config.cache.mkdir("bytecode"))
-
-
-def _compile_once(folder: Path) -> None:
-    """Where no bytecode may lie beside the sources it is kept with pytest's cache: the fresh interpreters need it."""
-    os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
-    os.environ["PYTHONPYCACHEPREFIX"] = sys.pycache_prefix = str(folder)
-    sys.dont_write_bytecode = False
 
 
 @pytest.hookimpl(optionalhook=True)

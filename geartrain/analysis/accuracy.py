@@ -103,8 +103,10 @@ def find_accuracy(train: GearTrain, state: str | None = None, positions: int = 1
     ...     "revolutes": [{"pair": ["frame", "a"], "axis": "A"}, {"pair": ["frame", "b"], "axis": "B"}],
     ...     "gears": [{"pair": ["p", "w"]}], "inputs": {"a": 1}})
     >>> found = find_accuracy(train)
-    >>> [(row.method, row.error, row.reference) for row in found.methods]
-    [('exact', 0.0, 'every equation'), ('floats', 5.551115123125783e-17, 'exact speeds')]
+    >>> for row in found.methods:
+    ...     print(row.method, row.error, "against", row.reference)
+    exact 0.0 against every equation
+    floats 5.551115123125783e-17 against exact speeds
     >>> found.left_out["torques"]
     'no loads are declared'
     """

@@ -190,11 +190,11 @@ class _Toothing:
         if shaped := next(((gear, mate) for gear, mate in mates if mate in self.shaped and self._is_flat(mate)), None):
             raise _half_declared(name, *shaped, next(g.name for g in self.pairs[shaped[1]] if self._mesh(g)))
         flat = [(gear.name, self._gear(mate), self.standard[mate]) for gear, mate in mates if mate in self.standard]
-        for pair, mate, its in flat or [("", lone_mate(own), teeth)]:
+        for name_of_pair, mate, its in flat or [("", lone_mate(own), teeth)]:
             form, wheels, at = self._standard_pair((own, teeth), (mate, its), name)
-            clearance = max(form.bottom_clearance(wheels, at), 0.0)
-            required = ToothRequirement(conjugate_pair_of(form, wheels), at, _CHORD, clearance)
-            yield _Asked(pair, STANDARD, teeth.words, required)
+            pair = conjugate_pair_of(form, wheels)  # refuses wheels that no teeth fit, before sizes are asked
+            required = ToothRequirement(pair, at, _CHORD, max(form.bottom_clearance(wheels, at), 0.0))
+            yield _Asked(name_of_pair, STANDARD, teeth.words, required)
 
     def _standard_pair(
         self, first: tuple[UndeclaredWheel, StandardTeeth], second: tuple[UndeclaredWheel, StandardTeeth], name: str

@@ -23,6 +23,7 @@ from geartrain.export import ManufacturingSizes, SolidModel, export_files, notic
 from geartrain.scene import make_scene
 from geartrain.teeth.conjugate.wheel_pair import WheelPair
 from geartrain.teeth.involute import Involute
+from geartrain.teeth.outline_mesh import OutlineMesh
 from geartrain.teeth.triangular.triangular_mesh import TriangularMesh
 
 TRAINS = sorted(path.stem for path in Path(geartrain.__file__).parent.parent.glob("trains/**/*.yaml"))
@@ -74,6 +75,9 @@ class Meshed:
         self.law = None
         if isinstance(mesh, TriangularMesh):
             first, second, self.law = mesh.driver, mesh.driven, mesh.law
+        self.uneven = ()  # laws of both flanks of teeth that are not conjugate
+        if isinstance(mesh, OutlineMesh):
+            first, second, self.uneven = mesh.driver, mesh.driven, (mesh.law, mesh.coast)
         if work.blanks.wheels[first].kind == "ring":
             first, second = second, first
         one, other = (work.blanks.wheels[each] for each in (first, second))
@@ -105,6 +109,12 @@ class Meshed:
             zone = (self.reach - self.module, -high, self.tip + self.module, high)
             own, other = (shapely.clip_by_rect(each, *zone) for each in (own, other))
         return float(own.intersection(other).area)
+
+    def flanks(self, t: float) -> list[float]:
+        """Where teeth that are not conjugate meet, `lag` of either flank; a chord of an outline short of it."""
+        middle = self.uneven[0].gears.play / self.z2 if self.uneven else 0.0
+        errors = [float(law.error(np.array(t))) - middle for law in self.uneven]
+        return [error + short for error, short in zip(errors, (1e-4, -1e-4), strict=False)]
 
     def positions(self, count: int) -> Iterator[float]:
         """Through a pitch of the first wheel, none of them a symmetric one."""
@@ -145,7 +155,7 @@ def overlapping(play: float, count: int) -> tuple[int, list[str]]:
             seen.add(meshed.key)
             side = (1 - 1e-7) * given / 2 / meshed.R2 if meshed.law is None else 0.0
             for t in meshed.positions(count):
-                for lag in {side, -side}:
+                for lag in meshed.flanks(t) or {side, -side}:
                     both = (False, True) if meshed.law is not None else (False,)
                     worst = max(meshed.overlap(t, lag, back) for back in both)
                     wrong += [f"{name} {pair} at {degrees(t):.4f} deg: {worst:.3g} mm2"] if worst > NOTHING else []

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from geartrain.errors import Problem, RangeError
 from geartrain.numerics.block_triangular import Block, find_blocks
 from geartrain.numerics.elimination import LinearForm, eliminate
 
@@ -61,16 +62,24 @@ class ErrorPropagation:
         return found
 
     def sensitivity(self, link: int, base: int) -> Floats:
-        """Radians of a link, seen from another, per radian of each pair's driven error: one walk back, all pairs."""
+        """Radians of a link, seen from another, per radian of each pair's driven error: one walk back, all pairs.
+
+        Raises `RangeError` where one of them is beyond float64.
+        """
         weight = np.zeros(len(self.links))
         weight[link] += 1.0
         weight[base] -= 1.0
         found = np.zeros(len(self.pairs))
-        for part in reversed(self.parts):
-            own = weight[list(part.links)]
-            if own.any():
-                found[list(part.pairs)] = own @ part.from_pairs
-                weight[list(part.known)] += own @ part.from_known
+        with np.errstate(over="ignore", invalid="ignore"):  # judged at the end, once
+            for part in reversed(self.parts):
+                own = weight[list(part.links)]
+                if own.any():
+                    found[list(part.pairs)] = own @ part.from_pairs
+                    weight[list(part.known)] += own @ part.from_known
+        if not np.isfinite(found).all():
+            what = f"'{self.links[link]}' turns more than 1e308 times as far as a pair's error"
+            why = "motion is followed in float64, which holds 1e-308 to 1e308"
+            raise RangeError(Problem(what, why, "drive the train nearer to this output, or ask `solve`"))
         return found
 
 

@@ -142,3 +142,14 @@ def test_every_module_that_a_test_or_a_page_names_is_there() -> None:
         places[name].add(place)
     missing = {name: sorted(where) for name, where in places.items() if name not in NO_MODULE and not exists(name)}
     assert missing == {}
+
+
+def test_every_name_that_a_page_imports_is_there() -> None:
+    missing = []
+    for path in (ROOT / "README.md", *(ROOT / "docs").glob("*.md")):
+        text = path.read_text(encoding="utf-8")
+        for module, names in re.findall(r"^ *from (geartrain[\w.]*) import (\([^)]*\)|[^\n(]+)$", text, re.MULTILINE):
+            for name in re.split(r"[,\s]+", names.strip("() \n").split(" as ")[0]):
+                if name and not exists(f"{module}.{name}"):
+                    missing.append(f"{path.name}: {module}.{name}")
+    assert missing == []

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from inspect import Signature
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -23,8 +22,17 @@ from geartrain.cli.common import (
     sink,
 )
 from geartrain.cli.mesh.conjugate import outline_sink
-from geartrain.cli.mesh.conjugate_options import FormOptions, own_options, read_any_form
-from geartrain.cli.mesh.form_options import own_parameters, signed
+from geartrain.cli.mesh.conjugate_options import FormOptions, read_any_form
+from geartrain.cli.mesh.form_options import (
+    Backlash,
+    Bore,
+    Driver,
+    Friction,
+    Module,
+    Profile,
+    ProfiledWheel,
+    form_command,
+)
 from geartrain.cli.option_values import at_option, quantity
 from geartrain.cli.option_values import friction as _friction
 from geartrain.errors import GearTrainError, Problem
@@ -36,17 +44,13 @@ if TYPE_CHECKING:
 
 def _common(
     teeth: Annotated[tuple[int, int], typer.Option("--teeth", help="Teeth of the first and the second wheel.")],
-    friction: Annotated[str, typer.Option("--friction", help="Coefficient of friction.")] = "0",
-    driver: Annotated[int, typer.Option("--driver", min=1, max=2, help="Which wheel drives, 1 or 2.")] = 1,
-    backlash: Annotated[
-        str | None, typer.Option("--backlash", help="Play on the pitch circle, in modules or with a unit.")
-    ] = None,
-    module: Annotated[str | None, typer.Option("--module", help="Pitch diameter over teeth, such as 2mm.")] = None,
-    profile: Annotated[
-        Path | None, typer.Option("--profile", help="Write the outline of a whole wheel, to scale: .svg, .dxf, .csv.")
-    ] = None,
-    wheel: Annotated[int, typer.Option("--wheel", min=1, max=2, help="With --profile: which wheel, 1 or 2.")] = 1,
-    bore: Annotated[str | None, typer.Option("--bore", help="With --profile: diameter of the hole.")] = None,
+    friction: Friction = "0",
+    driver: Driver = 1,
+    backlash: Backlash = None,
+    module: Module = None,
+    profile: Profile = None,
+    wheel: ProfiledWheel = 1,
+    bore: Bore = None,
     plot: Annotated[
         Path | None, typer.Option("--plot", help="Draw error, speed ratio and efficiency over a pitch to this file.")
     ] = None,
@@ -60,14 +64,7 @@ def _common(
 def command(form: str) -> Callable[..., None]:
     """The command of a form: the options all have, and its own."""
 
-    def run(**given: Any) -> None:
-        own = {name: given.pop(name) for name in own_options(form)}
-        _run(form, own, **given)
-
-    common = list(Signature.from_callable(_common, eval_str=True).parameters.values())
-    signed(run, [common[0], *own_parameters(form), *common[1:]])
-    run.__doc__ = f"Motion, losses and outlines of a pair with {form.replace('_', '-')} teeth."
-    return run
+    return form_command(form, _common, _run, "Motion, losses and outlines")
 
 
 def _run(

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
-from inspect import Signature
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -27,12 +26,20 @@ from geartrain.cli.common import (
 from geartrain.cli.mesh.conjugate_options import (
     ConjugateOptions,
     FormOptions,
-    own_options,
     pair,
     read_form,
     read_wheels,
 )
-from geartrain.cli.mesh.form_options import own_parameters, signed
+from geartrain.cli.mesh.form_options import (
+    Backlash,
+    Bore,
+    Driver,
+    Friction,
+    Module,
+    Profile,
+    ProfiledWheel,
+    form_command,
+)
 from geartrain.cli.option_values import friction as _friction
 from geartrain.cli.option_values import quantity
 from geartrain.errors import GearTrainError, Problem
@@ -49,23 +56,19 @@ def _common(
     teeth: Annotated[tuple[int, int], typer.Option("--teeth", help="Teeth of the driving and the driven wheel.")],
     internal: Annotated[bool, typer.Option("--internal", help="The second wheel is a ring.")] = False,
     bevel: Annotated[str | None, typer.Option("--bevel", help="Angle between the axes, such as 90deg.")] = None,
-    friction: Annotated[str, typer.Option("--friction", help="Coefficient of friction.")] = "0",
-    driver: Annotated[int, typer.Option("--driver", min=1, max=2, help="Which wheel drives, 1 or 2.")] = 1,
-    backlash: Annotated[
-        str | None, typer.Option("--backlash", help="Play on the pitch circle, in modules or with a unit.")
-    ] = None,
-    module: Annotated[str | None, typer.Option("--module", help="Pitch diameter over teeth, such as 2mm.")] = None,
-    profile: Annotated[
-        Path | None, typer.Option("--profile", help="Write the outline of a whole wheel, to scale: .svg, .dxf, .csv.")
-    ] = None,
-    wheel: Annotated[int, typer.Option("--wheel", min=1, max=2, help="With --profile: which wheel, 1 or 2.")] = 1,
+    friction: Friction = "0",
+    driver: Driver = 1,
+    backlash: Backlash = None,
+    module: Module = None,
+    profile: Profile = None,
+    wheel: ProfiledWheel = 1,
     clearance: Annotated[
         str | None, typer.Option("--clearance", help="With --profile: root to mate's tip; default module/4.")
     ] = None,
     fillet: Annotated[
         str | None, typer.Option("--fillet", help="With --profile: radius at the root; default 0.38 module, or less.")
     ] = None,
-    bore: Annotated[str | None, typer.Option("--bore", help="With --profile: diameter of the hole.")] = None,
+    bore: Bore = None,
     rim: Annotated[
         str | None, typer.Option("--rim", help="With --profile: what stands round a ring or a lantern.")
     ] = None,
@@ -85,14 +88,7 @@ def _common(
 def command(form: str) -> Callable[..., None]:
     """The command of a form: the options all have, and its own."""
 
-    def run(**given: Any) -> None:
-        own = {name: given.pop(name) for name in own_options(form)}
-        _run(form, own, **given)
-
-    common = list(Signature.from_callable(_common, eval_str=True).parameters.values())
-    signed(run, [common[0], *own_parameters(form), *common[1:]])
-    run.__doc__ = f"Costs, faults and outlines of a pair with {form.replace('_', '-')} teeth."
-    return run
+    return form_command(form, _common, _run, "Costs, faults and outlines")
 
 
 def _run(

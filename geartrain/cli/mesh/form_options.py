@@ -1,14 +1,40 @@
-"""The options that a tooth form's fields give its command."""
+"""The options of `geartrain mesh FORM`: those that all forms have, and those that a form's fields give its command."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from inspect import Parameter, Signature
+from pathlib import Path
 from typing import Annotated, Any
 
 import typer
 
 from geartrain.cli.mesh.conjugate_options import own_options
+
+Friction = Annotated[str, typer.Option("--friction", help="Coefficient of friction.")]
+Driver = Annotated[int, typer.Option("--driver", min=1, max=2, help="Which wheel drives, 1 or 2.")]
+Backlash = Annotated[
+    str | None, typer.Option("--backlash", help="Play on the pitch circle, in modules or with a unit.")
+]
+Module = Annotated[str | None, typer.Option("--module", help="Pitch diameter over teeth, such as 2mm.")]
+Profile = Annotated[
+    Path | None, typer.Option("--profile", help="Write the outline of a whole wheel, to scale: .svg, .dxf, .csv.")
+]
+ProfiledWheel = Annotated[int, typer.Option("--wheel", min=1, max=2, help="With --profile: which wheel, 1 or 2.")]
+Bore = Annotated[str | None, typer.Option("--bore", help="With --profile: diameter of the hole.")]
+
+
+def form_command(form: str, common: Callable[..., None], run: Callable[..., None], tells: str) -> Callable[..., None]:
+    """The command of a form: `common`'s options, after the first its own, handed to `run(form, own, **common)`."""
+
+    def command(**given: Any) -> None:
+        own = {name: given.pop(name) for name in own_options(form)}
+        run(form, own, **given)
+
+    first, *rest = Signature.from_callable(common, eval_str=True).parameters.values()
+    signed(command, [first, *own_parameters(form), *rest])
+    command.__doc__ = f"{tells} of a pair with {form.replace('_', '-')} teeth."
+    return command
 
 
 def own_parameters(form: str) -> list[Parameter]:

@@ -1,6 +1,5 @@
-"""Numbers as options give them, for every verb: read once, finite, and within what the option can mean.
-
-Where a complaint about a pair of `geartrain mesh` belongs.
+"""Numbers as options give them, for every verb: read once, finite, within what the option can mean; a complaint about a
+pair of `geartrain mesh` goes to the option it belongs to.
 """
 
 from __future__ import annotations

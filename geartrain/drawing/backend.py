@@ -1,6 +1,6 @@
-"""What the figures take from matplotlib, in one place: importing this module without it names the extra.
+"""What the figures take from matplotlib, in one place, and a figure as the bytes of an image file.
 
-A figure as the bytes of an image file.
+Importing this module without matplotlib names the extra.
 """
 
 from __future__ import annotations

@@ -1,7 +1,4 @@
-"""Tooth counts in doubt: what is likely of each, and of each two together.
-
-A sweep of tooth counts as a picture: what the outputs say of the wheels in doubt.
-"""
+"""The posterior of tooth counts as a picture: what is likely of each count, and of each two together."""
 
 from __future__ import annotations
 

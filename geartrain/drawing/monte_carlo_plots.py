@@ -1,7 +1,4 @@
-"""How an estimate settles as trials grow in number.
-
-Trials of a train cut by hand as pictures: one for each thing they tell.
-"""
+"""Trials of a train cut by hand as pictures, one for each thing they tell, and how an estimate settles as they grow."""
 
 from __future__ import annotations
 

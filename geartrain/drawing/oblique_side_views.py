@@ -1,7 +1,4 @@
-"""Trains that do not lie in one plane, seen obliquely: near faces over far ones.
-
-A plan from its side: wheels as bars in their layers, arbors through them.
-"""
+"""Trains seen obliquely, near faces over far ones, and a plan from its side, wheels as bars in their layers."""
 
 from __future__ import annotations
 

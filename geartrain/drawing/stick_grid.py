@@ -1,6 +1,5 @@
-"""Levels on which the axes of a skeleton lie, so that little crosses and nothing hides another thing.
-
-Columns of a stick diagram: meshes that share a wheel stand together, and none hides another.
+"""The grid of a stick diagram: levels on which axes lie, and columns in which meshes that share a wheel stand together,
+so that little crosses and nothing hides another thing.
 """
 
 from __future__ import annotations

@@ -1,7 +1,4 @@
-"""Colours, sizes and wording that the figures share.
-
-Words on a picture where there is room for them.
-"""
+"""Colours, sizes and wording that the figures share, and words on a picture where there is room for them."""
 
 from __future__ import annotations
 

@@ -1,6 +1,5 @@
-"""Solids as binary STL, in mm.
-
-The assembly as binary glTF, in metres, turning: a node for every body, its rotation in key frames.
+"""Solids as binary STL, in mm, and the turning assembly as binary glTF, in metres: a node a body, its rotation in key
+frames.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
-"""Mappings that stay as they are: what is declared or answered is changed by making it anew.
+"""Mappings that cannot be changed, and a pause of the garbage collector while many small objects are made at once.
 
-Making many small objects at once: the garbage collector pauses, since none of them can be garbage yet.
+None of those can be garbage yet.
 """
 
 from __future__ import annotations

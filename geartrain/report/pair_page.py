@@ -1,7 +1,4 @@
-"""A page on one pair of wheels with triangular teeth.
-
-A page on one pin in a slot.
-"""
+"""A page on one pair of wheels with triangular teeth, or on one pin in a slot."""
 
 from __future__ import annotations
 

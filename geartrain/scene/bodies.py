@@ -1,8 +1,5 @@
-"""Bodies: links with their axes, and which of them bears which.
-
-One tooth of every wheel: as it is cut, or a likeness of one that has no flat outline.
-
-Wheels: where they stand, what is known of them, and one tooth of each.
+"""What stands in a scene: links with their axes and which of them bears which; every wheel, where it stands, what is
+known of it, and one tooth of it, as it is cut or a likeness of one that has no flat outline.
 """
 
 from __future__ import annotations

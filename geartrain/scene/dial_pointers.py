@@ -1,7 +1,4 @@
-"""Dials: on which body a scale stands, how high, how large, which way it looks.
-
-Outputs as pointers: what they show, on which dial, and what they hang on.
-"""
+"""Dials, where a scale stands and which way it looks, and pointers, what they show and what they hang on."""
 
 from __future__ import annotations
 

@@ -1,7 +1,4 @@
-"""Gear pairs in words, and which of them keep the train from turning.
-
-Pins in slots: where the pin stands, so that it moves as its law says.
-"""
+"""Joints of a scene: gear pairs in words, which of them keep the train from turning, and pins in slots."""
 
 from __future__ import annotations
 

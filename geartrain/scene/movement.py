@@ -1,7 +1,4 @@
-"""Error laws of teeth and pins as tables that a page can carry.
-
-How a scene moves: exact speeds, and the errors of teeth and pins as tables and steps.
-"""
+"""How a scene moves: exact speeds, and the errors of teeth and pins as tables and steps that a page can carry."""
 
 from __future__ import annotations
 

@@ -1,6 +1,5 @@
-"""The places for gears on a polyhedron: axes, which of them mesh, and how its symmetries exchange them.
-
-Kinds and names of gears on a polyhedron, and what the words of a caller mean among them.
+"""The places for gears on a polyhedron: axes, meshes, how symmetries exchange them, and the names a caller may give
+them.
 """
 
 from __future__ import annotations

@@ -1,6 +1,5 @@
-"""Where columns stand, and the bands that turn back round them.
-
-Which column a node stands in, which bands run back, how wide a unit of power is.
+"""Columns of a Sankey diagram: which one a node stands in, where columns stand, and the bands that turn back round
+them.
 """
 
 from __future__ import annotations

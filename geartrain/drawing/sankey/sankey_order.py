@@ -1,7 +1,4 @@
-"""The order of each column with the least tangle of bands.
-
-Tops of all nodes and bands, so that bands run level where they can.
-"""
+"""The order of each column with the least tangle of bands, and tops of nodes so that bands run level where they can."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
-"""Points moved so that distances they cannot all have are missed as little as can be.
+"""The plan of parallel axes: points of a plane at given distances, with room between them.
 
-The plan of parallel axes: points of a plane at given distances, with room between them.
+Distances that cannot all be had are missed as little as can be.
 """
 
 from __future__ import annotations

@@ -1,7 +1,4 @@
-"""How much wheels crowd each other in plan.
-
-How near and how far axes come to each other while carriers turn.
-"""
+"""How near axes come to each other while carriers turn, and how much their wheels crowd each other in plan."""
 
 from __future__ import annotations
 

@@ -1,7 +1,4 @@
-"""What is stacked: wheels as blocks, and what stands in whose way in plan.
-
-Which wheels of parallel axes stand in whose way, in plan.
-"""
+"""Which wheels of parallel axes stand in whose way in plan, and the blocks they are stacked as."""
 
 from __future__ import annotations
 

@@ -1,6 +1,5 @@
-"""How big a wheel is: its pitch circle, its rim, and the room it needs.
-
-Wheels on axes that are not parallel: cones about the point where axes meet, crown wheels, worms.
+"""How big a wheel is: pitch circle, rim and the room it needs; cones, crown wheels and worms where axes are not
+parallel.
 """
 
 from __future__ import annotations

@@ -1,6 +1,5 @@
-"""Free modules chosen so that closed chains of axes can close: no distance longer than the way round.
-
-Modules: wheels that mesh share one, and pairs between the same two axes force the ratios of theirs.
+"""Modules: wheels that mesh share one, pairs between the same two axes force the ratios of theirs, and what is left
+free is chosen so that closed chains of axes can close.
 """
 
 from __future__ import annotations

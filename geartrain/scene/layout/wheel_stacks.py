@@ -1,7 +1,4 @@
-"""Heights of wheels stacked along their common direction, so that none stands in another's way.
-
-The wheels of parallel axes, one above the other, and which of them would run into each other.
-"""
+"""The wheels of parallel axes one above the other, at heights where none stands in another's way."""
 
 from __future__ import annotations
 

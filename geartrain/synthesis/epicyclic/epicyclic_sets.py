@@ -1,6 +1,5 @@
-"""What a search for epicyclic sets found.
-
-An epicyclic set as a declaration: with its counts, or with wheels still to be found.
+"""What a search for epicyclic sets found, and a set as a declaration, with its counts or with wheels still to be
+found.
 """
 
 from __future__ import annotations

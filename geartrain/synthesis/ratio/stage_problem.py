@@ -1,7 +1,4 @@
-"""What is asked of the stages of one ratio beyond the ratio itself.
-
-One ratio by stages as a question in plain data: what every piece of the search has to know.
-"""
+"""One ratio by stages as a question in plain data: the ratio, and what else is asked of the stages."""
 
 from __future__ import annotations
 

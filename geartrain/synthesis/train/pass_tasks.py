@@ -1,7 +1,4 @@
-"""A pass of a search cut into tasks that have nothing to do with each other.
-
-The pieces of a search: what a worker does with one, and what all of them come to together.
-"""
+"""A pass of a search cut into independent tasks: what a worker does with one, and what all of them come to together."""
 
 from __future__ import annotations
 

@@ -1,6 +1,5 @@
-"""Pieces of one side of a path of contact, each a law of the pressure angle over the distance d >= 0.
-
-One side of a path of contact, approach or recess, as pieces in order of the distance from the pitch point.
+"""One side of a path of contact, approach or recess: pieces in order of the distance d >= 0 from the pitch point, each
+a law of the pressure angle over d.
 """
 
 from __future__ import annotations

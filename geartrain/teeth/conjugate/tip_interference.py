@@ -1,6 +1,5 @@
-"""Whether the tips of a pinion and of its ring clear each other after they have parted.
-
-What keeps involute wheels from running: thick teeth, tips too long for roots or mates, a rack that undercuts.
+"""What keeps involute wheels from running: thick teeth, tips too long for roots or mates, a rack that undercuts, and
+tips of a pinion and its ring that do not clear each other after they have parted.
 """
 
 from __future__ import annotations

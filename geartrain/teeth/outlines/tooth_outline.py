@@ -1,7 +1,4 @@
-"""The root of a tooth: straight on from the flank, then a round that touches the root circle.
-
-One tooth from root to tip: flank, round, and what it leaves of the circle at its tip.
-"""
+"""One tooth from root to tip: flank, the round at the root, and what it leaves of the circle at its tip."""
 
 from __future__ import annotations
 

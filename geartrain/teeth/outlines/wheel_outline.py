@@ -1,7 +1,4 @@
-"""What a maker says of a wheel beside its teeth: scale, root, bore, rim.
-
-A whole wheel, fit to be cut: teeth, roots the mate's tips do not touch, bore or rim.
-"""
+"""A whole wheel, fit to be cut: teeth, roots that the mate's tips do not touch, bore or rim, as its maker says."""
 
 from __future__ import annotations
 

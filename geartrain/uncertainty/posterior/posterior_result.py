@@ -1,7 +1,4 @@
-"""What is known of tooth counts once the outputs have spoken.
-
-Counts of two wheels together: how likely each two of them are once the outputs have spoken.
-"""
+"""What is known of tooth counts once the outputs have spoken, of each by itself and of two together."""
 
 from __future__ import annotations
 

@@ -10,19 +10,15 @@ import typer
 
 from geartrain.cli.common import (
     GOOD,
-    PICTURES,
     VERDICT,
     Force,
     Json,
     Out,
-    check_distinct_outputs,
     draw,
     emit,
     give,
-    sink,
 )
-from geartrain.cli.mesh.conjugate import outline_sink
-from geartrain.cli.mesh.conjugate_options import FormOptions, read_any_form
+from geartrain.cli.mesh.conjugate_options import FormOptions, read_any_form, read_module
 from geartrain.cli.mesh.form_options import (
     Backlash,
     Bore,
@@ -32,10 +28,12 @@ from geartrain.cli.mesh.form_options import (
     Profile,
     ProfiledWheel,
     form_command,
+    no_scale,
+    pair_sinks,
 )
 from geartrain.cli.option_values import at_option, quantity
 from geartrain.cli.option_values import friction as _friction
-from geartrain.errors import GearTrainError, Problem
+from geartrain.errors import GearTrainError
 
 if TYPE_CHECKING:
     from geartrain.teeth.gear_mesh import GearMesh
@@ -63,7 +61,6 @@ def _common(
 
 def command(form: str) -> Callable[..., None]:
     """The command of a form: the options all have, and its own."""
-
     return form_command(form, _common, _run, "Motion, losses and outlines")
 
 
@@ -83,9 +80,7 @@ def _run(
 ) -> None:
     from geartrain.report.gear_pairs import pair_data, pair_document
 
-    to, picture = sink(out, force, (".md", ".html", ".json")), sink(plot, force, PICTURES, "--plot")
-    outlined = outline_sink(profile, force)
-    check_distinct_outputs(to, outlined, picture)
+    to, picture, outlined = pair_sinks(out, plot, profile, force)
     mesh = _mesh(form, own, driver, given)
     if profile is not None:
         from geartrain.export import outline_text
@@ -104,10 +99,7 @@ def _mesh(form: str, own: FormOptions, driver: int, given: dict[str, Any]) -> Ge
     from geartrain.teeth.gear_mesh import MeshDriver, MeshingWheels
     from geartrain.train import GearPair
 
-    size = None if given["module"] is None else quantity("--module", given["module"], "length")
-    if size is not None and size <= 0:
-        what = f"a module of {given['module']} is no size"
-        raise GearTrainError(Problem(what, "", "give a module above 0", "--module"))
+    size = read_module(given["module"])
     teeth = given["teeth"]
     pair = GearPair(pair=("wheel 1", "wheel 2"))
     distance = None if size is None else size * sum(teeth) / 2
@@ -125,7 +117,6 @@ def _outline(mesh: GearMesh, wheel: int, bore: str | None) -> WheelOutline:
     from geartrain.teeth.outlines.wheel_outline import BlankSizes, mesh_outline
 
     if mesh.wheels.module is None:
-        why = "an outline is to scale, and nothing gives these wheels a size"
-        raise GearTrainError(Problem("there is no module", why, "give for example --module 2mm", "--module"))
+        raise no_scale()
     hole = None if bore is None else 1000 * quantity("--bore", bore, "length")
     return mesh_outline(mesh, wheel, BlankSizes(1000 * mesh.wheels.module, bore=hole))

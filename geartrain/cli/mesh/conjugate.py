@@ -11,17 +11,14 @@ import typer
 
 from geartrain.cli.common import (
     GOOD,
-    PICTURES,
     VERDICT,
     Force,
     Json,
     Out,
     Sink,
-    check_distinct_outputs,
     draw,
     emit,
     give,
-    sink,
 )
 from geartrain.cli.mesh.conjugate_options import (
     ConjugateOptions,
@@ -39,6 +36,8 @@ from geartrain.cli.mesh.form_options import (
     Profile,
     ProfiledWheel,
     form_command,
+    no_scale,
+    pair_sinks,
 )
 from geartrain.cli.option_values import friction as _friction
 from geartrain.cli.option_values import quantity
@@ -87,7 +86,6 @@ def _common(
 
 def command(form: str) -> Callable[..., None]:
     """The command of a form: the options all have, and its own."""
-
     return form_command(form, _common, _run, "Costs, faults and outlines")
 
 
@@ -108,9 +106,7 @@ def _run(
     from geartrain.report.conjugate_pair_page import shape_data, shape_document
     from geartrain.teeth.conjugate.conjugate_transmission import ConjugateTransmission
 
-    to, picture = sink(out, force, (".md", ".html", ".json")), sink(plot, force, PICTURES, "--plot")
-    outlined = outline_sink(profile, force)
-    check_distinct_outputs(to, outlined, picture)
+    to, picture, outlined = pair_sinks(out, plot, profile, force)
     asked = read_wheels(given["teeth"], given["internal"], given["bevel"], given["module"], given["backlash"])
     model = read_form(form, own, asked.backlash)
     found = pair(model, asked)
@@ -127,17 +123,6 @@ def _run(
 # ------------------------------------------------------------------------------------------------------------ outlines
 
 
-def outline_sink(profile: Path | None, force: bool) -> Sink:
-    """Where an outline goes; a file that there is not is refused before the work."""
-    from geartrain.export import OUTLINES
-
-    to = sink(profile, force, option="--profile")
-    if to.path is not None and to.suffix not in OUTLINES:
-        what = f"'{to.suffix}' is no form of outline"
-        raise GearTrainError(Problem(what, "", f"use {', '.join(OUTLINES)}", "--profile"))
-    return to
-
-
 def _cut(
     model: ConjugateToothForm,
     found: ConjugatePair,
@@ -151,8 +136,7 @@ def _cut(
     from geartrain.teeth.outlines.wheel_outline import outline
 
     if given["module"] is None:
-        why = "an outline is to scale, and nothing gives these wheels a size"
-        raise GearTrainError(Problem("there is no module", why, "give for example --module 2mm", "--module"))
+        raise no_scale()
     sizes = _sizes(given)
     if sizes.clearance is None and (free := _bottom_clearance(model, asked, wheel)) is not None:
         sizes = replace(sizes, clearance=free * sizes.module)

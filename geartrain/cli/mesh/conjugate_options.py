@@ -53,6 +53,14 @@ class ConjugateOptions:
         return found
 
 
+def read_module(module: str | None) -> float | None:
+    """The module (m), None if not given. Raises `GearTrainError`."""
+    size = None if module is None else quantity("--module", module, "length")
+    if size is not None and size <= 0:
+        raise GearTrainError(Problem(f"a module of {module} is no size", "", "give a module above 0", "--module"))
+    return size
+
+
 def read_wheels(
     teeth: tuple[int, int],
     internal: bool = False,
@@ -64,9 +72,7 @@ def read_wheels(
     if internal and bevel is not None:
         raise GearTrainError(Problem("a ring is no bevel wheel", _MIXED, "give --internal or --bevel", "--bevel"))
     angle = None if bevel is None else quantity("--bevel", bevel, "angle")
-    size = None if module is None else quantity("--module", module, "length")
-    if size is not None and size <= 0:
-        raise GearTrainError(Problem(f"a module of {module} is no size", "", "give a module above 0", "--module"))
+    size = read_module(module)
     if backlash is not None and quantity("--backlash", backlash, "length", plain=True) and size is None:
         _plain(backlash)
     asked = ConjugateOptions(*teeth, internal, angle, size, backlash)

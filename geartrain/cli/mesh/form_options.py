@@ -9,7 +9,9 @@ from typing import Annotated, Any
 
 import typer
 
+from geartrain.cli.common import PICTURES, Sink, check_distinct_outputs, sink
 from geartrain.cli.mesh.conjugate_options import own_options
+from geartrain.errors import GearTrainError, Problem
 
 Friction = Annotated[str, typer.Option("--friction", help="Coefficient of friction.")]
 Driver = Annotated[int, typer.Option("--driver", min=1, max=2, help="Which wheel drives, 1 or 2.")]
@@ -35,6 +37,25 @@ def form_command(form: str, common: Callable[..., None], run: Callable[..., None
     signed(command, [first, *own_parameters(form), *rest])
     command.__doc__ = f"{tells} of a pair with {form.replace('_', '-')} teeth."
     return command
+
+
+def pair_sinks(out: Path | None, plot: Path | None, profile: Path | None, force: bool) -> tuple[Sink, Sink, Sink]:
+    """Where the page, the picture and the outline of a pair go; what cannot be written is refused before the work."""
+    from geartrain.export import OUTLINES
+
+    to, picture = sink(out, force, (".md", ".html", ".json")), sink(plot, force, PICTURES, "--plot")
+    outlined = sink(profile, force, option="--profile")
+    if outlined.path is not None and outlined.suffix not in OUTLINES:
+        what = f"'{outlined.suffix}' is no form of outline"
+        raise GearTrainError(Problem(what, "", f"use {', '.join(OUTLINES)}", "--profile"))
+    check_distinct_outputs(to, outlined, picture)
+    return to, picture, outlined
+
+
+def no_scale() -> GearTrainError:
+    """What is said of an outline of wheels without a module."""
+    why = "an outline is to scale, and nothing gives these wheels a size"
+    return GearTrainError(Problem("there is no module", why, "give for example --module 2mm", "--module"))
 
 
 def own_parameters(form: str) -> list[Parameter]:

@@ -8,7 +8,9 @@ Fraction(2, 7)
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
+
+from geartrain.numerics.lazy_names import lazy_names
 
 if TYPE_CHECKING:
     from geartrain.analysis.gear_train import GearTrain as GearTrain
@@ -21,24 +23,17 @@ if TYPE_CHECKING:
 __version__ = "0.1.0"
 __all__ = ["Answer", "GearTrain", "GearTrainError", "Verdict", "__version__", "load", "shipped"]
 
-_HOMES = {
-    "Answer": "geartrain.kinematics.answer",
-    "GearTrain": "geartrain.analysis.gear_train",
-    "GearTrainError": "geartrain.errors",
-    "Verdict": "geartrain.kinematics.verdict",
-    "load": "geartrain.analysis.loader",
-    "shipped": "geartrain.train.declaration_files",
-}
-"""Where each public name lives; it is imported when it is first asked for, so that no command waits for all of them."""
-
-
-def __getattr__(name: str) -> Any:
-    if name not in _HOMES:
-        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    from importlib import import_module
-
-    found = globals()[name] = getattr(import_module(_HOMES[name]), name)
-    return found
+__getattr__ = lazy_names(
+    __name__,
+    {
+        "Answer": "kinematics.answer",
+        "GearTrain": "analysis.gear_train",
+        "GearTrainError": "errors",
+        "Verdict": "kinematics.verdict",
+        "load": "analysis.loader",
+        "shipped": "train.declaration_files",
+    },
+)
 
 
 def __dir__() -> list[str]:

@@ -10,8 +10,9 @@ needs a display or touches the state of pyplot.
 
 from __future__ import annotations
 
-from importlib import import_module
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
+
+from geartrain.numerics.lazy_names import lazy_names
 
 if TYPE_CHECKING:
     from geartrain.drawing.backend import render
@@ -82,8 +83,4 @@ _PLACES = {
     "transmission_figure": "pair_transmission",
 }
 
-
-def __getattr__(name: str) -> Any:
-    if name not in _PLACES:
-        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    return getattr(import_module(f"{__name__}.{_PLACES[name]}"), name)
+__getattr__ = lazy_names(__name__, _PLACES)

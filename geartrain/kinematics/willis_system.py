@@ -5,17 +5,18 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import Literal, NamedTuple
+from typing import NamedTuple
 
 from geartrain.kinematics.circuits import Circuit
 from geartrain.numerics.decimal_text import decimal, fraction_text
 from geartrain.train import StateCase
 
-RowKind = Literal["frame", "gear", "pin_and_slot", "pin_follower", "input", "fixed", "lock"]
-
 
 class WillisEquation(NamedTuple):
-    """One row: the sum of coefficient times speed over `terms` equals `right`."""
+    """One row: the sum of coefficient times speed over `terms` equals `right`.
+
+    kind   frame, input, fixed or lock, or the circuit's: gear, pin_and_slot, pin_follower
+    """
 
     label: str
     kind: str

@@ -14,5 +14,6 @@ chebyshev, polynomial_pieces         functions as series and as pieces of polyno
 quantity                             values with a unit, and the number as it was written
 arrays, labelled_array, named_arrays arrays with names on their axes; containers that cannot change
 files                                finished text and tables out, atomically
+lazy_names                           names of a package that are imported when they are asked for
 work                                 independent tasks, their journal, and what runs them
 """

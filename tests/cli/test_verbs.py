@@ -9,7 +9,7 @@ import sys
 import pytest
 from commands import call, functions
 
-BEHIND_VERSION = {"geartrain", "geartrain.cli", "geartrain.errors"}
+BEHIND_VERSION = {"geartrain", "geartrain.cli", "geartrain.errors", "geartrain.numerics"}
 BEHIND_SOLVE = {
     *BEHIND_VERSION,
     *("geartrain.analysis", "geartrain.kinematics", "geartrain.train", "geartrain.teeth", "geartrain.numerics"),
@@ -45,6 +45,7 @@ def verbs_in(modules: set[str]) -> set[str]:
 def test_the_version_is_told_by_the_shell_alone() -> None:
     modules = loaded("--version")
     assert rooms(modules) <= BEHIND_VERSION
+    assert {name for name in modules if name.startswith("geartrain.numerics.")} == {"geartrain.numerics.lazy_names"}
     assert not modules & {*HEAVY, "pydantic", "yaml"}
     assert verbs_in(modules) <= {"common", "exit_codes", "verbs"}
 

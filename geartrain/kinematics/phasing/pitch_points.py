@@ -19,7 +19,6 @@ if TYPE_CHECKING:
 
 
 EPS = 2 * UNIT_ROUNDOFF
-HALF = Fraction(1, 2)
 
 
 @dataclass(frozen=True)

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from geartrain.kinematics.speeds.exact_speeds import EXACT_BUDGET, Solution, exact_verdict, solve
 from geartrain.kinematics.speeds.mobility import Mobility, find_mobility
+from geartrain.numerics.lazy_names import lazy_names
 
 if TYPE_CHECKING:
     from geartrain.kinematics.speeds.float_speeds import FloatSpeeds, solve_floats
@@ -21,11 +22,5 @@ __all__ = [
     "solve_floats",
 ]
 
-
-def __getattr__(name: str) -> Any:
-    """The float path brings numpy and scipy, so it is imported when it is used."""
-    if name in ("FloatSpeeds", "solve_floats"):
-        from geartrain.kinematics.speeds import float_speeds as floats
-
-        return getattr(floats, name)
-    raise AttributeError(name)
+# the float path brings numpy and scipy
+__getattr__ = lazy_names(__name__, {"FloatSpeeds": "float_speeds", "solve_floats": "float_speeds"})

@@ -7,7 +7,7 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass
-from math import asin, cos, sin
+from math import cos, sin
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -138,11 +138,6 @@ def ray_end(psi: float, X: float) -> float:
 def circle_end(rho: float, X: float) -> float:
     """Distance d at which a cycloid's circle has travelled X."""
     return 2 * rho * sin(X / (2 * rho))
-
-
-def circle_angle(rho: float, d: float) -> float:
-    """Pressure angle of a cycloid's circle at d."""
-    return asin(d / (2 * rho))
 
 
 @dataclass(frozen=True)

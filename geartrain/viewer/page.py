@@ -24,13 +24,36 @@ _IN_SCRIPTS: dict[str, str | int | None] = {
 
 
 def page(scenes: Sequence[Scene], compare: bool = False, title: str | None = None, teeth: bool = True) -> str:
-    """HTML that shows one or more scenes, works from a file, and asks the network for nothing.
+    """One self-contained page of HTML that shows trains turning; it works from a file and asks the network for nothing.
 
-    compare   the first two scenes side by side, with one crank; else one is shown at a time
-    title     of the page; default the names of the trains
-    teeth     False draws plain discs until the reader wants teeth
+    Parameters
+    ----------
+    scenes : sequence of Scene
+        What is shown, one or more; without `compare` the reader chooses among them.
+    compare : bool
+        The first two scenes side by side, with one crank.
+    title : str, optional
+        Of the page; default the names of the trains.
+    teeth : bool
+        False draws plain discs until the reader wants teeth.
 
-    Raises `QuestionError` if there is no scene, or no second one to compare with.
+    Returns
+    -------
+    str
+        The whole document. No name in a train is read as HTML in it.
+
+    Raises
+    ------
+    QuestionError
+        If there is no scene, or `compare` has fewer than two.
+
+    Examples
+    --------
+    >>> import geartrain
+    >>> from geartrain.scene import make_scene
+    >>> html = page([make_scene(geartrain.load("planetary-24-18-60"))])
+    >>> html.startswith("<!doctype html>"), "http" in html.partition("<script")[0]
+    (True, False)
     """
     if len(scenes) < 1 + compare:
         raise QuestionError(Problem("too few scenes for a page", f"it was given {len(scenes)}", "give it one, or two"))

@@ -2,6 +2,6 @@
 
 from __future__ import annotations
 
-from geartrain.viewer.page import page
+from geartrain.viewer.viewer_page import page
 
 __all__ = ["page"]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib
 import os
 import re
 import subprocess
@@ -13,6 +14,7 @@ from urllib.parse import unquote, urlsplit
 
 import pytest
 import yaml
+from package.test_public_names import SHOWING
 from playwright.sync_api import Browser, Page
 
 ROOT = Path(__file__).parent.parent.parent
@@ -136,13 +138,11 @@ def test_the_reference_of_python_is_made_from_the_docstrings(site: Path) -> None
     text = (site / "api.html").read_text(encoding="utf-8")
     assert ":::" not in text
     names = Links(site / "api.html").ids
-    assert {
-        "geartrain.load",
-        "geartrain.GearTrain.solve",
-        "geartrain.scene.layout.lay_out",
-        "geartrain.scene.Scene",
-    } <= names
-    assert re.search(r"<li><code>centre</code>: middle of its pitch circle", text), "columns of docstrings are lists"
+    rooms = [f"geartrain.{room}" for room in SHOWING]
+    wanted = {f"{room}.{name}" for room in rooms for name in importlib.import_module(room).__all__}
+    assert wanted - names == set()
+    assert {"geartrain.analysis.load", "geartrain.analysis.GearTrain.solve", "geartrain.viewer.page"} <= names
+    assert re.search(r">Parameters:</span>", text), "sections of numpydoc are read"
 
 
 # ------------------------------------------------------------------------------------------------------- in a browser

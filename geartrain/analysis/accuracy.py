@@ -13,7 +13,7 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import partial
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, Final, Literal, NamedTuple
 
 from geartrain.analysis.gear_train import GearTrain
 from geartrain.errors import GearTrainError
@@ -25,7 +25,11 @@ if TYPE_CHECKING:
     from geartrain.kinematics.answer import Answer
     from geartrain.numerics.arrays import Floats
 
-SPEEDS, LAWS, MOTION, TORQUES = "speeds", "transmission functions", "motion", "torques"
+Stage = Literal["speeds", "transmission functions", "motion", "torques"]
+SPEEDS: Final = "speeds"
+LAWS: Final = "transmission functions"
+MOTION: Final = "motion"
+TORQUES: Final = "torques"
 TURNS = 20.0
 """Turns of the input over which motion is followed."""
 _NO_FORM = "no pair has a tooth form, and no pin its sizes"
@@ -43,11 +47,11 @@ class MethodAccuracy:
     reference  what the error was held against
     """
 
-    stage: str
+    stage: Stage
     method: str
     seconds: float
     error: float | None
-    unit: str
+    unit: Literal["relative", "pitches", "deg"]
     reference: str
     prepared: float | None = None
     ratio: float = 1.0
@@ -110,7 +114,7 @@ def find_accuracy(train: GearTrain, state: str | None = None, positions: int = 1
     >>> found.left_out["torques"]
     'no loads are declared'
     """
-    stages: dict[str, Callable[[], Iterator[MethodAccuracy]]] = {
+    stages: dict[Stage, Callable[[], Iterator[MethodAccuracy]]] = {
         SPEEDS: partial(_speeds, train, state),
         LAWS: partial(_laws, train, state, positions),
         MOTION: partial(_motion, train, state, positions),

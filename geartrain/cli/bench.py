@@ -22,12 +22,12 @@ def run(
     """Measure error against run time on a train: exact and float speeds, transmission functions, motion, torques."""
     from geartrain.analysis.accuracy import SPEEDS, find_accuracy
     from geartrain.analysis.loader import load
-    from geartrain.report.accuracy_report import accuracy_document
+    from geartrain.report.accuracy_report import AccuracyReport, describe_accuracy
 
     to = sink(out, force, (".md", ".html", ".json"))
     train = load(file)
     states = (state,) if state is not None else train.states or (None,)
-    found = [find_accuracy(train, name, positions) for name in states]
-    data = {"name": train.name, "title": train.declaration.title, "states": [each.to_dict() for each in found]}
-    give(to, json, lambda: data, lambda: [accuracy_document(found)])
-    raise typer.Exit(VERDICT if any(SPEEDS in each.left_out for each in found) else GOOD)
+    measured = tuple(find_accuracy(train, name, positions) for name in states)
+    found = AccuracyReport(train.name, train.declaration.title, measured)
+    give(to, json, lambda: found, lambda: [describe_accuracy(found)])
+    raise typer.Exit(VERDICT if any(SPEEDS in each.left_out for each in measured) else GOOD)

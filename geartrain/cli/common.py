@@ -203,7 +203,10 @@ def plural(count: int, noun: str) -> str:
 
 
 def as_json(data: Any) -> str:
-    """JSON as this command prints it; characters that a terminal would obey are escaped, as JSON does."""
+    """Results as this command prints them in JSON; characters that a terminal would obey are escaped, as JSON does."""
+    from geartrain.numerics.plain_data import plain
+
+    data = plain(data)
     text = json.dumps(data, indent=2, ensure_ascii=False, allow_nan=False)
     return text if printable(text) == text else json.dumps(data, indent=2, allow_nan=False)
 

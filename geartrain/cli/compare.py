@@ -19,11 +19,13 @@ def run(
     force: Force = False,
 ) -> None:
     """Put the outputs of several trains side by side, with their errors against the targets."""
-    from geartrain.report.reconstruction_comparison import compare_trains
-    from geartrain.report.train_data import train_data
+    from geartrain.report.reconstruction_comparison import describe_comparison
+    from geartrain.report.train_data import collect_report
 
     to = sink(out, force, (".md", ".html", ".json"))
     trains = load_all(files)
     sound = all(answer for train in trains for answer in train.answers())
-    give(to, json, lambda: [train_data(train) for train in trains], lambda: [compare_trains(trains, everything)])
+    give(
+        to, json, lambda: [collect_report(train) for train in trains], lambda: [describe_comparison(trains, everything)]
+    )
     raise typer.Exit(GOOD if sound else VERDICT)

@@ -36,7 +36,7 @@ def run(
     train = load(file)
     form = form or ("labels" if len(train.graph) <= graph.MOST_SQUARE else "edges")
     if form == "matrix":
-        text = as_json(graph.adjacency_matrix(train.graph).to_dict())
+        text = as_json(graph.adjacency_matrix(train.graph))
     elif form == "edges":
         table = Table(("link", "link", "joined by", "axis or pair"), graph.edge_rows(train.graph))
         text = to_markdown([Document(f"Edges of {train.name}", (), (Section("Edges", (), (table,)),))])

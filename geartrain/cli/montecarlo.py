@@ -117,9 +117,9 @@ def _check_extras(sobol: bool) -> None:
 
 
 def _answer(findings: MonteCarloResult, json: bool, to: Sink) -> None:
-    from geartrain.report.monte_carlo_report import trials_data, trials_document
+    from geartrain.report.monte_carlo_report import describe_monte_carlo
 
-    give(to, json, lambda: trials_data(findings), lambda: [trials_document(findings)])
+    give(to, json, lambda: findings, lambda: [describe_monte_carlo(findings)])
 
 
 class _StoppedError(Exception):

@@ -134,7 +134,7 @@ def _report(
                 raise
             stopped = True
     to = into[stopped]
-    give(to, json, lambda: collect_motion(asked, *of).to_dict(), lambda: [describe_motion(asked)])
+    give(to, json, lambda: collect_motion(asked, *of), lambda: [describe_motion(asked)])
     if stopped:
         tell(f"stopped after {asked.done} of {asked.samples} positions; the figures are of those")
         raise typer.Exit(INTERRUPTED)

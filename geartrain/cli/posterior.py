@@ -108,18 +108,18 @@ def run(
 
 
 def _answer(found: ToothCountPosterior, json: bool, to: Sink) -> None:
-    from geartrain.report.posterior_report import sweep_data, sweep_document, sweep_rows
+    from geartrain.report.posterior_report import describe_posterior, posterior_rows
 
     if to.suffix == ".csv":
-        emit(table_text(sweep_rows(found)), to)
+        emit(table_text(posterior_rows(found)), to)
     elif to.suffix == ".parquet":
-        _write_parquet(sweep_rows(found), to, {"train": found.name, "method": found.method})
+        _write_parquet(posterior_rows(found), to, {"train": found.name, "method": found.method})
     elif to.suffix == ".json":
-        emit(as_json(sweep_data(found)), to)
+        emit(as_json(found), to)
     elif not json or to.path is not None:
-        show([sweep_document(found)], to)
+        show([describe_posterior(found)], to)
     if json and to.suffix != ".json":
-        emit(as_json(sweep_data(found)))
+        emit(as_json(found))
     if found.cut:
         raise typer.Exit(INTERRUPTED)
     raise typer.Exit(GOOD if found.best else VERDICT)

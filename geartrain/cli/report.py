@@ -26,8 +26,8 @@ def run(
     A page of .html has pictures of the plan and the dials too, where the extra 'plot' is installed.
     """
     from geartrain.report.html_page import to_html
-    from geartrain.report.train_data import train_data
-    from geartrain.report.train_report import report_train
+    from geartrain.report.train_data import collect_report
+    from geartrain.report.train_report import describe_train
 
     to = sink(out, force, (".md", ".html", ".json"))
     if view and to.suffix != ".html":
@@ -35,19 +35,19 @@ def run(
     trains = load_all(files)
     good = all(is_sound(train, state) for train in trains for state in train.states or (None,))
     if json or to.suffix == ".json":
-        emit(as_json([train_data(train) for train in trains]), to)
+        emit(as_json([collect_report(train) for train in trains]), to)
     elif to.suffix == ".html":
         emit(to_html([_shared(train, view) for train in trains]), to)
     else:
-        show([report_train(train) for train in trains], to)
+        show([describe_train(train) for train in trains], to)
     raise typer.Exit(GOOD if good else VERDICT)
 
 
 def _shared(train: GearTrain, view: bool) -> Document:
-    from geartrain.report.shared_page import shared_document
+    from geartrain.report.shared_page import describe_shared_page
 
     pictures, notes = _pictures(train)
-    return shared_document(train, pictures, _viewer(train) if view else "", notes)
+    return describe_shared_page(train, pictures, _viewer(train) if view else "", notes)
 
 
 def _viewer(train: GearTrain) -> str:

@@ -35,7 +35,7 @@ def run(
     if json or to.suffix == ".json":
         from geartrain.report.train_data import collect_answers
 
-        emit(as_json(collect_answers(train, answers, whole=output is None).to_dict()), to)
+        emit(as_json(collect_answers(train, answers, whole=output is None)), to)
     else:
         emit("\n".join(_text(answer, output, train.bookkeeping) for answer in answers), to)
     raise typer.Exit(GOOD if all(answers) else VERDICT)

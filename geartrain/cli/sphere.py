@@ -81,7 +81,7 @@ def run(
 
         emit(as_yaml(to_train(configuration)), to)
     else:
-        give(to, json, lambda: found.to_dict(), lambda: [describe_sphere(found)])
+        give(to, json, lambda: found, lambda: [describe_sphere(found)])
     if plot is not None:
         _draw(found, picture)
     raise typer.Exit(GOOD if found.moves and (found.closure is None or found.closure) else VERDICT)
@@ -105,7 +105,7 @@ def _survey(json: bool, to: Sink) -> None:
         for name in SURVEYED:
             rows += survey_solids((name,))
             bar.advance()
-    give(to, json, lambda: [row.to_dict() for row in rows], lambda: [describe_survey(rows)])
+    give(to, json, lambda: rows, lambda: [describe_survey(rows)])
 
 
 def _suggest(configuration: Configuration, most: int, best: int, json: bool, to: Sink) -> None:
@@ -113,7 +113,7 @@ def _suggest(configuration: Configuration, most: int, best: int, json: bool, to:
     from geartrain.spherical.tooth_count_search import suggest_tooth_counts
 
     found = suggest_tooth_counts(configuration, most, best)
-    give(to, json, lambda: found.to_dict(), lambda: [describe_suggestions(found)])
+    give(to, json, lambda: found, lambda: [describe_suggestions(found)])
     raise typer.Exit(GOOD if len(found) else VERDICT)
 
 

@@ -52,7 +52,7 @@ def run(
     sound = all(each.verdict or each.verdict.kind == "unloaded" for each in found)
     if plot is not None:
         _draw(train, found, picture)
-    give(to, json, lambda: collect_torque_report(train, found).to_dict(), lambda: [describe_torques(train, found)])
+    give(to, json, lambda: collect_torque_report(train, found), lambda: [describe_torques(train, found)])
     raise typer.Exit(GOOD if sound else VERDICT)
 
 

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 from geartrain.analysis.accuracy import MethodAccuracy, TrainAccuracy
+from geartrain.numerics.plain_data import Result
 from geartrain.report.document import Document, Section, Table
 
 _LEAD = (
@@ -13,10 +15,19 @@ _LEAD = (
 )
 
 
-def accuracy_document(found: Sequence[TrainAccuracy]) -> Document:
+@dataclass(frozen=True, slots=True)
+class AccuracyReport(Result):
+    """Methods on a train in every state that was asked for."""
+
+    name: str
+    title: str
+    states: tuple[TrainAccuracy, ...]
+
+
+def describe_accuracy(found: AccuracyReport) -> Document:
     """A section for each state with a table of each stage, and what the train does not have."""
-    sections = [section for each in found for section in _sections(each)]
-    return Document(f"Error against run time: {found[0].train}", [_LEAD], sections)
+    sections = [section for each in found.states for section in _sections(each)]
+    return Document(f"Error against run time: {found.name}", [_LEAD], sections)
 
 
 def _sections(found: TrainAccuracy) -> list[Section]:

@@ -45,7 +45,7 @@ def _joined(rows: Sequence[AccountTable]) -> Table:
     return Table(rows[0].header, [each.row for each in rows], wide=rows[0].wide)
 
 
-def pair_document(mesh: GearMesh) -> Document:
+def describe_pair(mesh: GearMesh) -> Document:
     """A page on one pair, as its mesh tells of itself."""
     account = mesh.account()
     first, second = mesh.wheels.counts

@@ -7,7 +7,6 @@ no result holds together, and what commands add to a result.
 from __future__ import annotations
 
 from functools import cache
-from typing import Any, Literal
 
 from geartrain.report.json_shapes import Schema, shape_of
 
@@ -28,13 +27,6 @@ def _maybe(kind: Schema) -> Schema:
 def _has(keys: Schema, optional: Schema | None = None) -> Schema:
     """An object with all of these keys. `optional` ones are told of in docs/json.md; a later version may add others."""
     return {"type": "object", "required": list(keys), "properties": keys | (optional or {})}
-
-
-def _also(kind: Any, **kinds: Any) -> Schema:
-    """A result, with keys that a command adds to it or that may be null in its answer."""
-    shape = shape_of(kind)
-    properties = shape["properties"] | {key: shape_of(each) for key, each in kinds.items()}
-    return shape | {"properties": properties, "required": list(properties)}
 
 
 OBJECT: Schema = {"type": "object"}
@@ -148,8 +140,8 @@ def answers() -> dict[str, Schema]:
 
 
 def _of_trains() -> dict[str, Schema]:
-    from geartrain.analysis.accuracy import TrainAccuracy
     from geartrain.numerics.labelled_array import LabelledArray
+    from geartrain.report.accuracy_report import AccuracyReport
     from geartrain.report.motion_report import MotionFigures
     from geartrain.report.power_report import TorqueReport
     from geartrain.report.train_data import TrainAnswers, TrainReport
@@ -164,7 +156,7 @@ def _of_trains() -> dict[str, Schema]:
         "compare": _list(report),
         "torques": shape_of(TorqueReport),
         "motion": shape_of(MotionFigures),
-        "bench": _has({"name": TEXT, "title": TEXT, "states": shape_of(list[TrainAccuracy])}),
+        "bench": shape_of(AccuracyReport),
         "graph --as matrix": shape_of(LabelledArray),
         "graph --as json": _has({"directed": FLAG, "multigraph": FLAG, "graph": OBJECT, **edges}),
     }
@@ -194,18 +186,15 @@ def _of_tooth_numbers() -> dict[str, Schema]:
     from geartrain.synthesis.epicyclic.set_kinds import EpicyclicKind
     from geartrain.synthesis.orrery.orrery_result import Orrery
     from geartrain.synthesis.ratio.stage_search import StageFindings
-    from geartrain.synthesis.stern_brocot import Approximant
-    from geartrain.synthesis.target_ratio import TargetRatio
-    from geartrain.synthesis.train.train_findings import Standing, TrainFindings
+    from geartrain.synthesis.stern_brocot import Approximants
+    from geartrain.synthesis.train.train_findings import TrainFindings
 
-    ended = Literal["whole", "interrupted"]
-    wanted = {"wanted": shape_of(TargetRatio), "most": COUNT, "solutions": shape_of(list[Approximant])}
     return {
-        "teeth ratio": _also(StageFindings, tolerance=float | None, count=int | None, ended=ended),
-        "teeth approximants": _has(wanted),
+        "teeth ratio": shape_of(StageFindings),
+        "teeth approximants": shape_of(Approximants),
         "teeth set": shape_of(SetFindings),
         "teeth set --kind list": shape_of(dict[str, EpicyclicKind]),
-        "teeth train": _also(TrainFindings, where=list[Standing], ended=ended),
+        "teeth train": shape_of(TrainFindings),
         "teeth orrery": shape_of(Orrery),
     }
 

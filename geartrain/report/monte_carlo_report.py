@@ -19,18 +19,13 @@ if TYPE_CHECKING:
     )
 
 
-def trials_document(found: MonteCarloResult) -> Document:
+def describe_monte_carlo(found: MonteCarloResult) -> Document:
     """Everything that was found, assumptions first."""
     trials = found.trials
     lead = [f"{trials.done} trials, seed {trials.seed}; intervals hold with 95 %.", *found.assumptions]
     if not trials.complete:
         lead.insert(0, f"PARTIAL: stopped after {trials.done} of {trials.wanted} trials.")
     return Document(f"Cut by hand: {trials.plan.name}", lead, list(_sections(found)))
-
-
-def trials_data(found: MonteCarloResult) -> dict[str, Any]:
-    """The same as plain data with stable keys."""
-    return found.to_dict()
 
 
 def _sections(found: MonteCarloResult) -> Iterator[Section]:

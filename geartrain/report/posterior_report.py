@@ -26,12 +26,7 @@ _OUTPUTS = 4
 _DECIDED = ("output", "mean speed", "standard deviation", "decided by")
 
 
-def sweep_data(found: ToothCountPosterior) -> dict[str, Any]:
-    """Plain data for JSON."""
-    return found.to_dict()
-
-
-def sweep_rows(found: ToothCountPosterior) -> list[dict[str, Any]]:
+def posterior_rows(found: ToothCountPosterior) -> list[dict[str, Any]]:
     """The combinations listed, as a flat table: counts, then the speed and the error of every output."""
     return [
         {
@@ -45,7 +40,7 @@ def sweep_rows(found: ToothCountPosterior) -> list[dict[str, Any]]:
     ]
 
 
-def sweep_document(found: ToothCountPosterior) -> Document:
+def describe_posterior(found: ToothCountPosterior) -> Document:
     """Everything a sweep found."""
     return Document(f"Counts in doubt of {found.name}", list(_lead(found)), list(_sections(found)))
 

@@ -10,7 +10,7 @@ from geartrain.kinematics.judged_outputs import TargetResult
 from geartrain.report.document import Document, ExactText, Section, Table, exact, figure, ppm
 
 
-def compare_trains(trains: Sequence[GearTrain], everything: bool = False) -> Document:
+def describe_comparison(trains: Sequence[GearTrain], everything: bool = False) -> Document:
     """The outputs of several trains in columns: speeds, errors against targets, and tooth counts that differ.
 
     Only pointers (outputs with a dial or a target) are compared where there are any, unless `everything` is asked.

@@ -17,18 +17,18 @@ from geartrain.report.document import (
     cut,
     filled_table,
 )
-from geartrain.report.train_report import report_train, source_line
+from geartrain.report.train_report import describe_train, source_line
 from geartrain.train import Train
 
 
-def shared_document(
+def describe_shared_page(
     train: GearTrain, pictures: Sequence[Picture] = (), viewer: str = "", notes: Sequence[str] = ()
 ) -> Document:
     """The report on `train` with all that a page has room for; sources stand at its end instead of its lead.
 
     `viewer` is a whole HTML page, embedded as it is; `notes` are remarks on the page, below the lead.
     """
-    document, declared = report_train(train), train.declaration
+    document, declared = describe_train(train), train.declaration
     cited = {source_line(key, source) for key, source in declared.sources.items()}
     badge, sound = _badge(train)
     aside = PageExtras(

@@ -9,12 +9,12 @@ from typing import TYPE_CHECKING, Any
 from geartrain.report.document import Document, Section, Table, cut, exact, figure
 
 if TYPE_CHECKING:
-    from geartrain.synthesis.epicyclic.epicyclic_sets import EpicyclicSet, SetFindings
+    from geartrain.synthesis.epicyclic.epicyclic_sets import SetFindings
     from geartrain.synthesis.epicyclic.set_kinds import EpicyclicKind
     from geartrain.synthesis.orrery.orrery_result import Orrery
     from geartrain.synthesis.ratio.stage_search import StageFindings
     from geartrain.synthesis.search_outcome import GearStages, Shortfall
-    from geartrain.synthesis.stern_brocot import Approximant
+    from geartrain.synthesis.stern_brocot import Approximants
     from geartrain.synthesis.target_ratio import TargetRatio
     from geartrain.synthesis.train.train_findings import Assignment, PartFindings, Standing, TrainFindings
 
@@ -28,39 +28,39 @@ def error_text(value: Fraction) -> str:
     return f"{float(value) * 100:+.6g} %"
 
 
-def stages_row(found: GearStages) -> dict[str, Any]:
-    """One solution as a row of a flat table."""
-    return {
-        "top": "*".join(map(str, found.top)),
-        "beneath": "*".join(map(str, found.beneath)),
-        "ratio": str(found.ratio),
-        "value": float(found.ratio),
-        "error": float(found.error),
-        "stages": " ".join(f"{a}/{b}" for a, b in found.pairs),
-        "total": sum(found.teeth),
-        "largest": max(found.teeth),
-        "distinct": len(set(found.teeth)),
-    }
+def stage_rows(found: StageFindings) -> list[dict[str, Any]]:
+    """The solutions as a flat table."""
+    return [
+        {
+            "top": _product(one.top),
+            "beneath": _product(one.beneath),
+            "ratio": str(one.ratio),
+            "value": float(one.ratio),
+            "error": float(one.error),
+            "stages": " ".join(f"{a}/{b}" for a, b in one.pairs),
+            "total": one.total,
+            "largest": one.largest,
+            "distinct": one.distinct,
+        }
+        for one in found
+    ]
 
 
-def stages_document(found: StageFindings) -> Document:
+def _product(counts: Sequence[int]) -> str:
+    return "*".join(map(str, counts))
+
+
+def describe_stages(found: StageFindings) -> Document:
     """Solutions of a ratio by stages."""
     lead = [_wanted(found.wanted), *([f"{found.note[0].upper()}{found.note[1:]}."] if found.note else [])]
-    whole = "every one was looked at" if found.complete else "not all of them were looked at"
-    lead.append(
-        f"{found.count} of {figure(float(found.considered), 4)} pairs of sets are within "
-        f"{figure(float(found.tolerance), 4)}; {whole}."
-    )
+    if found.tolerance is not None:
+        whole = "every one was looked at" if found.complete else "not all of them were looked at"
+        lead.append(
+            f"{found.count} of {figure(float(found.considered), 4)} pairs of sets are within "
+            f"{figure(float(found.tolerance), 4)}; {whole}."
+        )
     sections = [_solutions(found.solutions)] if found.solutions else []
     return Document(f"Tooth numbers for {found.wanted.label}", lead, [*sections, *_shortfall(found.shortfall)])
-
-
-def pairs_document(wanted: TargetRatio, solutions: Sequence[GearStages], count: int | None) -> Document:
-    """Solutions of a ratio by one pair."""
-    lead = [_wanted(wanted)]
-    if count is not None:
-        lead.append(f"{count} pairs are within the tolerance.")
-    return Document(f"Tooth numbers for {wanted.label}", lead, [_solutions(solutions)] if solutions else [])
 
 
 def _wanted(wanted: TargetRatio) -> str:
@@ -71,23 +71,24 @@ def _wanted(wanted: TargetRatio) -> str:
 def _solutions(solutions: Sequence[GearStages]) -> Section:
     rows = [
         (
-            "*".join(map(str, one.top)) + " / " + "*".join(map(str, one.beneath)),
+            f"{_product(one.top)} / {_product(one.beneath)}",
             exact(one.ratio),
             figure(one.ratio, 12),
             error_text(one.error),
             "  ".join(f"{a}/{b}" for a, b in one.pairs),
-            str(sum(one.teeth)),
+            str(one.total),
         )
         for one in solutions
     ]
     return Section("Solutions", (), [Table(("teeth", "ratio", "decimal", "error", "stages", "sum"), cut(rows))])
 
 
-def approximants_document(wanted: TargetRatio, most: int, found: Sequence[Approximant]) -> Document:
+def describe_approximants(found: Approximants) -> Document:
     """The fractions on the way to a ratio."""
-    rows = [(exact(one.value), figure(one.value, 12), one.kind, error_text(one.error)) for one in found]
+    wanted = found.wanted
+    rows = [(exact(one.value), figure(one.value, 12), one.kind, error_text(one.error)) for one in found.solutions]
     table = Table(("fraction", "decimal", "kind", "error"), cut(rows))
-    lead = [_wanted(wanted), f"Numerators and denominators up to {most}."]
+    lead = [_wanted(wanted), f"Numerators and denominators up to {found.most}."]
     return Document(f"Fractions on the way to {wanted.label}", lead, [Section("Fractions", (), [table])])
 
 
@@ -113,13 +114,13 @@ def assignment_rows(found: TrainFindings) -> list[dict[str, Any]]:
     ]
 
 
-def assignments_document(found: TrainFindings, standings: Sequence[Standing] = ()) -> Document:
+def describe_assignments(found: TrainFindings) -> Document:
     """What was found for the free wheels of a train, part by part."""
     lead = [f"{figure(float(found.count), 6)} assignments of {', '.join(found.wheels)} meet everything."]
     lead += [f"{remark[0].upper()}{remark[1:]}." for remark in found.remarks]
     sections = [section for part in found.parts for section in _part(part)]
-    if standings:
-        sections.append(_standings(standings))
+    if found.where:
+        sections.append(_standings(found.where))
     return Document(f"Tooth numbers of {found.name}", lead, sections)
 
 
@@ -173,19 +174,22 @@ def _standings(standings: Sequence[Standing]) -> Section:
 # ---------------------------------------------------------------------------------------------------- epicyclic sets
 
 
-def set_row(found: EpicyclicSet) -> dict[str, Any]:
-    """One set as a row of a flat table."""
-    return {
-        "mode": found.mode.key,
-        **found.teeth,
-        "input/output": str(found.ratio),
-        "error": float(found.error),
-        "places": found.places,
-        "room": found.room,
-    }
+def set_rows(found: SetFindings) -> list[dict[str, Any]]:
+    """The sets as a flat table."""
+    return [
+        {
+            "mode": one.mode.key,
+            **one.teeth,
+            "input/output": str(one.ratio),
+            "error": float(one.error),
+            "places": one.places,
+            "room": one.room,
+        }
+        for one in found.solutions
+    ]
 
 
-def sets_document(found: SetFindings) -> Document:
+def describe_sets(found: SetFindings) -> Document:
     """Epicyclic sets for a ratio."""
     lead = [
         f"Wanted: {found.ratio_is} = {exact(found.wanted)} = {figure(found.wanted, 10)}, in any sense unless asked.",
@@ -210,7 +214,7 @@ def sets_document(found: SetFindings) -> Document:
     return Document(f"Sets of the kind {found.kind}", lead, [*sections, *_shortfall(found.shortfall)])
 
 
-def kinds_document(kinds: Mapping[str, EpicyclicKind]) -> Document:
+def describe_set_kinds(kinds: Mapping[str, EpicyclicKind]) -> Document:
     """The kinds of epicyclic sets."""
     rows = [
         (kind.name, kind.title, ", ".join(kind.wheels), str(len(kind.modes)), kind.modes[0].key)
@@ -228,12 +232,13 @@ def orrery_rows(found: Orrery) -> list[dict[str, Any]]:
     return [pair.to_dict() for pair in found.pairs]
 
 
-def orrery_document(found: Orrery) -> Document:
+def describe_orrery(found: Orrery) -> Document:
     """An orrery: its pairs, what each arbor shows, what is proved."""
     proof = "proved to be the fewest" if found.complete else f"at least {found.least_wheels} are needed"
+    ended = "an interrupt" if found.ended == "interrupted" else found.ended
     lead = [
         f"{found.wheels} wheels in {len(found.pairs)} pairs; {proof}, and at least {found.least_pairs} pairs.",
-        f"Greatest error {error_text(max(found.errors.values(), key=abs))}. The search ended by {found.ended}.",
+        f"Greatest error {error_text(max(found.errors.values(), key=abs))}. The search ended by {ended}.",
     ]
     shown = {arbor.name: arbor for arbor in found.arbors}
     rows = [

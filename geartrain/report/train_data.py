@@ -98,11 +98,6 @@ class TrainReport(TrainAnswers):
     errata: tuple[Erratum, ...]
 
 
-def train_data(train: GearTrain) -> dict[str, Any]:
-    """Everything a report holds, as plain data."""
-    return collect_report(train).to_dict()
-
-
 def collect_report(train: GearTrain) -> TrainReport:
     """Everything a report holds: answers, structure, teeth, torques, motion, doubts and errata."""
     from geartrain.kinematics.graph import adjacency_labels

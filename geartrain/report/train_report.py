@@ -21,7 +21,7 @@ from geartrain.train import Source, Train, Wheel
 _CIRCUITS_ABREAST = 6
 
 
-def report_train(train: GearTrain) -> Document:
+def describe_train(train: GearTrain) -> Document:
     """Structure, circuits, mobility, speeds, outputs, doubts and errata of one train."""
     declared = train.declaration
     answers = tuple(train.answers())

@@ -17,6 +17,7 @@ from typing import Literal
 from geartrain.errors import Problem, QuestionError, RangeError
 from geartrain.numerics.exact import coprime
 from geartrain.numerics.plain_data import Key, Result
+from geartrain.synthesis.target_ratio import TargetRatio
 
 ApproximantKind = Literal["convergent", "best", "intermediate"]
 IntegerPair = tuple[int, int]
@@ -40,6 +41,20 @@ class Approximant(Result):
     value: Fraction
     error: Fraction
     kind: ApproximantKind
+
+
+@dataclass(frozen=True, slots=True)
+class Approximants(Result):
+    """The fractions on the way to a ratio, each nearer than all smaller ones.
+
+    wanted     the ratio
+    most       the greatest numerator and denominator
+    solutions  in the order of the walk
+    """
+
+    wanted: TargetRatio
+    most: int
+    solutions: tuple[Approximant, ...]
 
 
 @dataclass(frozen=True, slots=True)

@@ -443,18 +443,18 @@ def titles(document: Document) -> list[str]:
 
 
 def test_a_report_tells_of_torques_in_loaded_states_only() -> None:
-    from geartrain.report.train_data import train_data
-    from geartrain.report.train_report import report_train
+    from geartrain.report.train_data import collect_report
+    from geartrain.report.train_report import describe_train
 
     train = load(SPLIT)
-    found = [title for title in titles(report_train(train)) if "torques" in title or "power" in title]
+    found = [title for title in titles(describe_train(train)) if "torques" in title or "power" in title]
     assert found == [f"State {s}: {what}" for s in ("cruising", "boost") for what in ("torques", "flow of power")]
-    assert [each["state"] for each in train_data(train)["torques"]] == ["cruising", "boost"]
+    assert [each["state"] for each in collect_report(train).to_dict()["torques"]] == ["cruising", "boost"]
     bare = load("prius-power-split")
-    assert not [title for title in titles(report_train(bare)) if "orque" in title]
-    assert train_data(bare)["torques"] == []
+    assert not [title for title in titles(describe_train(bare)) if "orque" in title]
+    assert collect_report(bare).to_dict()["torques"] == []
     only_rubbing = load("extends: planetary-24-18-60\nlinks: {carrier: {bearing: 1 N m}}\n")
-    assert "Torques" in titles(report_train(only_rubbing))
+    assert "Torques" in titles(describe_train(only_rubbing))
 
 
 def test_a_report_on_a_train_that_locks_itself_is_still_sound(tmp_path: Path) -> None:
@@ -628,10 +628,10 @@ def fresh(code: str, *arguments: object) -> subprocess.CompletedProcess[str]:
 def test_a_report_without_loads_imports_nothing_of_torques() -> None:
     code = """
 import sys, geartrain
-from geartrain.report.train_data import train_data
-from geartrain.report.train_report import report_train
+from geartrain.report.train_data import collect_report
+from geartrain.report.train_report import describe_train
 train = geartrain.load(sys.argv[1])
-report_train(train), train_data(train)
+describe_train(train), collect_report(train).to_dict()
 print(any(name.startswith("geartrain.dynamics.torques") for name in sys.modules), "numpy" in sys.modules)
 """
     assert fresh(code, "planetary").stdout.split() == ["False", "False"]

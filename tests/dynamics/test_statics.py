@@ -23,7 +23,7 @@ from geartrain import GearTrain, load
 from geartrain.dynamics.torques import Torques
 from geartrain.report.power_report import collect_torques, describe_torques
 from geartrain.report.text import to_markdown
-from geartrain.report.train_report import report_train
+from geartrain.report.train_report import describe_train
 
 AXLE = """
 links:
@@ -288,7 +288,7 @@ def test_a_closed_clutch_and_a_brake_show_what_they_carry(tmp_path: Path) -> Non
     page = to_markdown([describe_torques(train, [found])])
     assert "| lock K  | a, b | -200         | 200           |" in page
     assert "| brake S | c    | -30          |               |" in page
-    assert "lock K" in to_markdown([report_train(train)])
+    assert "lock K" in to_markdown([describe_train(train)])
     data = collect_torques(train, found).to_dict()
     assert data["held"] == [
         {"links": ["c"], "clutch": "S", "cause": None, "torques": {"c": -30.0}},

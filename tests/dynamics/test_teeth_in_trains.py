@@ -106,8 +106,8 @@ def test_a_train_without_teeth_or_pins_imports_nothing_for_them() -> None:
     code = """
 import sys
 from geartrain import load
-from geartrain.report.train_data import train_data
-data = train_data(load("pennestri-2002"))
+from geartrain.report.train_data import collect_report
+data = collect_report(load("pennestri-2002")).to_dict()
 assert data["teeth"] == data["pins"] == []
 heavy = ("numpy", "scipy", "geartrain.teeth.triangular.triangular_transmission", "geartrain.teeth.pin_transmission")
 print([name for name in sys.modules if name in heavy])

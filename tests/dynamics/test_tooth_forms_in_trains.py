@@ -23,8 +23,8 @@ import geartrain.dynamics.motion
 from geartrain import GearTrain, GearTrainError, load
 from geartrain.dynamics.motion import MotionRun
 from geartrain.report.text import to_markdown
-from geartrain.report.train_data import train_data
-from geartrain.report.train_report import report_train
+from geartrain.report.train_data import collect_report
+from geartrain.report.train_report import describe_train
 from geartrain.teeth.conjugate.conjugate_mesh import ConjugateMesh
 from geartrain.teeth.conjugate.conjugate_transmission import ConjugateTransmission
 from geartrain.teeth.gear_mesh import GearMesh
@@ -201,7 +201,7 @@ def test_teeth_that_cannot_run_fail_check_and_report_with_what_would_fit(
         assert f"FAIL {path}:9: pair 'p~w' (gear 1 is 'p', gear 2 'w'): {fault.what}; {fault.why}; {fault.fix}" in line
         assert problem.fix
     assert call("report", path).exit_code == 1
-    assert mesh.faults[0].what in to_markdown([report_train(load(path))])
+    assert mesh.faults[0].what in to_markdown([describe_train(load(path))])
     (data,) = json.loads(call("report", path, "--json").output)[0]["teeth"]
     assert data["verdict"]["kind"] == mesh.verdict.kind
     assert [fault["fix"] for fault in data["verdict"]["faults"]] == [fault.fix for fault in mesh.verdict.faults]
@@ -308,7 +308,7 @@ def test_teeth_at_another_distance_than_their_own_bring_their_law_to_the_motion(
     b, c = run.tallies
     assert b.peak_to_peak == pytest.approx(high - low, rel=2e-3)
     assert c.peak_to_peak == pytest.approx((high - low) * 24 / 36, rel=2e-3)
-    (data,) = train_data(train)["teeth"]
+    (data,) = collect_report(train).to_dict()["teeth"]
     assert data["transmission_error"]["peak_to_peak"] == high - low
 
 
@@ -329,9 +329,9 @@ def test_a_page_names_the_pairs_that_keep_their_ratio_and_follows_none(monkeypat
 
     monkeypatch.setattr(geartrain.dynamics.motion, "MotionRun", forbidden)
     train = load("longcase-clock-cycloidal")
-    page = to_markdown([report_train(train)])
+    page = to_markdown([describe_train(train)])
     assert "add nothing to any motion: g96~c8, c60~t8, t56~e7, cannon~mw40, mw6~h72 (cycloidal)" in page
-    assert train_data(train)["motion"] == []
+    assert collect_report(train).to_dict()["motion"] == []
 
 
 def test_the_motion_of_a_train_where_nothing_ripples_can_be_asked_for_everything() -> None:
@@ -519,10 +519,10 @@ def test_the_mill_turns_as_its_counts_say_with_its_wheels_at_right_angles() -> N
 
 def test_a_mixed_train_shows_each_family_in_its_own_table() -> None:
     train = load(CHAIN.format(first=INVOLUTE, second=RIPPLING) + "friction: 0.1\n")
-    page = to_markdown([report_train(train)])
+    page = to_markdown([describe_train(train)])
     assert "Triangular teeth, each pair" in page
     assert "Conjugate teeth keep the ratio" in page
-    conjugate, triangular = train_data(train)["teeth"]
+    conjugate, triangular = collect_report(train).to_dict()["teeth"]
     assert (conjugate["form"], triangular["form"]) == ("involute", "triangular")
     assert conjugate["transmission_error"]["peak_to_peak"] == 0
     reach = sum(sqrt((R + 1) ** 2 - (R * cos(ALPHA)) ** 2) - R * sin(ALPHA) for R in (10, 30))
@@ -562,8 +562,8 @@ from geartrain import load
 train = load("planetary-24-18-60-involute")
 train.solve()
 assert "numpy" not in sys.modules
-from geartrain.report.train_data import train_data
-train_data(train)
+from geartrain.report.train_data import collect_report
+collect_report(train).to_dict()
 heavy = ("scipy", "matplotlib", "jinja2", "geartrain.teeth.triangular.triangular_transmission")
 print([name for name in heavy if name in sys.modules])
 """

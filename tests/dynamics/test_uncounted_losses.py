@@ -22,7 +22,7 @@ from hypothesis import strategies as st
 from geartrain import load
 from geartrain.report.power_report import collect_torques, describe_torques
 from geartrain.report.text import to_markdown
-from geartrain.report.train_report import report_train
+from geartrain.report.train_report import describe_train
 from geartrain.teeth.pin_transmission import PinToSlotTransmission, SlotToPinTransmission
 
 PIN = """
@@ -138,7 +138,7 @@ def test_friction_of_a_pin_that_is_not_counted_is_named_wherever_the_result_is_t
     assert what in why
     page = to_markdown([describe_torques(train, [found])])
     assert "Left out: friction of pins (P): " in page
-    assert "Left out: friction of pins (P): " in to_markdown([report_train(train)])
+    assert "Left out: friction of pins (P): " in to_markdown([describe_train(train)])
     data = collect_torques(train, found).to_dict()
     assert data["left_out"][0] == {"what": "friction of pins", "where": ["P"], "why": why}
     if found.efficiency is not None:

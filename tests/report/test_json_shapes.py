@@ -228,6 +228,9 @@ def test_what_is_derived_is_as_strict_as_what_was_written_by_hand() -> None:
     assert verdict["required"] == ["kind", "text", "links", "fixes", "prescriptions", "loops"]
     assert verdict["properties"]["kind"] == {"enum": ["determined", "free", "locked", "contradictory"]}
     assert verdict["properties"]["loops"]["items"]["properties"] == {"carrier": text, **loop, "product": text}
+    methods = answers()["bench"]["properties"]["states"]["items"]["properties"]["methods"]["items"]["properties"]
+    assert methods["stage"]["enum"] == ["speeds", "transmission functions", "motion", "torques"]
+    assert methods["unit"]["enum"] == ["relative", "pitches", "deg"]
     speeds = answers()["solve"]["properties"]["states"]["items"]["properties"]["speeds"]
     assert speeds["additionalProperties"]["required"] == ["exact", "value"]
     assert set(speeds["additionalProperties"]["properties"]) == {"exact", "value", "decimal", "estimate", "true_error"}

@@ -23,9 +23,9 @@ from rich.console import Console
 
 from geartrain import load, shipped
 from geartrain.report.html_page import to_html
-from geartrain.report.reconstruction_comparison import compare_trains
+from geartrain.report.reconstruction_comparison import describe_comparison
 from geartrain.report.text import to_markdown, to_terminal
-from geartrain.report.train_report import report_train
+from geartrain.report.train_report import describe_train
 
 Rows = list[list[str]]
 SCRIPT = (ROOT / "geartrain" / "report" / "page.js").read_text(encoding="utf-8")
@@ -190,7 +190,7 @@ def test_the_mobility_of_the_report_is_nineteen_less_eighteen(paper: str) -> Non
 
 @pytest.mark.parametrize("name", shipped())
 def test_html_and_markdown_of_a_report_hold_the_same_tables(name: str) -> None:
-    document = report_train(load(name))
+    document = describe_train(load(name))
     page, text = Page(to_html([document])), to_markdown([document])
     assert page.tables == markdown_tables(text)
     assert page.headings == headings(text)
@@ -209,7 +209,7 @@ def test_what_an_author_writes_can_neither_run_in_a_page_nor_break_a_table(tmp_p
         'inputs: {"a|b": 1}\n',
         encoding="utf-8",
     )
-    document = report_train(load(path))
+    document = describe_train(load(path))
     page, text = Page(to_html([document])), to_markdown([document])
     assert page.outside == []
     assert page.headings[0] == "<script>alert(1)</script> & | <b>"
@@ -229,7 +229,7 @@ def test_a_note_of_several_lines_stays_within_its_cell(tmp_path: Path) -> None:
         'errata: [{place: p, printed: 1, right: 2, why: "because\\nof this"}]\n',
         encoding="utf-8",
     )
-    text = to_markdown([report_train(load(path))])
+    text = to_markdown([describe_train(load(path))])
     assert [row[0] for row in section(text, "Structure")[0]] == ["link", "frame", "a", "c"]
     assert len(section(text, "Errata of the sources")[0]) == 2
 
@@ -399,7 +399,7 @@ def test_the_errors_compared_are_speed_over_target_less_one() -> None:
         periods = {row["name"]: row for row in csv.DictReader(source)}
     year = Fraction(periods["year_tropical_J2000"]["value"])
     trains = [load(name) for name in ("price-1974", "freeth-2008")]
-    (table,) = section(to_markdown([compare_trains(trains)]), "Error against the targets in ppm")
+    (table,) = section(to_markdown([describe_comparison(trains)]), "Error against the targets in ppm")
     checked = 0
     for row in table[1:]:
         output, label = row[0].removesuffix(" (magnitude)").split(": ", 1)
@@ -458,7 +458,7 @@ def test_only_the_games_pointer_turns_anticlockwise_for_who_reads_the_back(name:
 
 def terminal(name: str, width: int) -> str:
     console = Console(file=io.StringIO(), width=width, color_system=None)
-    to_terminal([report_train(load(name))], console)
+    to_terminal([describe_train(load(name))], console)
     assert isinstance(console.file, io.StringIO)
     return console.file.getvalue()
 

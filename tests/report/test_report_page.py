@@ -16,10 +16,10 @@ from commands import LOCKED, call, without
 from geartrain import GearTrainError, load
 from geartrain.report.document import Picture
 from geartrain.report.html_page import inline, is_web, to_html
-from geartrain.report.reconstruction_comparison import compare_trains
-from geartrain.report.shared_page import shared_document
+from geartrain.report.reconstruction_comparison import describe_comparison
+from geartrain.report.shared_page import describe_shared_page
 from geartrain.report.text import to_markdown
-from geartrain.report.train_report import report_train
+from geartrain.report.train_report import describe_train
 
 SVG = (
     '<?xml version="1.0"?><!DOCTYPE svg><svg xmlns="http://www.w3.org/2000/svg" width="10pt" height="5pt" '
@@ -65,7 +65,7 @@ class Read(HTMLParser):
 
 
 def page_of(*names: str, pictures: tuple[Picture, ...] = (), viewer: str = "") -> Read:
-    return Read(to_html([shared_document(load(name), pictures, viewer) for name in names]))
+    return Read(to_html([describe_shared_page(load(name), pictures, viewer) for name in names]))
 
 
 @pytest.mark.parametrize("names", [("freeth-2021",), ("zf-8hp70", "worm", "worm")])
@@ -81,7 +81,7 @@ def test_every_link_of_the_contents_leads_to_one_place_of_the_page(names: tuple[
 
 def test_the_badge_tells_the_worst_that_is_known_of_a_train(train_file: Callable[..., Path]) -> None:
     def badge(text: str) -> str:
-        shown = to_html([shared_document(load(train_file(text)))])
+        shown = to_html([describe_shared_page(load(train_file(text)))])
         found = re.search(r'<div class="badge( bad)?">(.*?)</div>', shown)
         assert found
         return ("BAD " if found[1] else "") + found[2]
@@ -104,11 +104,11 @@ def test_exact_values_can_be_copied_whole_where_they_are_shortened(train_file: C
     train = load(train_file(text))
     speed = str(train.solve()["c7"])
     assert len(speed) > 100
-    page = Read(to_html([shared_document(train)]))
+    page = Read(to_html([describe_shared_page(train)]))
     assert speed in {attrs.get("data-exact") for attrs in page.all("td")}
     assert speed not in page.text
     assert "digits)/(" in page.text
-    compared = Read(to_html([compare_trains([load("freeth-2008"), load("price-1974")])]))
+    compared = Read(to_html([describe_comparison([load("freeth-2008"), load("price-1974")])]))
     assert {"254/19", "-254/19"} <= {attrs.get("data-exact") for attrs in compared.all("td")}
 
 
@@ -123,7 +123,7 @@ def test_sources_stand_at_the_end_and_wheels_lead_to_them(train_file: Callable[.
           wheel: {wheels: {extra: {teeth: 30, source: good, status: surviving, note: "<b>worn</b>"}}}
         """
     )
-    page = Read(to_html([shared_document(load(path))]))
+    page = Read(to_html([describe_shared_page(load(path))]))
     links = [attrs["href"] for attrs in page.all("a")]
     assert "https://example.org/a?b=1&c=2" in links
     assert all(link.startswith(("#", "https://")) for link in links)
@@ -132,7 +132,7 @@ def test_sources_stand_at_the_end_and_wheels_lead_to_them(train_file: Callable[.
     (cited,) = {link for link in links if link.startswith("#source-")}
     assert cited[1:] in page.ids
     assert "Source good: a paper" not in page.text
-    assert "Source good: a paper" in to_markdown([report_train(load(path))])
+    assert "Source good: a paper" in to_markdown([describe_train(load(path))])
 
 
 @pytest.mark.parametrize(
@@ -162,7 +162,7 @@ def test_what_a_user_writes_stays_text_and_the_only_script_is_known_by_its_hash(
     path = train_file(f"extends: worm\nname: {evil!r}\ntitle: {evil!r}\nnote: {evil!r}\n".replace("\\'", "''"))
     train = load(path)
     assert train.declaration.title == evil
-    page = Read(to_html([shared_document(train, notes=[evil])]))
+    page = Read(to_html([describe_shared_page(train, notes=[evil])]))
     assert page.text.count(evil) >= 3
     assert [tag for tag, _ in page.elements if tag in ("img", "iframe", "object", "link", "form")] == []
     assert not any(key.startswith("on") for _, attrs in page.elements for key in attrs)
@@ -237,6 +237,6 @@ def test_a_train_turns_in_a_page_only(out: tuple[str, ...], tmp_path: Path) -> N
 
 def test_what_only_a_page_has_room_for_changes_no_markdown() -> None:
     train = load("freeth-2008")
-    plain = to_markdown([shared_document(train)])
+    plain = to_markdown([describe_shared_page(train)])
     assert "Wheels and their sources" not in plain
-    assert to_markdown([shared_document(train, [Picture("x", SVG)], "<p>v</p>", ["n"])]) == plain
+    assert to_markdown([describe_shared_page(train, [Picture("x", SVG)], "<p>v</p>", ["n"])]) == plain

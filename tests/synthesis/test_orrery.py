@@ -324,7 +324,7 @@ def test_an_interrupt_keeps_what_was_found() -> None:
 
     days = {name: DAYS[name] for name in ("moon", "mercury", "venus")}
     found = find_orrery(days, range(12, 61), Fraction("1e-4"), effort=10**6, tell=stop)
-    assert found.ended == "interrupt"
+    assert found.ended == "interrupted"
     checked(found, days, Fraction("1e-4"), range(12, 61))
 
 

@@ -17,9 +17,9 @@ from hypothesis import strategies as st
 
 import geartrain
 from geartrain import GearTrain
-from geartrain.report.reconstruction_comparison import compare_trains
+from geartrain.report.reconstruction_comparison import describe_comparison
 from geartrain.report.text import to_markdown
-from geartrain.report.train_report import report_train
+from geartrain.report.train_report import describe_train
 from geartrain.synthesis.formulas import with_counts
 from geartrain.synthesis.train.train_search import search
 from geartrain.uncertainty.posterior import infer_counts
@@ -199,7 +199,7 @@ def test_what_turns_wrong_whatever_the_counts_is_said_to() -> None:
 def test_reports_say_where_only_a_magnitude_was_compared() -> None:
     way = targets(Fraction(21), "2 %")
     train = stepped({"targets": [way["-"], way["retrograde"], way["either"], {"speed": 0}]})
-    text = to_markdown([report_train(train)])
+    text = to_markdown([describe_train(train)])
     rows = [[cell.strip() for cell in line.split("|")[1:-1]] for line in text.splitlines() if "| carrier" in line]
     assert [row[3] for row in rows if row[1].startswith(("speed", "period"))] == [
         "sense too",
@@ -208,7 +208,7 @@ def test_reports_say_where_only_a_magnitude_was_compared() -> None:
         "difference",
     ]
     assert "either sense of rotation meets it" in text
-    beside = to_markdown([compare_trains([stepped({"targets": [way["either"], {"speed": 0}]})])])
+    beside = to_markdown([describe_comparison([stepped({"targets": [way["either"], {"speed": 0}]})])])
     assert "period 1/21 d (magnitude)" in beside
     assert "off by" in beside
 

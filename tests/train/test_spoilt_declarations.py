@@ -12,7 +12,7 @@ import yaml
 from mutants import mutant
 
 from geartrain import GearTrain, GearTrainError, load
-from geartrain.report.train_data import train_data
+from geartrain.report.train_data import collect_report
 
 KEPT = (354, 368, 1589, 8277)
 """Seeds that once raised something else."""
@@ -37,7 +37,7 @@ def ask(train: GearTrain) -> None:
     assert train.mobility.by_rank >= 0
     assert all(problem.what for problem in train.remarks)
     assert len(train.equations(train.states[0] if train.states else None).equations) >= len(train.circuits)
-    json.dumps(train_data(train), allow_nan=False)
+    json.dumps(collect_report(train).to_dict(), allow_nan=False)
 
 
 def answers(seed: int) -> str:

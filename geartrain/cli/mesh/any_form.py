@@ -78,7 +78,7 @@ def _run(
     force: bool,
     **given: Any,
 ) -> None:
-    from geartrain.report.gear_pairs import pair_data, pair_document
+    from geartrain.report.gear_pairs import describe_pair, pair_data
 
     to, picture, outlined = pair_sinks(out, plot, profile, force)
     mesh = _mesh(form, own, driver, given)
@@ -86,7 +86,7 @@ def _run(
         from geartrain.export import outline_text
 
         emit(outline_text(_outline(mesh, wheel, bore), outlined.suffix), outlined)
-    give(to, json, lambda: pair_data(mesh), lambda: [pair_document(mesh)])
+    give(to, json, lambda: pair_data(mesh), lambda: [describe_pair(mesh)])
     if plot is not None:
         from geartrain.drawing import transmission_figure
 

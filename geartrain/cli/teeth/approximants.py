@@ -34,15 +34,13 @@ def run(
     force: Force = False,
 ) -> None:
     """Fractions on the way to a ratio, each nearer than all smaller ones: convergents and what lies between."""
-    from geartrain.report.tooth_numbers import approximants_document
-    from geartrain.synthesis.stern_brocot import approximants
+    from geartrain.report.tooth_numbers import describe_approximants
+    from geartrain.synthesis.stern_brocot import Approximants, approximants
     from geartrain.synthesis.target_ratio import read_ratio
     from geartrain.synthesis.tooth_count_ranges import read_counts
 
     answer = SearchAnswer.of(csv, json, out, force)
     wanted = read_ratio(check_number(context, ratio), per)
     most = max(read_counts(text or counts).most for text in (wheels, pinions))
-    found = approximants(wanted.value, most)
-    rows = [each.to_dict() for each in found]
-    data = {"wanted": wanted.to_dict(), "most": most, "solutions": rows}
-    answer.give(data, rows, lambda: approximants_document(wanted, most, found))
+    found = Approximants(wanted, most, tuple(approximants(wanted.value, most)))
+    answer.give(found, [each.to_dict() for each in found.solutions], describe_approximants)

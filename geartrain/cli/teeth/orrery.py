@@ -30,7 +30,7 @@ def run(
     force: Force = False,
 ) -> None:
     """Several periods from one arbor, with few wheels and arbors."""
-    from geartrain.report.tooth_numbers import orrery_document, orrery_rows
+    from geartrain.report.tooth_numbers import describe_orrery, orrery_rows
     from geartrain.synthesis.orrery.orrery_search import find_orrery
     from geartrain.synthesis.tooth_count_ranges import read_counts
 
@@ -46,9 +46,7 @@ def run(
             walk=walk,
             tell=bar.reach,
         )
-    ended = {"interrupt": "interrupted"}.get(found.ended, found.ended)
-    data = {**found.to_dict(), "ended": ended}
-    answer.give(data, orrery_rows(found), lambda: orrery_document(found), lambda _: found.to_train())
+    answer.give(found, orrery_rows(found), describe_orrery, lambda _: found.to_train())
 
 
 def _periods(texts: list[str]) -> dict[str, Fraction]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import Annotated, Any
 
 import typer
 
@@ -25,14 +25,7 @@ from geartrain.cli.teeth.search_options import (
     read_tolerance,
 )
 
-if TYPE_CHECKING:
-    from fractions import Fraction
-
-    from geartrain.synthesis.target_ratio import TargetRatio
-    from geartrain.synthesis.tooth_count_ranges import CountRuns
-
 Flag = bool
-_LONG = 100_000
 context_settings = NEGATIVE_NUMBERS
 
 
@@ -63,7 +56,7 @@ def run(
     force: Force = False,
 ) -> None:
     """Stages of gear pairs with a wanted ratio: every solution within a tolerance counted, the best proved."""
-    from geartrain.report.tooth_numbers import stages_document, stages_row
+    from geartrain.report.tooth_numbers import describe_stages, stage_rows
     from geartrain.synthesis.ratio.stage_problem import StageConstraints
     from geartrain.synthesis.ratio.stage_search import find_stages
     from geartrain.synthesis.target_ratio import read_ratio
@@ -80,12 +73,6 @@ def run(
         "different": different,
         "most_total": most_total,
     }
-    constraints = StageConstraints(**fit)
-    long = stages == 1 and max(len(larger), len(smaller)) > _LONG
-    if long and by == "error" and constraints == StageConstraints() and wanted.sense <= 0:
-        # anything else that is asked is for the search that looks at every pair
-        _pairs(answer, wanted, larger, smaller, most_error, best)
-        return
     question = {
         "ratio": str(wanted.value),
         "stages": stages,
@@ -105,50 +92,10 @@ def run(
             tolerance=most_error,
             best=best,
             by=by,
-            fit=constraints,
+            fit=StageConstraints(**fit),
             executor=given.executor,
             journal=given.journal,
             tell=given.tell,
         )
         close_journal(given.journal, cut=not found.complete)
-    data = {**found.to_dict(), "ended": "whole" if found.complete else "interrupted"}
-    answer.give(data, [stages_row(solution) for solution in found], lambda: stages_document(found))
-
-
-def _pairs(
-    answer: SearchAnswer,
-    wanted: TargetRatio,
-    wheels: CountRuns,
-    pinions: CountRuns,
-    tolerance: Fraction | None,
-    best: int,
-) -> None:
-    """One pair in long ranges: by the tree, without a list of counts."""
-    from geartrain.report.tooth_numbers import pairs_document, stages_row
-    from geartrain.synthesis.gear_pair_search import count_pairs, find_pairs
-    from geartrain.synthesis.ratio.stage_infeasibility import OUTSIDE
-    from geartrain.synthesis.ratio.stage_problem import StageConstraints
-    from geartrain.synthesis.search_outcome import Shortfall
-
-    solutions = find_pairs(wanted, wheels, pinions, tolerance, best)
-    count = None if tolerance is None else count_pairs(wanted, wheels, pinions, tolerance)
-    top, beneath = (wheels, pinions) if wanted.value >= 1 else (pinions, wheels)
-    considered = len(top) * len(beneath)
-    data = {
-        "wanted": wanted.to_dict(),
-        "stages": 1,
-        "top": str(top),
-        "beneath": str(beneath),
-        "fit": StageConstraints().to_dict(),
-        "order": "error",
-        "tolerance": None if tolerance is None else float(tolerance),
-        "complete": True,
-        "count": count,
-        "considered": considered,
-        "solutions": [solution.to_dict() for solution in solutions],
-        "shortfall": Shortfall(considered, {} if count is None else {OUTSIDE: considered - count}).to_dict(),
-        "note": "",
-        "ended": "whole",
-    }
-    rows = [stages_row(solution) for solution in solutions]
-    answer.give(data, rows, lambda: pairs_document(wanted, solutions, count))
+    answer.give(found, stage_rows(found), describe_stages)

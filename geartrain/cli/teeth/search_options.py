@@ -83,9 +83,9 @@ class SearchAnswer:
 
     def give(
         self,
-        data: Mapping[str, Any],
+        found: Any,
         rows: Sequence[Mapping[str, Any]],
-        document: Callable[[], Document],
+        describe: Callable[[Any], Document],
         declared: Callable[[int], Mapping[str, Any]] | None = None,
     ) -> None:
         """Print or write an answer in the form asked for; exit 0 if something was found, 1 if not, 130 if cut.
@@ -102,12 +102,12 @@ class SearchAnswer:
         for each in sorted(asked or {""}):
             out = self.out if each == form else STANDARD
             if each == ".json":
-                emit(as_json(data), out)
+                emit(as_json(found), out)
             elif each == ".csv":
                 emit(table_text(rows), out)
             else:
-                show([document()], out, each)
-        if "interrupted" in str(data.get("ended", "")):
+                show([describe(found)], out, each)
+        if getattr(found, "ended", "") == "interrupted":
             raise typer.Exit(INTERRUPTED)
         raise typer.Exit(GOOD if rows else VERDICT)
 

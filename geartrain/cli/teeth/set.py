@@ -54,7 +54,7 @@ def run(
     force: Force = False,
 ) -> None:
     """Epicyclic sets of one kind with a wanted ratio, that can be put together with equal planets."""
-    from geartrain.report.tooth_numbers import set_row, sets_document
+    from geartrain.report.tooth_numbers import describe_sets, set_rows
     from geartrain.synthesis.epicyclic.epicyclic_sets import declaration_of
     from geartrain.synthesis.epicyclic.set_search import find_sets
     from geartrain.synthesis.target_ratio import read_ratio
@@ -84,15 +84,13 @@ def run(
         clearance=room,
         slack=shift,
     )
-    rows = [set_row(solution) for solution in found.solutions]
-    answer.give(found.to_dict(), rows, lambda: sets_document(found), lambda at: declaration_of(found.solutions[at]))
+    answer.give(found, set_rows(found), describe_sets, lambda at: declaration_of(found.solutions[at]))
 
 
 def _list(answer: SearchAnswer) -> None:
     """The kinds there are."""
-    from geartrain.report.tooth_numbers import kinds_document
+    from geartrain.report.tooth_numbers import describe_set_kinds
     from geartrain.synthesis.epicyclic.set_kinds import kinds
 
     found = kinds()
-    data = {name: kind.to_dict() for name, kind in found.items()}
-    give(answer.out, answer.json, lambda: data, lambda: [kinds_document(found)])
+    give(answer.out, answer.json, lambda: found, lambda: [describe_set_kinds(found)])

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -65,7 +66,7 @@ def run(
     force: Force = False,
 ) -> None:
     """Counts of the free wheels of a train that meet all its targets at once, under the rules given."""
-    from geartrain.report.tooth_numbers import assignment_rows, assignments_document
+    from geartrain.report.tooth_numbers import assignment_rows, describe_assignments
     from geartrain.synthesis.constraints.constraint_options import read_constraint_options
     from geartrain.synthesis.train.train_search import search
     from geartrain.train.declaration_files import read_declaration
@@ -116,18 +117,12 @@ def run(
             journal=given.journal,
             tell=given.tell,
         )
-        cut = any(part.reason.startswith("interrupted") for part in found.parts)
-        standings = [standing for teeth in stands for standing in found.standing(teeth)]
-        close_journal(given.journal, cut)
-    data = {
-        **found.to_dict(),
-        "where": [standing.to_dict() for standing in standings],
-        "ended": "interrupted" if cut else "whole",
-    }
+        found = replace(found, where=tuple(standing for teeth in stands for standing in found.standing(teeth)))
+        close_journal(given.journal, cut=found.ended == "interrupted")
     answer.give(
-        data,
+        found,
         assignment_rows(found),
-        lambda: assignments_document(found, standings),
+        describe_assignments,
         lambda at: found.declaration(found.solutions[at], _parent(file, answer.out.path)),
     )
 

@@ -54,7 +54,7 @@ class Orrery(Result):
     least_pairs  no tree of pairs with fewer than this many shows all the periods: proved by walking all of them
     least_wheels fewer wheels than this are impossible: proved
     complete     True if no orrery has fewer wheels: `wheels` equals `least_wheels`
-    ended        why the search ended: "proved", "effort", "time" or "interrupt"
+    ended        why the search ended: "proved", "effort", "time" or "interrupted"
     """
 
     KEYS = (

@@ -89,7 +89,7 @@ class _Sharing:
         except _TimeUpError:
             return "time"
         except KeyboardInterrupt:
-            return "interrupt"
+            return "interrupted"
         return "proved" if self.proved else "effort"
 
     def _walks(self, walk: int | None) -> Iterator[int]:
@@ -198,7 +198,7 @@ def _nothing(search: _Sharing, ended: str) -> QuestionError:
     table, size = search.table, len(search.aims.periods)
     least, most = table.counts[0], table.counts[-1]
     walked = f"all trees with up to {size + search.walked} pairs were walked; " if search.walked >= 0 else ""
-    stopped = {"time": "the time allowed was over; ", "interrupt": "the search was interrupted; "}.get(ended, "")
+    stopped = {"time": "the time allowed was over; ", "interrupted": "the search was interrupted; "}.get(ended, "")
     return QuestionError(
         Problem(
             f"no orrery found for {size} periods with wheels of {least} to {most} teeth",

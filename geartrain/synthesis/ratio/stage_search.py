@@ -11,20 +11,22 @@ memory and makes independent pieces of work: four stages of 200 counts (69 milli
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass
 from fractions import Fraction
+from typing import Literal
 
 from geartrain.errors import Problem, QuestionError, RangeError
 from geartrain.numerics.decimal_text import decimal
 from geartrain.numerics.plain_data import Key, Result
 from geartrain.numerics.work import Execution, Journal
+from geartrain.synthesis.gear_pair_search import count_pairs, find_pairs
 from geartrain.synthesis.ratio.product_windows import MOST_STAGES, check_memory, multisets
 from geartrain.synthesis.ratio.segment_sweep import SweepOutcome, nearest, within
 from geartrain.synthesis.ratio.solution_order import Key as RankingKey
 from geartrain.synthesis.ratio.solution_order import check_order
-from geartrain.synthesis.ratio.stage_infeasibility import SENSE, explain
+from geartrain.synthesis.ratio.stage_infeasibility import OUTSIDE, SENSE, explain
 from geartrain.synthesis.ratio.stage_pairs import best_pairing
 from geartrain.synthesis.ratio.stage_problem import StageConstraints, StageProblem
 from geartrain.synthesis.search_outcome import GearStages, Shortfall
@@ -42,9 +44,10 @@ class StageFindings(Result):
     beneath     admissible counts beneath, ascending
     fit         conditions on the counts
     by          the order of `solutions`
-    tolerance   the greatest |error|, as a fraction of the ratio: the one asked for, or one that proves the list
+    tolerance   the greatest |error|, as a fraction of the ratio: the one asked for, or one that proves the list; None
+                where the best pairs of long ranges were found without any
     complete    True if everything within the tolerance was looked at; False if the search was interrupted
-    count       number of solutions within the tolerance, exact if `complete`
+    count       number of solutions within the tolerance, exact if `complete`; None without a tolerance
     solutions   the best of them
     shortfall   where the other pairs of sets went
     note        what was assumed, in words; empty if nothing
@@ -64,20 +67,26 @@ class StageFindings(Result):
         "solutions",
         "shortfall",
         "note",
+        "ended",
     )
 
     wanted: TargetRatio
     stages: int
-    top: tuple[int, ...]
-    beneath: tuple[int, ...]
+    top: Sequence[int]
+    beneath: Sequence[int]
     fit: StageConstraints
     by: str
-    tolerance: Fraction
+    tolerance: Fraction | None
     complete: bool
-    count: int
+    count: int | None
     solutions: tuple[GearStages, ...]
     shortfall: Shortfall
     note: str = ""
+
+    @property
+    def ended(self) -> Literal["whole", "interrupted"]:
+        """Whether the search was whole."""
+        return "whole" if self.complete else "interrupted"
 
     @property
     def considered(self) -> int:
@@ -107,6 +116,7 @@ class StageFindings(Result):
 __all__ = ["StageConstraints", "StageFindings", "find_stages"]
 
 _FAR = 10**12
+_LONG = 100_000  # counts of a wheel beyond which single pairs come from the tree of fractions, not from tables
 DEFAULT_TOLERANCE = Fraction(1, 10**6)
 
 
@@ -144,6 +154,10 @@ def find_stages(
     memory (more than some 400 counts for four stages and more).
     """
     fit = fit or StageConstraints()
+    larger, smaller = CountRuns.of(wheels), CountRuns.of(pinions)
+    plain = by == "error" and fit == StageConstraints() and wanted.sense <= 0
+    if stages == 1 and plain and max(len(larger), len(smaller)) > _LONG:
+        return _long_ranges(wanted, larger, smaller, tolerance, best)
     question, considered, note = _question(wanted, stages, (wheels, pinions), tolerance, best, by, fit)
     if wanted.sense and wanted.sense != fit.sense(stages):
         return _findings(wanted, question, SweepOutcome(question.tolerance), _wrong_sense(question, considered), note)
@@ -158,6 +172,19 @@ def find_stages(
         outcome = SweepOutcome(question.tolerance, complete=False)
     shortfall = explain(question, considered, outcome, wanted.sense, means)
     return _findings(wanted, question, outcome, shortfall, note or outcome.note)
+
+
+def _long_ranges(
+    wanted: TargetRatio, wheels: CountRuns, pinions: CountRuns, tolerance: Fraction | None, best: int
+) -> StageFindings:
+    """Single pairs of long ranges, found without a list of the counts."""
+    solutions = find_pairs(wanted, wheels, pinions, tolerance, best)
+    count = None if tolerance is None else count_pairs(wanted, wheels, pinions, tolerance)
+    top, beneath = (wheels, pinions) if wanted.value >= 1 else (pinions, wheels)
+    considered = len(top) * len(beneath)
+    shortfall = Shortfall(considered, {} if count is None else {OUTSIDE: considered - count})
+    fit = StageConstraints()
+    return StageFindings(wanted, 1, top, beneath, fit, "error", tolerance, True, count, solutions, shortfall)
 
 
 def _question(

@@ -165,9 +165,13 @@ class TrainFindings(Result):
     parts     independent parts; any solution of one goes with any solution of another
     links     free wheel -> its link
     remarks   what the reader should know: outputs that no free wheel moves, and whether they are right
+    where     where the assignments stand that were asked about
     """
 
-    KEYS = (Key("train", "name"), "by", "complete", "ranked", "considered", "count", "remarks", "parts", "solutions")
+    KEYS = (
+        *(Key("train", "name"), "by", "complete", "ranked", "considered", "count", "remarks", "parts", "solutions"),
+        *("where", "ended"),
+    )
 
     name: str
     by: By
@@ -175,6 +179,7 @@ class TrainFindings(Result):
     parts: tuple[PartFindings, ...]
     links: Mapping[str, str]
     remarks: tuple[str, ...] = ()
+    where: tuple[Standing, ...] = ()
     _stand: Callable[[int, Mapping[str, int]], Standing] | None = field(default=None, repr=False, compare=False)
 
     @property
@@ -186,6 +191,11 @@ class TrainFindings(Result):
     def complete(self) -> bool:
         """True if every part is complete."""
         return all(part.complete for part in self.parts)
+
+    @property
+    def ended(self) -> Literal["whole", "interrupted"]:
+        """Whether the search was whole, though it may have been of a sample."""
+        return "interrupted" if any(part.reason.startswith("interrupted") for part in self.parts) else "whole"
 
     @property
     def ranked(self) -> bool:

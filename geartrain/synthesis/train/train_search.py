@@ -82,7 +82,7 @@ def search(
     parts = tuple(_found(one) for one in searches)
     runner.release()
     links = {wheel: train.wheels[wheel][0] for wheel in domains}
-    return TrainFindings(train.name, by, best, parts, links, demands.remarks, _Standings(tuple(searches)).find)
+    return TrainFindings(train.name, by, best, parts, links, demands.remarks, (), _Standings(tuple(searches)).find)
 
 
 def _found(search: PartSearch) -> PartFindings:

@@ -136,8 +136,7 @@ class MotionTruth:
         self.laws = [self._law(source.law) for source in self.sources]
         errors = self._spread()
         self.gains = [self._gain(source, errors) for source in self.sources]
-        ends = motion.ahead.outputs
-        self.responses = [self._terms({of: 1, base: -1}, errors) for of, base in ends]
+        self.responses = [self._terms({of: 1, base: -sense}, errors) for of, base, sense in motion.ahead.outputs]
 
     def _law(self, law: TransmissionFunction) -> Callable[[Any], Any]:
         if isinstance(law, TriangularTransmission) and law.direction > 0:

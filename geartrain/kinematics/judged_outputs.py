@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Literal, NamedTuple, Required, TypedDict
@@ -16,7 +16,6 @@ from geartrain.train.periods import period_table
 
 DAYS_PER_CENTURY = 36525
 SpeedValue = Fraction | float | LongFloat
-SpeedOf = Callable[[str], SpeedValue | None]
 Relative = Callable[[str, str], SpeedValue | None]
 """Speed of a link seen from another, about the first one's axis; None where it is not determined."""
 
@@ -235,14 +234,6 @@ def judge_outputs(
             tuple(_against(train, target, speed) for target in output.targets if speed is not None),
             not is_rotation(of, base),
         )
-
-
-def relative_speed(of: str, base: str, speed_of: SpeedOf, signs: Mapping[str, int]) -> SpeedValue | None:
-    """Speed of a link as seen from another, about the first one's axis."""
-    own, other = speed_of(of), speed_of(base)
-    if own is None or other is None:
-        return None
-    return own - other * signs.get(of, 1) * signs.get(base, 1)
 
 
 def _expect_holds(output: Output, speed: SpeedValue | None) -> bool | None:

@@ -13,7 +13,8 @@ from geartrain.errors import Problem, QuestionError, RangeError, check_choice, s
 from geartrain.kinematics.answer import Answer, SpeedAccuracy
 from geartrain.kinematics.circuits import Circuit
 from geartrain.kinematics.components import ReducedSystem, SolvedPart, relevant_circuits
-from geartrain.kinematics.judged_outputs import Relative, SpeedValue, judge_outputs, relative_speed
+from geartrain.kinematics.judged_outputs import Relative, SpeedValue, judge_outputs
+from geartrain.kinematics.relative_speeds import relative_speed
 from geartrain.kinematics.speeds import EXACT_BUDGET, Solution, exact_verdict, solve
 from geartrain.kinematics.tooth_sensitivity import Sensitivity, sensitivity
 from geartrain.kinematics.verdict import Verdict

@@ -6,7 +6,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from fractions import Fraction
 
-from geartrain.kinematics.judged_outputs import SpeedValue, relative_speed
+from geartrain.kinematics.judged_outputs import SpeedValue
+from geartrain.kinematics.relative_speeds import relative_speed
 from geartrain.numerics.vectors import Vector, beside, dot, minus, plus, scaled, size
 from geartrain.scene.context import SceneContext, exact, rounded
 from geartrain.scene.elements import DialFace, Pointer

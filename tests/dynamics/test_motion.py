@@ -374,6 +374,45 @@ def test_sensitivities_are_the_change_of_an_output_with_a_tooth_count(name: str)
     assert checked
 
 
+OPPOSED = """
+axes: {A: {direction: [0, 0, 1]}, B: {direction: [0, 0, %s]}}
+links:
+  frame: {}
+  a: {wheels: {p: 20}}
+  b: {wheels: {w: 60}}
+revolutes: [{pair: [frame, a], axis: A}, {pair: [frame, b], axis: B}]
+gears: [{pair: [p, w]}]
+tooth_form: {form: triangular, half_angle: 30 deg, window: 0.5}
+inputs: {a: 1}
+outputs: {seen: {of: b, relative_to: a}, back: {of: a, relative_to: b}, own: {of: b}}
+"""
+
+
+def test_an_axis_may_point_down_where_an_output_is_seen_from_another_link(tmp_path: Path) -> None:
+    """Whichever way the axis of b is declared to point, the same wheels turn: all that is about it changes sign."""
+    runs = {}
+    for sense in (1, -1):
+        path = tmp_path / f"axis{sense}.yaml"
+        path.write_text(OPPOSED % sense, encoding="utf-8")
+        train = load(path)
+        speeds = train.solve()
+        motion = train.motion()
+        assert [tally.ratio for tally in motion.tallies()] == [speeds[name] for name in motion.outputs]
+        runs[sense] = motion, speeds
+    (up, speeds), (down, turned) = runs[1], runs[-1]
+    assert [speeds["seen"], speeds["back"]] == [Fraction(-4, 3), Fraction(4, 3)]
+    senses = {"seen": -1, "back": 1, "own": -1}
+    turns = np.linspace(0, 3, 301)
+    errors = dict(zip(up.outputs, up.at(turns).error, strict=True))
+    assert np.ptp(errors["own"]) > 1e-3
+    for name, found in zip(down.outputs, down.at(turns).error, strict=True):
+        assert turned[name] == senses[name] * speeds[name]
+        assert np.allclose(found, senses[name] * errors[name], rtol=0, atol=1e-14)
+        sensitivities = up.sensitivity[name], down.sensitivity[name]
+        assert [abs(each["p~w"]) for each in sensitivities] == [1.0, 1.0]
+    assert np.allclose(errors["back"], -errors["seen"], rtol=0, atol=1e-14)
+
+
 def test_an_interrupted_table_is_partial_and_is_taken_up(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     out, partial = tmp_path / "run.csv", tmp_path / "run.partial.csv"
     arguments = ("motion", "moon-triangular", "--turns", 3, "--samples", 100_001, "--output", "moon", "-o", out)

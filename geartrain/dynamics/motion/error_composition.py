@@ -72,6 +72,18 @@ class CompositionStep(NamedTuple):
     coupled: bool
 
 
+class SeenLink(NamedTuple):
+    """A link and the link it is seen from, by index; `sense` is -1 where their axes point against each other."""
+
+    of: int
+    base: int
+    sense: int = 1
+
+    def difference(self, values: Floats) -> float:
+        """The value of the one seen from the other, from values of all links about their own axes."""
+        return float(values[self.of] - self.sense * values[self.base])
+
+
 class ErrorSamples(NamedTuple):
     """A stretch of positions: turns of the input (n,), and errors (rad) and their rates by output, (outputs, n)."""
 
@@ -82,7 +94,7 @@ class ErrorSamples(NamedTuple):
 
 @dataclass
 class ErrorComposition:
-    """Sources in a train, and the outputs (link, seen from) that are asked for.
+    """Sources in a train, and the outputs that are asked for.
 
     offsets       what each output is ahead of what its teeth and pins add to it, at every position (rad): teeth that
                   keep their ratio add their play alone, and pointers are set; none by default
@@ -92,14 +104,14 @@ class ErrorComposition:
 
     spread: ErrorPropagation
     sources: tuple[PairErrorSource, ...]
-    outputs: tuple[tuple[int, int], ...]
+    outputs: tuple[SeenLink, ...]
     offsets: tuple[float, ...] = ()
     turned_back: set[str] = field(default_factory=set)
 
     @cached_property
     def steps(self) -> tuple[CompositionStep, ...]:
         """The solved order, without the links that no error reaches, and those that no output hangs on."""
-        wanted = {link for ends in self.outputs for link in ends}
+        wanted = {link for seen in self.outputs for link in (seen.of, seen.base)}
         kept = []
         for step in reversed(self._lively):
             if wanted.intersection(step.links):
@@ -156,8 +168,8 @@ class ErrorComposition:
         last: dict[int, int] = {}
         for at, step in enumerate(self.steps):
             last.update(dict.fromkeys((*step.known, *(end for s in step.sources for end in self._ends(s))), at))
-        for ends in self.outputs:
-            last.update(dict.fromkeys(ends, len(self.steps)))
+        for seen in self.outputs:
+            last.update(dict.fromkeys((seen.of, seen.base), len(self.steps)))
         place: dict[int, int] = {}
         free: list[int] = []
         count = 0
@@ -190,8 +202,8 @@ class ErrorComposition:
         for step in self.steps:
             self._take(step, angle, error, rate)
         found = [np.zeros((len(self.outputs), len(turns))) for _ in range(2)]
-        for at, ends in enumerate(self.outputs):
-            for link, sign in zip(ends, (1, -1), strict=True):
+        for at, seen in enumerate(self.outputs):
+            for link, sign in ((seen.of, 1), (seen.base, -seen.sense)):
                 if link in self._place:
                     found[0][at] += sign * error[self._place[link]]
                     found[1][at] += sign * rate[self._place[link]]

@@ -61,14 +61,16 @@ class ErrorPropagation:
             found[list(part.links)] = spread
         return found
 
-    def sensitivity(self, link: int, base: int) -> Floats:
+    def sensitivity(self, link: int, base: int, sense: int = 1) -> Floats:
         """Radians of a link, seen from another, per radian of each pair's driven error: one walk back, all pairs.
+
+        sense   -1 where the axes of the two point against each other
 
         Raises `RangeError` where one of them is beyond float64.
         """
         weight = np.zeros(len(self.links))
         weight[link] += 1.0
-        weight[base] -= 1.0
+        weight[base] -= sense
         found = np.zeros(len(self.pairs))
         with np.errstate(over="ignore", invalid="ignore"):  # judged at the end, once
             for part in reversed(self.parts):

@@ -11,12 +11,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from geartrain.dynamics.motion.error_composition import ErrorComposition, ErrorSamples
+from geartrain.dynamics.motion.error_composition import ErrorComposition, ErrorSamples, SeenLink
 from geartrain.dynamics.motion.error_curve import TransmissionErrorCurve
 from geartrain.dynamics.motion.motion_problem import MotionProblem
 from geartrain.dynamics.motion.pair_errors import PairErrors
 from geartrain.dynamics.motion.run_statistics import RunningStatistics
 from geartrain.errors import GearTrainError, Problem, QuestionError
+from geartrain.kinematics.relative_speeds import axis_sense
 from geartrain.teeth.transmission import ConstantLag
 
 if TYPE_CHECKING:
@@ -60,7 +61,7 @@ class Motion:
     @cached_property
     def hung(self) -> ErrorComposition:
         """The same with every link as its teeth hold it, no pointer set: what the laws themselves say."""
-        return ErrorComposition(self.spread, self.ahead.sources, self._ends, self._hung(1, self._ends).offsets)
+        return ErrorComposition(self.spread, self.ahead.sources, self._seen, self._hung(1, self._seen).offsets)
 
     @cached_property
     def back(self) -> ErrorComposition:
@@ -69,7 +70,7 @@ class Motion:
 
     def _compose(self, way: int) -> ErrorComposition:
         """Every link is set where ideal teeth would have it at turn 0; its pins are counted from there."""
-        found, setting = self._hung(way, self._ends), self._setting
+        found, setting = self._hung(way, self._seen), self._setting
         if setting is None:
             return found
         sources = list(found.sources)
@@ -77,35 +78,36 @@ class Motion:
             if source.id in self._pins:
                 turned = found.driver_shift(source, setting)
                 sources[at] = replace(source, start=source.start + turned, turned=turned)
-        own = found.offsets or (0.0,) * len(self._ends)
-        offsets = [each + setting[of] - setting[base] for each, (of, base) in zip(own, self._ends, strict=True)]
-        return ErrorComposition(self.spread, tuple(sources), self._ends, tuple(map(float, offsets)))
+        own = found.offsets or (0.0,) * len(self._seen)
+        offsets = [each + seen.difference(setting) for each, seen in zip(own, self._seen, strict=True)]
+        return ErrorComposition(self.spread, tuple(sources), self._seen, tuple(offsets))
 
     @cached_property
     def _pins(self) -> frozenset[str]:
         return frozenset(joint.coupling.name for joint in self.train.pins)
 
     @cached_property
-    def _ends(self) -> tuple[tuple[int, int], ...]:
-        return tuple((self._index[of], self._index[base]) for of, base in self.outputs.values())
+    def _seen(self) -> tuple[SeenLink, ...]:
+        index, signs = self._index, self.train.signs
+        return tuple(
+            SeenLink(index[of], index[base], axis_sense(of, base, signs)) for of, base in self.outputs.values()
+        )
 
-    def _hung(self, way: int, outputs: tuple[tuple[int, int], ...]) -> ErrorComposition:
+    def _hung(self, way: int, outputs: tuple[SeenLink, ...]) -> ErrorComposition:
         """The composition with every link as its teeth hold it: at turn 0 it lags by what they do."""
         found = ErrorComposition(self.spread, tuple(self._errors.sources(way)), outputs)
         error = self._errors.play(way)
         if error is None:
             return found
         sources = tuple(replace(each, start=each.start + found.driver_shift(each, error)) for each in found.sources)
-        return ErrorComposition(
-            self.spread, sources, outputs, tuple(float(error[of] - error[base]) for of, base in outputs)
-        )
+        return ErrorComposition(self.spread, sources, outputs, tuple(seen.difference(error) for seen in outputs))
 
     @cached_property
     def setting(self) -> Mapping[str, float]:
         """By how much each output's pointer is turned on its wheels (rad), so that its teeth do not displace it."""
         found = self._setting
-        ends = zip(self.outputs, self._ends, strict=True)
-        return {name: 0.0 if found is None else float(found[of] - found[base]) for name, (of, base) in ends}
+        named = zip(self.outputs, self._seen, strict=True)
+        return {name: 0.0 if found is None else seen.difference(found) for name, seen in named}
 
     @cached_property
     def _setting(self) -> Floats | None:
@@ -117,9 +119,9 @@ class Motion:
             return None
         pins = [each for each in self._errors.sources(1) if each.id in self._pins]
         joints = [self.spread.joints[each.pair] for each in pins]
-        links = sorted({*(link for ends in self._ends for link in ends), *(j.driver for j in joints),
+        links = sorted({*(link for seen in self._seen for link in (seen.of, seen.base)), *(j.driver for j in joints),
                         *(j.carrier for j in joints)})  # fmt: skip
-        outputs = tuple((link, self._index[self.train.frame]) for link in links)
+        outputs = tuple(SeenLink(link, self._index[self.train.frame]) for link in links)
         ideal = np.zeros(len(self.spread.links))
         ideal[links] = ErrorComposition(self.spread, tuple(pins), outputs).at(np.zeros(1)).error[:, 0]
         hung = self._hung(1, outputs)
@@ -163,25 +165,19 @@ class Motion:
     def sensitivity(self) -> Mapping[str, Mapping[str, float]]:
         """Radians of each output per radian of error of the driven side of each pair, real teeth or not."""
         found = {}
-        for name, (of, base) in self.outputs.items():
-            row = self.spread.sensitivity(self._index[of], self._index[base])
-            found[name] = dict(zip(self.spread.pairs, row.tolist(), strict=True))
+        for name, seen in zip(self.outputs, self._seen, strict=True):
+            found[name] = dict(zip(self.spread.pairs, self.spread.sensitivity(*seen).tolist(), strict=True))
         return found
 
     def tallies(self) -> list[RunningStatistics]:
         """An empty tally for each output."""
-        return [
-            RunningStatistics(name, self._ratio(of) - self._ratio(base)) for name, (of, base) in self.outputs.items()
-        ]
+        return [RunningStatistics(name, self.train.seen_ratio(of, base)) for name, (of, base) in self.outputs.items()]
 
     @property
     def starts(self) -> list[float]:
         """Starting angle of each output (rad)."""
-        angles = self.train.angles
-        return [angles.get(of, 0.0) - angles.get(base, 0.0) for of, base in self.outputs.values()]
-
-    def _ratio(self, link: str) -> Fraction:
-        return self.train.ratio(link)
+        angles = np.array([self.train.angles.get(link, 0.0) for link in self.spread.links])
+        return [seen.difference(angles) for seen in self._seen]
 
     def passages(self, turns: float, samples: int, first: int = 0) -> Iterator[ErrorSamples]:
         """The run in stretches that fit in memory: `samples` positions from 0 to `turns` of the input, ends included.

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 from geartrain.kinematics.circuits import Circuit
 from geartrain.kinematics.components import SolvedPart
+from geartrain.kinematics.relative_speeds import relative_speed
 from geartrain.kinematics.verdict import Loop
 from geartrain.kinematics.willis_system import WillisSystem, assemble_willis_system
 
@@ -46,9 +47,15 @@ class MotionProblem:
         """Mean speed of a link over the lead's, exactly."""
         return self.speeds[link] / self.speeds[self.lead]
 
+    def seen_ratio(self, link: str, base: str) -> Fraction:
+        """Mean speed of a link seen from another, about the first one's axis, over the lead's."""
+        found = relative_speed(link, base, self.ratio, self.signs)
+        assert found is not None  # every link of a train that moves has a speed
+        return found
+
     def relative(self, link: str, carrier: str) -> Fraction:
         """Mean speed of a link seen from its carrier, over the lead's, both about the direction of their parallels."""
-        return self.signs.get(link, 1) * self.ratio(link) - self.signs.get(carrier, 1) * self.ratio(carrier)
+        return self.signs.get(link, 1) * self.seen_ratio(link, carrier)
 
     @property
     def rippling(self) -> list[GearMesh]:

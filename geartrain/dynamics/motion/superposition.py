@@ -33,7 +33,7 @@ class Superposition:
         self.composition, self.sources = composition, composition.used
         spread = composition.spread
         pairs = [source.pair for source in self.sources]
-        rows = [spread.sensitivity(of, base)[pairs] for of, base in composition.outputs]
+        rows = [spread.sensitivity(*seen)[pairs] for seen in composition.outputs]
         self.response = np.array(rows).reshape(len(composition.outputs), len(pairs))
 
     @cached_property

@@ -10,8 +10,9 @@ from functools import cached_property
 from geartrain.dynamics.gear_meshes import PinMesh
 from geartrain.dynamics.torques.virtual_work import PRESCRIBED
 from geartrain.kinematics.circuits import Circuit, Tree
+from geartrain.kinematics.relative_speeds import relative_speed
 from geartrain.kinematics.willis_system import WillisSystem, assemble_willis_system
-from geartrain.numerics.elimination import LinearForm
+from geartrain.numerics.elimination import LinearForm, add_into
 from geartrain.teeth.gear_mesh import GearMesh as ToothMesh
 from geartrain.teeth.pin_coupling import Coupling
 from geartrain.train import GearPair, StateCase, Train
@@ -74,13 +75,12 @@ class LoadCase:
 
         Two links that are free may still have one speed between them.
         """
-        own, other = self.sense(link), self.sense(carrier)
-        if link in self.speeds and carrier in self.speeds:
-            return own * self.speeds[link] - other * self.speeds[carrier]
-        form = dict(self.forms[link])
-        form = {column: own * value for column, value in form.items()}
-        for column, value in self.forms[carrier].items():
-            form[column] = form.get(column, Fraction(0)) - other * value
+        own = self.sense(link)
+        found = relative_speed(link, carrier, self.speeds.get, self.signs)
+        if found is not None:
+            return own * found
+        form = {column: own * value for column, value in self.forms[link].items()}
+        add_into(form, self.forms[carrier], -self.sense(carrier))
         free = any(value for column, value in form.items() if column != PRESCRIBED)
         return None if free else form.get(PRESCRIBED, Fraction(0))
 

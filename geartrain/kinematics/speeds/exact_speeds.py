@@ -8,6 +8,7 @@ from fractions import Fraction
 from functools import cached_property
 
 from geartrain.kinematics.components import ReducedSystem, SolvedPart
+from geartrain.kinematics.relative_speeds import relative_speed
 from geartrain.kinematics.speeds.diagnosis import (
     diagnose,
     free_verdict,
@@ -64,11 +65,9 @@ class Solution:
 
         It may be determined though both links are free: it is wherever the difference lies in the space of the rows.
         """
-        own, other = self.speeds.get(of), self.speeds.get(base)
-        if own is not None and other is not None:
-            return own - other * self.signs.get(of, 1) * self.signs.get(base, 1)
-        if self.loose is None:
-            return None
+        found = relative_speed(of, base, self.speeds.get, self.signs)
+        if found is not None or self.loose is None:
+            return found
         value = self.loose.difference(of, base)
         return None if value is None else value * self.signs.get(of, 1)
 

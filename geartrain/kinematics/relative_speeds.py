@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from fractions import Fraction
-from typing import TypeVar
+from typing import TYPE_CHECKING, overload
 
-from geartrain.numerics.long_float import LongFloat
-
-Speed = TypeVar("Speed", Fraction, Fraction | float | LongFloat)
+if TYPE_CHECKING:
+    from geartrain.kinematics.judged_outputs import SpeedValue
 
 
 def axis_sense(of: str, base: str, signs: Mapping[str, int]) -> int:
@@ -19,12 +18,28 @@ def axis_sense(of: str, base: str, signs: Mapping[str, int]) -> int:
     return signs.get(of, 1) * signs.get(base, 1)
 
 
+@overload
+def relative_speed(of: str, base: str, speed_of: Callable[[str], Fraction], signs: Mapping[str, int]) -> Fraction: ...
+
+
+@overload
 def relative_speed(
-    of: str, base: str, speed_of: Callable[[str], Speed | None], signs: Mapping[str, int]
-) -> Speed | None:
+    of: str, base: str, speed_of: Callable[[str], Fraction | None], signs: Mapping[str, int]
+) -> Fraction | None: ...
+
+
+@overload
+def relative_speed(
+    of: str, base: str, speed_of: Callable[[str], SpeedValue | None], signs: Mapping[str, int]
+) -> SpeedValue | None: ...
+
+
+def relative_speed(
+    of: str, base: str, speed_of: Callable[[str], SpeedValue | None], signs: Mapping[str, int]
+) -> SpeedValue | None:
     """w_of - s w_base: a link's speed seen from another, about the first one's axis; None where one is not known.
 
-    speed_of   each link's speed about its own axis, of any one kind of number; None where it is not determined
+    speed_of   each link's speed about its own axis; None where it is not determined
     signs      -1 for links whose axis points against the reference direction of its parallels: s is their product
     """
     own, other = speed_of(of), speed_of(base)

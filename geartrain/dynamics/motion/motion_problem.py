@@ -49,9 +49,7 @@ class MotionProblem:
 
     def seen_ratio(self, link: str, base: str) -> Fraction:
         """Mean speed of a link seen from another, about the first one's axis, over the lead's."""
-        found = relative_speed(link, base, self.ratio, self.signs)
-        assert found is not None  # every link of a train that moves has a speed
-        return found
+        return relative_speed(link, base, self.ratio, self.signs)
 
     def relative(self, link: str, carrier: str) -> Fraction:
         """Mean speed of a link seen from its carrier, over the lead's, both about the direction of their parallels."""

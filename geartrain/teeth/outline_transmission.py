@@ -86,8 +86,7 @@ class OutlineTransmission(TransmissionFunction):
     @cached_property
     def verdict(self) -> ConjugateVerdict:
         """Whether the pair can turn: what is wrong with its teeth, or the play they lack at this distance."""
-        S = np.linspace(0, self.period, _SAMPLES, endpoint=False)
-        plays = solve(*self._wheels, self.distance, S).play
+        plays = _plays(self.gears, self.driver)
         play = float(np.nanmin(plays, initial=inf))
         found = self.gears.faults if play >= -1e-12 else (*self.gears.faults, _jam(self.distance, play))
         if not np.isfinite(plays).all():
@@ -126,13 +125,10 @@ class OutlineTransmission(TransmissionFunction):
         low, high = sorted(float(self._of(each)) for each in self.table.extremes())
         return low, high
 
-    @cached_property
+    @property
     def _nodes(self) -> tuple[Floats, Floats]:
         """Driver angles and weights of a whole period, the front flanks driving."""
-        x, w = _GAUSS
-        edges = list(pairwise(self.table.breaks.tolist()))
-        S = np.concatenate([(low + high) / 2 + (high - low) / 2 * x for low, high in edges])
-        return S, np.concatenate([(high - low) / 2 * w for low, high in edges]) / self.table.period
+        return _nodes(self.gears, self.driver)
 
     def speed_range(self) -> tuple[float, float]:
         """Least and greatest speed ratio, among sixteen angles of each smooth stretch and its ends."""
@@ -155,30 +151,19 @@ class OutlineTransmission(TransmissionFunction):
         The common normal passes through the point that parts the distance as the speeds do at that instant; with that
         point for the pitch point the contact obeys the same formulas as one of the design.
         """
-        cosine, into, out = self._leans(self._forward(S))
+        return self._passed(_leans(self.gears, self.driver, self._forward(S)))
+
+    def _passed(self, leans: tuple[Floats, Floats, Floats]) -> Floats:
+        cosine, into, out = leans
         with np.errstate(divide="ignore", invalid="ignore"):
             into, out = cosine + self.friction * into, cosine + self.friction * out
             found: Floats = np.where(out > 0, out / into, nan)
         return found
 
-    def _leans(self, forward: Floats) -> tuple[Floats, Floats, Floats]:
-        """cos psi, and what a unit of friction adds to it in the power that enters and in that which leaves."""
-        first, second = self._wheels
-        at = contact(first, second, self.distance, forward)
-        # a ring's axle is on its pinion's other side, and its pitch circle turns the same way
-        a = self.distance * (-1 if second.ring else 1)
-        R1 = a * at.speed / (at.speed + (-1 if first.ring or second.ring else 1))
-        along = (at.radius1**2 - at.radius2**2 + a * a) / (2 * a)
-        side = np.sqrt(np.maximum(at.radius1**2 - along**2, 0.0))
-        # the side ahead of a tooth lies within half a pitch ahead of its middle
-        middle = forward + (at.pair + 0.25) * first.pitch
-        ahead = np.abs(np.arctan2(side, along) - middle) < np.abs(np.arctan2(-side, along) - middle)
-        return _friction(np.where(ahead, side, -side), along - R1, R1, a - R1)
-
     @cached_property
     def locking_friction(self) -> float:
         """The least friction at which some contact locks, among those at the nodes; infinite where none does."""
-        cosine, _, out = self._leans(self._nodes[0])
+        cosine, _, out = _leans_at_nodes(self.gears, self.driver)
         steepest = float(np.nanmax(-out / cosine))
         return 1 / steepest if steepest > _FLAT else inf
 
@@ -188,7 +173,8 @@ class OutlineTransmission(TransmissionFunction):
         S, weights = self._nodes
         speed = self.table.speed(S)
         touching = ~np.isnan(speed)
-        found = self.efficiency(self.direction * S[touching])
+        cosine, into, out = _leans_at_nodes(self.gears, self.driver)
+        found = self._passed((cosine[touching], into[touching], out[touching]))
         return found, speed[touching], weights[touching] / weights[touching].sum()
 
     def efficiency_mean(self) -> float:
@@ -216,9 +202,49 @@ def _friction(x: Floats, y: Floats, R1: Floats, R2: Floats) -> tuple[Floats, Flo
         return cosine, rub * (sine + way * d / R1), rub * (sine - way * d / R2)
 
 
+def _leans(gears: OutlineGears, driver: int, forward: Floats) -> tuple[Floats, Floats, Floats]:
+    """cos psi, and what a unit of friction adds to it in the power that enters and in that which leaves."""
+    first, second = gears.of(driver)
+    at = contact(first, second, gears.distance, forward)
+    # a ring's axle is on its pinion's other side, and its pitch circle turns the same way
+    a = gears.distance * (-1 if second.ring else 1)
+    R1 = a * at.speed / (at.speed + (-1 if first.ring or second.ring else 1))
+    along = (at.radius1**2 - at.radius2**2 + a * a) / (2 * a)
+    side = np.sqrt(np.maximum(at.radius1**2 - along**2, 0.0))
+    # the side ahead of a tooth lies within half a pitch ahead of its middle
+    middle = forward + (at.pair + 0.25) * first.pitch
+    ahead = np.abs(np.arctan2(side, along) - middle) < np.abs(np.arctan2(-side, along) - middle)
+    return _friction(np.where(ahead, side, -side), along - R1, R1, a - R1)
+
+
+# What two outlines do to each other costs much, and is the same whatever the friction and whichever way they turn.
+
+
 @lru_cache(maxsize=64)
 def _tabulated(gears: OutlineGears, driver: int) -> PiecewiseTransmission:
     return tabulate(*gears.of(driver), gears.distance)
+
+
+@lru_cache(maxsize=64)
+def _plays(gears: OutlineGears, driver: int) -> Floats:
+    """Play at angles of a whole period (rad of the driven wheel); infinite where nothing touches."""
+    first, second = gears.of(driver)
+    S = np.linspace(0, 2 * pi / first.z, _SAMPLES, endpoint=False)
+    return solve(first, second, gears.distance, S).play
+
+
+@lru_cache(maxsize=64)
+def _nodes(gears: OutlineGears, driver: int) -> tuple[Floats, Floats]:
+    x, w = _GAUSS
+    table = _tabulated(gears, driver)
+    edges = list(pairwise(table.breaks.tolist()))
+    S = np.concatenate([(low + high) / 2 + (high - low) / 2 * x for low, high in edges])
+    return S, np.concatenate([(high - low) / 2 * w for low, high in edges]) / table.period
+
+
+@lru_cache(maxsize=64)
+def _leans_at_nodes(gears: OutlineGears, driver: int) -> tuple[Floats, Floats, Floats]:
+    return _leans(gears, driver, _nodes(gears, driver)[0])
 
 
 def _apart(distance: float, share: float) -> ToothFault:

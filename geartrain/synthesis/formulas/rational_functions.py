@@ -11,13 +11,13 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 from geartrain.numerics.decimal_text import fraction_text, is_short
+from geartrain.numerics.exact import log10
 from geartrain.synthesis.formulas.laurent import Laurent, Term
 from geartrain.synthesis.formulas.monomial_groups import MonomialGroup, MonomialGrouping, find_grouping
 from geartrain.synthesis.formulas.polynomial_gcd import common_divisor, divide
 
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats, Ints
-    from geartrain.synthesis.formulas.float_enclosures import EnclosedQuotient
 
 
 def whole(terms: Iterable[Term], point: Sequence[int]) -> int:
@@ -108,14 +108,20 @@ class Formula:
 
         columns   wheel -> counts, arrays that broadcast against each other
         """
-        return self._quotient().values([group.monomials(columns) for group in self.groups])
+        return self._bounded(columns)[0]
 
     def accuracy(self, columns: Mapping[str, Ints]) -> Floats:
         """A bound on the relative error of `values`: |value - exact| <= accuracy |exact|, cancellation included.
 
         Infinite where cancellation leaves no digit, at poles, and beyond the range of float64.
         """
-        return self._quotient().accuracy([group.monomials(columns) for group in self.groups])
+        import numpy as np
+
+        value, error = self._bounded(columns)
+        with np.errstate(all="ignore"):
+            # the exact value is at least |value| - error in size
+            found = np.where(error > 0, error / (np.abs(value) - error), 0.0)
+        return np.where((found >= 0) & np.isfinite(found), found, np.inf)
 
     def fixed(self, counts: Mapping[str, int]) -> Formula:
         """The function of the remaining wheels when some have their counts; wheels it lacks are passed over."""
@@ -142,10 +148,31 @@ class Formula:
             return top
         return " / ".join(f"({text})" if " " in text else text for text in (top, bottom))
 
-    def _quotient(self) -> EnclosedQuotient:
-        from geartrain.synthesis.formulas.float_enclosures import EnclosedQuotient
+    def _bounded(self, columns: Mapping[str, Ints]) -> tuple[Floats, Floats]:
+        """Values and bounds on their absolute errors."""
+        import numpy as np
 
-        return EnclosedQuotient(self.upper, self.lower, [group.roundings for group in self.groups])
+        from geartrain.numerics.bounded_polynomials import (
+            BoundedPolynomial,
+            BoundedQuotient,
+            in_range,
+            monomial_of,
+            products_of,
+        )
+
+        terms = (self.upper, self.lower)
+        scale = max((abs(term.coefficient) for side in terms for term in side), default=1)
+        rounded = [group.roundings for group in self.groups]
+        upper, lower = (
+            BoundedPolynomial.of([(c, monomial_of(exponents)) for c, exponents in side], scale, rounded)
+            for side in terms
+        )
+        product = products_of([group.monomials(columns) for group in self.groups])
+        with np.errstate(all="ignore"):
+            value, error = BoundedQuotient(upper, lower).bounded(product)
+        largest = [log10(Fraction(int(np.max(columns[wheel], initial=1)))) for wheel in self.wheels]
+        scaled = ((Fraction(c, scale), exponents) for c, exponents in (*self.numerator, *self.denominator))
+        return value, error if in_range(scaled, largest) else np.full_like(error, np.inf)
 
 
 def make_formula(

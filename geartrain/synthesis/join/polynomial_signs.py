@@ -15,13 +15,12 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from geartrain.numerics.bounded_polynomials import Monomial, sum_and_size
 from geartrain.numerics.rounding_bounds import UNIT_ROUNDOFF
 from geartrain.synthesis.join.partial_assignments import PartialAssignments
 from geartrain.synthesis.join.product_lists import Floats, Ints
 
 Signs = NDArray[np.int8]
-Monomial = tuple[tuple[int, int], ...]
-"""(item, power) pairs, items ascending, powers 1 or more."""
 
 ROUNDING = 2 * UNIT_ROUNDOFF
 _WRAP = (1 << 64) - 1
@@ -29,7 +28,7 @@ _WRAP = (1 << 64) - 1
 
 @dataclass(frozen=True)
 class SignPolynomial:
-    """A sum of whole coefficients times monomials in the items; all powers >= 0."""
+    """A sum of whole coefficients times monomials in the items; all powers 1 or more."""
 
     terms: tuple[tuple[int, Monomial], ...]
 
@@ -55,6 +54,7 @@ class SignPolynomial:
     def rounding(self) -> float:
         """`values` are off by less than this times their `sizes`."""
         degree = max((sum(power for _, power in monomial) for _, monomial in self.terms), default=0)
+        # an item has three roundings at most and each product one; twice the unit covers squares and the bound itself
         return (4 * degree + len(self.terms) + 8) * ROUNDING
 
     def degree(self, item: int) -> int:
@@ -88,12 +88,11 @@ class SignPolynomial:
 
     def values(self, rows: PartialAssignments, scale: int | None = None) -> tuple[Floats, Floats]:
         """Values over `scale` at some rows, and sizes (the same sum with all signs plus)."""
-        value, size = np.zeros(rows.size), np.zeros(rows.size)
-        for coefficient, monomial in self.terms:
-            term = _term(float(Fraction(coefficient, scale or self.scale)), monomial, rows)
-            value += term
-            size += np.abs(term)
-        return value, size
+        over = scale or self.scale
+        return sum_and_size(
+            (_term(float(Fraction(coefficient, over)), monomial, rows) for coefficient, monomial in self.terms),
+            (rows.size,),
+        )
 
     def signs(self, rows: PartialAssignments) -> Signs:
         """Exact signs at some rows, (rows,)."""

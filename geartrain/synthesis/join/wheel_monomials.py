@@ -10,10 +10,11 @@ from itertools import product
 from typing import Protocol
 
 from geartrain.errors import Problem, RangeError
+from geartrain.numerics.bounded_polynomials import Monomial
 from geartrain.synthesis.formulas.monomial_groups import proportional_classes
 from geartrain.synthesis.join.partial_assignments import PartialAssignments
 from geartrain.synthesis.join.polynomial_constraints import PolynomialConstraint, possible
-from geartrain.synthesis.join.polynomial_signs import Monomial, SignPolynomial
+from geartrain.synthesis.join.polynomial_signs import SignPolynomial
 from geartrain.synthesis.join.product_lists import Domains, ItemRecipe, forecast, greatest
 from geartrain.synthesis.join.solution_windows import PolynomialInequality
 

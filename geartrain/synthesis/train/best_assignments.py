@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from geartrain.numerics.bounded_polynomials import BoundedPolynomial, BoundedQuotient, monomial_of, products_of
 from geartrain.numerics.exact import as_float
 from geartrain.synthesis.join.exact_join import AssignmentColumns
 from geartrain.synthesis.join.polynomial_signs import ROUNDING
@@ -94,18 +95,19 @@ class AssignmentOrder:
 def _errors(asking: OutputRequirement, columns: AssignmentColumns) -> tuple[Floats, Floats]:
     """Bounds on the largest |error| of one output."""
     function = asking.function
-    scale = max(abs(term[0]) for term in (*function.numerator, *function.denominator))
-    above, size_above = _values(function.wheels, function.numerator, columns, scale)
-    below, size_below = _values(function.wheels, function.denominator, columns, scale)
-    with np.errstate(all="ignore"):
-        speed = above / below
-        off = (size_above + np.abs(speed) * size_below) / np.abs(below) + 4 * ROUNDING * np.abs(speed)
-        off = np.where(np.isfinite(off), off, inf)
-    least, greatest = np.zeros(len(speed)), np.zeros(len(speed))
+    sides = [[(c, monomial_of(powers)) for c, powers in terms] for terms in (function.numerator, function.denominator)]
+    scale = max(abs(coefficient) for side in sides for coefficient, _ in side)
+    # a count is rounded once at most, where it is beyond 2^53
+    rounded = [1] * len(function.wheels)
+    upper, lower = (BoundedPolynomial.of(side, scale, rounded) for side in sides)
+    product = products_of([columns[wheel].astype(np.float64) for wheel in function.wheels])
+    speed, off = BoundedQuotient(upper, lower).bounded(product)
+    size = len(next(iter(columns.values())))
+    least, greatest = np.zeros(size), np.zeros(size)
     for demand in (demand for demand in asking.demands if demand.graded):
         wanted = as_float(demand.wanted)
         if wanted is None:
-            return np.zeros(len(speed)), np.full(len(speed), inf)
+            return np.zeros(size), np.full(size, inf)
         if wanted:
             error = np.abs((speed if demand.signed else np.abs(speed)) / wanted - 1)
             slack = off / abs(wanted) + 4 * ROUNDING * (1 + error)
@@ -115,23 +117,6 @@ def _errors(asking: OutputRequirement, columns: AssignmentColumns) -> tuple[Floa
         error = np.where(np.isfinite(error), error, 0.0)
         least, greatest = np.maximum(least, error - slack), np.maximum(greatest, error + slack)
     return least, greatest
-
-
-def _values(
-    wheels: Sequence[str], terms: Sequence[WheelTerm], columns: AssignmentColumns, scale: int
-) -> tuple[Floats, Floats]:
-    """Sum of some terms over `scale`, and a bound on its rounding."""
-    value = np.zeros(len(next(iter(columns.values()))))
-    size, steps = value.copy(), 0
-    for coefficient, powers in terms:
-        term = np.full(len(value), float(Fraction(coefficient, scale)))
-        for wheel, power in zip(wheels, powers, strict=True):
-            for _ in range(power):
-                term *= columns[wheel]
-        value += term
-        size += np.abs(term)
-        steps = max(steps, sum(powers))
-    return value, size * ((2 * steps + len(terms) + 8) * ROUNDING)
 
 
 def _exact_errors(asking: OutputRequirement, columns: AssignmentColumns) -> tuple[list[Fraction], Ints]:

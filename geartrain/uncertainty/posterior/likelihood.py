@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import cached_property, reduce
 
 import numpy as np
 from numpy.typing import NDArray
 
+from geartrain.numerics.bounded_polynomials import BoundedPolynomial, BoundedQuotient, in_range
 from geartrain.numerics.exact import log10
-from geartrain.numerics.rounding_bounds import SLACK, UNIT_ROUNDOFF, quotient_error, sum_error
+from geartrain.numerics.rounding_bounds import UNIT_ROUNDOFF
 from geartrain.synthesis.formulas import Formula
 from geartrain.synthesis.formulas.laurent import Term
 from geartrain.synthesis.join.polynomial_constraints import PolynomialConstraint
@@ -30,84 +30,43 @@ from geartrain.uncertainty.posterior.observations import Observation, ObservedOu
 Bools = NDArray[np.bool_]
 Domains = Mapping[str, tuple[int, ...]]
 
-_SAFE = 250
-"""Monomials between 10^-250 and 10^250 are never near the ends of float64, where relative errors are not bounded."""
-
-
-@dataclass(frozen=True, eq=False)
-class CountPolynomial:
-    """A sum of products of items, in float64.
-
-    terms      (coefficient, product) pairs
-    roundings  in one term and in the sum: the value is off by at most roundings u times the sum of the terms' sizes
-    """
-
-    terms: tuple[tuple[float, Key], ...]
-    roundings: int
-
-    @cached_property
-    def relative(self) -> float | None:
-        """A bound on the relative error; None where terms may cancel."""
-        signs = {coefficient > 0 for coefficient, _ in self.terms}
-        return self.roundings * UNIT_ROUNDOFF * SLACK if len(signs) == 1 else None
-
-    def __call__(self, rows: MonomialColumns, plan: ProductPlan) -> tuple[Floats, Floats | None]:
-        """The value, and a bound on its error where `relative` is None."""
-        if not self.terms:
-            return np.zeros(()), np.zeros(())
-        each = [rows.product(key, plan) if one == 1 else one * rows.product(key, plan) for one, key in self.terms]
-        value = reduce(np.add, each)
-        if self.relative is not None:
-            return value, None
-        size = reduce(np.add, map(np.abs, each))
-        return value, np.asarray(sum_error(self.roundings, size))
-
-    def bounded(self, rows: MonomialColumns, plan: ProductPlan) -> tuple[Floats, Floats]:
-        """The value, and a bound on its error in any case."""
-        value, room = self(rows, plan)
-        return value, np.asarray((self.relative or 0) * np.abs(value)) if room is None else room
-
 
 @dataclass(frozen=True, eq=False)
 class FormulaValues:
     """A formula seen through monomials: each of them is part of one of its groups, or of none.
 
-    upper, lower   `lower` is None where the formula is a sum of monomials
-    plan           its products in few multiplications
-    safe           False where floats may overflow, so that nothing can be said of their error
+    quotient   None where floats may overflow, so that nothing can be said of their error
+    plan       its products in few multiplications
     """
 
-    upper: CountPolynomial
-    lower: CountPolynomial | None
+    quotient: BoundedQuotient | None
     plan: ProductPlan
-    safe: bool
 
     @classmethod
     def of(cls, formula: Formula, monomials: Sequence[Powers], domains: Domains) -> FormulaValues:
         """Compile a formula."""
-        if not formula.denominator or not _is_safe(formula, domains):
-            return cls(CountPolynomial((), 0), None, {}, False)
+        largest = [log10(Fraction(max(domains[wheel]))) for wheel in formula.wheels]
+        if not formula.denominator or not in_range((*formula.numerator, *formula.denominator), largest):
+            return cls(None, {})
         alone = len(formula.denominator) == 1
         scale, below = formula.denominator[0] if alone else (1, (0,) * len(formula.wheels))
         rounded = [2 * sum(map(abs, one.values())) + 7 for one in monomials]
 
-        def made(terms: Sequence[Term]) -> CountPolynomial:
+        def made(terms: Sequence[Term]) -> BoundedPolynomial:
             pairs = []
             for coefficient, powers in terms:
                 exponents = dict(zip(formula.wheels, map(int.__sub__, powers, below), strict=True))
-                pairs.append((float(Fraction(coefficient, scale)), _key(exponents, monomials)))
-            each = [sum(abs(power) * (rounded[item] + 1) for item, power in key) for _, key in pairs]
-            return CountPolynomial(tuple(pairs), max(each, default=0) + len(pairs) + 2)
+                pairs.append((coefficient, _key(exponents, monomials)))
+            return BoundedPolynomial.of(pairs, scale, rounded)
 
-        upper = made(formula.numerator)
-        lower = None if alone else made(formula.denominator)
-        keys = [key for _, key in (*upper.terms, *(lower.terms if lower else ()))]
-        return cls(upper, lower, find_product_plan(keys), True)
+        quotient = BoundedQuotient(made(formula.numerator), None if alone else made(formula.denominator))
+        sides = (quotient.upper,) if quotient.lower is None else (quotient.upper, quotient.lower)
+        return cls(quotient, find_product_plan(key for side in sides for _, key in side.terms))
 
     @property
     def relative(self) -> float | None:
         """A bound on the relative error of every value; None where that depends on the row."""
-        return self.upper.relative if self.safe and self.lower is None else None
+        return None if self.quotient is None else self.quotient.relative
 
     def __call__(self, rows: MonomialColumns, plan: ProductPlan | None = None) -> tuple[Floats, Floats | None]:
         """Values at some rows, and bounds on their errors where `relative` is None: infinite where no digit is sure.
@@ -127,19 +86,9 @@ class FormulaValues:
         return value, (self.relative or 0) * np.abs(value) if room is None else room
 
     def _worked_out(self, rows: MonomialColumns, plan: ProductPlan) -> tuple[Floats, Floats | None]:
-        if not self.safe:
+        if self.quotient is None:
             return np.zeros(()), np.full((), np.inf)
-        if self.lower is None:
-            return self.upper(rows, plan)
-        return _divided(*self.upper.bounded(rows, plan), *self.lower.bounded(rows, plan))
-
-
-def _divided(top: Floats, off: Floats, bottom: Floats, beside: Floats) -> tuple[Floats, Floats]:
-    with np.errstate(all="ignore"):
-        value = top / bottom
-        left = np.abs(bottom) - beside
-        room = quotient_error(value, off, left, beside)
-    return value, np.where((left > 0) & np.isfinite(room), room, np.inf)
+        return self.quotient(lambda key: rows.product(key, plan))
 
 
 def _filled(values: Floats, size: int) -> Floats:
@@ -154,16 +103,6 @@ def _key(exponents: Mapping[str, int], monomials: Sequence[Powers]) -> Key:
         if exponents.get(wheel, 0):
             found.append((item, exponents[wheel] // power))
     return tuple(found)
-
-
-def _is_safe(formula: Formula, domains: Domains) -> bool:
-    """True if no term, whatever way it is multiplied, comes near the ends of float64."""
-    sizes = [log10(Fraction(max(domains[wheel]))) for wheel in formula.wheels]
-    for coefficient, powers in (*formula.numerator, *formula.denominator):
-        reach = sum(size * abs(power) for size, power in zip(sizes, powers, strict=True))
-        if 2 * reach + abs(log10(Fraction(coefficient))) > _SAFE:
-            return False
-    return True
 
 
 class OutputLikelihood:

@@ -30,6 +30,8 @@ _PLAIN: dict[Any, Schema] = {
 }
 _LINE = re.compile(r"^    (\w+(?:, \w+)*)   *(\S.*(?:\n      .*)*)", re.MULTILINE)
 """A line of a class's docstring that tells of fields, with those that go on with it."""
+_ENTRY = re.compile(r"^    (\w+(?:, \w+)*) :.*((?:\n {8}.*)+)", re.MULTILINE)
+"""The same as an entry of numpydoc: names and kind, the meaning indented below."""
 
 
 def shape_of(kind: Any, to: Callable[[Any], Any] | None = None, keys: tuple[str | Key, ...] = ()) -> Schema:
@@ -125,7 +127,8 @@ def _words(kind: type) -> dict[str, str]:
     """What the docstring of a class says of its fields."""
     found: dict[str, str] = {}
     for base in reversed(kind.__mro__):
-        for names, text in _LINE.findall(base.__doc__ or ""):
+        said = base.__doc__ or ""
+        for names, text in (*_LINE.findall(said), *_ENTRY.findall(said)):
             found |= dict.fromkeys(names.split(", "), " ".join(text.split()))
     return found
 

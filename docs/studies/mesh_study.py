@@ -16,8 +16,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from geartrain.teeth.pair_verdict import PairVerdict
 from geartrain.teeth.transmission_table import CellTable, TabulatedTransmission
-from geartrain.teeth.triangular.clearance_window import ClearanceWindow, TriangularVerdict, find_window
+from geartrain.teeth.triangular.clearance_window import ClearanceWindow, find_window
 from geartrain.teeth.triangular.pair_geometry import TriangularSizes, equal_depth
 from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
 from studies.measurement import Step, Task, measure, taken
@@ -190,7 +191,7 @@ class _Pair:
         scale = 1 + 1e-9 * self._asked
         return replace(self.sizes, R1=self.sizes.R1 * scale, R2=self.sizes.R2 * scale)
 
-    def verdict(self) -> TriangularVerdict:
+    def verdict(self) -> PairVerdict:
         """Whether the pair runs."""
         return plain_law(self._fresh()).verdict
 

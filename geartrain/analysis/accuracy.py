@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, Any, Final, Literal, NamedTuple
 from geartrain.analysis.gear_train import GearTrain
 from geartrain.errors import GearTrainError
 from geartrain.numerics.plain_data import Result
-from geartrain.teeth.transmission import ExactRatio, TransmissionFunction
+from geartrain.teeth.transmission import TransmissionFunction
 
 if TYPE_CHECKING:
     from geartrain.dynamics.motion import Motion, Superposition
@@ -209,8 +209,8 @@ def _forecast(floats: Answer) -> float:
 
 def _laws(train: GearTrain, state: str | None, positions: int) -> Iterator[MethodAccuracy]:
     """Every pair's law asked directly, and read from tables."""
-    laws = {mesh.name: mesh.law for mesh in train.meshes_in(state) if not isinstance(mesh.law, ExactRatio)}
-    laws |= {pin.coupling.id: pin.law for pin in train.pins}
+    laws = {mesh.name: mesh.law for mesh in train.meshes_in(state) if not mesh.rigid}
+    laws |= {pin.coupling.name: pin.law for pin in train.pins}
     if not laws:
         raise _AbsentError("the law of each pair with a tooth form is its exact ratio" if train.meshes else _NO_FORM)
     import numpy as np

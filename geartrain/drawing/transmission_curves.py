@@ -12,8 +12,9 @@ import numpy as np
 from geartrain.drawing.backend import Axes, Figure, Line2D
 from geartrain.drawing.style import BLACK, GREY, HALO, PHASES, SMALL, TEXT, WIDTH, pair_text, plain, require_contact
 from geartrain.teeth.triangular.real_path import STANDSTILL
+from geartrain.teeth.triangular.speed_jump import SpeedJump
 from geartrain.teeth.triangular.tooth_couple import APPROACH, RECESS
-from geartrain.teeth.triangular.triangular_transmission import SpeedJump, TriangularTransmission
+from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
 
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats

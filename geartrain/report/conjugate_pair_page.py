@@ -7,7 +7,7 @@ from math import degrees, isfinite
 from typing import TYPE_CHECKING, Any
 
 from geartrain.report.document import Document, Section, Table, figure
-from geartrain.teeth.pair_account import efficiency_data
+from geartrain.teeth.transmission_figures import SlidingEfficiency
 
 if TYPE_CHECKING:
     from geartrain.teeth.conjugate.conjugate_transmission import ConjugateTransmission
@@ -213,7 +213,7 @@ def shape_data(name: str, law: ConjugateTransmission, wheels: Sequence[WheelOutl
 def _efficiency_data(law: ConjugateTransmission) -> dict[str, Any]:
     from geartrain.teeth.conjugate.path_costs import SHARED
 
-    return {"assumption": SHARED} | efficiency_data(law)
+    return {"assumption": SHARED} | SlidingEfficiency(law).to_dict()
 
 
 def _costs_data(law: ConjugateTransmission) -> dict[str, Any]:

@@ -3,19 +3,51 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from math import degrees
 from typing import TYPE_CHECKING, Any
 
 from geartrain.analysis.gear_train import GearTrain
+from geartrain.numerics.plain_data import Key, Result, plain
 from geartrain.report.document import Document, Section, Table
 from geartrain.teeth.gear_mesh import GearMesh
-from geartrain.teeth.pair_account import AccountTable, PairAccount
-from geartrain.teeth.triangular.triangular_account import triangular_data
+from geartrain.teeth.pair_account import AccountTable, PairAccount, PairFigures
+from geartrain.teeth.pin_figures import PinFigures, pin_figures
 
 if TYPE_CHECKING:
     from geartrain.dynamics.motion.pair_impacts import PairOperation
     from geartrain.teeth.triangular.clearance_window import ClearanceWindow
     from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
+
+_OF_PAIR = (Key("form", "mesh.form"), Key("gears", "mesh.gears"), Key("note", "mesh.note"), Key("", "figures"))
+
+
+@dataclass(frozen=True)
+class DrivenPair(Result):
+    """A pair with real teeth in one way in which it is driven.
+
+    states   in which it is driven so
+    """
+
+    KEYS = (Key("pair", "mesh.name"), Key("", "mesh.who"), "states", *_OF_PAIR)
+
+    mesh: GearMesh
+    states: tuple[str, ...] = ()
+
+    @property
+    def figures(self) -> PairFigures:
+        """What the mesh tells of itself."""
+        return self.mesh.account().figures
+
+
+@dataclass(frozen=True)
+class DrivenPin(Result):
+    """A coupling with dimensions, its pin driving."""
+
+    KEYS = ("coupling", Key("ratio", "figures.speed_ratio.mean"), Key("", "figures"))
+
+    coupling: str
+    figures: PinFigures
 
 
 def teeth_sections(train: GearTrain) -> Iterator[Section]:
@@ -60,7 +92,8 @@ def describe_pair(mesh: GearMesh) -> Document:
 
 def pair_data(mesh: GearMesh) -> dict[str, Any]:
     """The same as plain data."""
-    return {"form": mesh.form, "driver": mesh.driver, **mesh.account().data}
+    found: dict[str, Any] = plain(DrivenPair(mesh), keys=(Key("driver", "mesh.driver"), *_OF_PAIR))
+    return found
 
 
 def driven_ways(train: GearTrain) -> Iterator[tuple[GearMesh, tuple[str, ...]]]:
@@ -97,23 +130,14 @@ def _pins(train: GearTrain) -> Section:
     return Section("Pins", (text,), (Table(header, rows),))
 
 
-def teeth_data(train: GearTrain) -> dict[str, Any]:
-    """Real teeth and pins of a train as plain data; empty lists where none are declared."""
-    return {
-        "teeth": [
-            {"pair": mesh.name, **mesh.who.to_dict(), "states": list(states), "form": mesh.form, **mesh.account().data}
-            for mesh, states in driven_ways(train)
-        ],
-        "pins": [
-            {
-                "coupling": joint.coupling.name,
-                "ratio": str(joint.law.ratio),
-                "amplitude": joint.law.amplitude,
-                "speed_ratio": {"min": joint.law.speed_range()[0], "max": joint.law.speed_range()[1]},
-            }
-            for joint in train.pins
-        ],
-    }
+def driven_pairs(train: GearTrain) -> tuple[DrivenPair, ...]:
+    """Real teeth of a train; empty where none are declared."""
+    return tuple(DrivenPair(mesh, states) for mesh, states in driven_ways(train))
+
+
+def driven_pins(train: GearTrain) -> tuple[DrivenPin, ...]:
+    """Pins of a train; empty where none has dimensions."""
+    return tuple(DrivenPin(joint.coupling.name, pin_figures(joint.law)) for joint in train.pins)
 
 
 def mesh_data(
@@ -121,6 +145,7 @@ def mesh_data(
 ) -> dict[str, Any]:
     """One pair with triangular teeth as plain data with stable keys, and what its collisions cost; angles in rad."""
     from geartrain.dynamics.motion.pair_impacts import find_pair_impacts
+    from geartrain.teeth.triangular.triangular_account import triangular_figures
 
     found = find_pair_impacts(law, operation) if operation is not None and law.intervals else None
-    return triangular_data(law, window, None if found is None else found.to_dict())
+    return triangular_figures(law, window, found).to_dict()

@@ -9,6 +9,7 @@ from __future__ import annotations
 from functools import cache
 
 from geartrain.report.json_shapes import Schema, shape_of
+from geartrain.teeth.transmission_figures import SlidingEfficiency
 
 TEXT, NUMBER, COUNT, FLAG, NULL = map(shape_of, (str, float, int, bool, None.__class__))
 TEXTS, EXACT, SOME = shape_of(list[str]), shape_of(str | None), shape_of(float | None)
@@ -33,77 +34,8 @@ OBJECT: Schema = {"type": "object"}
 
 # ------------------------------------------------------------------------------------------------------ a pair of teeth
 
-EFFICIENCY = _maybe(_has({"friction": NUMBER}, {"mean": SOME, "at_constant_load": SOME, "min": SOME, "locks_at": SOME}))
-RATIO = _maybe(_has({"mean": NUMBER, "exact": TEXT, "min": NUMBER, "max": NUMBER}))
-ERROR = _maybe(_has({"peak_to_peak": NUMBER, "rms": NUMBER, "mean": NUMBER}))
-MESH = {
-    "teeth": _list(COUNT, 2),
-    "verdict": _has({"kind": TEXT, "text": TEXT, "why": TEXT, "fix": TEXT}),
-    "clearance": NUMBER,
-    "window": _maybe(
-        _has({"jam": NUMBER, "jam_kind": TEXT, "run": NUMBER, "run_kind": TEXT, "reach": NUMBER, "works": FLAG})
-    ),
-    "sizes": _has(
-        {
-            "radii": _list(NUMBER, 2),
-            "half_angles": _list(NUMBER, 2),
-            "depths": _list(NUMBER, 2),
-            "centre_distance": NUMBER,
-            "reach": NUMBER,
-            "matching": SOME,
-        }
-    ),
-    "play": SOME,
-    "speed_ratio": RATIO,
-    "transmission_error": ERROR,
-    "efficiency": EFFICIENCY,
-    "intervals": _list(_has({"phase": TEXT, "start": NUMBER, "end": NUMBER})),
-    "jumps": _list(_has({"kind": TEXT, "alpha1": NUMBER, "before": NUMBER, "after": NUMBER, "value": NUMBER})),
-    "impacts": _maybe(
-        _has(
-            {
-                "inertia": NUMBER,
-                "rate": SOME,
-                "handed": SOME,
-                "dissipated": SOME,
-                "work": SOME,
-                "load_to_stay_in_contact": SOME,
-                "void_above": SOME,
-            }
-        )
-    ),
-}
-_LINE = _has({"order": NUMBER, "exact": TEXT, "expected": NUMBER, "measured": NUMBER, "pairs": _list(OBJECT)})
-_PAIR = {
-    "pair": TEXT,
-    "driver": TEXT,
-    "driver_is": TEXT,
-    "determined": FLAG,
-    "states": TEXTS,
-    "form": TEXT,
-}
-_FORMED = {
-    "teeth": _list(COUNT, 2),
-    "gears": _list(TEXT, 2),
-    "note": TEXT,
-    "verdict": _has({"kind": TEXT, "text": TEXT, "why": TEXT, "fix": TEXT, "play": SOME, "faults": _list(OBJECT)}),
-    "play": SOME,
-    "speed_ratio": RATIO,
-    "transmission_error": ERROR,
-    "efficiency": EFFICIENCY,
-}
-_PATH = {"arcs": _maybe(_list(NUMBER)), "contact_ratio": SOME, "pressure_angle": SOME, "shaft_angle": SOME}
+EFFICIENCY = shape_of(SlidingEfficiency | None)
 
-PIN = _has(
-    {
-        "pin_radius": NUMBER,
-        "offset": NUMBER,
-        "speed_ratio": RATIO,
-        "amplitude": SOME,
-        "transmission_error": ERROR,
-        "efficiency": EFFICIENCY,
-    }
-)
 SHAPE = _has(
     {
         "form": TEXT,
@@ -127,8 +59,6 @@ COMPARED = _has(
     }
 )
 
-PINS = _has({"coupling": TEXT, "ratio": TEXT, "amplitude": NUMBER, "speed_ratio": _has({"min": NUMBER, "max": NUMBER})})
-
 
 # ----------------------------------------------------------------------------------------------------------- questions
 
@@ -147,8 +77,7 @@ def _of_trains() -> dict[str, Schema]:
     from geartrain.report.train_data import TrainAnswers, TrainReport
 
     report = shape_of(TrainReport)
-    teeth = {"anyOf": [_has(_PAIR | MESH), _has(_PAIR | _FORMED, _PATH)]}
-    report = report | {"properties": report["properties"] | {"teeth": _list(teeth), "pins": _list(PINS)}}
+    report = report | {"properties": report["properties"] | {"teeth": _list(_driven_pair())}}
     edges = {"nodes": _list(OBJECT), "edges": _list(OBJECT)}
     return {
         "solve": shape_of(TrainAnswers),
@@ -199,11 +128,29 @@ def _of_tooth_numbers() -> dict[str, Schema]:
     }
 
 
+def _driven_pair() -> Schema:
+    """A pair with teeth of any form, with the figures of that form."""
+    from geartrain.report.gear_pairs import DrivenPair
+    from geartrain.teeth.any_tooth_form import tooth_forms
+
+    pair = shape_of(DrivenPair)
+    found = []
+    for figures in dict.fromkeys(form.figures() for form in tooth_forms().values()):
+        own = shape_of(figures)
+        required = dict.fromkeys([*pair["required"], *own["required"]])
+        found.append(pair | {"properties": pair["properties"] | own["properties"], "required": list(required)})
+    return {"anyOf": found}
+
+
 def _of_pairs() -> dict[str, Schema]:
+    from geartrain.dynamics.motion.pair_impacts import PairImpacts
+    from geartrain.teeth.pin_figures import PinFigures
+    from geartrain.teeth.triangular.triangular_account import TriangularFigures
+
     return {
-        "mesh triangular": _has(MESH),
+        "mesh triangular": _also(TriangularFigures, impacts=PairImpacts | None),
         "mesh triangular --vary": shape_of(list[dict[str, float | str | None]]),
-        "mesh pin": PIN,
+        "mesh pin": shape_of(PinFigures),
         "mesh FORM": SHAPE,
         "mesh compare": COMPARED,
     }

@@ -204,18 +204,6 @@ def _share(efficiency: float) -> str:
 
 def pin_data(law: PinTransmission) -> dict[str, Any]:
     """One coupling as plain data with stable keys; angles in rad."""
-    least, most = law.speed_range()
-    low, high = law.error_range()
-    mean, at_load = law.efficiency_mean(), law.efficiency_at_constant_load()
-    return {
-        "pin_radius": law.r,
-        "offset": law.e,
-        "speed_ratio": {"mean": float(law.ratio), "exact": str(law.ratio), "min": least, "max": most},
-        "amplitude": law.amplitude,
-        "transmission_error": {"peak_to_peak": high - low, "rms": law.error_moments()[1], "mean": 0.0},
-        "efficiency": {
-            "friction": law.friction,
-            "mean": None if isnan(mean) else mean,
-            "at_constant_load": None if isnan(at_load) else at_load,
-        },
-    }
+    from geartrain.teeth.pin_figures import pin_figures
+
+    return pin_figures(law).to_dict()

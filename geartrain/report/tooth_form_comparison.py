@@ -12,9 +12,9 @@ from geartrain.report.document import Document, Section, Table
 
 if TYPE_CHECKING:
     from geartrain.errors import Problem
-    from geartrain.teeth.conjugate.admissibility import ToothFault
     from geartrain.teeth.conjugate.path_costs import PathMeasures
     from geartrain.teeth.conjugate.path_of_contact import PathOfContact
+    from geartrain.teeth.pair_verdict import ToothFault
 
 _LOADED = ("loss", "stress", "stress off pitch", "heat", "flash")
 _FREE = ("depth", "contact ratio", "slowest")

@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from geartrain.kinematics.phasing import MeshPhasing
     from geartrain.kinematics.speeds import Mobility
     from geartrain.kinematics.tooth_sensitivity import Sensitivity
+    from geartrain.report.gear_pairs import DrivenPair, DrivenPin
     from geartrain.report.motion_report import MotionFigures, UnfollowedMotion
     from geartrain.report.power_report import TorqueFigures
     from geartrain.train.states import Erratum
@@ -91,8 +92,8 @@ class TrainReport(TrainAnswers):
     adjacency: AdjacencyLetters | None
     remarks: tuple[Problem, ...]
     sensitivity: tuple[StateSensitivity, ...]
-    teeth: list[Any]
-    pins: list[Any]
+    teeth: tuple[DrivenPair, ...]
+    pins: tuple[DrivenPin, ...]
     torques: tuple[TorqueFigures, ...]
     motion: tuple[MotionFigures | UnfollowedMotion, ...]
     errata: tuple[Erratum, ...]
@@ -101,7 +102,7 @@ class TrainReport(TrainAnswers):
 def collect_report(train: GearTrain) -> TrainReport:
     """Everything a report holds: answers, structure, teeth, torques, motion, doubts and errata."""
     from geartrain.kinematics.graph import adjacency_labels
-    from geartrain.report.gear_pairs import teeth_data
+    from geartrain.report.gear_pairs import driven_pairs, driven_pins
     from geartrain.report.motion_report import moving_figures
     from geartrain.report.power_report import loaded_figures
 
@@ -117,7 +118,8 @@ def collect_report(train: GearTrain) -> TrainReport:
         adjacency=AdjacencyLetters(tuple(train.graph), adjacency_labels(train.graph)) if small else None,
         remarks=train.remarks,
         sensitivity=tuple(StateSensitivity(answer.state, change) for answer, change in doubts),
-        **teeth_data(train),
+        teeth=driven_pairs(train),
+        pins=driven_pins(train),
         torques=loaded_figures(train),
         motion=moving_figures(train),
         errata=tuple(declared.errata),

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated
+from typing import Annotated, get_args
 
 from pydantic import Field
 
@@ -23,6 +23,18 @@ ConjugateForm = Involute | Cycloidal | Lantern | UniformStress | UniformTemperat
 AnyToothForm = Annotated[Ideal | ConjugateForm | Triangular | CircularArc, Field(discriminator="form")]
 """Whatever a declaration may say of the teeth of a pair."""
 
+
+def tooth_forms() -> dict[str, type[ToothForm]]:
+    """Every form by its name, in the order of the union."""
+    models: tuple[type[ToothForm], ...] = get_args(get_args(AnyToothForm)[0])
+    return {get_args(model.model_fields["form"].annotation)[0]: model for model in models}
+
+
+def conjugate_forms() -> tuple[str, ...]:
+    """The names of `ConjugateForm`, in the order of that union."""
+    return tuple(name for name, model in tooth_forms().items() if model in get_args(ConjugateForm))
+
+
 __all__ = [
     "AnyToothForm",
     "CircularArc",
@@ -36,4 +48,6 @@ __all__ = [
     "Triangular",
     "UniformStress",
     "UniformTemperature",
+    "conjugate_forms",
+    "tooth_forms",
 ]

@@ -8,14 +8,16 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, Protocol, Self
 
-from geartrain.errors import Problem
+from geartrain.errors import Problem, RangeError
 from geartrain.numerics.plain_data import Key, Result
 from geartrain.teeth.transmission import ExactRatio
 
 if TYPE_CHECKING:
     from geartrain.teeth.outlines.wheel_requirement import WheelRequirement
     from geartrain.teeth.pair_account import PairAccount
+    from geartrain.teeth.pair_verdict import PairVerdict
     from geartrain.teeth.transmission import TransmissionFunction
+    from geartrain.teeth.transmission_figures import SlidingEfficiency
 
 
 class DeclaredPair(Protocol):
@@ -48,29 +50,6 @@ class NamedForm(Protocol):
     @property
     def has_lengths(self) -> bool:
         """True for teeth declared in units of length."""
-
-
-class PairVerdict(Protocol):
-    """Whether a pair of wheels can turn; true if it can.
-
-    kind   "runs", or one word for why it does not
-    text   the same in words
-    play   play of the teeth (rad of the driven wheel)
-    """
-
-    @property
-    def kind(self) -> str:
-        """One word."""
-
-    @property
-    def text(self) -> str:
-        """In words."""
-
-    @property
-    def play(self) -> float:
-        """Play (rad of the driven wheel)."""
-
-    def __bool__(self) -> bool: ...
 
 
 @dataclass(frozen=True)
@@ -199,6 +178,17 @@ class GearMesh(ABC):
         return second if self.driver == first else first
 
     @property
+    def counts(self) -> tuple[int, int]:
+        """Tooth numbers of the driver and of the driven wheel."""
+        first, second = self.wheels.counts
+        return (first, second) if self.driver == self.gear.pair[0] else (second, first)
+
+    @property
+    def gears(self) -> tuple[str, str]:
+        """The wheels that the form calls gear 1 and gear 2: as the pair names them, unless the form says otherwise."""
+        return self.gear.pair
+
+    @property
     def coast(self) -> TransmissionFunction:
         """The transmission function of the coast flanks, which push while the driver turns back."""
         return self.law.turned_back()
@@ -213,9 +203,11 @@ class GearMesh(ABC):
     def verdict(self) -> PairVerdict:
         """Whether these teeth can turn."""
 
-    @abstractmethod
     def _faults(self) -> Iterator[Problem]:
         """Everything that is wrong with these teeth, without pair and place."""
+        yield from (fault.problem for fault in self.verdict.faults)
+        if self.law.friction >= self.law.locking_friction:
+            yield friction_lock(self.law.friction, self.law.locking_friction)
 
     @abstractmethod
     def size(self, tips: Mapping[str, float]) -> PairSize | None:
@@ -238,9 +230,23 @@ class GearMesh(ABC):
         """
 
     @property
-    def cut_sizes(self) -> object | None:
-        """The sizes about which manufacturing errors are drawn, tooth by tooth; None for forms without such a law."""
-        return None
+    def has_cut_sizes(self) -> bool:
+        """True for teeth whose manufacturing errors are reckoned tooth by tooth."""
+        return False
+
+    @property
+    def cut_sizes(self) -> Any:
+        """The sizes about which manufacturing errors are drawn: `TriangularSizes`, of flanks that meet in a point.
+
+        Raises `RangeError` for teeth of another form.
+        """
+        raise RangeError(
+            Problem(
+                f"{self.label} has no triangular teeth",
+                "cutting errors are reckoned tooth by tooth for straight flanks that meet in a point",
+                "declare `tooth_form: {form: triangular, ...}`",
+            )
+        )
 
     @abstractmethod
     def account(self) -> PairAccount:
@@ -288,6 +294,19 @@ class GearMesh(ABC):
     def rubs(self) -> bool:
         """True if something is lost between these teeth."""
         return bool(self.friction)
+
+    def efficiency(self, driver: str) -> SlidingEfficiency:
+        """What arrives of the power that this wheel puts in, over a turn."""
+        from geartrain.teeth.transmission_figures import SlidingEfficiency
+
+        return SlidingEfficiency(self.law if driver == self.driver else self.reversed)
+
+    @property
+    def efficiency_texts(self) -> tuple[str, str]:
+        """Mean efficiency as the pair is driven, and driven back; dashes where no friction is declared, or it jams."""
+        if self.friction is None or not self.verdict:
+            return "-", "-"
+        return self.efficiency(self.driver).text, self.efficiency(self.driven).text
 
     def driven_by(self, driver: MeshDriver) -> Self:
         """The same teeth with this wheel driving."""

@@ -14,10 +14,10 @@ from geartrain.teeth.conjugate.wheel_pair import WheelPair
 from geartrain.teeth.tooth_form import TwoFigures, bad, refused
 
 if TYPE_CHECKING:
-    from geartrain.teeth.conjugate.admissibility import ToothFault
     from geartrain.teeth.conjugate.conjugate_transmission import ConjugatePair
     from geartrain.teeth.conjugate.pitch_surfaces import PitchSurfaces
     from geartrain.teeth.outlines.wheel_requirement import LanternPins
+    from geartrain.teeth.pair_verdict import ToothFault
 
 
 def _first_or_second(raw: object) -> object:
@@ -95,7 +95,7 @@ class Lantern(ConjugateToothForm):
 
     def _cut(self, pitch: PitchSurfaces, start: float, outside: float, inside: float) -> tuple[ToothFault, ...]:
         """A fault where the pins on their way in leave less of the mate's flank than the arcs need."""
-        from geartrain.teeth.conjugate.admissibility import ToothFault
+        from geartrain.teeth.pair_verdict import ToothFault
 
         left = (outside + min(inside, -start)) / pitch.p
         if inside <= -start or (left >= 1 - 1e-12 and not inside):

@@ -2,20 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from math import degrees, pi
 from typing import TYPE_CHECKING
 
-from geartrain.errors import Problem
-from geartrain.teeth.gear_mesh import GearMesh, PairSize, friction_lock
+from geartrain.teeth.gear_mesh import GearMesh, PairSize
 
 if TYPE_CHECKING:
-    from geartrain.teeth.conjugate.conjugate_transmission import ConjugateVerdict
     from geartrain.teeth.outline_transmission import OutlineTransmission
     from geartrain.teeth.outlines.wheel_requirement import FixedTooth
     from geartrain.teeth.pair_account import PairAccount
+    from geartrain.teeth.pair_verdict import PairVerdict
 
 _WORDS = (
     "Teeth whose motion is found by the contact of their outlines, each pair in its carrier's frame. Speed ratio over "
@@ -41,7 +40,7 @@ class OutlineMesh(GearMesh):
         return self.law.reversed
 
     @property
-    def verdict(self) -> ConjugateVerdict:
+    def verdict(self) -> PairVerdict:
         """Whether these teeth can turn."""
         return self.law.verdict
 
@@ -63,41 +62,21 @@ class OutlineMesh(GearMesh):
 
     def account(self) -> PairAccount:
         """Speed, error, play and efficiency, as the pair is driven and driven back."""
-        from geartrain.teeth.pair_account import (
-            AccountTable,
-            PairAccount,
-            efficiency_data,
-            efficiency_text,
-            error_text,
-            motion_data,
-        )
+        from geartrain.teeth.pair_account import AccountTable, PairAccount, PairFigures, motion_figures
+        from geartrain.teeth.transmission_figures import SlidingEfficiency
 
-        law, verdict = self.law, self.verdict
-        runs, known = bool(verdict), self.friction is not None and bool(verdict)
-        least, most = (speed / float(law.ratio) for speed in law.speed_range())
+        runs = bool(self.verdict)
+        motion, own = motion_figures(self.law, runs), SlidingEfficiency(self.law)
+        figures = PairFigures(self.counts, self.verdict, *motion, own if runs else None)
+        speed = figures.speed_ratio
         row = (
             self.name,
             f"{self.driver} -> {self.driven}",
             self.tooth_form.words,
-            f"{least:.5f}..{most:.5f}" if runs else "-",
-            error_text(law, runs),
-            f"{degrees(verdict.play):.4g}",
-            *(efficiency_text(way) if known else "-" for way in (law, self.reversed)),
-            verdict.kind,
+            "-" if speed is None else "{:.5f}..{:.5f}".format(*speed.relative),
+            figures.error_text,
+            f"{degrees(self.verdict.play):.4g}",
+            *self.efficiency_texts,
+            self.verdict.kind,
         )
-        fault = verdict.faults[0] if verdict.faults else None
-        data = {
-            "teeth": list(self.wheels.counts if self.driver == self.gear.pair[0] else self.wheels.counts[::-1]),
-            "verdict": {**verdict.to_dict(), "why": fault.why if fault else "", "fix": fault.fix if fault else ""},
-            "gears": list(self.gear.pair),
-            "note": self.note,
-            "play": verdict.play,
-            **motion_data(law, runs),
-            "efficiency": efficiency_data(law) if runs else None,
-        }
-        return PairAccount(_WORDS, (AccountTable(_HEADER, row, wide=True),), data)
-
-    def _faults(self) -> Iterator[Problem]:
-        yield from (Problem(fault.what, fault.why, fault.fix) for fault in self.verdict.faults)
-        if self.law.friction >= self.law.locking_friction:
-            yield friction_lock(self.law.friction, self.law.locking_friction)
+        return PairAccount(_WORDS, (AccountTable(_HEADER, row, wide=True),), figures)

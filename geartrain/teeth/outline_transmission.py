@@ -15,10 +15,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from geartrain.teeth.conjugate.admissibility import ToothFault
-from geartrain.teeth.conjugate.conjugate_transmission import ConjugateVerdict
 from geartrain.teeth.contact.outline_contact import contact, solve
 from geartrain.teeth.contact.transmission_fit import tabulate
+from geartrain.teeth.pair_verdict import PairVerdict, ToothFault, verdict_of_faults
 from geartrain.teeth.transmission import TransmissionFunction, check_friction
 
 if TYPE_CHECKING:
@@ -56,7 +55,10 @@ class OutlineGears:
 
 
 class OutlineTransmission(TransmissionFunction):
-    """The law of two outlines; arguments and angles as in `ConjugateTransmission`."""
+    """The law of two outlines; `driver` 2 lets the second wheel drive, `direction` -1 turns back.
+
+    S = 0 has a driver's tooth on the line of centres, and the driven angle is counted from where flanks touch.
+    """
 
     def __init__(self, gears: OutlineGears, friction: float = 0.0, driver: int = 1, direction: int = 1) -> None:
         self.gears, self.distance = gears, gears.distance
@@ -84,15 +86,14 @@ class OutlineTransmission(TransmissionFunction):
         return OutlineTransmission(self.gears, self.friction, self.driver, -self.direction)
 
     @cached_property
-    def verdict(self) -> ConjugateVerdict:
+    def verdict(self) -> PairVerdict:
         """Whether the pair can turn: what is wrong with its teeth, or the play they lack at this distance."""
         plays = _plays(self.gears, self.driver)
         play = float(np.nanmin(plays, initial=inf))
         found = self.gears.faults if play >= -1e-12 else (*self.gears.faults, _jam(self.distance, play))
         if not np.isfinite(plays).all():
             found = (*found, _apart(self.distance, float(np.mean(~np.isfinite(plays)))))
-        text = "; ".join(fault.what for fault in found) or "the teeth run"
-        return ConjugateVerdict(found[0].kind if found else "runs", text, play, found)
+        return verdict_of_faults(found, play)
 
     # ---------------------------------------------------------------------------------------------------- kinematics
 

@@ -1,16 +1,52 @@
-"""What is told of a gear pair in a train's report: a row of each table that its kind has, and plain data.
+"""What is told of a gear pair, in a train's report and on a page of its own: rows of tables, and figures.
 
-Angles are in degrees in tables and in rad in data; data have the same key where forms mean the same.
+Angles are in degrees in tables and in rad in figures, which have the same key where forms mean the same.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import degrees, isfinite, nan
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, ClassVar
+
+from geartrain.numerics.plain_data import Key, Result, finite
+from geartrain.teeth.pair_verdict import PairVerdict
+from geartrain.teeth.transmission_figures import SlidingEfficiency, SpeedRatio, TransmissionError
 
 if TYPE_CHECKING:
     from geartrain.teeth.transmission import TransmissionFunction
+
+
+@dataclass(frozen=True)
+class PairFigures(Result):
+    """Figures of one pair, in one way of being driven; a form may add its own.
+
+    teeth                of the driver and of the driven wheel
+    verdict              whether they can turn
+    speed_ratio          driven over driver; None for teeth without a motion
+    transmission_error   of the driven wheel; None likewise
+    efficiency           of sliding; None likewise
+    """
+
+    KEYS: ClassVar[tuple[str | Key, ...]] = (
+        *("teeth", "verdict", Key("play", "verdict.play", finite)),
+        *("speed_ratio", "transmission_error", "efficiency"),
+    )
+
+    teeth: tuple[int, int]
+    verdict: PairVerdict
+    speed_ratio: SpeedRatio | None
+    transmission_error: TransmissionError | None
+    efficiency: SlidingEfficiency | None
+
+    @property
+    def error_text(self) -> str:
+        """Transmission error peak to peak (deg); a dash for teeth without a motion."""
+        return self.transmission_error.text if self.transmission_error else "-"
+
+
+def motion_figures(law: TransmissionFunction, moves: bool = True) -> tuple[SpeedRatio | None, TransmissionError | None]:
+    """Speed ratio and transmission error; None for teeth that have no motion."""
+    return (SpeedRatio.of(law), TransmissionError.of(law)) if moves else (None, None)
 
 
 @dataclass(frozen=True)
@@ -26,66 +62,11 @@ class AccountTable:
 class PairAccount:
     """Of one pair, in one way of being driven.
 
-    words    what the tables of all pairs of this kind mean
-    tables   one row of each
-    data     for JSON
+    words     what the tables of all pairs of this kind mean
+    tables    one row of each
+    figures   for JSON
     """
 
     words: str
     tables: tuple[AccountTable, ...]
-    data: dict[str, Any]
-
-
-class LossyTransmission(Protocol):
-    """A transmission function that knows where friction locks it."""
-
-    friction: float
-
-    @property
-    def locking_friction(self) -> float:
-        """The least friction that locks."""
-
-    def efficiency_mean(self) -> float:
-        """Mean efficiency at constant driver torque."""
-
-    def efficiency_at_constant_load(self) -> float:
-        """Work out over work in at constant load."""
-
-    def efficiency_least(self) -> float:
-        """Least efficiency."""
-
-
-def error_text(law: TransmissionFunction, runs: bool) -> str:
-    """Transmission error peak to peak (deg); a dash for teeth that do not run."""
-    low, high = law.error_range() if runs else (nan, nan)
-    return f"{degrees(high - low):.6g}" if runs else "-"
-
-
-def efficiency_text(law: LossyTransmission) -> str:
-    """Mean efficiency, or that friction locks."""
-    return "locks" if law.friction >= law.locking_friction else f"{law.efficiency_mean():.6f}"
-
-
-def efficiency_data(law: LossyTransmission) -> dict[str, float | None]:
-    """Friction and what it costs; null where it locks."""
-    locks = law.friction >= law.locking_friction
-    return {
-        "friction": law.friction,
-        "mean": None if locks else law.efficiency_mean(),
-        "at_constant_load": None if locks else law.efficiency_at_constant_load(),
-        "min": None if locks else law.efficiency_least(),
-        "locks_at": law.locking_friction if isfinite(law.locking_friction) else None,
-    }
-
-
-def motion_data(law: TransmissionFunction, runs: bool = True) -> dict[str, Any]:
-    """Speed ratio and transmission error; null for teeth that do not run."""
-    if not runs:
-        return {"speed_ratio": None, "transmission_error": None}
-    least, most = law.speed_range()
-    low, high = law.error_range()
-    lag, rms = law.error_moments()
-    return {
-        "speed_ratio": {"mean": float(law.ratio), "exact": str(law.ratio), "min": least, "max": most},
-        "transmission_error": {"peak_to_peak": high - low, "rms": rms, "mean": lag},
-    }
+    figures: PairFigures

@@ -6,7 +6,7 @@ The driver's angle S is counted from the direction that points from the pin's ax
 from __future__ import annotations
 
 from fractions import Fraction
-from math import acos, acosh, asin, log, nan, pi, sqrt
+from math import acos, acosh, asin, inf, log, nan, pi, sqrt
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -57,6 +57,11 @@ class PinTransmission(TransmissionFunction):
     def amplitude(self) -> float:
         """Greatest transmission error (rad), the same on both sides: asin of the lesser over the greater distance."""
         return asin(min(self.r, self.e) / max(self.r, self.e))
+
+    @property
+    def _steepest(self) -> float:
+        """Greatest tan d of a pin whose circle encloses the slot's axis: e/sqrt(r^2 - e^2)."""
+        return self.e / sqrt((self.r - self.e) * (self.r + self.e))
 
     def error_range(self) -> tuple[float, float]:
         """Minus and plus the amplitude."""
@@ -150,6 +155,12 @@ class PinToSlotTransmission(PinTransmission):
         """
         return 1 / (1 + self.friction * log_share(self.r, self.e)) if self.r > self.e else nan
 
+    def efficiency_least(self) -> float:
+        """Where d is greatest, sin d = e/r; 0 at a follower's dead points if there is friction."""
+        if self.r < self.e:
+            return 0.0 if self.friction else 1.0
+        return 1 / (1 + self.friction * self._steepest)
+
 
 class SlotToPinTransmission(PinTransmission):
     """A slot drives its pin: pin angle = S - asin((e/r) sin S). Only where the pin's circle encloses its axis."""
@@ -193,6 +204,10 @@ class SlotToPinTransmission(PinTransmission):
         """Work done on a constant torque on the pin over the work put in; NaN where friction locks."""
         return nan if self._locks else 1 / mean_over_the_pin(self.r, self.e, -self.friction)
 
+    def efficiency_least(self) -> float:
+        """Where d is greatest, sin d = e/r; NaN where friction locks."""
+        return nan if self._locks else 1 - self.friction * self._steepest
+
     @property
     def _locks(self) -> bool:
         return self.friction >= self.locking_friction
@@ -200,4 +215,4 @@ class SlotToPinTransmission(PinTransmission):
     @property
     def locking_friction(self) -> float:
         """The friction at which the pin locks somewhere: sqrt(r^2 - e^2)/e."""
-        return sqrt(self.r**2 - self.e**2) / self.e if self.e else float("inf")
+        return 1 / self._steepest if self.e else inf

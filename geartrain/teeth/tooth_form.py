@@ -14,6 +14,7 @@ from geartrain.numerics.quantity import Figure, Length, Quantity
 
 if TYPE_CHECKING:
     from geartrain.teeth.gear_mesh import GearMesh, MeshingWheels
+    from geartrain.teeth.pair_account import PairFigures
 
 IDEAL = "give this pair `tooth_form: {form: ideal}`"
 
@@ -61,6 +62,13 @@ class ToothForm(BaseModel, ABC):
         shaft_angle   asked only where the form needs it
         Raises `GearTrainError` where these wheels cannot have such teeth, without naming pair or place.
         """
+
+    @classmethod
+    def figures(cls) -> type[PairFigures]:
+        """The class of what a mesh of this form tells of itself, from which the schema of answers is read."""
+        from geartrain.teeth.pair_account import PairFigures
+
+        return PairFigures
 
     @property
     def has_lengths(self) -> bool:

@@ -39,6 +39,7 @@ class TransmissionFunction(ABC):
 
     ratio: Fraction
     period: float
+    friction: float = 0.0
 
     @abstractmethod
     def error(self, S: ArrayLike) -> Floats:
@@ -71,6 +72,15 @@ class TransmissionFunction(ABC):
     @abstractmethod
     def efficiency_at_constant_load(self) -> float:
         """Work done on a constant torque of the driven side over the work put in; NaN where friction locks."""
+
+    @abstractmethod
+    def efficiency_least(self) -> float:
+        """Least efficiency at any driver angle; NaN where friction locks."""
+
+    @property
+    def locking_friction(self) -> float:
+        """The least friction that locks at some driver angle; infinite where none does."""
+        return inf
 
     def corners(self) -> list[float]:
         """Driver angles (rad) where the law or a slope of it is not smooth; none by default."""
@@ -153,6 +163,10 @@ class ExactRatio(TransmissionFunction):
         return 1.0
 
     def efficiency_at_constant_load(self) -> float:
+        """1."""
+        return 1.0
+
+    def efficiency_least(self) -> float:
         """1."""
         return 1.0
 

@@ -109,7 +109,7 @@ class TabulatedTransmission(TransmissionFunction):
     """
 
     def __init__(self, law: TransmissionFunction, tolerance: float = 1e-12, degree: int = DEGREE) -> None:
-        self.law, self.ratio, self.period = law, law.ratio, law.period
+        self.law, self.ratio, self.period, self.friction = law, law.ratio, law.period, law.friction
         self.tolerance, self.degree = tolerance, degree
         self.cuts = np.unique(np.mod(np.asarray(law.corners(), dtype=float), law.period))
 
@@ -162,6 +162,15 @@ class TabulatedTransmission(TransmissionFunction):
     def efficiency_at_constant_load(self) -> float:
         """The law's own."""
         return self.law.efficiency_at_constant_load()
+
+    def efficiency_least(self) -> float:
+        """The law's own."""
+        return self.law.efficiency_least()
+
+    @property
+    def locking_friction(self) -> float:
+        """The law's own."""
+        return self.law.locking_friction
 
     def corners(self) -> list[float]:
         """The law's own."""

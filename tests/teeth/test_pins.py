@@ -10,9 +10,11 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from pytest import approx
 
 from geartrain import load
-from geartrain.teeth.pin_transmission import PinToSlotTransmission, SlotToPinTransmission
+from geartrain.teeth.pin_transmission import PinToSlotTransmission, PinTransmission, SlotToPinTransmission
+from geartrain.teeth.transmission_figures import SlidingEfficiency
 
 TURN = np.linspace(0, 2 * pi, 721)
 distances = st.tuples(st.floats(0.1, 10), st.floats(0.1, 10)).filter(lambda pair: abs(pair[0] / pair[1] - 1) > 0.01)
@@ -132,3 +134,21 @@ def test_the_protocol_is_that_of_all_laws() -> None:
     assert abs(errors.mean()) < 1e-15
     assert rms == pytest.approx(np.sqrt(np.mean(errors**2)), rel=1e-12)
     assert law.efficiency_mean() == 1
+
+
+@pytest.mark.parametrize("kind", [PinToSlotTransmission, SlotToPinTransmission])
+@pytest.mark.parametrize(("r", "e", "f"), [(9.6, 1.1, 0.2), (10, 5, 0.4), (3, 0, 0.3)])
+def test_the_least_efficiency_is_the_least_of_a_scan(kind: type[PinTransmission], r: float, e: float, f: float) -> None:
+    law = kind(r, e, f)
+    assert law.efficiency_least() == pytest.approx(law.efficiency(np.linspace(0, 2 * pi, 100_001)).min(), rel=1e-8)
+
+
+def test_a_pin_that_locks_has_no_efficiency_and_a_follower_none_at_a_constant_load() -> None:
+    """A slot locks its pin from the friction at which 1 - f tan d is 0 where sin d = e/r: here tan d = 1/sqrt(3)."""
+    locked = SlidingEfficiency(SlotToPinTransmission(10, 5, 1.8)).to_dict()
+    assert locked == {"friction": 1.8, "mean": None, "at_constant_load": None, "min": None, "locks_at": approx(3**0.5)}
+    follower = SlidingEfficiency(PinToSlotTransmission(5, 10, 0.1)).to_dict()
+    assert follower["min"] == 0.0
+    assert follower["at_constant_load"] is follower["locks_at"] is None
+    assert 0 < follower["mean"] < 1
+    assert SlidingEfficiency(PinToSlotTransmission(5, 10)).least == 1.0

@@ -290,12 +290,12 @@ def test_a_driven_wheel_that_stands_never_turns_back_nor_lags() -> None:
         first = first_of_all(Pair.of(sizes, np), -S)
         assert (-q <= first + 1e-10 * sizes.p2).all(), sizes
         still = law.speed(S) == 0
-        assert still.any() or law.verdict.idle < 1e-3 * law.period
+        assert still.any() or law.contact.idle < 1e-3 * law.period
         assert np.isnan(law.efficiency(S)[still]).all()
         assert not np.isnan(law.efficiency(S)[~still]).any()
         assert law.speed_range()[0] == 0.0
         idle = sum(interval.width for interval in law.intervals if interval.held is not None)
-        assert law.verdict.idle == pytest.approx(idle, rel=1e-12)
+        assert law.contact.idle == pytest.approx(idle, rel=1e-12)
         assert sum(interval.width for interval in law.intervals) == pytest.approx(law.period, rel=1e-12)
 
 

@@ -279,10 +279,10 @@ def test_the_angle_lost_is_the_step_up_of_the_first_couple() -> None:
         pair = Pair.of(sizes)
         held = [segment for segment in pair.path if segment.held is not None]
         idle = sum(segment.start - segment.end for segment in held)
-        assert contact.verdict.idle == pytest.approx(float(idle), rel=1e-9, abs=1e-9 * sizes.p1)
+        assert contact.idle == pytest.approx(float(idle), rel=1e-9, abs=1e-9 * sizes.p1)
         step = -exit_margin(Pair.of(sizes, np))
         if len(held) == 1 and step < inf:
-            assert contact.verdict.lost == pytest.approx(step, abs=1e-9 * sizes.p2), sizes
+            assert contact.lost == pytest.approx(step, abs=1e-9 * sizes.p2), sizes
 
 
 def test_overhang_is_a_path_that_uses_a_leaning_flank_at_its_end() -> None:

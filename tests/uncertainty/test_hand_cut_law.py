@@ -72,14 +72,14 @@ def test_without_errors_the_events_are_the_verdict_on_even_wheels(z1: int, z2: i
     if law.verdict.kind == "standstill":
         stills = cut.events.of("standstill")
         assert len(stills) == lcm(z1, z2)
-        assert stills[0].amount == pytest.approx(law.verdict.lost, rel=1e-9)
-        assert sum(e.end - e.start for e in stills) / len(stills) == pytest.approx(law.verdict.idle, rel=1e-9)
+        assert stills[0].amount == pytest.approx(law.contact.lost, rel=1e-9)
+        assert sum(e.end - e.start for e in stills) / len(stills) == pytest.approx(law.contact.idle, rel=1e-9)
 
 
 def test_the_law_is_one_of_a_mesh_of_a_train() -> None:
     mesh = load("sorge-pairs").meshes[0]
-    sizes = mesh.law.sizes
-    law = cut_transmission_function(mesh, *even(sizes))
+    sizes = mesh.cut_sizes
+    law = cut_transmission_function(sizes, *even(sizes))
     S = np.linspace(0, law.period, 500)
     assert law.period == pytest.approx(2 * pi * lcm(sizes.z1, sizes.z2) / sizes.z1, rel=1e-15)
     assert np.abs(law.error(S) - mesh.law.error(S)).max() < 1e-14 * sizes.p2 + 1e-15 * law.period
@@ -403,7 +403,7 @@ def test_impossible_wheels_are_refused() -> None:
         lambda: driver.grown(-2.0),
         lambda: cut_transmission_function(sizes, driven, driver),
         lambda: CutWheel.measured(driver, [0.0], [1.0], [0.5], [0.5]),
-        lambda: cut_transmission_function(load("longcase-clock-cycloidal").meshes[0], driver, driven),
+        lambda: load("longcase-clock-cycloidal").meshes[0].cut_sizes,
         lambda: cut_transmission_function(sizes.at(0.001), driver.widened(0.5), driven.widened(0.5)),
     ):
         with pytest.raises(RangeError) as caught:

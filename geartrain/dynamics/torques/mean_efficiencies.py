@@ -10,15 +10,11 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from math import isnan
-from typing import TYPE_CHECKING
 
 from geartrain.dynamics.torques.load_case import LoadCase
 from geartrain.dynamics.torques.torque_balance import LoadedPair, TorqueBalance
 from geartrain.kinematics.circuits import Circuit
-
-if TYPE_CHECKING:
-    from geartrain.teeth.transmission import TransmissionFunction
+from geartrain.teeth.transmission_figures import SlidingEfficiency
 
 _ONE = Fraction(1)
 _ROUNDING = 1e-9
@@ -63,8 +59,7 @@ def find_mean_efficiencies(setting: LoadCase, circuit: Circuit) -> MeanEfficienc
     tooth = setting.meshes.get(circuit.id)
     if tooth is None or not tooth.rubs:
         return MeanEfficiencies()
-    laws = (tooth.law, tooth.reversed)
-    return _of_laws(*(laws if tooth.driver == gear.pair[0] else laws[::-1]))
+    return _of_both(*(tooth.efficiency(wheel) for wheel in gear.pair))
 
 
 def _of_pin(setting: LoadCase, circuit: Circuit) -> MeanEfficiencies:
@@ -72,19 +67,18 @@ def _of_pin(setting: LoadCase, circuit: Circuit) -> MeanEfficiencies:
     joint = setting.joints.get(circuit.id)
     if joint is None or not joint.law.friction or not circuit.b:
         return MeanEfficiencies()
-    return _of_laws(joint.reversed, joint.law)
+    return _of_both(SlidingEfficiency(joint.reversed), SlidingEfficiency(joint.law))
 
 
-def _of_laws(first: TransmissionFunction, second: TransmissionFunction) -> MeanEfficiencies:
-    laws = (first, second)
-    ahead, back = (_mean(law.efficiency_mean()) for law in laws)
-    loaded, loaded_back = (_mean(law.efficiency_at_constant_load()) for law in laws)
-    return MeanEfficiencies((ahead, back), (loaded, loaded_back))
+def _of_both(ahead: SlidingEfficiency, back: SlidingEfficiency) -> MeanEfficiencies:
+    return MeanEfficiencies(
+        (_mean(ahead.mean), _mean(back.mean)), (_mean(ahead.at_constant_load), _mean(back.at_constant_load))
+    )
 
 
-def _mean(efficiency: float) -> Fraction:
+def _mean(efficiency: float | None) -> Fraction:
     """A mean over teeth, to 15 digits; 0 where friction locks."""
-    if isnan(efficiency):
+    if efficiency is None:
         return Fraction(0)
     # rounding of a quadrature may pass 1 by a little
     return _ONE if 1 < efficiency < 1 + _ROUNDING else Fraction(f"{efficiency:.15g}")

@@ -3,40 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from math import cos, degrees, sin
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from geartrain.numerics.roots import root
 from geartrain.teeth.conjugate.path_of_contact import PathOfContact
+from geartrain.teeth.pair_verdict import ToothFault
 
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
 
-FaultKind = Literal["undercut", "pointed", "contact ratio", "jam", "clearance", "interference"]
 Halves = tuple[float, float]
 """Half the thickness of a tooth of each gear on its pitch surface, as X; infinite for pins, which have no point."""
 
 _SCAN = 257
-
-
-@dataclass(frozen=True, slots=True)
-class ToothFault:
-    """One reason why teeth cannot run.
-
-    gear    1 or 2; 0 for the pair
-    X       pitch-line displacement at which it begins; NaN for the pair
-    what, why, fix   in words
-    """
-
-    kind: FaultKind
-    gear: int
-    X: float
-    what: str
-    why: str
-    fix: str
 
 
 def faults(path: PathOfContact, halves: Halves | None = None) -> tuple[ToothFault, ...]:

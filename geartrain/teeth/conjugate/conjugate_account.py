@@ -2,17 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from math import degrees
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
-from geartrain.teeth.pair_account import (
-    AccountTable,
-    PairAccount,
-    efficiency_data,
-    efficiency_text,
-    error_text,
-    motion_data,
-)
+from geartrain.teeth.pair_account import AccountTable, PairAccount, PairFigures, motion_figures
+from geartrain.teeth.transmission_figures import SlidingEfficiency
 
 if TYPE_CHECKING:
     from geartrain.teeth.conjugate.conjugate_mesh import ConjugateMesh
@@ -32,25 +27,56 @@ _HEADER = (
 )
 
 
+@dataclass(frozen=True)
+class ConjugateFigures(PairFigures):
+    """Figures of a pair with conjugate teeth, with those of its path of contact as designed.
+
+    arcs             of the driver's approach and recess (pitches)
+    pressure_angle   at the pitch point (rad)
+    shaft_angle      between the axes (rad); None where they are parallel
+    """
+
+    KEYS = (*PairFigures.KEYS, "arcs", "contact_ratio", "pressure_angle", "shaft_angle")
+
+    arcs: tuple[float, float]
+    contact_ratio: float
+    pressure_angle: float
+    shaft_angle: float | None
+
+
 def conjugate_account(mesh: ConjugateMesh) -> PairAccount:
-    """One row, and the data."""
-    return PairAccount(_WORDS, (AccountTable(_HEADER, _row(mesh), wide=True),), conjugate_data(mesh))
+    """One row, and the figures."""
+    figures = conjugate_figures(mesh)
+    return PairAccount(_WORDS, (AccountTable(_HEADER, _row(mesh, figures), wide=True),), figures)
 
 
-def _row(mesh: ConjugateMesh) -> tuple[str, ...]:
-    law, p = mesh.law, mesh.law.path.pitch.p
-    arcs = " + ".join(f"{round(arc / p, 9):.4g}" for arc in driver_arcs(law))
-    known = mesh.friction is not None and mesh.verdict
-    ways = [efficiency_text(way) if known else "-" for way in (law, mesh.reversed)]
+def conjugate_figures(mesh: ConjugateMesh) -> ConjugateFigures:
+    """Of a pair as it is driven; involutes keep their motion where they cannot run."""
+    law, path = mesh.law, mesh.law.path
+    pitch, runs = path.pitch, bool(mesh.verdict)
+    approach, recess = driver_arcs(law)
+    return ConjugateFigures(
+        mesh.counts,
+        mesh.verdict,
+        *motion_figures(law, mesh.rigid or runs),
+        SlidingEfficiency(law) if runs else None,
+        arcs=(approach / pitch.p, recess / pitch.p),
+        contact_ratio=path.contact_ratio,
+        pressure_angle=float(path.at(0.0).psi),
+        shaft_angle=pitch.R1 + pitch.R2 if pitch.bevel else None,
+    )
+
+
+def _row(mesh: ConjugateMesh, figures: ConjugateFigures) -> tuple[str, ...]:
     return (
         mesh.name,
         f"{mesh.driver} -> {mesh.driven}",
         mesh.tooth_form.words,
-        arcs,
-        f"{law.path.contact_ratio:.5g}",
-        error_text(law, mesh.rigid or bool(mesh.verdict)),
+        " + ".join(f"{round(arc, 9):.4g}" for arc in figures.arcs),
+        f"{figures.contact_ratio:.5g}",
+        figures.error_text,
         f"{degrees(mesh.verdict.play):.4g}",
-        *ways,
+        *mesh.efficiency_texts,
         mesh.verdict.kind,
     )
 
@@ -59,28 +85,3 @@ def driver_arcs(law: ConjugateTransmission | OffDesignTransmission) -> tuple[flo
     """The driver's approach and recess (X)."""
     approach, recess = law.path.arcs
     return (approach, recess) if law.driver == 1 else (recess, approach)
-
-
-def conjugate_data(mesh: ConjugateMesh) -> dict[str, Any]:
-    """One pair as plain data, with the keys of other teeth where they mean the same; angles in rad."""
-    law, path = mesh.law, mesh.law.path
-    pitch, verdict = path.pitch, mesh.verdict
-    teeth = [pitch.z1, pitch.z2] if law.driver == 1 else [pitch.z2, pitch.z1]
-    first = verdict.faults[0] if verdict.faults else None
-    return {
-        "teeth": teeth,
-        "verdict": {
-            **verdict.to_dict(),
-            "why": first.why if first else "",
-            "fix": first.fix if first else "",
-        },
-        "gears": list(mesh.gears),
-        "note": mesh.note,
-        "play": verdict.play,
-        "arcs": [arc / pitch.p for arc in driver_arcs(law)],
-        "contact_ratio": path.contact_ratio,
-        "pressure_angle": float(path.at(0.0).psi),
-        "shaft_angle": pitch.R1 + pitch.R2 if pitch.bevel else None,
-        **motion_data(law, mesh.rigid or bool(verdict)),
-        "efficiency": efficiency_data(law) if verdict else None,
-    }

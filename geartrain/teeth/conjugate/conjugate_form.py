@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from geartrain.teeth.conjugate.pitch_surfaces import PitchSurfaces
     from geartrain.teeth.gear_mesh import GearMesh, MeshingWheels
     from geartrain.teeth.outlines.wheel_requirement import LanternPins
+    from geartrain.teeth.pair_account import PairFigures
 
 _DESIGN = 1e-9  # of a centre distance: nearer to the design is at it
 
@@ -44,6 +45,13 @@ class ConjugateToothForm(ToothForm):
         if self.centre_distance is not None and self.centre_distance.value <= 0:
             raise bad("length", f"centre_distance {self.centre_distance.text} is no length", "write it above 0")
         return self
+
+    @classmethod
+    def figures(cls) -> type[PairFigures]:
+        """With those of the path of contact."""
+        from geartrain.teeth.conjugate.conjugate_account import ConjugateFigures
+
+        return ConjugateFigures
 
     def mesh(self, wheels: MeshingWheels, shaft_angle: ShaftAngle) -> GearMesh:
         """The mesh of a pair, its first wheel driving; a ring is gear 2 of the form in whichever order it is named."""

@@ -2,21 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Protocol
 
-from geartrain.errors import Problem
 from geartrain.teeth.conjugate.wheel_pair import WheelPair
-from geartrain.teeth.gear_mesh import GearMesh, NamedForm, PairSize, friction_lock
+from geartrain.teeth.gear_mesh import GearMesh, NamedForm, PairSize
 
 if TYPE_CHECKING:
-    from geartrain.teeth.conjugate.conjugate_transmission import ConjugateTransmission, ConjugateVerdict
+    from geartrain.teeth.conjugate.conjugate_transmission import ConjugateTransmission
     from geartrain.teeth.conjugate.off_design import OffDesignTransmission
     from geartrain.teeth.outlines.tooth_requirement import ToothRequirement
     from geartrain.teeth.outlines.wheel_requirement import LanternPins
     from geartrain.teeth.pair_account import PairAccount
+    from geartrain.teeth.pair_verdict import PairVerdict
 
 
 class ConjugateDetails(NamedForm, Protocol):
@@ -48,7 +48,7 @@ class ConjugateMesh(GearMesh):
         return self.law.reversed
 
     @property
-    def verdict(self) -> ConjugateVerdict:
+    def verdict(self) -> PairVerdict:
         """Whether these teeth can turn."""
         return self.law.verdict
 
@@ -101,8 +101,3 @@ class ConjugateMesh(GearMesh):
         from geartrain.teeth.conjugate.conjugate_account import conjugate_account
 
         return conjugate_account(self)
-
-    def _faults(self) -> Iterator[Problem]:
-        yield from (Problem(fault.what, fault.why, fault.fix) for fault in self.verdict.faults)
-        if self.law.friction >= self.law.locking_friction:
-            yield friction_lock(self.law.friction, self.law.locking_friction)

@@ -7,13 +7,14 @@ from fractions import Fraction
 from functools import cached_property
 from itertools import pairwise
 from math import inf, nan, pi
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from geartrain.teeth.conjugate.admissibility import ToothFault, faults
+from geartrain.teeth.conjugate.admissibility import faults
 from geartrain.teeth.conjugate.path_costs import efficiency, locking_friction
 from geartrain.teeth.conjugate.tip_interference import ring_tips
+from geartrain.teeth.pair_verdict import PairVerdict, ToothFault, verdict_of_faults
 from geartrain.teeth.transmission import ExactRatio, check_friction
 
 if TYPE_CHECKING:
@@ -26,32 +27,6 @@ if TYPE_CHECKING:
 _GAUSS = np.polynomial.legendre.leggauss(32)
 _NARROW = 1e-13  # of a period: a stretch that is none
 _TOUCH = 1e-12  # of a pitch: a gap between two contacts that is rounding
-
-
-@dataclass(frozen=True, slots=True)
-class ConjugateVerdict:
-    """Whether a pair of conjugate teeth can run; true if it can.
-
-    kind     "runs", or the kind of the first fault
-    text     what is the case
-    play     play of the teeth (rad of the driven wheel)
-    faults   all reasons why they cannot, each with what, why and what to do
-    """
-
-    kind: str
-    text: str
-    play: float
-    faults: tuple[ToothFault, ...] = ()
-
-    def __bool__(self) -> bool:
-        return not self.faults
-
-    def to_dict(self) -> dict[str, Any]:
-        """Plain data for JSON."""
-        reasons = [
-            {"kind": f.kind, "gear": f.gear or None, "what": f.what, "why": f.why, "fix": f.fix} for f in self.faults
-        ]
-        return {"kind": self.kind, "text": self.text, "play": self.play, "faults": reasons}
 
 
 @dataclass(frozen=True, eq=False)
@@ -112,11 +87,9 @@ class ConjugateTransmission(ExactRatio):
         self._lead = pair.halves[driver - 1]
 
     @cached_property
-    def verdict(self) -> ConjugateVerdict:
+    def verdict(self) -> PairVerdict:
         """Whether the pair can run."""
-        found = self.pair.faults
-        text = "; ".join(fault.what for fault in found) or "the teeth run"
-        return ConjugateVerdict(found[0].kind if found else "runs", text, self._play, found)
+        return verdict_of_faults(self.pair.faults, self._play)
 
     @property
     def distance(self) -> float:

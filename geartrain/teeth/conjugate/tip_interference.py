@@ -11,8 +11,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from geartrain.errors import GearTrainError
-from geartrain.teeth.conjugate.admissibility import ToothFault, faults
+from geartrain.teeth.conjugate.admissibility import faults
 from geartrain.teeth.conjugate.involute_geometry import free_distance
+from geartrain.teeth.pair_verdict import ToothFault
 
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats

@@ -10,6 +10,7 @@ from math import degrees, inf, pi
 from typing import Literal
 
 from geartrain.numerics.roots import bracketed_root, root
+from geartrain.teeth.pair_verdict import PairVerdict
 from geartrain.teeth.triangular.pair_geometry import TriangularSizes
 from geartrain.teeth.triangular.real_path import STANDSTILL, DriveInterval, RealPath
 from geartrain.teeth.triangular.standstill import DraggedPath, drag
@@ -18,25 +19,6 @@ from geartrain.teeth.triangular.tooth_couple import APPROACH
 MeshingKind = Literal["runs", "no valley", "overhang", "jam", "clash", "standstill", "apart"]
 _ROUNDING = 1e-11  # of a driven pitch: play that is less below 0 is none
 _NEARLY_0 = 1e-9  # of the reach
-
-
-@dataclass(frozen=True, slots=True)
-class TriangularVerdict:
-    """Whether a pair can turn, and why not; true if it can. A standstill turns, with the angle `lost` at each pitch.
-
-    `play` is the least play of the back flanks, `clash` the overlap of entering tips, both rad of the driven wheel;
-    `lost` is the step of the driven wheel's law at each standstill, and `idle` the driver's angle in it.
-    """
-
-    kind: MeshingKind
-    text: str
-    play: float
-    clash: float
-    lost: float
-    idle: float
-
-    def __bool__(self) -> bool:
-        return self.kind == "runs"
 
 
 class TriangularContact:
@@ -120,43 +102,52 @@ class TriangularContact:
         return min(ends, play(step))
 
     @cached_property
-    def verdict(self) -> TriangularVerdict:
+    def verdict(self) -> PairVerdict:
         """The first of the checks that fails: valley, reach, overhang, back flanks, entry, exit."""
         sizes = self.sizes
         if not sizes.has_valleys:
             return self._failed("no valley", _no_valley(sizes))
         if not self.intervals:
             return self._failed("apart", "the tips never touch: the wheels are too far apart")
-        idle = sum(each.width for each in self.intervals if each.phase == STANDSTILL)
-        found = TriangularVerdict("runs", "the wheels turn", self.play, self.dragged.clash, self.dragged.lost, idle)
-        kind, text = self._fault(found)
-        return TriangularVerdict(kind, text, found.play, found.clash, found.lost, found.idle)
+        return PairVerdict(*self._judged(), self.play)
 
-    def _failed(self, kind: MeshingKind, text: str) -> TriangularVerdict:
-        return TriangularVerdict(kind, text, -inf, 0.0, 0.0, 0.0)
+    @staticmethod
+    def _failed(kind: MeshingKind, text: str) -> PairVerdict:
+        return PairVerdict(kind, text, -inf)
 
-    def _fault(self, found: TriangularVerdict) -> tuple[MeshingKind, str]:
+    def _judged(self) -> tuple[MeshingKind, str]:
         if self.overhang:
             return "overhang", self.overhang
-        if found.play < -_ROUNDING * self.sizes.p2:
+        if self.play < -_ROUNDING * self.sizes.p2:
             return "jam", (
-                f"the back flanks jam: the teeth are {degrees(-found.play):.4g} deg of the driven wheel too thick for "
+                f"the back flanks jam: the teeth are {degrees(-self.play):.4g} deg of the driven wheel too thick for "
                 "the spaces at this clearance"
             )
-        if found.clash > 0:
+        if self.dragged.clash > 0:
             return "clash", (
-                f"an entering tooth meets a tip: the two overlap by {degrees(found.clash):.4g} deg of the driven wheel"
+                f"an entering tooth meets a tip: the two overlap by {degrees(self.dragged.clash):.4g} deg of the "
+                "driven wheel"
             )
         if self.dragged.arrested:
             return "standstill", (
                 "the driven wheel is left standing for good: no tooth is in reach for a while, and the next one goes by"
             )
-        if found.idle > 0:
+        if self.idle > 0:
             return "standstill", (
-                f"the driven wheel stands still for {degrees(found.idle):.4g} deg of the driver at each pitch, and is "
-                f"{degrees(found.lost):.4g} deg behind when the next tooth comes"
+                f"the driven wheel stands still for {degrees(self.idle):.4g} deg of the driver at each pitch, and is "
+                f"{degrees(self.lost):.4g} deg behind when the next tooth comes"
             )
         return "runs", "the wheels turn"
+
+    @property
+    def idle(self) -> float:
+        """The driver's angle (rad) in the standstills of one pitch."""
+        return sum(each.width for each in self.intervals if each.phase == STANDSTILL)
+
+    @property
+    def lost(self) -> float:
+        """The step of the driven wheel's law (rad) at the standstills of one pitch."""
+        return self.dragged.lost
 
     @cached_property
     def overhang(self) -> str:
@@ -216,6 +207,11 @@ class ClearanceWindow:
     jam_kind: Literal["jam", "overhang", "clash", "standstill"] = "jam"
 
     def __bool__(self) -> bool:
+        return self.works
+
+    @property
+    def works(self) -> bool:
+        """True if some clearance lets the pair turn."""
         return self.jam < self.run
 
     def at(self, fraction: float) -> float:

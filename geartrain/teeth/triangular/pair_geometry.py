@@ -69,6 +69,16 @@ class TriangularSizes:
                 )
             )
 
+    @property
+    def radii(self) -> tuple[float, float]:
+        """Outer radii."""
+        return self.R1, self.R2
+
+    @property
+    def half_angles(self) -> tuple[float, float]:
+        """Half apertures (rad)."""
+        return self.beta1, self.beta2
+
     @cached_property
     def depths(self) -> tuple[float, float]:
         """Depth of the teeth of each wheel, Eq. (1)."""

@@ -11,7 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from geartrain.errors import GearTrainError
-from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission, matches
+from geartrain.teeth.triangular.speed_jump import matches
+from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
 
 TransmissionFactory = Callable[..., TriangularTransmission]
 """A law from the values of the varied parameters, by name."""
@@ -100,7 +101,7 @@ def _point(make: TransmissionFactory, values: dict[str, float]) -> tuple[str, st
         law.efficiency_least(),
         max((jump.value for jump in law.jumps), default=0.0),
         degrees(verdict.play),
-        degrees(verdict.lost),
+        degrees(law.contact.lost),
     ]
     return verdict.kind, phases_of(law), row
 

@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
-from math import degrees, isfinite
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from geartrain.teeth.pair_account import AccountTable, PairAccount, efficiency_data
+from geartrain.numerics.plain_data import Key, Result, finite
+from geartrain.teeth.pair_account import AccountTable, PairAccount, PairFigures, motion_figures
+from geartrain.teeth.transmission_figures import SlidingEfficiency
+from geartrain.teeth.triangular.clearance_window import ClearanceWindow
+from geartrain.teeth.triangular.pair_geometry import TriangularSizes
+from geartrain.teeth.triangular.real_path import DriveInterval
+from geartrain.teeth.triangular.speed_jump import SpeedJump
 from geartrain.teeth.triangular.triangular_explanations import explain_clearance
 
 if TYPE_CHECKING:
-    from geartrain.teeth.triangular.clearance_window import ClearanceWindow
     from geartrain.teeth.triangular.triangular_mesh import TriangularMesh
     from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
 
@@ -21,10 +26,50 @@ _PLACE = ("pair", "drives", "clearance", "window", "verdict")
 _LAW = ("pair", "tau/mean", "error p-p (deg)", "efficiency", "jumps")
 
 
+def _factor(excess: float) -> float:
+    """The clearance factor of an excess."""
+    return 1 + excess
+
+
+_WINDOW = (
+    *(Key("jam", to=_factor), "jam_kind", Key("run", to=_factor), "run_kind"),
+    *(Key("reach", to=_factor), "works"),
+)
+_SIZES = (
+    *("radii", "half_angles", "depths", Key("centre_distance", "D")),
+    *(Key("reach", "reach1"), Key("matching", to=finite)),
+)
+
+
+@dataclass(frozen=True)
+class TriangularFigures(PairFigures):
+    """Figures of a pair with triangular teeth; angles in rad.
+
+    sizes       in m, or the plain unit of radii
+    window      clearance factors between which the pair turns; None where there are no such teeth
+    intervals   the real path, in order of time, one pitch of the driver
+    jumps       the collisions of a pitch
+    impacts     what they cost, where a run of the pair is declared; else None
+    """
+
+    KEYS = (
+        *PairFigures.KEYS,
+        *(Key("clearance", "sizes.excess", _factor), Key("window", keys=_WINDOW), Key("sizes", keys=_SIZES)),
+        *(Key("intervals", keys=("phase", "start", "end")), "jumps", "impacts"),
+    )
+
+    sizes: TriangularSizes
+    window: ClearanceWindow | None
+    intervals: tuple[DriveInterval, ...]
+    jumps: tuple[SpeedJump, ...]
+    impacts: Any = None
+
+
 def triangular_account(mesh: TriangularMesh) -> PairAccount:
-    """A row on its clearance and one on its law, and the data."""
-    tables = AccountTable(_PLACE, _place_row(mesh)), AccountTable(_LAW, _law_row(mesh))
-    return PairAccount(_WORDS, tables, triangular_data(mesh.law, mesh.window))
+    """A row on its clearance and one on its law, and the figures."""
+    figures = triangular_figures(mesh.law, mesh.window)
+    tables = AccountTable(_PLACE, _place_row(mesh)), AccountTable(_LAW, _law_row(mesh, figures))
+    return PairAccount(_WORDS, tables, figures)
 
 
 def _place_row(mesh: TriangularMesh) -> tuple[str, ...]:
@@ -35,75 +80,29 @@ def _place_row(mesh: TriangularMesh) -> tuple[str, ...]:
     return (mesh.name, f"{mesh.driver} -> {mesh.driven}", f"{1 + law.sizes.excess:.6g}", where, law.verdict.kind)
 
 
-def _law_row(mesh: TriangularMesh) -> tuple[str, ...]:
-    law = mesh.law
-    if not law.intervals:
+def _law_row(mesh: TriangularMesh, figures: TriangularFigures) -> tuple[str, ...]:
+    speed, efficiency = figures.speed_ratio, figures.efficiency
+    if speed is None or efficiency is None:
         return (mesh.name, "-", "-", "-", "-")
-    least, most = law.speed_range()
-    low, high = law.error_range()
-    mean = float(law.ratio)
-    efficiency = "-" if mesh.friction is None else f"{law.efficiency_mean():.6f}"
-    jumps = ", ".join(f"{jump.value:.4f}" for jump in law.jumps)
-    return (mesh.name, f"{least / mean:.5f}..{most / mean:.5f}", f"{degrees(high - low):.6g}", efficiency, jumps)
+    least, most = speed.relative
+    lost = "-" if mesh.friction is None else efficiency.text
+    jumps = ", ".join(f"{jump.value:.4f}" for jump in figures.jumps)
+    return (mesh.name, f"{least:.5f}..{most:.5f}", figures.error_text, lost, jumps)
 
 
-def triangular_data(
-    law: TriangularTransmission, window: ClearanceWindow | None, impacts: dict[str, Any] | None = None
-) -> dict[str, Any]:
-    """One pair as plain data with stable keys; angles in rad."""
-    found, sizes = law.verdict, law.sizes
-    why, fix = ("", "") if found else explain_clearance(law, window)
-    data: dict[str, Any] = {
-        "teeth": [sizes.z1, sizes.z2],
-        "verdict": {"kind": found.kind, "text": found.text, "why": why, "fix": fix},
-        "clearance": 1 + sizes.excess,
-        "window": None if window is None else window_data(window),
-        "sizes": {
-            "radii": [sizes.R1, sizes.R2],
-            "half_angles": [sizes.beta1, sizes.beta2],
-            "depths": list(sizes.depths),
-            "centre_distance": sizes.D,
-            "reach": sizes.reach1,
-            "matching": sizes.matching if isfinite(sizes.matching) else None,
-        },
-    }
-    if not law.intervals:
-        return data | {
-            "play": None,
-            "speed_ratio": None,
-            "transmission_error": None,
-            "efficiency": None,
-            "intervals": [],
-            "jumps": [],
-            "impacts": None,
-        }
-    return data | _law_data(law) | {"impacts": impacts}
-
-
-def window_data(window: ClearanceWindow) -> dict[str, Any]:
-    """Clearance factors between which a pair turns."""
-    return {
-        "jam": 1 + window.jam,
-        "jam_kind": window.jam_kind,
-        "run": 1 + window.run,
-        "run_kind": window.run_kind,
-        "reach": 1 + window.reach,
-        "works": bool(window),
-    }
-
-
-def _law_data(law: TriangularTransmission) -> dict[str, Any]:
-    least, most = law.speed_range()
-    low, high = law.error_range()
-    lag, rms = law.error_moments()
-    return {
-        "play": law.verdict.play,
-        "speed_ratio": {"mean": float(law.ratio), "exact": str(law.ratio), "min": least, "max": most},
-        "transmission_error": {"peak_to_peak": high - low, "rms": rms, "mean": lag},
-        "efficiency": efficiency_data(law),
-        "intervals": [{"phase": i.phase, "start": i.start, "end": i.end} for i in law.intervals],
-        "jumps": [
-            {"kind": j.kind, "alpha1": j.alpha1, "before": j.before, "after": j.after, "value": j.value}
-            for j in law.jumps
-        ],
-    }
+def triangular_figures(
+    law: TriangularTransmission, window: ClearanceWindow | None, impacts: Result | None = None
+) -> TriangularFigures:
+    """Of a pair, whatever train it is in."""
+    found, moves = law.verdict, bool(law.intervals)
+    return TriangularFigures(
+        (law.sizes.z1, law.sizes.z2),
+        found if found else found.explained(*explain_clearance(law, window)),
+        *motion_figures(law, moves),
+        SlidingEfficiency(law) if moves else None,
+        sizes=law.sizes,
+        window=window,
+        intervals=law.intervals,
+        jumps=tuple(law.jumps) if moves else (),
+        impacts=impacts,
+    )

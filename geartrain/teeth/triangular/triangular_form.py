@@ -13,6 +13,7 @@ from geartrain.teeth.tooth_form import IDEAL, ShaftAngle, ToothForm, refused, tw
 
 if TYPE_CHECKING:
     from geartrain.teeth.gear_mesh import GearMesh, MeshingWheels
+    from geartrain.teeth.pair_account import PairFigures
     from geartrain.teeth.triangular.clearance_window import ClearanceWindow
     from geartrain.teeth.triangular.pair_geometry import TriangularSizes
     from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
@@ -119,6 +120,13 @@ class Triangular(ToothForm):
         return any(length is not None and length.unit for length in (self.centre_distance, self.backlash, *radii))
 
     # ------------------------------------------------------------------------------------------------------- a pair
+
+    @classmethod
+    def figures(cls) -> type[PairFigures]:
+        """With those of clearance, path and collisions."""
+        from geartrain.teeth.triangular.triangular_account import TriangularFigures
+
+        return TriangularFigures
 
     def mesh(self, wheels: MeshingWheels, shaft_angle: ShaftAngle) -> GearMesh:
         """The mesh of a pair, its first wheel driving."""

@@ -15,7 +15,8 @@ from geartrain.teeth.triangular.triangular_explanations import explain_clearance
 
 if TYPE_CHECKING:
     from geartrain.teeth.pair_account import PairAccount
-    from geartrain.teeth.triangular.clearance_window import ClearanceWindow, TriangularVerdict
+    from geartrain.teeth.pair_verdict import PairVerdict
+    from geartrain.teeth.triangular.clearance_window import ClearanceWindow
     from geartrain.teeth.triangular.pair_geometry import TriangularSizes
     from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
 
@@ -64,10 +65,11 @@ class TriangularMesh(GearMesh):
 
         return TriangularTransmission(self.law.sizes.swapped(), self.law.friction, self.law.direction)
 
-    @property
-    def verdict(self) -> TriangularVerdict:
+    @cached_property
+    def verdict(self) -> PairVerdict:
         """Whether these teeth can turn."""
-        return self.law.verdict
+        found = self.law.verdict
+        return found if found else found.explained(*explain_clearance(self.law, self.window))
 
     @cached_property
     def window(self) -> ClearanceWindow | None:
@@ -99,6 +101,11 @@ class TriangularMesh(GearMesh):
         return TriangularTooth(z, R * scale, beta)
 
     @property
+    def has_cut_sizes(self) -> bool:
+        """True."""
+        return True
+
+    @property
     def cut_sizes(self) -> TriangularSizes:
         """The sizes that manufacturing errors are drawn about."""
         return self.law.sizes
@@ -110,7 +117,6 @@ class TriangularMesh(GearMesh):
         return triangular_account(self)
 
     def _faults(self) -> Iterator[Problem]:
-        if not self.verdict:
-            yield Problem(self.verdict.text, *explain_clearance(self.law, self.window))
-        elif self.law.friction >= self.law.locking_friction:
+        yield from (fault.problem for fault in self.verdict.faults)
+        if self.verdict and self.law.friction >= self.law.locking_friction:
             yield Problem(*explain_friction_lock(self.law))

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property, lru_cache
 from itertools import pairwise
@@ -15,45 +14,23 @@ import numpy as np
 from geartrain.errors import Problem, RangeError
 from geartrain.numerics.roots import bracketed_root
 from geartrain.teeth.transmission import TransmissionFunction, behind, check_friction
-from geartrain.teeth.triangular.clearance_window import TriangularContact, TriangularVerdict
+from geartrain.teeth.triangular.clearance_window import TriangularContact
 from geartrain.teeth.triangular.pair_geometry import TriangularSizes
 from geartrain.teeth.triangular.real_path import DriveInterval
+from geartrain.teeth.triangular.speed_jump import SpeedJump, matches
 from geartrain.teeth.triangular.tooth_couple import APPROACH
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
     from geartrain.numerics.arrays import Floats
+    from geartrain.teeth.pair_verdict import PairVerdict
 
 
 _BLOCK = 16384  # samples worked on at once: their intermediate arrays stay in a cache
 _GAUSS = np.polynomial.legendre.leggauss(20)  # nodes and weights on each smooth stretch
 _ROUNDING = 1e-14  # of the mean of tau: what a stretch may be off by
 _DEEPEST = 40  # halvings of a stretch
-
-
-@dataclass(frozen=True, slots=True)
-class SpeedJump:
-    """A collision: tau before and after, and the relative jump 1 - before/after of Eqs. (22), (25), (26), (27).
-
-    `kind` is the phase that begins, or "matching" where the flank of one couple falls on the other's.
-    """
-
-    kind: str
-    alpha1: float
-    before: float
-    after: float
-
-    @property
-    def value(self) -> float:
-        """Relative jump of the normal velocity."""
-        return 1 - self.before / self.after
-
-
-def matches(last: DriveInterval, new: DriveInterval, pitch: float) -> bool:
-    """True if one couple goes on from flank to flank, through the position where they match."""
-    faces = last.held is None and new.held is None and last.phase != new.phase
-    return faces and abs(last.end - new.start) < 1e-9 * pitch
 
 
 @lru_cache(maxsize=4096)
@@ -81,7 +58,7 @@ class TriangularTransmission(TransmissionFunction):
         return self.contact.intervals
 
     @property
-    def verdict(self) -> TriangularVerdict:
+    def verdict(self) -> PairVerdict:
         """Whether the pair can turn."""
         return self.contact.verdict
 

@@ -24,9 +24,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from geartrain.numerics.arrays import Bools, Floats
-    from geartrain.teeth.gear_mesh import GearMesh
     from geartrain.teeth.triangular.pair_geometry import TriangularSizes
-    from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
 
 
 _CONSTANTS = ("R1", "R2", "D", "delta", "sin1", "cos1", "sin2", "cos2", "entry", "reach", "exit_angle")
@@ -98,25 +96,6 @@ def _half_sine(R1: Any, R2: Any, D: Any, delta: Any) -> Any:
 
 
 ROUNDING = 1e-11  # of a pitch: what is less is none
-
-
-def sizes_of(pair: TriangularSizes | TriangularTransmission | GearMesh) -> TriangularSizes:
-    """The sizes of a pair, of its law, or of a mesh of a train. Raises `RangeError` for teeth of another form."""
-    from geartrain.teeth.triangular.pair_geometry import TriangularSizes
-    from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
-
-    if isinstance(pair, TriangularSizes):
-        return pair
-    sizes = pair.sizes if isinstance(pair, TriangularTransmission) else getattr(pair, "cut_sizes", None)
-    if isinstance(sizes, TriangularSizes):
-        return sizes
-    raise RangeError(
-        Problem(
-            f"{getattr(pair, 'label', 'this pair')} has no triangular teeth",
-            "cutting errors are reckoned tooth by tooth for straight flanks that meet in a point",
-            "declare `tooth_form: {form: triangular, ...}`",
-        )
-    )
 
 
 @dataclass(frozen=True)

@@ -17,16 +17,14 @@ from geartrain.errors import Problem, RangeError
 from geartrain.teeth.transmission import TransmissionFunction, behind
 from geartrain.uncertainty.manufacturing_errors.contact_envelope import APPROACHES, LEFT, ContactEnvelope
 from geartrain.uncertainty.manufacturing_errors.contact_intervals import ContactIntervals, find_contact_intervals
-from geartrain.uncertainty.manufacturing_errors.cut_pair import CutGearPair, CutToothPairs, sizes_of
+from geartrain.uncertainty.manufacturing_errors.cut_pair import CutGearPair, CutToothPairs
 from geartrain.uncertainty.manufacturing_errors.meshing_events import MeshingEvents, find_meshing_events
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
     from geartrain.numerics.arrays import Floats, Ints
-    from geartrain.teeth.gear_mesh import GearMesh
     from geartrain.teeth.triangular.pair_geometry import TriangularSizes
-    from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
     from geartrain.uncertainty.manufacturing_errors.contact_envelope import FirstContact
     from geartrain.uncertainty.manufacturing_errors.cut_wheel import CutWheel
 
@@ -34,7 +32,7 @@ _BLOCK = 8192  # samples worked on at once: their intermediate arrays stay in a 
 
 
 def cut_transmission_function(
-    pair: TriangularSizes | TriangularTransmission | GearMesh,
+    sizes: TriangularSizes,
     first: CutWheel,
     second: CutWheel,
     shift: float = 0.0,
@@ -43,13 +41,12 @@ def cut_transmission_function(
 ) -> CutTransmissionFunction:
     """The law of two wheels cut by hand.
 
-    pair            what they were meant to be: sizes, a law, or a mesh of a train
+    sizes           what they were meant to be; of a mesh of a train its `cut_sizes`
     first, second   the driver and the driven wheel as they are
     shift           by how much their axles stand farther apart than meant, as the radii: error of the centre distance
                     and play of the bearings
-    Raises `RangeError` for teeth of another form, wheels of other tooth numbers, and teeth that lean.
+    Raises `RangeError` for wheels of other tooth numbers, and teeth that lean.
     """
-    sizes = sizes_of(pair)
     if (first.z, second.z) != (sizes.z1, sizes.z2):
         raise RangeError(
             Problem(
@@ -192,6 +189,10 @@ class CutTransmissionFunction(TransmissionFunction):
         turned = weights[held] * tau[held]
         return float(turned.sum() / (turned / eta[held]).sum())
 
+    def efficiency_least(self) -> float:
+        """Least sliding efficiency, among the nodes of all stretches of the cycle."""
+        return float(np.nanmin(self.stretches.over(self._efficiency)[0]))
+
     @property
     def runs(self) -> bool:
         """True if the pair turns without jam, clash, standstill or gap."""
@@ -313,6 +314,10 @@ class TrialTransmissionFunction(TransmissionFunction):
         return float("nan")
 
     def efficiency_at_constant_load(self) -> float:
+        """Not asked of trials."""
+        return float("nan")
+
+    def efficiency_least(self) -> float:
         """Not asked of trials."""
         return float("nan")
 

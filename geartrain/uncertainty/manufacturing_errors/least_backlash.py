@@ -20,12 +20,10 @@ import numpy as np
 
 from geartrain.errors import Problem, RangeError
 from geartrain.teeth.triangular.tooth_couple import APPROACH, RECESS
-from geartrain.uncertainty.manufacturing_errors.cut_pair import CutGearPair, CutToothPairs, sizes_of
+from geartrain.uncertainty.manufacturing_errors.cut_pair import CutGearPair, CutToothPairs
 
 if TYPE_CHECKING:
-    from geartrain.teeth.gear_mesh import GearMesh
     from geartrain.teeth.triangular.pair_geometry import TriangularSizes
-    from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
 
 
 PHASES = ((RECESS, RECESS), (RECESS, APPROACH), (APPROACH, RECESS), (APPROACH, APPROACH))
@@ -132,22 +130,20 @@ def steepest(couple: CutToothPairs) -> float:
     return tau if 0 < tau < inf else inf
 
 
-def nominal_backlash(pair: TriangularSizes | TriangularTransmission | GearMesh) -> float:
+def nominal_backlash(sizes: TriangularSizes) -> float:
     """The least play of wheels without errors, in pitches of the driven wheel; below 0 they jam."""
     from geartrain.teeth.triangular.clearance_window import TriangularContact
 
-    sizes = sizes_of(pair)
     return TriangularContact(sizes).play / sizes.p2
 
 
-def jamming_bound(pair: TriangularSizes | TriangularTransmission | GearMesh, sigma: float) -> float:
+def jamming_bound(sizes: TriangularSizes, sigma: float) -> float:
     """A bound on the probability that flanks jam anywhere in a cycle: 2 lcm(z1, z2) Q(j / (2 sigma)), at most 1.
 
     Teeth of both wheels are independently out of place by a normal error of `sigma` of their own pitch; Q is the
     normal tail and j the least play in pitches. Four teeth take part in a jam, each moving the driven wheel by about
     its own error, so the play has the deviation 2 sigma; every couple counts twice, for the space before and behind it.
     """
-    sizes = sizes_of(pair)
     if not 0 <= sigma < inf:
         raise RangeError(
             Problem(f"{sigma:g} is no standard deviation", "it is a number of pitches", "give 0 or more, and finite")

@@ -8,19 +8,17 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from geartrain.errors import Problem, RangeError
-from geartrain.uncertainty.manufacturing_errors.cut_pair import CutGearPair, sizes_of
+from geartrain.uncertainty.manufacturing_errors.cut_pair import CutGearPair
 from geartrain.uncertainty.manufacturing_errors.meshing_cycle import CHUNK, MeshingCycle, MeshingVerdicts, chunks
 from geartrain.uncertainty.manufacturing_errors.pitch_error_verdicts import verdicts_of_pitch_errors
 
 if TYPE_CHECKING:
-    from geartrain.teeth.gear_mesh import GearMesh
     from geartrain.teeth.triangular.pair_geometry import TriangularSizes
-    from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
     from geartrain.uncertainty.manufacturing_errors.cut_wheel import CutWheel
 
 
 def batch_verdicts(
-    pair: TriangularSizes | TriangularTransmission | GearMesh,
+    sizes: TriangularSizes,
     first: CutWheel,
     second: CutWheel,
     shift: Any = 0.0,
@@ -31,11 +29,11 @@ def batch_verdicts(
     shift   by how much the centre distance is greater, as the radii: one, or (trials,)
     chunk   couples worked on at once
     """
-    whole = CutGearPair(sizes_of(pair), first, second, shift)
-    if (first.z, second.z) != (whole.sizes.z1, whole.sizes.z2):
+    whole = CutGearPair(sizes, first, second, shift)
+    if (first.z, second.z) != (sizes.z1, sizes.z2):
         raise RangeError(
             Problem(
-                f"wheels of {first.z} and {second.z} teeth stand for a pair of {whole.sizes.z1} and {whole.sizes.z2}",
+                f"wheels of {first.z} and {second.z} teeth stand for a pair of {sizes.z1} and {sizes.z2}",
                 "the driver comes first",
                 "give one wheel for each of the pair, in this order",
             )

@@ -12,7 +12,6 @@ from geartrain.dynamics.motion import ErrorComposition
 from geartrain.errors import Problem, QuestionError, RangeError
 from geartrain.numerics.decimal_text import fraction_text
 from geartrain.teeth.triangular.pair_geometry import TriangularSizes
-from geartrain.uncertainty.manufacturing_errors.cut_pair import sizes_of
 from geartrain.uncertainty.manufacturing_errors.declared_errors import (
     OF_PAIRS,
     ErrorOverride,
@@ -142,7 +141,7 @@ def find_trial_plan(
     the tooth, `GearTrainError` for loops of real teeth.
     """
     motion = train.motion(state, outputs, without)
-    meshes = [mesh for mesh in motion.train.teeth if mesh.cut_sizes is not None]
+    meshes = [mesh for mesh in motion.train.teeth if mesh.has_cut_sizes]
     if not meshes:
         what = f"'{train.name}' has no triangular teeth"
         why = "cutting errors are reckoned tooth by tooth for straight flanks that meet in a point"
@@ -178,7 +177,7 @@ def _half_angles(meshes: Sequence[GearMesh]) -> dict[str, float]:
     """Half angle of the teeth of every wheel, as its first pair has them (rad)."""
     found: dict[str, float] = {}
     for mesh in meshes:
-        sizes = sizes_of(mesh)
+        sizes = mesh.cut_sizes
         found.setdefault(mesh.driver, sizes.beta1)
         found.setdefault(mesh.driven, sizes.beta2)
     return found
@@ -219,7 +218,7 @@ class _Senses:
 def _pair(
     train: GearTrain, mesh: GearMesh, names: tuple[str, ...], senses: _Senses, settings: Sequence[ErrorOverride]
 ) -> TrialPair:
-    sizes = sizes_of(mesh)
+    sizes = mesh.cut_sizes
     first = sizes.depths[0] <= sizes.depths[1]
     lesser, angle = (mesh.driver, sizes.beta1) if first else (mesh.driven, sizes.beta2)
     fitting = pair_errors(train.declaration, mesh, lesser, angle, settings)

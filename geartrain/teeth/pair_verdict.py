@@ -1,0 +1,78 @@
+"""Whether a pair of wheels can turn, whatever the form of its teeth: the verdict, and each fault with its remedy."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+from geartrain.errors import Problem
+from geartrain.numerics.plain_data import Key, Result, finite
+
+
+def _which(gear: int) -> int | None:
+    """None for the pair as a whole."""
+    return gear or None
+
+
+@dataclass(frozen=True, slots=True)
+class ToothFault(Result):
+    """One reason why teeth cannot run.
+
+    gear    1 or 2; 0 for the pair
+    X       pitch-line displacement at which it begins; NaN for the pair
+    what, why, fix   in words
+    """
+
+    KEYS = ("kind", Key("gear", to=_which), "what", "why", "fix")
+
+    kind: str
+    gear: int
+    X: float
+    what: str
+    why: str
+    fix: str
+
+    @property
+    def problem(self) -> Problem:
+        """The fault as a problem that has no place yet."""
+        return Problem(self.what, self.why, self.fix)
+
+
+@dataclass(frozen=True, slots=True)
+class PairVerdict(Result):
+    """Whether a pair of wheels can turn; true if it can.
+
+    kind     "runs", or the kind of the first fault
+    text     what is the case
+    play     least play of the teeth (rad of the driven wheel)
+    faults   all reasons why they cannot, each with what, why and what to do
+    """
+
+    KEYS = ("kind", "text", Key("play", to=finite), "faults", "why", "fix")
+
+    kind: str
+    text: str
+    play: float
+    faults: tuple[ToothFault, ...] = ()
+
+    def __bool__(self) -> bool:
+        return self.kind == "runs"
+
+    @property
+    def why(self) -> str:
+        """Why they cannot, for the first reason; empty if they can."""
+        return self.faults[0].why if self.faults else ""
+
+    @property
+    def fix(self) -> str:
+        """What would let them, for the first reason; empty if they can."""
+        return self.faults[0].fix if self.faults else ""
+
+    def explained(self, why: str, fix: str) -> PairVerdict:
+        """The verdict with its one reason told in full."""
+        return replace(self, faults=(ToothFault(self.kind, 0, float("nan"), self.text, why, fix),))
+
+
+def verdict_of_faults(faults: tuple[ToothFault, ...], play: float) -> PairVerdict:
+    """The verdict on teeth with these faults; `play` in rad of the driven wheel."""
+    text = "; ".join(fault.what for fault in faults) or "the teeth run"
+    return PairVerdict(faults[0].kind if faults else "runs", text, play, faults)

@@ -1,8 +1,24 @@
-"""Where axes and wheels stand: positions as declared, or placed so that meshing wheels touch and nothing collides."""
+"""Where axes and wheels stand: positions as declared, or placed so that meshing wheels touch and nothing collides.
+
+`train_layout` first: its `lay_out` runs the steps below in this order, and each hands a record to the next.
+
+    declared_geometry   axes as lines, pairs of wheels           DeclaredGeometry
+    wheel_modules       union-find of ratios; closed_chains      WheelModules
+    wheel_sizes         radii, rims, seats of crossing pairs     SizedGeometry
+    parallel_groups     groups of parallels, one by one          Arrangement
+        plan_problem    what is asked of a plan                  PlanProblem
+        plan_search     beam search; plan_order, plan_clearance  places in plan
+        swept_overlap   distances while carriers turn            SweptDistances, PlanOverlap
+        axial_slots     broad wheels, by backtracking            AxialSlots
+        stack_blocks    wheels that keep their heights           StackProblem
+        stack_order     local search of the order of levels      keys
+        wheel_stacks    heights of levels                        WheelStack
+    mesh_alignment      angles at which teeth meet               MeshAlignment
+    layout_diagnostics  what could not be met                    notices
+"""
 
 from __future__ import annotations
 
-from geartrain.scene.layout.axis_places import AxisPlace, Layout, WheelPlace
-from geartrain.scene.layout.train_layout import lay_out
+from geartrain.scene.layout.train_layout import AxisPlace, Layout, WheelPlace, lay_out
 
 __all__ = ["AxisPlace", "Layout", "WheelPlace", "lay_out"]

@@ -1,19 +1,28 @@
-"""Broad wheels: where two wheels share a mate and a place, each gets a shelf of its own, and the mate spans both."""
+"""Broad wheels: two wheels that share a mate and would run into each other get slots of their own along its width.
+
+Depth-first search with backtracking: each mesh is put into a slot; a wheel spans the slots of its meshes, and no two
+wheels that overlap share one. As few slots as can be.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from typing import NamedTuple
 
 from geartrain.numerics.graphs import DisjointSets
 
-AxialSlots = tuple[int, int]
-"""The lowest and the highest shelf that a wheel stands on."""
+_TRIES = 20_000  # slots that are tried for one group of wheels; then they stay in one level
 
-_TRIES = 20_000
+
+class AxialSlots(NamedTuple):
+    """The lowest and the highest slot that a wheel stands in."""
+
+    low: int
+    high: int
 
 
 def find_axial_slots(meshes: Sequence[tuple[str, str]], overlap: Callable[[str, str], bool]) -> dict[str, AxialSlots]:
-    """Shelves of the wheels that need them, as few as can be; the others of their level are not named.
+    """Slots of the wheels that need them; the others of their level are not named.
 
     meshes   pairs of wheels of parallel axes
     overlap  whether two wheels at one height would run into each other
@@ -29,11 +38,12 @@ def find_axial_slots(meshes: Sequence[tuple[str, str]], overlap: Callable[[str, 
                     clashes.setdefault(wheel, []).append(other)
                     clashes.setdefault(other, []).append(wheel)
         if clashes:
-            found |= _Search(group, clashes).found()
+            found |= _SlotSearch(group, clashes).found()
     return found
 
 
 def _groups(meshes: Sequence[tuple[str, str]]) -> list[list[tuple[str, str]]]:
+    """Meshes by the wheels that hang together."""
     wheels: DisjointSets[str] = DisjointSets()
     for first, second in meshes:
         wheels.join(first, second)
@@ -43,15 +53,15 @@ def _groups(meshes: Sequence[tuple[str, str]]) -> list[list[tuple[str, str]]]:
     return list(groups.values())
 
 
-class _Search:
-    """Each mesh on a shelf; a wheel spans those of its meshes, and no wheels that overlap share one."""
+class _SlotSearch:
+    """Slots of one group of wheels; `tries` are left."""
 
     def __init__(self, meshes: Sequence[tuple[str, str]], clashes: Mapping[str, Sequence[str]]) -> None:
         self.meshes, self.clashes = meshes, clashes
         self.tries = _TRIES
 
     def found(self) -> dict[str, AxialSlots]:
-        """Shelves by wheel; none where it cannot be done, or not be found."""
+        """Slots by wheel; none where it cannot be done, or not be found."""
         for count in range(2, len(self.meshes) + 1):
             spans = self._try(count)
             if spans is not None:
@@ -59,16 +69,19 @@ class _Search:
         return {}
 
     def _try(self, count: int) -> dict[str, AxialSlots] | None:
-        """Depth first over the meshes in order, so many shelves each; what a step changed is put back when it fails."""
+        """Depth first over the meshes in order, so many slots each; what a step changed is put back when it fails.
+
+        A stack of its own, no recursion: a row of meshes may be longer than Python's.
+        """
         spans: dict[str, AxialSlots] = {}
-        choice = [0]  # the shelf to try next, by mesh
+        choice = [0]  # the slot to try next, by mesh
         before: list[dict[str, AxialSlots | None]] = []
         while choice:
             at = len(choice) - 1
             if at == len(self.meshes):
                 return spans
-            shelf = choice[at]
-            if shelf == count:
+            slot = choice[at]
+            if slot == count:
                 choice.pop()
                 if before:
                     _put_back(spans, before.pop())
@@ -80,19 +93,19 @@ class _Search:
             mesh = self.meshes[at]
             was = {wheel: spans.get(wheel) for wheel in mesh}
             for wheel in mesh:
-                low, high = spans.get(wheel, (shelf, shelf))
-                spans[wheel] = min(low, shelf), max(high, shelf)
-            if all(self._clear(wheel, spans) for wheel in mesh):
+                low, high = spans.get(wheel, (slot, slot))
+                spans[wheel] = AxialSlots(min(low, slot), max(high, slot))
+            if all(self._is_clear(wheel, spans) for wheel in mesh):
                 before.append(was)
                 choice.append(0)
             else:
                 _put_back(spans, was)
         return None
 
-    def _clear(self, wheel: str, spans: Mapping[str, AxialSlots]) -> bool:
-        low, high = spans[wheel]
+    def _is_clear(self, wheel: str, spans: Mapping[str, AxialSlots]) -> bool:
+        own = spans[wheel]
         others = (spans[other] for other in self.clashes.get(wheel, ()) if other in spans)
-        return all(high < under or over < low for under, over in others)
+        return all(own.high < other.low or other.high < own.low for other in others)
 
 
 def _put_back(spans: dict[str, AxialSlots], was: Mapping[str, AxialSlots | None]) -> None:

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import Literal
+from functools import cached_property
+from typing import Literal, NamedTuple
 
 from geartrain.analysis.gear_train import GearTrain
 from geartrain.dynamics.gear_meshes import find_sizes
@@ -13,8 +14,11 @@ from geartrain.errors import GearTrainError
 from geartrain.kinematics.circuits import Circuit, Tree
 from geartrain.kinematics.circuits.axes import Axes
 from geartrain.numerics.quantity import Quantity
-from geartrain.numerics.vectors import Vector, unit
+from geartrain.numerics.vectors import Vector, dot, frame, plus, unit
 from geartrain.train import Train, Wheel
+
+Point = tuple[float, float]
+"""A place in plan: coordinates (mm) across parallel axes."""
 
 ContactKind = Literal["side", "ring", "bevel", "crown", "screw"]
 _TOUCHING = 1e-12  # of a distance: nearer to it, pitch circles touch
@@ -25,94 +29,220 @@ WORM = Fraction(5)  # pitch radius of a worm over its axial module: slender, but
 class AxisLine:
     """An axis as declared.
 
-    way      unit vector of its direction
-    group    the same number for all parallels
-    bearers  the link that bears it, the link that bears that one's axis, and so on to the frame
-    pivots   the axes about which they turn, all but the frame
-    given    its declared point (mm)
+    direction  unit vector
+    group      the same number for all parallels
+    bearers    the link that bears it, the link that bears that one's axis, and so on to the frame
+    pivots     the axes about which they turn, all but the frame
+    given      its declared point (mm)
     """
 
     label: str
-    way: Vector
+    direction: Vector
     group: int
     bearers: tuple[str, ...]
     pivots: tuple[str, ...]
     given: Vector | None
 
 
+@dataclass(frozen=True)
+class Parallels:
+    """Parallel axes, as they are planned and stacked.
+
+    up     unit vector along them: heights count along it, z upwards or what is nearest to it
+    x, y   unit vectors across: a point of the plan has its coordinates along them
+    """
+
+    lines: tuple[AxisLine, ...]
+    up: Vector
+    x: Vector
+    y: Vector
+
+    @classmethod
+    def of(cls, lines: Sequence[AxisLine]) -> Parallels:
+        """Some lines of one group."""
+        up = upwards(lines[0].direction)
+        return cls(tuple(lines), up, *frame(up))
+
+    @cached_property
+    def index(self) -> Mapping[str, int]:
+        """Number of each axis."""
+        return {line.label: at for at, line in enumerate(self.lines)}
+
+    @property
+    def frame(self) -> str:
+        """The link that bears all others."""
+        return self.lines[0].bearers[-1]
+
+    def flat(self, vector: Vector) -> Point:
+        """A point, or a direction, in plan."""
+        return dot(vector, self.x), dot(vector, self.y)
+
+    def foot(self, place: Point) -> Vector:
+        """The point in space, at height 0, of a place in plan."""
+        return plus(plus((0.0, 0.0, 0.0), self.x, place[0]), self.y, place[1])
+
+
+def upwards(direction: Vector) -> Vector:
+    """The same direction for both senses: z, or what is nearest to it, upwards."""
+    last = next(part for part in direction[::-1] if abs(part) > 1e-12)  # of a unit vector: less is rounding
+    return direction if last > 0 else (-direction[0], -direction[1], -direction[2])
+
+
+@dataclass(frozen=True, slots=True)
+class ContactSide:
+    """A pair as one of its wheels sees it: the wheel with its axis, and its mate with its own."""
+
+    wheel: str
+    axis: str
+    mate: str
+    mate_axis: str
+
+
 @dataclass(frozen=True, slots=True)
 class PitchContact:
     """A gear pair: wheels with their axes, and how they touch.
 
-    side and ring are about parallel axes; bevel, crown (its first wheel is the crown) and screw (its first wheel is
-    the worm) about others. `likeness` says why it is drawn so where it cannot be drawn as declared; `stretch`, how much
-    farther apart than touching pitch circles declared teeth want the axes.
+    kind            side and ring are about parallel axes; bevel, crown (its first wheel is the crown) and screw (its
+                    first wheel is the worm) about others
+    drawn_as_spur   why it is drawn as spur wheels, where it cannot be drawn as declared
+    stretch         how much farther apart than touching pitch circles declared teeth want the axes, as a factor
+    worm_sense      1 where both axes of a worm and its wheel turn the pitch point the same way for positive angles, -1
+                    where against each other; 0 of other pairs
     """
 
     name: str
     wheels: tuple[str, str]
     axes: tuple[str, str]
     kind: ContactKind
-    carrier: str
-    likeness: str = ""
+    drawn_as_spur: str = ""
     stretch: Fraction = Fraction(1)
+    worm_sense: int = 0
+
+    @property
+    def parallel(self) -> bool:
+        """True if its axes are parallel; else they cross, or pass each other."""
+        return self.kind in ("side", "ring")
+
+    @property
+    def sides(self) -> tuple[ContactSide, ContactSide]:
+        """The pair as its first wheel sees it, and as its second."""
+        (first, second), (axis, other) = self.wheels, self.axes
+        return ContactSide(first, axis, second, other), ContactSide(second, other, first, axis)
+
+    @property
+    def axis_pair(self) -> tuple[str, str]:
+        """Its axes, the same for all pairs between them."""
+        return min(self.axes), max(self.axes)
 
 
 @dataclass(frozen=True, slots=True)
 class PinSlotTie:
-    """A pin in a slot: axes of the pin and of the slot, their distance (mm) if declared, and the wheels of the pin."""
+    """A pin in a slot: axes of the pin and of the slot, and their distance (mm) if declared.
 
-    name: str
+    encloses   True if the pin's circle encloses the slot's axis, so that the two axes stand close together
+    """
+
     axes: tuple[str, str]
     offset: Fraction | None
     encloses: bool
-    pin: str
+
+    @property
+    def axis_pair(self) -> tuple[str, str]:
+        """Its axes, the same for all pairs between them."""
+        return min(self.axes), max(self.axes)
+
+
+@dataclass(frozen=True, slots=True)
+class StrayMesh:
+    """A wheel that a pair has on another axis than pairs before it."""
+
+    wheel: str
+    pair: str
+    axis: str
+
+
+class DialEnds(NamedTuple):
+    """Whether an arbor runs out of the stack to a dial: at its low end, and at its high one."""
+
+    low: bool = False
+    high: bool = False
 
 
 @dataclass(frozen=True, slots=True)
 class DeclaredGeometry:
-    """Lines by label, the axis of every wheel, touches and ties in the order declared."""
+    """Lines by label; gear pairs and couplings in the order declared.
+
+    axis       of every wheel, those first that mesh
+    wheels     link and declaration of every wheel
+    front      the side of z from which the train is looked at: 1 or -1
+    dial_ends  of links that run to a dial
+    driven     the axis of the first input, which gets the origin where no position is declared
+    """
 
     lines: Mapping[str, AxisLine]
     axis: Mapping[str, str]
-    touches: tuple[PitchContact, ...]
+    contacts: tuple[PitchContact, ...]
     ties: tuple[PinSlotTie, ...]
     wheels: Mapping[str, tuple[str, Wheel]]
-    strays: tuple[tuple[str, str, str], ...]
+    strays: tuple[StrayMesh, ...]
+    front: int
+    dial_ends: Mapping[str, DialEnds]
+    driven: str | None
 
-    def size(self, wheel: str) -> Fraction:
+    def link(self, wheel: str) -> str:
+        """The link that carries a wheel."""
+        return self.wheels[wheel][0]
+
+    def wheel(self, wheel: str) -> Wheel:
+        """A wheel as declared."""
+        return self.wheels[wheel][1]
+
+    def count(self, wheel: str) -> int:
+        """Teeth of a wheel; 1 where they are not known."""
+        return self.wheels[wheel][1].count or 1
+
+    def radius(self, wheel: str) -> Fraction:
         """Pitch radius over module."""
-        kind = self.wheels[wheel][1]
-        return WORM if kind.kind == "worm" else Fraction(kind.count or 1, 2)
+        return WORM if self.wheel(wheel).kind == "worm" else Fraction(self.count(wheel), 2)
 
-    def reach(self, touch: PitchContact) -> Fraction:
+    def distance(self, contact: PitchContact) -> Fraction:
         """Distance of the axes of a pair over its module, where they are parallel or pass each other."""
-        first, second = (self.size(wheel) for wheel in touch.wheels)
-        return touch.stretch * (abs(first - second) if touch.kind == "ring" else first + second)
+        first, second = (self.radius(wheel) for wheel in contact.wheels)
+        return contact.stretch * (abs(first - second) if contact.kind == "ring" else first + second)
 
 
 def read_geometry(train: GearTrain) -> DeclaredGeometry:
-    """All that matters of a train. `strays` are wheels that mesh about two axes: (wheel, pair, the other axis)."""
+    """All that matters of a train."""
     declared, tree = train.declaration, train.tree
-    lines = _lines(declared, tree)
+    lines = {line.label: line for line in _lines(declared, tree)}
     axis: dict[str, str] = {}
-    touches, ties, strays = [], [], []
+    contacts, ties, strays = [], [], []
     couplings = {coupling.name: coupling for coupling in declared.couplings}
     stretches = _stretches(train)
     for circuit in train.circuits:
         ends = tree.axis_seen_from(circuit.carrier, circuit.i), tree.axis_seen_from(circuit.carrier, circuit.j)
         if circuit.kind != "gear":
-            coupling = couplings[circuit.id]
-            offset = None if coupling.offset is None else millimetres(coupling.offset)
-            ties.append(PinSlotTie(circuit.id, (ends[1], ends[0]), offset, circuit.b != 0, coupling.pin))
+            offset = couplings[circuit.id].offset
+            ties.append(PinSlotTie(ends[::-1], None if offset is None else millimetres(offset), circuit.b != 0))
             continue
         for wheel, end in zip(circuit.wheels, ends, strict=True):
             if axis.setdefault(wheel, end) != end:
-                strays.append((wheel, circuit.id, end))
-        touches.append(_touch(declared, circuit, ends, lines, stretches.get(circuit.id, Fraction(1))))
+                strays.append(StrayMesh(wheel, circuit.id, end))
+        contacts.append(_contact(train, circuit, ends, lines, stretches.get(circuit.id, Fraction(1))))
     for wheel, (link, _) in declared.wheels.items():
         axis.setdefault(wheel, tree.axis(link) or next(iter(lines), ""))
-    return DeclaredGeometry(lines, axis, tuple(touches), tuple(ties), declared.wheels, tuple(strays))
+    front = -1 if declared.view.positive == "clockwise" else 1
+    return DeclaredGeometry(
+        lines,
+        axis,
+        tuple(contacts),
+        tuple(ties),
+        declared.wheels,
+        tuple(strays),
+        front,
+        _dial_ends(declared, front),
+        next((tree.axis(link) for case in declared.cases for link in case.inputs), None),
+    )
 
 
 def millimetres(length: Quantity) -> Fraction:
@@ -120,27 +250,39 @@ def millimetres(length: Quantity) -> Fraction:
     return length.value if length.unit is None else length.base * 1000
 
 
-def _lines(declared: Train, tree: Tree) -> dict[str, AxisLine]:
+def _lines(declared: Train, tree: Tree) -> Iterator[AxisLine]:
     axes = Axes(declared, tree)
     groups: dict[tuple[Fraction, ...], int] = {}
-    lines: dict[str, AxisLine] = {}
-    for link in declared.links:
-        name = tree.axis(link)
-        if name is None or name in lines:
-            continue
-        way = axes.direction(name)
-        scale = next(part for part in way if part)
-        group = groups.setdefault(tuple(part / scale for part in way), len(groups))
-        top = max(map(abs, way))
-        place = declared.axes[name].position if name in declared.axes else None
-        given = None if place is None else tuple(float(millimetres(part)) for part in place)
+    for name, link in _first_links(declared, tree).items():
+        direction = axes.direction(name)
+        # parallels, of either sense and any length, are equal once their first coordinate is 1: exact, no tolerance
+        scale = next(part for part in direction if part)
+        group = groups.setdefault(tuple(part / scale for part in direction), len(groups))
+        top = max(map(abs, direction))  # divided exactly first: the float of a huge Fraction would overflow
+        x, y, z = (float(part / top) for part in direction)
         bearers = [tree.top[link]]
         while bearers[-1] in tree.top:
             bearers.append(tree.top[bearers[-1]])
         pivots = tuple(axis for bearer in bearers if (axis := tree.axis(bearer)) is not None)
-        x, y, z = (float(part / top) for part in way)
-        lines[name] = AxisLine(name, unit((x, y, z)), group, tuple(bearers), pivots, given)  # type: ignore[arg-type]
-    return lines
+        yield AxisLine(name, unit((x, y, z)), group, tuple(bearers), pivots, _given(declared, name))
+
+
+def _first_links(declared: Train, tree: Tree) -> dict[str, str]:
+    """The first link declared on each axis."""
+    found: dict[str, str] = {}
+    for link in declared.links:
+        name = tree.axis(link)
+        if name is not None:
+            found.setdefault(name, link)
+    return found
+
+
+def _given(declared: Train, axis: str) -> Vector | None:
+    place = declared.axes[axis].position if axis in declared.axes else None
+    if place is None:
+        return None
+    x, y, z = (float(millimetres(part)) for part in place)
+    return x, y, z
 
 
 def _stretches(train: GearTrain) -> dict[str, Fraction]:
@@ -152,21 +294,41 @@ def _stretches(train: GearTrain) -> dict[str, Fraction]:
     return {name: Fraction(size.stretch) for name, size in sizes.items() if abs(size.stretch - 1) > _TOUCHING}
 
 
-def _touch(
-    declared: Train, circuit: Circuit, ends: tuple[str, str], lines: Mapping[str, AxisLine], stretch: Fraction
+def _dial_ends(declared: Train, front: int) -> dict[str, DialEnds]:
+    found: dict[str, DialEnds] = {}
+    for case in declared.cases:
+        for name, output in case.outputs.items():
+            dial = declared.dials.get(output.dial or "")
+            if dial is None or dial.face not in ("front", "back"):
+                continue
+            high = (front > 0) == (dial.face == "front")
+            link = output.of or name
+            before = found.get(link, DialEnds())
+            found[link] = DialEnds(before.low or not high, before.high or high)
+    return found
+
+
+def _contact(
+    train: GearTrain, circuit: Circuit, ends: tuple[str, str], lines: Mapping[str, AxisLine], stretch: Fraction
 ) -> PitchContact:
-    kinds = [declared.wheels[wheel][1].kind for wheel in circuit.wheels]
-    parallel = lines[ends[0]].group == lines[ends[1]].group
-    ring = any(declared.wheels[wheel][1].internal for wheel in circuit.wheels)
-    wheels, kind, likeness = circuit.wheels, "bevel", ""
-    if parallel:
-        kind = "ring" if ring else "side"
+    declared = [train.declaration.wheels[wheel][1] for wheel in circuit.wheels]
+    kinds = [wheel.kind for wheel in declared]
+    if lines[ends[0]].group == lines[ends[1]].group:
+        ring = any(wheel.internal for wheel in declared)
         shaped = next((each for each in kinds if each != "spur"), "")
-        likeness = f"a {shaped} pair whose axes are declared parallel" if shaped else ""
-    elif "worm" in kinds:
-        kind = "screw"
-    elif sorted(kinds) == ["contrate", "spur"]:
-        kind = "crown"
-    if kind in ("screw", "crown") and kinds[0] not in ("worm", "contrate"):
+        why = f"a {shaped} pair whose axes are declared parallel" if shaped else ""
+        return PitchContact(circuit.id, circuit.wheels, ends, "ring" if ring else "side", why, stretch)
+    kind: ContactKind = "screw" if "worm" in kinds else "crown" if sorted(kinds) == ["contrate", "spur"] else "bevel"
+    sense = _worm_sense(train, circuit, ends) if kind == "screw" else 0
+    wheels = circuit.wheels
+    if kind != "bevel" and kinds[0] not in ("worm", "contrate"):
         wheels, ends = wheels[::-1], ends[::-1]
-    return PitchContact(circuit.id, wheels, ends, kind, circuit.carrier, likeness, stretch)  # type: ignore[arg-type]
+    return PitchContact(circuit.id, wheels, ends, kind, "", stretch, sense)
+
+
+def _worm_sense(train: GearTrain, circuit: Circuit, ends: tuple[str, str]) -> int:
+    """A worm turns no pitch point sideways: how its thread moves follows from the pair's equation."""
+    flip = 1
+    for link, axis in zip((circuit.i, circuit.j), ends, strict=True):
+        flip *= train.signs.get(link, 1) if train.tree.axis(link) == axis else 1
+    return (-1 if circuit.a * circuit.b > 0 else 1) * flip

@@ -10,7 +10,6 @@ from geartrain.errors import Problem
 from geartrain.numerics.vectors import across, cross, dot, minus, plus, size, unit
 from geartrain.scene.layout.declared_geometry import DeclaredGeometry, PitchContact
 from geartrain.scene.layout.parallel_groups import Arrangement
-from geartrain.scene.layout.wheel_geometry import WheelSize
 from geartrain.scene.layout.wheel_modules import pitch_distance
 from geartrain.scene.layout.wheel_stacks import WheelStack
 
@@ -19,52 +18,59 @@ _MEET = 1e-6  # of them, where axes meet, for directions are rounded as written
 _SHOWN = 6
 
 
-def misfits(reading: DeclaredGeometry, found: Arrangement, sizes: Mapping[str, WheelSize]) -> dict[str, float]:
+def pitch_gaps(found: Arrangement) -> dict[str, float]:
     """Pairs whose pitch circles do not touch, and how far (mm) they are apart, negative into each other."""
-    gaps = {touch.name: _gap(reading, found, sizes, touch) for touch in reading.touches}
-    slack = {
-        touch.name: (_TOUCH if touch.kind in ("side", "ring") else _MEET) * sum(sizes[w].radius for w in touch.wheels)
-        for touch in reading.touches
-    }
-    return {name: gap for name, gap in gaps.items() if abs(gap) > slack[name]}
+    sizes = found.geometry.sizes
+    gaps = {}
+    for contact in found.geometry.declared.contacts:
+        gap = _gap(found, contact)
+        slack = _TOUCH if contact.parallel else _MEET
+        if abs(gap) > slack * sum(sizes[wheel].radius for wheel in contact.wheels):
+            gaps[contact.name] = gap
+    return gaps
 
 
-def _gap(reading: DeclaredGeometry, found: Arrangement, sizes: Mapping[str, WheelSize], touch: PitchContact) -> float:
-    lines = [reading.lines[axis] for axis in touch.axes]
-    points = [found.points[axis] for axis in touch.axes]
-    radii = [sizes[wheel].radius for wheel in touch.wheels]
-    if touch.kind in ("side", "ring"):
-        module = {wheel: sizes[wheel].module for wheel in touch.wheels}
-        far = size(across(minus(points[1], points[0]), lines[0].way)) - pitch_distance(reading, module, touch)
-        return -far if touch.kind == "ring" else far
-    centres = [found.centres[wheel] for wheel in touch.wheels]
-    if touch.kind == "screw":
-        upright = unit(cross(lines[0].way, lines[1].way))
+def _gap(found: Arrangement, contact: PitchContact) -> float:
+    declared, sizes = found.geometry.declared, found.geometry.sizes
+    lines = [declared.lines[axis] for axis in contact.axes]
+    radii = [sizes[wheel].radius for wheel in contact.wheels]
+    if contact.parallel:
+        first, second = (found.points[axis] for axis in contact.axes)
+        module = {wheel: sizes[wheel].module for wheel in contact.wheels}
+        far = size(across(minus(second, first), lines[0].direction)) - pitch_distance(declared, module, contact)
+        return -far if contact.kind == "ring" else far
+    centres = [found.centres[wheel] for wheel in contact.wheels]
+    if contact.kind == "screw":
+        upright = unit(cross(lines[0].direction, lines[1].direction))
         off = minus(centres[1], centres[0])
         aside = size(across(off, upright))
         far = abs(dot(off, upright)) - sum(radii)
         return far if aside <= _TOUCH * sum(radii) else hypot(far, aside)
-    tips = [plus(centres[at], found.seats[touch.name][at].out, radii[at]) for at in (0, 1)]
-    return size(minus(tips[1], tips[0]))
+    tip, other = (
+        plus(centre, found.geometry.seats[contact.name, wheel].out, radius)
+        for centre, wheel, radius in zip(centres, contact.wheels, radii, strict=True)
+    )
+    return size(minus(other, tip))
 
 
 def notices(
-    train: GearTrain,
-    reading: DeclaredGeometry,
-    found: Arrangement,
-    apart: Mapping[str, float],
-    misses: Mapping[str, float],
+    train: GearTrain, found: Arrangement, gaps: Mapping[str, float], misses: Mapping[str, float]
 ) -> Iterator[Problem]:
-    """All that a reader of a picture must know."""
+    """All that a reader of a picture must know.
+
+    gaps     of pairs whose pitch circles do not touch (mm)
+    misses   of pairs whose teeth do not meet (pitches)
+    """
+    declared = found.geometry.declared
     place = {gear.name: train.declaration.place("gears", at) for at, gear in enumerate(train.declaration.gears)}
-    for touch in reading.touches:
-        if touch.name in apart:
-            yield _not_touching(touch, apart[touch.name], place[touch.name])
-    yield from _likenesses(reading, place)
-    for tower in found.towers.values():
-        yield from _crowding(reading, found, tower)
+    for contact in declared.contacts:
+        if contact.name in gaps:
+            yield _not_touching(contact, gaps[contact.name], place[contact.name])
+    yield from _simplified(declared, place)
+    for stack in found.stacks:
+        yield from _crowding(found, stack)
     for name, miss in misses.items():
-        if name not in apart:
+        if name not in gaps:
             yield Problem(
                 f"the teeth of '{name}' do not meet: they are off by {abs(miss):.3g} of a pitch",
                 "it closes a loop of wheels whose places leave no other choice",
@@ -73,48 +79,49 @@ def notices(
             )
 
 
-def _not_touching(touch: PitchContact, gap: float, place: str) -> Problem:
-    first, second = touch.wheels
+def _not_touching(contact: PitchContact, gap: float, place: str) -> Problem:
+    (first, second), (axis, other) = contact.wheels, contact.axes
     return Problem(
         f"the pitch circles of '{first}' and '{second}' "
         + (f"are {gap:.3g} mm apart" if gap > 0 else f"overlap by {-gap:.3g} mm"),
-        f"pair '{touch.name}' wants another distance of axes '{touch.axes[0]}' and '{touch.axes[1]}' than other pairs, "
-        "declared positions, modules or offsets leave it",
+        f"pair '{contact.name}' wants another distance of axes '{axis}' and '{other}' than other pairs, declared "
+        "positions, modules or offsets leave it",
         "change a tooth number, a position or a module; the motion does not depend on it",
         place,
     )
 
 
-def _likenesses(reading: DeclaredGeometry, place: Mapping[str, str]) -> Iterator[Problem]:
-    for touch in reading.touches:
-        if touch.likeness:
+def _simplified(declared: DeclaredGeometry, place: Mapping[str, str]) -> Iterator[Problem]:
+    """Pairs and wheels that are not drawn as they are declared."""
+    for contact in declared.contacts:
+        if contact.drawn_as_spur:
             yield Problem(
-                f"'{touch.name}' is drawn as spur wheels",
-                f"it is {touch.likeness}",
+                f"'{contact.name}' is drawn as spur wheels",
+                f"it is {contact.drawn_as_spur}",
                 "declare directions under `axes`",
-                place[touch.name],
+                place[contact.name],
             )
-    for wheel, name, other in reading.strays:
+    for stray in declared.strays:
         yield Problem(
-            f"wheel '{wheel}' is drawn on axis '{reading.axis[wheel]}' only",
-            f"pair '{name}' has it on axis '{other}' too",
+            f"wheel '{stray.wheel}' is drawn on axis '{declared.axis[stray.wheel]}' only",
+            f"pair '{stray.pair}' has it on axis '{stray.axis}' too",
             "give each of its meshes a wheel of its own",
-            place[name],
+            place[stray.pair],
         )
 
 
-def _crowding(reading: DeclaredGeometry, found: Arrangement, tower: WheelStack) -> Iterator[Problem]:
+def _crowding(found: Arrangement, stack: WheelStack) -> Iterator[Problem]:
     """Wheels that share a height and a place, and arbors that go through wheels."""
-    mates = {frozenset(touch.wheels) for touch in reading.touches}
-    height = {block.wheel: dot(found.centres[block.wheel], tower.up) for block in tower.upright}
-    collide = [pair for pair in tower.collisions(height) if frozenset(pair) not in mates]
+    mates = {frozenset(contact.wheels) for contact in found.geometry.declared.contacts}
+    height = {block.wheel: dot(found.centres[block.wheel], stack.up) for block in stack.upright}
+    collide = [pair for pair in stack.collisions(height) if frozenset(pair) not in mates]
     if collide:
         yield Problem(
             f"wheels collide: {_listed([f'{a} and {b}' for a, b in collide])}",
             "they stand in one level, for their mates do, and their places leave no room between them",
             "give their axes positions, or their pairs another order",
         )
-    pierced = [f"{link} through {wheel}" for link, wheel in tower.pierced(height)]
+    pierced = [f"{arbor} through {wheel}" for arbor, wheel in stack.pierced(height)]
     if pierced:
         yield Problem(
             f"arbors go through wheels: {_listed(pierced)}",

@@ -1,186 +1,164 @@
-"""Parallels planned and stacked, one direction after the other, each hung on what stands already."""
+"""Groups of parallel axes placed one after the other: each is planned and stacked, held by what stands already."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 
-from geartrain.numerics.vectors import Vector, dot, frame, plus
+from geartrain.numerics.vectors import Vector, dot, plus
 from geartrain.scene.layout.axial_slots import find_axial_slots
-from geartrain.scene.layout.axis_placement import Point, plan
-from geartrain.scene.layout.declared_geometry import AxisLine, DeclaredGeometry, PitchContact
-from geartrain.scene.layout.placement_problem import PlacementProblems, flat
-from geartrain.scene.layout.plan_clearance import swept_ranges
-from geartrain.scene.layout.stack_builder import build_wheel_stack
-from geartrain.scene.layout.wheel_geometry import Seat, WheelSize, seats
-from geartrain.scene.layout.wheel_modules import WheelModules
-from geartrain.scene.layout.wheel_stacks import HeightConstraint, WheelStack, overlap
-
-if TYPE_CHECKING:
-    from geartrain.numerics.arrays import Floats
-
+from geartrain.scene.layout.declared_geometry import Parallels, Point, upwards
+from geartrain.scene.layout.plan_problem import plan_problem
+from geartrain.scene.layout.plan_search import plan_axes
+from geartrain.scene.layout.stack_blocks import HeightConstraint, build_wheel_stack
+from geartrain.scene.layout.swept_overlap import SweptDistances, swept_distances
+from geartrain.scene.layout.wheel_sizes import CrossingSide, SizedGeometry
+from geartrain.scene.layout.wheel_stacks import WheelStack
 
 _ORIGIN: Vector = (0.0, 0.0, 0.0)
 
 
 @dataclass(frozen=True)
 class Arrangement:
-    """Points of axes and centres of wheels (mm), seats of the wheels of crossing pairs, towers by group.
+    """Where all stands (mm).
 
+    geometry   with the wheels as broad as they were made
+    points     of axes; centres, of wheels
+    stacks     of each group of parallels
     main, up   the group of parallels with most wheels, and its direction upwards
     """
 
+    geometry: SizedGeometry
     points: Mapping[str, Vector]
     centres: Mapping[str, Vector]
-    seats: Mapping[str, tuple[Seat, Seat]]
-    towers: Mapping[int, WheelStack]
+    stacks: Sequence[WheelStack]
     main: int
     up: Vector
 
 
-class Arranger:
-    """Arranges the axes and wheels of a train; `arrange` does it once."""
+def arrange(geometry: SizedGeometry) -> Arrangement:
+    """All groups of parallels, that with most wheels first, then those that mesh with what stands."""
+    declared = geometry.declared
+    order = _order(geometry)
+    placing = _Placing(geometry)
+    for group in order:
+        placing.place(Parallels.of([line for line in declared.lines.values() if line.group == group]))
+    for wheel, axis in declared.axis.items():
+        placing.centres.setdefault(wheel, placing.points.get(axis, _ORIGIN))
+    main = order[0] if order else -1
+    up = next((upwards(line.direction) for line in declared.lines.values() if line.group == main), (0.0, 0.0, 1.0))
+    return Arrangement(placing.geometry, placing.points, placing.centres, placing.stacks, main, up)
 
-    def __init__(
-        self,
-        reading: DeclaredGeometry,
-        scales: WheelModules,
-        sizes: dict[str, WheelSize],
-        ends: Mapping[str, tuple[bool, bool]],
-        first: str | None = None,
-    ) -> None:
-        self.first = first
-        self.reading, self.scales, self.sizes, self.ends = reading, scales, sizes, ends
-        self.crossing = [touch for touch in reading.touches if touch.kind in ("bevel", "crown", "screw")]
-        self.seats = {
-            touch.name: seats(reading, touch, (sizes[touch.wheels[0]].radius, sizes[touch.wheels[1]].radius))
-            for touch in self.crossing
-        }
+
+def _order(geometry: SizedGeometry) -> list[int]:
+    lines, axis = geometry.declared.lines, geometry.declared.axis
+    count = dict.fromkeys((line.group for line in lines.values()), 0)
+    for label in axis.values():
+        if label in lines:
+            count[lines[label].group] += 1
+    joined = {(lines[each.side.axis].group, lines[each.side.mate_axis].group) for each in geometry.crossing}
+    order: list[int] = []
+    while len(order) < len(count):
+        rest = [group for group in count if group not in order]
+        near = [group for group in rest if any((group, other) in joined for other in order)]
+        order.append(max(near or rest, key=lambda group: (count[group], -group)))
+    return order
+
+
+@dataclass(frozen=True, slots=True)
+class _HeldAxis:
+    """A new axis that meshes with one that stands: the pair as the new side sees it, and a point of the axis."""
+
+    crossing: CrossingSide
+    point: Vector
+
+
+class _Placing:
+    """Groups placed so far; `place` adds one.
+
+    Broadened wheels change `geometry`: later groups, and diagnostics, must see them as they are.
+    """
+
+    def __init__(self, geometry: SizedGeometry) -> None:
+        self.geometry = geometry
         self.points: dict[str, Vector] = {}
         self.centres: dict[str, Vector] = {}
-        self.towers: dict[int, WheelStack] = {}
+        self.stacks: list[WheelStack] = []
 
-    def arrange(self) -> Arrangement:
-        """All groups of parallels, that with most wheels first, then those that mesh with what stands."""
-        order = self._order()
-        for group in order:
-            self._place([line for line in self.reading.lines.values() if line.group == group])
-        for wheel, axis in self.reading.axis.items():
-            self.centres.setdefault(wheel, self.points.get(axis, _ORIGIN))
-        main = order[0] if order else -1
-        up = next((upwards(line.way) for line in self.reading.lines.values() if line.group == main), (0.0, 0.0, 1.0))
-        return Arrangement(self.points, self.centres, self.seats, self.towers, main, up)
-
-    def _order(self) -> list[int]:
-        lines = self.reading.lines
-        count = dict.fromkeys((line.group for line in lines.values()), 0)
-        for axis in self.reading.axis.values():
-            if axis in lines:
-                count[lines[axis].group] += 1
-        joined = {
-            (lines[a].group, lines[b].group) for touch in self.crossing for a, b in (touch.axes, touch.axes[::-1])
-        }
-        order: list[int] = []
-        while len(order) < len(count):
-            rest = [group for group in count if group not in order]
-            near = [group for group in rest if any((group, other) in joined for other in order)]
-            order.append(max(near or rest, key=lambda group: (count[group], -group)))
-        return order
-
-    def _place(self, lines: list[AxisLine]) -> None:
-        n = upwards(lines[0].way)
-        x, y = frame(n)
-        labels = {line.label for line in lines}
-        hung = list(self._hung(labels))
-        fixed = self._fixed(lines, hung, x, y)
-        asking = PlacementProblems(self.reading, self.scales, self.sizes, self.crossing, self.seats, self.points)
-        places = plan(asking.task(lines, fixed, x, y))
-        near, far = swept_ranges(lines, places)
-        self._broaden(labels, near, far)
-        tower = build_wheel_stack(
-            self.reading, self.sizes, self.seats, lines, places, near, far, n, (x, y), self._demands(hung, n), self.ends
-        )
-        self.towers[lines[0].group] = tower
-        heights = tower.heights()
-        feet = {label: plus(plus(_ORIGIN, x, u), y, v) for label, (u, v) in places.items()}
-        for line in lines:
+    def place(self, parallels: Parallels) -> None:
+        """Plan some parallels, make wheels as broad as the plan needs, and stack them."""
+        held = list(self._held(parallels))
+        fixed = self._fixed(parallels, held)
+        places = plan_axes(plan_problem(self.geometry, parallels, fixed, self.points))
+        swept = swept_distances(parallels.lines, places)
+        self._broaden(parallels, swept)
+        stack = build_wheel_stack(self.geometry, parallels, places, swept, self._constraints(parallels, held))
+        self.stacks.append(stack)
+        feet = {label: parallels.foot(place) for label, place in places.items()}
+        for line in parallels.lines:
             self.points[line.label] = line.given or feet[line.label]
-        for wheel, height in heights.items():
-            self.centres[wheel] = plus(feet[self.reading.axis[wheel]], n, height)
+        for wheel, height in stack.heights().items():
+            self.centres[wheel] = plus(feet[self.geometry.declared.axis[wheel]], parallels.up, height)
 
-    def _broaden(self, labels: set[str], near: Floats, far: Floats) -> None:
-        """Make wheels broad that have mates one above the other."""
-        number = {label: at for at, label in enumerate(line for line in self.reading.lines if line in labels)}
-        across = {wheel for touch in self.crossing for wheel in touch.wheels}
-        axis, sizes = self.reading.axis, self.sizes
+    def _held(self, parallels: Parallels) -> Iterator[_HeldAxis]:
+        for each in self.geometry.crossing:
+            side = each.side
+            if side.axis in parallels.index and side.mate_axis in self.points and side.mate in self.centres:
+                direction = self.geometry.declared.lines[side.mate_axis].direction
+                point = plus(self.centres[side.mate], direction, -each.mate_seat.far)
+                if each.contact.kind == "screw":
+                    far = sum(self.geometry.sizes[wheel].radius for wheel in each.contact.wheels)
+                    point = plus(point, each.mate_seat.out, far)
+                yield _HeldAxis(each, point)
 
-        def run_into(wheel: str, other: str) -> bool:
-            ends = number[axis[wheel]], number[axis[other]]
-            return overlap(sizes[wheel], sizes[other], float(near[ends]), float(far[ends]))
-
-        meshes = [
-            touch.wheels
-            for touch in self.reading.touches
-            if touch.kind in ("side", "ring") and touch.axes[0] in labels and not across & set(touch.wheels)
-        ]
-        for wheel, shelf in find_axial_slots(meshes, run_into).items():
-            self.sizes[wheel] = sizes[wheel].on(*shelf)
-
-    def _hung(self, labels: set[str]) -> Iterator[tuple[PitchContact, int, Vector]]:
-        """Crossing pairs with an axis that stands: the pair, the side that is new, and a point of the new axis."""
-        for touch in self.crossing:
-            for new in (0, 1):
-                known = touch.wheels[1 - new]
-                if touch.axes[new] in labels and touch.axes[1 - new] in self.points and known in self.centres:
-                    seat = self.seats[touch.name][1 - new]
-                    way = self.reading.lines[touch.axes[1 - new]].way
-                    point = plus(self.centres[known], way, -seat.far)
-                    if touch.kind == "screw":
-                        far = sum(self.sizes[wheel].radius for wheel in touch.wheels)
-                        point = plus(point, seat.out, far)
-                    yield touch, new, point
-
-    def _fixed(
-        self, lines: list[AxisLine], hung: list[tuple[PitchContact, int, Vector]], x: Vector, y: Vector
-    ) -> dict[str, Point]:
-        fixed = {line.label: flat(line.given, x, y) for line in lines if line.given is not None}
-        for touch, new, point in hung:
-            fixed.setdefault(touch.axes[new], flat(point, x, y))
+    def _fixed(self, parallels: Parallels, held: Sequence[_HeldAxis]) -> dict[str, Point]:
+        """Points in plan of the axes that cannot be moved; of one, if nothing fixes any."""
+        fixed = {line.label: parallels.flat(line.given) for line in parallels.lines if line.given is not None}
+        for new in held:
+            fixed.setdefault(new.crossing.side.axis, parallels.flat(new.point))
         if fixed:
             return fixed
-        labels = [line.label for line in lines]
-        for touch in self.crossing:  # nothing of these stands, but an axis they meet is given
-            for new in (0, 1):
-                other = self.reading.lines[touch.axes[1 - new]]
-                if touch.axes[new] in labels and other.given is not None:
-                    return {touch.axes[new]: flat(other.given, x, y)}
-        return dict.fromkeys(
-            self._concurrent(labels) or [self.first if self.first in labels else labels[0]], (0.0, 0.0)
-        )
+        labels, declared = list(parallels.index), self.geometry.declared
+        for each in self.geometry.crossing:  # nothing of these stands, but an axis they meet is given
+            given = declared.lines[each.side.mate_axis].given
+            if each.side.axis in parallels.index and given is not None:
+                return {each.side.axis: parallels.flat(given)}
+        driven = [label for label in labels if label == declared.driven]
+        return dict.fromkeys(self._in_line(parallels) or driven or labels[:1], (0.0, 0.0))
 
-    def _concurrent(self, labels: list[str]) -> list[str]:
+    def _in_line(self, parallels: Parallels) -> list[str]:
         """Parallels that are one line, for two axes across, not parallel to each other, meet each of them."""
-        met: dict[str, set[int]] = {label: set() for label in labels}
-        for touch in self.crossing:
-            for side in (0, 1):
-                if touch.axes[side] in met and touch.kind != "screw":
-                    met[touch.axes[side]].add(self.reading.lines[touch.axes[1 - side]].group)
-        some = [label for label in labels if len(met[label]) > 1]
+        met: dict[str, set[int]] = {label: set() for label in parallels.index}
+        for each in self.geometry.crossing:
+            if each.side.axis in met and each.contact.kind != "screw":
+                met[each.side.axis].add(self.geometry.declared.lines[each.side.mate_axis].group)
+        some = [label for label in met if len(met[label]) > 1]
         return [label for label in some if any(len(met[label] & met[other]) > 1 for other in some if other != label)]
 
-    def _demands(self, hung: list[tuple[PitchContact, int, Vector]], n: Vector) -> list[HeightConstraint]:
-        demands = []
-        for touch, new, point in hung:
-            wheel = touch.wheels[new]
-            way = self.reading.lines[touch.axes[new]].way
-            seat = self.seats[touch.name][new]
-            at = plus(point, way, seat.far)
-            demands.append(HeightConstraint(wheel, dot(at, n)))
-        return demands
+    def _broaden(self, parallels: Parallels, swept: SweptDistances) -> None:
+        """Make wheels broad that have mates one above the other."""
+        axis, sizes, index = self.geometry.declared.axis, self.geometry.sizes, parallels.index
 
+        def run_into(wheel: str, other: str) -> bool:
+            return swept.overlap(sizes[wheel], index[axis[wheel]], sizes[other], index[axis[other]])
 
-def upwards(way: Vector) -> Vector:
-    """The same direction for both senses: z, or what is nearest to it, upwards."""
-    last = next(part for part in way[::-1] if abs(part) > 1e-12)
-    return way if last > 0 else (-way[0], -way[1], -way[2])
+        crossing = {each.side.wheel for each in self.geometry.crossing}
+        meshes = [
+            contact.wheels
+            for contact in self.geometry.declared.contacts
+            if contact.parallel and contact.axes[0] in index and not crossing & set(contact.wheels)
+        ]
+        broad = {
+            wheel: sizes[wheel].across_slots(*slots) for wheel, slots in find_axial_slots(meshes, run_into).items()
+        }
+        self.geometry = replace(self.geometry, sizes={**sizes, **broad})
+
+    def _constraints(self, parallels: Parallels, held: Sequence[_HeldAxis]) -> list[HeightConstraint]:
+        """Heights of wheels whose axes are held by what stands."""
+        found = []
+        for new in held:
+            side = new.crossing.side
+            direction = self.geometry.declared.lines[side.axis].direction
+            centre = plus(new.point, direction, new.crossing.seat.far)
+            found.append(HeightConstraint(side.wheel, dot(centre, parallels.up)))
+        return found

@@ -1,14 +1,21 @@
-"""The order of levels: which stacks stand over which, so that few arbors go through wheels and all are short."""
+"""The order of levels: which stacks stand over which, so that few arbors go through wheels and all are short.
+
+Local search on keys, one a stack, that grow upwards: stacks with one key share a level. Each stack in turn is put where
+it costs least, then runs of levels are moved or turned over together, until nothing gets better. Of very many stacks
+each is put into the first level that fits, and left there.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from geartrain.scene.layout.plan_overlap import PlanOverlap
+from geartrain.scene.layout.declared_geometry import DialEnds
+from geartrain.scene.layout.swept_overlap import PlanOverlap, WheelBlock
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -20,60 +27,80 @@ _PIERCED = 1.0  # cost of an arbor that goes through a wheel
 _LONG = 0.02  # of a level that an arbor spans
 _LEVEL = 0.005  # of a level used
 _PASSES = 8
-_LENGTHS = (1, 2, 3, 4, 6, 8, 12, 16)  # of runs of levels that are moved together
-_AT_ONCE = 500  # orders of which costs are worked out together
+_RUNS = (1, 2, 3, 4, 6, 8, 12, 16)  # lengths of runs of levels that are moved together
+_AT_ONCE = 500  # orders of which costs are worked out together: more would not stay in the cache
 _SEARCHED = 80  # stacks up to which every place is tried
 
 
-class StackOrder:
-    """Order of stacks. Keys grow upwards; stacks with one key share a level."""
+@dataclass(frozen=True)
+class StackProblem:
+    """What is to be stacked.
 
-    def __init__(self, crowd: PlanOverlap, count: int) -> None:
-        self.crowd, self.count = crowd, count
-        self.stacks = np.array([block.stack for block in crowd.blocks])
-        rows, columns = np.nonzero(crowd.clash)
+    overlap   of the blocks in plan
+    arbors    links that carry wheels; the rows of `overlap.pierce`
+    ends      of arbors that run out of the stack to a dial
+    plates    arbor -> the wheel on which its axis is carried round
+    """
+
+    blocks: Sequence[WheelBlock]
+    overlap: PlanOverlap
+    arbors: Sequence[str]
+    ends: Mapping[str, DialEnds]
+    plates: Mapping[str, str]
+
+    @property
+    def count(self) -> int:
+        """How many stacks there are."""
+        return 1 + max((block.stack for block in self.blocks), default=-1)
+
+
+def order_stacks(problem: StackProblem) -> Floats:
+    """A key for each stack, growing upwards; stacks of one key share a level."""
+    search = _OrderSearch(problem)
+    return search.first_fit() if problem.count > _SEARCHED else search.local_search()
+
+
+class _OrderSearch:
+    """One search.
+
+    clash     stacks that must not share a level, by stack
+    carried   stacks of each arbor, and of the wheel that carries its axis round
+    bearing   arbors of each stack
+    """
+
+    def __init__(self, problem: StackProblem) -> None:
+        self.problem, self.count = problem, problem.count
+        self.stacks = np.array([block.stack for block in problem.blocks])
+        rows, columns = np.nonzero(problem.overlap.clash)
         clash = np.unique(np.stack([self.stacks[rows], self.stacks[columns]]), axis=1)
-        ends = np.searchsorted(clash[0], np.arange(count + 1))
+        ends = np.searchsorted(clash[0], np.arange(self.count + 1))
         self.clash = [clash[1, low:high] for low, high in zip(ends[:-1].tolist(), ends[1:].tolist(), strict=True)]
-        number = {link: at for at, link in enumerate(crowd.links)}
-        carried: list[dict[int, None]] = [{} for _ in crowd.links]
-        for block in crowd.blocks:
-            if block.link in number:
-                carried[number[block.link]][block.stack] = None
-        at_wheel = {block.wheel: block.stack for block in crowd.blocks if not block.mate}
-        for link, plate in crowd.plates.items():
-            carried[number[link]][at_wheel[plate]] = None
-        self.carried = [tuple(stacks) for stacks in carried]
-        self.bearing: list[list[int]] = [[] for _ in range(count)]
+        self.carried = self._carried()
+        self.bearing: list[list[int]] = [[] for _ in range(self.count)]
         for arbor, stacks in enumerate(self.carried):
             for stack in stacks:
                 self.bearing[stack].append(arbor)
 
-    def found(self) -> Floats:
-        """A key for each stack."""
-        keys = np.full(self.count, np.nan)
-        order = self._order()
-        if self.count > _SEARCHED:
-            return self._first_fit(order)
-        for at in order:
-            self._settle(keys, at)
-        for _ in range(_PASSES):
-            before = keys.copy()
-            for at in order:
-                self._settle(keys, at)
-            keys, better = self._shifted(keys)
-            if not better and np.array_equal(before, keys):
-                break
-        return keys
+    def _carried(self) -> list[tuple[int, ...]]:
+        problem = self.problem
+        carried: dict[str, dict[int, None]] = {arbor: {} for arbor in problem.arbors}  # keys in order, each once
+        for block in problem.blocks:
+            if block.link in carried:
+                carried[block.link][block.stack] = None
+        stack_of = {block.wheel: block.stack for block in problem.blocks if not block.across}
+        for arbor, plate in problem.plates.items():
+            carried[arbor][stack_of[plate]] = None
+        return [tuple(stacks) for stacks in carried.values()]
 
     def _mates(self, at: int) -> Iterator[int]:
         """Stacks that share an arbor with a stack, as often as they do, itself among them."""
         return (stack for arbor in self.bearing[at] for stack in self.carried[arbor])
 
-    def _order(self) -> list[int]:
+    @cached_property
+    def order(self) -> list[int]:
         """From the stack with most arbors on, always one that shares an arbor with those before."""
         score = np.array([len(arbors) for arbors in self.bearing], float)
-        weight = float(score.sum()) + 1
+        weight = float(score.sum()) + 1  # one shared arbor outweighs any number of own ones
         order: list[int] = []
         for _ in range(self.count):
             at = int(np.argmax(score))
@@ -85,16 +112,31 @@ class StackOrder:
 
     # ------------------------------------------------------------------------------------------------ every place tried
 
+    def local_search(self) -> Floats:
+        """Put in all stacks, then settle each again and move runs of levels until nothing gets better."""
+        keys = np.full(self.count, np.nan)
+        for at in self.order:
+            self._settle(keys, at)
+        for _ in range(_PASSES):
+            before = keys.copy()
+            for at in self.order:
+                self._settle(keys, at)
+            keys, better = self._shifted(keys)
+            if not better and np.array_equal(before, keys):
+                break
+        return keys
+
     def _shifted(self, keys: Floats) -> tuple[Floats, bool]:
-        """Some levels together moved past others, or turned over, where that costs less."""
+        """Some levels together moved past others, or turned over, where that costs less; and whether it does."""
         level = np.searchsorted(np.unique(keys), keys)
         ranks = np.concatenate(list(_shifts(int(level.max()) + 1)))[:, level].astype(float)
         costs = np.concatenate([self._costs(ranks[at : at + _AT_ONCE]) for at in range(0, len(ranks), _AT_ONCE)])
+        # rounded, so that of equal costs the first wins, whatever the order of summation made of the last digits
         best = int(np.argmin(costs.round(9)))
         return ranks[best], bool(costs[best].round(9) < costs[0].round(9))
 
     def _settle(self, keys: Floats, at: int) -> None:
-        """Put one stack where it costs least: in a level, or between two."""
+        """Put one stack where it costs least: in a level (a whole key), or between two (a half)."""
         keys[at] = np.nan
         known = np.unique(keys[~np.isnan(keys)])
         if not len(known):
@@ -114,12 +156,13 @@ class StackOrder:
         keys = np.ascontiguousarray(every.T, np.float32)  # halves of small numbers: exact, and soon compared
         low = high = keys[self._borne[0]]
         for stacks in self._borne[1:]:
-            low, high = np.fmin(low, keys[stacks]), np.fmax(high, keys[stacks])
+            low, high = np.fmin(low, keys[stacks]), np.fmax(high, keys[stacks])  # fmin, fmax: pass over nan
         span = np.nansum(high - low, axis=0)
-        low[self._down] -= np.inf
-        high[self._up] += np.inf
-        through, wheel, times = self._pierced
-        pierced = times @ ((keys[wheel] > low[through]) & (keys[wheel] < high[through]))
+        out_below, out_above = self._running_out
+        low[out_below] -= np.inf
+        high[out_above] += np.inf
+        arbor, wheel, times = self._pierced
+        pierced = times @ ((keys[wheel] > low[arbor]) & (keys[wheel] < high[arbor]))
         levels = (np.diff(np.sort(keys, axis=0), axis=0) > 0).sum(axis=0)
         return np.asarray(_PIERCED * pierced + _LONG * span.astype(float) + _LEVEL * levels, float)
 
@@ -127,42 +170,33 @@ class StackOrder:
     def _borne(self) -> Indices:
         """The first stack of every arbor, the second, and so on; the first again where it has no more."""
         most = max(map(len, self.carried), default=1)
-        return (
-            np.array([[*stacks, *stacks[:1] * (most - len(stacks))] for stacks in self.carried], np.intp)
-            .reshape(-1, most)
-            .T
-        )
+        filled = [[*stacks, *stacks[:1] * (most - len(stacks))] for stacks in self.carried]
+        return np.array(filled, np.intp).reshape(-1, most).T
 
     @cached_property
     def _pierced(self) -> tuple[Indices, Indices, NDArray[np.float32]]:
         """Arbors, stacks they go through at their height, and how many wheels of each."""
         times = np.zeros((len(self.carried), self.count), np.float32)
-        rows, blocks = np.nonzero(self.crowd.pierce)
+        rows, blocks = np.nonzero(self.problem.overlap.pierce)
         np.add.at(times, (rows, self.stacks[blocks]), 1.0)
         times[np.arange(len(self.carried)), self._borne] = 0
         arbor, stack = np.nonzero(times)
         return arbor, stack, times[arbor, stack]
 
     @cached_property
-    def _down(self) -> Indices:
-        return self._running(0)
-
-    @cached_property
-    def _up(self) -> Indices:
-        return self._running(1)
-
-    def _running(self, end: int) -> Indices:
-        """Arbors that run out of the stack at one end."""
-        ends = [self.crowd.ends.get(link, (False, False))[end] for link in self.crowd.links]
-        return np.nonzero(np.array(ends, bool))[0]
+    def _running_out(self) -> tuple[Indices, Indices]:
+        """Arbors that run out of the stack at the low end, and at the high one."""
+        ends = [self.problem.ends.get(arbor, DialEnds()) for arbor in self.problem.arbors]
+        low, high = np.array(ends, bool).reshape(-1, 2).T
+        return np.nonzero(low)[0], np.nonzero(high)[0]
 
     # ------------------------------------------------------------------------------------------------ too many for that
 
-    def _first_fit(self, order: Sequence[int]) -> Floats:
+    def first_fit(self) -> Floats:
         """Each stack in the level nearest to those it shares arbors with that is free; else in a new one on top."""
         keys = np.full(self.count, np.nan)
         levels = 0
-        for at in order:
+        for at in self.order:
             mates = keys[sorted(set(self._mates(at)))]
             mates = mates[~np.isnan(mates)]
             middle = float(mates.mean()) if len(mates) else 0.0
@@ -179,7 +213,7 @@ def _shifts(count: int) -> Iterator[Indices]:
     """Ranks of `count` levels, (orders, count): as they are, then with a run of them moved, or turned over in place."""
     rank = np.arange(count)
     yield rank[None, :]
-    for length in (each for each in _LENGTHS if each < count):
+    for length in (each for each in _RUNS if each < count):
         start, at = np.indices((count - length + 1,) * 2)[..., None]
         rest = np.where(rank < start, rank, rank - length)
         run = (rank >= start) & (rank < start + length)

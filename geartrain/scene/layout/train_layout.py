@@ -1,165 +1,233 @@
-"""From a train to its layout."""
+"""From a train to its layout: every axis and every wheel in space, in the pose in which all angles are zero."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Literal
 
 from geartrain.analysis.gear_train import GearTrain
-from geartrain.numerics.vectors import Vector, across, dot, minus, plus, size, unit
-from geartrain.scene.layout.axis_places import AxisPlace, How, Layout, WheelPlace
-from geartrain.scene.layout.declared_geometry import DeclaredGeometry, PitchContact, read_geometry
-from geartrain.scene.layout.layout_diagnostics import misfits, notices
-from geartrain.scene.layout.mesh_alignment import PitchPoint, align_meshes, pitch_point, reference
-from geartrain.scene.layout.parallel_groups import Arrangement, Arranger
-from geartrain.scene.layout.wheel_geometry import Seat, WheelSize, find_sizes
-from geartrain.scene.layout.wheel_modules import WheelModules, find_wheel_modules
+from geartrain.errors import Problem
+from geartrain.numerics.vectors import Vector, dot
+from geartrain.scene.layout.declared_geometry import read_geometry
+from geartrain.scene.layout.layout_diagnostics import notices, pitch_gaps
+from geartrain.scene.layout.mesh_alignment import align_meshes, reference
+from geartrain.scene.layout.parallel_groups import Arrangement, arrange
+from geartrain.scene.layout.wheel_sizes import Seat, size_geometry
 
-_FRONT = {"front": 0, "back": 1}
+How = Literal["given", "found", "free"]
+
+
+@dataclass(frozen=True, slots=True)
+class AxisPlace:
+    """An axis in the zero pose.
+
+    Attributes
+    ----------
+    label : str
+        Its name in the declaration.
+    point : tuple of float
+        A point of it [mm].
+    direction : tuple of float
+        Unit vector as declared: speeds of its links are positive about it.
+    how : {"given", "found", "free"}
+        Given in the declaration, found from wheels that mesh, or free: put where there is room.
+    carrier : str
+        The link that bears it, the frame or a carrier.
+
+    See Also
+    --------
+    lay_out : gives it, in `Layout.axes`.
+    """
+
+    label: str
+    point: Vector
+    direction: Vector
+    how: How
+    carrier: str
+
+
+@dataclass(frozen=True, slots=True)
+class WheelPlace:
+    """A wheel on its axis in the zero pose.
+
+    Attributes
+    ----------
+    wheel, link, axis : str
+        Its name, the link that carries it and the axis it turns about.
+    centre : tuple of float
+        Middle of its pitch circle, on its axis [mm].
+    radius : float
+        Of its pitch circle [mm]; at the wide end of a bevel wheel.
+    module : float
+        Pitch diameter over tooth count [mm].
+    thickness : float
+        Of its rim along the axis [mm].
+    given : bool
+        True if the declaration gives the module of this wheel, or of one that it meshes with.
+    cone : float
+        Half angle of its pitch cone [rad]: 0 of a cylinder, pi/2 of a crown wheel.
+    facing : int
+        Side of the axis, along its direction, to which the cone opens: 1 or -1; 0 of a cylinder.
+    layer : int or None
+        Number of the level it stands in, 0 nearest the origin, growing along the axis; None off the main axes.
+    turn : float
+        Angle of its first tooth about its axis' direction from `reference`, so that teeth mesh [rad].
+    reference : tuple of float
+        Unit vector across the axis from which `turn` is counted.
+
+    See Also
+    --------
+    lay_out : gives it, in `Layout.wheels`.
+    """
+
+    wheel: str
+    link: str
+    axis: str
+    centre: Vector
+    radius: float
+    module: float
+    thickness: float
+    given: bool = False
+    cone: float = 0.0
+    facing: int = 0
+    layer: int | None = 0
+    turn: float = 0.0
+    reference: Vector = (1.0, 0.0, 0.0)
+
+
+@dataclass(frozen=True, slots=True)
+class Layout:
+    """All axes and wheels of a train in space.
+
+    Attributes
+    ----------
+    axes : mapping of str to AxisPlace
+        By label.
+    wheels : mapping of str to WheelPlace
+        By name.
+    notices : tuple of Problem
+        What could not be placed as declared, or collides: what, why and what to do.
+    front : int
+        The side of z from which the train is looked at: 1 or -1.
+    apart : mapping of str to float
+        Gear pairs whose wheels do not touch as placed: how far their pitch circles are apart [mm], negative into each
+        other.
+
+    See Also
+    --------
+    lay_out : gives it.
+    """
+
+    axes: Mapping[str, AxisPlace]
+    wheels: Mapping[str, WheelPlace]
+    notices: tuple[Problem, ...] = ()
+    front: int = 1
+    apart: Mapping[str, float] = field(default_factory=dict)
 
 
 def lay_out(train: GearTrain) -> Layout:
-    """Places of all axes and wheels of a train: the same for the same declaration, and for every train that loads.
+    """Places of all axes and wheels of a train by beam search and local search; the same for the same declaration.
 
     Declared positions, modules and offsets of pins always hold. What is left open is found so that pitch circles
-    touch, wheels of one level keep apart and the plan is compact; `notices` tell what could not be met. The time grows
+    touch, wheels of one level keep apart and the plan is compact. Every train that loads has a layout. The time grows
     with the square of the number of axes: a quarter of a second for 70 wheels, a second for 1000 axes.
+
+    Parameters
+    ----------
+    train : GearTrain
+        Loaded or declared; it need not be able to turn.
+
+    Returns
+    -------
+    Layout
+        Lengths in mm, in the pose in which all angles are zero; its `notices` tell what could not be met.
+
+    Notes
+    -----
+    In this order: modules of all wheels (`wheel_modules`), groups of parallel axes (`parallel_groups`), of each group
+    the plan (`plan_search`) and the heights of its wheels (`stack_order`, `wheel_stacks`), then the angles at which
+    teeth mesh (`mesh_alignment`).
+
+    Examples
+    --------
+    A sun of 24, a planet of 18 and a ring of 60 teeth, where nothing gives a size, have a module of 1 mm.
+
+    >>> import geartrain
+    >>> layout = lay_out(geartrain.load("planetary-24-18-60"))
+    >>> {name: wheel.radius for name, wheel in layout.wheels.items()}
+    {'ring': 30.0, 's': 12.0, 'p': 9.0}
     """
-    reading = read_geometry(train)
-    scales = find_wheel_modules(reading)
-    sizes = find_sizes(reading, scales)
-    front = -1 if train.declaration.view.positive == "clockwise" else 1
-    found = Arranger(reading, scales, sizes, _ends(train, front), _first(train)).arrange()
-    turns, misses = align_meshes(_contact(train, reading, found, touch) for touch in reading.touches)
-    layers, coned = _layers(reading, sizes, found), _seats(reading, found)
-    wheels = {
-        wheel: _wheel(
-            reading, scales, sizes[wheel], found, wheel, turns.get(wheel, 0.0), coned.get(wheel), layers.get(wheel)
-        )
-        for wheel in reading.wheels
-    }
-    tied = {label for pair in (*scales.distances, *(touch.axes for touch in reading.touches)) for label in pair}
-    axes = {label: _axis(reading, found, label, label in tied) for label in reading.lines}
-    apart = misfits(reading, found, sizes)
-    told = tuple(notices(train, reading, found, apart, misses))
-    return Layout(axes, wheels, told, front, apart)
-
-
-def _first(train: GearTrain) -> str | None:
-    """The axis of the first input, which gets the origin where no position is declared."""
-    return next((train.tree.axis(link) for case in train.declaration.cases for link in case.inputs), None)
-
-
-def _ends(train: GearTrain, front: int) -> dict[str, tuple[bool, bool]]:
-    """Links that run out of the stack to a dial: whether at its low end, and at its high one."""
-    found: dict[str, tuple[bool, bool]] = {}
-    for case in train.declaration.cases:
-        for name, output in case.outputs.items():
-            dial = train.declaration.dials.get(output.dial or "")
-            if dial is None or dial.face not in _FRONT:
-                continue
-            link = output.of or name
-            high = (front > 0) == (dial.face == "front")
-            low_too, high_too = found.get(link, (False, False))
-            found[link] = (low_too or not high, high_too or high)
-    return found
-
-
-def _contact(train: GearTrain, reading: DeclaredGeometry, found: Arrangement, touch: PitchContact) -> PitchPoint:
-    ways = reading.lines[touch.axes[0]].way, reading.lines[touch.axes[1]].way
-    counts = tuple(reading.wheels[wheel][1].count or 1 for wheel in touch.wheels)
-    turned = 0
-    if touch.kind in ("side", "ring"):
-        outs = _side_by_side(reading, found, touch)
-    else:
-        outs = found.seats[touch.name][0].out, found.seats[touch.name][1].out
-    if touch.kind == "screw":
-        turned = _worm_sense(train, touch)
-    return pitch_point(touch.name, touch.wheels, counts, ways, outs, turned)  # type: ignore[arg-type]
-
-
-def _side_by_side(reading: DeclaredGeometry, found: Arrangement, touch: PitchContact) -> tuple[Vector, Vector]:
-    """Towards each other, but away from the axis of a wheel that runs in a ring."""
-    way = reading.lines[touch.axes[0]].way
-    apart = across(minus(found.points[touch.axes[1]], found.points[touch.axes[0]]), way)
-    out = unit(apart) if size(apart) else reference(way)
-    back = plus((0.0, 0.0, 0.0), out, -1.0)
-    rings = [reading.wheels[wheel][1].internal for wheel in touch.wheels]
-    return back if rings[1] else out, out if rings[0] else back
-
-
-def _worm_sense(train: GearTrain, touch: PitchContact) -> int:
-    """A worm turns no pitch point sideways: how its thread moves follows from the pair's equation."""
-    circuit = next(each for each in train.circuits if each.id == touch.name)
-    flip = 1
-    for link, axis in zip((circuit.i, circuit.j), _ordered(circuit.wheels, touch), strict=True):
-        flip *= train.signs.get(link, 1) if train.tree.axis(link) == axis else 1
-    return (-1 if circuit.a * circuit.b > 0 else 1) * flip
-
-
-def _ordered(wheels: tuple[str, str], touch: PitchContact) -> tuple[str, str]:
-    return touch.axes if wheels == touch.wheels else (touch.axes[1], touch.axes[0])
-
-
-def _axis(reading: DeclaredGeometry, found: Arrangement, label: str, tied: bool) -> AxisPlace:
-    line = reading.lines[label]
-    how: How = "given" if line.given else "found" if tied else "free"
-    return AxisPlace(label, found.points[label], line.way, how, line.bearers[0])
-
-
-def _wheel(
-    reading: DeclaredGeometry,
-    scales: WheelModules,
-    sized: WheelSize,
-    found: Arrangement,
-    wheel: str,
-    turn: float,
-    seat: Seat | None,
-    layer: int | None,
-) -> WheelPlace:
-    link, kind = reading.wheels[wheel]
-    axis = reading.axis[wheel]
-    way = reading.lines[axis].way if axis else (0.0, 0.0, 1.0)
-    cone = seat.cone if seat else 0.0
-    return WheelPlace(
-        wheel,
-        link,
-        axis,
-        found.centres[wheel],
-        sized.radius,
-        sized.module,
-        sized.thickness,
-        wheel in scales.declared,
-        cone,
-        kind.facing if cone else 0,
-        layer,
-        turn,
-        reference(way),
+    geometry = size_geometry(read_geometry(train))
+    declared = geometry.declared
+    found = arrange(geometry)
+    alignment = align_meshes(found)
+    gaps = pitch_gaps(found)
+    return Layout(
+        _axis_places(found),
+        _wheel_places(found, alignment.turns),
+        tuple(notices(train, found, gaps, alignment.misses)),
+        declared.front,
+        gaps,
     )
 
 
-def _seats(reading: DeclaredGeometry, found: Arrangement) -> dict[str, Seat]:
+def _axis_places(found: Arrangement) -> dict[str, AxisPlace]:
+    declared = found.geometry.declared
+    pairs = (*found.geometry.modules.distances, *(contact.axes for contact in declared.contacts))
+    tied = {label for pair in pairs for label in pair}
+    places = {}
+    for label, line in declared.lines.items():
+        how: How = "given" if line.given else "found" if label in tied else "free"
+        places[label] = AxisPlace(label, found.points[label], line.direction, how, line.bearers[0])
+    return places
+
+
+def _wheel_places(found: Arrangement, turns: Mapping[str, float]) -> dict[str, WheelPlace]:
+    geometry, declared = found.geometry, found.geometry.declared
+    layers, coned = _layers(found), _coned_seats(found)
+    places = {}
+    for wheel, (link, kind) in declared.wheels.items():
+        axis, size = declared.axis[wheel], geometry.sizes[wheel]
+        direction = declared.lines[axis].direction if axis else (0.0, 0.0, 1.0)
+        cone = coned[wheel].cone if wheel in coned else 0.0
+        places[wheel] = WheelPlace(
+            wheel=wheel,
+            link=link,
+            axis=axis,
+            centre=found.centres[wheel],
+            radius=size.radius,
+            module=size.module,
+            thickness=size.thickness,
+            given=wheel in geometry.modules.declared,
+            cone=cone,
+            facing=kind.facing if cone else 0,
+            layer=layers.get(wheel),
+            turn=turns.get(wheel, 0.0),
+            reference=reference(direction),
+        )
+    return places
+
+
+def _coned_seats(found: Arrangement) -> dict[str, Seat]:
     """The seat of each wheel that has a cone; a wheel that also meshes about a parallel axis has none."""
-    straight = {wheel for touch in reading.touches if touch.kind in ("side", "ring") for wheel in touch.wheels}
-    return {
-        wheel: seat
-        for touch in reading.touches
-        if touch.name in found.seats
-        for wheel, seat in zip(touch.wheels, found.seats[touch.name], strict=True)
-        if wheel not in straight
-    }
+    contacts = found.geometry.declared.contacts
+    straight = {wheel for contact in contacts if contact.parallel for wheel in contact.wheels}
+    return {wheel: seat for (_, wheel), seat in found.geometry.seats.items() if wheel not in straight}
 
 
-def _layers(reading: DeclaredGeometry, sizes: Mapping[str, WheelSize], found: Arrangement) -> dict[str, int]:
+def _layers(found: Arrangement) -> dict[str, int]:
     """Numbers of levels of the wheels on the main axes, from below; a broad wheel counts where it begins."""
+    declared, sizes = found.geometry.declared, found.geometry.sizes
     heights = {
         wheel: dot(found.centres[wheel], found.up) - sizes[wheel].foot
-        for wheel, axis in reading.axis.items()
-        if axis and reading.lines[axis].group == found.main
+        for wheel, axis in declared.axis.items()
+        if axis and declared.lines[axis].group == found.main
     }
     levels: list[float] = []
     layers = {}
     for wheel, height in sorted(heights.items(), key=lambda each: each[1]):
-        if not levels or height - levels[-1] > 1e-6 * sizes[wheel].thickness:
+        if not levels or height - levels[-1] > 1e-6 * sizes[wheel].thickness:  # less is rounding
             levels.append(height)
         layers[wheel] = len(levels) - 1
     return layers

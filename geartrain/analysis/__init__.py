@@ -12,11 +12,11 @@ from typing import TYPE_CHECKING
 from geartrain.numerics.lazy_names import lazy_names
 
 if TYPE_CHECKING:
-    from geartrain.analysis.accuracy import MethodAccuracy as MethodAccuracy
     from geartrain.analysis.accuracy import TrainAccuracy as TrainAccuracy
     from geartrain.analysis.accuracy import find_accuracy as find_accuracy
     from geartrain.analysis.gear_train import GearTrain as GearTrain
     from geartrain.analysis.loader import load as load
+    from geartrain.analysis.method_accuracy import MethodAccuracy as MethodAccuracy
 
 __all__ = ["GearTrain", "MethodAccuracy", "TrainAccuracy", "find_accuracy", "load"]
 
@@ -24,7 +24,7 @@ __getattr__ = lazy_names(
     __name__,
     {
         "GearTrain": "gear_train",
-        "MethodAccuracy": "accuracy",
+        "MethodAccuracy": "method_accuracy",
         "TrainAccuracy": "accuracy",
         "find_accuracy": "accuracy",
         "load": "loader",

@@ -7,59 +7,48 @@ reason, and costs nothing. How methods do on whole families of trains is measure
 
 from __future__ import annotations
 
-import math
-import time
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
-from fractions import Fraction
 from functools import partial
-from typing import TYPE_CHECKING, Any, Final, Literal, NamedTuple
 
 from geartrain.analysis.gear_train import GearTrain
-from geartrain.errors import GearTrainError
+from geartrain.analysis.method_accuracy import (
+    LAWS,
+    MOTION,
+    SPEEDS,
+    TORQUES,
+    AbsentStageError,
+    MethodAccuracy,
+    Stage,
+    measure_laws,
+    measure_motion,
+    measure_speeds,
+    measure_torques,
+)
 from geartrain.numerics.plain_data import Result
-from geartrain.teeth.transmission import TransmissionFunction
-
-if TYPE_CHECKING:
-    from geartrain.dynamics.motion import Motion, Superposition
-    from geartrain.kinematics.answer import Answer
-    from geartrain.numerics.arrays import Floats
-
-Stage = Literal["speeds", "transmission functions", "motion", "torques"]
-SPEEDS: Final = "speeds"
-LAWS: Final = "transmission functions"
-MOTION: Final = "motion"
-TORQUES: Final = "torques"
-TURNS = 20.0
-"""Turns of the input over which motion is followed."""
-_NO_FORM = "no pair has a tooth form, and no pin its sizes"
-_TOLERANCES = (1e-6, 1e-12)  # of tables, in pitches
-_ENOUGH, _LONG = 0.1, 5.0  # seconds after which a task is not repeated, even if it ran but once
-
-
-@dataclass(frozen=True, slots=True)
-class MethodAccuracy:
-    """One method of one stage.
-
-    seconds    best of repeats within a tenth of a second; `prepared`, what came before it, such as making tables
-    ratio      seconds over those of the cheapest method of the stage
-    error      greatest, in `unit`; None for the method that others are held against
-    reference  what the error was held against
-    """
-
-    stage: Stage
-    method: str
-    seconds: float
-    error: float | None
-    unit: Literal["relative", "pitches", "deg"]
-    reference: str
-    prepared: float | None = None
-    ratio: float = 1.0
 
 
 @dataclass(frozen=True, slots=True)
 class TrainAccuracy(Result):
-    """All methods on one train in one state; `left_out` says of a stage that it does not have why."""
+    """All methods on one train in one state.
+
+    Attributes
+    ----------
+    train : str
+        Its name.
+    state : str or None
+        The state that was solved.
+    positions : int
+        Driver angles of each transmission function, and positions of the input.
+    methods : tuple of MethodAccuracy
+        Stage by stage.
+    left_out : dict of str to str
+        A stage that the train does not have -> why.
+
+    See Also
+    --------
+    find_accuracy : measures it
+    """
 
     KEYS = ("state", "positions", "methods", "left_out")
 
@@ -70,25 +59,16 @@ class TrainAccuracy(Result):
     left_out: dict[str, str]
 
 
-class _AbsentError(Exception):
-    """A stage that the train does not have, and why."""
-
-
-class _Timed(NamedTuple):
-    seconds: float
-    found: Any
-
-
 def find_accuracy(train: GearTrain, state: str | None = None, positions: int = 10_000) -> TrainAccuracy:
     """Measure every method of every stage that the train has.
 
     Parameters
     ----------
-    train
+    train : GearTrain
         A declared train.
-    state
+    state : str, optional
         The state to solve; by default that of a train without states.
-    positions
+    positions : int
         Driver angles of each transmission function, and positions of the input over 20 turns; 2 or more.
 
     Returns
@@ -108,237 +88,26 @@ def find_accuracy(train: GearTrain, state: str | None = None, positions: int = 1
     ...     "gears": [{"pair": ["p", "w"]}], "inputs": {"a": 1}})
     >>> found = find_accuracy(train)
     >>> for row in found.methods:
-    ...     print(row.method, row.error, "against", row.reference)
-    exact 0.0 against every equation
-    floats 5.551115123125783e-17 against exact speeds
+    ...     print(row.method, row.error < 1e-15, "against", row.reference)
+    exact True against every equation
+    floats True against exact speeds
     >>> found.left_out["torques"]
     'no loads are declared'
     """
     stages: dict[Stage, Callable[[], Iterator[MethodAccuracy]]] = {
-        SPEEDS: partial(_speeds, train, state),
-        LAWS: partial(_laws, train, state, positions),
-        MOTION: partial(_motion, train, state, positions),
-        TORQUES: partial(_torques, train, state),
+        SPEEDS: partial(measure_speeds, train, state),
+        LAWS: partial(measure_laws, train, state, positions),
+        MOTION: partial(measure_motion, train, state, positions),
+        TORQUES: partial(measure_torques, train, state),
     }
     methods: list[MethodAccuracy] = []
     left_out: dict[str, str] = {}
     for stage, measured in stages.items():
         try:
             rows = list(measured())
-        except _AbsentError as absent:
+        except AbsentStageError as absent:
             left_out[stage] = str(absent)
             continue
         least = min(row.seconds for row in rows)
         methods += [replace(row, ratio=row.seconds / least) for row in rows]
     return TrainAccuracy(train.name, state, positions, tuple(methods), left_out)
-
-
-def _best(task: Callable[..., Any], fresh: Callable[[], Sequence[Any]] = tuple) -> _Timed:
-    """The least time of a task, and what it returned; `fresh` makes its arguments anew before every run, untimed."""
-    best, total, runs, found = math.inf, 0.0, 0, None
-    while not runs or total < _ENOUGH or (runs < 2 and total < _LONG):  # the first may have had to load a library
-        given = fresh()
-        runs += 1
-        start = time.perf_counter()
-        found = task(*given)
-        took = time.perf_counter() - start
-        best, total = min(best, took), total + took
-    return _Timed(best, found)
-
-
-def _as_declared(train: GearTrain) -> tuple[GearTrain]:
-    """The train with nothing solved yet but its circuits."""
-    fresh = GearTrain(train.declaration)
-    _ = fresh.circuits
-    return (fresh,)
-
-
-# speeds --------------------------------------------------------------------------------------------------------------
-
-
-def _speeds(train: GearTrain, state: str | None) -> Iterator[MethodAccuracy]:
-    """Exact elimination and sparse LU, from circuits to the speeds of all links."""
-    usual = train.solve(state)
-    if not usual.verdict:
-        raise _AbsentError(usual.verdict.text)
-
-    def solve(fresh: GearTrain, method: Any) -> Answer:
-        answer = fresh.solve(state, method=method)
-        _ = list(answer.speeds.values())  # each is multiplied out when read
-        return answer
-
-    exact = None
-    if usual.method == "exact":
-        seconds, exact = _best(partial(solve, method="exact"), partial(_as_declared, train))
-        yield MethodAccuracy(SPEEDS, "exact", seconds, _residual(train, state, exact), "relative", "every equation")
-    seconds, floats = _best(partial(solve, method="floats"), partial(_as_declared, train))
-    if exact is not None and train.cases[state].exact:
-        error, reference = _off(floats, exact), "exact speeds"
-    else:
-        error, reference = _forecast(floats), "its own forecast"
-    yield MethodAccuracy(SPEEDS, "floats", seconds, error, "relative", reference)
-
-
-def _residual(train: GearTrain, state: str | None, answer: Answer) -> float:
-    """The most by which a Willis equation is missed, over its largest term; 0 if all hold exactly."""
-    worst = 0.0
-    for row in train.equations(state).equations:
-        terms = [coefficient * answer.speeds[link] for link, coefficient in row.terms]
-        size = max((abs(term) for term in terms), default=0)
-        if size:
-            worst = max(worst, float(abs(sum(terms) - row.right) / size))
-    return worst
-
-
-def _off(floats: Answer, exact: Answer) -> float:
-    """Greatest relative error of a speed that is not 0."""
-    pairs = ((floats.speeds[link], Fraction(speed)) for link, speed in exact.speeds.items())
-    return max((float(abs(Fraction(near) / speed - 1)) for near, speed in pairs if speed), default=0.0)
-
-
-def _forecast(floats: Answer) -> float:
-    """Greatest error that floats forecast of themselves, over the speed."""
-    pairs = (
-        (floats.accuracy[link].estimate, speed) for link, speed in floats.speeds.items() if link in floats.accuracy
-    )
-    return max((float(abs(estimate / speed)) for estimate, speed in pairs if speed), default=0.0)
-
-
-# transmission functions ----------------------------------------------------------------------------------------------
-
-
-def _laws(train: GearTrain, state: str | None, positions: int) -> Iterator[MethodAccuracy]:
-    """Every pair's law asked directly, and read from tables."""
-    laws = {mesh.name: mesh.law for mesh in train.meshes_in(state) if not mesh.rigid}
-    laws |= {pin.coupling.name: pin.law for pin in train.pins}
-    if not laws:
-        raise _AbsentError("the law of each pair with a tooth form is its exact ratio" if train.meshes else _NO_FORM)
-    import numpy as np
-
-    from geartrain.teeth.transmission_table import TabulatedTransmission
-
-    random = np.random.default_rng(1)
-    S = {name: random.uniform(0, 10 * law.period, positions) for name, law in laws.items()}
-
-    def ask(answering: dict[str, Any]) -> dict[str, Floats]:
-        return {name: each.error(S[name]) for name, each in answering.items()}
-
-    seconds, direct = _best(partial(ask, laws))
-    yield MethodAccuracy(LAWS, f"direct, {len(laws)} laws", seconds, None, "pitches", "the others are held against it")
-    for tolerance in _TOLERANCES:
-
-        def prepare(tolerance: float = tolerance) -> dict[str, Any]:
-            tables = {name: TabulatedTransmission(law, tolerance) for name, law in laws.items()}
-            for table in tables.values():
-                _ = table.error_table
-            return tables
-
-        prepared, tables = _best(prepare)
-        seconds, read = _best(partial(ask, tables))
-        error, reference = _farthest(laws, direct, read)
-        yield MethodAccuracy(LAWS, f"tabulated, {tolerance:.0e}", seconds, error, "pitches", reference, prepared)
-
-
-def _farthest(
-    laws: dict[str, TransmissionFunction], direct: dict[str, Floats], found: dict[str, Floats]
-) -> tuple[float, str]:
-    """The greatest difference over all laws, in pitches (periods) of the driven side, and whose it is."""
-    import numpy as np
-
-    off = {}
-    for name, law in laws.items():
-        pitch = abs(float(law.ratio) or 1.0) * law.period
-        off[name] = float(np.nanmax(np.abs(found[name] - direct[name]))) / pitch
-    name = max(off, key=lambda each: off[each])
-    return off[name], f"direct, of {name}"
-
-
-# motion --------------------------------------------------------------------------------------------------------------
-
-
-def _motion(train: GearTrain, state: str | None, positions: int) -> Iterator[MethodAccuracy]:
-    """Errors composed in the solved order, composed from tables, and superposed to first order."""
-    if not train.meshes_in(state) and not train.pins:
-        raise _AbsentError(_NO_FORM)
-    try:
-        prepared, motion = _best(partial(_composed, train, state))
-    except GearTrainError as error:
-        raise _AbsentError(error.problems[0].what) from None
-    if not motion.ahead.used:
-        raise _AbsentError("no error reaches an output")
-    import numpy as np
-
-    from geartrain.dynamics.motion import Superposition
-
-    turns: Floats = np.arange(positions, dtype=float) * (TURNS / positions)
-    seconds, direct = _best(partial(_errors, motion, turns))
-    yield MethodAccuracy(MOTION, "composed", seconds, None, "deg", "the others are held against it", prepared)
-    prepared, tabulated = _best(partial(_composed, train, state, _TOLERANCES[-1]))
-    seconds, found = _best(partial(_errors, tabulated, turns))
-    yield _of_outputs("composed, tabulated laws", seconds, found - direct, motion, direct, prepared)
-    prepared, superposed = _best(partial(_superposed, Superposition, motion))
-    for method, lagged in (("superposed with lag", True), ("superposed", False)):
-        seconds, found = _best(partial(superposed.at, turns, lagged=lagged))
-        yield _of_outputs(method, seconds, found - direct, motion, direct, prepared)
-
-
-def _composed(train: GearTrain, state: str | None, tolerance: float | None = None) -> Motion:
-    """The motion of all outputs, ready to be asked: laws and tables are made when first needed."""
-    import numpy as np
-
-    motion = train.motion(state, tolerance=tolerance)
-    motion.hung.at(np.zeros(2))
-    return motion
-
-
-def _superposed(made: type[Superposition], motion: Motion) -> Superposition:
-    superposed = made(motion.ahead)
-    _ = superposed.lags
-    return superposed
-
-
-def _errors(motion: Motion, turns: Floats) -> Floats:
-    return motion.hung.at(turns).error
-
-
-def _of_outputs(
-    method: str, seconds: float, off: Floats, motion: Motion, direct: Floats, prepared: float
-) -> MethodAccuracy:
-    """The output that is farthest off, with the size of its own error to compare."""
-    import numpy as np
-
-    greatest, ripple = np.degrees(np.abs(off).max(axis=1)), np.degrees(np.ptp(direct, axis=1))
-    at = int(np.lexsort((ripple, greatest))[-1])
-    reference = f"composed, of {list(motion.outputs)[at]}: {ripple[at]:.3g} deg peak to peak"
-    return MethodAccuracy(MOTION, method, seconds, float(greatest[at]), "deg", reference, prepared)
-
-
-# torques -------------------------------------------------------------------------------------------------------------
-
-
-def _torques(train: GearTrain, state: str | None) -> Iterator[MethodAccuracy]:
-    """The exact balance with losses, and virtual work, which leaves losses out."""
-    if not train.declaration.is_loaded(state):
-        raise _AbsentError("no loads are declared")
-    seconds, found = _best(lambda fresh: fresh.torques(state), partial(_as_declared, train))
-    if not found.verdict:
-        raise _AbsentError(f"{found.verdict.kind}: {found.verdict.text}")
-    powers = found.powers
-    through = max((abs(power) for power in powers.values()), default=0)
-    missed = abs(sum(powers.values()) - found.loss) / through if through else 0
-    yield MethodAccuracy(TORQUES, "balance with losses", seconds, float(missed), "relative", "power in, out and lost")
-    asked = [link for link in found.asked if found.speeds.get(link) and found.external.get(link)]
-    if len(found.asked) != 1 or not asked:
-        return
-    (link,) = asked
-    loads = [name for name in train.declaration.case(state).loads if name != link]  # and no friction of bearings
-
-    def virtual_work(fresh: GearTrain) -> Any:
-        speeds = fresh.solve(state).speeds
-        return -sum(found.external[name] * speeds[name] for name in loads) / speeds[link]
-
-    seconds, lossless = _best(virtual_work, partial(_as_declared, train))
-    error = float(abs(lossless / found.external[link] - 1))
-    yield MethodAccuracy(
-        TORQUES, "virtual work, without losses", seconds, error, "relative", f"balance with losses, of {link}"
-    )

@@ -2,18 +2,13 @@
 
 from __future__ import annotations
 
-import html
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
+from geartrain.analysis.train_kinematics import TrainKinematics
 from geartrain.errors import Problem, QuestionError, check_choice, suggest
-from geartrain.kinematics.answer import Answer
-from geartrain.kinematics.circuits import Axes, Circuit, Tree, close_joints, find_circuits, find_tree
-from geartrain.kinematics.speed_problem import Method, SpeedProblem
-from geartrain.kinematics.speeds import Mobility, find_mobility
-from geartrain.kinematics.tooth_sensitivity import Sensitivity
-from geartrain.kinematics.willis_system import WillisSystem
+from geartrain.kinematics.circuits import Circuit
 from geartrain.train import StateCase, Train, declare
 
 if TYPE_CHECKING:
@@ -21,106 +16,72 @@ if TYPE_CHECKING:
     from geartrain.dynamics.gear_meshes import PinMesh
     from geartrain.dynamics.motion import Motion, MotionProblem, ToothImpact
     from geartrain.dynamics.torques import DrivenWay, LoadCase, PowerFlow, Torques
-    from geartrain.kinematics.graph import Graph
-    from geartrain.kinematics.gridlock import Gridlock
     from geartrain.kinematics.phasing import MeshPhasing
-    from geartrain.kinematics.speeds import FloatSpeeds
     from geartrain.teeth.gear_mesh import GearMesh, MeshDriver
 
 
-class GearTrain:
-    """A declared train that answers questions. Parts are made once, when first asked for.
+class GearTrain(TrainKinematics):
+    """A declared train that answers questions. Parts are made once, when first asked for, and kept.
+
+    Parameters
+    ----------
+    declaration : Train
+        What is declared, checked already: `geartrain.load` and `declare` make it from files and plain data.
+
+    Raises
+    ------
+    DeclarationError
+        By the first question that needs a part which the declaration cannot give, such as a tree of turning pairs.
+
+    See Also
+    --------
+    load : a train from a file or by name
+
+    Notes
+    -----
+    Speeds follow from the Willis equation of each gear pair, docs/theory.md (4); torques from the transpose of that
+    system, docs/torques.md (1) to (3); motion with real teeth from their transmission functions, composed in the
+    solved order of the train, docs/motion.md (3).
+
+    Examples
+    --------
+    A pinion of 20 turns a wheel of 60, against a torque of 3 on it; teeth without losses pass on the whole power.
 
     >>> train = GearTrain.declare({"links": {"frame": {}, "a": {"wheels": {"p": 20}}, "b": {"wheels": {"w": 60}}},
     ...     "revolutes": [{"pair": ["frame", "a"], "axis": "A"}, {"pair": ["frame", "b"], "axis": "B"}],
-    ...     "gears": [{"pair": ["p", "w"]}], "inputs": {"a": 1}})
+    ...     "gears": [{"pair": ["p", "w"]}], "inputs": {"a": 1}, "loads": {"b": 3}})
     >>> train.solve()["b"]
     Fraction(-1, 3)
+    >>> train.mobility.by_rank, [circuit.carrier for circuit in train.circuits]
+    (1, ['frame'])
+    >>> train.torques().external["a"]
+    Fraction(1, 1)
     """
 
     def __init__(self, declaration: Train) -> None:
-        self.declaration = declaration
+        super().__init__(declaration)
         self._settings: dict[str | None, LoadCase | None] = {}
         self._drivers: dict[tuple[str | None, tuple[str, ...]], Mapping[str, MeshDriver]] = {}
 
     @classmethod
     def declare(cls, data: Mapping[str, Any]) -> GearTrain:
-        """A train from plain data, with the keys of the YAML declaration. Raises `DeclarationError`.
+        """A train from plain data; circuits and cases are found no sooner than they are asked for.
 
-        Unlike `geartrain.load`, it finds circuits and cases no sooner than they are asked for.
+        Parameters
+        ----------
+        data : mapping
+            The keys of a YAML declaration, docs/reference.md.
+
+        Raises
+        ------
+        DeclarationError
+            With the place of everything that is wrong.
         """
         if "extends" in data:
             from geartrain.train.declaration_files import read_declaration
 
             return cls(read_declaration(data))
         return cls(declare(data))
-
-    @property
-    def name(self) -> str:
-        """The declared name."""
-        return self.declaration.name
-
-    @property
-    def states(self) -> tuple[str, ...]:
-        """Names of the declared states; empty for a train that has only one way to run."""
-        return tuple(self.declaration.states)
-
-    @cached_property
-    def graph(self) -> Graph:
-        """The networkx graph; edges carry the declared objects."""
-        from geartrain.kinematics.graph import build_graph
-
-        return build_graph(self.declaration)
-
-    @cached_property
-    def tree(self) -> Tree:
-        """The turning pairs as a tree rooted at the frame."""
-        return find_tree(self.declaration)
-
-    @cached_property
-    def circuits(self) -> tuple[Circuit, ...]:
-        """One fundamental circuit per gear pair and coupling."""
-        return find_circuits(self.declaration, self.tree)
-
-    @cached_property
-    def cases(self) -> Mapping[str | None, StateCase]:
-        """What is prescribed in each state, or once for None, with rigid connections joint by joint."""
-        declared = self.declaration.cases
-        return {case.state: case for case in close_joints(self.declaration, self.tree, declared)}
-
-    @cached_property
-    def _axes(self) -> Axes:
-        return Axes(self.declaration, self.tree)
-
-    @cached_property
-    def signs(self) -> Mapping[str, int]:
-        """-1 for links whose axis points against the reference direction of its parallels."""
-        return self._axes.link_signs
-
-    @cached_property
-    def bookkeeping(self) -> frozenset[str]:
-        """Links whose speed is a sum over non-parallel joints, and no rotation."""
-        return self._axes.joint_sums
-
-    def is_rotation(self, of: str, base: str) -> bool:
-        """True if the axes between two links are parallel: the speed of one seen from the other is then a rotation."""
-        return not self.bookkeeping or self._axes.is_rotation(of, base)
-
-    @cached_property
-    def _speeds(self) -> SpeedProblem:
-        return SpeedProblem(self.declaration, self.circuits, self.signs, self.is_rotation)
-
-    @cached_property
-    def mobility(self) -> Mobility:
-        """Degrees of freedom by count and by exact rank, with redundant and locking loops."""
-        return find_mobility(self._speeds.whole.reduced, len(self.declaration.revolutes))
-
-    @cached_property
-    def gridlock(self) -> Gridlock:
-        """Why meshes lock the train or a part of it, and the least set of them to disengage; cheap where none does."""
-        from geartrain.kinematics.gridlock import find_gridlock
-
-        return find_gridlock(self._speeds.whole, self.mobility)
 
     @cached_property
     def is_placed(self) -> bool:
@@ -134,13 +95,6 @@ class GearTrain:
 
         plays = {mesh.name: mesh.play for mesh in self._teeth}
         return find_phasing(self.declaration, self.tree, self.circuits, plays)
-
-    @cached_property
-    def remarks(self) -> tuple[Problem, ...]:
-        """What a fitter would remark on a sound declaration: notes, never errors."""
-        from geartrain.kinematics.lint import lint_train
-
-        return tuple(lint_train(self.declaration, self.tree, self.circuits))
 
     @cached_property
     def _teeth(self) -> tuple[GearMesh, ...]:
@@ -176,7 +130,13 @@ class GearTrain:
         return tuple(fault for ways in self.driven_ways.values() for fault in find_faults([way for way, _ in ways]))
 
     def meshes_in(self, state: str | None = None) -> tuple[GearMesh, ...]:
-        """The gear pairs with real teeth as they are driven in one state."""
+        """The gear pairs with real teeth as they are driven in one state.
+
+        Parameters
+        ----------
+        state : str, optional
+            A declared state; None only of a train that has none.
+        """
         if not self._teeth:
             return ()
         drivers = self.drivers(state)
@@ -185,7 +145,12 @@ class GearTrain:
     def drivers(self, state: str | None = None, without: Sequence[str] = ()) -> Mapping[str, MeshDriver]:
         """Who drives each pair and coupling in one state: declared, or by the flow of power in its carrier's frame.
 
-        without   pairs left out
+        Parameters
+        ----------
+        state : str, optional
+            A declared state; None only of a train that has none.
+        without : sequence of str
+            Pairs left out.
         """
         from geartrain.dynamics.torques import find_drivers
 
@@ -204,14 +169,33 @@ class GearTrain:
         return find_pins(self.declaration)
 
     def torques(self, state: str | None = None) -> Torques:
-        """Torques on links and pairs, and the flow of power, under the loads of one state."""
+        """Torques on links and pairs, and the flow of power, under the loads of one state.
+
+        Parameters
+        ----------
+        state : str, optional
+            A declared state; None only of a train that has none.
+
+        Returns
+        -------
+        Torques
+            With a verdict: self-locking, or loads that do not balance, are no error.
+        """
         from geartrain.dynamics.torques import find_torques, torques_unknown
 
         setting = self._setting(state)
         return torques_unknown(state) if setting is None else find_torques(setting)
 
     def driven(self, load: str, source: str, state: str | None = None) -> Torques:
-        """Torques while a unit of power leaves at `load`, driven from `source`: efficiency, or self-locking."""
+        """Torques while a unit of power leaves at one link, driven from another: efficiency, or self-locking.
+
+        Parameters
+        ----------
+        load, source : str
+            Two links: where the power leaves, and where it enters.
+        state : str, optional
+            A declared state; None only of a train that has none.
+        """
         from geartrain.dynamics.torques import drive, torques_unknown
 
         for link in (load, source):
@@ -222,7 +206,15 @@ class GearTrain:
     def drive_both_ways(self, state: str | None = None) -> list[DrivenWay]:
         """The train driven from its input, and from its output, a unit of power leaving at the other.
 
-        Empty where it is not plain which link is the output.
+        Parameters
+        ----------
+        state : str, optional
+            A declared state, by default the first.
+
+        Returns
+        -------
+        list of DrivenWay
+            Two ways; empty where it is not plain which link is the output.
         """
         from geartrain.dynamics.torques import DrivenWay, input_and_output
 
@@ -232,7 +224,13 @@ class GearTrain:
         return [DrivenWay(self.driven(load, source, state), source, load) for source, load in ways]
 
     def power_flow(self, found: Torques) -> PowerFlow:
-        """The streams of power under some torques of this train."""
+        """The streams of power under some torques of this train.
+
+        Parameters
+        ----------
+        found : Torques
+            As `torques`, `driven` or `drive_both_ways` give them.
+        """
         from geartrain.dynamics.torques import find_power_flow
 
         return find_power_flow(self.declaration, self.tree, self.signs, found)
@@ -244,10 +242,28 @@ class GearTrain:
         without: Sequence[str] = (),
         tolerance: float | None = None,
     ) -> Motion:
-        """The motion of some outputs or links, by default of all outputs, with real teeth and pins.
+        """The motion of some outputs or links with real teeth and pins: transmission functions, composed.
 
-        without     pairs left out, so that real teeth do not contradict each other around a loop
-        tolerance   read laws from tables of this accuracy (in pitches), several times faster
+        Parameters
+        ----------
+        state : str, optional
+            A declared state; None only of a train that has none.
+        outputs : sequence of str
+            Outputs or links; by default all outputs, and all links of a train without any.
+        without : sequence of str
+            Pairs left out, so that real teeth do not contradict each other around a loop.
+        tolerance : float, optional
+            Read transmission functions from tables of this accuracy [pitch], several times faster.
+
+        Returns
+        -------
+        Motion
+            To be asked at positions of the input.
+
+        Raises
+        ------
+        QuestionError
+            If the train does not move, or a pair or output is not declared.
         """
         from geartrain.dynamics.motion import Motion
 
@@ -257,7 +273,18 @@ class GearTrain:
         return Motion(self._moving(case, without), wanted, tolerance)
 
     def impacts(self, state: str | None = None) -> Mapping[str, ToothImpact]:
-        """What collisions of triangular teeth cost, by pair; empty unless inertias and a rate are declared."""
+        """What collisions of triangular teeth cost, by pair; empty unless inertias and a rate are declared.
+
+        Parameters
+        ----------
+        state : str, optional
+            A declared state; None only of a train that has none.
+
+        Returns
+        -------
+        mapping of str to ToothImpact
+            By pair (docs/motion.md, equation 7).
+        """
         declared, case = self.declaration, self._case(state)
         inertias = {name: link.inertia.si for name, link in declared.links.items() if link.inertia is not None}
         if not inertias or declared.rate is None or declared.rate.unit is None or not self._teeth:
@@ -287,7 +314,7 @@ class GearTrain:
         return tuple(circuit for circuit in self.circuits if circuit.id not in names)
 
     def _setting(self, state: str | None) -> LoadCase | None:
-        """What torques need to know of one state, solved once; None where its speeds are not determined."""
+        """What torques need to know of one state, solved once; None where its speeds are neither known nor free."""
         if state not in self._settings:
             self._settings[state] = self._make_setting(self._case(state))
         return self._settings[state]
@@ -302,45 +329,3 @@ class GearTrain:
         return LoadCase(
             self.declaration, self.tree, self.circuits, self.signs, case, solution.speeds, self._teeth, self.pins, forms
         )
-
-    def equations(self, state: str | None = None) -> WillisSystem:
-        """The labelled Willis system of one state."""
-        return self._speeds.equations(self._case(state))
-
-    def solve(self, state: str | None = None, output: str | None = None, method: Method = "auto") -> Answer:
-        """Speeds and judged outputs in one state.
-
-        output   an output or a link: only the circuits that drive it are solved
-        method   "exact", "floats", or "auto": exact unless the coupled system is too dense for it; speeds in
-                 radians beside others in turns are rounded to floats in any case
-        """
-        return self._speeds.answer(self._case(state), output, method)
-
-    def answers(self) -> Iterator[Answer]:
-        """The answer of every state, in the order declared."""
-        return (self.solve(state) for state in (self.states or (None,)))
-
-    def sensitivity(self, answer: Answer) -> Iterator[Sensitivity]:
-        """What one tooth fewer or more on each uncertain wheel does to each output of an answer."""
-        return self._speeds.sensitivity(self._case(answer.state), answer)
-
-    def floats(
-        self,
-        state: str | None = None,
-        inputs: Mapping[str, Sequence[float]] | None = None,
-        condition_of: Sequence[str] = (),
-    ) -> FloatSpeeds:
-        """Float64 speeds through a sparse LU, with error estimates; many input speeds at once share one factorisation.
-
-        inputs        link -> speeds, one a case, in place of the declared ones
-        condition_of  links whose component-wise condition number is wanted
-        """
-        return self._speeds.floats(self._case(state), inputs, condition_of)
-
-    def _case(self, state: str | None) -> StateCase:
-        return self.cases[self.declaration.single_state(state)]
-
-    def _repr_html_(self) -> str:
-        declared = self.declaration
-        title = f"<p><b>{html.escape(declared.name)}</b> {html.escape(declared.title)}</p>"
-        return title + "".join(answer._repr_html_() for answer in self.answers())

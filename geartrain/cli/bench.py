@@ -20,8 +20,9 @@ def run(
     force: Force = False,
 ) -> None:
     """Measure error against run time on a train: exact and float speeds, transmission functions, motion, torques."""
-    from geartrain.analysis.accuracy import SPEEDS, find_accuracy
+    from geartrain.analysis import find_accuracy
     from geartrain.analysis.loader import load
+    from geartrain.analysis.method_accuracy import SPEEDS
     from geartrain.report.accuracy_report import AccuracyReport, describe_accuracy
 
     to = sink(out, force, (".md", ".html", ".json"))

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from geartrain.analysis.accuracy import MethodAccuracy, TrainAccuracy
+from geartrain.analysis import MethodAccuracy, TrainAccuracy
 from geartrain.numerics.plain_data import Result
 from geartrain.report.document import Document, Section, Table
 

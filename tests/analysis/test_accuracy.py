@@ -14,7 +14,8 @@ import pytest
 from commands import LOCKED, RIGHT, call
 
 from geartrain import GearTrain, load
-from geartrain.analysis.accuracy import LAWS, MOTION, SPEEDS, TORQUES, MethodAccuracy, TrainAccuracy, find_accuracy
+from geartrain.analysis import MethodAccuracy, TrainAccuracy, find_accuracy
+from geartrain.analysis.method_accuracy import LAWS, MOTION, SPEEDS, TORQUES
 
 PAIR: dict[str, Any] = {
     "links": {"frame": {}, "a": {"wheels": {"p": 20}}, "b": {"wheels": {"w": 40}}},
@@ -69,8 +70,8 @@ def test_motion_is_off_as_a_sum_of_the_laws_themselves_is(moon: TrainAccuracy) -
     total = np.zeros(500)
     for source in motion.ahead.used:
         S = float(source.cycles) * turns * source.law.period + source.start - source.turned
-        of, base = motion.ahead.outputs[0]
-        total += source.sense * motion.ahead.spread.sensitivity(of, base)[source.pair] * source.law.error(S)
+        seen = motion.ahead.outputs[0]
+        total += source.sense * motion.ahead.spread.sensitivity(seen.of, seen.base)[source.pair] * source.law.error(S)
     off = degrees(np.abs(total - motion.hung.at(turns).error[0]).max())
     assert row_of(moon, MOTION, "superposed").error == pytest.approx(off, rel=1e-6)
     lagged, tables = (row_of(moon, MOTION, name).error for name in ("superposed with lag", "composed, tabulated laws"))
@@ -124,7 +125,7 @@ def test_the_command_has_a_table_for_each_stage_and_one_answer_for_each_state(tr
 
 def test_a_train_without_tooth_forms_brings_no_tooth() -> None:
     code = (
-        "import sys, geartrain; from geartrain.analysis.accuracy import find_accuracy; "
+        "import sys, geartrain; from geartrain.analysis import find_accuracy; "
         "find_accuracy(geartrain.load('pennestri-2002')); "
         "heavy = ('geartrain.teeth.triangular.triangular_transmission', 'geartrain.dynamics.motion'); "
         "print([name for name in sys.modules if name.startswith(heavy)])"

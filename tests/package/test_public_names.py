@@ -12,7 +12,7 @@ from typing import Any
 import pytest
 from pydantic import BaseModel
 
-SHOWING = ["viewer"]
+SHOWING = ["analysis", "viewer"]
 """Rooms whose `__all__` is complete. The shell shows commands, which `--help` and docs/commands.md describe."""
 
 
@@ -56,7 +56,8 @@ def gaps_of_class(where: str, kind: type) -> Iterator[str]:
         missing = fields - described(found.get("Parameters", "") + found.get("Attributes", ""))
         if missing:
             yield f"{where}: no word on {', '.join(sorted(missing))}"
-    for name, method in vars(kind).items():
+    own = [base for base in kind.__mro__ if base.__module__.split(".")[:2] == kind.__module__.split(".")[:2]]
+    for name, method in {name: method for base in reversed(own) for name, method in vars(base).items()}.items():
         method = getattr(method, "__func__", method)
         if not inspect.isfunction(method) or name.startswith("_") or not parameters(method):
             continue

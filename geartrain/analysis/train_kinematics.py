@@ -1,0 +1,191 @@
+"""The first half of a train that answers: from its declaration to circuits, mobility and speeds."""
+
+from __future__ import annotations
+
+import html
+from collections.abc import Iterator, Mapping, Sequence
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+from geartrain.errors import Problem
+from geartrain.kinematics.answer import Answer
+from geartrain.kinematics.circuits import Axes, Circuit, Tree, close_joints, find_circuits, find_tree
+from geartrain.kinematics.speed_problem import Method, SpeedProblem
+from geartrain.kinematics.speeds import Mobility, find_mobility
+from geartrain.kinematics.tooth_sensitivity import Sensitivity
+from geartrain.kinematics.willis_system import WillisSystem
+from geartrain.train import StateCase, Train
+
+if TYPE_CHECKING:
+    from geartrain.kinematics.graph import Graph
+    from geartrain.kinematics.gridlock import Gridlock
+    from geartrain.kinematics.speeds import FloatSpeeds
+
+
+class TrainKinematics:
+    """What `GearTrain` knows without teeth: how everything turns. Parts are made once, when first asked for."""
+
+    def __init__(self, declaration: Train) -> None:
+        self.declaration = declaration
+
+    @property
+    def name(self) -> str:
+        """The declared name."""
+        return self.declaration.name
+
+    @property
+    def states(self) -> tuple[str, ...]:
+        """Names of the declared states; empty for a train that has only one way to run."""
+        return tuple(self.declaration.states)
+
+    @cached_property
+    def graph(self) -> Graph:
+        """The networkx graph; edges carry the declared objects."""
+        from geartrain.kinematics.graph import build_graph
+
+        return build_graph(self.declaration)
+
+    @cached_property
+    def tree(self) -> Tree:
+        """The turning pairs as a spanning tree rooted at the frame."""
+        return find_tree(self.declaration)
+
+    @cached_property
+    def circuits(self) -> tuple[Circuit, ...]:
+        """One fundamental circuit for each gear pair and coupling."""
+        return find_circuits(self.declaration, self.tree)
+
+    @cached_property
+    def cases(self) -> Mapping[str | None, StateCase]:
+        """What is prescribed in each state, or once for None, with rigid connections joint by joint."""
+        declared = self.declaration.cases
+        return {case.state: case for case in close_joints(self.declaration, self.tree, declared)}
+
+    @cached_property
+    def _axes(self) -> Axes:
+        return Axes(self.declaration, self.tree)
+
+    @cached_property
+    def signs(self) -> Mapping[str, int]:
+        """-1 for links whose axis points against the reference direction of its parallels."""
+        return self._axes.link_signs
+
+    @cached_property
+    def bookkeeping(self) -> frozenset[str]:
+        """Links whose speed is a sum over non-parallel joints, and no rotation."""
+        return self._axes.joint_sums
+
+    def is_rotation(self, of: str, base: str) -> bool:
+        """True if the axes between two links are parallel: the speed of one seen from the other is then a rotation.
+
+        Parameters
+        ----------
+        of, base : str
+            Two links; the order does not matter.
+        """
+        return not self.bookkeeping or self._axes.is_rotation(of, base)
+
+    @cached_property
+    def _speeds(self) -> SpeedProblem:
+        return SpeedProblem(self.declaration, self.circuits, self.signs, self.is_rotation)
+
+    @cached_property
+    def mobility(self) -> Mobility:
+        """Degrees of freedom by count and by exact rank, with redundant and locking loops (docs/theory.md, 6)."""
+        return find_mobility(self._speeds.whole.reduced, len(self.declaration.revolutes))
+
+    @cached_property
+    def gridlock(self) -> Gridlock:
+        """Why meshes lock the train or a part of it, and the least set of them to disengage; cheap where none does."""
+        from geartrain.kinematics.gridlock import find_gridlock
+
+        return find_gridlock(self._speeds.whole, self.mobility)
+
+    @cached_property
+    def remarks(self) -> tuple[Problem, ...]:
+        """What a fitter would remark on a sound declaration: notes, never errors."""
+        from geartrain.kinematics.lint import lint_train
+
+        return tuple(lint_train(self.declaration, self.tree, self.circuits))
+
+    def equations(self, state: str | None = None) -> WillisSystem:
+        """The labelled Willis system of one state (docs/theory.md, 6).
+
+        Parameters
+        ----------
+        state : str, optional
+            A declared state; None only of a train that has none.
+        """
+        return self._speeds.equations(self._case(state))
+
+    def solve(self, state: str | None = None, output: str | None = None, method: Method = "auto") -> Answer:
+        """Speeds and judged outputs in one state, by propagation along components and exact elimination.
+
+        Parameters
+        ----------
+        state : str, optional
+            A declared state; None only of a train that has none.
+        output : str, optional
+            An output or a link: only the circuits that drive it are solved.
+        method : {"auto", "exact", "floats"}
+            "auto" is exact unless the coupled system is too dense for it. Speeds in radians beside others in turns are
+            rounded to floats in any case.
+
+        Returns
+        -------
+        Answer
+            Speeds by link, outputs judged against what is expected and wanted, and the verdict: a train that is locked
+            or free is no error.
+
+        Raises
+        ------
+        QuestionError
+            For a state, an output or a method that there is not.
+        """
+        return self._speeds.answer(self._case(state), output, method)
+
+    def answers(self) -> Iterator[Answer]:
+        """The answer of every state, in the order declared."""
+        return (self.solve(state) for state in (self.states or (None,)))
+
+    def sensitivity(self, answer: Answer) -> Iterator[Sensitivity]:
+        """What one tooth fewer or more on each uncertain wheel does to each output of an answer.
+
+        Parameters
+        ----------
+        answer : Answer
+            As `solve` gives it.
+        """
+        return self._speeds.sensitivity(self._case(answer.state), answer)
+
+    def floats(
+        self,
+        state: str | None = None,
+        inputs: Mapping[str, Sequence[float]] | None = None,
+        condition_of: Sequence[str] = (),
+    ) -> FloatSpeeds:
+        """Float64 speeds through a sparse LU, with error estimates; many input speeds share one factorisation.
+
+        Parameters
+        ----------
+        state : str, optional
+            A declared state; None only of a train that has none.
+        inputs : mapping of str to sequence of float, optional
+            Link -> speeds, one a case, in place of the declared ones [unit of the train].
+        condition_of : sequence of str
+            Links whose component-wise condition number is wanted (docs/theory.md, equation 25).
+
+        Returns
+        -------
+        FloatSpeeds
+            Speeds and error estimates, arrays (link, case).
+        """
+        return self._speeds.floats(self._case(state), inputs, condition_of)
+
+    def _case(self, state: str | None) -> StateCase:
+        return self.cases[self.declaration.single_state(state)]
+
+    def _repr_html_(self) -> str:
+        declared = self.declaration
+        title = f"<p><b>{html.escape(declared.name)}</b> {html.escape(declared.title)}</p>"
+        return title + "".join(answer._repr_html_() for answer in self.answers())

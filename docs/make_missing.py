@@ -11,7 +11,7 @@ from make_errata import changed, number, rows
 
 from geartrain import GearTrain, load
 from geartrain.synthesis.train.train_findings import Assignment, PartFindings, TrainFindings
-from geartrain.synthesis.train.train_search import search
+from geartrain.synthesis.train.train_search import search_train
 from geartrain.train.periods import period_table
 
 PAGE = Path(__file__).resolve().parent / "missing-parts.md"
@@ -152,7 +152,7 @@ def solutions(found: TrainFindings) -> Iterator[str]:
 def saros() -> Iterator[str]:
     """Why the saros needs larger wheels."""
     ratio = Fraction("6585.32") / (4 * Fraction("365.2422"))
-    part = part_of(search(bounded(28, 60).declaration), "saros")
+    part = part_of(search_train(bounded(28, 60).declaration), "saros")
     most = Fraction(60 * 60, 64 * 28)
     yield from ("## The saros needs larger wheels", "")
     yield f"The paper asks for a ratio of 6585.32/(4 x 365.2422) = {number(ratio)} with a similar arrangement. It is"
@@ -173,7 +173,7 @@ def wider() -> Iterator[str]:
     yield from ("## With wheels from 15 to 127", "")
     yield "The three best speeds for each planet, and up to four sets of each:"
     yield ""
-    found = search(bounded(15, 127).declaration, best=400)
+    found = search_train(bounded(15, 127).declaration, best=400)
     body = []
     for planet in TABLE_6:
         if planet == "saros":
@@ -213,7 +213,7 @@ def surviving(train: GearTrain) -> Iterator[str]:
 def main() -> None:
     """Write the page."""
     train = load(NAME)
-    found = search(train.declaration, best=ALL)
+    found = search_train(train.declaration, best=ALL)
     parts = (lead(), printed(train, found), misprint(found), solutions(found), saros(), wider(), surviving(train))
     lines = [line for part in parts for line in part]
     PAGE.write_text("\n".join(lines).rstrip() + "\n", encoding="utf-8")

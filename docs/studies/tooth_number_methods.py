@@ -21,7 +21,7 @@ from geartrain.synthesis.ratio.stage_search import find_stages
 from geartrain.synthesis.stern_brocot import approximants
 from geartrain.synthesis.target_ratio import TargetRatio
 from geartrain.synthesis.tooth_count_ranges import Counts
-from geartrain.synthesis.train.train_search import search
+from geartrain.synthesis.train.train_search import search_train
 from geartrain.train import Train
 
 Pair = tuple[int, int]
@@ -194,7 +194,7 @@ def by_products(case: RatioCase) -> Found:
 
 def in_train(train: Train, case: RatioCase) -> Found:
     """The search in a train of so many stages whose wheels are all free; proved."""
-    found = search(train, best=1)
+    found = search_train(train, best=1)
     teeth = found.solutions[0].teeth
     top, beneath = ([teeth[f"{side}{at}"] for at in range(case.stages)] for side in "ab")
     return of_counts(case, top, beneath, found.considered, found.complete and found.ranked)

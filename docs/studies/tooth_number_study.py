@@ -17,7 +17,7 @@ from geartrain.synthesis.ratio.search_segments import lay_out, search_segment, t
 from geartrain.synthesis.ratio.stage_problem import StageConstraints, StageProblem
 from geartrain.synthesis.ratio.stage_search import find_stages
 from geartrain.synthesis.target_ratio import TargetRatio, read_ratio
-from geartrain.synthesis.train.train_search import search
+from geartrain.synthesis.train.train_search import search_train
 from geartrain.train import Train
 from studies import tooth_number_methods as ways
 from studies.measurement import Cost, Step, in_turns, measure, taken
@@ -207,7 +207,9 @@ def _of_fork(shared: int, own: int, size: int, rounds: int) -> list[TeethGrowth]
 
 
 def _searched(train: Train, rounds: int) -> tuple[float | None, float | None, int]:
-    return _cost(lambda: search(train, best=1), rounds, lambda found: float(found.count) if found.complete else -1.0)
+    return _cost(
+        lambda: search_train(train, best=1), rounds, lambda found: float(found.count) if found.complete else -1.0
+    )
 
 
 def _cost(

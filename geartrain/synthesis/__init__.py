@@ -3,10 +3,87 @@
 In: a ratio, a train with wheels to be found, a kind of epicyclic set, or the periods of an orrery; limits on wheels.
 Out: the tooth counts that fit, ranked, with proof that the search was complete, or why it was not.
 
-ratio        one ratio by stages: meet in the middle
-train        every assignment of the free wheels of a declared train that meets all constraints: the exact join
-epicyclic    sets of sun, planets and ring
-orrery       many ratios that share wheels: beam search
-formulas     outputs as rational functions of the free counts
-constraints  what else must hold: assembly, clearance, interference, sums of teeth
+`find_stages`   one ratio by stages of gear pairs: meet in the middle on sorted products
+`search_train`  the free wheels of a declared train: an exact weighted join, which the posterior of counts uses too
+`find_sets`     sets of sun, planets and ring: Willis' equation (theory (4), (5)) over all coaxial sets
+`find_orrery`   many periods that share wheels: branch and bound, beam search
+`approximants`  fractions near a number: the Stern-Brocot tree
+
+`read_ratio` and `read_counts` read what is wanted from text. Counts are decided in integers, ratios in Fractions.
 """
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from geartrain.numerics.lazy_names import lazy_names
+
+if TYPE_CHECKING:
+    from geartrain.synthesis.constraints.constraint_options import ConstraintOptions as ConstraintOptions
+    from geartrain.synthesis.epicyclic.epicyclic_sets import EpicyclicSet as EpicyclicSet
+    from geartrain.synthesis.epicyclic.epicyclic_sets import SetFindings as SetFindings
+    from geartrain.synthesis.epicyclic.set_search import find_sets as find_sets
+    from geartrain.synthesis.orrery.orrery_result import Orrery as Orrery
+    from geartrain.synthesis.orrery.orrery_search import find_orrery as find_orrery
+    from geartrain.synthesis.ratio.stage_problem import StageConstraints as StageConstraints
+    from geartrain.synthesis.ratio.stage_search import StageFindings as StageFindings
+    from geartrain.synthesis.ratio.stage_search import find_stages as find_stages
+    from geartrain.synthesis.search_outcome import GearStages as GearStages
+    from geartrain.synthesis.search_outcome import Shortfall as Shortfall
+    from geartrain.synthesis.stern_brocot import Approximant as Approximant
+    from geartrain.synthesis.stern_brocot import approximants as approximants
+    from geartrain.synthesis.target_ratio import TargetRatio as TargetRatio
+    from geartrain.synthesis.target_ratio import read_ratio as read_ratio
+    from geartrain.synthesis.tooth_count_ranges import CountRuns as CountRuns
+    from geartrain.synthesis.tooth_count_ranges import read_counts as read_counts
+    from geartrain.synthesis.train.train_findings import Assignment as Assignment
+    from geartrain.synthesis.train.train_findings import TrainFindings as TrainFindings
+    from geartrain.synthesis.train.train_search import search_train as search_train
+
+__all__ = [
+    "Approximant",
+    "Assignment",
+    "ConstraintOptions",
+    "CountRuns",
+    "EpicyclicSet",
+    "GearStages",
+    "Orrery",
+    "SetFindings",
+    "Shortfall",
+    "StageConstraints",
+    "StageFindings",
+    "TargetRatio",
+    "TrainFindings",
+    "approximants",
+    "find_orrery",
+    "find_sets",
+    "find_stages",
+    "read_counts",
+    "read_ratio",
+    "search_train",
+]
+
+_PLACES = {
+    "Approximant": "stern_brocot",
+    "Assignment": "train.train_findings",
+    "ConstraintOptions": "constraints.constraint_options",
+    "CountRuns": "tooth_count_ranges",
+    "EpicyclicSet": "epicyclic.epicyclic_sets",
+    "GearStages": "search_outcome",
+    "Orrery": "orrery.orrery_result",
+    "SetFindings": "epicyclic.epicyclic_sets",
+    "Shortfall": "search_outcome",
+    "StageConstraints": "ratio.stage_problem",
+    "StageFindings": "ratio.stage_search",
+    "TargetRatio": "target_ratio",
+    "TrainFindings": "train.train_findings",
+    "approximants": "stern_brocot",
+    "find_orrery": "orrery.orrery_search",
+    "find_sets": "epicyclic.set_search",
+    "find_stages": "ratio.stage_search",
+    "read_counts": "tooth_count_ranges",
+    "read_ratio": "target_ratio",
+    "search_train": "train.train_search",
+}
+
+__getattr__ = lazy_names(__name__, _PLACES)

@@ -13,12 +13,22 @@ from geartrain.numerics.plain_data import Key, Result
 
 @dataclass(frozen=True, slots=True)
 class Shortfall(Result):
-    """Where candidates went: what an empty or short list says for itself.
+    """Where candidates went: the infeasibility certificate of an empty or short list.
 
-    considered  candidates there were before anything was asked of them
-    removed     reason -> candidates it removed; each candidate is charged to the first reason that refuses it
-    nearest     the nearest miss in words, with its teeth and its error; empty where something was found
-    advice      what to relax, and what that would give; empty where something was found
+    Attributes
+    ----------
+    considered : int
+        Candidates there were before anything was asked of them.
+    removed : mapping of str to int, optional
+        Reason -> candidates it removed; each candidate is charged to the first reason that refuses it.
+    nearest : str
+        The nearest miss in words, with its teeth and its error; empty where something was found.
+    advice : str
+        What to relax, and what that would give; empty where something was found.
+
+    See Also
+    --------
+    geartrain.synthesis.find_stages, geartrain.synthesis.find_sets : whose findings hold one.
     """
 
     KEYS = ("considered", Key("removed", "removals"), "nearest", "advice")
@@ -64,10 +74,20 @@ class CountSizes(ABC):
 class GearStages(CountSizes, Result):
     """Tooth numbers of one ratio: the counts on top over the counts beneath, each an unordered set.
 
-    top, beneath  ascending, as many as there are stages
-    ratio         product of `top` over product of `beneath`, exact; positive
-    error         ratio over the wanted magnitude, less 1; exact
-    pairs         the stages as they are best paired: (count on top, count beneath)
+    Attributes
+    ----------
+    top, beneath : tuple of int
+        Counts, ascending, as many as there are stages.
+    ratio : Fraction
+        Product of `top` over product of `beneath`, exact; positive.
+    error : Fraction
+        `ratio` over the wanted magnitude, less 1; exact.
+    pairs : tuple of (int, int)
+        The stages as they are best paired: count on top, count beneath.
+
+    See Also
+    --------
+    find_stages : finds them.
     """
 
     KEYS = (

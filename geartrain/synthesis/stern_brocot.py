@@ -30,10 +30,19 @@ _MOST_LISTED = 10**5
 class Approximant(Result):
     """A fraction on the walk to a number.
 
-    value  the fraction
-    error  value over the number, less 1; exact
-    kind   "convergent": of the continued fraction; "best": no convergent, but nearer than every other positive fraction
-           whose denominator is not larger (best of the first kind); "intermediate": neither
+    Attributes
+    ----------
+    value : Fraction
+        The fraction, positive.
+    error : Fraction
+        `value` over the number, less 1; exact.
+    kind : {"convergent", "best", "intermediate"}
+        "convergent": of the continued fraction. "best": no convergent, but nearer than every other positive fraction
+        whose denominator is not larger (a best approximation of the first kind). "intermediate": neither.
+
+    See Also
+    --------
+    approximants : lists them.
     """
 
     KEYS = ("value", "kind", Key("error", to=float), Key("exact_error", "error"))
@@ -103,15 +112,36 @@ def runs(value: Fraction, most: int) -> Iterator[SternBrocotRun]:
 
 
 def approximants(value: Fraction, most: int, least: ApproximantKind = "intermediate") -> tuple[Approximant, ...]:
-    """Every fraction on the walk to `value` > 0, in the order of the walk.
+    """Every fraction on the walk down the Stern-Brocot tree to a number, in the order of the walk.
 
-    most   the largest numerator and denominator
-    least  "convergent" lists convergents alone, "best" the best ones too, "intermediate" everything
+    Parameters
+    ----------
+    value : Fraction
+        The number, above 0.
+    most : int
+        The largest numerator and denominator.
+    least : {"convergent", "best", "intermediate"}
+        "convergent" lists convergents of the continued fraction alone, "best" the best ones too, "intermediate" all.
 
-    The last one is `value` itself where that is within the bound; where it is not, and everything is listed, the last
-    one of either side is the nearest from that side of all fractions within the bound. `RangeError` for more than 10^5
-    of them; the convergents are always few.
+    Returns
+    -------
+    tuple of Approximant
+        The last one is `value` itself where that is within the bound. Where it is not, and everything is listed, the
+        last one of either side is the nearest from that side of all fractions within the bound.
 
+    Raises
+    ------
+    QuestionError
+        If the number or the bound is not positive.
+    RangeError
+        For more than 10^5 fractions; the convergents are always few.
+
+    References
+    ----------
+    M. A. Stern, J. reine angew. Math. 55 (1858); A. Brocot, Revue chronometrique 3 (1861).
+
+    Examples
+    --------
     >>> [str(found.value) for found in approximants(Fraction(191, 23), 100, "best")]
     ['8', '17/2', '25/3', '58/7', '83/10']
     """

@@ -37,12 +37,28 @@ _WAYS = "235/19, 13.368267, 1:30, '235 months / 19 years', '365.2422 d / 29.5305
 
 @dataclass(frozen=True, slots=True)
 class TargetRatio(Result):
-    """A ratio that tooth numbers shall make.
+    """A ratio that tooth numbers shall make; `read_ratio` reads it from a text.
 
-    value  its magnitude, exact, above 0
-    sense  1 same sense, -1 opposite sense, 0 not asked
-    label  the ratio as it was asked for
-    note   where the number comes from, with its source
+    Attributes
+    ----------
+    value : Fraction
+        Its magnitude, exact, above 0: teeth on top over teeth beneath.
+    sense : {-1, 0, 1}
+        1 for an output that turns with the input, -1 against it, 0 where that is not asked.
+    label : str
+        The ratio as it was asked for.
+    note : str
+        Where the number comes from, with its source.
+
+    Raises
+    ------
+    QuestionError
+        If the value is not above 0.
+
+    Examples
+    --------
+    >>> TargetRatio(Fraction(235, 19)).value
+    Fraction(235, 19)
     """
 
     KEYS = ("label", Key("ratio", "value"), Key("value", to=as_float), "sense", "note")
@@ -72,8 +88,28 @@ class _Term:
 
 
 def read_ratio(text: str, per: str | None = None) -> TargetRatio:
-    """The wanted ratio that a text tells.
+    """The wanted ratio that a text tells, exactly as it is written.
 
+    Parameters
+    ----------
+    text : str
+        A number, a fraction, a pair of counts, a quotient of two periods, or a name of `geartrain periods`; see Notes.
+        A sign in front asks for a sense of rotation: + the same, - the opposite; without one the sense is free.
+    per : str, optional
+        A period, where `text` is a lone period too: the ratio is how often that turns in one of `per`.
+
+    Returns
+    -------
+    TargetRatio
+        Its magnitude, its sense, and where the number comes from.
+
+    Raises
+    ------
+    QuestionError
+        For what has no meaning, or more than one.
+
+    Notes
+    -----
     "13.368267", "235/19", "1:30"      the number, exactly as written
     "235 months / 19 years"            a pair of counts: in the time of 19 turns of the one (years) the other (months)
                                        makes 235, so its pointer turns 235/19 times as fast
@@ -83,10 +119,11 @@ def read_ratio(text: str, per: str | None = None) -> TargetRatio:
     "metonic_months_per_year"          a name of that table: a speed (turns per year) or a count is its own value
     "month_synodic_J2000" and `per`    a lone period, where `per` is a period too: how often it turns in one of `per`
 
-    Times are d, h, min, s and such; any other words are counted things. A sign in front asks for a sense: + the same, -
-    the opposite; without one the sense is free. Speeds of the table that are retrograde count by magnitude.
-    `QuestionError` for what has no meaning or more than one.
+    Times are d, h, min, s and such; any other words are counted things. Speeds of the table that are retrograde count
+    by magnitude.
 
+    Examples
+    --------
     >>> ratio = read_ratio("-235 months / 19 years")
     >>> ratio.value, ratio.sense, ratio.note
     (Fraction(235, 19), -1, '235 months in the time of 19 years')

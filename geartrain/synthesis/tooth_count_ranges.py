@@ -28,9 +28,19 @@ _PART = re.compile(r"\s*(\d+)\s*(?::\s*(\d+)\s*)?", re.ASCII)
 class CountRuns(Sequence[int]):
     """Tooth counts as runs of consecutive ones: a range of 10^9 costs as little as one of ten.
 
-    spans   (first, last) of each run, both included; ascending, and no two of them touch
-
     A sequence of integers in every respect: it iterates in ascending order, has a length, and can be indexed.
+    `read_counts` makes it of a text, `CountRuns.of` of any counts.
+
+    Attributes
+    ----------
+    spans : tuple of (int, int)
+        First and last count of each run, both included; ascending, and no two of them touch.
+
+    Examples
+    --------
+    >>> counts = CountRuns.of([48, 12, 13, 14])
+    >>> str(counts), len(counts), counts[-1], 13 in counts
+    ('12:14,48', 4, 48, True)
     """
 
     spans: tuple[tuple[int, int], ...]
@@ -42,7 +52,13 @@ class CountRuns(Sequence[int]):
 
     @classmethod
     def of(cls, counts: Iterable[int]) -> CountRuns:
-        """The runs of any counts, in any order; `QuestionError` for none, or for one outside 1 to 10^12."""
+        """The runs of any counts, in any order.
+
+        Parameters
+        ----------
+        counts : iterable of int
+            Tooth counts from 1 to 10^12, one at least; `QuestionError` otherwise.
+        """
         if isinstance(counts, CountRuns):
             return counts
         if isinstance(counts, range) and counts.step == 1:
@@ -51,7 +67,13 @@ class CountRuns(Sequence[int]):
 
     @classmethod
     def joined(cls, spans: Iterable[tuple[int, int]]) -> CountRuns:
-        """The runs that (first, last) spans make together: in any order, overlapping or not."""
+        """The runs that some spans make together.
+
+        Parameters
+        ----------
+        spans : iterable of (int, int)
+            First and last count of each, both included, from 1 to 10^12; in any order, overlapping or not.
+        """
         found: list[tuple[int, int]] = []
         for first, last in sorted(spans):
             if found and first <= found[-1][1] + 1:
@@ -81,12 +103,24 @@ class CountRuns(Sequence[int]):
         return len(self.spans) == 1
 
     def upto(self, count: int) -> int:
-        """How many of the counts are `count` or less."""
+        """How many of the counts are `count` or less.
+
+        Parameters
+        ----------
+        count : int
+            Any whole number.
+        """
         at = bisect_right(self.spans, count, key=_first)
         return min(self._before[at], self._before[at - 1] + count - self.spans[at - 1][0] + 1) if at else 0
 
     def between(self, low: int, high: int) -> Iterator[int]:
-        """The counts from `low` to `high`, both included, ascending."""
+        """The counts between two, ascending.
+
+        Parameters
+        ----------
+        low, high : int
+            Both are included.
+        """
         at = bisect_left(self.spans, low, key=_last)
         while at < len(self.spans) and self.spans[at][0] <= high:
             first, last = self.spans[at]
@@ -129,8 +163,25 @@ class CountRuns(Sequence[int]):
 
 
 def read_counts(text: str) -> CountRuns:
-    """Tooth counts from text: ranges `first:last` (both included) and single counts, with commas between.
+    """Tooth counts from a text.
 
+    Parameters
+    ----------
+    text : str
+        Ranges `first:last`, both included, and single counts, with commas between.
+
+    Returns
+    -------
+    CountRuns
+        The counts, each once, ascending.
+
+    Raises
+    ------
+    QuestionError
+        For what is no tooth count from 1 to 10^12, and for a range that runs backwards.
+
+    Examples
+    --------
     >>> tuple(read_counts("12:15,48,60")), len(read_counts("12:1000000000"))
     ((12, 13, 14, 15, 48, 60), 999999989)
     """

@@ -15,11 +15,11 @@ from hypothesis import strategies as st
 
 from geartrain import GearTrain
 from geartrain.errors import QuestionError, RangeError
-from geartrain.synthesis.epicyclic.epicyclic_sets import EpicyclicSet, declaration_of, declare
+from geartrain.synthesis.epicyclic.epicyclic_sets import EpicyclicSet, declare
 from geartrain.synthesis.epicyclic.set_kinds import EpicyclicKind, kinds
 from geartrain.synthesis.epicyclic.set_search import find_sets
 from geartrain.synthesis.target_ratio import read_ratio
-from geartrain.synthesis.train.train_search import search
+from geartrain.synthesis.train.train_search import search_train
 
 F = Fraction
 NAMES = list(kinds())
@@ -42,7 +42,7 @@ def test_every_ratio_is_that_of_the_declared_train_in_every_mode(name: str) -> N
     kind = kinds()[name]
     for mode in kind.modes:
         for found in find_sets(F(7, 2), kind, [mode], range(12, 40), best=3, spaced=False).solutions:
-            train = GearTrain.declare(declaration_of(found))
+            train = GearTrain.declare(found.to_train())
             answer = train.solve()
             assert answer
             assert answer.failures == ()
@@ -55,7 +55,7 @@ def test_three_k_sets_may_be_asked_with_their_carrier_too(name: str) -> None:
     kind = kinds()[name]
     modes = [f"{a}:carrier:{b}" for a, b in product(kind.links[:-1], repeat=2) if a != b]
     for found in find_sets(F(4), kind, modes, range(12, 40), best=12, spaced=False).solutions:
-        assert GearTrain.declare(declaration_of(found)).solve().failures == ()
+        assert GearTrain.declare(found.to_train()).solve().failures == ()
 
 
 def test_modes_are_all_choices_of_three_members_but_for_mirror_images() -> None:
@@ -437,7 +437,7 @@ def test_an_empty_answer_names_the_nearest_miss_and_the_tolerance_that_keeps_it(
 def test_the_search_in_a_declared_train_finds_the_same_sets(name: str, mode: str, most: int) -> None:
     wanted, tolerance = F("31.4") if name == "wolfrom" else F("5.31"), F(1, 200)
     data = declare(name, mode, dict.fromkeys(kinds()[name].wheels, (12, most)), wanted, tolerance)
-    found = search(GearTrain.declare(data).declaration, best=10**5)
+    found = search_train(GearTrain.declare(data).declaration, best=10**5)
     own = find_sets(
         1 / wanted, name, mode, range(12, most + 1), tolerance=tolerance, best=10**5, spaced=False,
         ratio_is="output/input", sense=1,

@@ -12,7 +12,7 @@ from places import DOCS
 
 from geartrain import GearTrain, load
 from geartrain.synthesis.train.train_findings import PartFindings, TrainFindings
-from geartrain.synthesis.train.train_search import search
+from geartrain.synthesis.train.train_search import search_train
 
 F = Fraction
 Row = tuple[int, int, int]
@@ -59,7 +59,7 @@ def train() -> GearTrain:
 
 @pytest.fixture(scope="module")
 def found(train: GearTrain) -> TrainFindings:
-    return search(train.declaration, best=1000)
+    return search_train(train.declaration, best=1000)
 
 
 def part_of(found: TrainFindings, planet: str) -> PartFindings:
@@ -152,7 +152,7 @@ def test_wheels_of_28_to_60_cannot_show_the_saros_and_the_search_says_why() -> N
         "jupiter arbor], outputs: [venus, mars, jupiter]}\n"
         f"links:\n  saros arbor: {{wheels: {{SO1: {free}, SO2: {free}}}}}\n  saros: {{wheels: {{SX: {free}}}}}\n"
     )
-    (part,) = search(small.declaration).parts
+    (part,) = search_train(small.declaration).parts
     assert part.complete
     assert (part.count, part.considered) == (0, 33**3)
     assert part.shortfall.removed is not None

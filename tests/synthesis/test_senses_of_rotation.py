@@ -21,7 +21,7 @@ from geartrain.report.reconstruction_comparison import describe_comparison
 from geartrain.report.text import to_markdown
 from geartrain.report.train_report import describe_train
 from geartrain.synthesis.formulas import with_counts
-from geartrain.synthesis.train.train_search import search
+from geartrain.synthesis.train.train_search import search_train
 from geartrain.uncertainty.posterior import infer_counts
 
 Counts = tuple[int, int]
@@ -95,7 +95,7 @@ def test_a_search_tells_both_senses_apart_and_a_period_takes_both(size: Fraction
     share = Fraction(tolerance.split()[0]) / 100
     found = {}
     for way, target in targets(size, tolerance).items():
-        result = search(stepped({"targets": [target]}).declaration, rules=(), best=1000)
+        result = search_train(stepped({"targets": [target]}).declaration, rules=(), best=1000)
         found[way] = {(one.teeth["p"], one.teeth["q"]) for one in result.solutions}
         assert found[way] == met(size, share, SIGNS[way])
         assert result.count == len(found[way])
@@ -109,7 +109,7 @@ def test_a_search_tells_both_senses_apart_and_a_period_takes_both(size: Fraction
 @pytest.mark.parametrize("way", SIGNS)
 def test_in_every_order_what_is_approached_is_approached_from_its_own_side(way: str, by: Any) -> None:
     size = Fraction(13)
-    result = search(
+    result = search_train(
         stepped({"targets": [targets(size, None)[way]]}).declaration, rules=(), best=6, by=by,
         tolerance=Fraction(1, 5) if by != "error" else None,
     )  # fmt: skip
@@ -166,7 +166,7 @@ def test_an_answer_holds_a_speed_against_its_target_with_its_sign(
 @pytest.mark.parametrize("tolerance", ["0", "1/2", "9", "40"])
 def test_a_speed_of_zero_is_searched_by_difference(tolerance: str) -> None:
     target = {"speed": "0", "tolerance": tolerance}
-    result = search(stepped({"targets": [target]}).declaration, rules=(), best=1000)
+    result = search_train(stepped({"targets": [target]}).declaration, rules=(), best=1000)
     speeds = {counts: carrier(*counts) for counts in BOX}
     near = {counts for counts, speed in speeds.items() if speed is not None and abs(speed) <= Fraction(tolerance)}
     assert {(one.teeth["p"], one.teeth["q"]) for one in result.solutions} == near
@@ -188,7 +188,7 @@ def test_what_turns_wrong_whatever_the_counts_is_said_to() -> None:
             "inputs": {"a": 1},
             "outputs": {"b": {"targets": [target]}},
         }
-        found = search(GearTrain.declare(data).declaration, rules=())
+        found = search_train(GearTrain.declare(data).declaration, rules=())
         assert found.count == 0
         assert "'b' turn in the other sense" in found.parts[0].shortfall.nearest
 
@@ -215,7 +215,7 @@ def test_reports_say_where_only_a_magnitude_was_compared() -> None:
 
 def test_a_search_says_so_too() -> None:
     for way, words in (("either", " in either sense within"), ("direct", " direct within"), ("+", "speed 21 within")):
-        (part,) = search(stepped({"targets": [targets(Fraction(21), "2 %")[way]]}).declaration, rules=()).parts
+        (part,) = search_train(stepped({"targets": [targets(Fraction(21), "2 %")[way]]}).declaration, rules=()).parts
         assert words in part.demands[0]
 
 

@@ -28,7 +28,7 @@ from geartrain.synthesis.constraints.constraint_options import ConstraintOptions
 from geartrain.synthesis.constraints.count_conditions import Condition, CountEquation
 from geartrain.synthesis.formulas.output_formulas import find_formulas, with_counts
 from geartrain.synthesis.train.train_findings import By, TrainFindings
-from geartrain.synthesis.train.train_search import search
+from geartrain.synthesis.train.train_search import search_train
 from geartrain.train import Train
 from geartrain.train.yaml_nodes import as_yaml
 
@@ -78,7 +78,7 @@ def declare(data: Data) -> GearTrain:
 
 
 def find(data: Data, **options: Any) -> TrainFindings:
-    return search(declare(data).declaration, **options)
+    return search_train(declare(data).declaration, **options)
 
 
 def boxes(data: Data) -> dict[str, range]:
@@ -678,7 +678,7 @@ def test_an_assignment_stands_where_brute_force_puts_it() -> None:
 
 def test_a_solution_is_written_down_as_a_change_of_its_train(tmp_path: Path) -> None:
     parent = load("freeth-2008")
-    found = search(parent.declaration, free="uncertain")
+    found = search_train(parent.declaration, free="uncertain")
     changed = next(one for one in found.solutions if one.changed)
     plain = found.declaration(changed, "freeth-2008", "another")
     assert plain["links"]["k2"] == {"wheels": {"k2": {"teeth": changed.teeth["k2"]}}}
@@ -722,7 +722,7 @@ def test_every_wheel_of_a_reconstruction_may_be_free_at_once() -> None:
 
 def test_the_uncertain_wheels_of_the_antikythera_mechanism_have_four_settings_that_keep_every_dial() -> None:
     declared = load("freeth-2008").declaration
-    found = search(declared, free="uncertain")
+    found = search_train(declared, free="uncertain")
     assert found.complete
     assert found.considered == 2560896000
     # each dial fixes the ratio of the wheels it adds to those before it; the ranges are the file's
@@ -748,7 +748,7 @@ def test_the_twelve_wheels_of_an_eight_speed_gearbox_follow_from_its_published_r
     for state in data["states"].values():
         state["outputs"]["OUT"].pop("expect", None)
     declared = declare(data).declaration
-    found = search(declared, rules=ConstraintOptions(coaxial=True), best=100, by="change")
+    found = search_train(declared, rules=ConstraintOptions(coaxial=True), best=100, by="change")
     assert found.complete
     assert found.considered > 10**12
     # gear 1 gives set 4, gear 8 set 2, gear 4 then set 1; what is left for set 3 is tried gear by gear
@@ -987,7 +987,7 @@ def test_any_search_finds_what_trying_everything_finds(question: tuple[Data, Fra
     formulas = find_formulas(declared, None, boxes(data))
     assume(any(formula.wheels for formula in formulas.outputs.values()))
     assume(all(condition.wheels for condition in formulas.conditions))
-    found = search(declared, rules=(), tolerance=tolerance, by=by, best=best)
+    found = search_train(declared, rules=(), tolerance=tolerance, by=by, best=best)
     idle = frozenset(name for name, formula in formulas.outputs.items() if not formula.wheels)
     judged = ((teeth, errors_by_solving(declared, teeth, tolerance, idle)) for teeth in assignments(data))
     truth = [(teeth, error) for teeth, error in judged if error is not None and formulas.turns(teeth)]

@@ -55,7 +55,6 @@ def run(
 ) -> None:
     """Epicyclic sets of one kind with a wanted ratio, that can be put together with equal planets."""
     from geartrain.report.tooth_numbers import describe_sets, set_rows
-    from geartrain.synthesis.epicyclic.epicyclic_sets import declaration_of
     from geartrain.synthesis.epicyclic.set_search import find_sets
     from geartrain.synthesis.target_ratio import read_ratio
     from geartrain.synthesis.tooth_count_ranges import read_counts
@@ -84,7 +83,7 @@ def run(
         clearance=room,
         slack=shift,
     )
-    answer.give(found, set_rows(found), describe_sets, lambda at: declaration_of(found.solutions[at]))
+    answer.give(found, set_rows(found), describe_sets, lambda at: found.solutions[at].to_train())
 
 
 def _list(answer: SearchAnswer) -> None:

@@ -68,7 +68,7 @@ def run(
     """Counts of the free wheels of a train that meet all its targets at once, under the rules given."""
     from geartrain.report.tooth_numbers import assignment_rows, describe_assignments
     from geartrain.synthesis.constraints.constraint_options import read_constraint_options
-    from geartrain.synthesis.train.train_search import search
+    from geartrain.synthesis.train.train_search import search_train
     from geartrain.train.declaration_files import read_declaration
 
     answer = SearchAnswer.of(csv, json, out, force, pick)
@@ -105,7 +105,7 @@ def run(
         "by": by,
     }
     with long_run("teeth", question, out, RunOptions(workers, scheduler, resume)) as given:
-        found = search(
+        found = search_train(
             train,
             state,
             free=chosen,

@@ -13,7 +13,7 @@ from itertools import combinations
 from typing import TYPE_CHECKING
 
 from geartrain.errors import Problem, QuestionError
-from geartrain.synthesis.constraints.constraint_options import ConstraintOptions, read_constraint_options, turns
+from geartrain.synthesis.constraints.constraint_options import ConstraintOptions, turns
 from geartrain.synthesis.constraints.count_conditions import (
     Condition,
     Coprime,
@@ -38,15 +38,6 @@ if TYPE_CHECKING:
     from geartrain.numerics.quantity import Quantity
     from geartrain.synthesis.tooth_count_ranges import Counts
     from geartrain.train import Train
-
-__all__ = [
-    "Condition",
-    "ConstraintOptions",
-    "CountConstraint",
-    "CountEquation",
-    "find_constraints",
-    "read_constraint_options",
-]
 
 
 def find_constraints(train: Train, free: Mapping[str, Counts], asked: ConstraintOptions) -> tuple[CountConstraint, ...]:

@@ -22,14 +22,30 @@ SetOrder = Literal["error", "total", "largest"]
 
 @dataclass(frozen=True, slots=True)
 class EpicyclicSet(CountSizes, Result):
-    """Tooth counts of a set in one mode.
+    """Tooth counts of an epicyclic set in one mode.
 
-    teeth    by wheel
-    ratio    speed of the input over that of the output, exact; negative where they turn against each other
-    error    magnitude of the ratio, as it was asked for, over the wanted one, less 1; exact
-    planets  the number asked for
-    places   at how many equally spaced places identical planets can stand; 0 for anywhere
-    room     between the tips of neighbouring planets, equally spaced (modules); negative where they overlap
+    Attributes
+    ----------
+    kind : str
+        Name of the kind of set, such as "planetary".
+    mode : EpicyclicMode
+        Which link drives, which is driven, which is held.
+    teeth : mapping of str to int
+        Wheel -> count.
+    ratio : Fraction
+        Speed of the input over that of the output, exact; negative where they turn against each other.
+    error : Fraction
+        Magnitude of the ratio, as it was asked for, over the wanted one, less 1; exact.
+    planets : int
+        The number asked for.
+    places : int
+        At how many equally spaced places identical planets can stand; 0 for anywhere.
+    room : float
+        Between the tips of neighbouring planets, equally spaced [modules]; negative where they overlap.
+
+    See Also
+    --------
+    find_sets : finds them.
     """
 
     KEYS = (
@@ -78,6 +94,12 @@ class EpicyclicSet(CountSizes, Result):
         """True if neighbouring planets do not touch."""
         return self.room >= -1e-9
 
+    def to_train(self) -> dict[str, Any]:
+        """A declaration as plain data: the set with one planet, driven at 1, whose output expects its exact ratio."""
+        data = declare(self.kind, self.mode, self.teeth)
+        data["outputs"] = {self.mode.output: {"expect": str(self.inverse)}}
+        return data
+
     def __str__(self) -> str:
         teeth = ", ".join(f"{wheel} = {count}" for wheel, count in self.teeth.items())
         return f"{teeth}: {abridged_text(self.ratio)} = {decimal(self.ratio, 7)} ({self.mode})"
@@ -87,10 +109,30 @@ class EpicyclicSet(CountSizes, Result):
 class SetFindings(Result):
     """The best sets of a kind, best first.
 
-    complete   True: all sets within the bounds were looked at
-    count      sets within the tolerance, over all modes; all that run where no tolerance was asked
-    solutions  the best of them
-    shortfall  what became of the others; a set in each mode counts as one candidate
+    Attributes
+    ----------
+    kind : str
+        Name of the kind.
+    wanted : Fraction
+        Magnitude of the ratio.
+    ratio_is : {"input/output", "output/input"}
+        What `wanted` is.
+    modes : tuple of EpicyclicMode
+        The modes that were looked at.
+    tolerance : Fraction, optional
+        Greatest relative error.
+    complete : bool
+        True: all sets within the bounds were looked at.
+    count : int
+        Sets within the tolerance, over all modes; all that run where no tolerance was asked.
+    solutions : tuple of EpicyclicSet
+        The best of them.
+    shortfall : Shortfall
+        What became of the others; a set in each mode counts as one candidate.
+
+    See Also
+    --------
+    find_sets : gives it.
     """
 
     KEYS = (
@@ -167,13 +209,6 @@ def declare(
         "fixed": [mode.held],
         "outputs": {mode.output: output},
     }
-
-
-def declaration_of(found: EpicyclicSet) -> dict[str, Any]:
-    """A set that was found, as a train that expects its ratio."""
-    data = declare(found.kind, found.mode, found.teeth)
-    data["outputs"] = {found.mode.output: {"expect": str(found.inverse)}}
-    return data
 
 
 _AXES = {"main": {"direction": [1, 0, 0]}, "planet": {"direction": [0, 1, 0]}}

@@ -64,22 +64,60 @@ def find_sets(
     clearance: Fraction | float = 0.0,
     slack: int = 0,
 ) -> SetFindings:
-    """The best tooth sets of a kind for a ratio, over modes, out of all within bounds.
+    """The best tooth sets of an epicyclic kind for a ratio, over modes: every set within bounds is looked at.
 
-    wanted     magnitude of the ratio, positive; or a ratio that was read, which may ask for a sense
-    kind       a kind or its name, see `kinds`
-    modes      "all", or any of `input:output:held`
-    counts     admissible tooth counts, rings included: of every wheel alike, or by wheel
-    planets    how many equal planets there are, 1 or more
-    tolerance  greatest relative error; None for the best ones whatever their error
-    sense      1 or -1 asks for an output that turns with or against the input; 0 leaves it open
-    ratio_is   what `wanted` is
-    by         what is best: "error", "total" (fewest teeth together) or "largest" (smallest largest wheel)
-    spaced     only sets whose planets can be equally spaced and clear each other; else this is only reported
-    clearance  least room between the tips of neighbouring planets (modules), where `spaced`
-    slack      half modules by which centre distances may differ, for profile shift to bridge
+    After the coaxial equations at most three counts are free (Willis 1841; Mueller, Epicyclic Drive Trains, 1982). All
+    modules are equal.
 
-    All modules are equal. Raises `QuestionError` for what cannot be asked and `RangeError` for too many sets.
+    Parameters
+    ----------
+    wanted : Fraction or TargetRatio
+        Magnitude of the ratio, above 0; or a ratio that was read, which may ask for a sense.
+    kind : str or EpicyclicKind
+        "planetary", "stepped-suns", "stepped-sun-ring", "stepped-rings", "meshed-planets", "ravigneaux", "bevel",
+        "wolfrom" or "3k-two-suns".
+    modes : str or iterable of str or EpicyclicMode
+        "all", or any of `input:output:held`, such as "sun:carrier:ring".
+    counts : sequence of int, or mapping of str to sequence of int
+        Admissible tooth counts from 1 to 10^5, rings included: of every wheel alike, or by wheel.
+    planets : int
+        How many equal planets there are, 1 or more.
+    tolerance : Fraction, optional
+        Greatest relative error; default the best ones whatever their error.
+    best : int
+        How many to list, 1 or more.
+    sense : {-1, 0, 1}
+        1 or -1 asks for an output that turns with or against the input; 0 leaves it open.
+    ratio_is : {"input/output", "output/input"}
+        What `wanted` is.
+    by : {"error", "total", "largest"}
+        What is best: least error, fewest teeth together, or smallest largest wheel.
+    spaced : bool
+        Only sets whose planets can be equally spaced and clear each other; else this is only reported.
+    clearance : Fraction or float
+        Least room between the tips of neighbouring planets [modules], where `spaced`.
+    slack : int
+        Half modules by which centre distances may differ, for profile shift to bridge.
+
+    Returns
+    -------
+    SetFindings
+        The best sets, and where all others went.
+
+    Raises
+    ------
+    QuestionError
+        For what cannot be asked: no such kind, mode or order, a ratio beyond all sets.
+    RangeError
+        For more than 4 10^8 sets.
+
+    Examples
+    --------
+    A reduction of 7/2 with four planets; ratio 1 + r/s, and 4 divides s + r:
+
+    >>> found = find_sets(Fraction(7, 2), "planetary", "sun:carrier:ring", range(12, 61), planets=4, best=1)
+    >>> dict(found.solutions[0].teeth), found.solutions[0].ratio
+    ({'s': 16, 'p': 12, 'r': 40}, Fraction(7, 2))
     """
     kind = epicyclic_kind(kind) if isinstance(kind, str) else kind
     asked = wanted if isinstance(wanted, TargetRatio) else TargetRatio(Fraction(wanted))

@@ -14,13 +14,20 @@ from geartrain.numerics.plain_data import Key, Result
 
 @dataclass(frozen=True, slots=True)
 class OrreryArbor(Result):
-    """One arbor.
+    """One arbor of an orrery.
 
-    name    the period it shows, or `arbor 1`, `arbor 2`...; the first is named by who asks
-    period  turns of the first arbor in one of its own, exact and positive
-    sense   1 with the first arbor, -1 against it: every pair is external and reverses
-    wheels  tooth counts of its wheels, ascending, all different
-    shows   True if a period was asked of it
+    Attributes
+    ----------
+    name : str
+        The period it shows, or `arbor 1`, `arbor 2`...; whoever asks names the first.
+    period : Fraction
+        Turns of the first arbor in one of its own, exact and positive.
+    sense : {-1, 1}
+        1 with the first arbor, -1 against it: every pair is external and reverses.
+    wheels : tuple of int
+        Tooth counts of its wheels, ascending, all different.
+    shows : bool
+        True if a period was asked of it.
     """
 
     KEYS = ("name", "period", Key("value", "period", as_float), "sense", "wheels", "shows")
@@ -46,15 +53,28 @@ class OrreryPair(Result):
 class Orrery(Result):
     """A tree of gear pairs that shows every period asked for.
 
-    periods      name -> period asked for, in turns of the first arbor
-    tolerances   name -> greatest relative error asked for
-    arbors       the first arbor first, every other after the one that drives it
-    pairs        in the order of the driven arbors
-    errors       name -> speed over wanted speed, less 1, exact; positive is fast
-    least_pairs  no tree of pairs with fewer than this many shows all the periods: proved by walking all of them
-    least_wheels fewer wheels than this are impossible: proved
-    complete     True if no orrery has fewer wheels: `wheels` equals `least_wheels`
-    ended        why the search ended: "proved", "effort", "time" or "interrupted"
+    Attributes
+    ----------
+    periods : mapping of str to Fraction
+        Name -> period asked for [turns of the first arbor].
+    tolerances : mapping of str to Fraction
+        Name -> greatest relative error asked for.
+    arbors : tuple of OrreryArbor
+        The first arbor first, every other after the one that drives it.
+    pairs : tuple of OrreryPair
+        In the order of the driven arbors.
+    errors : mapping of str to Fraction
+        Name -> speed over wanted speed, less 1, exact; positive is fast.
+    least_pairs : int
+        No tree of fewer pairs shows all the periods: proved by walking all of them.
+    least_wheels : int
+        Fewer wheels than this are impossible: proved.
+    ended : {"proved", "effort", "time", "interrupted"}
+        Why the search ended.
+
+    See Also
+    --------
+    find_orrery : finds it.
     """
 
     KEYS = (
@@ -96,6 +116,13 @@ class Orrery(Result):
         """A declaration as plain data: the first arbor turns once a `unit`, every output expects its exact speed.
 
         A shared wheel is one wheel in several gear pairs. All arbors stand in one frame on axes of their own.
+
+        Parameters
+        ----------
+        name : str
+            Of the train.
+        unit : str
+            The time in which the first arbor turns once, such as "d".
         """
         places = {arbor.name: at for at, arbor in enumerate(self.arbors)}
         links: dict[str, Any] = {"frame": {}}

@@ -31,22 +31,52 @@ def find_orrery(
     seconds: float | None = None,
     tell: Tell | None = None,
 ) -> Orrery:
-    """The orrery with the fewest wheels that is found: pairs of wheels in a tree of arbors, driven from the first.
+    """The orrery with the fewest wheels that is found: branch and bound over small trees, beam search over larger ones.
 
-    periods    name -> period in turns of the first arbor, positive
-    counts     admissible tooth counts, the same for all wheels
-    tolerance  greatest relative error of a speed, for all or by name
-    first      name of the first arbor
-    effort     width of the widest search for few wheels; widths grow fourfold up to it, and time about as much
-    walk       walk all trees with up to so many arbors that show nothing; None: as far as that is short work, and
-               always to 1. With 90,000 ratios of two wheels and 7 periods, 1 takes a moment and 2 a minute or two.
-    seconds    stop after this time with what was found
-    tell       called with (done, total) of the part of the search that runs
+    Pairs of wheels in a tree of arbors, driven from the first; every pair is external. Walked trees give proofs, wider
+    beams only findings: see `Orrery.least_pairs`, `least_wheels` and `complete`. The same question has the same answer,
+    unless time or the user ended the search.
 
-    Walked trees give proofs, wider searches only findings: see `Orrery.least_pairs`, `least_wheels` and `complete`.
-    The same question has the same answer, unless time or the user ended the search. An interrupt (KeyboardInterrupt)
-    keeps what was found. Raises `QuestionError` if nothing was found, with what was proved, and for unusable input;
-    `RangeError` for ranges of teeth too wide to tabulate.
+    Parameters
+    ----------
+    periods : mapping of str to Fraction
+        Name -> period [turns of the first arbor], positive; 30 of them at most.
+    counts : sequence of int
+        Admissible tooth counts, the same for all wheels.
+    tolerance : Fraction, float, or mapping of str to these
+        Greatest relative error of a speed, from 0 to below 1, for all or by name.
+    first : str
+        Name of the first arbor.
+    effort : int
+        Width of the widest beam; widths grow fourfold up to it, and time about as much.
+    walk : int, optional
+        Walk all trees with up to so many arbors that show nothing; default as far as that is short work, and always
+        to 1. With 90,000 ratios of two wheels and 7 periods, 1 takes a moment and 2 a minute or two.
+    seconds : float, optional
+        Stop after this time [s] with what was found.
+    tell : callable, optional
+        Called with (done, total) of the part of the search that runs.
+
+    Returns
+    -------
+    Orrery
+        An interrupt from the keyboard keeps what was found.
+
+    Raises
+    ------
+    QuestionError
+        If nothing was found, with what was proved, and for unusable input.
+    RangeError
+        For ranges of teeth too wide to tabulate.
+
+    Examples
+    --------
+    Jupiter in 12 years and Saturn in 30 need six wheels, and no fewer will do:
+
+    >>> periods = {"jupiter": Fraction(12), "saturn": Fraction(30)}
+    >>> found = find_orrery(periods, range(12, 61), tolerance=0, first="year")
+    >>> found.wheels, found.complete, found.worst
+    (6, True, Fraction(0, 1))
     """
     aims = read_period_targets(periods, tolerance)
     if first in aims.names or "frame" in (first, *aims.names):

@@ -18,15 +18,27 @@ from geartrain.synthesis.ratio.product_windows import PLAIN, ProductWindows, mul
 class StageConstraints(Result):
     """Conditions on the counts of a train of stages, and on how they can be paired; all in one and the same pairing.
 
-    hunting      the two counts of every stage have no common divisor
-    reverted     all stages have one centre distance in one module: equal sums of their counts, or, for a stage with a
-                 ring, that difference
-    different    no count is there twice
-    internal     how many of the meshes are with a ring: such a mesh keeps the sense, the others reverse it, and its
-                 ring has more teeth than its pinion
-    least_total  least sum of all counts
-    most_total   greatest sum of all counts
-    largest      greatest count
+    Attributes
+    ----------
+    hunting : bool
+        The two counts of every stage have no common divisor, so that every tooth meets every tooth of its mate.
+    reverted : bool
+        All stages have one centre distance in one module: equal sums of their counts, or differences for a stage with
+        a ring.
+    different : bool
+        No count is there twice.
+    internal : int
+        How many of the meshes are with a ring, 0 to the number of stages. Such a mesh keeps the sense, the others
+        reverse it; its ring has more teeth than its pinion.
+    least_total, most_total : int, optional
+        Least and greatest sum of all counts.
+    largest : int, optional
+        Greatest count.
+
+    Examples
+    --------
+    >>> StageConstraints(reverted=True, internal=1).sense(stages=2)
+    -1
     """
 
     hunting: bool = False
@@ -38,7 +50,13 @@ class StageConstraints(Result):
     largest: int | None = None
 
     def sense(self, stages: int) -> int:
-        """1 if output and input turn the same way, -1 if not."""
+        """1 if output and input turn the same way, -1 if not.
+
+        Parameters
+        ----------
+        stages : int
+            Gear pairs one after the other.
+        """
         return -1 if (stages - self.internal) % 2 else 1
 
     @property
@@ -63,7 +81,13 @@ class StageConstraints(Result):
         return not (self.pairs_matter or self.different or self.totals_matter)
 
     def check(self, stages: int) -> None:
-        """`QuestionError` for what no train of so many stages can be asked."""
+        """Refuse what no train of so many stages can be asked, by a `QuestionError`.
+
+        Parameters
+        ----------
+        stages : int
+            Gear pairs one after the other.
+        """
         if not 0 <= self.internal <= stages:
             raise QuestionError(
                 Problem(
@@ -89,7 +113,7 @@ class StageProblem:
     stages     1 to 5
     top        admissible counts on top, ascending
     beneath    admissible counts beneath, ascending
-    fit        conditions on the counts; `largest` is already in the counts
+    fit        conditions on the counts; `largest` is already applied to `top` and `beneath`
     by         order of the solutions
     best       how many are kept
     tolerance  greatest |error|, as a fraction of the value

@@ -36,21 +36,37 @@ from geartrain.synthesis.tooth_count_ranges import CountRuns, Counts
 
 @dataclass(frozen=True, slots=True)
 class StageFindings(Result):
-    """Solutions of one ratio by stages: pairs of unordered sets of counts.
+    """Solutions of one ratio by stages: pairs of unordered sets of counts. A sequence of its `solutions`.
 
-    wanted      the ratio
-    stages      number of stages
-    top         admissible counts on top, ascending
-    beneath     admissible counts beneath, ascending
-    fit         conditions on the counts
-    by          the order of `solutions`
-    tolerance   the greatest |error|, as a fraction of the ratio: the one asked for, or one that proves the list; None
-                where the best pairs of long ranges were found without any
-    complete    True if everything within the tolerance was looked at; False if the search was interrupted
-    count       number of solutions within the tolerance, exact if `complete`; None without a tolerance
-    solutions   the best of them
-    shortfall   where the other pairs of sets went
-    note        what was assumed, in words; empty if nothing
+    Attributes
+    ----------
+    wanted : TargetRatio
+        The ratio.
+    stages : int
+        Number of stages.
+    top, beneath : sequence of int
+        Admissible counts on top and beneath, ascending.
+    fit : StageConstraints
+        Conditions on the counts.
+    by : str
+        The order of `solutions`.
+    tolerance : Fraction, optional
+        The greatest |error|, as a fraction of the ratio: the one asked for, or one that proves the list; None where the
+        best pairs of long ranges were found without any.
+    complete : bool
+        True if everything within the tolerance was looked at; False if the search was interrupted.
+    count : int, optional
+        Number of solutions within the tolerance, exact if `complete`; None without a tolerance.
+    solutions : tuple of GearStages
+        The best of them.
+    shortfall : Shortfall
+        Where the other pairs of sets went.
+    note : str
+        What was assumed, in words; empty if nothing.
+
+    See Also
+    --------
+    find_stages : gives it.
     """
 
     KEYS = (
@@ -113,8 +129,6 @@ class StageFindings(Result):
         return self.solutions[at]
 
 
-__all__ = ["StageConstraints", "StageFindings", "find_stages"]
-
 _FAR = 10**12
 _LONG = 100_000  # counts of a wheel beyond which single pairs come from the tree of fractions, not from tables
 DEFAULT_TOLERANCE = Fraction(1, 10**6)
@@ -134,24 +148,59 @@ def find_stages(
     journal: Journal | None = None,
     tell: Callable[[int, int], None] | None = None,
 ) -> StageFindings:
-    """All solutions of a ratio within a tolerance, counted, and the best of them; complete.
+    """Solutions of a ratio by stages of gear pairs, counted, and the best of them: meet in the middle.
 
-    wanted      the ratio; its sense, if asked for, must be that of so many external and internal meshes
-    stages      1 to 5
-    wheels      counts on top if the ratio is 1 or more, beneath if it is less
-    pinions     counts on the other side
-    tolerance   greatest |error| as a fraction of the ratio. None: for the order by error the best are found and proved,
-                within a tolerance that holds enough of them; for other orders 1e-6, and `note` says so
-    best        how many to list
-    by          error, total, largest, distinct, hunting or centres: see `ranking.Order`
-    fit         conditions on the counts
-    executor    where independent pieces of a large search run; None: here
-    journal     where finished pieces are kept
-    tell        called with (pieces done, pieces in all)
+    Every product of counts beneath finds its window in the sorted products on top; where a window ends is decided in
+    integers. The answer is complete.
 
-    An interrupt from the keyboard ends the search early: `complete` is then False and what was found is returned.
-    Raises `QuestionError` for a question that makes no sense, `RangeError` for counts whose tables would not fit in
-    memory (more than some 400 counts for four stages and more).
+    Parameters
+    ----------
+    wanted : TargetRatio
+        The ratio, teeth on top over teeth beneath. Its sense, if it asks for one, must be that of so many external and
+        internal meshes.
+    stages : int
+        Gear pairs one after the other, 1 to 5.
+    wheels, pinions : sequence of int
+        Admissible counts: of a ratio of 1 or more those on top and those beneath, of one below 1 the other way round.
+    tolerance : Fraction, optional
+        Greatest |error| as a fraction of the ratio, 0 or more. Without it the order by error finds and proves the best,
+        within a tolerance that holds enough of them; other orders take 1e-6, and `note` says so.
+    best : int
+        How many to list, 1 or more.
+    by : {"error", "total", "largest", "distinct", "hunting", "centres"}
+        What comes first: least |error|, fewest teeth together, least largest count, fewest different counts, most
+        stages with coprime counts, fewest centre distances. Ties: least |error|, then sum, largest, and the counts.
+    fit : StageConstraints, optional
+        Conditions on the counts.
+    executor : concurrent.futures.Executor, optional
+        Where independent pieces of a large search run; default here. The answer does not depend on it.
+    journal : Journal, optional
+        Where finished pieces are kept, for a run that may be cut.
+    tell : callable, optional
+        Called with (pieces done, pieces in all).
+
+    Returns
+    -------
+    StageFindings
+        With `complete` False if an interrupt from the keyboard ended the search early.
+
+    Raises
+    ------
+    QuestionError
+        For a question that makes no sense.
+    RangeError
+        For counts whose tables would not fit in memory (more than some 400 counts for four stages and more), and for a
+        ratio far out of reach.
+
+    Examples
+    --------
+    The 13.368 turns of the Moon in a year, 254/19, by two stages:
+
+    >>> from geartrain.synthesis import read_counts, read_ratio
+    >>> counts = read_counts("15:130")
+    >>> found = find_stages(read_ratio("254/19"), 2, counts, counts, tolerance=Fraction(0), best=1)
+    >>> found.count, found[0].pairs, found.complete
+    (76, ((30, 19), (127, 15)), True)
     """
     fit = fit or StageConstraints()
     larger, smaller = CountRuns.of(wheels), CountRuns.of(pinions)

@@ -25,11 +25,17 @@ ORDERS: tuple[By, ...] = ("error", "total", "largest", "distinct", "change")
 class ReachedSpeed(Result):
     """What an output does under an assignment.
 
-    speed   exact, in the train's unit
-    label   the demand it misses by most, such as "period 583.92 d"
-    error   its relative error: |speed| / wanted - 1 against a target, speed / expected - 1 against an `expect` (the
-            speed itself where 0 is expected)
-    met     True if the output meets all that is demanded of it
+    Attributes
+    ----------
+    speed : Fraction
+        Exact, in the train's unit [turns of the unit].
+    label : str
+        The requirement it misses by most, such as "period 583.92 d".
+    error : Fraction
+        Its relative error: |speed| / wanted - 1 against a target, speed / expected - 1 against an `expect` (the speed
+        itself where 0 is expected).
+    met : bool
+        True if the output meets all that is required of it.
     """
 
     KEYS = (
@@ -51,9 +57,18 @@ class ReachedSpeed(Result):
 class Assignment(CountSizes, Result):
     """Tooth counts of the free wheels, and what the outputs do with them.
 
-    teeth     wheel -> count, in the order declared
-    outputs   output -> what it reaches; in a train with states the outputs are named "state: output"
-    changed   wheels whose count is not the declared value
+    Attributes
+    ----------
+    teeth : mapping of str to int
+        Wheel -> count, in the order declared.
+    outputs : mapping of str to ReachedSpeed
+        Output -> what it reaches; in a train with states the outputs are named "state: output".
+    changed : tuple of str
+        Wheels whose count is not the declared value.
+
+    See Also
+    --------
+    search_train : finds them.
     """
 
     KEYS = ("teeth", "outputs", Key("error", to=float), "total", "largest", "distinct", "changed")
@@ -73,7 +88,13 @@ class Assignment(CountSizes, Result):
         return max((abs(reached.error) for reached in self.outputs.values()), default=Fraction(0))
 
     def measure(self, by: By) -> tuple[Fraction | int, ...]:
-        """What it is ordered by: the order asked for, then error, total and largest; least is best."""
+        """What it is ordered by: the order asked for, then error, total and largest; least is best.
+
+        Parameters
+        ----------
+        by : {"error", "total", "largest", "distinct", "change"}
+            What comes first.
+        """
         total, largest = self.total, self.largest
         first: dict[By, Fraction | int] = {
             "error": self.error,
@@ -87,21 +108,35 @@ class Assignment(CountSizes, Result):
 
 @dataclass(frozen=True, slots=True)
 class PartFindings(Result):
-    """Free wheels that belong together, because outputs or rules join them, and all that meets their demands.
+    """Free wheels that belong together, because outputs or constraints join them, and all that meets them.
 
-    wheels       in the order declared; parts share none
-    outputs      the outputs they move; none for wheels that no output and no rule asks for
-    demands      what is demanded, in words, in the order asked
-    rules        names of the fitter's rules
-    considered   assignments there are
-    count        assignments that meet every demand and rule; where `tolerance` is not None, those within it
-    tolerance    for outputs without a tolerance of their own: the one that was found to hold enough
-    complete     True if every assignment was considered, so that `count` is exact
-    ranked       True if no assignment that is not in `solutions` comes before one that is
-    reason       why it is not complete, or not ranked
-    solutions    the best, best first
-    shortfall    where the others went: each is charged to the rule or demand at which the search gave it up, and these
-                 stand in the order in which they are decided
+    Attributes
+    ----------
+    wheels : tuple of str
+        In the order declared; parts share none.
+    outputs : tuple of str
+        The outputs they move; none for wheels that no output and no constraint asks for.
+    demands : tuple of str
+        What is required of the outputs, in words.
+    rules : tuple of str
+        Names of the constraints on counts.
+    considered : int
+        Assignments there are.
+    count : int
+        Assignments that meet everything; where `tolerance` is not None, those within it.
+    tolerance : Fraction, optional
+        For outputs without a tolerance of their own: the one that was found to hold enough.
+    complete : bool
+        True if every assignment was considered, so that `count` is exact.
+    ranked : bool
+        True if no assignment that is not in `solutions` comes before one that is.
+    reason : str
+        Why it is not complete, or not ranked.
+    solutions : tuple of Assignment
+        The best, best first.
+    shortfall : Shortfall
+        Where the others went: each is charged to the constraint at which the search gave it up; these stand in the
+        order in which they are decided.
     """
 
     KEYS = (
@@ -137,11 +172,17 @@ class PartFindings(Result):
 class Standing(Result):
     """Where one assignment of a part's wheels stands.
 
-    wheels       the part's wheels
-    assignment   its counts, outputs and errors; None where a wheel's count makes the train stand still or free
-    rank         1 for the best: one more than the number of assignments before it in error; None where it is refused
-                 or where counting would take too long
-    refused      what refuses it, each in words; empty for a solution
+    Attributes
+    ----------
+    wheels : tuple of str
+        The part's wheels.
+    assignment : Assignment, optional
+        Its counts, outputs and errors; None where a wheel's count locks the train or leaves it free.
+    rank : int, optional
+        1 for the best: one more than the number of assignments before it in error; None where it is refused or where
+        counting would take too long.
+    refused : tuple of str
+        What refuses it, each in words; empty for a solution.
     """
 
     wheels: tuple[str, ...]
@@ -159,13 +200,26 @@ class Standing(Result):
 class TrainFindings(Result):
     """All that a search in a train found.
 
-    name      of the train
-    by        the order of the solutions
-    best      how many were asked for
-    parts     independent parts; any solution of one goes with any solution of another
-    links     free wheel -> its link
-    remarks   what the reader should know: outputs that no free wheel moves, and whether they are right
-    where     where the assignments stand that were asked about
+    Attributes
+    ----------
+    name : str
+        Of the train.
+    by : {"error", "total", "largest", "distinct", "change"}
+        The order of the solutions.
+    best : int
+        How many were asked for.
+    parts : tuple of PartFindings
+        Independent parts; any solution of one goes with any solution of another.
+    links : mapping of str to str
+        Free wheel -> its link.
+    remarks : tuple of str
+        What the reader should know: outputs that no free wheel moves, and whether they are right.
+    where : tuple of Standing
+        Where the assignments stand that were asked about.
+
+    See Also
+    --------
+    search_train : gives it.
     """
 
     KEYS = (
@@ -218,10 +272,12 @@ class TrainFindings(Result):
         return tuple(_together([part.solutions for part in self.parts], self.by, self.best))
 
     def standing(self, teeth: Mapping[str, int]) -> tuple[Standing, ...]:
-        """Where an assignment stands in each part all of whose wheels it names: its errors, its rank or what refuses
-        it.
+        """Where an assignment stands in each part all of whose wheels it names: its errors, its rank, what refuses it.
 
-        Raises `QuestionError` for wheels that are not free, and if it names no part as a whole.
+        Parameters
+        ----------
+        teeth : mapping of str to int
+            Free wheel -> count. `QuestionError` for wheels that are not free, and if they make up no part as a whole.
         """
         self._check(teeth)
         whole = [at for at, part in enumerate(self.parts) if all(wheel in teeth for wheel in part.wheels)]
@@ -233,11 +289,14 @@ class TrainFindings(Result):
     def declaration(self, solution: Assignment | Mapping[str, int], parent: str, name: str = "") -> dict[str, Any]:
         """The plain declaration that writes a solution down, as a change of the train it was found for.
 
-        solution   of the whole or of one part
-        parent     what it extends: a shipped train, or a path relative to where it will be written
-        name       of the new train; default that of the train with "-found"
-
-        Raises `QuestionError` for wheels that are not free.
+        Parameters
+        ----------
+        solution : Assignment or mapping of str to int
+            Of the whole or of one part. `QuestionError` for wheels that are not free.
+        parent : str
+            What it extends: a shipped train, or a path relative to where it will be written.
+        name : str
+            Of the new train; default that of the train with "-found".
         """
         teeth = solution.teeth if isinstance(solution, Assignment) else solution
         self._check(teeth)

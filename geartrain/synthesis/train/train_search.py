@@ -27,7 +27,7 @@ LIMIT = 10**9
 """Steps (partial assignments looked at) that a pass may take by default: a few minutes."""
 
 
-def search(
+def search_train(
     train: Train,
     state: str | None = None,
     *,
@@ -41,28 +41,70 @@ def search(
     journal: Journal | None = None,
     tell: Callable[[int, int], None] | None = None,
 ) -> TrainFindings:
-    """All tooth counts of a train's free wheels that meet every demand on its outputs, counted; the best listed.
+    """All tooth counts of a train's free wheels that meet every requirement, counted, and the best: an exact join.
 
-    state       in which state of a train with states; None: in all of them at once
-    free        "search": wheels with `teeth: {search: [15, 80]}`; "uncertain": those and all wheels whose count has
-                a `range` or `choices`; or wheels by name, which must have one of the three. Wheels without any count
-                are free in any case
-    rules       the fitter's rules; None: those that hold without being asked for (`Rules()`)
-    tolerance   relative, for targets that have none: the first target of an output none of whose targets has one
-    best        how many solutions to list
-    by          their order: largest error of an output, total teeth, largest wheel, distinct counts, or wheels changed
-                from their declared count; ties by error, total, largest, and the counts
-    limit       steps that a pass may take; beyond them a sample is searched and `complete` is False
-    executor    None: in this process; see `geartrain.numerics.work.open_executor`. The answer does not depend on it
-    journal     where finished work is kept, for a run that may be cut
-    tell        called with (tasks done, tasks in all)
+    Lists of products of counts are joined along what the outputs share, so that assignments are counted which nobody
+    could list; integers decide. What is required of an output: its `expect` and `published`, at their digits and in
+    their sense; every target that has a tolerance; with `tolerance`, the first target where none has. An output with
+    targets and none of all these is approached: the best `best` by error are found, proved by widening a common
+    tolerance.
 
-    What is demanded of an output: its `expect` and `published`, at their digits and in their sense; every target that
-    has a tolerance; with `tolerance`, the first target where none has. An output with targets and none of all these
-    is approached: the best `best` by error are found, proved by widening a common tolerance.
+    Parameters
+    ----------
+    train : Train
+        The declaration, such as `geartrain.load(name).declaration`.
+    state : str, optional
+        In which state of a train with states; default in all of them at once.
+    free : str or sequence of str
+        "search": wheels with `teeth: {search: [15, 80]}`. "uncertain": those and all wheels whose count has a `range`
+        or `choices`. Or wheels by name, which must have one of the three. Wheels without any count are free anyway.
+    rules : ConstraintOptions or sequence of constraints, optional
+        What else must hold of the counts; default what holds without being asked for, `ConstraintOptions()`.
+    tolerance : Fraction, optional
+        Relative, for targets that have none: the first target of an output none of whose targets has one.
+    best : int
+        How many solutions to list.
+    by : {"error", "total", "largest", "distinct", "change"}
+        Their order: largest error of an output, total teeth, largest wheel, distinct counts, or wheels changed from
+        their declared count; ties by error, total, largest, and the counts.
+    limit : int
+        Steps (partial assignments looked at) that a pass may take; beyond them a sample is searched, and `complete` is
+        False.
+    executor : concurrent.futures.Executor, optional
+        Where tasks run; default in this process. The answer does not depend on it.
+    journal : Journal, optional
+        Where finished work is kept, for a run that may be cut.
+    tell : callable, optional
+        Called with (tasks done, tasks in all).
 
-    Interrupted, it returns what is known, with `complete` False. Raises `QuestionError` if no wheel is free, or
-    nothing is asked of them.
+    Returns
+    -------
+    TrainFindings
+        Part by part. Interrupted from the keyboard, it holds what is known, with `complete` False.
+
+    Raises
+    ------
+    QuestionError
+        If no wheel is free, nothing is required of them, or there is no such order or state.
+    RangeError
+        For a range of counts that is too wide to be listed.
+
+    References
+    ----------
+    Counting over a tree of joins is bucket elimination (R. Dechter, Artificial Intelligence 113, 1999).
+
+    Examples
+    --------
+    The lost wheels of the planets' trains (Pennestri, Valentini and Petti 2002, Table 6), within a quarter per cent;
+    of 35,937 assignments for Jupiter 15 will do:
+
+    >>> import geartrain
+    >>> found = search_train(geartrain.load("pennestri-2002-missing").declaration, best=1)
+    >>> jupiter = found.parts[2]
+    >>> jupiter.wheels, jupiter.considered, jupiter.count
+    (('JO1', 'JO2', 'JX'), 35937, 15)
+    >>> dict(jupiter.solutions[0].teeth)
+    {'JO1': 31, 'JO2': 55, 'JX': 31}
     """
     if by not in ORDERS:
         raise QuestionError(Problem(f"there is no order '{by}'", "solutions have others", suggest(by, ORDERS)))

@@ -1,4 +1,8 @@
-"""What can go wrong, said with place, what, why and what to do; and the verdict on a train, which is data."""
+"""What can go wrong: one kind of exception for a user to catch, and its problems with place, what, why and what to do.
+
+In: what a reader, a check or a method found wrong. Out: `GearTrainError` and its kinds; nothing else is raised at a
+user. That a train is locked or contradictory is no error: a verdict is an answer (`geartrain.kinematics.Verdict`).
+"""
 
 from __future__ import annotations
 
@@ -6,6 +10,8 @@ import re
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from itertools import islice
+
+__all__ = ["DeclarationError", "GearTrainError", "MissingExtraError", "Problem", "QuestionError", "RangeError"]
 
 Loc = tuple[str | int, ...]
 """Where in a declaration: the keys and list positions that lead to a value."""
@@ -56,7 +62,26 @@ def suggest(name: str, known: Iterable[str], otherwise: str = "", wide: bool = F
 
 @dataclass(frozen=True, slots=True)
 class Problem:
-    """One thing that is wrong: place, what, why, what to do."""
+    """One thing that is wrong, in four parts.
+
+    Attributes
+    ----------
+    what : str
+        What is wrong, in a few words.
+    why : str
+        Why it cannot stand; empty where that is plain.
+    fix : str
+        What to do about it.
+    place : str
+        Where: `file.yaml:12`, the path of a declared value such as `gears[3].pair`, or a file; may be empty.
+
+    Examples
+    --------
+    >>> print(Problem("unknown key 'tooths'", "a wheel has no such key", "did you mean 'teeth'?", "train.yaml:7"))
+    train.yaml:7: unknown key 'tooths'
+      why: a wheel has no such key
+      fix: did you mean 'teeth'?
+    """
 
     what: str
     why: str = ""
@@ -93,7 +118,28 @@ def first_problems(problems: Iterable[Problem], count: int | None = None) -> tup
 
 
 class GearTrainError(Exception):
-    """Input that cannot be read or used; carries the first `MOST_TOLD` of the problems that could be collected."""
+    """Input that cannot be read or used. Everything that geartrain raises at a user is one of these.
+
+    Parameters
+    ----------
+    problems : Problem or iterable of Problem
+        What is wrong. All that could be collected, of which the first 20 are kept, and how many more there are.
+
+    Attributes
+    ----------
+    problems : tuple of Problem
+        Those that are kept.
+
+    Examples
+    --------
+    >>> import geartrain
+    >>> try:
+    ...     geartrain.load("planetary").solve("drive")
+    ... except GearTrainError as error:
+    ...     for problem in error.problems:
+    ...         print(problem.what)
+    'planetary' has no state 'drive'
+    """
 
     def __init__(self, problems: Problem | Iterable[Problem]) -> None:
         self.problems = (problems,) if isinstance(problems, Problem) else first_problems(problems)
@@ -101,19 +147,51 @@ class GearTrainError(Exception):
 
 
 class DeclarationError(GearTrainError):
-    """The declaration cannot be read, or does not describe a gear train."""
+    """The declaration cannot be read, or does not describe a gear train.
+
+    See Also
+    --------
+    geartrain.train.declare : raises it with the place of every problem
+    """
 
 
 class QuestionError(GearTrainError):
-    """The train is sound, but it was asked for something it does not have."""
+    """The train is sound, but it was asked for something it does not have: a link, a state, a method.
+
+    See Also
+    --------
+    geartrain.GearTrain.solve : raises it for a state or an output that is not declared
+    """
 
 
 class RangeError(GearTrainError):
-    """A method of calculation cannot answer within its range; another one can."""
+    """A method of calculation cannot answer within its range; another one can.
+
+    See Also
+    --------
+    geartrain.kinematics.FloatSpeeds : raises it for a speed that float64 does not hold
+    """
 
 
 class MissingExtraError(GearTrainError):
-    """An optional library is not installed."""
+    """An optional library is not installed.
+
+    Parameters
+    ----------
+    library : str
+        The library as it is imported.
+    extra : str
+        The extra of geartrain that brings it.
+    purpose : str
+        What needs it.
+
+    Examples
+    --------
+    >>> print(MissingExtraError("matplotlib", "plot", "a picture"))
+    matplotlib is not installed
+      why: a picture needs it, and it comes with an extra
+      fix: pip install 'geartrain[plot]'
+    """
 
     def __init__(self, library: str, extra: str, purpose: str) -> None:
         super().__init__(

@@ -1,15 +1,94 @@
 """Who turns how fast, exactly: from a declaration to speeds, mobility and a verdict.
 
 In: a train's declaration, inputs, what is held. Out: fundamental circuits with their carriers, speeds as Fractions (or
-floats with a bound of their error), degrees of freedom, a verdict with its witness, what could be judged of outputs.
-The equation of the room is Willis': a (w_i - w_k) + b (w_j - w_k) = 0, one for each gear pair (docs/theory.md, 3 to 9).
+floats with a bound of their error), degrees of freedom, a verdict with its certificate, outputs held against what is
+expected of them. `geartrain.GearTrain` asks for all of it. The equation of the room is Willis':
+a (w_i - w_k) + b (w_j - w_k) = 0, one for each gear pair (docs/theory.md, 3 to 9).
 
 graph                 the declared links, turning pairs and gear pairs as a networkx graph
 circuits              joint tree, axes, rigid bodies, fundamental circuits
 willis_system         the rows of the system, for whoever solves it
 components            ordinary trains of one carrier, and the reduced system between them
 speeds                propagation, exact elimination, floats
+relative_speeds       the speed of one link seen from another
 gridlock              locked subgraphs, and the fewest meshes to take out
 phasing               whether teeth meet when a train is put together
 judged_outputs, answer, verdict, lint   what is told of it all
 """
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from geartrain.numerics.lazy_names import lazy_names
+
+if TYPE_CHECKING:
+    from geartrain.kinematics.answer import Answer as Answer
+    from geartrain.kinematics.circuits.fundamental import Circuit as Circuit
+    from geartrain.kinematics.graph import adjacency_matrix as adjacency_matrix
+    from geartrain.kinematics.graph import to_dot as to_dot
+    from geartrain.kinematics.gridlock.removal import Gridlock as Gridlock
+    from geartrain.kinematics.gridlock.removal import LockedSubgraph as LockedSubgraph
+    from geartrain.kinematics.gridlock.removal import MeshRemoval as MeshRemoval
+    from geartrain.kinematics.judged_outputs import OutputResult as OutputResult
+    from geartrain.kinematics.judged_outputs import TargetResult as TargetResult
+    from geartrain.kinematics.levers import Lever as Lever
+    from geartrain.kinematics.levers import find_levers as find_levers
+    from geartrain.kinematics.phasing.loop_phase import LoopPhase as LoopPhase
+    from geartrain.kinematics.phasing.mesh_phasing import MeshPhasing as MeshPhasing
+    from geartrain.kinematics.speeds.float_speeds import FloatSpeeds as FloatSpeeds
+    from geartrain.kinematics.speeds.mobility import Mobility as Mobility
+    from geartrain.kinematics.tooth_sensitivity import Sensitivity as Sensitivity
+    from geartrain.kinematics.verdict import Loop as Loop
+    from geartrain.kinematics.verdict import Verdict as Verdict
+    from geartrain.kinematics.willis_system import WillisEquation as WillisEquation
+    from geartrain.kinematics.willis_system import WillisSystem as WillisSystem
+
+__all__ = [
+    "Answer",
+    "Circuit",
+    "FloatSpeeds",
+    "Gridlock",
+    "Lever",
+    "LockedSubgraph",
+    "Loop",
+    "LoopPhase",
+    "MeshPhasing",
+    "MeshRemoval",
+    "Mobility",
+    "OutputResult",
+    "Sensitivity",
+    "TargetResult",
+    "Verdict",
+    "WillisEquation",
+    "WillisSystem",
+    "adjacency_matrix",
+    "find_levers",
+    "to_dot",
+]
+
+__getattr__ = lazy_names(
+    __name__,
+    {
+        "Answer": "answer",
+        "Circuit": "circuits.fundamental",
+        "FloatSpeeds": "speeds.float_speeds",
+        "Gridlock": "gridlock.removal",
+        "Lever": "levers",
+        "LockedSubgraph": "gridlock.removal",
+        "Loop": "verdict",
+        "LoopPhase": "phasing.loop_phase",
+        "MeshPhasing": "phasing.mesh_phasing",
+        "MeshRemoval": "gridlock.removal",
+        "Mobility": "speeds.mobility",
+        "OutputResult": "judged_outputs",
+        "Sensitivity": "tooth_sensitivity",
+        "TargetResult": "judged_outputs",
+        "Verdict": "verdict",
+        "WillisEquation": "willis_system",
+        "WillisSystem": "willis_system",
+        "adjacency_matrix": "graph",
+        "find_levers": "levers",
+        "to_dot": "graph",
+    },
+)

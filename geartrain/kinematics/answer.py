@@ -25,15 +25,46 @@ class SpeedAccuracy:
 
 @dataclass(frozen=True, slots=True)
 class Answer(FrozenFields, Result):
-    """What a train does in one state.
+    """What a train does in one state: the solution of its Willis system, equations (4) and (5) of docs/theory.md.
 
-    place     where the state's inputs were declared
-    speeds    link -> speed in the train's unit: exact, or floats (`LongFloat` past 1e308) where `method` says so
-    outputs   the declared outputs, judged
-    ratios    link -> input -> speed over that input, exact, made when read; empty for floats
-    method    "exact" or "floats"
-    accuracy  link -> absolute errors of its speed; empty for exact speeds
-    work      circuits that were solved
+    True if the verdict is `determined` and every expectation holds. `answer[name]` is the speed of an output or a link;
+    `KeyError` where it is not determined.
+
+    Attributes
+    ----------
+    train : str
+        Name of the train.
+    state : str or None
+        The state; None for a train without states.
+    place : str
+        Where the state's inputs were declared.
+    unit : str
+        Unit of all speeds, such as `turns per year_tropical_J2000` or `rpm`; empty for plain numbers.
+    verdict : Verdict
+        Whether the speeds follow from the inputs.
+    speeds : mapping of str to Fraction, float or LongFloat
+        Speed of each determined link [`unit`]: exact, or floats (`LongFloat` past 1e308) where `method` says so.
+    outputs : mapping of str to OutputResult
+        The declared outputs, judged.
+    ratios : mapping of str to mapping of str to Fraction
+        Link -> input -> speed over that input, the others at rest; made when read, empty for floats.
+    method : {"exact", "floats"}
+        How the speeds were found.
+    accuracy : mapping of str to SpeedAccuracy
+        Absolute error of each link's speed [`unit`]; empty for exact speeds.
+    work : int
+        Circuits that were solved.
+
+    Examples
+    --------
+    A sun of 24 teeth turns in a fixed ring of 60, and the carrier makes 24 / (24 + 60) of its turns:
+
+    >>> import geartrain
+    >>> answer = geartrain.load("planetary-24-18-60").solve()
+    >>> answer["carrier"], answer["planet"], bool(answer)
+    (Fraction(2, 7), Fraction(-2, 3), True)
+    >>> answer.ratios["carrier"]["sun"]
+    Fraction(2, 7)
     """
 
     KEYS = ("state", "verdict", "method", Key("speeds", "speed_figures"), "outputs")

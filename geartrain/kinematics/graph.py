@@ -70,7 +70,27 @@ def adjacency_labels(graph: Graph) -> list[list[str]]:
 
 
 def adjacency_matrix(graph: Graph, kinds: Iterable[str] = ()) -> LabelledArray:
-    """The adjacency matrix in numbers: how many edges (of the given `kinds`, default all) join two links."""
+    """The adjacency matrix in numbers: how many edges join two links.
+
+    Parameters
+    ----------
+    graph : networkx.MultiGraph
+        `GearTrain.graph`.
+    kinds : iterable of str
+        Kinds of edges that are counted: revolute, gear, pin_and_slot, pin_follower; default all.
+
+    Returns
+    -------
+    LabelledArray
+        Axes (link, neighbour), whole numbers.
+
+    Examples
+    --------
+    >>> import geartrain
+    >>> graph = geartrain.load("planetary-24-18-60").graph
+    >>> int(adjacency_matrix(graph)["frame", "sun"]), int(adjacency_matrix(graph, ["gear"])["frame", "sun"])
+    (1, 0)
+    """
     import numpy as np
 
     from geartrain.numerics.labelled_array import labelled_array
@@ -86,7 +106,24 @@ def adjacency_matrix(graph: Graph, kinds: Iterable[str] = ()) -> LabelledArray:
 
 
 def to_dot(graph: Graph) -> str:
-    """Graphviz text: turning edges thin with their axis, gear edges heavy, couplings dashed, the frame boxed."""
+    """Graphviz text: turning edges thin with their axis, gear edges heavy, couplings dashed, the frame boxed.
+
+    Parameters
+    ----------
+    graph : networkx.MultiGraph
+        `GearTrain.graph`.
+
+    Returns
+    -------
+    str
+        A graph in the DOT language.
+
+    Examples
+    --------
+    >>> import geartrain
+    >>> print(to_dot(geartrain.load("planetary-24-18-60").graph).splitlines()[-2])
+      "planet" -- "carrier" [label="planet", penwidth=1];
+    """
     lines = [f"graph {_quoted(graph.name)} {{", "  node [shape=circle];"]
     for link, data in graph.nodes(data=True):
         lines.append(f"  {_quoted(link)}{' [shape=box]' if data['frame'] else ''};")

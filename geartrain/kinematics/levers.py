@@ -21,9 +21,18 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class Lever:
-    """One epicyclic set: its carrier, and the abscissa of each member, the greatest of them 1.
+    """One epicyclic set as points on a line: w_m = w_k + x_m u for each member m.
 
-    abscissae   link -> x, exact; the carrier's is 0
+    Attributes
+    ----------
+    carrier : str
+        The carrier k of the set.
+    abscissae : mapping of str to Fraction
+        Link -> x, exact; the carrier's is 0, and the greatest magnitude is 1.
+
+    See Also
+    --------
+    find_levers : an example
     """
 
     carrier: str
@@ -33,7 +42,32 @@ class Lever:
 def find_levers(train: Train, tree: Tree, circuits: Sequence[Circuit]) -> list[Lever]:
     """Every elementary set of a train: what meshes in one moving carrier's frame, and turns on that carrier's axis.
 
-    A planet is a member only where fewer than two other links are.
+    Parameters
+    ----------
+    train : Train
+        The declaration.
+    tree : Tree
+        Its turning pairs as a tree, `GearTrain.tree`.
+    circuits : sequence of Circuit
+        Its fundamental circuits, `GearTrain.circuits`.
+
+    Returns
+    -------
+    list of Lever
+        One a set. A planet is a member only where fewer than two other links are.
+
+    References
+    ----------
+    Benford and Leising, "The lever analogy", SAE 810102 (1981); Kutzbach (1927).
+
+    Examples
+    --------
+    Sun and ring stand on the lever as 1 to -24/60 from the carrier:
+
+    >>> import geartrain
+    >>> train = geartrain.load("planetary-24-18-60")
+    >>> find_levers(train.declaration, train.tree, train.circuits)[0].abscissae["frame"]
+    Fraction(-2, 5)
     """
     parts = find_components(tuple(train.links), train.frame, circuits)
     found = []

@@ -13,9 +13,31 @@ from geartrain.train import Train
 
 @dataclass(frozen=True, slots=True)
 class Sensitivity(Result):
-    """What one tooth fewer and one tooth more on an uncertain wheel do to an output, in ppm of its speed.
+    """What one tooth fewer and one tooth more on an uncertain wheel do to an output, solved again exactly.
 
-    None stands for a train that no longer turns, or an output that stands still.
+    Attributes
+    ----------
+    wheel : str
+        The wheel whose count is in doubt.
+    teeth : int
+        The count used.
+    allowed : tuple of int
+        All counts that the evidence allows.
+    output : str
+        Name of the output.
+    less, more : float or None
+        Change of its speed with one tooth fewer, and with one more [ppm]; None for a train that no longer turns, or an
+        output that stands still.
+
+    Examples
+    --------
+    With 63 teeth in place of 64 the Moon is slower by 1/64:
+
+    >>> import geartrain
+    >>> train = geartrain.load("freeth-2008-doubt")
+    >>> found = next(train.sensitivity(train.solve()))
+    >>> found.wheel, found.output, found.less, found.less == -1e6 / found.teeth
+    ('b2', 'moon', -15625.0, True)
     """
 
     KEYS = ("wheel", "teeth", "output", Key("one_fewer_ppm", "less"), Key("one_more_ppm", "more"))

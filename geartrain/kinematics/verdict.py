@@ -12,10 +12,26 @@ from geartrain.numerics.plain_data import Result
 
 @dataclass(frozen=True, slots=True)
 class Loop(Result):
-    """A closed loop of meshing wheels in one carrier's frame: links in order and the product of its ratios.
+    """A closed loop of meshing wheels in one carrier's frame, with the product of its ratios (docs/theory.md, 7).
 
-    `product` is the speed with which the walk round the loop comes back, as a multiple of the speed it left
-    with: 1 closes (one mesh is redundant), anything else locks the loop to its carrier.
+    Attributes
+    ----------
+    carrier : str
+        The link from which all pairs of the loop are seen.
+    links : tuple of str
+        Links in order.
+    pairs : tuple of str
+        Ids of the pairs in order; the last one closes the loop.
+    product : Fraction
+        Speed with which a walk round the loop comes back, as a multiple of that with which it left, equation (20): 1
+        closes, and one mesh is redundant; anything else locks the loop to its carrier.
+
+    Examples
+    --------
+    >>> import geartrain
+    >>> loop = geartrain.load("four-gear-loop").mobility.loops[0]
+    >>> loop.links, loop.product, loop.closes
+    (('a', 'b', 'c', 'd'), Fraction(1, 1), True)
     """
 
     carrier: str
@@ -38,12 +54,32 @@ VerdictKind = Literal["determined", "free", "locked", "contradictory"]
 
 @dataclass(frozen=True, slots=True)
 class Verdict(Result):
-    """What a train does with its inputs. A verdict is an answer, never an exception.
+    """What a train does with its inputs, decided by exact rank; equation (22) of docs/theory.md is its certificate.
 
-    determined      every link's speed follows from the inputs
-    free            `links` are undetermined; prescribing `fixes` too would determine them
-    locked          the input cannot move: `loops`, or the brakes and clutches in `prescriptions`, hold it
-    contradictory   `prescriptions` cannot hold at once
+    A verdict is an answer, never an exception. It is true if it is `determined`.
+
+    Attributes
+    ----------
+    kind : {"determined", "free", "locked", "contradictory"}
+        determined: every link's speed follows from the inputs. free: `links` are undetermined. locked: the input cannot
+        move, for `loops` or `prescriptions` hold it. contradictory: `prescriptions` cannot hold at once.
+    text : str
+        The verdict in a sentence, with what it follows from.
+    links : tuple of str
+        Links whose speed is not determined.
+    fixes : tuple of str
+        Links which, prescribed too, would determine all.
+    prescriptions : tuple of str
+        Inputs, brakes and clutches that take part in a lock or contradiction.
+    loops : tuple of Loop
+        Loops that do not close and hold the train, or a part of it.
+
+    Examples
+    --------
+    >>> import geartrain
+    >>> verdict = geartrain.load("planetary-24-18-60").solve().verdict
+    >>> print(verdict)
+    determined: every speed follows from sun
     """
 
     kind: VerdictKind

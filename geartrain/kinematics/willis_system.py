@@ -13,9 +13,22 @@ from geartrain.train import StateCase
 
 
 class WillisEquation(NamedTuple):
-    """One row: the sum of coefficient times speed over `terms` equals `right`.
+    """One row of a Willis system: the sum of coefficient times speed over `terms` equals `right`.
 
-    kind   frame, input, fixed or lock, or the circuit's: gear, pin_and_slot, pin_follower
+    Attributes
+    ----------
+    label : str
+        The pair's id, or what is prescribed: `input sun`.
+    kind : str
+        frame, input, fixed or lock, or the circuit's: gear, pin_and_slot, pin_follower.
+    terms : tuple of (str, int)
+        Links with their coefficients, none of them 0.
+    right : Fraction
+        The right-hand side [the train's unit].
+
+    See Also
+    --------
+    WillisSystem : holds all rows of a train
     """
 
     label: str
@@ -28,7 +41,26 @@ class WillisEquation(NamedTuple):
 class WillisSystem:
     """The Willis system of a train in one case: columns are links, rows are labelled equations.
 
-    exact   False where inputs are in radians beside others in turns, so that their numbers are shown in decimal
+    One row a (w_i - w_k) + b (w_j - w_k) = 0 for each gear pair and coupling, equations (4) and (5) of docs/theory.md,
+    one for the frame, one for each drive, brake and lock.
+
+    Attributes
+    ----------
+    links : tuple of str
+        The columns.
+    equations : tuple of WillisEquation
+        The rows.
+    exact : bool
+        False where inputs are in radians beside others in turns, so that their numbers are shown in decimal.
+
+    Examples
+    --------
+    >>> import geartrain
+    >>> print(geartrain.load("planetary-24-18-60").equations().text())
+    frame      w[frame] = 0
+    s~p        24 w[sun] + 18 w[planet] - 42 w[carrier] = 0
+    p~ring     18 w[planet] - 60 w[frame] + 42 w[carrier] = 0
+    input sun  w[sun] = 1
     """
 
     links: tuple[str, ...]

@@ -20,10 +20,34 @@ from geartrain.train import Train, Wheel
 
 
 class Circuit(NamedTuple):
-    """A fundamental circuit: `a (w_i - w_k) + b (w_j - w_k) = 0` with integers a and b.
+    """A fundamental circuit and its Willis equation a (w_i - w_k) + b (w_j - w_k) = 0, (4) of docs/theory.md.
 
-    For an external gear pair a = z_i and b = z_j, for an internal one b = -z_j; for a coupling i is the slot
-    with a = 1 and j the pin with b = -m, m the winding number.
+    For an external gear pair a = z_i and b = z_j, for an internal one b = -z_j; for a coupling i is the slot with a = 1
+    and j the pin with b = -m, m the winding number, equations (13) to (15).
+
+    Attributes
+    ----------
+    id : str
+        Name of the pair or coupling.
+    kind : {"gear", "pin_and_slot", "pin_follower"}
+        What closes the circuit.
+    i, j : str
+        Links of its two wheels, or of the slot and the pin.
+    carrier : str
+        The link k that holds both axes (transfer vertex; Freudenstein and Yang 1972).
+    a, b : int
+        Coefficients; a is above 0.
+    wheels : tuple of str
+        Ids of the two wheels; of a coupling empty texts.
+    note : str
+        What is a convention in its sense; mostly empty.
+
+    Examples
+    --------
+    >>> import geartrain
+    >>> circuit = geartrain.load("planetary-24-18-60").circuits[1]
+    >>> circuit.wheels, circuit.carrier, circuit.terms, circuit.ratio
+    (('p', 'ring'), 'carrier', (('planet', 18), ('frame', -60), ('carrier', 42)), Fraction(10, 3))
     """
 
     id: str
@@ -58,7 +82,13 @@ class Circuit(NamedTuple):
         return terms if self.b and c else tuple(term for term in terms if term[1])
 
     def with_counts(self, counts: Mapping[str, int]) -> Circuit:
-        """The same pair with other tooth counts on its wheels; senses, and wheels not named, stay as they are."""
+        """The same pair with other tooth counts on its wheels; senses, and wheels not named, stay as they are.
+
+        Parameters
+        ----------
+        counts : mapping of str to int
+            Wheel -> tooth count, 1 or more.
+        """
         if self.kind != "gear" or counts.keys().isdisjoint(self.wheels):
             return self
         a, b = (counts.get(wheel, abs(old)) for wheel, old in zip(self.wheels, (self.a, self.b), strict=True))

@@ -41,12 +41,24 @@ class RemovalBound(Result):
 class MeshRemoval(Result):
     """Meshes to disengage so that every loop closes and all links held by them can move; none of them could stay.
 
-    method     one: a single mesh is enough (of each part). loops: as many loops that do not close share no mesh.
-               matching, search: exact, by matching the odd regions of a planar set or by branch and bound. greedy: a
-               good set without a proof that it is the least
-    at_least   a proved lower bound
-    choices    where one mesh is enough: all that would do
-    proofs     loops that prove the bound; it may rest on the method alone
+    Attributes
+    ----------
+    meshes : tuple of str
+        Ids of the pairs.
+    method : {"one", "loops", "matching", "search", "greedy"}
+        one: a single mesh is enough (of each part). loops: as many loops that do not close share no mesh. matching,
+        search: exact, by matching the odd regions of a planar set (a T-join) or by branch and bound. greedy: a good set
+        without a proof that it is the least.
+    at_least : int
+        A proved lower bound on how many meshes must go.
+    choices : tuple of str
+        Where one mesh is enough: all that would do.
+    proofs : tuple of RemovalBound
+        Loops that prove the bound; empty where it rests on the method alone.
+
+    See Also
+    --------
+    Gridlock : an example
     """
 
     KEYS = ("meshes", "method", "least", "at_least", "choices", "proofs")
@@ -89,10 +101,24 @@ class MeshRemoval(Result):
 class LockedSubgraph(Result):
     """One component that its meshes lock to its carrier, and what frees it.
 
-    loop     a loop that does not close
-    links    all links of the component
-    meshes   number of meshes between them
-    by       sign: every loop comes back at the same speed, some reversed. ratio: some at another speed
+    Attributes
+    ----------
+    carrier : str
+        The link from which the component is seen, and with which alone it can turn.
+    loop : Loop
+        A loop that does not close.
+    links : tuple of str
+        All links of the component.
+    meshes : int
+        How many meshes are between them.
+    by : {"sign", "ratio"}
+        sign: every loop comes back at the same speed, some reversed. ratio: some at another speed.
+    release : MeshRemoval
+        What frees this component alone.
+
+    See Also
+    --------
+    Gridlock : an example
     """
 
     carrier: str
@@ -120,9 +146,32 @@ class LockedSubgraph(Result):
 class Gridlock(Result):
     """Whether the meshes of a train let it move, brakes and inputs left aside, and if not, how to free it.
 
-    jams      components with a loop that does not close
-    held      links that meshes about several carriers hold still together, though each loop closes
-    release   what frees the whole train; None if it moves, or if nothing was found
+    Attributes
+    ----------
+    jams : tuple of LockedSubgraph
+        Components with a loop that does not close, equation (21) of docs/theory.md.
+    held : tuple of str
+        Links that meshes about several carriers hold still together, though each loop closes.
+    release : MeshRemoval or None
+        What frees the whole train; None if it moves, or if nothing was found.
+
+    Notes
+    -----
+    The least set of meshes is the frustration index of a graph with gains; where all gains are 1 and -1 and the graph
+    is planar it is a least T-join (Katai and Iwai 1978), else branch and bound; docs/theory.md, 7.
+
+    Examples
+    --------
+    Three wheels, each in mesh with both others:
+
+    >>> import geartrain
+    >>> wheels = {name: {"wheels": {name.upper(): 20}} for name in "abc"}
+    >>> train = geartrain.GearTrain.declare({"links": {"frame": {}} | wheels, "inputs": {"a": 1},
+    ...     "revolutes": [{"pair": ["frame", link], "axis": link} for link in "abc"],
+    ...     "gears": [{"pair": list(pair)} for pair in ("AB", "BC", "CA")]})
+    >>> found = train.gridlock
+    >>> found.moves, found.jams[0].loop.product, found.release.choices
+    (False, Fraction(-1, 1), ('A~B', 'B~C', 'C~A'))
     """
 
     KEYS = ("moves", "jams", "held", "release")
@@ -140,7 +189,13 @@ class Gridlock(Result):
         return "; ".join(self.lines()) or "moves: every loop of meshes closes"
 
     def lines(self, most: int = _SHOWN) -> Iterator[str]:
-        """What is wrong and what to do, a sentence each; nothing for a train that moves."""
+        """What is wrong and what to do, a sentence each; nothing for a train that moves.
+
+        Parameters
+        ----------
+        most : int
+            Components that are described; of the others only how many there are.
+        """
         for jam in self.jams[:most]:
             yield f"gridlock: {jam}"
             if len(self.jams) > 1 or self.held:

@@ -19,18 +19,33 @@ from geartrain.numerics.plain_data import Key, Result
 
 @dataclass(frozen=True)
 class LoopPhase(Result):
-    """What one loop of meshes asks for, and what it gets.
+    """What one loop of meshes asks of its teeth, and what it gets: equations (2) and (3) of docs/closure.md.
 
-    gears     wheels in order; two wheels of one link between which the loop goes over are joined by `+`
-    meshes    pairs in order, the last one closes the loop. Where `together`, pairs of several loops in no order, and
-              what they must fulfil only together
-    weights   whole numbers with which the equations of the pairs add up; 1 and -1 but for compound wheels
-    residue   what the sum is off a whole number (pitches), from -1/2 to 1/2; a Fraction where it is exact
-    slack     how far off the residue may be (pitches); 0 where it is exact
-    how       exact; recognised: exact, with angles taken for fractions that rounded positions allow; or numeric
-    inside    for each gear the part of a turn, with its sign, by which its tooth number enters the sum; None where
-              wheels are compound
-    retime    wheel -> pitches by which to turn it on its arbor, counterclockwise, to close the loop: any one of them
+    Attributes
+    ----------
+    gears : tuple of str
+        Wheels in order; two wheels of one link between which the loop goes over are joined by `+`.
+    meshes : tuple of str
+        Pairs in order, the last one closes the loop. Where `together`, pairs of several loops in no order.
+    weights : tuple of int
+        Whole numbers with which the equations of the pairs add up; 1 and -1 but for compound wheels.
+    residue : Fraction or float
+        What the sum is off a whole number [pitch], from -1/2 to 1/2; a Fraction where it is exact.
+    slack : float
+        How far off the residue may be [pitch]; 0 where it is exact.
+    how : {"exact", "recognised", "numeric"}
+        recognised: exact, with angles taken for fractions that rounded positions allow.
+    inside : mapping of str to Fraction or float, or None
+        For each gear the part of a turn, with its sign, by which its tooth number enters the sum; None where wheels are
+        compound.
+    retime : mapping of str to float
+        By how much to turn a wheel on its arbor, counterclockwise [pitch], to close the loop: any one of them.
+    together : bool
+        True for what several loops must fulfil only together.
+
+    See Also
+    --------
+    MeshPhasing : an example
     """
 
     KEYS = ("gears", "meshes", "weights", Key("verdict", "kind"), "residue", "slack", "how", "miss", "inside", "retime")

@@ -24,13 +24,31 @@ _SHOWN = 10  # loops named in a text
 
 @dataclass(frozen=True)
 class MeshPhasing(Result):
-    """Whether the teeth of every loop meet, and the angles at which the wheels are put in.
+    """The assembly condition: whether the teeth of every loop meet, and the angles at which the wheels are put in.
 
-    problem   the phases of all meshes
-    plays     play of pairs whose teeth know it (pitches)
-    alike     gives wheel -> name under which its tooth number stands in the rule
-    unjudged  loops of the train that go through a pair or pin without a known place
-    rigid     loops that cannot turn, for their ratios do not multiply to 1: no phase is asked of them
+    Equations (1) to (4) of docs/closure.md. True unless some loop misses or cannot be told.
+
+    Attributes
+    ----------
+    problem : PhaseSystem
+        The phases of all meshes.
+    plays : mapping of str to float
+        Play of pairs whose teeth know it [pitch].
+    alike : callable
+        Gives wheel -> name under which its tooth number stands in `rule`.
+    unjudged : int
+        Loops of the train that go through a pair or pin without a known place.
+
+    Examples
+    --------
+    Two planets of 18 teeth opposite each other between 24 and 60: 2 divides 24 + 60, and they go in (docs/closure.md).
+
+    >>> import geartrain
+    >>> found = geartrain.load("planets-in-place").closure
+    >>> found.kind, found.worst, len(found.loops)
+    ('closes', Fraction(0, 1), 2)
+    >>> found.loops[0].gears, found.loops[0].weights
+    (('p2', 's', 'p1', 'ring'), (-1, 1, -1, 1))
     """
 
     KEYS = (

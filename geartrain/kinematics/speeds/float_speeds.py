@@ -37,12 +37,33 @@ _ORDINARY = 400  # powers of two up to which speeds are solved as they are
 
 @dataclass(frozen=True, slots=True)
 class FloatSpeeds(FrozenFields):
-    """Float64 speeds with an estimate of their error.
+    """Float64 speeds by sparse LU and one refinement step, with an estimate of their error (docs/theory.md, 11).
 
-    speeds     (link, case) in the train's unit, to be multiplied by 2**exponents
-    estimate   (link, case) absolute error to expect of each speed, to be multiplied by 2**exponents too
-    condition  link -> component-wise condition number cond(A, x) of the first case, where asked for
-    exponents  (link, case) 0 wherever float64 holds the speed and its estimate
+    `floats[link]` is the speed of a link in the first case; `RangeError` where float64 does not hold it.
+
+    Attributes
+    ----------
+    speeds : LabelledArray
+        Axes (link, case) [the train's unit], to be multiplied by 2**exponents.
+    estimate : LabelledArray
+        Absolute error to expect of each speed, axes and unit as those of `speeds`.
+    condition : mapping of str to float
+        Component-wise condition number cond(A, x) of the first case, equation (25), of each link it was asked for; 1 or
+        more.
+    exponents : LabelledArray
+        Axes (link, case): powers of two, 0 wherever float64 holds the speed and its estimate.
+
+    Notes
+    -----
+    The step is equation (23), its residual in twice the precision; the estimate is (24). Every speed comes within a
+    rounding or two (docs/accuracy.md). Higham, Accuracy and Stability of Numerical Algorithms, chapter 7.
+
+    Examples
+    --------
+    >>> import geartrain
+    >>> floats = geartrain.load("planetary-24-18-60").floats()
+    >>> floats["carrier"] == 2 / 7, floats.decimal("carrier", digits=4)
+    (True, '0.2857')
     """
 
     speeds: LabelledArray
@@ -59,11 +80,29 @@ class FloatSpeeds(FrozenFields):
         raise RangeError(Problem(what, "a float holds 1e-308 to 1e308", fix))
 
     def number(self, link: str, case: int = 0) -> Real:
-        """The speed of a link, as a float where one holds it."""
+        """The speed of a link, as a float where one holds it.
+
+        Parameters
+        ----------
+        link : str
+            Name of the link.
+        case : int
+            Which of the cases, from 0.
+        """
         return scaled(float(self.speeds[link][case]), int(self.exponents[link][case]))
 
     def decimal(self, link: str, case: int = 0, digits: int = 10) -> str:
-        """The speed of a link in decimal, of any size."""
+        """The speed of a link in decimal, of any size.
+
+        Parameters
+        ----------
+        link : str
+            Name of the link.
+        case : int
+            Which of the cases, from 0.
+        digits : int
+            Significant digits, 1 or more.
+        """
         return f"{self.number(link, case):.{digits}g}"
 
 

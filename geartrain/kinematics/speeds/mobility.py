@@ -17,15 +17,43 @@ from geartrain.numerics.plain_data import Key, Result
 
 @dataclass(frozen=True, slots=True)
 class Mobility(Result):
-    """Degrees of freedom by count and by exact rank, and what makes them differ.
+    """Degrees of freedom by count and by exact rank, and what makes them differ; docs/theory.md, (16), (17), (20).
 
-    by_count    turning pairs less gear pairs and couplings; right only without redundancy
-    by_rank     links less one less the rank of all circuits; always right
-    redundant   circuits that add nothing, and the loops they close
-    locked      loops that do not close, and hold their component on its carrier
-    still       links that stand still whatever drives the train
-    idle        circuits whose wheels never roll on each other
-    certain     False where the rank was taken modulo two primes (exact but for accidents of 1e-36)
+    Attributes
+    ----------
+    links : int
+        Links, the frame among them.
+    turning_pairs : int
+        Turning pairs j_R.
+    gear_pairs : int
+        Gear pairs.
+    couplings : int
+        Pins in slots; with the gear pairs they are j_G.
+    by_rank : int
+        Links less one less the rank of all circuits: always right.
+    redundant : int
+        How many circuits add nothing.
+    loops : tuple of Loop
+        Loops of product 1 that circuits close which add nothing; the first 1000.
+    shared : tuple of str
+        Links at which components meet in equations that add nothing.
+    locked : tuple of Loop
+        Loops that do not close, and hold their component on its carrier; the first 1000.
+    still : tuple of str
+        Links that stand still whatever drives the train.
+    idle : tuple of str
+        Ids of circuits whose wheels never roll on each other.
+    certain : bool
+        False where the rank was taken modulo two primes (exact but for accidents of 1e-36).
+
+    Examples
+    --------
+    Four wheels in a ring, one of whose meshes is redundant:
+
+    >>> import geartrain
+    >>> found = geartrain.load("four-gear-loop").mobility
+    >>> found.by_count, found.by_rank, found.redundant
+    (0, 1, 1)
     """
 
     KEYS = (
@@ -54,7 +82,7 @@ class Mobility(Result):
 
     @property
     def by_count(self) -> int:
-        """j_R - j_G, couplings counted with the gear pairs."""
+        """j_R - j_G, couplings counted with the gear pairs; right only without redundancy."""
         return self.turning_pairs - self.gear_pairs - self.couplings
 
     @property

@@ -6,7 +6,6 @@ from geartrain.spherical.graph_set import GraphSet, from_graph
 from geartrain.spherical.named_solids import solid, solid_names
 from geartrain.spherical.polyhedra import Polyhedron, polyhedron
 from geartrain.spherical.polyhedron_gears import from_polyhedron
-from geartrain.spherical.single_pitch_families import icosahedral, idler_sphere, moved_antiprism, with_idlers
 from geartrain.spherical.tooth_count_search import ToothCountSuggestions, suggest_tooth_counts
 
 __all__ = [
@@ -17,9 +16,6 @@ __all__ = [
     "ToothCountSuggestions",
     "from_graph",
     "from_polyhedron",
-    "icosahedral",
-    "idler_sphere",
-    "moved_antiprism",
     "one_pitch",
     "polyhedron",
     "ratio_windows",
@@ -28,5 +24,4 @@ __all__ = [
     "solid_names",
     "suggest_tooth_counts",
     "to_train",
-    "with_idlers",
 ]

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from geartrain.spherical.pitch_cones import angle_rows, azimuth_rows, frames, mesh_angles, moved, operating_pitch
+from geartrain.spherical.pitch_cones import angle_rows, azimuth_rows, azimuths, mesh_angles, moved, operating_pitch
 
 if TYPE_CHECKING:
     from scipy.sparse import csr_array
@@ -54,7 +54,7 @@ def loop_sums(axes: Floats, corners: LoopCorners, teeth: Floats) -> tuple[Floats
     from scipy.sparse import coo_array
 
     at, following, before = corners.gear, corners.following, corners.before
-    alpha = (_azimuths(axes, at, before) - _azimuths(axes, at, following)) % (2 * np.pi)
+    alpha = (azimuths(axes, at, before) - azimuths(axes, at, following)) % (2 * np.pi)
     weight = corners.sign * teeth[at] / (2 * np.pi)
     count = len(at)
     gather = coo_array((weight, (corners.loop, np.arange(count))), shape=(corners.count, count)).tocsr()
@@ -74,13 +74,6 @@ def pitch_rows(axes: Floats, meshes: Meshes, teeth: Floats) -> tuple[Floats, csr
     a, b = teeth[i], teeth[j]
     steep = 1 / np.tan(S) + a * b * np.sin(S) / (a**2 + b**2 + 2 * a * b * np.cos(S))
     return np.log(operating_pitch(S, a, b)), (diags_array(steep) @ slopes).tocsr()
-
-
-def _azimuths(axes: Floats, at: Ints, to: Ints) -> Floats:
-    across = frames(axes)[at]
-    return np.asarray(
-        np.arctan2(np.einsum("px,px->p", across[:, 1], axes[to]), np.einsum("px,px->p", across[:, 0], axes[to]))
-    )
 
 
 def least_step(J: csr_array, error: Floats, damping: float) -> Floats:

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from geartrain.errors import Problem, QuestionError
-from geartrain.spherical.pitch_cones import mesh_angles, separations
+from geartrain.spherical.pitch_cones import angle_between, frames, mesh_angles, separations
 
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
@@ -45,9 +45,8 @@ class Configuration:
     title: str = ""
 
     def angle(self, i: int, j: int) -> float:
-        """Angle between two axes (rad), right near 0 and pi too."""
-        a, b = self.axes[i], self.axes[j]
-        return float(np.arctan2(np.linalg.norm(np.cross(a, b)), a @ b))
+        """Angle between two axes (rad)."""
+        return float(angle_between(self.axes[i], self.axes[j]))
 
     def azimuth(self, i: int, j: int) -> float:
         """Direction from gear i to gear j about the axis of i (rad), from an arbitrary but fixed direction of i."""
@@ -56,11 +55,8 @@ class Configuration:
 
     def frame(self, i: int) -> tuple[Floats, Floats]:
         """Two directions across axis i that make a right-handed frame with it, pointing outwards."""
-        n = self.axes[i]
-        least = np.eye(3)[int(np.argmin(np.abs(n)))]
-        first = np.cross(n, least)
-        first /= np.linalg.norm(first)
-        return first, np.cross(n, first)
+        first, second = frames(self.axes[i : i + 1])[0]
+        return first, second
 
 
 def kinds_in_order(configuration: Configuration) -> tuple[str, ...]:
@@ -144,7 +140,7 @@ def to_train(configuration: Configuration, name: str = "") -> dict[str, Any]:
     gear is the input, at speed 1. Directions are floats at full length. Raises `GearTrainError` where a tooth number
     is missing.
     """
-    missing = [kind for kind in dict.fromkeys(configuration.kinds) if kind not in configuration.teeth]
+    missing = [kind for kind in kinds_in_order(configuration) if kind not in configuration.teeth]
     if missing or not configuration.names:
         raise QuestionError(
             Problem(

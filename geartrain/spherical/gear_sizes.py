@@ -18,7 +18,6 @@ from geartrain.errors import Problem, QuestionError, RangeError
 from geartrain.numerics.plain_data import Key, Result, finite
 from geartrain.spherical.configuration import (
     Configuration,
-    MeshKind,
     kinds_in_order,
     mesh_kinds,
     nearest_unmeshed,
@@ -33,10 +32,8 @@ from geartrain.spherical.pitch_cones import (
     pitch_cone,
     pressure_angle,
     separations,
-    sphere_radius,
     undercut_limit,
     virtual_teeth,
-    wheel_radius,
 )
 
 if TYPE_CHECKING:
@@ -84,22 +81,6 @@ def _proven(configuration: Configuration) -> str:
     # the twisted cap leaves one ring of squares of the three
     across = np.abs(separations(configuration.axes) - pi) < 1e-9
     return "rhombicuboctahedron" if across.any(axis=1).all() else "pseudo-rhombicuboctahedron"
-
-
-__all__ = [
-    "MeshKind",
-    "NeighbourRatioWindow",
-    "SphereSizing",
-    "TipCollision",
-    "impossibility_theorem",
-    "mesh_kinds",
-    "one_pitch",
-    "ratio_windows",
-    "size_gears",
-    "sphere_radius",
-    "teeth_of",
-    "wheel_radius",
-]
 
 
 TIP_ROOM = 2.0

@@ -5,14 +5,15 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
-from math import degrees, pi, sin
+from math import degrees, pi
 from typing import TYPE_CHECKING
 
 from geartrain.analysis.gear_train import GearTrain
 from geartrain.errors import Problem, QuestionError
 from geartrain.numerics.plain_data import Key, Result
-from geartrain.spherical.configuration import Configuration, mesh_kinds, to_train
+from geartrain.spherical.configuration import Configuration, kinds_in_order, mesh_kinds, to_train
 from geartrain.spherical.gear_sizes import SphereSizing, size_gears
+from geartrain.spherical.pitch_cones import wheel_radius
 
 if TYPE_CHECKING:
     from geartrain.kinematics.gridlock.removal import Gridlock
@@ -136,7 +137,7 @@ class GearSphere(Result):
     @cached_property
     def cones(self) -> Mapping[str, float | None]:
         """Pitch cone of each kind (rad), the largest in operation; None while teeth are not chosen."""
-        kinds = dict.fromkeys(self.configuration.kinds)
+        kinds = kinds_in_order(self.configuration)
         if self.sizing is None:
             return dict.fromkeys(kinds)
         cones = dict(zip(self.configuration.kinds, self.sizing.outer.tolist(), strict=True))
@@ -145,7 +146,7 @@ class GearSphere(Result):
     @property
     def radii(self) -> Mapping[str, float | None]:
         """Radius of the pitch circles of each kind, in the unit of the sphere's."""
-        return {kind: None if cone is None else self.radius * sin(cone) for kind, cone in self.cones.items()}
+        return {kind: None if cone is None else wheel_radius(self.radius, cone) for kind, cone in self.cones.items()}
 
     @property
     def angles(self) -> Mapping[str, float]:

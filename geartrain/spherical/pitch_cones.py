@@ -8,7 +8,7 @@ How angles between axes, and azimuths about them, change as axes move: sparse ro
 from __future__ import annotations
 
 from collections.abc import Sequence
-from math import cos, radians, sin, sqrt, tan
+from math import cos, radians, sin, tan
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -59,24 +59,6 @@ def pressure_angle(c: float, pitch: ArrayLike) -> Floats:
     return np.asarray(np.where(share <= 1, np.arccos(np.minimum(share, 1)), np.nan), dtype=float)
 
 
-def line_of_action(n_1: Floats, n_2: Floats, g_1: float, g_2: float) -> Floats:
-    """Pole q of the great circle that touches both base cones: q.n_1 = sin g_1, q.n_2 = -sin g_2, |q| = 1.
-
-    A point X on it has the normal speed (n_1 x X).(q x X) = n_1.q = sin g_1 per turn speed of gear 1, wherever X
-    is: spherical involutes turn in the ratio of their teeth at every angle between the axes.
-    `ValueError` where the base cones overlap.
-    """
-    C = float(n_1 @ n_2)
-    across = np.cross(n_1, n_2)
-    square = float(across @ across)
-    s_1, s_2 = sin(g_1), -sin(g_2)
-    a, b = (s_1 - C * s_2) / square, (s_2 - C * s_1) / square
-    rest = 1 - (a * s_1 + b * s_2)
-    if rest < 0:
-        raise ValueError("the base cones overlap")
-    return np.asarray(a * n_1 + b * n_2 + sqrt(rest / square) * across, dtype=float)
-
-
 def sphere_radius(wheel: float, rho: float) -> float:
     """Radius of the sphere that carries the pitch circle of radius `wheel`, same unit: R = r / sin rho."""
     return wheel / sin(rho)
@@ -112,19 +94,20 @@ def overlap_limit(S: float, between: float) -> float:
     return limit if limit > 1e-12 else 0.0
 
 
+def angle_between(a: Floats, b: Floats) -> Floats:
+    """Angle between unit vectors (..., 3), in rad: 2 atan2(|a - b|, |a + b|), right near 0 and pi (W. Kahan)."""
+    return np.asarray(2 * np.arctan2(np.linalg.norm(a - b, axis=-1), np.linalg.norm(a + b, axis=-1)), dtype=float)
+
+
 def separations(axes: Floats) -> Floats:
-    """Angles between all axes, (gears, gears), rad: 2 atan2(|a - b|, |a + b|), right near 0 and pi (W. Kahan)."""
-    apart = np.linalg.norm(axes[:, None] - axes[None], axis=-1)
-    along = np.linalg.norm(axes[:, None] + axes[None], axis=-1)
-    return np.asarray(2 * np.arctan2(apart, along), dtype=float)
+    """Angles between all axes, (gears, gears), rad."""
+    return angle_between(axes[:, None], axes[None])
 
 
 def mesh_angles(axes: Floats, meshes: Sequence[tuple[int, int]]) -> Floats:
-    """Angle between the axes of each mesh (rad), as in `separations`."""
+    """Angle between the axes of each mesh (rad)."""
     i, j = np.array(meshes, dtype=int).reshape(-1, 2).T
-    return np.asarray(
-        2 * np.arctan2(np.linalg.norm(axes[i] - axes[j], axis=1), np.linalg.norm(axes[i] + axes[j], axis=1))
-    )
+    return angle_between(axes[i], axes[j])
 
 
 def frames(axes: Floats) -> Floats:
@@ -133,6 +116,13 @@ def frames(axes: Floats) -> Floats:
     first = np.cross(axes, least)
     first /= np.linalg.norm(first, axis=1)[:, None]
     return np.stack([first, np.cross(axes, first)], axis=1)
+
+
+def azimuths(axes: Floats, at: Ints, to: Ints) -> Floats:
+    """Direction (rad) of axis `to` about axis `at`, counterclockwise from the first direction of its `frames`."""
+    across = frames(axes)[at]
+    first, second = (np.einsum("px,px->p", across[:, k], axes[to]) for k in (0, 1))
+    return np.asarray(np.arctan2(second, first), dtype=float)
 
 
 def moved(axes: Floats, steps: Floats) -> Floats:
@@ -150,7 +140,7 @@ def angle_rows(axes: Floats, pairs: Sequence[tuple[int, int]]) -> tuple[Floats, 
     """
     i, j = np.array(pairs, dtype=int).reshape(-1, 2).T
     a, b = axes[i], axes[j]
-    S = 2 * np.arctan2(np.linalg.norm(a - b, axis=1), np.linalg.norm(a + b, axis=1))
+    S = angle_between(a, b)
     towards = [(q - p * np.cos(S)[:, None]) / np.sin(S)[:, None] for p, q in ((a, b), (b, a))]
     return S, vector_rows(axes, (i, j), (-towards[0], -towards[1]))
 

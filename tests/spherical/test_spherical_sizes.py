@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Callable
 from dataclasses import replace
 from fractions import Fraction
 from itertools import product
@@ -10,28 +11,33 @@ from math import acos, atan, cos, degrees, inf, pi, radians, sin, sqrt, tan
 
 import numpy as np
 import pytest
+from closed_form_spheres import (
+    antiprism_latitude,
+    icosahedral,
+    icosahedral_pitch,
+    idler_sphere,
+    moved_antiprism,
+    quasiregular,
+    with_idlers,
+)
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from geartrain import GearTrainError
+from geartrain.numerics.arrays import Floats
 from geartrain.spherical import (
     Configuration,
     from_polyhedron,
-    icosahedral,
-    idler_sphere,
-    moved_antiprism,
     one_pitch,
     ratio_windows,
     size_gears,
     suggest_tooth_counts,
-    with_idlers,
 )
 from geartrain.spherical.assembly_loops import fundamental_loops, loop_rules, regions, residue
 from geartrain.spherical.configuration import mesh_kinds
 from geartrain.spherical.gear_sizes import impossibility_theorem
 from geartrain.spherical.pitch_cones import (
     base_pitch,
-    line_of_action,
     operating_pitch,
     pitch_cone,
     pressure_angle,
@@ -41,11 +47,28 @@ from geartrain.spherical.pitch_cones import (
     virtual_teeth,
     wheel_radius,
 )
-from geartrain.spherical.single_pitch_families import antiprism_latitude, icosahedral_pitch, quasiregular
 
 PHI = (1 + sqrt(5)) / 2
 S53 = atan(3 - sqrt(5))
 ratios = st.tuples(st.floats(0.2, 2.8), st.integers(5, 200), st.integers(5, 200))
+
+
+def line_of_action(n_1: Floats, n_2: Floats, g_1: float, g_2: float) -> Floats:
+    """Pole q of the great circle that touches both base cones: q.n_1 = sin g_1, q.n_2 = -sin g_2, |q| = 1.
+
+    A point X on it has the normal speed (n_1 x X).(q x X) = n_1.q = sin g_1 per turn speed of gear 1, wherever X
+    is: spherical involutes turn in the ratio of their teeth at every angle between the axes.
+    `ValueError` where the base cones overlap.
+    """
+    C = float(n_1 @ n_2)
+    across = np.cross(n_1, n_2)
+    square = float(across @ across)
+    s_1, s_2 = sin(g_1), -sin(g_2)
+    a, b = (s_1 - C * s_2) / square, (s_2 - C * s_1) / square
+    rest = 1 - (a * s_1 + b * s_2)
+    if rest < 0:
+        raise ValueError("the base cones overlap")
+    return np.asarray(a * n_1 + b * n_2 + sqrt(rest / square) * across, dtype=float)
 
 
 def cones_of(configuration: Configuration) -> dict[str, float]:
@@ -442,6 +465,19 @@ def worst_residue(configuration: Configuration) -> float:
     return max((abs(float(residue(teeth, rule))) for rule in loop_rules(configuration)), default=0.0)
 
 
+def moved_solid(n: int, cap: int, side: int) -> Configuration:
+    return from_polyhedron(f"{n}-antiprism", teeth={str(n): cap, "3": side}, exact=True)
+
+
+def solid_with_idlers(solid: str, teeth: dict[str, int], idler: int) -> Configuration:
+    return from_polyhedron(solid, "faces+edges", teeth={**teeth, "e": idler})
+
+
+def icosahedron_with_pairs(vertex: int, face: int, edge: int) -> Configuration:
+    return from_polyhedron("icosahedron", "faces+vertices+edges", teeth={"v": vertex, "3": face, "e": edge})
+
+
+@pytest.mark.parametrize(("make", "off"), [(moved_antiprism, 1e-14), (moved_solid, 4e-13)])
 @pytest.mark.parametrize(
     ("n", "cap", "side", "cones", "latitude", "misses"),
     [
@@ -454,15 +490,22 @@ def worst_residue(configuration: Configuration) -> float:
     ],
 )
 def test_moved_antiprisms(
-    n: int, cap: int, side: int, cones: tuple[float, float] | None, latitude: float | None, misses: float
+    n: int,
+    cap: int,
+    side: int,
+    cones: tuple[float, float] | None,
+    latitude: float | None,
+    misses: float,
+    make: Callable[[int, int, int], Configuration],
+    off: float,
 ) -> None:
-    configuration = moved_antiprism(n, cap, side)
+    configuration = make(n, cap, side)
     assert (len(configuration.axes), len(configuration.meshes)) == (2 * n + 2, 4 * n)
     assert size_gears(configuration).exact
-    assert worst_tangency(configuration) < 1e-14
-    assert worst_residue(configuration) == pytest.approx(misses, abs=5e-10 if misses else 1e-15)
+    assert worst_tangency(configuration) < off
+    assert worst_residue(configuration) == pytest.approx(misses, abs=5e-10 if misses else off / 10)
     if cones:
-        assert tuple(cones_of(configuration).values()) == pytest.approx(cones, abs=6e-13)
+        assert tuple(cones_of(configuration).values()) == pytest.approx(cones, abs=60 * off)
         assert degrees(antiprism_latitude(n, cap, side)) == pytest.approx(latitude, abs=6e-13)
 
 
@@ -480,8 +523,11 @@ def test_equal_gears_have_the_latitude_in_closed_form_and_by_the_root() -> None:
 def test_caps_that_are_too_large_are_refused() -> None:
     with pytest.raises(GearTrainError, match="too many for 10 on the sides"):
         moved_antiprism(4, 30, 10)
+    with pytest.raises(GearTrainError, match="no place with one pitch"):
+        moved_solid(4, 30, 10)
 
 
+@pytest.mark.parametrize(("make", "off"), [(idler_sphere, 1e-14), (solid_with_idlers, 4e-13)])
 @pytest.mark.parametrize(
     ("solid", "teeth", "gears", "meshes", "cones"),
     [
@@ -490,21 +536,30 @@ def test_caps_that_are_too_large_are_refused() -> None:
     ],
 )
 def test_idler_spheres(
-    solid: str, teeth: dict[str, int], gears: int, meshes: int, cones: tuple[float, float, float]
+    solid: str,
+    teeth: dict[str, int],
+    gears: int,
+    meshes: int,
+    cones: tuple[float, float, float],
+    make: Callable[[str, dict[str, int], int], Configuration],
+    off: float,
 ) -> None:
-    configuration = idler_sphere(solid, teeth, 8)  # type: ignore[arg-type]
+    configuration = make(solid, teeth, 8)
     assert (len(configuration.axes), len(configuration.meshes)) == (gears, meshes)
     assert size_gears(configuration).exact
-    assert worst_tangency(configuration) < 1e-14
-    assert tuple(cones_of(configuration).values()) == pytest.approx(cones, abs=6e-13)
+    assert worst_tangency(configuration) < off
+    assert tuple(cones_of(configuration).values()) == pytest.approx(cones, abs=60 * off)
     assert worst_residue(configuration) == 0
     assert all(isinstance(share, Fraction) for rule in loop_rules(configuration) for share in rule)
 
 
+@pytest.mark.parametrize("make", [idler_sphere, solid_with_idlers])
 @pytest.mark.parametrize("idler", [7, 8, 11])
-def test_idlers_are_free_and_faces_are_not(idler: int) -> None:
-    assert worst_residue(idler_sphere("icosidodecahedron", {"5": 25, "3": 15}, idler)) == 0
-    assert worst_residue(idler_sphere("icosidodecahedron", {"5": 20, "3": 13}, idler)) > 0.3
+def test_idlers_are_free_and_faces_are_not(
+    idler: int, make: Callable[[str, dict[str, int], int], Configuration]
+) -> None:
+    assert worst_residue(make("icosidodecahedron", {"5": 25, "3": 15}, idler)) == 0
+    assert worst_residue(make("icosidodecahedron", {"5": 20, "3": 13}, idler)) > 0.3
 
 
 def test_idlers_need_one_kind_of_mesh() -> None:
@@ -512,6 +567,7 @@ def test_idlers_need_one_kind_of_mesh() -> None:
         with_idlers(from_polyhedron("rhombicuboctahedron", teeth={"4a": 10, "4b": 9, "3": 6}), 8)
 
 
+@pytest.mark.parametrize(("make", "off"), [(icosahedral, 1e-14), (icosahedron_with_pairs, 4e-13)])
 @pytest.mark.parametrize(
     ("teeth", "pitch", "t", "cones", "misses"),
     [
@@ -523,17 +579,25 @@ def test_idlers_need_one_kind_of_mesh() -> None:
     ],
 )
 def test_the_icosahedral_set_of_92(
-    teeth: tuple[int, int, int], pitch: float, t: float, cones: tuple[float, ...], misses: float
+    teeth: tuple[int, int, int],
+    pitch: float,
+    t: float,
+    cones: tuple[float, ...],
+    misses: float,
+    make: Callable[[int, int, int], Configuration],
+    off: float,
 ) -> None:
     found, place = icosahedral_pitch(*teeth)
     assert found == pytest.approx(pitch, abs=6e-13)
     assert degrees(place) == pytest.approx(t, abs=6e-13)
-    configuration = icosahedral(*teeth)
+    configuration = make(*teeth)
     assert (len(configuration.axes), len(configuration.meshes)) == (92, 180)
-    assert worst_tangency(configuration) < 1e-14
-    assert tuple(cones_of(configuration).values()) == pytest.approx(cones, abs=6e-10)
+    assert size_gears(configuration).pitch == pytest.approx(pitch, abs=6e-13)
+    assert worst_tangency(configuration) < off
+    assert sorted(cones_of(configuration).values()) == pytest.approx(sorted(cones), abs=6e-10)
     # regions of two kinds: those beside a vertex miss by the printed residue, those across an edge by twice that
-    around = {abs(round(float(residue(teeth, rule)), 9)) for rule in loop_rules(configuration)}
+    counts = [configuration.teeth[kind] for kind in dict.fromkeys(configuration.kinds)]
+    around = {abs(round(float(residue(counts, rule)), 9)) for rule in loop_rules(configuration)}
     twice = abs(2 * misses - round(2 * misses))
     assert sorted(around) == pytest.approx(sorted([misses, twice]), abs=2e-9)
 

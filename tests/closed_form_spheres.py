@@ -1,11 +1,15 @@
-"""Sets on a sphere that share one pitch exactly: moved antiprisms, idlers on the edges, and the icosahedral 92."""
+"""Sets on a sphere that share one pitch exactly, from roots of one equation each: an oracle for `from_polyhedron`.
+
+Moved antiprisms, idlers on the edges of solids whose meshes are all alike, and the icosahedral set of 92; axes from
+permuted coordinates, no symmetry group and no Newton's method in many unknowns.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from itertools import product
 from math import acos, asin, atan, cos, inf, pi, sin, sqrt
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -18,7 +22,6 @@ if TYPE_CHECKING:
 
 
 PHI = (1 + sqrt(5)) / 2
-Solid = Literal["octahedron", "cuboctahedron", "icosidodecahedron"]
 
 
 def zigzag_angle(latitude: float, n: int) -> float:
@@ -144,7 +147,7 @@ def _between(first: Floats, second: Floats, S: float) -> list[tuple[int, int]]:
     return [(int(i), int(j) + len(first)) for i, j in zip(rows, columns, strict=True)]
 
 
-def quasiregular(solid: Solid, teeth: Mapping[str, int] | None = None) -> Configuration:
+def quasiregular(solid: str, teeth: Mapping[str, int] | None = None) -> Configuration:
     """Gears on the faces of a solid whose meshes are all alike; the kinds are the numbers of the faces' edges."""
     if solid == "octahedron":
         axes = cube_vertices()
@@ -242,7 +245,7 @@ def _along(a: Floats, b: Floats, angle: float) -> Floats:
     return np.asarray(cos(angle) * a + sin(angle) * across / np.linalg.norm(across), dtype=float)
 
 
-def idler_sphere(solid: Solid, teeth: Mapping[str, int], idler: int) -> Configuration:
+def idler_sphere(solid: str, teeth: Mapping[str, int], idler: int) -> Configuration:
     """Faces and edge idlers: 38 gears on the cuboctahedron, 92 on the icosidodecahedron; one pitch for any teeth.
 
     teeth   of the faces, by their number of edges: {"5": 20, "3": 12}. Loops close exactly where 2 divides z4 and 3

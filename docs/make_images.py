@@ -15,7 +15,7 @@ from rich.console import Console
 
 import geartrain
 from geartrain.drawing import law_figure, motion_figure, picture, power_figure, render, sphere_figure, teeth_figure
-from geartrain.dynamics.motion import MotionRun
+from geartrain.dynamics import MotionRun
 from geartrain.report.document import Document
 from geartrain.report.text import to_terminal
 from geartrain.report.train_report import describe_train

@@ -22,7 +22,7 @@ from sorge import APPROACH, Segment, mp
 from sorge import Pair as Couple
 
 from geartrain import load
-from geartrain.dynamics.motion import Motion, TransmissionErrorCurve
+from geartrain.dynamics import Motion, TransmissionErrorCurve
 from geartrain.teeth.triangular.pair_geometry import TriangularSizes, equal_depth
 from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
 

@@ -14,7 +14,8 @@ from numpy.typing import NDArray
 
 from geartrain.analysis.gear_train import GearTrain
 from geartrain.analysis.loader import load
-from geartrain.dynamics.motion import Motion, RunningStatistics, Superposition
+from geartrain.dynamics import Motion, RunningStatistics
+from geartrain.dynamics.motion.superposition import Superposition
 from geartrain.teeth.triangular import clearance_window, triangular_transmission
 from studies.measurement import Rounds, Task, in_turns, timed
 from studies.motion_records import (

@@ -13,7 +13,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from geartrain.dynamics.motion import Motion, PairErrorSource
+from geartrain.dynamics import Motion
+from geartrain.dynamics.motion.error_composition import PairErrorSource
 from geartrain.numerics.elimination import LinearForm, eliminate
 from geartrain.teeth.pin_transmission import PinToSlotTransmission
 from geartrain.teeth.transmission import TransmissionFunction

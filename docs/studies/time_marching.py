@@ -12,7 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from geartrain.analysis.gear_train import GearTrain
-from geartrain.dynamics.motion import Motion, PairErrorSource
+from geartrain.dynamics import Motion
+from geartrain.dynamics.motion.error_composition import PairErrorSource
 from geartrain.teeth.transmission import TransmissionFunction
 from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
 

@@ -14,8 +14,10 @@ from geartrain.train import StateCase, Train, declare
 if TYPE_CHECKING:
     from geartrain.dynamics.driven_meshes import DrivenWays
     from geartrain.dynamics.gear_meshes import PinMesh
-    from geartrain.dynamics.motion import Motion, MotionProblem, ToothImpact
-    from geartrain.dynamics.torques import DrivenWay, LoadCase, PowerFlow, Torques
+    from geartrain.dynamics import Motion, ToothImpact
+    from geartrain.dynamics.motion.motion_problem import MotionProblem
+    from geartrain.dynamics import DrivenWay, PowerFlow, Torques
+    from geartrain.dynamics.torques.load_case import LoadCase
     from geartrain.kinematics.phasing import MeshPhasing
     from geartrain.teeth.gear_mesh import GearMesh, MeshDriver
 
@@ -152,7 +154,7 @@ class GearTrain(TrainKinematics):
         without : sequence of str
             Pairs left out.
         """
-        from geartrain.dynamics.torques import find_drivers
+        from geartrain.dynamics.torques.drivers import find_drivers
 
         state = self._case(state).state
         key = state, tuple(without)
@@ -181,7 +183,7 @@ class GearTrain(TrainKinematics):
         Torques
             With a verdict: self-locking, or loads that do not balance, are no error.
         """
-        from geartrain.dynamics.torques import find_torques, torques_unknown
+        from geartrain.dynamics.torques.torque_analysis import find_torques, torques_unknown
 
         setting = self._setting(state)
         return torques_unknown(state) if setting is None else find_torques(setting)
@@ -196,7 +198,7 @@ class GearTrain(TrainKinematics):
         state : str, optional
             A declared state; None only of a train that has none.
         """
-        from geartrain.dynamics.torques import drive, torques_unknown
+        from geartrain.dynamics.torques.torque_analysis import drive, torques_unknown
 
         for link in (load, source):
             check_choice("link", link, tuple(self.declaration.links))
@@ -216,7 +218,8 @@ class GearTrain(TrainKinematics):
         list of DrivenWay
             Two ways; empty where it is not plain which link is the output.
         """
-        from geartrain.dynamics.torques import DrivenWay, input_and_output
+        from geartrain.dynamics import DrivenWay
+        from geartrain.dynamics.torques.load_case import input_and_output
 
         case = self.declaration.case(state if state is not None or not self.states else self.states[0])
         found = input_and_output(self.declaration, case)
@@ -231,9 +234,9 @@ class GearTrain(TrainKinematics):
         found : Torques
             As `torques`, `driven` or `drive_both_ways` give them.
         """
-        from geartrain.dynamics.torques import find_power_flow
+        from geartrain.dynamics.torques.power_flow import find_power_flow
 
-        return find_power_flow(self.declaration, self.tree, self.signs, found)
+        return find_power_flow(found)
 
     def motion(
         self,
@@ -265,7 +268,7 @@ class GearTrain(TrainKinematics):
         QuestionError
             If the train does not move, or a pair or output is not declared.
         """
-        from geartrain.dynamics.motion import Motion
+        from geartrain.dynamics import Motion
 
         case = self._case(state)
         names = outputs or tuple(case.outputs) or tuple(self.declaration.links)
@@ -289,13 +292,14 @@ class GearTrain(TrainKinematics):
         inertias = {name: link.inertia.si for name, link in declared.links.items() if link.inertia is not None}
         if not inertias or declared.rate is None or declared.rate.unit is None or not self._teeth:
             return {}
-        from geartrain.dynamics.motion import Motion, find_impacts
+        from geartrain.dynamics import Motion
+        from geartrain.dynamics.motion.tooth_impacts import find_impacts
 
         moving = self._moving(case, ())
         return {} if moving.contradictions() else find_impacts(Motion(moving, {}), inertias, declared.rate.si)
 
     def _moving(self, case: StateCase, without: Sequence[str]) -> MotionProblem:
-        from geartrain.dynamics.motion import build_motion_problem
+        from geartrain.dynamics.motion.motion_problem import build_motion_problem
 
         solution = self._speeds.solution(case)
         if not solution.verdict or not any(case.inputs.values()):
@@ -320,7 +324,8 @@ class GearTrain(TrainKinematics):
         return self._settings[state]
 
     def _make_setting(self, case: StateCase) -> LoadCase | None:
-        from geartrain.dynamics.torques import LoadCase, speed_forms
+        from geartrain.dynamics.torques.load_case import LoadCase
+        from geartrain.dynamics.torques.virtual_work import speed_forms
 
         solution = self._speeds.solution(case)
         if solution.verdict.kind not in ("determined", "free"):

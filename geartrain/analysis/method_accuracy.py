@@ -19,7 +19,8 @@ from geartrain.errors import GearTrainError
 from geartrain.teeth.transmission import TransmissionFunction
 
 if TYPE_CHECKING:
-    from geartrain.dynamics.motion import Motion, Superposition
+    from geartrain.dynamics import Motion
+    from geartrain.dynamics.motion.superposition import Superposition
     from geartrain.kinematics.answer import Answer
     from geartrain.numerics.arrays import Floats
 
@@ -217,7 +218,7 @@ def measure_motion(train: GearTrain, state: str | None, positions: int) -> Itera
         raise AbsentStageError("no error reaches an output")
     import numpy as np
 
-    from geartrain.dynamics.motion import Superposition
+    from geartrain.dynamics.motion.superposition import Superposition
 
     turns: Floats = np.arange(positions, dtype=float) * (TURNS / positions)
     seconds, direct = _best(partial(_errors, motion, turns))

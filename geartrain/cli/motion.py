@@ -30,7 +30,7 @@ from geartrain.cli.option_values import MOST_COUNT
 from geartrain.cli.option_values import turns as read_turns
 
 if TYPE_CHECKING:
-    from geartrain.dynamics.motion import ErrorSamples, Motion, MotionRun
+    from geartrain.dynamics import ErrorSamples, Motion, MotionRun
 
 Names = list[str] | None
 
@@ -61,7 +61,7 @@ def run(
 ) -> None:
     """Transmission error and speed of outputs with real teeth and pins; to a .csv, every position."""
     from geartrain.analysis.loader import load
-    from geartrain.dynamics.motion import MotionRun
+    from geartrain.dynamics import MotionRun
 
     to = sink(out, force, (".md", ".html", ".json", ".csv"))
     picture = sink(plot, force, PICTURES, "--plot")

@@ -26,7 +26,7 @@ from geartrain.cli.common import (
 
 if TYPE_CHECKING:
     from geartrain.analysis.gear_train import GearTrain
-    from geartrain.dynamics.torques import Torques
+    from geartrain.dynamics import Torques
 
 
 def run(
@@ -59,7 +59,7 @@ def run(
 def _draw(train: GearTrain, found: Sequence[Torques], picture: Sink) -> None:
     """The flow under the declared loads; without any, that of a unit of power from the input to the output."""
     from geartrain.drawing import power_figure
-    from geartrain.dynamics.torques import watts_per_unit
+    from geartrain.dynamics.torques.power_flow import watts_per_unit
 
     loaded = [each for each in found if each.verdict.kind != "unloaded"] if len(found) > 1 else list(found)
     if len(loaded) != 1:
@@ -76,7 +76,7 @@ def _draw(train: GearTrain, found: Sequence[Torques], picture: Sink) -> None:
 
 def _summary(torques: Torques) -> str:
     """Efficiency, or why there is none, and what is lost where."""
-    from geartrain.dynamics.torques import percent_text
+    from geartrain.numerics.decimal_text import percent_text
 
     if not torques.verdict or not torques.power_in:
         return torques.verdict.text

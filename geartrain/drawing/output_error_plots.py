@@ -13,7 +13,7 @@ from geartrain.drawing.style import BLUE, GREY, RED, WIDTH
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from geartrain.dynamics.motion import MotionRun
+    from geartrain.dynamics import MotionRun
     from geartrain.numerics.arrays import Floats
 
 

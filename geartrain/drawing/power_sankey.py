@@ -10,8 +10,9 @@ from typing import Any
 from geartrain.drawing.backend import Axes, Figure, Line2D, Patch, Path, PathPatch, Rectangle, Stroke
 from geartrain.drawing.sankey import BEND, DROP, TURN, BandSegment, ReturnBand, SankeyLayout, SankeySpot, lay_out_sankey
 from geartrain.drawing.style import BLACK, BLUE, GREEN, GREY, PURPLE, RED, SKY, SMALL, TEXT, WIDTH
-from geartrain.dynamics.torques.power_flow import PowerFlow, PowerNode, percent_of_text, percent_text, watts_text
+from geartrain.dynamics import PowerFlow, PowerNode
 from geartrain.errors import GearTrainError, Problem
+from geartrain.numerics.decimal_text import percent_of_text, percent_text, watts_text
 
 _FINEST = 0.7  # points: a band is never drawn narrower
 _MOST = 300  # nodes

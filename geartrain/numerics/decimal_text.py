@@ -1,4 +1,4 @@
-"""Integers and Fractions of any length as text: in decimal, in full, or abridged.
+"""Integers and Fractions of any length as text: in decimal, in full, or abridged; shares and powers for a reader.
 
 The limit that Python sets to the digits of an integer is neither met nor moved.
 """
@@ -86,6 +86,39 @@ def abridged_text(value: Fraction | int, most: int = 40) -> str:
         return fraction_text(value)
     top, bottom = value.numerator, value.denominator
     return f"({count_digits(top)} digits)" + (f"/({count_digits(bottom)} digits)" if bottom != 1 else "")
+
+
+_PREFIXES = ((1e6, "M"), (1e3, "k"), (1.0, ""), (1e-3, "m"), (1e-6, "µ"))
+
+
+def watts_text(power: float) -> str:
+    """Watts with the prefix that keeps the number short.
+
+    >>> watts_text(0.0025), watts_text(0)
+    ('2.5 mW', '0 W')
+    """
+    for size, prefix in _PREFIXES:
+        if abs(power) >= size:
+            return f"{power / size:.4g} {prefix}W"
+    return f"{power * 1e9:.4g} nW" if power else "0 W"
+
+
+def percent_text(part: Fraction, digits: int = 4) -> str:
+    """A share in percent; from ten times the whole on, as a multiple of it.
+
+    >>> percent_text(Fraction(46, 47)), percent_text(Fraction(2588, 10))
+    ('97.87 %', '258.8 times')
+    """
+    return f"{float(100 * part):.{digits}g} %" if abs(part) < 10 else f"{float(part):.{digits}g} times"
+
+
+def percent_of_text(part: Fraction, whole: str) -> str:
+    """A share of something named.
+
+    >>> percent_of_text(Fraction(1, 2), "the power in"), percent_of_text(Fraction(2588, 10), "the power in")
+    ('50 % of the power in', '258.8 times the power in')
+    """
+    return f"{percent_text(part)} of {whole}" if abs(part) < 10 else f"{percent_text(part)} {whole}"
 
 
 def is_short(value: Fraction | int, most: int) -> bool:

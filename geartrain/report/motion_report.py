@@ -15,7 +15,7 @@ from geartrain.report.document import Document, Section, Table, figure
 
 if TYPE_CHECKING:
     from geartrain.analysis.gear_train import GearTrain
-    from geartrain.dynamics.motion import ErrorEstimates, MotionRun, RunningStatistics, SpectrumLine
+    from geartrain.dynamics import ErrorEstimates, MotionRun, RunningStatistics, SpectrumLine
     from geartrain.teeth.gear_mesh import GearMesh, MeshDriver
 
 
@@ -79,7 +79,7 @@ def moving_figures(train: GearTrain) -> tuple[MotionFigures | UnfollowedMotion, 
 def _runs(train: GearTrain) -> Iterator[tuple[str | None, MotionRun | GearTrainError]]:
     if not _ripples(train):
         return
-    from geartrain.dynamics.motion import MotionRun
+    from geartrain.dynamics import MotionRun
 
     for state in train.states or (None,):
         try:

@@ -8,13 +8,13 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, NamedTuple
 
 from geartrain.analysis.gear_train import GearTrain
+from geartrain.numerics.decimal_text import percent_of_text, percent_text, watts_text
 from geartrain.numerics.exact import as_float
 from geartrain.numerics.plain_data import Key, Result
 from geartrain.report.document import Document, Section, Table, cut, figure
 
 if TYPE_CHECKING:
-    from geartrain.dynamics.torques.power_flow import PowerFlow, PowerLoss
-    from geartrain.dynamics.torques.torque_results import Torques, TorqueVerdict
+    from geartrain.dynamics import PowerFlow, PowerLoss, Torques, TorqueVerdict
 
 _UNITS = (
     "Torques as loads are given; power is torque times speed in the train's unit, positive into the train; in a pair, "
@@ -92,14 +92,12 @@ class _Amounts:
     """Powers and torques in words: in watts and N m where they are real."""
 
     def __init__(self, train: GearTrain, found: Torques) -> None:
-        from geartrain.dynamics.torques import has_torque_units
+        from geartrain.dynamics.torques.power_flow import has_torque_units
 
         self.watts = _watts(train, found)
         self.unit = " N m" if has_torque_units(train.declaration, found.state) else ""
 
     def text(self, power: Fraction, digits: int = 7) -> str:
-        from geartrain.dynamics.torques import watts_text
-
         return figure(power, digits) if self.watts is None else watts_text(float(power) * self.watts)
 
     def torque(self, torque: Fraction) -> str:
@@ -107,7 +105,7 @@ class _Amounts:
 
 
 def _watts(train: GearTrain, found: Torques) -> float | None:
-    from geartrain.dynamics.torques import watts_per_unit
+    from geartrain.dynamics.torques.power_flow import watts_per_unit
 
     return watts_per_unit(train.declaration, train.declaration.case(found.state))
 
@@ -168,8 +166,6 @@ def _pairs(found: Torques, amounts: _Amounts) -> Table:
 
 def _loops(flow: PowerFlow, amounts: _Amounts) -> Iterator[str]:
     """Which pairs hand power round in circles, and how much."""
-    from geartrain.dynamics.torques import percent_of_text
-
     if flow.loops:
         yield "Here power is torque times absolute speed, so that every shaft and pair gives on what it takes in."
     for loop in flow.loops:
@@ -204,8 +200,6 @@ def _losses(flow: PowerFlow, amounts: _Amounts, blows: Mapping[str, float]) -> I
 
 def _loss_row(flow: PowerFlow, amounts: _Amounts, lost: Fraction, blow: float | None) -> tuple[str, ...]:
     """A loss with its shares, then what collisions dissipate, and its share."""
-    from geartrain.dynamics.torques import percent_text, watts_text
-
     parts = (percent_text(lost / whole) if whole else "-" for whole in (flow.power_in, flow.loss))
     if blow is None:
         return (amounts.text(lost), *parts, "", "")

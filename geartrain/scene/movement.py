@@ -14,8 +14,9 @@ from geartrain.scene.context import SceneContext
 from geartrain.scene.elements import ErrorLawTable, ErrorSource, ErrorStep, Movement, plain
 
 if TYPE_CHECKING:
-    from geartrain.dynamics.motion import ErrorComposition, Motion
+    from geartrain.dynamics import Motion
     from geartrain.dynamics.motion.error_composition import CompositionStep as Composed
+    from geartrain.dynamics.motion.error_composition import ErrorComposition
     from geartrain.numerics.arrays import Floats
     from geartrain.teeth.transmission import TransmissionFunction as ToothLaw
 

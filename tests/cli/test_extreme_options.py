@@ -18,7 +18,7 @@ from hypothesis import Phase, given, settings
 from hypothesis import strategies as st
 
 import geartrain
-from geartrain.dynamics.motion import MotionRun
+from geartrain.dynamics import MotionRun
 from geartrain.errors import GearTrainError
 from geartrain.teeth.pin_transmission import PinToSlotTransmission, PinTransmission, SlotToPinTransmission
 from geartrain.teeth.triangular.pair_geometry import TriangularSizes, equal_depth

@@ -18,7 +18,7 @@ from joint_rates import Row, Skeleton, Space, inputs_of, move, rigid, sides
 from random_trains import RandomTrain, driven_train
 
 from geartrain import GearTrain, load
-from geartrain.dynamics.motion import Motion
+from geartrain.dynamics import Motion
 from geartrain.scene import make_scene
 from geartrain.scene.pose import body_errors as errors_in_scene
 

@@ -20,7 +20,9 @@ from reference_solver import echelon, pair_name, rigid_rows, solve_naively, turn
 from reference_solver import find_carrier as carrier_of
 
 from geartrain import GearTrain, GearTrainError, load, shipped
-from geartrain.dynamics.torques import LoadedPair, TorqueBalance, Torques, find_flow_patterns
+from geartrain.dynamics import Torques
+from geartrain.dynamics.torques.flow_patterns import find_flow_patterns
+from geartrain.dynamics.torques.torque_balance import LoadedPair, TorqueBalance
 from geartrain.teeth.transmission import TransmissionFunction
 from geartrain.train.mechanism import Efficiencies
 

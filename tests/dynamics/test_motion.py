@@ -14,8 +14,9 @@ from places import DOCS
 from scipy.optimize import fsolve
 
 from geartrain import GearTrainError, load
-from geartrain.dynamics.motion import ErrorComposition, ErrorSamples, MotionRun, RunningStatistics
+from geartrain.dynamics import ErrorSamples, MotionRun, RunningStatistics
 from geartrain.dynamics.motion.coupled_errors import CoupledErrors, solve_coupled_errors
+from geartrain.dynamics.motion.error_composition import ErrorComposition
 from geartrain.kinematics.components import SolvedPart
 from geartrain.kinematics.speeds import solve
 from geartrain.teeth.pin_transmission import PinToSlotTransmission

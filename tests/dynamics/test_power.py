@@ -20,16 +20,10 @@ from hypothesis import strategies as st
 from places import ROOT
 
 from geartrain import GearTrain, GearTrainError, load, shipped
-from geartrain.dynamics.torques import (
-    PowerFlow,
-    PowerNode,
-    Torques,
-    input_and_output,
-    percent_of_text,
-    percent_text,
-    watts_per_unit,
-    watts_text,
-)
+from geartrain.dynamics import PowerFlow, PowerNode, Torques
+from geartrain.dynamics.torques.load_case import input_and_output
+from geartrain.dynamics.torques.power_flow import watts_per_unit
+from geartrain.numerics.decimal_text import percent_of_text, percent_text, watts_text
 from geartrain.report.document import Document
 from geartrain.report.power_report import (
     collect_torques,
@@ -302,6 +296,25 @@ def test_what_is_shared_in_no_certain_way_has_no_flow() -> None:
 
 
 # -------------------------------------------------------------------------------------------------------------- amounts
+
+
+def test_a_bearing_that_turns_at_no_certain_speed_takes_no_part_in_the_flow() -> None:
+    train = load(
+        """
+        links:
+          frame: {}
+          a: {wheels: {x: 20}, bearing: 1 N mm}
+          b: {wheels: {y: 40}}
+          loose: {bearing: 2 N mm}
+        revolutes: [{pair: [frame, a], axis: A}, {pair: [frame, b], axis: B}, {pair: [frame, loose], axis: C}]
+        gears: [{pair: [x, y], efficiency: 0.9}]
+        inputs: {a: 1}
+        loads: {b: 10 N mm}
+        """
+    )
+    flow = train.power_flow(train.torques())
+    # b turns at -1/2 and puts 5e-3 in against its load; a tenth is lost in the teeth, 1e-3 in the bearing
+    assert flow.losses == {PowerNode("pair", "x~y"): Fraction(1, 1800), PowerNode("bearing", "a"): Fraction(1, 1000)}
 
 
 @pytest.mark.parametrize(

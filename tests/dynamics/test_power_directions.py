@@ -16,7 +16,8 @@ from hypothesis import assume, event, given, reject, settings
 from hypothesis import strategies as st
 
 from geartrain import load
-from geartrain.dynamics.torques import LoadedPair, TorqueBalance, find_flow_patterns
+from geartrain.dynamics.torques.flow_patterns import find_flow_patterns
+from geartrain.dynamics.torques.torque_balance import LoadedPair, TorqueBalance
 from geartrain.numerics.block_triangular import dulmage_mendelsohn_blocks
 
 ZERO, ONE = Fraction(0), Fraction(1)

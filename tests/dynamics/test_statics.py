@@ -20,7 +20,7 @@ from reference_solver import echelon, is_a_linkage, rigid_rows, solve_naively, w
 from strategies import Data, trains
 
 from geartrain import GearTrain, load
-from geartrain.dynamics.torques import Torques
+from geartrain.dynamics import Torques
 from geartrain.report.power_report import collect_torques, describe_torques
 from geartrain.report.text import to_markdown
 from geartrain.report.train_report import describe_train

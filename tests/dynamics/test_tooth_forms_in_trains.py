@@ -19,9 +19,8 @@ from hypothesis import strategies as st
 from models import PAIR, PLANETARY
 from places import DOCS
 
-import geartrain.dynamics.motion
 from geartrain import GearTrain, GearTrainError, load
-from geartrain.dynamics.motion import MotionRun
+from geartrain.dynamics import MotionRun
 from geartrain.report.text import to_markdown
 from geartrain.report.train_data import collect_report
 from geartrain.report.train_report import describe_train
@@ -327,7 +326,7 @@ def test_a_page_names_the_pairs_that_keep_their_ratio_and_follows_none(monkeypat
     def forbidden(*_: object) -> None:
         raise AssertionError("a motion is followed")
 
-    monkeypatch.setattr(geartrain.dynamics.motion, "MotionRun", forbidden)
+    monkeypatch.setattr("geartrain.dynamics.motion.motion_run.MotionRun", forbidden)
     train = load("longcase-clock-cycloidal")
     page = to_markdown([describe_train(train)])
     assert "add nothing to any motion: g96~c8, c60~t8, t56~e7, cannon~mw40, mw6~h72 (cycloidal)" in page

@@ -14,7 +14,8 @@ from hypothesis import strategies as st
 from places import DATA
 
 from geartrain import GearTrainError, load, shipped
-from geartrain.dynamics.torques import LoadedPair, TorqueBalance, find_flow_patterns
+from geartrain.dynamics.torques.flow_patterns import find_flow_patterns
+from geartrain.dynamics.torques.torque_balance import LoadedPair, TorqueBalance
 
 CASES = json.loads((DATA / "cases.json").read_text(encoding="utf-8"))["efficiency"]
 

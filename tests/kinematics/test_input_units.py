@@ -18,7 +18,7 @@ from strategies import Data, driven_trains
 
 import geartrain
 from geartrain import GearTrain, GearTrainError, load
-from geartrain.dynamics.torques import watts_per_unit
+from geartrain.dynamics.torques.power_flow import watts_per_unit
 from geartrain.export.rexs import _per_minute
 from geartrain.scene import make_scene
 

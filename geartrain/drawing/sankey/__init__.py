@@ -30,7 +30,7 @@ from geartrain.drawing.sankey.sankey_columns import (
     turns,
 )
 from geartrain.drawing.sankey.sankey_order import order_columns, settle_heights
-from geartrain.dynamics.torques.power_flow import PowerFlow, PowerNode
+from geartrain.dynamics import PowerFlow, PowerNode
 
 __all__ = [
     "BEND",

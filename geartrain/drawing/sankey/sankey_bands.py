@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 
-from geartrain.dynamics.torques.power_flow import PowerNode, PowerStream
+from geartrain.dynamics import PowerNode, PowerStream
 
 NAME = 0.46  # room above a node
 DROP, BEND = 0.14, 0.05  # how far a loss falls, and the inner radius on its way down

@@ -10,7 +10,7 @@ from itertools import pairwise
 from math import inf
 
 from geartrain.drawing.sankey.sankey_bands import TURN, BandSegment, ReturnBand, SankeySpot
-from geartrain.dynamics.torques.power_flow import PowerFlow, PowerNode, PowerStream
+from geartrain.dynamics import PowerFlow, PowerNode, PowerStream
 
 _LEAST_GAP = 0.62  # between columns
 

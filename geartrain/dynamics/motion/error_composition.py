@@ -154,9 +154,15 @@ class ErrorComposition:
 
     def driver_shift(self, source: PairErrorSource, error: Floats) -> float:
         """What errors of links (rad, by index) add to the forward angle of a source's driver."""
+        return float(sum(sign * error[link] for link, sign in self._turned_by(source)))
+
+    def _turned_by(self, source: PairErrorSource) -> tuple[tuple[int, int], tuple[int, int]]:
+        """The links whose errors turn a source's driver, itself and its carrier, each with its sign: equation (3)."""
         joint = self.spread.joints[source.pair]
-        own, carried = source.driver_sense * error[joint.driver], source.carrier_sense * error[joint.carrier]
-        return float(source.forward * (own - carried))
+        return (
+            (joint.driver, source.forward * source.driver_sense),
+            (joint.carrier, -source.forward * source.carrier_sense),
+        )
 
     def _ends(self, source: int) -> tuple[int, int]:
         joint = self.spread.joints[self.sources[source].pair]
@@ -247,10 +253,9 @@ class ErrorComposition:
         if source.start:
             S += source.start
         turning: Floats | float = source.mean
-        for link, sense in zip(self._ends(at), (source.driver_sense, -source.carrier_sense), strict=True):
+        for link, sign in self._turned_by(source):
             place = self._place.get(link)
             if place is not None:
-                sign = source.forward * sense
                 S += sign * error[place]
                 turning = turning + sign * rate[place]
         return S, turning
@@ -260,10 +265,9 @@ class ErrorComposition:
         inside = {link: at for at, link in enumerate(step.links)}
         gain = np.zeros((len(step.sources), len(step.sources)))
         for row, at in enumerate(step.sources):
-            source = self.sources[at]
-            for link, sense in zip(self._ends(at), (source.driver_sense, -source.carrier_sense), strict=True):
+            for link, sign in self._turned_by(self.sources[at]):
                 if link in inside:
-                    gain[row] += source.forward * sense * step.from_sources[inside[link]]
+                    gain[row] += sign * step.from_sources[inside[link]]
         sources = [self.sources[at] for at in step.sources]
         return CoupledErrors(
             tuple(source.id for source in sources),

@@ -12,15 +12,11 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import chain, islice, product
-from typing import TYPE_CHECKING
 
+from geartrain.dynamics.torques.block_solution import Sides, eliminate_block, solve_block
 from geartrain.dynamics.torques.torque_balance import DrivingSides, SolvedTorques, TorqueBalance, TorqueUnknown
 from geartrain.numerics.block_triangular import Block
-from geartrain.numerics.elimination import Echelon, LinearForm, eliminate, feasible
-
-if TYPE_CHECKING:
-    pass
-
+from geartrain.numerics.elimination import LinearForm, feasible
 
 _MOST_TRIED = 14  # lossy torques of a block whose patterns are all tried
 _MOST_OPEN = 10  # the same where torques stay open anyway, and the iteration has found some that balance
@@ -31,7 +27,6 @@ _MOST_FLOWS = 256  # kept while blocks are gone through
 _NEAR = 1e-9  # of the greatest torque: a direction this faint may be either
 _KNOWN = -1  # the column in which known torques stand
 
-Sides = Mapping[int, int]
 Values = dict[int, Fraction | None]
 """Torque by column; None where nothing determines it."""
 
@@ -60,7 +55,7 @@ def find_flow_patterns(balance: TorqueBalance) -> tuple[tuple[FlowPattern, ...],
     """All consistent flows, and whether all patterns were tried."""
     found = _through(balance, balance.parts)
     if found is None:
-        found = _through(balance, [Block(tuple(balance.rows), tuple(range(len(balance.columns))))])
+        found = _through(balance, [balance.whole])
     partials, complete = found or ([], True)
     return tuple(_flow(balance, each) for each in partials), complete
 
@@ -163,8 +158,7 @@ def _is_consistent(
     bound = [column for column, value in values.items() if value is None and (sides[column] or columns[column].barred)]
     if not bound:
         return True
-    echelon = _echelon(columns, block, sides, known)
-    solved = echelon.forms()
+    solved = eliminate_block(columns, block, sides, _forms(known)).forms()
     demands: list[LinearForm] = []
     for column in bound:
         form = solved.get(column, {column: Fraction(1)})
@@ -179,29 +173,14 @@ def _solve(
     columns: Sequence[TorqueUnknown], block: Block, sides: Sides, known: Mapping[int, Fraction]
 ) -> Values | None:
     """All torques of a block, or None where none balance the known ones."""
-    if len(block.rows) == len(block.columns) == 1:
-        (row,), (column,) = block.rows, block.columns
-        if coefficient := columns[column].pieces[sides[column]].get(row):
-            return {column: -known[row] / coefficient}
-    echelon = _echelon(columns, block, sides, known)
-    if echelon.conditions:
+    found = solve_block(columns, block, sides, _forms(known))
+    if found is None:
         return None
-    forms = echelon.forms()
-    values: Values = dict.fromkeys(block.columns)
-    for column, form in forms.items():
-        if all(other < 0 for other in form):
-            values[column] = form.get(_KNOWN, Fraction(0))
-    return values
+    return {column: None if form is None else form.get(_KNOWN, Fraction(0)) for column, form in found.items()}
 
 
-def _echelon(columns: Sequence[TorqueUnknown], block: Block, sides: Sides, known: Mapping[int, Fraction]) -> Echelon:
-    """The rows of a block, eliminated."""
-    rows: dict[int, LinearForm] = {row: {_KNOWN: value} if value else {} for row, value in known.items()}
-    for column in block.columns:
-        for row, value in columns[column].pieces[sides[column]].items():
-            if row in rows:
-                rows[row][column] = value
-    return eliminate(rows.values())
+def _forms(known: Mapping[int, Fraction]) -> dict[int, LinearForm]:
+    return {row: {_KNOWN: value} if value else {} for row, value in known.items()}
 
 
 def _candidates(

@@ -8,6 +8,7 @@ from fractions import Fraction
 from functools import cached_property
 
 from geartrain.dynamics.gear_meshes import PinMesh
+from geartrain.dynamics.torques.torque_results import BearingTorque
 from geartrain.dynamics.torques.virtual_work import PRESCRIBED
 from geartrain.kinematics.circuits import Circuit, Tree
 from geartrain.kinematics.relative_speeds import relative_speed
@@ -91,6 +92,23 @@ class LoadCase:
     def turn(self, circuit: Circuit) -> Fraction | None:
         """Speed of a circuit's first link seen from its carrier: where it is 0 no power flows between the two."""
         return self.relative(circuit.i, circuit.carrier)
+
+    @cached_property
+    def bearings(self) -> tuple[BearingTorque, ...]:
+        """Friction of every bearing that has one, against the turning of its link in it: equation (10).
+
+        Nothing where the speed in the joint is 0 or not determined.
+        """
+        found = []
+        for link in self.train.links:
+            if not (friction := self.bearing(link)):
+                continue
+            carrier = self.tree.parent[link][0]
+            relative = self.relative(link, carrier) or Fraction(0)
+            torque = friction * ((relative > 0) - (relative < 0))
+            reaction = Fraction(0) if carrier == self.train.frame else self.sense(carrier) * torque
+            found.append(BearingTorque(link, carrier, -self.sense(link) * torque, reaction, torque * relative))
+        return tuple(found)
 
     def bearing(self, link: str) -> Fraction:
         """Friction torque of a link's bearing, N m or plain."""

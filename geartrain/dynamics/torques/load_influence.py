@@ -12,8 +12,9 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import TYPE_CHECKING, NamedTuple
 
-from geartrain.numerics.block_triangular import Block, dulmage_mendelsohn_blocks
-from geartrain.numerics.elimination import LinearForm, add_into, eliminate
+from geartrain.dynamics.torques.block_solution import solve_block
+from geartrain.numerics.block_triangular import Block
+from geartrain.numerics.elimination import LinearForm, add_into
 
 if TYPE_CHECKING:
     from geartrain.dynamics.torques.torque_balance import TorqueBalance
@@ -93,16 +94,11 @@ class _InfluenceSolver:
 
     def go(self) -> bool:
         """Solve block by block, or all at once where a block leaves open what a later one may need."""
-        columns = self.balance.columns
-        held: dict[int, set[int]] = {row: set() for row in self.balance.rows}
-        for at, column in enumerate(columns):
-            for row in held.keys() & column.pieces[0].keys():
-                held[row].add(at)
         self._start()
-        done = self._through(dulmage_mendelsohn_blocks(held, len(columns)))
+        done = self._through(self.balance.parts)
         if done is None:
             self._start()
-            done = self._through([Block(tuple(self.rows), tuple(range(len(columns))))])
+            done = self._through([self.balance.whole])
         return bool(done)
 
     def _through(self, blocks: Sequence[Block]) -> bool | None:
@@ -119,26 +115,14 @@ class _InfluenceSolver:
 
     def _solve(self, block: Block) -> dict[int, LinearForm | None] | None:
         """Every unknown of a block as a form of symbols, None where it stays open; None for all if nothing balances."""
-        columns = self.balance.columns
         known = {row: self.rows.pop(row) for row in block.rows}
         for row, form in known.items():
             for symbol in form:
                 self.holders[symbol].discard(row)
-        if len(block.rows) == len(block.columns) == 1:
-            (row,), (column,) = block.rows, block.columns
-            if coefficient := columns[column].pieces[0].get(row):
-                return {column: self._merged({symbol: -each / coefficient for symbol, each in known[row].items()})}
-        rows = {row: dict(form) for row, form in known.items()}
-        for column in block.columns:
-            for row, value in columns[column].pieces[0].items():
-                if row in rows:
-                    rows[row][column] = value
-        echelon = eliminate(rows.values())
-        if echelon.conditions:
-            return None
-        solved = echelon.forms()
-        closed = {column: form for column, form in solved.items() if all(other < 0 for other in form)}
-        return {column: closed.get(column) for column in block.columns}
+        found = solve_block(self.balance.columns, block, dict.fromkeys(block.columns, 0), known)
+        if found is None or len(block.rows) > 1 or len(block.columns) > 1:
+            return found
+        return {column: None if form is None else self._merged(form) for column, form in found.items()}
 
     def _merged(self, form: LinearForm) -> LinearForm:
         """One symbol for loads of one sign that are told apart nowhere else."""

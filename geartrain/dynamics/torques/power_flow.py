@@ -16,7 +16,6 @@ from itertools import chain
 from typing import Literal, NamedTuple
 
 from geartrain.dynamics.torques.torque_results import Torques
-from geartrain.kinematics.circuits import Tree, close_joints
 from geartrain.numerics.exact import as_float
 from geartrain.numerics.graphs import joined_groups
 from geartrain.numerics.plain_data import Key, Result
@@ -136,20 +135,16 @@ class PowerFlow(Result):
         return taken - given - self.losses.get(node, Fraction(0))
 
 
-def find_power_flow(train: Train, tree: Tree, signs: Mapping[str, int], found: Torques) -> PowerFlow:
-    """The streams of power under some torques; empty where none were found, or some are shared in no certain way.
-
-    signs   -1 for links whose axis points against its parallels
-    """
+def find_power_flow(found: Torques) -> PowerFlow:
+    """The streams of power under some torques; empty where none were found, or some are shared in no certain way."""
     if not found.verdict or found.open_speeds or any(pair.loose or pair.power is None for pair in found.pairs.values()):
         return PowerFlow()
-    (case,) = close_joints(train, tree, [train.case(found.state)])
-    shafts = _shafts(case.locks)
+    shafts = _shafts(held.links for held in found.held if len(held.links) == 2)
     streams: list[PowerStream] = []
     losses: dict[PowerNode, Fraction] = {}
     ends = [(shafts.get(link, PowerNode("shaft", link)), link, power) for link, power in found.powers.items()]
     streams += [PowerStream(PowerNode("in", link), shaft, power) for shaft, link, power in ends if power > 0]
-    for node, given in _takers(train, tree, signs, found):
+    for node, given in _takers(found):
         net: dict[PowerNode, Fraction] = {}
         for link, power in given:
             shaft = shafts.get(link, PowerNode("shaft", link))
@@ -163,16 +158,14 @@ def find_power_flow(train: Train, tree: Tree, signs: Mapping[str, int], found: T
     return PowerFlow(found.power_in, tuple(streams), losses, tuple(loops))
 
 
-def _shafts(locks: Iterable[tuple[str, str]]) -> dict[str, PowerNode]:
+def _shafts(locks: Iterable[tuple[str, ...]]) -> dict[str, PowerNode]:
     """The shaft of every link that is locked to another one, named by all its links."""
     pairs = list(locks)
     groups = joined_groups(chain(*pairs), pairs)
     return {link: PowerNode("shaft", " + ".join(group)) for group in groups for link in group}
 
 
-def _takers(
-    train: Train, tree: Tree, signs: Mapping[str, int], found: Torques
-) -> Iterator[tuple[PowerNode, Sequence[tuple[str, Fraction]]]]:
+def _takers(found: Torques) -> Iterator[tuple[PowerNode, Sequence[tuple[str, Fraction]]]]:
     """Pairs and bearings with the power that each of their links gives them."""
     speed = found.speeds
     for pair in found.pairs.values():
@@ -180,15 +173,10 @@ def _takers(
             PowerNode("pair", pair.id),
             [(link, -torque * speed[link]) for link, torque in zip(pair.links, pair.torques, strict=True)],
         )
-    if not found.bearing_loss:
-        return
-    for link, part in train.links.items():
-        if part.bearing is None or link == train.frame:
-            continue
-        carrier = tree.parent[link][0]
-        own, other = signs.get(link, 1) * speed[link], signs.get(carrier, 1) * speed.get(carrier, Fraction(0))
-        torque = part.bearing.base * ((own > other) - (own < other))
-        yield PowerNode("bearing", link), [(link, torque * own), (carrier, -torque * other)]
+    for bearing in found.bearings:
+        ends = ((bearing.link, bearing.torque), (bearing.carrier, bearing.reaction))
+        # a bearing that rests, or whose speed is open, has no torque, and need have no speed
+        yield PowerNode("bearing", bearing.link), [(link, -torque * speed[link]) for link, torque in ends if torque]
 
 
 # -------------------------------------------------------------------------------------------------------------- loops
@@ -272,9 +260,6 @@ def _mutual(streams: Sequence[PowerStream], node: PowerNode) -> frozenset[PowerN
     return frozenset(ways[0] & ways[1])
 
 
-_PREFIXES = ((1e6, "M"), (1e3, "k"), (1.0, ""), (1e-3, "m"), (1e-6, "µ"))
-
-
 def has_torque_units(train: Train, state: str | None) -> bool:
     """True if the loads and bearings of one state are given in units."""
     bearings = (part.bearing for part in train.links.values() if part.bearing is not None)
@@ -295,21 +280,3 @@ def watts_per_unit(train: Train, case: StateCase) -> float | None:
     if not train.input_unit or train.unit_speed is None:
         return None
     return float(train.unit_speed * RADIANS_PER_TURN)
-
-
-def watts_text(power: float) -> str:
-    """Watts with the prefix that keeps the number short: `2.5 mW`."""
-    for size, prefix in _PREFIXES:
-        if abs(power) >= size:
-            return f"{power / size:.4g} {prefix}W"
-    return f"{power * 1e9:.4g} nW" if power else "0 W"
-
-
-def percent_text(part: Fraction, digits: int = 4) -> str:
-    """A share in percent: `97.87 %`; many times the whole as a multiple."""
-    return f"{float(100 * part):.{digits}g} %" if abs(part) < 10 else f"{float(part):.{digits}g} times"
-
-
-def percent_of_text(part: Fraction, whole: str) -> str:
-    """`51.75 % of the power in`, `258.8 times the power in`."""
-    return f"{percent_text(part)} of {whole}" if abs(part) < 10 else f"{percent_text(part)} {whole}"

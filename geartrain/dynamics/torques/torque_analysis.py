@@ -123,7 +123,7 @@ def _still(setting: LoadCase, asked: tuple[str, ...]) -> TorqueVerdict | None:
 
 
 def _balanced(setting: LoadCase, loads: Mapping[str, Fraction], asked: UnknownLinks, bearings: bool = True) -> Torques:
-    rubbing = _bearings(setting) if bearings else {}
+    rubbing = _rubbing(setting) if bearings else {}
     known = dict(loads)
     for link, torque in rubbing.items():
         known[link] = known.get(link, Fraction(0)) + torque
@@ -204,19 +204,13 @@ def _mesh(setting: LoadCase, circuit: Circuit, means: MeanEfficiencies | None) -
     return LoadedPair(circuit.id, (i, j, k), senses, a, b, a * relative, forward, backward)
 
 
-def _bearings(setting: LoadCase) -> dict[str, Fraction]:
-    """Friction of bearings against the turning of each link in its joint, where that is determined."""
+def _rubbing(setting: LoadCase) -> dict[str, Fraction]:
+    """What bearings do to each link: the one it turns in, and those of what turns on it."""
     found: dict[str, Fraction] = {}
-    for link in setting.train.links:
-        if not (friction := setting.bearing(link)):
-            continue
-        carrier = setting.tree.parent[link][0]
-        own, other = setting.sense(link), setting.sense(carrier)
-        relative = setting.relative(link, carrier) or Fraction(0)
-        torque = friction * ((relative > 0) - (relative < 0))
-        found[link] = found.get(link, Fraction(0)) - own * torque
-        if carrier != setting.train.frame:
-            found[carrier] = found.get(carrier, Fraction(0)) + other * torque
+    for bearing in setting.bearings:
+        for link, torque in ((bearing.link, bearing.torque), (bearing.carrier, bearing.reaction)):
+            if link != setting.train.frame:
+                found[link] = found.get(link, Fraction(0)) + torque
     return found
 
 
@@ -246,7 +240,7 @@ def _torques(
             mesh.id: _pair(setting, mesh, circuit, flow)
             for mesh, circuit in zip(balance.meshes, setting.circuits, strict=True)
         },
-        _bearing_loss(setting) if rubbing else Fraction(0),
+        setting.bearings if rubbing else (),
         _held(setting, flow),
         left_out,
     )
@@ -266,15 +260,6 @@ def _pair(setting: LoadCase, mesh: LoadedPair, circuit: Circuit, flow: FlowPatte
         mesh.efficiency(ahead),
         mesh.id in flow.solved.loose,
     )
-
-
-def _bearing_loss(setting: LoadCase) -> Fraction:
-    """What bearings take at the speeds of their joints, where these are determined."""
-    found = Fraction(0)
-    for link in setting.train.links:
-        if friction := setting.bearing(link):
-            found += friction * abs(setting.relative(link, setting.tree.parent[link][0]) or Fraction(0))
-    return found
 
 
 def _held(setting: LoadCase, flow: FlowPattern) -> tuple[HoldingTorque, ...]:

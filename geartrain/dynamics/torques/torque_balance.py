@@ -175,6 +175,11 @@ class TorqueBalance:
                     held[row].add(at)
         return dulmage_mendelsohn_blocks(held, len(self.columns))
 
+    @property
+    def whole(self) -> Block:
+        """All of it as one block, for a balance in which a block leaves open what a later one needs."""
+        return Block(tuple(self.rows), tuple(range(len(self.columns))))
+
     @cached_property
     def _at(self) -> Mapping[str, int]:
         return {link: at for at, link in enumerate(self.links)}

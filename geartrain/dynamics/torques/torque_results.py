@@ -104,6 +104,19 @@ class MemberTorques(NamedTuple):
     carrier: Fraction
 
 
+class BearingTorque(NamedTuple):
+    """Friction of one bearing [N m, or plain]: the torque on its link, the reaction on what bears it, and the loss.
+
+    Both torques are about the links' own axes; the frame takes its reaction without being counted.
+    """
+
+    link: str
+    carrier: str
+    torque: Fraction
+    reaction: Fraction
+    loss: Fraction
+
+
 @dataclass(frozen=True)
 class PairTorque(Result):
     """One gear pair or coupling under load.
@@ -200,7 +213,7 @@ class Torques(FrozenFields, Result):
     external: Mapping[str, Fraction] = field(default_factory=dict)
     speeds: Mapping[str, Fraction] = field(default_factory=dict)
     pairs: Mapping[str, PairTorque] = field(default_factory=dict)
-    bearing_loss: Fraction = Fraction(0)
+    bearings: tuple[BearingTorque, ...] = ()
     held: tuple[HoldingTorque, ...] = ()
     left_out: tuple[NeglectedEffect, ...] = ()
 
@@ -231,6 +244,11 @@ class Torques(FrozenFields, Result):
     def power_in(self) -> Fraction:
         """Power that enters."""
         return sum((power for power in self.powers.values() if power > 0), Fraction(0))
+
+    @property
+    def bearing_loss(self) -> Fraction:
+        """Power lost in bearings."""
+        return sum((bearing.loss for bearing in self.bearings), Fraction(0))
 
     @property
     def loss(self) -> Fraction:

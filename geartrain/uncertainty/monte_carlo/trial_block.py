@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from geartrain.dynamics.motion import ErrorComposition, Superposition
+from geartrain.dynamics.motion.error_composition import ErrorComposition
+from geartrain.dynamics.motion.superposition import Superposition
 from geartrain.teeth.transmission import ConstantLag
 from geartrain.uncertainty.manufacturing_errors import CutWheel, MeshingVerdicts, batch_verdicts
 from geartrain.uncertainty.manufacturing_errors.cut_pair import CutGearPair

@@ -8,7 +8,7 @@ from fractions import Fraction
 from math import gcd, lcm
 from typing import TYPE_CHECKING, Any
 
-from geartrain.dynamics.motion import ErrorComposition
+from geartrain.dynamics.motion.error_composition import ErrorComposition
 from geartrain.errors import Problem, QuestionError, RangeError
 from geartrain.numerics.decimal_text import fraction_text
 from geartrain.teeth.triangular.pair_geometry import TriangularSizes
@@ -24,7 +24,7 @@ from geartrain.uncertainty.manufacturing_errors.declared_errors import (
 
 if TYPE_CHECKING:
     from geartrain.analysis.gear_train import GearTrain
-    from geartrain.dynamics.motion import Motion
+    from geartrain.dynamics import Motion
     from geartrain.kinematics.circuits import Circuit
     from geartrain.teeth.gear_mesh import GearMesh
 

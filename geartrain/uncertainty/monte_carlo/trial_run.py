@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from geartrain.dynamics.motion import Superposition
+from geartrain.dynamics.motion.superposition import Superposition
 from geartrain.errors import Problem, QuestionError, RangeError
 from geartrain.numerics.work import Execution
 from geartrain.uncertainty.manufacturing_errors import jamming_bound

@@ -12,11 +12,10 @@ from geartrain.kinematics.circuits import Circuit
 from geartrain.train import StateCase, Train, declare
 
 if TYPE_CHECKING:
+    from geartrain.dynamics import DrivenWay, Motion, PowerFlow, ToothImpact, Torques
     from geartrain.dynamics.driven_meshes import DrivenWays
     from geartrain.dynamics.gear_meshes import PinMesh
-    from geartrain.dynamics import Motion, ToothImpact
     from geartrain.dynamics.motion.motion_problem import MotionProblem
-    from geartrain.dynamics import DrivenWay, PowerFlow, Torques
     from geartrain.dynamics.torques.load_case import LoadCase
     from geartrain.kinematics.phasing import MeshPhasing
     from geartrain.teeth.gear_mesh import GearMesh, MeshDriver

@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from geartrain.errors import GearTrainError, Problem
-from geartrain.spherical.pitch_cones import angle_between, operating_pitch
 
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats, Ints
@@ -107,8 +106,12 @@ class _Places:
 
 
 def _log_pitch(n: Floats, z: Floats) -> Floats:
-    """Logarithm of the operating pitch of pairs of axes (pairs, 2, 3) with tooth numbers (pairs, 2)."""
-    return np.asarray(np.log(operating_pitch(angle_between(n[:, 0], n[:, 1]), z[:, 0], z[:, 1])), dtype=float)
+    """Logarithm of the operating pitch, docs/sphere.md (1), of axes (pairs, 2, 3) with tooth numbers (pairs, 2)."""
+    # sine and cosine from the axes themselves: rounding of an angle between would pass into the places found
+    sine = np.linalg.norm(np.cross(n[:, 0], n[:, 1]), axis=1)
+    cosine = (n[:, 0] * n[:, 1]).sum(axis=1)
+    pitch: Floats = np.log(sine) - np.log((z**2).sum(axis=1) + 2 * z.prod(axis=1) * cosine) / 2
+    return pitch
 
 
 def _newton(wrong: Callable[[Floats], Floats], unknown: Floats) -> tuple[Floats, float]:

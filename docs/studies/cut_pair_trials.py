@@ -44,6 +44,11 @@ def sized(z1: int, z2: int, excess: float) -> TriangularSizes:
     return TriangularSizes(z1, z2, *equal_depth(z1, z2, beta, beta), beta, beta, excess)
 
 
+def _even_wheels(sizes: TriangularSizes) -> tuple[CutWheel, CutWheel]:
+    """Driver and driven wheel without errors."""
+    return CutWheel.even(sizes.z1, sizes.R1, sizes.beta1), CutWheel.even(sizes.z2, sizes.R2, sizes.beta2)
+
+
 Single = tuple[float, tuple[bool, bool, bool]]
 """Least play (rad of the driven wheel); whether it stops, stands still somewhere, loses contact."""
 
@@ -74,8 +79,8 @@ class Batch:
         """The wheels, (trials, z) each."""
         sizes, rng = sized(self.z1, self.z2, self.excess), np.random.default_rng(self.seed)
         cutting = ERRORS[self.errors]
-        driver = cutting.draw(CutWheel.driver_of(sizes), rng, self.trials)
-        return CutGearPair(sizes, driver, cutting.draw(CutWheel.driven_of(sizes), rng, self.trials))
+        driver, driven = (cutting.draw(wheel, rng, self.trials) for wheel in _even_wheels(sizes))
+        return CutGearPair(sizes, driver, driven)
 
     def together(self) -> MeshingVerdicts:
         """All trials at once."""
@@ -88,7 +93,7 @@ class Batch:
     def _single(self, at: int) -> Single:
         law = cut_transmission_function(self.pair.sizes, self.pair.first.trial(at), self.pair.second.trial(at))
         events = law.events
-        return events.play, (events.stop is not None, bool(events.of("standstill")), events.disengages)
+        return events.play, (events.stop is not None, bool(events.of("standstill")), bool(events.of("disengaged")))
 
     def compared(self, found: MeshingVerdicts, singly: list[Single]) -> tuple[float, int]:
         """Greatest difference of a play (pitches of the driven wheel), and trials of other verdicts."""
@@ -125,8 +130,8 @@ def uneven_driven(places: NDArray[np.float64]) -> CutGearPair:
     """
     sizes = sized(64, 38, 0.01)
     half = nominal_backlash(sizes) * sizes.p2 / (2 * SHARE)
-    driven = CutWheel.driven_of(sizes).placed(half * places)
-    return CutGearPair(sizes, CutWheel.driver_of(sizes), driven)
+    driver, driven = _even_wheels(sizes)
+    return CutGearPair(sizes, driver, driven.placed(half * places))
 
 
 # trials in blocks of their own seeds ----------------------------------------------------------------------------------
@@ -151,8 +156,8 @@ def _exact(rng: np.random.Generator) -> CutGearPair:
 
 def _normal(rng: np.random.Generator) -> CutGearPair:
     sizes, cutting = sized(64, 38, 0.02), CuttingErrorModel(ErrorDistribution(SIGMA))
-    driver = cutting.draw(CutWheel.driver_of(sizes), rng, BLOCK)
-    return CutGearPair(sizes, driver, cutting.draw(CutWheel.driven_of(sizes), rng, BLOCK))
+    driver, driven = (cutting.draw(wheel, rng, BLOCK) for wheel in _even_wheels(sizes))
+    return CutGearPair(sizes, driver, driven)
 
 
 def jams(case: str, blocks: int, seed: int = 1, workers: int = 1, on_done: Callable[[], None] = lambda: None) -> Bools:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from fractions import Fraction
 from itertools import product
 from math import ceil, degrees
@@ -188,10 +188,6 @@ class ToothCountSuggestions(Result):
 
     def __getitem__(self, at: int) -> ToothCountCompromise:
         return self.found[at]
-
-    def configured(self, at: int = 0) -> Configuration:
-        """The set with the teeth of one suggestion."""
-        return replace(self.configuration, teeth=dict(self.found[at].teeth))
 
     def __str__(self) -> str:
         lines = [str(found) for found in self.found] or ["no tooth numbers meet every condition"]

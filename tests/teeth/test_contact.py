@@ -126,7 +126,7 @@ def test_an_involute_has_no_error_at_any_centre_distance_and_the_play_of_the_tex
     phi1 = np.linspace(-0.7, 0.9, 501)
     found = solve(first, second, distance, phi1)
     lag = (inv(acos(30 * cos(TWENTY) / distance)) - inv(TWENTY)) * (Z1 + Z2) / Z2
-    assert np.abs(found.phi2 - (phi1 * Z1 / Z2 - lag)).max() < 2e-15
+    assert np.abs(found.front.angle - (phi1 * Z1 / Z2 - lag)).max() < 2e-15
     assert np.abs(found.play - 2 * lag).max() < 3e-15
     assert np.abs(found.front.speed - Z1 / Z2).max() < 1e-12
     assert np.abs(found.back.speed - Z1 / Z2).max() < 1e-12
@@ -419,7 +419,7 @@ def test_conjugate_teeth_have_no_error_and_no_play_at_their_distance(shape: str)
     ratio = path.pitch.z1 / path.pitch.z2
     phi1 = np.linspace(0.0, 1.0, 151) * 2 * pi / path.pitch.z1 + 1e-3 / path.pitch.z1
     found = solve(first, second, distance, phi1)
-    assert np.abs(found.phi2 - ratio * phi1).max() < 2e-15
+    assert np.abs(found.front.angle - ratio * phi1).max() < 2e-15
     assert np.abs(found.play).max() < 4e-15
     assert np.abs(found.front.speed - ratio).max() < 1e-6  # where tips take over a contact may be off by its rounding
     assert np.median(np.abs(found.front.speed - ratio)) < 1e-12
@@ -498,7 +498,7 @@ def test_polygons_of_the_wheels_meet_when_the_driven_one_is_turned_back(one, two
     distance = (one[0] + two[0]) / 2 + (one[2] + two[2]) * (1 - deep)
     phi1 = share * first.pitch
     found = solve(first, second, distance, phi1)
-    if not (np.isfinite(found.phi2) and found.play > 2e-3) or found.front.radius2 < two[0] / 2 - two[2] + 1e-6:
+    if not (np.isfinite(found.front.angle) and found.play > 2e-3) or found.front.radius2 < two[0] / 2 - two[2] + 1e-6:
         return
     driver = rotate(polygon(first), -degrees(phi1), origin=(0, 0))
 
@@ -506,9 +506,9 @@ def test_polygons_of_the_wheels_meet_when_the_driven_one_is_turned_back(one, two
         driven = translate(rotate(polygon(second), 180 + degrees(phi2), origin=(0, 0)), 0, distance)
         return float(driver.intersection(driven).area)
 
-    tight = overlap(float(found.phi2) + 1e-3)
+    tight = overlap(float(found.front.angle) + 1e-3)
     if tight < 1e-9:  # bottoms may foul tips, which outlines without bottoms do not tell
-        assert overlap(float(found.phi2) - 1e-3) > 0
+        assert overlap(float(found.front.angle) - 1e-3) > 0
 
 
 def polygon(wheel: GearOutline) -> Polygon:
@@ -555,7 +555,7 @@ def test_tables_are_as_near_to_the_contact_as_they_say(one, two, deep, side) -> 
 def test_wheels_too_far_apart_touch_nowhere() -> None:
     first, second = wheels()
     found = solve(first, second, 33.0, [0.0, 0.1])
-    assert np.isnan(found.phi2).all()
+    assert np.isnan(found.front.angle).all()
     assert found.to_dict()["front"]["kind"] == ["none", "none"]
     with pytest.raises(RangeError, match="never touch"):
         tabulate(first, second, 33.0)
@@ -588,8 +588,8 @@ def test_what_cannot_be_answered_is_refused_with_what_why_and_what_to_do() -> No
 def test_answers_keep_the_shape_of_the_question() -> None:
     first, second = wheels()
     found = solve(first, second, 30.0, np.zeros((2, 3)))
-    assert found.phi2.shape == found.play.shape == (2, 3)
+    assert found.front.angle.shape == found.play.shape == (2, 3)
     assert found.front.curves.shape == (2, 2, 3)
-    assert solve(first, second, 30.0, np.empty(0)).phi2.shape == (0,)
-    assert float(solve(first, second, 30.0, 0.0).phi2) == pytest.approx(0, abs=1e-15)
+    assert solve(first, second, 30.0, np.empty(0)).front.angle.shape == (0,)
+    assert float(solve(first, second, 30.0, 0.0).front.angle) == pytest.approx(0, abs=1e-15)
     assert KINDS[int(contact(first, second, 30.0, 0.0).kind)] == "flank"

@@ -116,7 +116,7 @@ class Drawn:
         """True if drawn teeth keep the ratio to rounding all through a pitch, with play left behind."""
         S = np.linspace(0, 2 * pi / self.z1, 160, endpoint=False)
         touch = solve(self.wheel(0), self.wheel(1), self.distance, S)
-        error = touch.phi2 - S * self.z1 / self.z2
+        error = touch.front.angle - S * self.z1 / self.z2
         return bool(np.isfinite(error).all() and np.ptp(error) < 1e-9 and touch.play.min() > 0)
 
     def whole(self) -> bool:

@@ -10,7 +10,6 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from pytest import approx
 
 from geartrain import load
 from geartrain.teeth.pin_transmission import PinToSlotTransmission, PinTransmission, SlotToPinTransmission
@@ -146,7 +145,13 @@ def test_the_least_efficiency_is_the_least_of_a_scan(kind: type[PinTransmission]
 def test_a_pin_that_locks_has_no_efficiency_and_a_follower_none_at_a_constant_load() -> None:
     """A slot locks its pin from the friction at which 1 - f tan d is 0 where sin d = e/r: here tan d = 1/sqrt(3)."""
     locked = SlidingEfficiency(SlotToPinTransmission(10, 5, 1.8)).to_dict()
-    assert locked == {"friction": 1.8, "mean": None, "at_constant_load": None, "min": None, "locks_at": approx(3**0.5)}
+    assert locked == {
+        "friction": 1.8,
+        "mean": None,
+        "at_constant_load": None,
+        "min": None,
+        "locks_at": pytest.approx(3**0.5),
+    }
     follower = SlidingEfficiency(PinToSlotTransmission(5, 10, 0.1)).to_dict()
     assert follower["min"] == 0.0
     assert follower["at_constant_load"] is follower["locks_at"] is None

@@ -753,7 +753,7 @@ def test_outlines_in_contact_keep_the_ratio_at_the_design_distance(wheels: dict[
         distance = abs(pair.path.pitch.R2) + pair.path.pitch.R1 * (-1 if wheels else 1)
         touch = solve(*outlines(pair), distance, np.linspace(0, 2 * pi / 24, 24))
         expected = np.linspace(0, 2 * pi / 24, 24) / 3 + (pi / 2 - 0.05) / 36
-        np.testing.assert_allclose(touch.phi2, expected, atol=1e-12)
+        np.testing.assert_allclose(touch.front.angle, expected, atol=1e-12)
         np.testing.assert_allclose(touch.play, 0.1 / 36, atol=1e-12)
 
 

@@ -72,7 +72,7 @@ def test_a_batch_says_of_each_what_its_own_law_says(cutting: CuttingErrorModel, 
             here = shift if np.ndim(shift) == 0 else float(shift[at])
             events = cut_transmission_function(sizes, driver.trial(at), driven.trial(at), here).events
             assert found.play[at] == pytest.approx(events.play, abs=(1e-6 if cutting is PLACES else 1e-8) * sizes.p2)
-            assert found.disengaged[at] == events.disengages
+            assert found.disengaged[at] == bool(events.of("disengaged"))
             assert found.standstill[at] == bool(events.of("standstill"))
             assert found.stops[at] == (events.stop is not None)
             kinds += [found.jams[at], found.clash[at], found.standstill[at], not found.stops[at]]
@@ -196,10 +196,10 @@ def test_the_probability_of_a_jam_is_its_integral(trials: int) -> None:
     assert abs(fine - coarse) < 1e-3
     true = 1 - (fine + (fine - coarse) / 3)
     assert 0.5 < true < 0.999
-    driven = CutWheel.driven_of(sizes)
+    driver, driven = even(sizes)
     rng = np.random.default_rng(7)
     found = batch_verdicts(
-        sizes, CutWheel.driver_of(sizes), CuttingErrorModel(ErrorDistribution(0.1, "uniform")).draw(driven, rng, trials)
+        sizes, driver, CuttingErrorModel(ErrorDistribution(0.1, "uniform")).draw(driven, rng, trials)
     )
     seen = float(found.jams.mean())
     assert abs(seen - true) < 4 * sqrt(true * (1 - true) / trials) + 2e-4
@@ -225,7 +225,7 @@ def test_eccentric_wheels_jam_when_their_errors_use_up_the_clearance() -> None:
 
 def test_errors_are_drawn_as_said() -> None:
     sizes, rng = equally_deep(48, 24, 0.02), np.random.default_rng(8)
-    driver = CutWheel.driver_of(sizes)
+    driver, _ = even(sizes)
     wheel = CuttingErrorModel(
         ErrorDistribution(0.02), ErrorDistribution(0.05, "uniform"), ErrorDistribution(0.03)
     ).draw(driver, rng, 500)

@@ -209,9 +209,9 @@ def test_the_first_order_is_right_to_the_second_away_from_changes_of_couples() -
         drawn = draw_trial_wheels(plan.scaled(scale), RandomStreams(2, 0), 200)
         errors = trial_pointers(drawn, np.arange(200)).laws["g0"].error(np.full(200, S))
         one, two = drawn.pair(0).first.place, drawn.pair(0).second.place
-        couples = cut_transmission_function(
-            plan.pairs[0].sizes, CutWheel.driver_of(plan.pairs[0].sizes), CutWheel.driven_of(plan.pairs[0].sizes)
-        ).driving(np.array([S]))
+        sizes = plan.pairs[0].sizes
+        even = CutWheel.even(sizes.z1, sizes.R1, sizes.beta1), CutWheel.even(sizes.z2, sizes.R2, sizes.beta2)
+        couples = cut_transmission_function(sizes, *even).driving(np.array([S]))
         first = -(float(law.speed(S)) * one[:, couples[0][0]] - two[:, couples[1][0]])
         left.append(np.abs(errors - float(law.error(S)) - first).mean())
     assert 1.8 < log2(left[1] / left[0]) < 2.2

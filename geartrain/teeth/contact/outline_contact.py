@@ -217,11 +217,6 @@ class TwoFlankContact:
     back: FlankContact
 
     @property
-    def phi2(self) -> Floats:
-        """Driven angle (rad) with the front sides in contact."""
-        return self.front.angle
-
-    @property
     def play(self) -> Floats:
         """What the driven wheel can turn freely (rad); below 0 the teeth interfere by as much."""
         found: Floats = self.back.angle - self.front.angle

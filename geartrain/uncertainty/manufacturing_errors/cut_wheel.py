@@ -23,7 +23,6 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
     from geartrain.numerics.arrays import Floats
-    from geartrain.teeth.triangular.pair_geometry import TriangularSizes
 
 
 def displaced(radius: Floats, angle: Floats, e: Floats, towards: Floats) -> tuple[Floats, Floats]:
@@ -61,16 +60,6 @@ class CutWheel:
     def even(cls, z: int, radius: float, half_angle: float) -> CutWheel:
         """A wheel without errors."""
         return cls(radius, half_angle, *(np.zeros(z) for _ in range(4)))
-
-    @classmethod
-    def driver_of(cls, sizes: TriangularSizes) -> CutWheel:
-        """The first wheel of a pair, without errors."""
-        return cls.even(sizes.z1, sizes.R1, sizes.beta1)
-
-    @classmethod
-    def driven_of(cls, sizes: TriangularSizes) -> CutWheel:
-        """The second wheel of a pair, without errors."""
-        return cls.even(sizes.z2, sizes.R2, sizes.beta2)
 
     @classmethod
     def measured(

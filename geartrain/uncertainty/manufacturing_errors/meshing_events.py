@@ -107,11 +107,6 @@ class MeshingEvents:
         """True if flanks jam: whatever the driven wheel does within its play, the pair cannot turn on."""
         return self.play < 0
 
-    @property
-    def disengages(self) -> bool:
-        """True if the teeth lose each other somewhere."""
-        return bool(self.of("disengaged"))
-
 
 def find_meshing_events(envelope: ContactEnvelope) -> MeshingEvents:
     """Every event of the cycle of the pair of an envelope, dragged."""

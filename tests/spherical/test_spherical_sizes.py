@@ -51,23 +51,6 @@ from geartrain.spherical.pitch_cones import (
 PHI = (1 + sqrt(5)) / 2
 
 
-def line_of_action(n_1: np.ndarray, n_2: np.ndarray, g_1: float, g_2: float) -> np.ndarray:
-    """Pole q of the great circle that touches both base cones: q.n_1 = sin g_1, q.n_2 = -sin g_2, |q| = 1.
-
-    A point X on it has the normal speed (n_1 x X).(q x X) = n_1.q = sin g_1 per turn speed of gear 1, wherever X
-    is: spherical involutes turn in the ratio of their teeth at every angle between the axes.
-    """
-    C = float(n_1 @ n_2)
-    across = np.cross(n_1, n_2)
-    square = float(across @ across)
-    s_1, s_2 = sin(g_1), -sin(g_2)
-    a, b = (s_1 - C * s_2) / square, (s_2 - C * s_1) / square
-    rest = 1 - (a * s_1 + b * s_2)
-    if rest < 0:
-        raise ValueError("the base cones overlap")
-    return np.asarray(a * n_1 + b * n_2 + sqrt(rest / square) * across)
-
-
 S53 = atan(3 - sqrt(5))
 ratios = st.tuples(st.floats(0.2, 2.8), st.integers(5, 200), st.integers(5, 200))
 

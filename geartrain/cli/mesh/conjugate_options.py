@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, get_args, get_origin
 
 from geartrain.cli.option_values import at_option, quantity
 from geartrain.errors import GearTrainError, Problem, suggest
+from geartrain.teeth.any_tooth_form import conjugate_forms, tooth_forms
 
 if TYPE_CHECKING:
     from pydantic.fields import FieldInfo
@@ -17,13 +19,18 @@ if TYPE_CHECKING:
     from geartrain.teeth.tooth_form import ToothForm
 
 FormOptions = dict[str, str | bool | None]
-CONJUGATE = ("involute", "cycloidal", "lantern", "uniform_stress", "uniform_temperature", "least_friction")
+
+
+def _readings(form: str) -> Iterator[str]:
+    """The names under which each reading of a form can be compared, for forms that have several."""
+    field = tooth_forms()[form].model_fields.get("reading")
+    return (f"{form}_{reading}" for reading in (get_args(field.annotation) if field else ()))
+
+
+CONJUGATE = conjugate_forms()
 """Forms with a path of contact, whose pages show its costs; others are told of by what their mesh says of itself."""
 
-NAMES = (
-    *("involute", "cycloidal", "lantern", "uniform_stress", "uniform_temperature"),
-    *("uniform_temperature_a", "uniform_temperature_b", "uniform_temperature_c", "least_friction"),
-)
+NAMES = tuple(name for form in CONJUGATE for name in (form, *_readings(form)))
 """Forms that can be compared; the readings of uniform temperature stand on their own."""
 
 _MIXED = "a ring's axis is parallel to its pinion's"
@@ -159,25 +166,12 @@ def _value(field: FieldInfo, given: str | bool) -> Any:
 
 def form_model(form: str) -> type[ToothForm]:
     """The tooth form of this name."""
-    return {_name(model): model for model in form_models()}[form]
-
-
-def form_models() -> tuple[type[ToothForm], ...]:
-    """All tooth forms."""
-    from geartrain.teeth.any_tooth_form import AnyToothForm
-
-    models: tuple[type[ToothForm], ...] = get_args(get_args(AnyToothForm)[0])
-    return models
+    return tooth_forms()[form]
 
 
 def form_names() -> tuple[str, ...]:
     """Forms that `geartrain mesh` has no command of its own for, as the union lists them."""
-    return tuple(name for model in form_models() if (name := _name(model)) not in ("ideal", "triangular"))
-
-
-def _name(model: type[ToothForm]) -> str:
-    name: str = get_args(model.model_fields["form"].annotation)[0]
-    return name
+    return tuple(name for name in tooth_forms() if name not in ("ideal", "triangular"))
 
 
 def _problem(item: Any, form: str) -> Problem:

@@ -44,8 +44,6 @@ def _pin_law(pin_radius: str, offset: str, friction: float, driver: str) -> PinT
         law = (PinToSlotTransmission if driver == "pin" else SlotToPinTransmission)(r, e, friction)
     except GearTrainError as error:
         raise at_option(error, "--driver" if driver == "slot" and 0 < r < e else "--pin-radius") from None
-    if not isinstance(law, SlotToPinTransmission):
-        return law
     if friction >= law.locking_friction:
         what = f"a friction of {friction:g} locks the pin in its slot"
         why = f"the pin locks from {law.locking_friction:.6g} on when the slot drives"

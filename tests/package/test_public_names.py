@@ -12,7 +12,7 @@ from typing import Any
 import pytest
 from pydantic import BaseModel
 
-SHOWING = ["analysis", "errors", "kinematics", "synthesis", "viewer"]
+SHOWING = ["analysis", "dynamics", "errors", "kinematics", "synthesis", "viewer"]
 """Rooms whose `__all__` is complete. The shell shows commands, which `--help` and docs/commands.md describe."""
 
 

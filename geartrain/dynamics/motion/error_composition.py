@@ -85,7 +85,21 @@ class SeenLink(NamedTuple):
 
 
 class ErrorSamples(NamedTuple):
-    """A stretch of positions: turns of the input (n,), and errors (rad) and their rates by output, (outputs, n)."""
+    """Errors of outputs at some positions of the input.
+
+    Attributes
+    ----------
+    turns : array of float, (n,)
+        Turns of the input.
+    error : array of float, (outputs, n)
+        Angle of each output less its mean motion [rad].
+    rate : array of float, (outputs, n)
+        Speed of each output less its mean, over the input's.
+
+    See Also
+    --------
+    Motion.at, Motion.passages : what gives these.
+    """
 
     turns: Floats
     error: Floats

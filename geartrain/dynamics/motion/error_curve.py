@@ -16,10 +16,22 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class TransmissionErrorCurve(Result):
-    """What real teeth and pins do to one output over the positions asked for.
+    """The transmission error of one output, position by position.
 
-    ratio   exact mean speed over the input's
-    error   transmission error (rad): angle less its mean motion; `speed` over the input's, both by position
+    Attributes
+    ----------
+    name : str
+        The output.
+    ratio : Fraction
+        Exact mean speed over the input's.
+    error : array of float, (n,)
+        Angle less its mean motion [rad].
+    speed : array of float, (n,)
+        Speed over the input's.
+
+    See Also
+    --------
+    Motion.ripples : what gives these.
     """
 
     KEYS = (Key("", "tally"),)

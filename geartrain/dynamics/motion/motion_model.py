@@ -28,10 +28,38 @@ if TYPE_CHECKING:
 
 
 class Motion:
-    """A train's motion as a function of the turns of its input.
+    """A train's motion with real teeth and pins, as a function of the turns of its input.
 
-    outputs     name -> the link, and the link it is seen from
-    tolerance   laws are read from tables of this accuracy (in pitches); None asks the laws themselves
+    Transmission functions are composed along the solved order of the train: equations (2) and (3) of docs/motion.md. At
+    turn 0 every link stands where ideal teeth would have it (section 3 there).
+
+    Parameters
+    ----------
+    train : MotionProblem
+        Rows, mean speeds, laws of pairs, drivers: `GearTrain.motion` gathers them.
+    outputs : mapping of str to tuple of str
+        Name -> the link, and the link it is seen from.
+    tolerance : float, optional
+        Laws are read from tables of this accuracy [pitches, between 0 and 1]; by default the laws themselves are asked.
+
+    Raises
+    ------
+    QuestionError
+        If the tolerance is no part of a pitch.
+    GearTrainError
+        If a redundant loop has teeth that cannot turn together, or the train has no solved order.
+
+    Examples
+    --------
+    The four pairs of triangular teeth before the Moon stand as at the start after 95 turns of the crank:
+
+    >>> import geartrain
+    >>> motion = geartrain.load("moon-triangular").motion(outputs=["moon"])
+    >>> motion.period, round(motion.sensitivity["moon"]["d2~e"], 12)
+    (Fraction(95, 1), 1.0)
+    >>> found = motion.at([0.0, 0.1])
+    >>> bool(abs(found.error[0, 0]) < 1e-12), float(found.error[0, 1].round(3))
+    (True, -0.017)
     """
 
     def __init__(
@@ -146,7 +174,18 @@ class Motion:
             )
 
     def at_random(self, random: Generator) -> Motion:
-        """The same train with a random phase for every pair with real teeth that declares none."""
+        """The same train with a random phase for every pair with real teeth that declares none.
+
+        Parameters
+        ----------
+        random : numpy.random.Generator
+            Phases are drawn from it [pitches, 0 to 1].
+
+        Returns
+        -------
+        Motion
+            Of the same outputs and tolerance.
+        """
         declared = self.train.phases
         drawn = {mesh.name: float(random.random()) for mesh in self.train.rippling if mesh.name not in declared}
         return Motion(replace(self.train, phases={**drawn, **declared}), self.outputs, self.tolerance)
@@ -180,9 +219,21 @@ class Motion:
         return [seen.difference(angles) for seen in self._seen]
 
     def passages(self, turns: float, samples: int, first: int = 0) -> Iterator[ErrorSamples]:
-        """The run in stretches that fit in memory: `samples` positions from 0 to `turns` of the input, ends included.
+        """The run in stretches that fit in memory.
 
-        Negative turns go the other way, on the other flanks. `first` is the position to begin with.
+        Parameters
+        ----------
+        turns : float
+            Turns of the input from 0; negative turns go the other way, on the other flanks.
+        samples : int
+            Positions, 2 or more, both ends included.
+        first : int
+            The position to begin with.
+
+        Yields
+        ------
+        ErrorSamples
+            One stretch after the other.
         """
         composition = self.ahead if turns >= 0 else self.back
         chunk = composition.chunk
@@ -191,7 +242,18 @@ class Motion:
             yield composition.at(turns * (at / (samples - 1)))
 
     def at(self, turns: Floats) -> ErrorSamples:
-        """Errors and rates at given turns of the input, in any order, turning as declared."""
+        """Errors and rates of the outputs, turning as declared.
+
+        Parameters
+        ----------
+        turns : sequence of float, (n,)
+            Turns of the input, in any order.
+
+        Returns
+        -------
+        ErrorSamples
+            Errors [rad] and rates at them.
+        """
         turns = np.asarray(turns, dtype=float)
         chunk = self.ahead.chunk
         parts = [self.ahead.at(turns[start : start + chunk]) for start in range(0, len(turns), chunk)]
@@ -200,7 +262,22 @@ class Motion:
     def ripples(
         self, turns: float, samples: int, on_done: Callable[[int], None] = lambda _: None
     ) -> tuple[Floats, dict[str, TransmissionErrorCurve]]:
-        """Angles of the input (rad) and the ripple of every output at them; `on_done` is told of each chunk."""
+        """The error of every output at equal steps of the input.
+
+        Parameters
+        ----------
+        turns, samples : float, int
+            As in `passages`.
+        on_done : callable
+            Called with the number of positions of each stretch that is done.
+
+        Returns
+        -------
+        angle : array of float, (samples,)
+            Angle of the input [rad].
+        curves : dict of str to TransmissionErrorCurve
+            By output.
+        """
         error = np.empty((len(self.outputs), samples))
         rate = np.empty_like(error)
         angle = np.empty(samples)

@@ -33,10 +33,44 @@ def _nobody(_: int) -> None:
 
 @dataclass
 class MotionRun:
-    """`samples` positions from 0 to `turns` of the input; results stand here as far as they were asked for.
+    """One run of a motion: positions from 0 to `turns` of the input, and what is asked of them.
 
-    tallies     peaks and moments by output; `phased`, the same for each set of random phases
-    done        positions counted so far: fewer than `samples` in a run that was interrupted
+    Results stand here as far as they were asked for, by `go`, `try_phases`, `estimate` and `analyse`.
+
+    Attributes
+    ----------
+    motion : Motion
+        The motion that is followed.
+    turns : float
+        Turns of the input, within 1e12 either way; negative turns go on the other flanks.
+    samples : int
+        Positions, 2 or more, both ends included.
+    tallies : list of RunningStatistics
+        Peaks and moments by output.
+    phased : list of list of RunningStatistics
+        The same for each set of random phases.
+    seed : int or None
+        Of these phases; None where none were drawn.
+    estimates : dict of str to ErrorEstimates
+        By output.
+    spectra : dict of str to list of SpectrumLine
+        By output, the strongest lines first.
+    done : int
+        Positions counted so far: fewer than `samples` in a run that was interrupted.
+
+    Raises
+    ------
+    QuestionError
+        If there are more turns than positions can tell apart, or fewer than two samples.
+
+    Examples
+    --------
+    >>> import geartrain
+    >>> run = MotionRun(geartrain.load("moon-triangular").motion(outputs=["moon"]), turns=1, samples=2001)
+    >>> run.go()
+    >>> moon, = run.tallies
+    >>> moon.ratio, round(moon.peak_to_peak, 3), round(moon.rms, 3)
+    (Fraction(254, 95), 0.097, 0.022)
     """
 
     motion: Motion
@@ -63,7 +97,18 @@ class MotionRun:
             )
 
     def go(self, on_done: OnDone = _nobody) -> None:
-        """Count every position; `on_done` is told of each stretch."""
+        """Count every position, and sharpen the extremes between them.
+
+        Parameters
+        ----------
+        on_done : callable
+            Called with the number of positions of each stretch that is done.
+
+        Raises
+        ------
+        GearTrainError
+            If pairs hang on each other in a way that cannot be followed.
+        """
         self.tallies = self.motion.tallies()
         peaks = PeakRefinement(len(self.tallies), self.turns / (self.samples - 1))
         for passage in self.motion.passages(self.turns, self.samples):
@@ -75,7 +120,17 @@ class MotionRun:
         peaks.sharpen(self.motion.ahead if self.turns >= 0 else self.motion.back, self.turns, self.tallies)
 
     def try_phases(self, count: int, seed: int, on_done: OnDone = _nobody) -> None:
-        """The same run with `count` sets of random phases."""
+        """The same run with random phases of the pairs that declare none.
+
+        Parameters
+        ----------
+        count : int
+            Sets of phases.
+        seed : int
+            Of the random numbers, 0 or more.
+        on_done : callable
+            As in `go`.
+        """
         self.seed = seed if count else None
         if seed < 0:
             raise QuestionError(Problem(f"a seed of {seed}", "random numbers begin at 0 or more", "give 0 or more"))
@@ -86,11 +141,23 @@ class MotionRun:
             self.phased.append(other.tallies)
 
     def estimate(self, on_done: OnDone = _nobody) -> None:
-        """Cheap estimates with their true error."""
+        """Make the cheap estimates, with their true error.
+
+        Parameters
+        ----------
+        on_done : callable
+            As in `go`.
+        """
         self.estimates = find_estimates(self.motion, self.turns, self.samples, on_done)
 
     def analyse(self, on_done: OnDone = _nobody) -> None:
-        """Spectra by exact order."""
+        """Make the spectra by exact order.
+
+        Parameters
+        ----------
+        on_done : callable
+            As in `go`.
+        """
         self.spectra = find_spectrum(self.motion, self.turns, self.samples, on_done=on_done)
 
     @property
@@ -100,7 +167,18 @@ class MotionRun:
         return ["turns", *(f"{name} {what}" for name in names for what in ("angle (rad)", "error (rad)", "speed"))]
 
     def values(self, passage: ErrorSamples) -> list[Floats]:
-        """The columns of one stretch: an angle is its start, mean motion and error; a speed is over the input's."""
+        """The columns of one stretch: an angle is its start, mean motion and error; a speed is over the input's.
+
+        Parameters
+        ----------
+        passage : ErrorSamples
+            The stretch.
+
+        Returns
+        -------
+        list of array of float, (n,)
+            As `columns` names them.
+        """
         found = [passage.turns]
         angle = 2 * pi * passage.turns
         for at, (tally, start) in enumerate(zip(self.motion.tallies(), self.motion.starts, strict=True)):
@@ -109,7 +187,20 @@ class MotionRun:
         return found
 
     def check_resumed(self, row: str, rows: int) -> None:
-        """Refuse to go on with a table whose last row is not of this run."""
+        """Refuse to go on with a table whose last row is not of this run.
+
+        Parameters
+        ----------
+        row : str
+            The last row, its cells parted by commas.
+        rows : int
+            How many there are.
+
+        Raises
+        ------
+        GearTrainError
+            If this run has other turns there, or fewer positions.
+        """
         turns = self.turns * ((rows - 1) / (self.samples - 1))
         if rows > self.samples or row.split(",")[0] != repr(turns):
             what = f"its row {rows} stands at {row.split(',')[0]} turns, and this run has {turns!r} there"

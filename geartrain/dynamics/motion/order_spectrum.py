@@ -41,10 +41,22 @@ class HarmonicShare(NamedTuple):
 
 @dataclass(frozen=True)
 class SpectrumLine(Result):
-    """One order: periods per turn of the input; the pairs and harmonics that fall on it.
+    """One line of the spectrum of an output's error, at an exact order of the input.
 
-    expected   amplitude (rad) to first order, all pairs of this order together; `shares` by pair
-    measured   amplitude (rad) in the composed motion
+    Attributes
+    ----------
+    order : Fraction
+        Periods per turn of the input.
+    shares : tuple of HarmonicShare
+        The pairs and harmonics that fall on this order, each with its amplitude to first order [rad].
+    expected : float
+        Amplitude to first order, all of them together in their phases [rad].
+    measured : float
+        Amplitude in the composed motion [rad].
+
+    See Also
+    --------
+    MotionRun.spectra : where these stand, strongest first.
     """
 
     KEYS = (Key("order", to=float), Key("exact", "order"), "expected", "measured", Key("pairs", "shares"))

@@ -44,11 +44,28 @@ class SpeedSpan(NamedTuple):
 
 @dataclass
 class RunningStatistics(Result):
-    """Error (rad) and speed of one output over all positions seen so far.
+    """Peaks and moments of the error and speed of one output over all positions seen so far (Welford, Chan et al.).
 
-    ratio                exact mean speed over the input's
-    centre, square       mean of the error, and the sum of its squared differences from it
-    least, most          error; `slow`, `fast`, speed less its mean
+    Attributes
+    ----------
+    name : str
+        The output.
+    ratio : Fraction
+        Exact mean speed over the input's.
+    count : int
+        Positions seen.
+    centre : float
+        Mean of the error [rad].
+    square : float
+        Sum of the squared differences of the error from its mean [rad^2].
+    least, most : float
+        Extremes of the error [rad].
+    slow, fast : float
+        Extremes of the speed less its mean, over the input's.
+
+    See Also
+    --------
+    MotionRun.tallies : where these stand.
     """
 
     KEYS = (group("transmission_error", "peak_to_peak", "rms"), Key("speed", "speed_span"), "ratio")
@@ -64,7 +81,15 @@ class RunningStatistics(Result):
     fast: float = -inf
 
     def add(self, error: Floats, rate: Floats) -> None:
-        """Count some more positions: errors, and speeds less their mean."""
+        """Count some more positions.
+
+        Parameters
+        ----------
+        error : array of float, (n,)
+            Errors [rad].
+        rate : array of float, (n,)
+            Speeds less their mean, over the input's.
+        """
         new = len(error)
         centre = float(error.mean())
         gap = centre - self.centre
@@ -75,7 +100,13 @@ class RunningStatistics(Result):
         self.reach(error, rate)
 
     def reach(self, error: Floats, rate: Floats) -> None:
-        """Let extremes count, and nothing else."""
+        """Let extremes count, and nothing else.
+
+        Parameters
+        ----------
+        error, rate : array of float, (n,)
+            As for `add`.
+        """
         self.least, self.most = min(self.least, float(error.min())), max(self.most, float(error.max()))
         self.slow, self.fast = min(self.slow, float(rate.min())), max(self.fast, float(rate.max()))
 

@@ -98,9 +98,22 @@ class SuperpositionEstimate(Result):
 
 @dataclass(frozen=True)
 class ErrorEstimates(Result):
-    """Of one output: the sum that bounds its range, the rms of independent phases, and both superpositions.
+    """Cheap estimates of one output's error beside the truth: equation (6) of docs/motion.md.
 
-    true   the tally of the exact composition over the same positions
+    Attributes
+    ----------
+    true : RunningStatistics
+        The exact composition over the same positions.
+    bound : float
+        Sum over pairs of sensitivity times range: the range of the error is at most this [rad].
+    independent : float
+        Root mean square of the error if nothing relates the phases of the pairs [rad].
+    nominal, lagged : SuperpositionEstimate
+        Errors added up with each driver at its mean angle, and with the mean lag of all pairs before it counted in.
+
+    See Also
+    --------
+    MotionRun.estimate : what gives these.
     """
 
     KEYS = (

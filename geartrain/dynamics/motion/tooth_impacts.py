@@ -19,9 +19,20 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class ToothImpact:
-    """Collisions of one pair: the inertia struck (kg m2, at the driven wheel), blows a second, and what they cost (W).
+    """Collisions of the teeth of one pair, where its speed ratio leaps up: equation (7) of docs/motion.md.
 
-    blows   jumps of the driven wheel's speed (rad/s), those of one pitch
+    Attributes
+    ----------
+    inertia : float
+        Of all that is struck, at the driven wheel [kg m^2].
+    rate : float
+        Pitches passed a second [1/s].
+    blows : tuple of float
+        Jumps of the driven wheel's speed [rad/s], those of one pitch.
+
+    See Also
+    --------
+    geartrain.GearTrain.impacts : what gives these, by pair.
     """
 
     inertia: float

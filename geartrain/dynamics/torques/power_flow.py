@@ -26,7 +26,20 @@ PowerNodeKind = Literal["in", "shaft", "pair", "bearing", "out"]
 
 
 class PowerNode(NamedTuple):
-    """A place that power passes: an `in` or `out` is named by its link, a bearing by the link that turns in it."""
+    """A place that power passes.
+
+    Attributes
+    ----------
+    kind : {"in", "shaft", "pair", "bearing", "out"}
+        What it is: power enters the train at `in` and leaves it at `out`.
+    name : str
+        Of the link (`in`, `out`, and a bearing, by the link that turns in it), of the pair, or of a shaft: links that
+        are locked together are one, `a + b`.
+
+    See Also
+    --------
+    PowerFlow.nodes : all of them.
+    """
 
     kind: PowerNodeKind
     name: str
@@ -34,7 +47,21 @@ class PowerNode(NamedTuple):
 
 @dataclass(frozen=True)
 class PowerStream(Result):
-    """Power from one node to the next, above 0; `circling` of it runs in closed loops."""
+    """Power that flows from one node to the next.
+
+    Attributes
+    ----------
+    source, target : PowerNode
+        The ends.
+    power : Fraction
+        Above 0 [torque times the train's unit of speed].
+    circling : Fraction
+        The part of it that runs in closed loops.
+
+    See Also
+    --------
+    PowerFlow.streams : all of them.
+    """
 
     KEYS = (Key("from", "source"), Key("to", "target"), Key("power", to=as_float), Key("circling", to=as_float))
 
@@ -48,7 +75,18 @@ class PowerStream(Result):
 class RecirculatingPower(Result):
     """Nodes that feed each other in closed loops, and the power that runs round in them without leaving.
 
-    power_in   what enters the train
+    Attributes
+    ----------
+    nodes : tuple of PowerNode
+        The pairs and shafts of the loops.
+    power : Fraction
+        What runs round [torque times the train's unit of speed].
+    power_in : Fraction
+        What enters the train.
+
+    See Also
+    --------
+    PowerFlow.loops : all of them.
     """
 
     KEYS = ("pairs", "shafts", Key("power", to=as_float), Key("of_power_in", to=as_float))
@@ -75,7 +113,23 @@ class RecirculatingPower(Result):
 
 @dataclass(frozen=True)
 class PowerLoss(Result):
-    """What a pair or bearing loses, beside what enters the train and what is lost in all."""
+    """What a pair or bearing loses, beside what enters the train and what is lost in all.
+
+    Attributes
+    ----------
+    node : PowerNode
+        The pair, or the bearing.
+    power : Fraction
+        What it loses [torque times the train's unit of speed].
+    power_in : Fraction
+        What enters the train.
+    loss : Fraction
+        What is lost in all.
+
+    See Also
+    --------
+    PowerFlow.shares : all of them.
+    """
 
     KEYS = (
         *(Key("kind", "node.kind"), Key("name", "node.name"), Key("power", to=as_float)),
@@ -100,10 +154,33 @@ class PowerLoss(Result):
 
 @dataclass(frozen=True)
 class PowerFlow(Result):
-    """All streams of a train in one case, in the unit of its powers.
+    """All streams of power of a train in one state: power is torque times absolute speed.
 
-    losses   by pair and bearing, only where there are some
-    loops    circulating power, the greatest first
+    So every shaft gives on all it takes in, and every pair all but what it loses.
+
+    Attributes
+    ----------
+    power_in : Fraction
+        What enters the train [torque times the train's unit of speed].
+    streams : tuple of PowerStream
+        From `in` through shafts and pairs to `out`.
+    losses : mapping of PowerNode to Fraction
+        By pair and bearing, only where something is lost.
+    loops : tuple of RecirculatingPower
+        Circulating power, the greatest first.
+
+    Examples
+    --------
+    >>> import geartrain
+    >>> train = geartrain.load('''
+    ... extends: planetary-24-18-60
+    ... loads: {carrier: -84 N m}
+    ... ''')
+    >>> flow = train.power_flow(train.torques())
+    >>> [(stream.source.name, stream.target.name, int(stream.power)) for stream in flow.streams[:4]]
+    [('sun', 'sun', 24), ('sun', 's~p', 24), ('s~p', 'planet', 12), ('s~p', 'carrier', 12)]
+    >>> flow.power_in == 84 * train.solve()["carrier"], flow.loss, flow.loops
+    (True, Fraction(0, 1), ())
     """
 
     KEYS = ("streams", "loops")
@@ -129,7 +206,18 @@ class PowerFlow(Result):
         return tuple(PowerLoss(node, lost, self.power_in, self.loss) for node, lost in self.losses.items())
 
     def surplus(self, node: PowerNode) -> Fraction:
-        """What a node takes in and neither gives on nor loses: 0 everywhere but at the ends."""
+        """What a node takes in and neither gives on nor loses: 0 everywhere but at the ends.
+
+        Parameters
+        ----------
+        node : PowerNode
+            The node asked for.
+
+        Returns
+        -------
+        Fraction
+            Power in less power out and losses [torque times the train's unit of speed].
+        """
         taken = sum((stream.power for stream in self.streams if stream.target == node), Fraction(0))
         given = sum((stream.power for stream in self.streams if stream.source == node), Fraction(0))
         return taken - given - self.losses.get(node, Fraction(0))

@@ -29,19 +29,36 @@ TorqueVerdictKind = Literal[
 
 @dataclass(frozen=True)
 class TorqueVerdict(Result):
-    """Whether the torques follow from the loads.
+    """Whether the torques follow from the loads: see sections 5, 8, 11 and 13 of docs/torques.md.
 
-    determined      they do, and nothing that is declared is left out
-    incomplete      they do, but for what `left_out` names
-    self-locking    no torques balance the load, however great, while the train turns this way
-    stalled         none balance this load, which is too small to overcome the friction of bearings
-    ambiguous       several patterns of power flow do; the one that loses least is given
-    indeterminate   some tooth torques share a load in proportions that nothing here decides
-    contradictory   declared shares of pairs do not go with the balance
-    unbalanced      the loads set the train moving: no torque of the links asked for can hold them
-    undecided       it is not plain which torque is to be found: `candidates`
-    unloaded        no load and no friction of a bearing is declared
-    still           the train, or the link asked for, does not turn, or at a speed that is not determined
+    True where torques are given: for `determined`, `incomplete`, `ambiguous` and `indeterminate`.
+
+    Attributes
+    ----------
+    kind : str
+        One of these:
+
+        - `determined`: they follow, and nothing that is declared is left out.
+        - `incomplete`: they follow, but for what `Torques.left_out` names.
+        - `self-locking`: no torques balance the load, however great, while the train turns this way.
+        - `stalled`: none balance this load, which is too small to overcome the friction of bearings.
+        - `ambiguous`: several patterns of power flow do; the one that loses least is given.
+        - `indeterminate`: some tooth torques share a load in proportions that nothing declared decides.
+        - `contradictory`: declared shares of pairs do not go with the balance.
+        - `unbalanced`: the loads set the train moving, and no torque of the links asked for can hold them.
+        - `undecided`: it is not plain which torque is to be found.
+        - `unloaded`: no load and no friction of a bearing is declared.
+        - `still`: the train, or the link asked for, does not turn, or at a speed that is not determined.
+    text : str
+        The verdict in one sentence.
+    candidates : tuple of str
+        Links of which one might be asked for (`solve_for`), or would balance the loads; pairs that share a load openly.
+
+    Examples
+    --------
+    >>> import geartrain
+    >>> geartrain.load("planetary-24-18-60").torques().verdict.kind
+    'unloaded'
     """
 
     kind: TorqueVerdictKind
@@ -54,7 +71,21 @@ class TorqueVerdict(Result):
 
 @dataclass(frozen=True)
 class NeglectedEffect(Result):
-    """Something that torques do not count: `what`, the pairs or links `where` it is, and `why`."""
+    """Something that is declared and does not stand in the torques given: the table in section 13 of docs/torques.md.
+
+    Attributes
+    ----------
+    what : str
+        What is left out, such as `friction of bearings` or `swing within a turn`.
+    where : tuple of str
+        The pairs or links concerned.
+    why : str
+        The reason in words.
+
+    See Also
+    --------
+    Torques.left_out : where these stand.
+    """
 
     what: str
     where: tuple[str, ...]
@@ -71,11 +102,23 @@ class NeglectedEffect(Result):
 
 @dataclass(frozen=True)
 class HoldingTorque(Result):
-    """A brake on one link, or a lock of two, with the torques it exerts on them; None where these are open.
+    """A brake on one link, or a lock of two, with the torques it exerts on them.
 
-    clutch   its name, if it has one
-    cause    the links that are declared to be held, where these follow from it: a rigid connection across several axes
-             closes every joint on its way
+    Attributes
+    ----------
+    links : tuple of str
+        The link that is held, or the two that turn together.
+    torques : tuple of Fraction or None
+        On each of the links about its own axis [N m, or plain]; None where they are open.
+    clutch : str or None
+        Its name, if it has one.
+    cause : tuple of str
+        The links that are declared to be held, where these follow from it: a rigid connection across several axes
+        closes every joint on its way.
+
+    See Also
+    --------
+    Torques.held : where these stand.
     """
 
     KEYS = ("links", "clutch", Key("cause", "declared_cause"), Key("torques", "by_link", as_float))
@@ -105,9 +148,21 @@ class MemberTorques(NamedTuple):
 
 
 class BearingTorque(NamedTuple):
-    """Friction of one bearing [N m, or plain]: the torque on its link, the reaction on what bears it, and the loss.
+    """Friction of one bearing: equation (10) of docs/torques.md.
 
-    Both torques are about the links' own axes; the frame takes its reaction without being counted.
+    Attributes
+    ----------
+    link, carrier : str
+        The link that turns in the bearing, and the one that bears it.
+    torque, reaction : Fraction
+        On the link and on the carrier, each about its own axis [N m, or plain]; 0 where the bearing rests or its speed
+        is open, and on the frame.
+    loss : Fraction
+        Power it takes, 0 or more [torque times the train's unit of speed].
+
+    See Also
+    --------
+    Torques.bearings : where these stand.
     """
 
     link: str
@@ -119,13 +174,31 @@ class BearingTorque(NamedTuple):
 
 @dataclass(frozen=True)
 class PairTorque(Result):
-    """One gear pair or coupling under load.
+    """One gear pair or coupling under load: equations (2) and (4) to (6) of docs/torques.md.
 
-    driver      the wheel (or link) that drives in the carrier's frame; "" where nothing flows
-    torques     on the first link, the second and the carrier
-    multiplier  of its row, `rolling` of which is the power, and `efficiency` what is left of it; `rolling` is None
-                where the wheels roll on each other at a speed that is not determined
-    loose       the balance does not determine it
+    Attributes
+    ----------
+    id : str
+        Name of the pair.
+    driver : str
+        The wheel (or link) that drives in the carrier's frame; "" where no power flows.
+    links : tuple of str
+        First link, second link, carrier.
+    torques : tuple of Fraction
+        On these three, each about its own axis [N m, or plain].
+    multiplier : Fraction
+        The unknown x of the pair's row.
+    rolling : Fraction or None
+        a (w_i - w_k), so that -x times it is the power from the first link to the second; None where the wheels roll
+        on each other at a speed that is not determined.
+    efficiency : Fraction
+        What is left of the power behind the pair, the carrier held; 1 without loss.
+    loose : bool
+        True where the balance does not determine the torque.
+
+    See Also
+    --------
+    Torques.pairs : where these stand.
     """
 
     KEYS = (
@@ -165,7 +238,19 @@ class PairTorque(Result):
 
 
 class DrivenWay(NamedTuple):
-    """Torques of a train driven at `source` while a unit of power leaves at `load`."""
+    """Torques of a train driven at `source` while a unit of power leaves at `load`.
+
+    Attributes
+    ----------
+    torques : Torques
+        What answers; its `efficiency` is that of this way.
+    source, load : str
+        The links at which power enters and leaves.
+
+    See Also
+    --------
+    geartrain.GearTrain.drive_both_ways : what gives these.
+    """
 
     torques: Torques
     source: str
@@ -185,13 +270,47 @@ class LinkTorque(Result):
 
 @dataclass(frozen=True)
 class Torques(FrozenFields, Result):
-    """External torques by link, torques and powers by pair, and the balance of power, all exact.
+    """Torques and powers of a train in one state, all exact: A^T x + T = 0, equation (3) of docs/torques.md.
 
-    external    on every link that has one: loads, bearings, what was asked for, brakes
-    asked       the links whose torque was found
-    speeds      of the links whose speed is determined
-    held        brakes and locks with the torques they exert
-    left_out    what is not counted
+    Torques are in N m where loads have units, else in the plain unit of the loads; powers are torques times the train's
+    unit of speed. Power is positive into the train.
+
+    Attributes
+    ----------
+    state : str or None
+        The state; None for a train without states.
+    verdict : TorqueVerdict
+        Whether the torques follow from the loads. Where they do not, nothing but this and `left_out` is given.
+    asked : tuple of str
+        The links whose torque was found.
+    external : mapping of str to Fraction
+        Torque from outside on every link that has one: loads, what was asked for, brakes.
+    speeds : mapping of str to Fraction
+        Speeds of the links whose speed is determined.
+    pairs : mapping of str to PairTorque
+        Gear pairs and couplings by name.
+    bearings : tuple of BearingTorque
+        Friction of bearings; empty where it was not asked for.
+    held : tuple of HoldingTorque
+        Brakes and locks with the torques they exert.
+    left_out : tuple of NeglectedEffect
+        What is not counted.
+
+    Examples
+    --------
+    Both pairs of a planetary set have an efficiency of 0.98, and its ring is held. From sun to carrier
+    (1 + p e) / (1 + p) comes out, with p = 60/24 and e = 0.98^2 (the table in section 10 of docs/torques.md):
+
+    >>> import geartrain
+    >>> found = geartrain.load('''
+    ... extends: planetary-24-18-60
+    ... gears: [{pair: [s, p], efficiency: 0.98}, {pair: [p, ring], efficiency: 0.98}]
+    ... loads: {carrier: -10 N m}
+    ... ''').torques()
+    >>> found.verdict.kind, float(found.efficiency), round((1 + 60/24 * 0.98**2) / (1 + 60/24), 12)
+    ('determined', 0.9717142857142858, 0.971714285714)
+    >>> round(float(found.external["sun"]), 6), found.pairs["s~p"].driver
+    (2.940312, 's')
     """
 
     KEYS = (

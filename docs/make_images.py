@@ -18,6 +18,7 @@ from geartrain.drawing import law_figure, motion_figure, picture, power_figure, 
 from geartrain.dynamics import MotionRun
 from geartrain.report.document import Document
 from geartrain.report.text import to_terminal
+from geartrain.report.train_data import collect_report
 from geartrain.report.train_report import describe_train
 from geartrain.spherical import from_polyhedron
 from geartrain.spherical.gear_sphere import GearSphere
@@ -93,7 +94,7 @@ def sphere() -> None:
 
 def report() -> None:
     """Part of the report on the Antikythera train."""
-    whole = describe_train(geartrain.load("pennestri-2002"))
+    whole = describe_train(collect_report(geartrain.load("pennestri-2002")))
     part = Document(whole.title, whole.lead, [section for section in whole.sections if section.title in SECTIONS])
     console = Console(record=True, width=100, highlight=False, file=io.StringIO(), force_terminal=True)
     to_terminal([part], console)

@@ -1,4 +1,4 @@
-"""Shipped trains and their scenes, made once for all tests that only read them."""
+"""Shipped trains, their reports and their scenes, made once for all tests that only read them."""
 
 from __future__ import annotations
 
@@ -6,13 +6,25 @@ from functools import cache
 
 import geartrain
 from geartrain import GearTrain
+from geartrain.report.train_data import TrainReport, collect_report
 from geartrain.scene import Scene, make_scene
+
+
+def trains() -> list[str]:
+    """Names of the shipped trains."""
+    return list(geartrain.shipped())
 
 
 @cache
 def train(name: str) -> GearTrain:
     """A shipped train."""
     return geartrain.load(name)
+
+
+@cache
+def report(name: str) -> TrainReport:
+    """All that a report on it holds."""
+    return collect_report(train(name))
 
 
 @cache

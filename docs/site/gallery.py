@@ -105,6 +105,7 @@ def _files(name: str) -> Iterator[tuple[str, bytes]]:
     from geartrain.report.document import Picture
     from geartrain.report.html_page import to_html
     from geartrain.report.shared_page import describe_shared_page
+    from geartrain.report.train_data import collect_report
     from geartrain.scene import make_scene
     from geartrain.viewer import page
 
@@ -115,5 +116,5 @@ def _files(name: str) -> Iterator[tuple[str, bytes]]:
         figure = picture(train, kind)
         pictures.append(Picture(caption, render(figure, ".svg").decode("utf-8")))
         yield f"{kind}/{name}.png", render(figure, ".png", dots=72)
-    yield f"report/{name}.html", to_html([describe_shared_page(train, pictures)]).encode("utf-8")
+    yield f"report/{name}.html", to_html([describe_shared_page(collect_report(train), pictures)]).encode("utf-8")
     yield f"view/{name}.html", page([make_scene(train, state) for state in train.states or (None,)]).encode("utf-8")

@@ -134,7 +134,8 @@ def _report(
                 raise
             stopped = True
     to = into[stopped]
-    give(to, json, lambda: collect_motion(asked, *of), lambda: [describe_motion(asked)])
+    found = collect_motion(asked, *of)
+    give(to, json, lambda: found, lambda: [describe_motion(found)])
     if stopped:
         tell(f"stopped after {asked.done} of {asked.samples} positions; the figures are of those")
         raise typer.Exit(INTERRUPTED)

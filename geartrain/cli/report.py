@@ -39,15 +39,16 @@ def run(
     elif to.suffix == ".html":
         emit(to_html([_shared(train, view) for train in trains]), to)
     else:
-        show([describe_train(train) for train in trains], to)
+        show([describe_train(collect_report(train)) for train in trains], to)
     raise typer.Exit(GOOD if good else VERDICT)
 
 
 def _shared(train: GearTrain, view: bool) -> Document:
     from geartrain.report.shared_page import describe_shared_page
+    from geartrain.report.train_data import collect_report
 
     pictures, notes = _pictures(train)
-    return describe_shared_page(train, pictures, _viewer(train) if view else "", notes)
+    return describe_shared_page(collect_report(train), pictures, _viewer(train) if view else "", notes)
 
 
 def _viewer(train: GearTrain) -> str:

@@ -52,7 +52,8 @@ def run(
     sound = all(each.verdict or each.verdict.kind == "unloaded" for each in found)
     if plot is not None:
         _draw(train, found, picture)
-    give(to, json, lambda: collect_torque_report(train, found), lambda: [describe_torques(train, found)])
+    report = collect_torque_report(train, found)
+    give(to, json, lambda: report, lambda: [describe_torques(report)])
     raise typer.Exit(GOOD if sound else VERDICT)
 
 

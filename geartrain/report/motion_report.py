@@ -23,8 +23,9 @@ _ABREAST = 8  # outputs side by side
 _TURNS, _POSITIONS = 20.0, 20_001  # of the run in a report
 
 
-def describe_motion(run: MotionRun) -> Document:
+def describe_motion(found: MotionFigures) -> Document:
     """Error and speed of each output of a run, and what else was asked of it."""
+    run = found.run
     train, period = run.motion.train, run.motion.period
     lead = [
         f"While '{train.lead}' makes {run.turns:g} turns, in {run.done} positions. Speeds are over that of "
@@ -53,30 +54,22 @@ def motion_sections(run: MotionRun) -> Iterator[Section]:
             yield _spectrum(name, lines)
 
 
-def moving_sections(train: GearTrain) -> Iterator[Section]:
-    """Motion in every state of a train with real teeth or pins; nothing, and no computation, for others."""
-    for state, run in _runs(train):
-        head = "Motion" if state is None else f"State {state}: motion"
-        if isinstance(run, GearTrainError):
-            yield Section(head, [f"{problem.what}: {problem.why}." for problem in run.problems])
+def moving_sections(train: GearTrain, found: Sequence[MotionFigures | UnfollowedMotion]) -> Iterator[Section]:
+    """Motion in every state of a train with real teeth or pins."""
+    for each in found:
+        head = "Motion" if each.state is None else f"State {each.state}: motion"
+        if isinstance(each, UnfollowedMotion):
+            yield Section(head, [f"{problem.what}: {problem.why}." for problem in each.why.problems])
             continue
+        run = each.run
         text = f"While '{run.motion.train.lead}' makes {run.turns:g} turns; `geartrain motion` has more."
         yield Section(head, (text, *_remarks(run)), (_outputs(_rippling(run)),))
     if train.meshes and not _ripples(train):
         yield Section("Motion", (_rigid(train.meshes),))
 
 
-def moving_figures(train: GearTrain) -> tuple[MotionFigures | UnfollowedMotion, ...]:
-    """Motion in every state; empty for a train of ideal teeth and pins without sizes."""
-    return tuple(
-        UnfollowedMotion(train.name, state, str(run))
-        if isinstance(run, GearTrainError)
-        else collect_motion(run, train.name, state)
-        for state, run in _runs(train)
-    )
-
-
-def _runs(train: GearTrain) -> Iterator[tuple[str | None, MotionRun | GearTrainError]]:
+def collect_motions(train: GearTrain) -> Iterator[MotionFigures | UnfollowedMotion]:
+    """Motion in every state; nothing, and no computation, for a train of ideal teeth and pins without sizes."""
     if not _ripples(train):
         return
     from geartrain.dynamics import MotionRun
@@ -86,9 +79,9 @@ def _runs(train: GearTrain) -> Iterator[tuple[str | None, MotionRun | GearTrainE
             run = MotionRun(train.motion(state), _TURNS, _POSITIONS)
             run.go()
         except GearTrainError as error:
-            yield state, error
+            yield UnfollowedMotion(train.name, state, error)
         else:
-            yield state, run
+            yield collect_motion(run, train.name, state)
 
 
 def _ripples(train: GearTrain) -> bool:
@@ -255,6 +248,7 @@ class OutputMotion:
 class MotionFigures(Result):
     """A run of a train in a state; angles in rad.
 
+    run           what was done
     state         as it was named
     input         the link whose turns are counted
     period        turns after which everything repeats; None where nothing ripples
@@ -263,6 +257,12 @@ class MotionFigures(Result):
     rigid         pairs with real teeth that keep their ratio at every instant and add nothing
     """
 
+    KEYS = (
+        *("name", "state", "input", "turns", "positions", "period", "drivers", "turned_back", "rigid", "outputs"),
+        *("phases", "partial"),
+    )
+
+    run: MotionRun
     name: str
     state: str | None
     input: str
@@ -281,9 +281,16 @@ class MotionFigures(Result):
 class UnfollowedMotion:
     """A state in which the motion cannot be followed, and why."""
 
+    KEYS = ("name", "state", "error")
+
     name: str
     state: str | None
-    error: str
+    why: GearTrainError
+
+    @property
+    def error(self) -> str:
+        """Why, in words."""
+        return str(self.why)
 
 
 def collect_motion(run: MotionRun, name: str, state: str | None) -> MotionFigures:
@@ -303,6 +310,7 @@ def collect_motion(run: MotionRun, name: str, state: str | None) -> MotionFigure
         for at, tally in enumerate(run.tallies)
     }
     return MotionFigures(
+        run,
         name,
         state,
         input=motion.train.lead,

@@ -15,6 +15,7 @@ from geartrain.report.document import Document, Section, Table, cut, figure
 
 if TYPE_CHECKING:
     from geartrain.dynamics import PowerFlow, PowerLoss, Torques, TorqueVerdict
+    from geartrain.dynamics.torques.torque_results import DrivenWay
 
 _UNITS = (
     "Torques as loads are given; power is torque times speed in the train's unit, positive into the train; in a pair, "
@@ -26,45 +27,34 @@ _UNITS_IN_WATTS = (
 )
 
 
-def describe_torques(train: GearTrain, found: Sequence[Torques]) -> Document:
+def describe_torques(found: TorqueReport) -> Document:
     """Torques under the declared loads, one answer a state, and the efficiency there and back."""
-    sections = [section for each in found for section in torque_sections(train, each)]
-    lead = [f"Train '{train.name}'. {_units(train, found)}"]
-    return Document(f"Torques of {train.name}", lead, sections)
+    sections = [section for each in found.states for section in torque_sections(each)]
+    lead = [f"Train '{found.name}'. {_units(found.states)}"]
+    return Document(f"Torques of {found.name}", lead, sections)
 
 
-def loaded_sections(train: GearTrain) -> Iterator[Section]:
-    """Sections of all states with loads or friction of bearings; nothing, and free of cost, where there are none."""
-    found = list(_loaded(train))
-    sections = (section for each in found for section in torque_sections(train, each))
+def loaded_sections(found: Sequence[TorqueFigures]) -> Iterator[Section]:
+    """Sections of the loaded states of a train."""
+    sections = (section for each in found for section in torque_sections(each))
     for at, section in enumerate(sections):
-        yield section if at else replace(section, paragraphs=(_units(train, found), *section.paragraphs))
+        yield section if at else replace(section, paragraphs=(_units(found), *section.paragraphs))
 
 
-def loaded_figures(train: GearTrain) -> tuple[TorqueFigures, ...]:
-    """Torques of all states with loads or friction of bearings as plain data."""
-    return tuple(collect_torques(train, each) for each in _loaded(train))
-
-
-def _loaded(train: GearTrain) -> Iterator[Torques]:
-    for state in train.states or (None,):
-        if train.declaration.is_loaded(state):
-            yield train.torques(state)
-
-
-def torque_sections(train: GearTrain, found: Torques) -> Iterator[Section]:
+def torque_sections(figures: TorqueFigures) -> Iterator[Section]:
     """Links, pairs and verdict of one state, then how power flows and where it is lost."""
+    found, flow = figures.torques, figures.flow
     state = found.state
     head = "Torques" if state is None else f"State {state}: torques"
     lines = [f"Verdict: {found.verdict.kind}: {found.verdict.text}."]
     if found.verdict.kind == "undecided" and found.verdict.candidates:
         lines.append(f"It can be one of {', '.join(found.verdict.candidates)}.")
     lines += [f"Left out: {each}: {each.why}." for each in found.left_out]
-    lines += _there_and_back(train, state)
+    lines += _there_and_back(figures.drives)
     if not found.verdict:
         yield Section(head, lines)
         return
-    amounts = _Amounts(train, found)
+    amounts = _Amounts(figures)
     efficiency, circulating = found.efficiency, found.circulating
     if efficiency is not None and circulating is not None:
         lines.append(
@@ -77,25 +67,17 @@ def torque_sections(train: GearTrain, found: Torques) -> Iterator[Section]:
         lines.append(f"Torque needed, with the friction of bearings: {needed}{uncounted_words(found)}.")
     tables = [_links(found, amounts), *_held(found), _pairs(found, amounts)]
     yield Section(head, lines, tuple(tables))
-    flow = train.power_flow(found)
-    parts = tuple(_loops(flow, amounts)), tuple(_losses(flow, amounts, _blows(train, found)))
+    parts = tuple(_loops(flow, amounts)), tuple(_losses(flow, amounts, figures.blows))
     if any(parts):
         yield Section("Flow of power" if state is None else f"State {state}: flow of power", *parts)
-
-
-def _blows(train: GearTrain, found: Torques) -> Mapping[str, float]:
-    """What the collisions of each pair dissipate (W), where inertias and a rate are declared."""
-    return {pair: impact.power for pair, impact in train.impacts(found.state).items()}
 
 
 class _Amounts:
     """Powers and torques in words: in watts and N m where they are real."""
 
-    def __init__(self, train: GearTrain, found: Torques) -> None:
-        from geartrain.dynamics.torques.power_flow import has_torque_units
-
-        self.watts = _watts(train, found)
-        self.unit = " N m" if has_torque_units(train.declaration, found.state) else ""
+    def __init__(self, found: TorqueFigures) -> None:
+        self.watts = found.watts_per_unit
+        self.unit = " N m" if found.in_newton_metres else ""
 
     def text(self, power: Fraction, digits: int = 7) -> str:
         return figure(power, digits) if self.watts is None else watts_text(float(power) * self.watts)
@@ -104,14 +86,8 @@ class _Amounts:
         return f"{figure(torque, 9)}{self.unit}"
 
 
-def _watts(train: GearTrain, found: Torques) -> float | None:
-    from geartrain.dynamics.torques.power_flow import watts_per_unit
-
-    return watts_per_unit(train.declaration, train.declaration.case(found.state))
-
-
-def _units(train: GearTrain, found: Sequence[Torques]) -> str:
-    real = [_watts(train, each) is not None for each in found if each.verdict]
+def _units(found: Sequence[TorqueFigures]) -> str:
+    real = [each.watts_per_unit is not None for each in found if each.torques.verdict]
     return _UNITS_IN_WATTS if real and all(real) else _UNITS
 
 
@@ -210,8 +186,9 @@ def _loss_row(flow: PowerFlow, amounts: _Amounts, lost: Fraction, blow: float | 
 # ------------------------------------------------------------------------------------------------------ there and back
 
 
-def _there_and_back(train: GearTrain, state: str | None) -> Iterator[str]:
-    for torques, first, last in train.drive_both_ways(state):
+def _there_and_back(drives: DrivenWays | None) -> Iterator[str]:
+    for way in drives or ():
+        torques, first, last = way.way
         efficiency = torques.efficiency
         if torques.verdict.kind == "self-locking":
             yield f"'{last}' cannot be driven from '{first}': the train locks."
@@ -243,19 +220,22 @@ class LossFigures:
 class DrivenFigures:
     """The efficiency of a train driven one way; None where it is not determined."""
 
-    KEYS = ("verdict", Key("efficiency", to=as_float), Key("exact", "efficiency"), Key("left_out", "torques.left_out"))
+    KEYS = (
+        *("verdict", Key("efficiency", to=as_float), Key("exact", "efficiency")),
+        Key("left_out", "way.torques.left_out"),
+    )
 
-    torques: Torques
+    way: DrivenWay
 
     @property
     def verdict(self) -> TorqueVerdict:
         """Whether the train can be driven so."""
-        return self.torques.verdict
+        return self.way.torques.verdict
 
     @property
     def efficiency(self) -> Fraction | None:
         """Power out over power in; None where it is not determined."""
-        return self.torques.efficiency if self.verdict else None
+        return self.way.torques.efficiency if self.verdict else None
 
 
 class DrivenWays(NamedTuple):
@@ -269,8 +249,10 @@ class DrivenWays(NamedTuple):
 class TorqueFigures(Result):
     """Torques, flow of power and losses of one state.
 
-    drives           None where it is not plain which link is the output
-    watts_per_unit   None where torques or speeds are plain numbers
+    drives             None where it is not plain which link is the output
+    watts_per_unit     None where torques or speeds are plain numbers
+    in_newton_metres   whether torques have a unit
+    blows              what the collisions of each pair dissipate (W), where inertias and a rate are declared
     """
 
     KEYS = (Key("", "torques"), "drives", "watts_per_unit", "losses", "flow")
@@ -278,8 +260,18 @@ class TorqueFigures(Result):
     torques: Torques
     drives: DrivenWays | None
     watts_per_unit: float | None
-    losses: tuple[LossFigures, ...]
+    in_newton_metres: bool
     flow: PowerFlow
+    blows: Mapping[str, float]
+
+    @property
+    def losses(self) -> tuple[LossFigures, ...]:
+        """What each pair and bearing loses."""
+        struck = {name: Impact(power) for name, power in self.blows.items()}
+        return tuple(
+            LossFigures(loss, struck.get(loss.node.name) if loss.node.kind == "pair" else None)
+            for loss in self.flow.shares
+        )
 
 
 @dataclass(frozen=True)
@@ -298,14 +290,14 @@ def collect_torque_report(train: GearTrain, found: Sequence[Torques]) -> TorqueR
 
 def collect_torques(train: GearTrain, found: Torques) -> TorqueFigures:
     """Torques of one state, with the flow of power and the efficiency there and back."""
-    flow, blows, ways = train.power_flow(found), _blows(train, found), train.drive_both_ways(found.state)
-    struck = {name: Impact(power) for name, power in blows.items()}
+    from geartrain.dynamics.torques.power_flow import has_torque_units, watts_per_unit
+
+    declared, state, ways = train.declaration, found.state, train.drive_both_ways(found.state)
     return TorqueFigures(
         found,
-        DrivenWays(*(DrivenFigures(way.torques) for way in ways)) if ways else None,
-        _watts(train, found),
-        tuple(
-            LossFigures(loss, struck.get(loss.node.name) if loss.node.kind == "pair" else None) for loss in flow.shares
-        ),
-        flow,
+        DrivenWays(*map(DrivenFigures, ways)) if ways else None,
+        watts_per_unit(declared, declared.case(state)),
+        has_torque_units(declared, state),
+        train.power_flow(found),
+        {pair: impact.power for pair, impact in train.impacts(state).items()},
     )

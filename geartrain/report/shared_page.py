@@ -6,7 +6,6 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
-from geartrain.analysis.gear_train import GearTrain
 from geartrain.report.document import (
     CitedText,
     Document,
@@ -17,20 +16,21 @@ from geartrain.report.document import (
     cut,
     filled_table,
 )
+from geartrain.report.train_data import TrainReport
 from geartrain.report.train_report import describe_train, source_line
 from geartrain.train import Train
 
 
 def describe_shared_page(
-    train: GearTrain, pictures: Sequence[Picture] = (), viewer: str = "", notes: Sequence[str] = ()
+    found: TrainReport, pictures: Sequence[Picture] = (), viewer: str = "", notes: Sequence[str] = ()
 ) -> Document:
-    """The report on `train` with all that a page has room for; sources stand at its end instead of its lead.
+    """The report on a train with all that a page has room for; sources stand at its end instead of its lead.
 
     `viewer` is a whole HTML page, embedded as it is; `notes` are remarks on the page, below the lead.
     """
-    document, declared = describe_train(train), train.declaration
+    document, declared = describe_train(found), found.train.declaration
     cited = {source_line(key, source) for key, source in declared.sources.items()}
-    badge, sound = _badge(train)
+    badge, sound = _badge(found)
     aside = PageExtras(
         badge=badge,
         sound=sound,
@@ -46,9 +46,9 @@ def describe_shared_page(
     return replace(document, lead=[line for line in document.lead if line not in cited], aside=aside)
 
 
-def _badge(train: GearTrain) -> tuple[str, bool]:
+def _badge(found: TrainReport) -> tuple[str, bool]:
     """The worst that is to be said of a train, in few words; and whether it is no complaint."""
-    answers = tuple(train.answers())
+    train, answers = found.train, found.states
     wrong = [answer for answer in answers if not answer.verdict]
     if wrong:
         kind = wrong[0].verdict.kind

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from geartrain.numerics.plain_data import Key, Result
 
@@ -29,22 +29,35 @@ _MOST_LINKS = 500  # of a train whose adjacency is told
 class TrainAnswers(Result):
     """A train and its answers: one for each state that was asked for.
 
-    unit       empty for plain numbers
     mobility   None where one output was asked for: it takes all circuits, where that takes those that drive it
     states     answers; a train without states has one, whose `state` is None
     """
 
-    name: str
-    title: str
-    unit: str
+    KEYS: ClassVar[tuple[str | Key, ...]] = ("name", "title", "unit", "mobility", "states")
+
+    train: GearTrain
     mobility: Mobility | None
     states: tuple[Answer, ...]
+
+    @property
+    def name(self) -> str:
+        """Of the train."""
+        return self.train.name
+
+    @property
+    def title(self) -> str:
+        """One line for a reader."""
+        return self.train.declaration.title
+
+    @property
+    def unit(self) -> str:
+        """Of speeds; empty for plain numbers."""
+        return self.train.declaration.unit_name
 
 
 def collect_answers(train: GearTrain, answers: Iterable[Answer], whole: bool = True) -> TrainAnswers:
     """What `solve` tells: answers of a train; without its mobility unless it is solved as a whole."""
-    declared, mobility = train.declaration, train.mobility if whole else None
-    return TrainAnswers(train.name, declared.title, declared.unit_name, mobility, tuple(answers))
+    return TrainAnswers(train, train.mobility if whole else None, tuple(answers))
 
 
 @dataclass(frozen=True)
@@ -103,12 +116,13 @@ def collect_report(train: GearTrain) -> TrainReport:
     """Everything a report holds: answers, structure, teeth, torques, motion, doubts and errata."""
     from geartrain.kinematics.graph import adjacency_labels
     from geartrain.report.gear_pairs import driven_pairs, driven_pins
-    from geartrain.report.motion_report import moving_figures
-    from geartrain.report.power_report import loaded_figures
+    from geartrain.report.motion_report import collect_motions
+    from geartrain.report.power_report import collect_torques
 
     declared, small = train.declaration, len(train.declaration.links) <= _MOST_LINKS
     answers = tuple(train.answers())
     doubts = ((answer, change) for answer in answers if answer.verdict for change in train.sensitivity(answer))
+    loaded = (state for state in train.states or (None,) if declared.is_loaded(state))
     return TrainReport(
         **vars(collect_answers(train, answers)),
         gridlock=train.gridlock,
@@ -120,7 +134,7 @@ def collect_report(train: GearTrain) -> TrainReport:
         sensitivity=tuple(StateSensitivity(answer.state, change) for answer, change in doubts),
         teeth=driven_pairs(train),
         pins=driven_pins(train),
-        torques=loaded_figures(train),
-        motion=moving_figures(train),
+        torques=tuple(collect_torques(train, train.torques(state)) for state in loaded),
+        motion=tuple(collect_motions(train)),
         errata=tuple(declared.errata),
     )

@@ -16,15 +16,16 @@ from geartrain.report.document import MOST_ROWS, Document, ExactText, Section, T
 from geartrain.report.gear_pairs import teeth_sections
 from geartrain.report.motion_report import moving_sections
 from geartrain.report.power_report import loaded_sections
+from geartrain.report.train_data import TrainReport
 from geartrain.train import Source, Train, Wheel
 
 _CIRCUITS_ABREAST = 6
 
 
-def describe_train(train: GearTrain) -> Document:
+def describe_train(found: TrainReport) -> Document:
     """Structure, circuits, mobility, speeds, outputs, doubts and errata of one train."""
+    train, answers = found.train, found.states
     declared = train.declaration
-    answers = tuple(train.answers())
     sections = [*_structure(train), _circuits(train), _mobility(train)]
     sections += _phasing(train)
     if train.remarks:
@@ -35,8 +36,8 @@ def describe_train(train: GearTrain) -> Document:
     for answer in answers:
         sections += answer_sections(train, answer)
     sections += teeth_sections(train)
-    sections += loaded_sections(train)
-    sections += moving_sections(train)
+    sections += loaded_sections(found.torques)
+    sections += moving_sections(train, found.motion)
     sections += doubtful_wheels(train, answers)
     if declared.errata:
         rows = [(e.place, e.printed, e.right, e.why) for e in declared.errata]

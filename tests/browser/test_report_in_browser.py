@@ -13,6 +13,7 @@ from geartrain import load
 from geartrain.report.document import Picture
 from geartrain.report.html_page import to_html
 from geartrain.report.shared_page import describe_shared_page
+from geartrain.report.train_data import collect_report
 
 EVIL = "<script>alert(1)</script>\"'><img src=x onerror=alert(2)>"
 SVG = (
@@ -65,7 +66,7 @@ def sort_by(page: Page, heading: str, column: str) -> list[str]:
 
 @pytest.fixture(scope="module")
 def freeth() -> str:
-    return to_html([describe_shared_page(load("freeth-2008"), [Picture("a line", SVG)])])
+    return to_html([describe_shared_page(collect_report(load("freeth-2008")), [Picture("a line", SVG)])])
 
 
 def test_a_click_sorts_fractions_by_their_exact_size_and_another_turns_them_round(
@@ -84,7 +85,7 @@ def test_a_click_sorts_fractions_by_their_exact_size_and_another_turns_them_roun
 
 
 def test_names_are_sorted_as_people_count_and_cells_without_a_value_come_last(open_report: Opened) -> None:
-    page, wrong = open_report(to_html([describe_shared_page(load("pennestri-2002"))]))
+    page, wrong = open_report(to_html([describe_shared_page(collect_report(load("pennestri-2002")))]))
     names = sort_by(page, "Structure", "link")
     assert [int(name) for name in names] == sorted(int(name) for name in names)
     ratios = sort_by(page, "Speeds", "output : input")
@@ -118,7 +119,7 @@ def test_a_train_named_like_a_script_is_harmless(train_file: Callable[..., Path]
         f"extends: worm\nname: '{quoted}'\ntitle: '{quoted}'\nnote: '{quoted}'\n"
         f"sources: {{'{quoted}': {{cite: '{quoted}', url: 'javascript:alert(3)'}}}}\n"
     )
-    page, wrong = open_report(to_html([describe_shared_page(load(path))]))
+    page, wrong = open_report(to_html([describe_shared_page(collect_report(load(path)))]))
     page.wait_for_timeout(300)
     assert page.title() == EVIL
     assert page.locator("h1").inner_text() == EVIL
@@ -134,7 +135,7 @@ def test_a_script_smuggled_into_a_page_would_not_run(freeth: str, open_report: O
 
 def test_a_script_in_the_frame_cannot_reach_the_page_round_it(open_report: Opened) -> None:
     inner = "<p>inside</p><script>document.title = 'inside'; parent.document.title = 'taken'</script>"
-    page, wrong = open_report(to_html([describe_shared_page(load("worm"), viewer=inner)]))
+    page, wrong = open_report(to_html([describe_shared_page(collect_report(load("worm")), viewer=inner)]))
     (frame,) = [each for each in page.frames if each.parent_frame]
     frame.wait_for_selector("p")
     assert frame.title() == "inside", "scripts run in the frame"
@@ -195,7 +196,9 @@ def test_the_train_turns_in_its_frame_within_the_policy_of_the_page(open_report:
     from geartrain.viewer import page as viewer
 
     train = load("worm")
-    page, wrong = open_report(to_html([describe_shared_page(train, viewer=viewer([make_scene(train)]))]))
+    page, wrong = open_report(
+        to_html([describe_shared_page(collect_report(train), viewer=viewer([make_scene(train)]))])
+    )
     (frame,) = [each for each in page.frames if each.parent_frame]
     # asked again and again from outside: the policy forbids the page to evaluate what it is given to wait for
     for _ in range(1500):

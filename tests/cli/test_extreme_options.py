@@ -240,8 +240,12 @@ def test_what_once_broke_the_command_is_answered_or_refused(text: str, option: s
     assert not said(text, option, value, tmp_path, 0)
 
 
+FEW, MANY = 60, 120
+"""Samples in every run, and with `--slow`, whose profile draws new ones (conftest.py)."""
+
+
 @given(st.sampled_from(ALL), st.integers(0, 10**9))
-@settings(max_examples=60, deadline=None, phases=(Phase.reuse, Phase.generate))
+@settings(max_examples=FEW if settings().derandomize else MANY, phases=(Phase.reuse, Phase.generate))
 def test_any_option_of_a_number_takes_or_refuses_any_number(
     tmp_path_factory: pytest.TempPathFactory, one: tuple[str, str, str], number: int
 ) -> None:

@@ -26,6 +26,7 @@ from geartrain.dynamics.torques.power_flow import watts_per_unit
 from geartrain.numerics.decimal_text import percent_of_text, percent_text, watts_text
 from geartrain.report.document import Document
 from geartrain.report.power_report import (
+    collect_torque_report,
     collect_torques,
     describe_torques,
     torque_sections,
@@ -381,7 +382,9 @@ outputs: {third: {}}
 
 
 def page(train: GearTrain) -> str:
-    return to_markdown([describe_torques(train, [train.torques(state) for state in states(train)])])
+    return to_markdown(
+        [describe_torques(collect_torque_report(train, [train.torques(state) for state in states(train)]))]
+    )
 
 
 def rows(text: str, first: str) -> list[list[str]]:
@@ -448,7 +451,7 @@ def test_collisions_stand_beside_sliding() -> None:
 
 def test_a_train_that_loses_nothing_in_no_loop_has_no_more_to_say() -> None:
     train = load("extends: planetary-24-18-60\nloads: {carrier: -1}\n")
-    assert [section.title for section in torque_sections(train, train.torques())] == ["Torques"]
+    assert [section.title for section in torque_sections(collect_torques(train, train.torques()))] == ["Torques"]
 
 
 def titles(document: Document) -> list[str]:
@@ -460,14 +463,14 @@ def test_a_report_tells_of_torques_in_loaded_states_only() -> None:
     from geartrain.report.train_report import describe_train
 
     train = load(SPLIT)
-    found = [title for title in titles(describe_train(train)) if "torques" in title or "power" in title]
+    found = [title for title in titles(describe_train(collect_report(train))) if "torques" in title or "power" in title]
     assert found == [f"State {s}: {what}" for s in ("cruising", "boost") for what in ("torques", "flow of power")]
     assert [each["state"] for each in collect_report(train).to_dict()["torques"]] == ["cruising", "boost"]
     bare = load("prius-power-split")
-    assert not [title for title in titles(describe_train(bare)) if "orque" in title]
+    assert not [title for title in titles(describe_train(collect_report(bare))) if "orque" in title]
     assert collect_report(bare).to_dict()["torques"] == []
     only_rubbing = load("extends: planetary-24-18-60\nlinks: {carrier: {bearing: 1 N m}}\n")
-    assert "Torques" in titles(describe_train(only_rubbing))
+    assert "Torques" in titles(describe_train(collect_report(only_rubbing)))
 
 
 def test_a_report_on_a_train_that_locks_itself_is_still_sound(tmp_path: Path) -> None:
@@ -644,7 +647,7 @@ import sys, geartrain
 from geartrain.report.train_data import collect_report
 from geartrain.report.train_report import describe_train
 train = geartrain.load(sys.argv[1])
-describe_train(train), collect_report(train).to_dict()
+describe_train(collect_report(train)), collect_report(train).to_dict()
 print(any(name.startswith("geartrain.dynamics.torques") for name in sys.modules), "numpy" in sys.modules)
 """
     assert fresh(code, "planetary").stdout.split() == ["False", "False"]

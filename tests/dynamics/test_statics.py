@@ -21,8 +21,9 @@ from strategies import Data, trains
 
 from geartrain import GearTrain, load
 from geartrain.dynamics import Torques
-from geartrain.report.power_report import collect_torques, describe_torques
+from geartrain.report.power_report import collect_torque_report, collect_torques, describe_torques
 from geartrain.report.text import to_markdown
+from geartrain.report.train_data import collect_report
 from geartrain.report.train_report import describe_train
 
 AXLE = """
@@ -285,10 +286,10 @@ def test_a_closed_clutch_and_a_brake_show_what_they_carry(tmp_path: Path) -> Non
     brake, lock = found.held
     assert (lock.links, lock.clutch, lock.torques) == (("a", "b"), "K", (-200, 200))
     assert (brake.links, brake.clutch, brake.torques) == (("c",), "S", (-30,))
-    page = to_markdown([describe_torques(train, [found])])
+    page = to_markdown([describe_torques(collect_torque_report(train, [found]))])
     assert "| lock K  | a, b | -200         | 200           |" in page
     assert "| brake S | c    | -30          |               |" in page
-    assert "lock K" in to_markdown([describe_train(train)])
+    assert "lock K" in to_markdown([describe_train(collect_report(train))])
     data = collect_torques(train, found).to_dict()
     assert data["held"] == [
         {"links": ["c"], "clutch": "S", "cause": None, "torques": {"c": -30.0}},

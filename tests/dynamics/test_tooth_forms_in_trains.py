@@ -200,7 +200,7 @@ def test_teeth_that_cannot_run_fail_check_and_report_with_what_would_fit(
         assert f"FAIL {path}:9: pair 'p~w' (gear 1 is 'p', gear 2 'w'): {fault.what}; {fault.why}; {fault.fix}" in line
         assert problem.fix
     assert call("report", path).exit_code == 1
-    assert mesh.faults[0].what in to_markdown([describe_train(load(path))])
+    assert mesh.faults[0].what in to_markdown([describe_train(collect_report(load(path)))])
     (data,) = json.loads(call("report", path, "--json").output)[0]["teeth"]
     assert data["verdict"]["kind"] == mesh.verdict.kind
     assert [fault["fix"] for fault in data["verdict"]["faults"]] == [fault.fix for fault in mesh.verdict.faults]
@@ -328,7 +328,7 @@ def test_a_page_names_the_pairs_that_keep_their_ratio_and_follows_none(monkeypat
 
     monkeypatch.setattr("geartrain.dynamics.motion.motion_run.MotionRun", forbidden)
     train = load("longcase-clock-cycloidal")
-    page = to_markdown([describe_train(train)])
+    page = to_markdown([describe_train(collect_report(train))])
     assert "add nothing to any motion: g96~c8, c60~t8, t56~e7, cannon~mw40, mw6~h72 (cycloidal)" in page
     assert collect_report(train).to_dict()["motion"] == []
 
@@ -518,7 +518,7 @@ def test_the_mill_turns_as_its_counts_say_with_its_wheels_at_right_angles() -> N
 
 def test_a_mixed_train_shows_each_family_in_its_own_table() -> None:
     train = load(CHAIN.format(first=INVOLUTE, second=RIPPLING) + "friction: 0.1\n")
-    page = to_markdown([describe_train(train)])
+    page = to_markdown([describe_train(collect_report(train))])
     assert "Triangular teeth, each pair" in page
     assert "Conjugate teeth keep the ratio" in page
     conjugate, triangular = collect_report(train).to_dict()["teeth"]

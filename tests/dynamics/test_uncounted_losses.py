@@ -20,8 +20,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from geartrain import load
-from geartrain.report.power_report import collect_torques, describe_torques
+from geartrain.report.power_report import collect_torque_report, collect_torques, describe_torques
 from geartrain.report.text import to_markdown
+from geartrain.report.train_data import collect_report
 from geartrain.report.train_report import describe_train
 from geartrain.teeth.pin_transmission import PinToSlotTransmission, SlotToPinTransmission
 
@@ -136,9 +137,9 @@ def test_friction_of_a_pin_that_is_not_counted_is_named_wherever_the_result_is_t
     assert names(found)["friction of pins"] == ("P",)
     (why,) = [each.why for each in found.left_out if each.what == "friction of pins"]
     assert what in why
-    page = to_markdown([describe_torques(train, [found])])
+    page = to_markdown([describe_torques(collect_torque_report(train, [found]))])
     assert "Left out: friction of pins (P): " in page
-    assert "Left out: friction of pins (P): " in to_markdown([describe_train(train)])
+    assert "Left out: friction of pins (P): " in to_markdown([describe_train(collect_report(train))])
     data = collect_torques(train, found).to_dict()
     assert data["left_out"][0] == {"what": "friction of pins", "where": ["P"], "why": why}
     if found.efficiency is not None:
@@ -273,7 +274,7 @@ def test_a_bearing_behind_a_retrograde_pointer_says_what_its_mean_speed_hides() 
     w = 1 - 427 / 442 * turned
     factor, peak = np.mean(np.abs(w)) / abs(np.mean(w)), np.abs(w).max() / abs(np.mean(w))
     assert (factor, peak) == (pytest.approx(2.0656, abs=1e-4), pytest.approx(3.690611, abs=2e-5))
-    page = to_markdown([describe_torques(train, [found])])
+    page = to_markdown([describe_torques(collect_torque_report(train, [found]))])
     assert "N m without friction of bearings that turn back (saturn)." in page
     assert f"{factor:.3f} times" in why
     assert f"{peak:.3f} times" in why
@@ -321,7 +322,7 @@ def test_a_bearing_is_named_where_and_only_where_its_speed_changes_sign(share: f
 
 def test_efficiencies_there_and_back_name_the_bearings_they_leave_out() -> None:
     train = load("extends: planetary-24-18-60\nname: p\nloads: {carrier: -1}\nlinks: {carrier: {bearing: 1/10}}\n")
-    page = to_markdown([describe_torques(train, [train.torques()])])
+    page = to_markdown([describe_torques(collect_torque_report(train, [train.torques()]))])
     assert "Efficiency from 'sun' to 'carrier': 1 without friction of bearings (carrier)." in page
     data = collect_torques(train, train.torques()).to_dict()
     assert data["left_out"] == []

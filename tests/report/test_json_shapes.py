@@ -9,12 +9,11 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from answer_schemas import holds
 from commands import LOCKED, RIGHT, WRONG, call
 from jsonschema import Draft202012Validator
 
-from geartrain import load, shipped
 from geartrain.report.json_schema import answer_schema, answers
-from geartrain.report.power_report import collect_torques
 
 ONE_STATE = RIGHT.replace("inputs: {a: 1}", "states: {only: {inputs: {a: 1}}}")
 TWO_STATES = RIGHT.replace("inputs: {a: 1}", "states: {only: {inputs: {a: 1}}, other: {inputs: {b: 1}}}").replace(
@@ -33,30 +32,6 @@ KINDS = {
     "loaded": LOADED,
     "target": LONG,
 }
-
-
-def closed(schema: Any) -> Any:
-    """The schema with no room for keys that it does not name: what the tests hold answers against."""
-    if isinstance(schema, list):
-        return [closed(each) for each in schema]
-    if not isinstance(schema, Mapping):
-        return schema
-    found = {key: closed(value) for key, value in schema.items() if key not in ("required", "enum", "properties")}
-    found |= {key: schema[key] for key in ("required", "enum") if key in schema}
-    if "properties" in schema:
-        found["properties"] = {key: closed(value) for key, value in schema["properties"].items()}
-        found.setdefault("additionalProperties", False)
-    return found
-
-
-def holds(question: str, data: Any) -> None:
-    for schema in (answers()[question], closed(answers()[question]) if question not in OPEN else {}):
-        faults = sorted(Draft202012Validator(schema).iter_errors(data), key=lambda fault: list(map(str, fault.path)))
-        assert not faults, [(list(fault.path), fault.message[:300]) for fault in faults[:5]]
-
-
-# of these some parts are told by hand, with keys that are not all named
-OPEN = {"mesh FORM", "mesh compare", "mesh triangular --vary", "graph --as json"}
 
 
 def shape(data: Any) -> Any:
@@ -81,19 +56,7 @@ def data(*arguments: str) -> Any:
     return json.loads(done.stdout)
 
 
-# -------------------------------------------------------------------------------------------------- all shipped trains
-
-
-@pytest.mark.parametrize("name", shipped())
-def test_reports_speeds_and_torques_of_every_shipped_train_hold(name: str) -> None:
-    report = data("report", name, "--json")
-    holds("report", report)
-    train = load(name)
-    holds("solve", data("solve", name, "--json"))
-    states = [collect_torques(train, train.torques(state)).to_dict() for state in train.states or (None,)]
-    holds("torques", {"name": name, "title": "", "states": json.loads(json.dumps(states))})
-    (entry,) = report
-    assert [each["state"] for each in entry["states"]] == list(train.states or (None,))
+# ---------------------------------------------------------------------------------------------------- all kinds
 
 
 @pytest.mark.parametrize("name", KINDS)

@@ -15,16 +15,21 @@ from html.parser import HTMLParser
 from pathlib import Path
 
 import pytest
+import shipped
+from answer_schemas import holds
 from commands import TWENTY, UNUSABLE, call
 from markdown_it import MarkdownIt
 from pennestri import TABLES_1_TO_3, TURNING_PAIRS
 from places import ROOT
 from rich.console import Console
 
-from geartrain import load, shipped
+from geartrain import load
+from geartrain.cli.common import as_json
 from geartrain.report.html_page import to_html
+from geartrain.report.power_report import collect_torque_report
 from geartrain.report.reconstruction_comparison import describe_comparison
 from geartrain.report.text import to_markdown, to_terminal
+from geartrain.report.train_data import collect_report
 from geartrain.report.train_report import describe_train
 
 Rows = list[list[str]]
@@ -188,15 +193,26 @@ def test_the_mobility_of_the_report_is_nineteen_less_eighteen(paper: str) -> Non
 # ------------------------------------------------------------------------------------------------- three forms, one say
 
 
-@pytest.mark.parametrize("name", shipped())
+@pytest.mark.parametrize("name", shipped.trains())
 def test_html_and_markdown_of_a_report_hold_the_same_tables(name: str) -> None:
-    document = describe_train(load(name))
+    document = describe_train(shipped.report(name))
     page, text = Page(to_html([document])), to_markdown([document])
     assert page.tables == markdown_tables(text)
     assert page.headings == headings(text)
     assert all(len({len(row) for row in table}) == 1 for table in page.tables)
-    assert sum(map(len, page.tables)) > len(load(name).declaration.links)
+    assert sum(map(len, page.tables)) > len(shipped.train(name).declaration.links)
     assert (page.open, page.astray, page.outside) == ([], [], [])
+
+
+@pytest.mark.parametrize("name", shipped.trains())
+def test_json_of_every_shipped_train_has_the_shapes_of_the_schema(name: str) -> None:
+    train, report = shipped.train(name), json.loads(as_json([shipped.report(name)]))
+    holds("report", report)
+    holds("solve", json.loads(call("solve", name, "--json").stdout))
+    torques = collect_torque_report(train, [train.torques(state) for state in train.states or (None,)])
+    holds("torques", json.loads(as_json(torques)))
+    (entry,) = report
+    assert [each["state"] for each in entry["states"]] == list(train.states or (None,))
 
 
 def test_what_an_author_writes_can_neither_run_in_a_page_nor_break_a_table(tmp_path: Path) -> None:
@@ -209,7 +225,7 @@ def test_what_an_author_writes_can_neither_run_in_a_page_nor_break_a_table(tmp_p
         'inputs: {"a|b": 1}\n',
         encoding="utf-8",
     )
-    document = describe_train(load(path))
+    document = describe_train(collect_report(load(path)))
     page, text = Page(to_html([document])), to_markdown([document])
     assert page.outside == []
     assert page.headings[0] == "<script>alert(1)</script> & | <b>"
@@ -229,7 +245,7 @@ def test_a_note_of_several_lines_stays_within_its_cell(tmp_path: Path) -> None:
         'errata: [{place: p, printed: 1, right: 2, why: "because\\nof this"}]\n',
         encoding="utf-8",
     )
-    text = to_markdown([describe_train(load(path))])
+    text = to_markdown([describe_train(collect_report(load(path)))])
     assert [row[0] for row in section(text, "Structure")[0]] == ["link", "frame", "a", "c"]
     assert len(section(text, "Errata of the sources")[0]) == 2
 
@@ -458,7 +474,7 @@ def test_only_the_games_pointer_turns_anticlockwise_for_who_reads_the_back(name:
 
 def terminal(name: str, width: int) -> str:
     console = Console(file=io.StringIO(), width=width, color_system=None)
-    to_terminal([describe_train(load(name))], console)
+    to_terminal([describe_train(shipped.report(name))], console)
     assert isinstance(console.file, io.StringIO)
     return console.file.getvalue()
 

@@ -19,6 +19,7 @@ from geartrain.report.html_page import inline, is_web, to_html
 from geartrain.report.reconstruction_comparison import describe_comparison
 from geartrain.report.shared_page import describe_shared_page
 from geartrain.report.text import to_markdown
+from geartrain.report.train_data import collect_report
 from geartrain.report.train_report import describe_train
 
 SVG = (
@@ -65,7 +66,7 @@ class Read(HTMLParser):
 
 
 def page_of(*names: str, pictures: tuple[Picture, ...] = (), viewer: str = "") -> Read:
-    return Read(to_html([describe_shared_page(load(name), pictures, viewer) for name in names]))
+    return Read(to_html([describe_shared_page(collect_report(load(name)), pictures, viewer) for name in names]))
 
 
 @pytest.mark.parametrize("names", [("freeth-2021",), ("zf-8hp70", "worm", "worm")])
@@ -81,7 +82,7 @@ def test_every_link_of_the_contents_leads_to_one_place_of_the_page(names: tuple[
 
 def test_the_badge_tells_the_worst_that_is_known_of_a_train(train_file: Callable[..., Path]) -> None:
     def badge(text: str) -> str:
-        shown = to_html([describe_shared_page(load(train_file(text)))])
+        shown = to_html([describe_shared_page(collect_report(load(train_file(text))))])
         found = re.search(r'<div class="badge( bad)?">(.*?)</div>', shown)
         assert found
         return ("BAD " if found[1] else "") + found[2]
@@ -104,7 +105,7 @@ def test_exact_values_can_be_copied_whole_where_they_are_shortened(train_file: C
     train = load(train_file(text))
     speed = str(train.solve()["c7"])
     assert len(speed) > 100
-    page = Read(to_html([describe_shared_page(train)]))
+    page = Read(to_html([describe_shared_page(collect_report(train))]))
     assert speed in {attrs.get("data-exact") for attrs in page.all("td")}
     assert speed not in page.text
     assert "digits)/(" in page.text
@@ -123,7 +124,7 @@ def test_sources_stand_at_the_end_and_wheels_lead_to_them(train_file: Callable[.
           wheel: {wheels: {extra: {teeth: 30, source: good, status: surviving, note: "<b>worn</b>"}}}
         """
     )
-    page = Read(to_html([describe_shared_page(load(path))]))
+    page = Read(to_html([describe_shared_page(collect_report(load(path)))]))
     links = [attrs["href"] for attrs in page.all("a")]
     assert "https://example.org/a?b=1&c=2" in links
     assert all(link.startswith(("#", "https://")) for link in links)
@@ -132,7 +133,7 @@ def test_sources_stand_at_the_end_and_wheels_lead_to_them(train_file: Callable[.
     (cited,) = {link for link in links if link.startswith("#source-")}
     assert cited[1:] in page.ids
     assert "Source good: a paper" not in page.text
-    assert "Source good: a paper" in to_markdown([describe_train(load(path))])
+    assert "Source good: a paper" in to_markdown([describe_train(collect_report(load(path)))])
 
 
 @pytest.mark.parametrize(
@@ -162,7 +163,7 @@ def test_what_a_user_writes_stays_text_and_the_only_script_is_known_by_its_hash(
     path = train_file(f"extends: worm\nname: {evil!r}\ntitle: {evil!r}\nnote: {evil!r}\n".replace("\\'", "''"))
     train = load(path)
     assert train.declaration.title == evil
-    page = Read(to_html([describe_shared_page(train, notes=[evil])]))
+    page = Read(to_html([describe_shared_page(collect_report(train), notes=[evil])]))
     assert page.text.count(evil) >= 3
     assert [tag for tag, _ in page.elements if tag in ("img", "iframe", "object", "link", "form")] == []
     assert not any(key.startswith("on") for _, attrs in page.elements for key in attrs)
@@ -237,6 +238,6 @@ def test_a_train_turns_in_a_page_only(out: tuple[str, ...], tmp_path: Path) -> N
 
 def test_what_only_a_page_has_room_for_changes_no_markdown() -> None:
     train = load("freeth-2008")
-    plain = to_markdown([describe_shared_page(train)])
+    plain = to_markdown([describe_shared_page(collect_report(train))])
     assert "Wheels and their sources" not in plain
-    assert to_markdown([describe_shared_page(train, [Picture("x", SVG)], "<p>v</p>", ["n"])]) == plain
+    assert to_markdown([describe_shared_page(collect_report(train), [Picture("x", SVG)], "<p>v</p>", ["n"])]) == plain

@@ -230,10 +230,14 @@ def test_a_terminal_shows_a_hostile_report_as_text(hostile: Path) -> None:
 
     from geartrain import load
     from geartrain.report.text import to_terminal
+    from geartrain.report.train_data import collect_report
     from geartrain.report.train_report import describe_train
 
     out = io.StringIO()
-    to_terminal([describe_train(load(hostile))], Console(file=out, width=200, color_system=None, highlight=False))
+    to_terminal(
+        [describe_train(collect_report(load(hostile)))],
+        Console(file=out, width=200, color_system=None, highlight=False),
+    )
     assert not STEERING.search(out.getvalue())
     assert "\\x1b]0;owned" in out.getvalue()
 

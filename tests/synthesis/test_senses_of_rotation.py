@@ -19,6 +19,7 @@ import geartrain
 from geartrain import GearTrain
 from geartrain.report.reconstruction_comparison import describe_comparison
 from geartrain.report.text import to_markdown
+from geartrain.report.train_data import collect_report
 from geartrain.report.train_report import describe_train
 from geartrain.synthesis.formulas import with_counts
 from geartrain.synthesis.train.train_search import search_train
@@ -199,7 +200,7 @@ def test_what_turns_wrong_whatever_the_counts_is_said_to() -> None:
 def test_reports_say_where_only_a_magnitude_was_compared() -> None:
     way = targets(Fraction(21), "2 %")
     train = stepped({"targets": [way["-"], way["retrograde"], way["either"], {"speed": 0}]})
-    text = to_markdown([describe_train(train)])
+    text = to_markdown([describe_train(collect_report(train))])
     rows = [[cell.strip() for cell in line.split("|")[1:-1]] for line in text.splitlines() if "| carrier" in line]
     assert [row[3] for row in rows if row[1].startswith(("speed", "period"))] == [
         "sense too",

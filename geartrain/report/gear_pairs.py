@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from math import degrees
 from typing import TYPE_CHECKING, Any
 
@@ -15,8 +16,9 @@ from geartrain.teeth.pair_account import AccountTable, PairAccount, PairFigures
 from geartrain.teeth.pin_figures import PinFigures, pin_figures
 
 if TYPE_CHECKING:
-    from geartrain.dynamics.motion.pair_impacts import PairOperation
+    from geartrain.dynamics.motion.pair_impacts import PairImpacts, PairOperation
     from geartrain.teeth.triangular.clearance_window import ClearanceWindow
+    from geartrain.teeth.triangular.triangular_account import TriangularFigures
     from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
 
 _OF_PAIR = (Key("form", "mesh.form"), Key("gears", "mesh.gears"), Key("note", "mesh.note"), Key("", "figures"))
@@ -34,10 +36,25 @@ class DrivenPair(Result):
     mesh: GearMesh
     states: tuple[str, ...] = ()
 
+    @cached_property
+    def account(self) -> PairAccount:
+        """What the mesh tells of itself."""
+        return self.mesh.account()
+
     @property
     def figures(self) -> PairFigures:
-        """What the mesh tells of itself."""
-        return self.mesh.account().figures
+        """Its figures."""
+        return self.account.figures
+
+
+@dataclass(frozen=True)
+class TriangularPair(Result):
+    """A pair with triangular teeth in no train, and what its collisions cost, where a run of it is given."""
+
+    KEYS = (Key("", "figures"), "impacts")
+
+    figures: TriangularFigures
+    impacts: PairImpacts | None
 
 
 @dataclass(frozen=True)
@@ -50,22 +67,21 @@ class DrivenPin(Result):
     figures: PinFigures
 
 
-def teeth_sections(train: GearTrain) -> Iterator[Section]:
+def teeth_sections(train: GearTrain, pairs: Sequence[DrivenPair]) -> Iterator[Section]:
     """The real teeth and pins of a train; nothing where none are declared."""
-    if train.meshes:
-        yield _teeth(train)
+    if pairs:
+        yield _teeth(train, pairs)
     if train.pins:
         yield _pins(train)
 
 
-def _teeth(train: GearTrain) -> Section:
+def _teeth(train: GearTrain, pairs: Sequence[DrivenPair]) -> Section:
     accounts: dict[str, list[PairAccount]] = {}
-    for mesh, _ in driven_ways(train):
-        account = mesh.account()
-        accounts.setdefault(account.words, []).append(account)
+    for pair in pairs:
+        accounts.setdefault(pair.account.words, []).append(pair.account)
     lines = list(accounts)
     tables = [_joined(each) for same in accounts.values() for each in zip(*(one.tables for one in same), strict=True)]
-    tables.append(_drivers(train))
+    tables.append(_drivers(pairs, 4 if train.states else 3))
     lines += [f"Pair '{mesh.name}': {mesh.note}." for mesh in train.meshes if mesh.note]
     for fault in train.faults:
         lines.append(f"{fault.what}; {fault.why}. {fault.fix}." if fault.why else f"{fault.what}. {fault.fix}.")
@@ -96,16 +112,9 @@ def pair_data(mesh: GearMesh) -> dict[str, Any]:
     return found
 
 
-def driven_ways(train: GearTrain) -> Iterator[tuple[GearMesh, tuple[str, ...]]]:
-    """Every pair with real teeth in every way it is driven, with the states in which it is."""
-    for ways in train.driven_ways.values():
-        yield from ways
-
-
-def _drivers(train: GearTrain) -> Table:
-    """Who drives each pair, and how that is known."""
-    rows = [(mesh.name, mesh.driver, mesh.who.why, ", ".join(states)) for mesh, states in driven_ways(train)]
-    used = 4 if train.states else 3
+def _drivers(pairs: Sequence[DrivenPair], used: int) -> Table:
+    """The wheel that drives each pair, and how that is known."""
+    rows = [(pair.mesh.name, pair.mesh.driver, pair.mesh.who.why, ", ".join(pair.states)) for pair in pairs]
     return Table(("pair", "driver", "how that is known", "states")[:used], [row[:used] for row in rows], wide=True)
 
 
@@ -131,8 +140,8 @@ def _pins(train: GearTrain) -> Section:
 
 
 def driven_pairs(train: GearTrain) -> tuple[DrivenPair, ...]:
-    """Real teeth of a train; empty where none are declared."""
-    return tuple(DrivenPair(mesh, states) for mesh, states in driven_ways(train))
+    """Real teeth of a train in every way they are driven; empty where none are declared."""
+    return tuple(DrivenPair(mesh, states) for ways in train.driven_ways.values() for mesh, states in ways)
 
 
 def driven_pins(train: GearTrain) -> tuple[DrivenPin, ...]:
@@ -148,4 +157,4 @@ def mesh_data(
     from geartrain.teeth.triangular.triangular_account import triangular_figures
 
     found = find_pair_impacts(law, operation) if operation is not None and law.intervals else None
-    return triangular_figures(law, window, found).to_dict()
+    return TriangularPair(triangular_figures(law, window), found).to_dict()

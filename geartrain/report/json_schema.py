@@ -143,14 +143,11 @@ def _driven_pair() -> Schema:
 
 
 def _of_pairs() -> dict[str, Schema]:
-    from geartrain.dynamics.motion.pair_impacts import PairImpacts
+    from geartrain.report.gear_pairs import TriangularPair
     from geartrain.teeth.pin_figures import PinFigures
-    from geartrain.teeth.triangular.triangular_account import TriangularFigures
 
-    triangular = shape_of(TriangularFigures)  # teeth do not know what their collisions cost
-    triangular = triangular | {"properties": triangular["properties"] | {"impacts": shape_of(PairImpacts | None)}}
     return {
-        "mesh triangular": triangular,
+        "mesh triangular": shape_of(TriangularPair),
         "mesh triangular --vary": shape_of(list[dict[str, float | str | None]]),
         "mesh pin": shape_of(PinFigures),
         "mesh FORM": SHAPE,

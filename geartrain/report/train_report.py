@@ -35,7 +35,7 @@ def describe_train(found: TrainReport) -> Document:
         sections.append(shift_table(train, answers))
     for answer in answers:
         sections += answer_sections(train, answer)
-    sections += teeth_sections(train)
+    sections += teeth_sections(train, found.teeth)
     sections += loaded_sections(found.torques)
     sections += moving_sections(train, found.motion)
     sections += doubtful_wheels(train, answers)

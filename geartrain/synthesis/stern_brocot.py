@@ -186,6 +186,19 @@ def neighbours(value: Fraction, most_numerator: int, most_denominator: int) -> t
             return low, high
 
 
+def farey_neighbours(value: Fraction, most: int) -> tuple[Fraction, Fraction]:
+    """The greatest fraction not above `value` >= 0 and the least not below it, denominators up to `most` (>= 1).
+
+    >>> farey_neighbours(Fraction(314159, 100000), 100)
+    (Fraction(311, 99), Fraction(22, 7))
+    """
+    if value.denominator <= most:
+        return value, value
+    # no numerator of a neighbour is longer than this, so only the denominators are bounded
+    low, high = neighbours(value, (int(value) + 1) * most, most)
+    return Fraction(*low), Fraction(*high)
+
+
 def nearest_first(value: Fraction, most_numerator: int, most_denominator: int) -> Iterator[Fraction]:
     """Every positive fraction within the bounds, in the order of its distance from `value` > 0; lazy.
 

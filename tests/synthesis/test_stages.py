@@ -21,10 +21,11 @@ from geartrain.errors import QuestionError, RangeError
 from geartrain.numerics.work import Journal, open_executor
 from geartrain.synthesis.ratio import search_segments as stages_work
 from geartrain.synthesis.ratio.product_windows import expand, products_of
-from geartrain.synthesis.ratio.ratio_windows import cuts, errors, neighbours, rounded_up
+from geartrain.synthesis.ratio.ratio_windows import cuts, errors, rounded_up
 from geartrain.synthesis.ratio.stage_pairs import best_pairing, suited
 from geartrain.synthesis.ratio.stage_problem import StageConstraints
 from geartrain.synthesis.ratio.stage_search import StageFindings, find_stages
+from geartrain.synthesis.stern_brocot import farey_neighbours
 from geartrain.synthesis.target_ratio import TargetRatio
 
 Set = tuple[int, ...]
@@ -288,7 +289,7 @@ def test_many_solutions_are_listed_as_well_as_few() -> None:
 
 @given(st.fractions(0, 10**6), st.integers(1, 60))
 def test_neighbours_are_the_nearest_fractions_with_short_denominators(value: Fraction, most: int) -> None:
-    low, high = neighbours(value, most)
+    low, high = farey_neighbours(value, most)
     below = max(Fraction(value.numerator * d // value.denominator, d) for d in range(1, most + 1))
     above = min(Fraction(-(-value.numerator * d // value.denominator), d) for d in range(1, most + 1))
     assert (low, high) == (below, above)

@@ -72,11 +72,6 @@ class CountEquation:
         count, rest = np.divmod(np.atleast_1d(-total), self.coefficients[wheel])
         return np.asarray(count, dtype=np.int64), np.asarray(rest == 0)
 
-    @property
-    def possible(self) -> bool:
-        """False where no whole numbers meet it: the greatest common divisor of the factors leaves a rest."""
-        return self.constant % gcd(*self.coefficients.values()) == 0
-
 
 @dataclass(frozen=True, slots=True)
 class Condition:

@@ -8,13 +8,14 @@ from typing import Any
 
 import numpy as np
 
+from geartrain.numerics.integer_columns import spread, spread_in_blocks
 from geartrain.synthesis.constraints.count_conditions import CountConstraint, CountEquation
 from geartrain.synthesis.join.item_monomials import find_item_monomials
 from geartrain.synthesis.join.join_plan import JoinProblem, PlanNode, extents
 from geartrain.synthesis.join.partial_assignments import BLOCK, ItemMonomial, PartialAssignments
 from geartrain.synthesis.join.polynomial_constraints import PolynomialConstraint, RelaxedInequality, possible
 from geartrain.synthesis.join.product_lists import Ints, Tallies, find_item
-from geartrain.synthesis.join.solution_windows import Bools, spread
+from geartrain.synthesis.join.solution_windows import Bools
 
 Slices = Mapping[int, tuple[int, int]]
 """Item -> the run of its values that this piece of the work looks at; all of them where it is missing."""
@@ -214,13 +215,13 @@ class ExactJoin:
         first, last = self._run(node.item)
         if node.guide < 0:
             whole = np.zeros(rows.size, dtype=np.int64)
-            yield from _in_blocks(whole + first, whole + last)
+            yield from spread_in_blocks(whole + first, whole + last, BLOCK)
             return
         guide = self.constraints[node.guide]
         if isinstance(guide, PolynomialConstraint):
             for window in guide.windows(rows, node.item):
                 window = window.clipped(first, last)
-                yield from _in_blocks(window.start, window.end)
+                yield from spread_in_blocks(window.start, window.end, BLOCK)
         else:
             assert isinstance(guide, CountEquation)
             yield self._solved(guide, node.item, rows, first, last)
@@ -273,17 +274,3 @@ class ExactJoin:
     def _total(self, item: int) -> int:
         first, last = self._run(item)
         return int(self.items[item].sums[last] - self.items[item].sums[first])
-
-
-def _in_blocks(starts: Ints, ends: Ints) -> Iterator[tuple[Ints, Ints]]:
-    """All whole numbers of some half-open ranges, (which range, number), a block at a time."""
-    upto = np.cumsum(ends - starts)
-    total = int(upto[-1]) if len(upto) else 0
-    for begin in range(0, total, BLOCK):
-        stop = min(begin + BLOCK, total)
-        first, last = np.searchsorted(upto, begin, side="right"), np.searchsorted(upto, stop, side="left") + 1
-        low, high = starts[first:last].copy(), ends[first:last].copy()
-        low[0] = high[0] - (upto[first] - begin)
-        high[-1] -= upto[last - 1] - stop
-        owner, indices = spread(low, high)
-        yield owner + first, indices

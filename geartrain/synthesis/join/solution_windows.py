@@ -54,14 +54,6 @@ class SolutionWindow:
         return SolutionWindow(start, end, sure_start, np.maximum(sure_start, sure_end))
 
 
-def spread(starts: Ints, ends: Ints) -> tuple[Ints, Ints]:
-    """All whole numbers of some half-open ranges: (which range, number)."""
-    sizes = ends - starts
-    owner = np.repeat(np.arange(len(sizes)), sizes)
-    before = np.concatenate([np.zeros(1, dtype=np.int64), np.cumsum(sizes)])[:-1]
-    return owner, np.arange(len(owner)) - np.repeat(before - starts, sizes)
-
-
 def find_window(case: Sequence[PolynomialInequality], rows: PartialAssignments, item: int) -> SolutionWindow:
     """The window of a case in the one open item: the common part of its rays."""
     start, end = np.zeros(rows.size, dtype=np.int64), np.full(rows.size, len(rows.items[item]))

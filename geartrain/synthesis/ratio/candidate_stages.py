@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from geartrain.numerics.integer_columns import spread_in_blocks
 from geartrain.synthesis.ratio.distinct_ratios import distinct, weight
 from geartrain.synthesis.ratio.ratio_windows import cuts, errors
 from geartrain.synthesis.ratio.solution_order import BestStages, RankedStages, first_of, margin
@@ -24,7 +24,8 @@ if TYPE_CHECKING:
 
     Ints = NDArray[Any]
 
-_CHUNK = 1 << 16
+CHUNK = 1 << 16
+"""Pairs looked at together."""
 
 
 class RowFinder:
@@ -55,7 +56,8 @@ class RowFinder:
         under = self._useful(sets_of(*question.under.members(*beneath, below[0][used])), question.top[0])
         over = self._useful(sets_of(*question.over.members(*top, above[0][needed])), question.beneath[0])
         if len(over.products) and len(under.products):
-            for i, j in pairs_in(*cuts(over.products, under.products, low, high)):
+            first, last = cuts(over.products, under.products, low, high)
+            for i, j in spread_in_blocks(first, np.maximum(first, last), CHUNK):
                 self.judge.see(over, under, j, i)
 
     def _useful(self, sets: CountSets, least: int) -> CountSets:
@@ -171,14 +173,3 @@ def pairing_reason(question: StageProblem) -> str:
         *([f"a larger ring in {fit.internal} of the stages"] if fit.internal else []),
     ]
     return f"no pairing with {' and '.join(asked)}"
-
-
-def pairs_in(first: Ints, last: Ints) -> Iterator[tuple[Ints, Ints]]:
-    """All (i, j) with first[i] <= j < last[i], in chunks."""
-    number = np.maximum(last - first, 0)
-    ends = np.cumsum(number)
-    total = int(ends[-1]) if len(ends) else 0
-    for low in range(0, total, _CHUNK):
-        at = np.arange(low, min(low + _CHUNK, total))
-        i = np.searchsorted(ends, at, side="right")
-        yield i, first[i] + at - (ends[i] - number[i])

@@ -7,8 +7,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from geartrain.numerics.integer_columns import spread
 from geartrain.synthesis.ratio.product_windows import expand
-from geartrain.synthesis.ratio.ratio_windows import cuts, errors
+from geartrain.synthesis.ratio.ratio_windows import cuts, error_places, errors
 from geartrain.synthesis.ratio.solution_order import Key, key_of, margin, merged
 
 if TYPE_CHECKING:
@@ -68,9 +69,7 @@ class ValueFinder:
                 fewer = middle
             else:
                 tolerance, span = middle, inner
-        number = span[1] - span[0]
-        i = np.repeat(np.arange(len(number)), number)
-        j = np.arange(len(i)) + np.repeat(span[0] - (np.cumsum(number) - number), number)
+        i, j = spread(*span)
         sets = (under[1][i + 1] - under[1][i]) * (over[1][j + 1] - over[1][j])
         return over[0][j], under[0][i], sets
 
@@ -92,7 +91,7 @@ class ValueFinder:
             order = np.flatnonzero(error <= margin(float(error[order[last]])))
         over, under = over[order], under[order]
         least = _least_sums(over, under, size)
-        misses, place = _misses(over, under, value)
+        misses, place = error_places(over, under, value)
         fresh: list[Key] = []
         for at in np.lexsort((least, place)).tolist():
             miss, total = misses[place[at]], float(least[at])
@@ -139,19 +138,3 @@ def _least_sums(over: Ints, under: Ints, size: int) -> Floats:
     root = 1.0 / size
     sums = size * (over.astype(np.float64) ** root + under.astype(np.float64) ** root)
     return np.asarray(sums * (1 - 1e-12))
-
-
-def _misses(over: Ints, under: Ints, value: Fraction) -> tuple[list[Fraction], Ints]:
-    """The different exact |errors|, ascending, and the place of each pair's among them."""
-    common = np.gcd(over, under)
-    n, d = over // common, under // common
-    order = np.lexsort((d, n)) if n.dtype != object else np.array(sorted(range(len(n)), key=lambda at: (n[at], d[at])))
-    fresh = np.ones(len(n), dtype=bool)
-    fresh[1:] = (n[order][1:] != n[order][:-1]) | (d[order][1:] != d[order][:-1])
-    kind = np.empty(len(n), dtype=np.int64)
-    kind[order] = np.cumsum(fresh) - 1
-    first = order[fresh]
-    found = [abs(Fraction(int(a), int(b)) / value - 1) for a, b in zip(n[first], d[first], strict=True)]
-    misses = sorted(set(found))
-    places = {miss: at for at, miss in enumerate(misses)}
-    return misses, np.array([places[miss] for miss in found], dtype=np.int64)[kind]

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from geartrain.errors import Problem, RangeError
+from geartrain.numerics.integer_columns import spread
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -99,10 +100,7 @@ class ProductWindows:
     def _places(self, low: int, high: int) -> tuple[Places, Places]:
         """Row and high part of every product in [low, high)."""
         first = _ends(self, low)
-        number = _ends(self, high) - first
-        before = np.cumsum(number) - number
-        row = np.repeat(np.arange(len(number)), number)
-        return row, np.arange(len(row)) + np.repeat(first - before, number)
+        return spread(first, _ends(self, high))
 
 
 def multisets(number: int, size: int) -> int:

@@ -9,6 +9,8 @@ import numpy as np
 
 from geartrain.numerics.decimal_text import count_digits
 from geartrain.numerics.error_free import split
+from geartrain.numerics.integer_columns import distinct_quotients
+from geartrain.synthesis.stern_brocot import farey_neighbours
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -22,29 +24,6 @@ ROUNDING = 1e-28
 """Errors from `errors` differ from the exact ones by less than this, or by 1e-12 of themselves."""
 
 
-def neighbours(value: Fraction, most: int) -> tuple[Fraction, Fraction]:
-    """The greatest fraction not above `value` and the least not below it, denominators up to `most` (>= 1).
-
-    They are the Farey neighbours of order `most`, from the continued fraction of the value.
-
-    >>> neighbours(Fraction(314159, 100000), 100)
-    (Fraction(311, 99), Fraction(22, 7))
-    """
-    if value.denominator <= most:
-        return value, value
-    p, q, last_p, last_q = 1, 0, 0, 1
-    n, d = value.numerator, value.denominator
-    while True:
-        term = n // d
-        if last_q + term * q > most:
-            break
-        last_p, last_q, p, q = p, q, last_p + term * p, last_q + term * q
-        n, d = d, n - term * d
-    steps = (most - last_q) // q
-    one, other = Fraction(p, q), Fraction(last_p + steps * p, last_q + steps * q)
-    return min(one, other), max(one, other)
-
-
 def cuts(products: Ints, factors: Ints, low: Fraction, high: Fraction) -> tuple[Places, Places]:
     """For each factor f, the half-open range of `products` with low f <= product <= high f, decided exactly.
 
@@ -55,9 +34,9 @@ def cuts(products: Ints, factors: Ints, low: Fraction, high: Fraction) -> tuple[
     # no ratio of these products has a longer denominator than the largest factor
     longest = int(factors.max()) if len(factors) else 1
     cap = int(products[-1]) + 8
-    first, whole = _floors(factors, neighbours(low, longest)[1], cap)
+    first, whole = _floors(factors, farey_neighbours(low, longest)[1], cap)
     first = first + ~whole
-    last, _ = _floors(factors, neighbours(high, longest)[0], cap)
+    last, _ = _floors(factors, farey_neighbours(high, longest)[0], cap)
     return np.searchsorted(products, first), np.searchsorted(products, last, side="right")
 
 
@@ -100,6 +79,15 @@ def errors(tops: Ints, beneaths: Ints, value: Fraction) -> Floats:
     head_high, head_low = split(np.float64(head))
     lost = ((q_high * head_high - product) + q_high * head_low + q_low * head_high) + q_low * head_low
     return np.asarray(((tops - product) - (lost + q * tail)) / product)
+
+
+def error_places(tops: Ints, beneaths: Ints, value: Fraction) -> tuple[list[Fraction], Places]:
+    """The different exact |errors| of some pairs, ascending, and the place of each pair's among them."""
+    ratios, which = distinct_quotients(tops, beneaths)
+    misses = [abs(ratio / value - 1) for ratio in ratios]
+    ascending = sorted(set(misses))
+    places = {miss: at for at, miss in enumerate(ascending)}
+    return ascending, np.array([places[miss] for miss in misses], dtype=np.int64)[which]
 
 
 def reach_of_errors(value: Fraction, low: Fraction, high: Fraction) -> tuple[Fraction, Fraction]:

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from geartrain.synthesis.ratio.candidate_stages import StageFilter, pairs_in, sets_of
+from geartrain.numerics.integer_columns import spread, spread_in_blocks
+from geartrain.synthesis.ratio.candidate_stages import CHUNK, StageFilter, sets_of
 from geartrain.synthesis.ratio.product_windows import multisets
 from geartrain.synthesis.ratio.ratio_windows import cuts
 from geartrain.synthesis.ratio.stage_problem import StageProblem, stage_problem_of
@@ -81,7 +82,7 @@ def _search(question: StageProblem, stages: list[tuple[int, int]], judge: StageF
     low, high = question.edges
     first = np.searchsorted(high_ratios, float(low) * (1 - _SLACK) / low_ratios)
     last = np.searchsorted(high_ratios, float(high) * (1 + _SLACK) / low_ratios, side="right")
-    for i, j in pairs_in(first, last):
+    for i, j in spread_in_blocks(first, np.maximum(first, last), CHUNK):
         once = np.flatnonzero(lower[i, -1] <= upper[j, 0]) if size > 1 else np.arange(len(i))
         chosen = np.concatenate([lower[i[once]], upper[j[once]]], axis=1)
         _judge(question, counts, chosen, judge)
@@ -118,8 +119,6 @@ def _halves(number: int, size: int) -> Ints:
     found = np.zeros((1, 0), dtype=np.int64)
     for _ in range(size):
         least = found[:, -1] if found.shape[1] else np.zeros(1, dtype=np.int64)
-        more = number - least
-        ends = np.cumsum(more)
-        last = np.arange(ends[-1]) - np.repeat(ends - more - least, more)
-        found = np.concatenate([np.repeat(found, more, axis=0), last[:, None]], axis=1)
+        row, last = spread(least, np.full(len(least), number))
+        found = np.concatenate([found[row], last[:, None]], axis=1)
     return found

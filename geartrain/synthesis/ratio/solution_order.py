@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, Literal, get_args
 import numpy as np
 
 from geartrain.errors import Problem, QuestionError
-from geartrain.synthesis.ratio.ratio_windows import ROUNDING
+from geartrain.synthesis.ratio.ratio_windows import ROUNDING, error_places
 from geartrain.synthesis.ratio.stage_pairs import suited
 from geartrain.synthesis.ratio.stage_problem import StageConstraints
 
@@ -102,19 +102,11 @@ def cut(rows: RankedStages, best: int, value: Fraction) -> RankedStages:
         rows = rows.taken(np.flatnonzero((rows.first < first) | ((rows.first == first) & (rows.error <= error))))
     sums = rows.top.sum(axis=1) + rows.beneath.sum(axis=1)
     largest = np.maximum(rows.top[:, -1], rows.beneath[:, -1])
-    counts = [*rows.top.T, *rows.beneath.T][::-1]
-    order = np.lexsort(
-        (*(np.asarray(c, dtype=np.int64) for c in (*counts, largest, sums)), _ranks(rows, value), rows.first)
-    )
+    counts = [np.asarray(each, dtype=np.int64) for each in [*rows.top.T, *rows.beneath.T][::-1]]
+    sizes = [np.asarray(each, dtype=np.int64) for each in (largest, sums)]
+    _, errors = error_places(rows.over, rows.under, value)
+    order = np.lexsort((*counts, *sizes, errors, rows.first))
     return rows.taken(order[:best])
-
-
-def _ranks(rows: RankedStages, value: Fraction) -> Ints:
-    """Place of each row's exact |error| among the different ones."""
-    ratios = [Fraction(int(over), int(under)) for over, under in zip(rows.over, rows.under, strict=True)]
-    misses = {ratio: abs(ratio / value - 1) for ratio in set(ratios)}
-    places = {miss: at for at, miss in enumerate(sorted(set(misses.values())))}
-    return np.array([places[misses[ratio]] for ratio in ratios], dtype=np.int64)
 
 
 def key_of(first: int, top: Sequence[int], beneath: Sequence[int], value: Fraction) -> Key:

@@ -12,6 +12,7 @@ import numpy as np
 
 from geartrain.numerics.bounded_polynomials import BoundedPolynomial, BoundedQuotient, monomial_of, products_of
 from geartrain.numerics.exact import as_float
+from geartrain.numerics.integer_columns import distinct_quotients
 from geartrain.synthesis.join.exact_join import AssignmentColumns
 from geartrain.synthesis.join.polynomial_signs import ROUNDING
 from geartrain.synthesis.join.product_lists import Floats, Ints, Tallies
@@ -123,22 +124,8 @@ def _exact_errors(asking: OutputRequirement, columns: AssignmentColumns) -> tupl
     """The exact |error| of each distinct speed of an output, and for each assignment which of them is its own."""
     function = asking.function
     above, below = (_whole(function.wheels, terms, columns) for terms in (function.numerator, function.denominator))
-    if above.dtype != below.dtype:
-        above, below = above.astype(object), below.astype(object)
-    common = np.gcd(above, below) * np.where(below < 0, -1, 1)
-    above, below = above // common, below // common
-    order = np.lexsort((below, above)) if above.dtype != object else np.array(_ordered(above, below), dtype=np.int64)
-    above, below = above[order], below[order]
-    new = np.concatenate([[True], (above[1:] != above[:-1]) | (below[1:] != below[:-1])])
-    which = np.empty(len(order), dtype=np.int64)
-    which[order] = np.cumsum(new) - 1
-    speeds = (Fraction(int(n), int(d)) for n, d in zip(above[new], below[new], strict=True))
+    speeds, which = distinct_quotients(above, below)
     return [abs(asking.reached(speed).error) for speed in speeds], which
-
-
-def _ordered(above: Tallies, below: Tallies) -> list[int]:
-    pairs = list(zip(above.tolist(), below.tolist(), strict=True))
-    return sorted(range(len(pairs)), key=pairs.__getitem__)
 
 
 def _whole(wheels: Sequence[str], terms: Sequence[WheelTerm], columns: AssignmentColumns) -> Tallies:

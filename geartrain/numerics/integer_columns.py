@@ -1,0 +1,58 @@
+"""Columns of whole numbers: ranges written out, all at once or block by block, and the distinct quotients of two."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from fractions import Fraction
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from geartrain.numerics.arrays import Ints
+
+Integers = NDArray[Any]
+"""int64, or Python's integers where they may be longer."""
+
+
+def spread(starts: Ints, ends: Ints) -> tuple[Ints, Ints]:
+    """All whole numbers of some half-open ranges, none of which ends before it starts: (which range, number)."""
+    sizes = ends - starts
+    owner = np.repeat(np.arange(len(sizes)), sizes)
+    before = np.cumsum(sizes) - sizes
+    return owner, np.arange(len(owner)) - np.repeat(before - starts, sizes)
+
+
+def spread_in_blocks(starts: Ints, ends: Ints, most: int) -> Iterator[tuple[Ints, Ints]]:
+    """As `spread`, at most so many numbers at a time."""
+    upto = np.cumsum(ends - starts)
+    total = int(upto[-1]) if len(upto) else 0
+    for begin in range(0, total, most):
+        stop = min(begin + most, total)
+        first, last = np.searchsorted(upto, begin, side="right"), np.searchsorted(upto, stop, side="left") + 1
+        low, high = starts[first:last].copy(), ends[first:last].copy()
+        # the first and the last range of a block may be cut by it
+        low[0] = high[0] - (upto[first] - begin)
+        high[-1] -= upto[last - 1] - stop
+        owner, numbers = spread(low, high)
+        yield owner + first, numbers
+
+
+def distinct_quotients(above: Integers, below: Integers) -> tuple[list[Fraction], Ints]:
+    """The different values of some quotients, none of them over 0, and for each quotient which of them it is."""
+    if above.dtype != below.dtype:
+        above, below = above.astype(object), below.astype(object)
+    # in lowest terms with the sign above, equal quotients are equal pairs
+    common = np.gcd(above, below) * np.where(below < 0, -1, 1)
+    above, below = above // common, below // common
+    if above.dtype == object:  # lexsort takes no Python integers
+        pairs = list(zip(above.tolist(), below.tolist(), strict=True))
+        order = np.array(sorted(range(len(pairs)), key=pairs.__getitem__), dtype=np.int64)
+    else:
+        order = np.lexsort((below, above))
+    above, below = above[order], below[order]
+    fresh = np.ones(len(order), dtype=np.bool_)
+    fresh[1:] = (above[1:] != above[:-1]) | (below[1:] != below[:-1])
+    which = np.empty(len(order), dtype=np.int64)
+    which[order] = np.cumsum(fresh) - 1
+    return [Fraction(int(n), int(d)) for n, d in zip(above[fresh], below[fresh], strict=True)], which

@@ -15,9 +15,23 @@ from geartrain.numerics.plain_data import Result
 class LabelledArray(Result):
     """A read-only array whose every axis has a name and a label for each position.
 
-    values  array of any shape
-    axes    one name an axis, such as ("link", "case")
-    labels  one tuple of labels an axis
+    `array["moon"]` or `array["moon", "0"]` is a value or sub-array at labels; `KeyError` for one there is not.
+
+    Attributes
+    ----------
+    values : ndarray
+        The numbers, of any shape, read-only.
+    axes : tuple of str
+        A name for each axis, such as ("link", "case").
+    labels : tuple of tuple of str
+        A label for each position of each axis.
+
+    Examples
+    --------
+    >>> import geartrain
+    >>> speeds = geartrain.load("planetary-24-18-60").floats(inputs={"sun": [7.0, 14.0]}).speeds
+    >>> speeds.axes, speeds["carrier"].round(9).tolist()
+    (('link', 'case'), [2.0, 4.0])
     """
 
     KEYS = ("axes", "labels", "values")

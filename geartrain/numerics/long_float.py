@@ -22,11 +22,18 @@ class LongFloat(Rational):
     Arithmetic rounds as that of floats does, and gives a float again wherever one holds the result. Mixed with floats,
     integers and Fractions; `Fraction(value)` is its value, which like that of any float is not the exact answer.
 
-    mantissa  1/2 <= |mantissa| < 1
-    exponent  of two
+    Attributes
+    ----------
+    mantissa : float
+        From 1/2 to 1, 1 left out, or the negative of that.
+    exponent : int
+        Of two.
 
-    >>> print(scaled(0.75, 5000))
-    1.059350274e+1505
+    Examples
+    --------
+    >>> number = LongFloat(0.75, 5000)
+    >>> print(number, number / number)
+    1.059350274e+1505 1.0
     """
 
     mantissa: float
@@ -34,7 +41,15 @@ class LongFloat(Rational):
 
     @classmethod
     def make(cls, mantissa: float, exponent: int) -> Any:
-        """A number from any mantissa: a float if float64 holds it."""
+        """A number from any mantissa: a float if float64 holds it.
+
+        Parameters
+        ----------
+        mantissa : float
+            Any finite number.
+        exponent : int
+            Of two.
+        """
         return scaled(mantissa, exponent)
 
     @property

@@ -10,72 +10,9 @@ from typing import Annotated, Any
 from pydantic import AfterValidator, GetCoreSchemaHandler, GetJsonSchemaHandler
 from pydantic_core import PydanticCustomError, core_schema
 
-from geartrain.errors import nearest_names
+from geartrain.numerics.units import IRRATIONAL, RADIANS_PER_TURN, SPELT, UNITS, nearest_unit, scale, units_of
 
-TURN = "turn"
-RADIANS_PER_TURN = 6.283185307179586
 _MOST_DIGITS = 400  # longer numbers are slips or attacks, and squaring them would take minutes
-
-# unit -> (dimension, how many base units one of it is); every scale is exact
-UNITS: dict[str, tuple[str, Fraction]] = {
-    "m": ("length", Fraction(1)),
-    "cm": ("length", Fraction(1, 100)),
-    "mm": ("length", Fraction(1, 1000)),
-    "um": ("length", Fraction(1, 10**6)),
-    "in": ("length", Fraction(254, 10**4)),
-    "ft": ("length", Fraction(3048, 10**4)),
-    "km": ("length", Fraction(1000)),
-    "mile": ("length", Fraction(1609344, 1000)),
-    "turn": ("angle", Fraction(1)),
-    "deg": ("angle", Fraction(1, 360)),
-    "arcmin": ("angle", Fraction(1, 21600)),
-    "arcsec": ("angle", Fraction(1, 1296000)),
-    "s": ("time", Fraction(1)),
-    "min": ("time", Fraction(60)),
-    "h": ("time", Fraction(3600)),
-    "d": ("time", Fraction(86400)),
-    "rpm": ("speed", Fraction(1, 60)),
-    "turn/s": ("speed", Fraction(1)),
-    "turn/min": ("speed", Fraction(1, 60)),
-    "turn/h": ("speed", Fraction(1, 3600)),
-    "turn/d": ("speed", Fraction(1, 86400)),
-    "deg/s": ("speed", Fraction(1, 360)),
-    "N m": ("torque", Fraction(1)),
-    "N mm": ("torque", Fraction(1, 1000)),
-    "kN m": ("torque", Fraction(1000)),
-    "kg m2": ("inertia", Fraction(1)),
-    "kg mm2": ("inertia", Fraction(1, 10**6)),
-    "g mm2": ("inertia", Fraction(1, 10**9)),
-    "g cm2": ("inertia", Fraction(1, 10**7)),
-    "%": ("fraction", Fraction(1, 100)),
-    "ppm": ("fraction", Fraction(1, 10**6)),
-}
-# a radian is no rational part of a turn: these two scales hold to 50 digits, and say so by being apart
-_TURNS_PER_RADIAN = 1 / (2 * Fraction("3.14159265358979323846264338327950288419716939937511"))
-IRRATIONAL: dict[str, tuple[str, Fraction]] = {
-    "rad": ("angle", _TURNS_PER_RADIAN),
-    "rad/s": ("speed", _TURNS_PER_RADIAN),
-}
-_SPELT = {
-    "Nm": "N m",
-    "N*m": "N m",
-    "N·m": "N m",
-    "Nmm": "N mm",
-    "°": "deg",
-    "µm": "um",
-    "μm": "um",
-    "feet": "ft",
-    "day": "d",
-    "days": "d",
-    "turns": "turn",
-    "rev": "turn",
-    "rev/s": "turn/s",
-    "rev/min": "rpm",
-    "kg m^2": "kg m2",
-    "g mm^2": "g mm2",
-    "kg*m^2": "kg m2",
-}
-
 _NUMBER = r"[+-]?(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][+-]?\d{1,3})?"
 _MOST = Fraction("1e300")  # what a float holds, with room for units
 _LEAST_MEASURE = Fraction(1, 10**30)
@@ -88,7 +25,20 @@ _QUANTITY = re.compile(rf"^\s*({_NUMBER}(?:\s*[/:]\s*\d+)?)\s*([^\d\s].*?)?\s*$"
 class Figure:
     """A number with the digits it was written with.
 
-    `half` is None for an integer or fraction (exact), else half a unit of the last decimal written.
+    Attributes
+    ----------
+    value : Fraction
+        The number, exactly as written.
+    half : Fraction or None
+        Half a unit of the last decimal written; None for an integer or fraction, which is exact.
+    text : str
+        As it was written.
+
+    Examples
+    --------
+    >>> published = Figure.parse("13.37")
+    >>> published.value, published.half, published.holds(Fraction(254, 19))
+    (Fraction(1337, 100), Fraction(1, 200), True)
     """
 
     value: Fraction
@@ -99,7 +49,15 @@ class Figure:
         return self.text
 
     def holds(self, value: Fraction, tolerance: Fraction | None = None) -> bool:
-        """True if `value` agrees with what was written, at the digits written or within `tolerance`."""
+        """True if a number agrees with what was written.
+
+        Parameters
+        ----------
+        value : Fraction
+            The number.
+        tolerance : Fraction, optional
+            Greatest difference that still agrees, 0 or more; default half a unit of the last decimal written.
+        """
         bound = tolerance if tolerance is not None else self.half or Fraction(0)
         return abs(value - self.value) <= bound
 
@@ -107,6 +65,18 @@ class Figure:
     def parse(cls, raw: object) -> Figure:
         """A figure from text or a Python number.
 
+        Parameters
+        ----------
+        raw : str, int, float, Fraction or Figure
+            Such as "254/19", "1:30", "13.3684"; up to 1e300 and 400 digits.
+
+        Raises
+        ------
+        ValueError
+            If it is no such number.
+
+        Examples
+        --------
         >>> Figure.parse("1:30").value, Figure.parse("13.3684").half
         (Fraction(1, 30), Fraction(1, 20000))
         """
@@ -184,11 +154,25 @@ Friction = Annotated[Figure, AfterValidator(_not_negative)]
 
 @dataclass(frozen=True, slots=True)
 class Quantity:
-    """A number with its unit as written; `unit` is None for a plain number.
+    """A number with its unit as written.
 
-    `value` is exact in the unit written. `base` is in m, turn, s, turn/s, N m or kg m2: what is compared or computed
-    with is always that, never `value`, so that two units of one dimension mean the same. It is exact, but for
-    radians, whose scale is irrational: to 50 digits there. `si` is a float in m, rad, s, rad/s, N m or kg m2.
+    What is compared or computed with is always `base`, never `value`, so that two units of one dimension mean the same.
+    Units are those of `UNITS`, and rad and rad/s: a radian is no rational part of a turn, and holds to 50 digits.
+
+    Attributes
+    ----------
+    value : Fraction
+        The number, exact in the unit written.
+    unit : str or None
+        The unit; None for a plain number.
+    text : str
+        As it was written.
+
+    Examples
+    --------
+    >>> speed = Quantity.parse("90 rpm", "speed", plain=True)
+    >>> speed.value, speed.base, round(speed.si, 4)
+    (Fraction(90, 1), Fraction(3, 2), 9.4248)
     """
 
     value: Fraction
@@ -201,16 +185,16 @@ class Quantity:
     @property
     def dimension(self) -> str | None:
         """length, angle, time, speed, torque, inertia, fraction, or None for a plain number."""
-        return None if self.unit is None else _scale(self.unit)[0]
+        return None if self.unit is None else scale(self.unit)[0]
 
     @property
     def base(self) -> Fraction:
-        """Value in base units (angles in turns); a plain number as it is."""
-        return self.value if self.unit is None else self.value * _scale(self.unit)[1]
+        """Value in m, turn, s, turn/s, N m or kg m2; a plain number as it is."""
+        return self.value if self.unit is None else self.value * scale(self.unit)[1]
 
     @property
     def si(self) -> float:
-        """Value in SI units, angles in radians."""
+        """Value in m, rad, s, rad/s, N m or kg m2."""
         if self.unit in IRRATIONAL:
             return float(self.value)
         scale = RADIANS_PER_TURN if self.dimension in ("angle", "speed") else 1.0
@@ -218,7 +202,22 @@ class Quantity:
 
     @classmethod
     def parse(cls, raw: object, dimension: str, plain: bool) -> Quantity:
-        """A quantity of one `dimension` ("time or length" allows two); a plain number only where `plain` allows it."""
+        """A quantity from text or a Python number.
+
+        Parameters
+        ----------
+        raw : str, int, float, Fraction or Quantity
+            Such as "9.6 mm", "30 deg", "1400 rpm", 0.98.
+        dimension : str
+            length, angle, time, speed, torque, inertia or fraction; "time or length" allows two.
+        plain : bool
+            Whether a plain number will do. 0 always does.
+
+        Raises
+        ------
+        ValueError
+            If it is no number, or its unit is unknown, of another dimension, or missing.
+        """
         if isinstance(raw, Quantity):
             return raw
         text = str(raw)
@@ -231,12 +230,12 @@ class Quantity:
         unit = " ".join(match[2].split())
         if re.fullmatch(r"[eE][+-]?\d+", unit):
             raise _not_a_number(raw)
-        unit = _SPELT.get(unit, unit)
+        unit = SPELT.get(unit, unit)
         if unit not in UNITS and unit not in IRRATIONAL:
             raise PydanticCustomError(
                 "unit",
                 "'{text}' has an unknown unit",
-                {"text": text, "fix": _nearest(unit, dimension)},
+                {"text": text, "fix": nearest_unit(unit, dimension)},
             )
         quantity = cls(Figure.parse(match[1]).value, unit, text)
         if quantity.dimension not in dimension.split(" or "):
@@ -247,7 +246,7 @@ class Quantity:
                     "text": text,
                     "found": _one(quantity.dimension or "number"),
                     "dimension": " or ".join(map(_one, dimension.split(" or "))),
-                    "fix": f"use one of: {_units_of(dimension)}",
+                    "fix": f"use one of: {units_of(dimension)}",
                 },
             )
         return _measured(quantity, dimension)
@@ -265,53 +264,23 @@ def _measured(quantity: Quantity, dimension: str) -> Quantity:
     return quantity
 
 
-def _scale(unit: str) -> tuple[str, Fraction]:
-    """The dimension of a unit, and how many base units one of it is."""
-    return UNITS.get(unit) or IRRATIONAL[unit]
-
-
 def in_unit(speed: Quantity, unit: str) -> Fraction:
     """A quantity counted in a unit of its dimension; in its own unit as written, so that radians stay exact there."""
-    return speed.value if speed.unit == unit else speed.base / _scale(unit)[1]
-
-
-def turns_in(unit: str) -> Fraction:
-    """Turns in one unit of time at a speed of 1: 1/360 for deg/s, 1 for rpm and for plain numbers."""
-    angle = unit.partition("/")[0] if "/" in unit else TURN
-    return _scale(angle)[1]
-
-
-def same_kind(first: str | None, second: str | None) -> bool:
-    """True if one unit is a rational multiple of the other: a radian of no unit but a radian."""
-    return (first in IRRATIONAL) == (second in IRRATIONAL)
-
-
-def _nearest(unit: str, dimension: str) -> str:
-    """What may be meant by an unknown unit: `rpm` for RPM."""
-    known = _units_of(dimension)
-    spelt = {name.casefold(): name for name, meant in _SPELT.items() if meant in known.split(", ")}
-    names = spelt | {name.casefold(): name for name in known.split(", ")}
-    close = nearest_names(unit.casefold(), names)
-    return f"did you mean '{names[close[0]]}'? Known here: {known}" if close else f"use one of: {known}"
+    return speed.value if speed.unit == unit else speed.base / scale(unit)[1]
 
 
 def _no_unit(text: str, dimension: str) -> PydanticCustomError:
-    first = _units_of(dimension).split(", ")[0]
+    first = units_of(dimension).split(", ")[0]
     return PydanticCustomError(
         "unit",
         "'{text}' has no unit",
-        {"text": text, "fix": f"write for example '{text} {first}'; units: {_units_of(dimension)}"},
+        {"text": text, "fix": f"write for example '{text} {first}'; units: {units_of(dimension)}"},
     )
 
 
 def _one(noun: str) -> str:
     """`a length`, `an angle`."""
     return f"{'an' if noun[0] in 'aeiou' else 'a'} {noun}"
-
-
-def _units_of(dimension: str) -> str:
-    known = [*UNITS.items(), *IRRATIONAL.items()]
-    return ", ".join(unit for unit, (kind, _) in known if kind in dimension.split(" or "))
 
 
 @dataclass(frozen=True, slots=True)
@@ -329,7 +298,7 @@ class Dimension:
 
     def __get_pydantic_json_schema__(self, schema: Any, handler: GetJsonSchemaHandler) -> dict[str, Any]:
         kinds = ["string", "number"] if self.plain else ["string"]
-        return {"type": kinds, "description": f"A {self.name} with its unit: {_units_of(self.name)}"}
+        return {"type": kinds, "description": f"A {self.name} with its unit: {units_of(self.name)}"}
 
 
 Length = Annotated[Quantity, Dimension("length", plain=True)]

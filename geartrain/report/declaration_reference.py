@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Mapping
 from typing import Any
 
 from geartrain.train import Train
 
 _URL = "https://json-schema.org/draft/2020-12/schema"
-
+_SECTIONS = re.compile(r"\n\n[A-Z][A-Za-z ]+\n-{3,}\n.*", re.DOTALL)
+"""The sections of a numpydoc docstring, from the first on."""
 
 _MERGED = ("Wheel", "GearPair", "Revolute", "PinAndSlot", "PinFollower", "Source", "Published")
 """Parts that a child of `extends` may give in pieces: an editor must not ask it for all of them."""
@@ -26,7 +28,20 @@ def schema() -> dict[str, Any]:
 
 
 def _models() -> dict[str, Any]:
-    return Train.model_json_schema(by_alias=True)
+    found: dict[str, Any] = _without_sections(Train.model_json_schema(by_alias=True))
+    return found
+
+
+def _without_sections(schema: Any) -> Any:
+    """A schema whose descriptions end where a docstring turns to examples and what else to see."""
+    if isinstance(schema, list):
+        return [_without_sections(part) for part in schema]
+    if not isinstance(schema, dict):
+        return schema
+    found = {key: _without_sections(part) for key, part in schema.items()}
+    if isinstance(text := found.get("description"), str):
+        found["description"] = _SECTIONS.sub("", text)
+    return found
 
 
 def declaration_reference() -> str:

@@ -13,7 +13,8 @@ from geartrain.errors import Problem, QuestionError
 from geartrain.numerics.decimal_text import decimal, fraction_text
 from geartrain.numerics.exact import as_float
 from geartrain.numerics.plain_data import Key, Result
-from geartrain.numerics.quantity import UNITS, Figure, Quantity
+from geartrain.numerics.quantity import Figure, Quantity
+from geartrain.numerics.units import UNITS
 from geartrain.train.periods import period_table, suggested_period
 
 TargetKind = Literal["number", "things", "time", "speed", "count"]

@@ -1,28 +1,35 @@
-"""The declaration of a train: frozen models, and the checks that need nothing but the declaration itself."""
+"""The declaration of a train: frozen models, and the checks that need nothing but the declaration itself.
+
+In: plain data with the keys of the YAML format (docs/reference.md), or a file. Out: a `Train`, whose parts remember the
+lines on which they were written, or `DeclarationError` with every problem that could be collected. Nothing is worked
+out here; `geartrain.GearTrain` does that.
+
+declaration, mechanism, outputs, states, manufacturing   the models; state_case: what is prescribed in one state
+fields, validation, references, unit_consistency         strictness, problems in words, names, units
+yaml_nodes, declaration_files, inheritance               YAML with line numbers, shipped trains, `extends`
+periods                                                  the table of periods of the sky
+"""
 
 from __future__ import annotations
 
-from geartrain.train.declaration import StateCase, Train
-from geartrain.train.manufacturing import AngleError, LengthError, PairMounting, WheelManufacture
+from geartrain.train.declaration import Train
+from geartrain.train.manufacturing import PairMounting, WheelManufacture
 from geartrain.train.mechanism import Axis, GearPair, Link, Revolute, Source, Teeth, Wheel
 from geartrain.train.outputs import Dial, Expect, Output, Published, SpeedUnit, Target, View
-from geartrain.train.states import Clutch, Erratum, Remove, State
+from geartrain.train.state_case import StateCase
+from geartrain.train.states import Clutch, State
 from geartrain.train.validation import declare
 
 __all__ = [
-    "AngleError",
     "Axis",
     "Clutch",
     "Dial",
-    "Erratum",
     "Expect",
     "GearPair",
-    "LengthError",
     "Link",
     "Output",
     "PairMounting",
     "Published",
-    "Remove",
     "Revolute",
     "Source",
     "SpeedUnit",

@@ -1,9 +1,8 @@
-"""The train as declared, and its cases: one for each state."""
+"""The train as declared, all of it in one model."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property
 from typing import Annotated
@@ -11,14 +10,15 @@ from typing import Annotated
 from pydantic import BeforeValidator, Field, PrivateAttr
 
 from geartrain.errors import Loc, Marks, Problem, QuestionError, dotted, suggest
-from geartrain.numerics.decimal_text import abridged_text, decimal
-from geartrain.numerics.quantity import Friction, Quantity, Speed, Torque, in_unit, same_kind
+from geartrain.numerics.quantity import Friction, Quantity, Speed, Torque, in_unit
+from geartrain.numerics.units import same_kind
 from geartrain.teeth.pin_coupling import Coupling
 from geartrain.train.fields import ByName, Declared, DeclaredToothForm, Id, Nothing
 from geartrain.train.manufacturing import PairMounting, WheelManufacture
 from geartrain.train.mechanism import Axis, GearPair, Link, Revolute, Source, Wheel
 from geartrain.train.outputs import Dial, Output, SpeedUnit, View
 from geartrain.train.periods import period_table
+from geartrain.train.state_case import StateCase
 from geartrain.train.states import Clutch, Erratum, Remove, State
 
 
@@ -26,60 +26,14 @@ def _cited(raw: object) -> object:
     return {"cite": raw} if isinstance(raw, str) else raw
 
 
-@dataclass(frozen=True, slots=True)
-class StateCase:
-    """What is prescribed when the train is run in one state; `state` is None for a train without states.
-
-    inputs    in the train's unit, `Train.unit_name`
-    loc       where the inputs were declared
-    clutches  the clutch or brake behind a fixed link or a lock
-    loads     torques on links; power into the train is positive
-    solve_for the link whose torque is named as unknown
-    exact     False where radians had to be counted in turns, or turns in radians: to 50 digits then
-    causes    a link that is fixed, or two that are locked, only because something else is -> the links of that
-    """
-
-    state: str | None
-    inputs: Mapping[str, Fraction]
-    fixed: tuple[str, ...]
-    locks: tuple[tuple[str, str], ...]
-    outputs: Mapping[str, Output]
-    loc: Loc
-    clutches: Mapping[tuple[str, ...], str]
-    loads: Mapping[str, Quantity] = field(default_factory=dict)
-    solve_for: str | None = None
-    exact: bool = True
-    causes: Mapping[tuple[str, ...], tuple[str, ...]] = field(default_factory=dict)
-
-    def given(self, link: str) -> str:
-        """A prescribed speed in words: `sun = 1400`."""
-        return f"{link} = {self.shown(self.inputs[link])}"
-
-    def shown(self, speed: Fraction) -> str:
-        """A speed for a reader: as a fraction, or in decimal where it is not exact."""
-        return abridged_text(speed) if self.exact else decimal(speed)
-
-    def says(self, *links: str) -> str:
-        """A brake on one link or a lock of two, in words, and what it follows from where it is not declared itself."""
-        declared = self.declares(*links)
-        if self.causes.get(links, links) == links:
-            return declared
-        held = f"'{links[0]}' still" if len(links) == 1 else f"'{links[0]}' and '{links[1]}' together"
-        return f"{declared}, which holds {held}"
-
-    def declares(self, *links: str) -> str:
-        """What is declared behind a brake or a lock, in words, with the clutch that does it."""
-        links = self.causes.get(links, links)
-        by = f" by {self.clutches[links]}" if links in self.clutches else ""
-        return (
-            f"'{links[0]}' is fixed{by}"
-            if len(links) == 1
-            else f"'{links[0]}' and '{links[1]}' are locked together{by}"
-        )
-
-
 class Train(Declared):
-    """A gear train as declared: links, turning pairs, gear pairs, couplings, and what is asked of them."""
+    """A gear train as declared: links, turning pairs, gear pairs, couplings, and what is asked of them.
+
+    See Also
+    --------
+    declare : makes one from plain data; an example
+    geartrain.GearTrain : answers questions about one
+    """
 
     name: str = Field("train", description="A short name, best that of the file")
     title: str = Field("", description="One line for a reader")
@@ -139,7 +93,13 @@ class Train(Declared):
     _marks: Marks | None = PrivateAttr(None)
 
     def place(self, *loc: str | int) -> str:
-        """Where a declared thing was written: `file.yaml:12`, or its path if it came from no file."""
+        """Where a declared thing was written: `file.yaml:12`, or its path if it came from no file.
+
+        Parameters
+        ----------
+        *loc : str or int
+            Keys and positions in lists that lead to it.
+        """
         return self._marks(loc) if self._marks else dotted(loc)
 
     @cached_property
@@ -153,7 +113,13 @@ class Train(Declared):
         return tuple(self.case(state) for state in self.states) if self.states else (self.case(None),)
 
     def case(self, state: str | None) -> StateCase:
-        """What is prescribed in one state."""
+        """What is prescribed in one state.
+
+        Parameters
+        ----------
+        state : str or None
+            A declared state; None for the train without any.
+        """
         own = self.states[state] if state is not None else State()
         inputs = self.inputs if own.inputs is None else own.inputs
         fixed = list(self.fixed if own.fixed is None else own.fixed)
@@ -187,13 +153,25 @@ class Train(Declared):
         )
 
     def check_state(self, state: str | None) -> None:
-        """Raise `QuestionError` for a state that is not declared."""
+        """Raise `QuestionError` for a state that is not declared.
+
+        Parameters
+        ----------
+        state : str or None
+            Its name; None is always declared.
+        """
         if state is not None and state not in self.states:
             fix = suggest(state, self.states) if self.states else "leave the state out"
             raise QuestionError(Problem(f"'{self.name}' has no state '{state}'", "it is not declared", fix))
 
     def single_state(self, state: str | None) -> str | None:
-        """The state to be asked: the one given, or the only one. Raises `QuestionError` where there are several."""
+        """The state to be asked: the one given, or the only one. Raises `QuestionError` where there are several.
+
+        Parameters
+        ----------
+        state : str or None
+            Its name; None for the only one, or a train without states.
+        """
         if state is None and len(self.states) > 1:
             names = ", ".join(self.states)
             raise QuestionError(
@@ -208,7 +186,13 @@ class Train(Declared):
         return any(axis.position is not None or "direction" in axis.model_fields_set for axis in self.axes.values())
 
     def is_loaded(self, state: str | None) -> bool:
-        """True if torques follow from something declared: loads, or friction of bearings."""
+        """True if torques follow from something declared: loads, or friction of bearings.
+
+        Parameters
+        ----------
+        state : str or None
+            A declared state; None for the train without any.
+        """
         return bool(self.case(state).loads) or any(link.bearing for link in self.links.values())
 
     def _speed(self, speed: Quantity) -> Fraction:

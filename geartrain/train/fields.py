@@ -31,7 +31,13 @@ class Declared(BaseModel):
     )
 
     def changed(self, **update: Any) -> Self:
-        """A copy with other fields, which remembers nothing that was derived from the old ones."""
+        """A copy with other fields, which remembers nothing that was derived from the old ones.
+
+        Parameters
+        ----------
+        **update : object
+            Values by name of field; they are taken as they are.
+        """
         copy = self.model_copy(update=update)
         for name in [name for name in copy.__dict__ if name not in type(self).model_fields]:
             del copy.__dict__[name]

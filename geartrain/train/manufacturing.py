@@ -82,7 +82,13 @@ class MeasuredTeeth(Declared):
 
 
 class WheelManufacture(Declared):
-    """How far the teeth of a wheel are off; what is not given is cut true."""
+    """How far the teeth of a wheel are off; what is not given is cut true.
+
+    See Also
+    --------
+    Wheel : holds it as `cutting`
+    Train : holds that of all other wheels
+    """
 
     placement: Annotated[AngleError, short_for("value")] | None = Field(
         None, description="Of each tooth from its place about the axle"
@@ -101,7 +107,13 @@ class WheelManufacture(Declared):
 
 
 class PairMounting(Declared):
-    """How far the axes of a gear pair are off; what is not given is fitted true."""
+    """How far the axes of a gear pair are off; what is not given is fitted true.
+
+    See Also
+    --------
+    GearPair : holds it as `fitting`
+    Train : holds that of all other pairs
+    """
 
     centre: Annotated[LengthError, short_for("value")] | None = Field(
         None, description="Of the distance of the two axes; positive is further apart"

@@ -32,7 +32,12 @@ from geartrain.train.manufacturing import PairMounting, WheelManufacture
 
 
 class Source(Declared):
-    """Where facts come from."""
+    """Where facts come from.
+
+    See Also
+    --------
+    Train : holds them as `sources`, by key
+    """
 
     cite: str = Field(description="The citation")
     url: str | None = Field(None, description="Where it can be read")
@@ -44,7 +49,12 @@ class Source(Declared):
 
 
 class Teeth(Declared):
-    """A tooth count with its doubt: a best value, and a range or choices."""
+    """A tooth count with its doubt: a best value, and a range or choices.
+
+    See Also
+    --------
+    Wheel : an example
+    """
 
     value: Count | None = Field(None, description="The count used")
     range: tuple[Count, Count] | None = Field(
@@ -101,7 +111,16 @@ def _teeth_kind(raw: object) -> str:
 
 
 class Wheel(Declared):
-    """A wheel on a link. A bare number is its tooth count."""
+    """A wheel on a link. A bare number is its tooth count.
+
+    Examples
+    --------
+    >>> Wheel(teeth=20).count
+    20
+    >>> doubtful = Wheel(teeth={"value": 64, "range": (64, 66)})
+    >>> doubtful.count, doubtful.doubt.allowed
+    (64, (64, 65, 66))
+    """
 
     teeth: Annotated[Annotated[Count, Tag("count")] | Annotated[Teeth, Tag("doubt")], Discriminator(_teeth_kind)] = (
         Field(description="Tooth count, or a count with its range; the starts of a worm")
@@ -142,7 +161,12 @@ def _not_negative(torque: Quantity) -> Quantity:
 
 
 class Link(Declared):
-    """A rigid body: an arbor with its wheels, a carrier, the frame."""
+    """A rigid body: an arbor with its wheels, a carrier, the frame.
+
+    See Also
+    --------
+    Train : holds them as `links`, by name
+    """
 
     wheels: ByName[Annotated[Wheel, short_for("teeth")]] = Field(
         {}, validate_default=True, description="The wheels fixed on this link, by id"
@@ -160,7 +184,12 @@ class Link(Declared):
 
 
 class Axis(Declared):
-    """Where an axis lies; moving axes in the pose where all angles are zero."""
+    """Where an axis lies; moving axes in the pose where all angles are zero.
+
+    See Also
+    --------
+    Train : holds them as `axes`, by label
+    """
 
     direction: tuple[Figure, Figure, Figure] = Field(
         (Figure.parse(0), Figure.parse(0), Figure.parse(1)),
@@ -179,7 +208,12 @@ class Axis(Declared):
 
 
 class Revolute(Declared):
-    """A turning pair of two links; joints with one axis label are coaxial."""
+    """A turning pair of two links; joints with one axis label are coaxial.
+
+    See Also
+    --------
+    Train : holds them as `revolutes`
+    """
 
     pair: tuple[Id, Id] = Field(description="The two links")
     axis: Id = Field(description="Label of the axis")
@@ -239,7 +273,14 @@ def _positive(figure: Figure) -> Figure:
 
 
 class GearPair(Declared):
-    """Two wheels in mesh. The carrier is found, not declared."""
+    """Two wheels in mesh. The carrier is found, not declared.
+
+    Examples
+    --------
+    >>> pair = GearPair(pair=("sun", "planet"), efficiency="98 %")
+    >>> pair.name, pair.efficiency.backward.base
+    ('sun~planet', Fraction(49, 50))
+    """
 
     id: str = Field("", description="Name of the pair; default first~second")
     pair: tuple[Id, Id] = Field(description="The two wheels")

@@ -46,6 +46,11 @@ class Target(Declared):
     """What an output should show: a name of the shipped table, a period or a speed. A bare text is a name.
 
     A `speed` carries its sign. A name or a period is a magnitude, which either sense meets, unless `sense` signs it.
+
+    See Also
+    --------
+    Output : holds them as `targets`
+    geartrain.kinematics.TargetResult : an output held against one
     """
 
     name: str | None = Field(None, description="A row of the shipped table; `geartrain periods` lists them")
@@ -110,7 +115,16 @@ class Target(Declared):
 
 
 class Expect(Declared):
-    """The mean speed an output must have: exact, or within its tolerance. A bare number is the value."""
+    """The mean speed an output must have: exact, or within its tolerance. A bare number is the value.
+
+    Examples
+    --------
+    >>> from fractions import Fraction
+    >>> Expect(value="254/19").holds(Fraction(254, 19)), Expect(value="13.37").holds(Fraction(254, 19))
+    (True, True)
+    >>> Expect(value="13.37", tolerance=0).holds(Fraction(254, 19))
+    False
+    """
 
     value: Figure = Field(description="Integer or fraction: exact. Decimal: at the digits written")
     tolerance: Annotated[Figure, AfterValidator(_not_negative)] | None = Field(
@@ -118,7 +132,13 @@ class Expect(Declared):
     )
 
     def holds(self, speed: Any) -> bool:
-        """True if the exact `speed` agrees."""
+        """True if a speed agrees.
+
+        Parameters
+        ----------
+        speed : Fraction
+            Exact [the train's unit].
+        """
         return self.value.holds(speed, self.tolerance.value if self.tolerance else None)
 
     @classmethod
@@ -127,7 +147,12 @@ class Expect(Declared):
 
 
 class Published(Declared):
-    """What a source prints for an output."""
+    """What a source prints for an output.
+
+    See Also
+    --------
+    Output : holds it as `published`
+    """
 
     value: Figure = Field(description="The number as printed; it must hold at its digits")
     as_: Literal["speed", "input/output", "output/input"] = Field(
@@ -152,7 +177,14 @@ class Published(Declared):
 
 
 class Output(Declared):
-    """A motion the train is asked for: a link, or a link relative to a link."""
+    """A motion the train is asked for: a link, or a link relative to a link.
+
+    Examples
+    --------
+    >>> output = Output(of="planet", relative_to="carrier", expect="-20/21")
+    >>> output.expect.value.value
+    Fraction(-20, 21)
+    """
 
     of: Id | None = Field(None, description="The link; default the output's own name")
     relative_to: Id | None = Field(None, description="The link it is seen from; default the frame")
@@ -170,13 +202,23 @@ class Output(Declared):
 
 
 class SpeedUnit(Declared):
-    """What a speed of 1 means: one turn per this."""
+    """What a speed of 1 means: one turn per this.
+
+    See Also
+    --------
+    Train : holds it as `unit`
+    """
 
     per: str = Field(description="A period of the shipped table, or a quantity such as 7 d or 18 ft")
 
 
 class View(Declared):
-    """From where the train is looked at, and which sense is called positive."""
+    """From where the train is looked at, and which sense is called positive.
+
+    See Also
+    --------
+    Train : holds it as `view`
+    """
 
     from_: str | None = Field(None, alias="from", description="The side the reader looks from, such as front")
     positive: Literal["clockwise", "counter-clockwise"] = Field(
@@ -185,7 +227,12 @@ class View(Declared):
 
 
 class Dial(Declared):
-    """A scale a pointer is read on. It stands on the link its output is relative to."""
+    """A scale a pointer is read on. It stands on the link its output is relative to.
+
+    See Also
+    --------
+    Train : holds them as `dials`, by name
+    """
 
     face: str | None = Field(None, description="The side it is read from, such as front or back")
     turns: Count = Field(1, description="Turns of a spiral")

@@ -13,7 +13,13 @@ from geartrain.train.outputs import Output
 
 
 class Clutch(Declared):
-    """A brake or a clutch: one of `fixes` and `locks`."""
+    """A brake or a clutch: one of `fixes` and `locks`.
+
+    See Also
+    --------
+    Train : holds them as `clutches`, by name
+    State : engages them
+    """
 
     fixes: Id | None = Field(None, description="The link it holds to the frame")
     locks: tuple[Id, Id] | None = Field(None, description="The two links it makes one body")
@@ -28,7 +34,13 @@ class Clutch(Declared):
 
 
 class State(Declared):
-    """One way the train is run. What is given here replaces the train's; outputs merge by name."""
+    """One way the train is run. What is given here replaces the train's; outputs merge by name.
+
+    See Also
+    --------
+    Train : holds them as `states`, by name
+    StateCase : what comes of one
+    """
 
     engaged: tuple[Id, ...] = Field((), description="Clutches and brakes that are closed")
     fixed: tuple[Id, ...] | None = Field(None, description="Links held to the frame, one body with it")

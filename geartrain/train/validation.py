@@ -29,10 +29,33 @@ from geartrain.train.references import find_problems
 
 @collector_paused()
 def declare(data: Mapping[str, Any], marks: Marks | None = None) -> Train:
-    """A checked `Train` from plain data, the same keys as in YAML.
+    """A checked `Train` from plain data, the same keys as in YAML (docs/reference.md).
 
-    `marks` turns the path of a value into the place it was written at. Raises `DeclarationError` with the first
-    problems that could be collected.
+    Parameters
+    ----------
+    data : mapping of str
+        The declaration. `extends` is kept as it stands; `geartrain.load` follows it.
+    marks : callable, optional
+        Turns the path of a value into the place it was written at; default the path itself, `gears[3].pair`.
+
+    Returns
+    -------
+    Train
+        Frozen; equal data give equal trains.
+
+    Raises
+    ------
+    DeclarationError
+        With the first problems that could be collected, each with its place.
+
+    Examples
+    --------
+    >>> train = declare({
+    ...     "links": {"frame": {}, "a": {"wheels": {"p": 20}}, "b": {"wheels": {"w": 60}}},
+    ...     "revolutes": [{"pair": ["frame", "a"], "axis": "A"}, {"pair": ["frame", "b"], "axis": "B"}],
+    ...     "gears": [{"pair": ["p", "w"]}], "inputs": {"a": 1}})
+    >>> train.gears[0].name, train.wheels["w"][0], train.case(None).inputs
+    ('p~w', 'b', {'a': Fraction(1, 1)})
     """
     place = marks or dotted
     head = _head(data)

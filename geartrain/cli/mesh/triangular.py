@@ -268,7 +268,7 @@ def _page(
     to: Sink,
 ) -> None:
     from geartrain.dynamics.motion.pair_impacts import PairOperation
-    from geartrain.numerics.quantity import RADIANS_PER_TURN
+    from geartrain.numerics.units import RADIANS_PER_TURN
     from geartrain.report.gear_pairs import mesh_data
     from geartrain.report.pair_page import mesh_document
     from geartrain.teeth.triangular.clearance_window import find_window

@@ -19,7 +19,7 @@ from geartrain.dynamics.torques.torque_results import Torques
 from geartrain.numerics.exact import as_float
 from geartrain.numerics.graphs import joined_groups
 from geartrain.numerics.plain_data import Key, Result
-from geartrain.numerics.quantity import RADIANS_PER_TURN
+from geartrain.numerics.units import RADIANS_PER_TURN
 from geartrain.train import StateCase, Train
 
 PowerNodeKind = Literal["in", "shaft", "pair", "bearing", "out"]

@@ -14,8 +14,9 @@ import numpy as np
 from geartrain.kinematics.circuits import Circuit, Tree
 from geartrain.kinematics.phasing.pitch_points import EPS, PitchPoints, UnplacedPair
 from geartrain.numerics.containers import collector_paused
-from geartrain.numerics.quantity import UNITS, Figure, Quantity
+from geartrain.numerics.quantity import Figure, Quantity
 from geartrain.numerics.rational_angles import rational_angle, recognised_angle
+from geartrain.numerics.units import UNITS
 from geartrain.numerics.vectors import IntegerVector, across_whole, cross, dot, minus, parallel
 from geartrain.train import Train
 

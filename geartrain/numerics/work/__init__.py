@@ -1,9 +1,9 @@
 """Independent work on one machine or many: which executor runs it, and what is kept when it is cut.
 
-This room knows no gears. `run(work, tasks, executor, journal)` yields the results in the order of the tasks, whoever
-does them; `open_executor()` says who; a `Journal` keeps what is finished, so that a run killed at any moment is taken
-up again and ends the same. Journals are the one thing that does not go through `files`, the door to disk: they are no
-result for a reader, and they live and die with the run.
+`run(work, tasks, executor, journal)` yields the results in the order of the tasks, whichever process does them;
+`open_executor()` makes the processes or finds the cluster; a `Journal` keeps what is finished, so that a run killed at
+any moment is taken up again and ends the same. Journals are not written through `files`: they are no result for a
+reader, and go when the run is whole.
 """
 
 from geartrain.numerics.work.execution import Execution

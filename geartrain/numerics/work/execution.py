@@ -1,4 +1,4 @@
-"""How a long run is done: who works, what is kept of it, who is told."""
+"""How a long run is done: by which executor, with which journal, and who hears of its progress."""
 
 from __future__ import annotations
 
@@ -13,11 +13,24 @@ from geartrain.numerics.work.task_runner import ProgressReport, run
 
 @dataclass(frozen=True, slots=True)
 class Execution:
-    """How independent tasks are done; the default does them in this process and keeps nothing.
+    """How the independent tasks of a long question are done; the default does them in this process and keeps nothing.
 
-    executor   None: in this process; see `open_executor`
-    journal    where finished work is kept, to be taken up again
-    tell       called with (tasks done, tasks in all)
+    Attributes
+    ----------
+    executor : concurrent.futures.Executor or None
+        What runs the tasks; None for this process. `open_executor` makes one.
+    journal : Journal or None
+        Where finished work is kept, to be taken up again.
+    tell : callable or None
+        Called with (tasks done, tasks in all), at most ten times a second and at the end.
+
+    Examples
+    --------
+    >>> told = []
+    >>> list(Execution(tell=lambda done, total: told.append((done, total))).run(abs, [-1, 2]))
+    [1, 2]
+    >>> told[-1]
+    (2, 2)
     """
 
     executor: Executor | None = None
@@ -25,5 +38,13 @@ class Execution:
     tell: ProgressReport | None = None
 
     def run(self, work: Callable[[Any], Any], tasks: Iterable[Any]) -> Iterator[Any]:
-        """Results in the order of the tasks; as `geartrain.numerics.work.run`."""
+        """Results in the order of the tasks, as `geartrain.numerics.run`.
+
+        Parameters
+        ----------
+        work : callable
+            A function at the top of a module.
+        tasks : iterable
+            What it is called with.
+        """
         return run(work, tasks, self.executor, self.journal, self.tell)

@@ -1,4 +1,4 @@
-"""Who does the work: this process, processes on this machine, or a cluster."""
+"""Which executor does the work: none (this process), processes on this machine, or a cluster."""
 
 from __future__ import annotations
 
@@ -27,14 +27,36 @@ def cores() -> int:
 def open_executor(workers: int | None = None, scheduler: str | None = None) -> Iterator[Executor | None]:
     """An executor for `run`, or None where one worker is enough: then the work is done in this process.
 
-    workers    processes on this machine, at least 1; default the cores this process may use. They start with the
-               first task, not before
-    scheduler  address of a dask scheduler, such as `tcp://10.0.0.1:8786`: its workers do the work, however many they
-               are. Needs the extra `dask`, and geartrain in the same version on the cluster
+    A context manager: leaving it ends what is still running.
 
-    Leaving the context ends what is still running: leave it when you have what you want. Raises `QuestionError` for
-    what cannot be asked, `MissingExtraError` without the extra, `GearTrainError` if the cluster does not answer or
-    cannot work.
+    Parameters
+    ----------
+    workers : int, optional
+        Processes on this machine, 1 or more; default the cores this process may use. They start with the first task.
+    scheduler : str, optional
+        Address of a dask scheduler, such as `tcp://10.0.0.1:8786`: its workers do the work, however many they are.
+        Needs the extra `dask`, and geartrain in the same version on the cluster.
+
+    Yields
+    ------
+    concurrent.futures.Executor or None
+        What `run` and `Execution` take; it outlives workers that die.
+
+    Raises
+    ------
+    QuestionError
+        If both are given, or `workers` is below 1.
+    MissingExtraError
+        If a scheduler is given without the extra.
+    GearTrainError
+        If the cluster does not answer or cannot work.
+
+    Examples
+    --------
+    >>> from geartrain.numerics import run
+    >>> with open_executor(workers=1) as executor:
+    ...     list(run(abs, [-1, 2], executor))
+    [1, 2]
     """
     crew = _crew(workers, scheduler)
     try:

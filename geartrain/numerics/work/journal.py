@@ -6,9 +6,9 @@ read; each further line is one finished task, in the order in which they were fi
     {"geartrain journal":1,"question":{...}}
     {"crc":"1c291ca3","task":3,"mark":"d202ef8d","result":[1,2]}
 
-`crc` is the CRC-32 of the rest of its line, `mark` tells the task (`carrying.mark_of`). What is not whole at the end, a
-line torn by a kill or lost with the power, is cut off when the journal is taken up. `parallel` writes journals itself:
-`files` is the door for what users read and write, and a checkpoint is neither.
+`crc` is the CRC-32 of the rest of its line, `mark` tells the task (`messages.mark_of`). What is not whole at the end, a
+line torn by a kill or lost with the power, is cut off when the journal is taken up. `files` is the door for what users
+read and write; a checkpoint is neither, and is written here.
 """
 
 from __future__ import annotations
@@ -37,13 +37,35 @@ _BREATH = 1.0  # s: what a power failure may cost; a kill costs no finished resu
 class Journal:
     """Results by number of task, kept in a file until the run is whole.
 
-    path      the file; it is made, or taken up if it holds the same question
-    question  plain data that tells this run from every other: all on which tasks and results depend
-    resume    False: begin again, even if the file holds results (of any question)
+    A context manager that leaves the file to be taken up later; `len()` is the number of results kept. It costs 8 bytes
+    of memory a task.
 
-    Raises `QuestionError` if the file is of another question, is no journal, or is in use by another run;
-    `GearTrainError` if it cannot be read or written. `len()` is the number of results kept. It costs 8 bytes of memory
-    a task.
+    Parameters
+    ----------
+    path : path or str
+        The file; it is made, or taken up if it holds the same question.
+    question : mapping
+        Plain data that tells this run from every other: all on which tasks and results depend.
+    resume : bool
+        False: begin again, even if the file holds results (of any question).
+
+    Raises
+    ------
+    QuestionError
+        If the file is of another question, is no journal, or is in use by another run.
+    GearTrainError
+        If it cannot be read or written.
+
+    Examples
+    --------
+    >>> from tempfile import TemporaryDirectory
+    >>> from geartrain.numerics import run
+    >>> with TemporaryDirectory() as folder:
+    ...     for _ in range(2):  # the second time nothing is worked out
+    ...         with Journal(f"{folder}/journal", {"of": "squares"}) as journal:
+    ...             print(len(journal), list(run(abs, [-1, 2], journal=journal)))
+    0 [1, 2]
+    2 [1, 2]
     """
 
     def __init__(self, path: Path | str, question: Mapping[str, Any], *, resume: bool = True) -> None:
@@ -115,7 +137,15 @@ class Journal:
         return self._count
 
     def recall(self, task: int, mark: str = "") -> str | None:
-        """The result of a task as JSON, None if it is not kept. Raises `QuestionError` if the mark is another one."""
+        """The result of a task as JSON, None if it is not kept.
+
+        Parameters
+        ----------
+        task : int
+            Number of the task, from 0.
+        mark : str
+            Tells the task; `QuestionError` if another one was kept under the number.
+        """
         if task >= len(self._at) or self._at[task] < 0:
             return None
         try:
@@ -131,7 +161,17 @@ class Journal:
         return found[5].decode()
 
     def keep(self, task: int, mark: str, text: str) -> None:
-        """Write down a result, one line of JSON. Raises `GearTrainError`."""
+        """Write down a result; `GearTrainError` if that fails.
+
+        Parameters
+        ----------
+        task : int
+            Number of the task, from 0.
+        mark : str
+            Tells the task, in hexadecimal digits.
+        text : str
+            The result, one line of JSON.
+        """
         rest = f'"task":{task},"mark":"{mark}","result":{text}}}'.encode()
         self._enter(task, self._write(b'{"crc":"%08x",' % crc32(rest) + rest + b"\n"))
 

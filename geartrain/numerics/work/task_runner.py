@@ -38,18 +38,38 @@ def run(
 ) -> Iterator[Any]:
     """Yield `work(task)` for each task, in their order.
 
-    work      a function at the top of a module, so that other processes find it; its results are plain JSON data and
-              depend on the task alone. Results come back as JSON gives them: tuples are lists, keys are texts
-    tasks     any number of them; they are taken as they are needed, and only as many results are held as are ahead of
-              one that is missing (at most 64 for each worker)
-    executor  None: in this process. Any `Executor` will do; one from `open_executor` outlives its workers
-    journal   results it has are not worked out again; others are written to it as they come
-    tell      called with (tasks done, tasks in all, 0 if `tasks` has no length), at most ten times a second and at
-              the end
-
     A worker that dies costs only what it was doing: that is done again, and a task with which workers keep dying is
-    run alone before it is blamed. Raises `GearTrainError` if a task kills its workers, or if nobody is left to work;
-    whatever `work` raises goes up at once. Tasks in flight are cancelled however the iterator ends.
+    run alone before it is blamed. Tasks in flight are cancelled however the iterator ends.
+
+    Parameters
+    ----------
+    work : callable
+        A function at the top of a module, so that other processes find it; its results are plain JSON data and depend
+        on the task alone.
+    tasks : iterable
+        Any number of them; they are taken as they are needed, and only as many results are held as are ahead of one
+        that is missing (at most 64 for each worker).
+    executor : concurrent.futures.Executor, optional
+        Default this process. Any executor will do; one from `open_executor` outlives its workers.
+    journal : Journal, optional
+        Results it has are not worked out again; others are written to it as they come.
+    tell : callable, optional
+        Called with (tasks done, tasks in all, 0 if `tasks` has no length), at most ten times a second and at the end.
+
+    Yields
+    ------
+    plain data
+        Results as JSON gives them: tuples are lists, keys are texts.
+
+    Raises
+    ------
+    GearTrainError
+        If a task kills its workers, or no worker is left. Whatever `work` raises goes up at once.
+
+    Examples
+    --------
+    >>> list(run(abs, [-3, 4]))
+    [3, 4]
     """
     pace = _Pace(tell, len(tasks) if isinstance(tasks, Sized) else 0)
     if executor is None:

@@ -13,7 +13,8 @@ from geartrain.teeth.triangular.pair_geometry import depth
 
 if TYPE_CHECKING:
     from geartrain.teeth.gear_mesh import GearMesh
-    from geartrain.train import AngleError, LengthError, PairMounting, Train, Wheel, WheelManufacture
+    from geartrain.train import PairMounting, Train, Wheel, WheelManufacture
+    from geartrain.train.manufacturing import AngleError, LengthError
 
 ErrorDistributionKind = Literal["value", "normal", "uniform"]
 OF_WHEELS = ("placement", "eccentricity", "tip", "aperture")

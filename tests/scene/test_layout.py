@@ -219,6 +219,26 @@ def test_each_wheel_of_a_shared_pinion_has_its_own_height() -> None:
     assert broad.centre[2] + broad.thickness / 2 >= heights[2] + thin / 2 - 1e-12
 
 
+@pytest.mark.parametrize("face", ["front", "back"])
+@pytest.mark.parametrize("large_first", [True, False])
+def test_an_arbor_runs_to_its_dial_past_a_wheel_that_covers_it(face: str, large_first: bool) -> None:
+    """The large wheel C covers the axis of A: on the side of A's dial it would be pierced."""
+    wheels = {"A": (20, 0, 0), "B": (20, 20, 0), "C": (80, 0, -30), "D": (20, 0, -80)}
+    names = "CDAB" if large_first else "ABCD"
+    data = {
+        "links": {"frame": {}} | {f"arbor {name}": {"wheels": {name: wheels[name][0]}} for name in names},
+        "axes": {name: {"position": [f"{x} mm", f"{y} mm", "0 mm"]} for name, (_, x, y) in wheels.items()},
+        "revolutes": [{"pair": ["frame", f"arbor {name}"], "axis": name} for name in names],
+        "gears": [{"pair": list(names[:2])}, {"pair": list(names[2:])}],
+        "inputs": {"arbor A": 1, "arbor C": 1},
+        "dials": {"dial": {"face": face}},
+        "outputs": {"arbor A": {"dial": "dial"}},
+    }
+    layout = lay_out(geartrain.GearTrain.declare(data))
+    above = layout.wheels["A"].centre[2] - layout.wheels["C"].centre[2]
+    assert above > 1 if face == "front" else above < -1
+
+
 def test_shelves_are_found_in_a_row_of_thousands() -> None:
     """Two wheels of a long row run into each other: the search goes down the whole row, and back where it must."""
     row = [(f"w{at}", f"w{at + 1}") for at in range(3000)]

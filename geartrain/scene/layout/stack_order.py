@@ -154,7 +154,7 @@ class _OrderSearch:
     def _costs(self, every: Floats) -> Floats:
         """Costs of several orders of the same stacks, a row each; stacks not yet put in are nan."""
         keys = np.ascontiguousarray(every.T, np.float32)  # halves of small numbers: exact, and soon compared
-        low = high = keys[self._borne[0]]
+        low, high = keys[self._borne[0]], keys[self._borne[0]]  # two arrays: each is changed in place below
         for stacks in self._borne[1:]:
             low, high = np.fmin(low, keys[stacks]), np.fmax(high, keys[stacks])  # fmin, fmax: pass over nan
         span = np.nansum(high - low, axis=0)

@@ -16,7 +16,7 @@ from geartrain.cli.option_values import turns as read_turns
 from geartrain.errors import GearTrainError, Problem
 
 if TYPE_CHECKING:
-    from geartrain.export import ManufacturingSizes, SolidModel
+    from geartrain.scene import ManufacturingSizes, SolidModel
 
 _PATIENCE = 2.0  # seconds before a progress bar is shown
 _SHOWN = 8  # notices on the terminal; all are in the README
@@ -46,7 +46,7 @@ def run(
 ) -> None:
     """Write wheels and plates to cut, the assembly as a solid, the graph, REXS and tables of a train."""
     from geartrain.analysis.loader import load
-    from geartrain.export import SolidModel
+    from geartrain.scene import SolidModel
 
     if (to is None) == (out is None):
         what = "it is not said what to write" if to is None else "--to and -o are both given"
@@ -65,7 +65,7 @@ def run(
 
 
 def _making(module: Size, thickness: Size, bore: Size, backlash: Size) -> ManufacturingSizes:
-    from geartrain.export import ManufacturingSizes
+    from geartrain.scene import ManufacturingSizes
 
     given = {"module": module, "thickness": thickness, "bore": bore, "backlash": backlash}
     return ManufacturingSizes(
@@ -82,7 +82,8 @@ def _turns(text: str | None) -> Fraction | None:
 
 
 def _one(work: SolidModel, out: Path, wheel: str | None, turns: Fraction | None, force: bool) -> None:
-    from geartrain.export import WHEEL_SUFFIXES, kind_of, train_file, wheel_file
+    from geartrain.export import train_file, wheel_file
+    from geartrain.export.file_set import WHEEL_SUFFIXES, kind_of
 
     suffix = out.suffix.lower()
     if wheel is not None and suffix not in WHEEL_SUFFIXES:
@@ -94,7 +95,8 @@ def _one(work: SolidModel, out: Path, wheel: str | None, turns: Fraction | None,
 
 
 def _all(work: SolidModel, to: Path, kinds: str | None, wheel: str | None, turns: Fraction | None, force: bool) -> None:
-    from geartrain.export import KINDS, export_files, installed, notices
+    from geartrain.export import export_files, notices
+    from geartrain.export.file_set import KINDS, installed
     from geartrain.numerics.files import check_folder, write_folder
 
     if wheel is not None:

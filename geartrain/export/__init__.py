@@ -1,45 +1,45 @@
 """Files for makers and for other tools: outlines to cut, plates, solids, graphs, tables.
 
-flat_files      a flat part with its layers as SVG or DXF
-wheel_sheets    a drawing of each kind of wheel
-triangle_files  the assembly as STL and GLB
-step_file       the assembly for CAD
-rexs            the gear unit as REXS
-csv_tables      its tables
-file_set        which files there are
+In: a `SolidModel` of `geartrain.scene`, which holds the train, the state and the sizes it is made in; or the outline of
+one wheel. Out: bytes and texts of files. Lengths are in mm, in GLB in m. Nothing is computed here but formats: outlines
+are those of docs/shapes.md, motions in GLB the exact speeds.
 
-Shapes come from `geartrain.scene.solids`.
+export_files   all files of some kinds, as a folder
+train_file     one file with the whole train: STL, GLB, STEP, GraphML, DOT, REXS
+wheel_file     one wheel as SVG, DXF or STL
+outline_text   the outline of any wheel as SVG, DXF or CSV
 """
 
 from __future__ import annotations
 
-from geartrain.export.file_set import (
-    KINDS,
-    SUFFIXES,
-    WHEEL_SUFFIXES,
-    export_files,
-    installed,
-    kind_of,
-    notices,
-    train_file,
-    wheel_file,
-)
-from geartrain.export.flat_files import OUTLINES, outline_text
-from geartrain.scene.solids.manufacturing_sizes import ManufacturingSizes
-from geartrain.scene.solids.solid_assembly import SolidModel
+from typing import TYPE_CHECKING
+
+from geartrain.numerics.lazy_names import lazy_names
+
+if TYPE_CHECKING:
+    from geartrain.export.file_set import ExportFile as ExportFile
+    from geartrain.export.file_set import export_files as export_files
+    from geartrain.export.file_set import notices as notices
+    from geartrain.export.file_set import train_file as train_file
+    from geartrain.export.file_set import wheel_file as wheel_file
+    from geartrain.export.flat_files import outline_text as outline_text
 
 __all__ = [
-    "KINDS",
-    "OUTLINES",
-    "SUFFIXES",
-    "WHEEL_SUFFIXES",
-    "ManufacturingSizes",
-    "SolidModel",
+    "ExportFile",
     "export_files",
-    "installed",
-    "kind_of",
     "notices",
     "outline_text",
     "train_file",
     "wheel_file",
 ]
+
+_PLACES = {
+    "ExportFile": "file_set",
+    "export_files": "file_set",
+    "notices": "file_set",
+    "outline_text": "flat_files",
+    "train_file": "file_set",
+    "wheel_file": "file_set",
+}
+
+__getattr__ = lazy_names(__name__, _PLACES)

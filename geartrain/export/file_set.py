@@ -22,6 +22,8 @@ if TYPE_CHECKING:
     from geartrain.scene.train_teeth import PairPlay
 
 KINDS = ("svg", "dxf", "stl", "glb", "step", "graphml", "dot", "rexs", "csv")
+"""Kinds of files that `export_files` makes."""
+
 SUFFIXES = {
     ".glb": "glb",
     ".stl": "stl",
@@ -43,7 +45,21 @@ _NEEDED = {"dxf": ("ezdxf", "dxf"), "glb": ("pygltflib", "model"), "step": ("OCP
 
 @dataclass(frozen=True, slots=True)
 class ExportFile:
-    """A file to be: its path in the folder, what it shows, and its making."""
+    """A file to be written.
+
+    Attributes
+    ----------
+    path : str
+        In the folder, with `/`.
+    title : str
+        What it shows.
+    make : callable
+        Its content as bytes; raises `GearTrainError` if that cannot be made.
+
+    See Also
+    --------
+    export_files : gives it.
+    """
 
     path: str
     title: str
@@ -71,7 +87,37 @@ def _is_there(library: str) -> bool:
 
 
 def train_file(work: SolidModel, kind: str, turns: Fraction | None = None) -> bytes:
-    """The one file of some kind that holds the whole train. Raises `GearTrainError`."""
+    """The one file of some kind that holds the whole train.
+
+    Parameters
+    ----------
+    work : SolidModel
+        The train and its sizes.
+    kind : {"stl", "glb", "step", "graphml", "dot", "rexs"}
+        What it is written as.
+    turns : Fraction, optional
+        Turns of the lead that a GLB shows; by default its period, or ten where that is long.
+
+    Returns
+    -------
+    bytes
+        The content of the file.
+
+    Raises
+    ------
+    MissingExtraError
+        If the library that writes GLB or STEP is not installed.
+    GearTrainError
+        If the train cannot be shown so: the message says why.
+
+    Examples
+    --------
+    >>> import geartrain
+    >>> from geartrain.scene import ManufacturingSizes, SolidModel
+    >>> work = SolidModel(geartrain.load("planetary-24-18-60"), ManufacturingSizes())
+    >>> train_file(work, "dot").decode().splitlines()[0]
+    'graph "planetary-24-18-60" {'
+    """
     if kind == "glb":
         from geartrain.export.triangle_files import to_glb
 
@@ -91,7 +137,37 @@ def train_file(work: SolidModel, kind: str, turns: Fraction | None = None) -> by
 
 
 def wheel_file(work: SolidModel, wheel: str, suffix: str) -> bytes:
-    """One wheel to cut or to print. Raises `QuestionError` for one that is not there, or has no flat shape."""
+    """One wheel to cut or to print.
+
+    Parameters
+    ----------
+    work : SolidModel
+        The train and its sizes.
+    wheel : str
+        Its name.
+    suffix : {".svg", ".dxf", ".stl"}
+        What it is written as.
+
+    Returns
+    -------
+    bytes
+        The content of the file; drawings are 1:1 in mm.
+
+    Raises
+    ------
+    QuestionError
+        If there is no such wheel, or it has no flat shape.
+    MissingExtraError
+        If the library that writes DXF is not installed.
+
+    Examples
+    --------
+    >>> import geartrain
+    >>> from geartrain.scene import ManufacturingSizes, SolidModel
+    >>> work = SolidModel(geartrain.load("planetary-24-18-60"), ManufacturingSizes(module=2.0))
+    >>> wheel_file(work, "s", ".svg")[:4]
+    b'<svg'
+    """
     known = work.train.declaration.wheels
     if wheel not in known:
         raise QuestionError(Problem(f"there is no wheel '{wheel}'", "it is not declared", suggest(wheel, known)))
@@ -107,7 +183,35 @@ def wheel_file(work: SolidModel, wheel: str, suffix: str) -> bytes:
 
 
 def export_files(work: SolidModel, kinds: Sequence[str], turns: Fraction | None = None) -> list[ExportFile]:
-    """All files of some kinds, small ones first, a README that lists them last. Raises `GearTrainError`."""
+    """All files of some kinds, small ones first, a README that lists them last.
+
+    Parameters
+    ----------
+    work : SolidModel
+        The train and its sizes.
+    kinds : sequence of str
+        Some of svg, dxf, stl, glb, step, graphml, dot, rexs, csv.
+    turns : Fraction, optional
+        Turns of the lead that a GLB shows; by default its period, or ten where that is long.
+
+    Returns
+    -------
+    list of ExportFile
+        Each is made when its `make` is called.
+
+    Raises
+    ------
+    QuestionError
+        If there is no such kind, or the sizes asked for go against the declaration.
+
+    Examples
+    --------
+    >>> import geartrain
+    >>> from geartrain.scene import ManufacturingSizes, SolidModel
+    >>> work = SolidModel(geartrain.load("planetary-24-18-60"), ManufacturingSizes())
+    >>> [file.path for file in export_files(work, ["graphml", "rexs"])]
+    ['graph.graphml', 'gear-unit.rexsj', 'README.md']
+    """
     unknown = [kind for kind in kinds if kind not in KINDS]
     if unknown:
         raise QuestionError(
@@ -170,7 +274,27 @@ def _tables(work: SolidModel, kinds: Sequence[str]) -> Iterator[ExportFile]:
 
 
 def notices(work: SolidModel, kinds: Sequence[str]) -> list[Problem]:
-    """What the files of some kinds cannot show, each once."""
+    """What the files of some kinds cannot show, each once.
+
+    Parameters
+    ----------
+    work : SolidModel
+        The train and its sizes.
+    kinds : sequence of str
+        Some of svg, dxf, stl, glb, step, graphml, dot, rexs, csv.
+
+    Returns
+    -------
+    list of Problem
+        What, why and what to do.
+
+    Examples
+    --------
+    >>> import geartrain
+    >>> from geartrain.scene import ManufacturingSizes, SolidModel
+    >>> notices(SolidModel(geartrain.load("planetary-24-18-60"), ManufacturingSizes()), ["graphml"])
+    []
+    """
     found: list[Problem] = list(work.layout.notices)
     if {"svg", "dxf", "stl"} & set(kinds):
         found += work.blanks.notices

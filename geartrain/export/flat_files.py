@@ -107,12 +107,38 @@ def _draw(space: Any, contour: Contour, layer: str) -> None:
 
 
 OUTLINES = (".svg", ".dxf", ".csv")
+"""Suffixes of files with the outline of one wheel."""
 
 
 def outline_text(wheel: WheelOutline, suffix: str) -> str:
-    """A wheel's outline as the text of a file: `.svg`, `.dxf` (millimetres, closed polylines with arcs), or `.csv`.
+    """A wheel's outline as the text of a file, 1:1 in mm.
 
-    Raises `GearTrainError`, for a format without its library too.
+    Parameters
+    ----------
+    wheel : WheelOutline
+        Contours of a wheel, as `geartrain.teeth` gives them.
+    suffix : {".svg", ".dxf", ".csv"}
+        What it is written as: DXF has closed polylines with arcs, CSV a row a point.
+
+    Returns
+    -------
+    str
+        The content of the file.
+
+    Raises
+    ------
+    MissingExtraError
+        If the library that writes DXF is not installed.
+    GearTrainError
+        For any other suffix.
+
+    Examples
+    --------
+    >>> import geartrain
+    >>> from geartrain.teeth.outlines.wheel_outline import BlankSizes, mesh_outline
+    >>> mesh = geartrain.load("planetary-24-18-60-involute").meshes[0]
+    >>> outline_text(mesh_outline(mesh, 1, BlankSizes(module=1.0)), ".csv").splitlines()[0]
+    'contour,x_mm,y_mm'
     """
     if suffix == ".svg":
         return to_svg(wheel_drawing(wheel))

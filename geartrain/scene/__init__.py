@@ -1,26 +1,53 @@
-"""A scene: all that a picture of a train needs, worked out beforehand, as plain data."""
+"""Where everything stands in space and time: layouts, scenes and solids of a train.
+
+In: a train, a state, a layout; sizes to make it in. Out: places of axes and wheels, all data of a picture that turns,
+solids to be exported. Lengths are in mm and angles in rad; ratios are exact.
+
+lay_out      a `Layout`: axes and wheels in space, as declared or placed so that pitch circles touch
+make_scene   a `Scene`: the train in one state, its angles from exact speeds and, of real teeth, equations (1) to (4) of
+             docs/motion.md
+SolidModel   wheels, arbors and plates as closed surfaces, in the sizes of `ManufacturingSizes`
+
+A wheel stands at the pitch point of its mates: equations (2), (3), (8) of docs/theory.md for parallel axes, cones and
+worms.
+"""
 
 from __future__ import annotations
 
-from geartrain.scene.construction import make_scene
-from geartrain.scene.elements import (
-    DialFace,
-    ErrorSource,
-    ErrorStep,
-    Movement,
-    Pointer,
-    Scene,
-    SceneBody,
-    SceneCoupling,
-    ScenePair,
-    SceneWheel,
-    ToothProfile,
-)
+from typing import TYPE_CHECKING
+
+from geartrain.numerics.lazy_names import lazy_names
+
+if TYPE_CHECKING:
+    from geartrain.scene.construction import make_scene as make_scene
+    from geartrain.scene.elements import SceneBody as SceneBody
+    from geartrain.scene.elements import SceneCoupling as SceneCoupling
+    from geartrain.scene.elements import ScenePair as ScenePair
+    from geartrain.scene.elements import SceneWheel as SceneWheel
+    from geartrain.scene.elements import ToothProfile as ToothProfile
+    from geartrain.scene.error_steps import ErrorLawTable as ErrorLawTable
+    from geartrain.scene.error_steps import ErrorSource as ErrorSource
+    from geartrain.scene.error_steps import ErrorStep as ErrorStep
+    from geartrain.scene.error_steps import Movement as Movement
+    from geartrain.scene.layout.train_layout import AxisPlace as AxisPlace
+    from geartrain.scene.layout.train_layout import Layout as Layout
+    from geartrain.scene.layout.train_layout import WheelPlace as WheelPlace
+    from geartrain.scene.layout.train_layout import lay_out as lay_out
+    from geartrain.scene.solids.manufacturing_sizes import ManufacturingSizes as ManufacturingSizes
+    from geartrain.scene.solids.solid_assembly import SolidModel as SolidModel
+    from geartrain.scene.solids.solid_assembly import SolidPart as SolidPart
+    from geartrain.scene.train_scene import DialFace as DialFace
+    from geartrain.scene.train_scene import Pointer as Pointer
+    from geartrain.scene.train_scene import Scene as Scene
 
 __all__ = [
+    "AxisPlace",
     "DialFace",
+    "ErrorLawTable",
     "ErrorSource",
     "ErrorStep",
+    "Layout",
+    "ManufacturingSizes",
     "Movement",
     "Pointer",
     "Scene",
@@ -28,6 +55,35 @@ __all__ = [
     "SceneCoupling",
     "ScenePair",
     "SceneWheel",
+    "SolidModel",
+    "SolidPart",
     "ToothProfile",
+    "WheelPlace",
+    "lay_out",
     "make_scene",
 ]
+
+_PLACES = {
+    "AxisPlace": "layout.train_layout",
+    "DialFace": "train_scene",
+    "ErrorLawTable": "error_steps",
+    "ErrorSource": "error_steps",
+    "ErrorStep": "error_steps",
+    "Layout": "layout.train_layout",
+    "ManufacturingSizes": "solids.manufacturing_sizes",
+    "Movement": "error_steps",
+    "Pointer": "train_scene",
+    "Scene": "train_scene",
+    "SceneBody": "elements",
+    "SceneCoupling": "elements",
+    "ScenePair": "elements",
+    "SceneWheel": "elements",
+    "SolidModel": "solids.solid_assembly",
+    "SolidPart": "solids.solid_assembly",
+    "ToothProfile": "elements",
+    "WheelPlace": "layout.train_layout",
+    "lay_out": "layout.train_layout",
+    "make_scene": "construction",
+}
+
+__getattr__ = lazy_names(__name__, _PLACES)

@@ -10,8 +10,8 @@ from geartrain.kinematics.judged_outputs import SpeedValue
 from geartrain.kinematics.relative_speeds import relative_speed
 from geartrain.numerics.vectors import Vector, beside, dot, minus, plus, scaled, size
 from geartrain.scene.context import SceneContext, exact, rounded
-from geartrain.scene.elements import DialFace, Pointer
 from geartrain.scene.output_dependence import find_dependence
+from geartrain.scene.train_scene import DialFace, Pointer
 
 Key = tuple[str, str, str]
 """A dial, the link it stands on, the axis of the pointer that is read on it."""

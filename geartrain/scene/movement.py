@@ -10,8 +10,9 @@ from typing import TYPE_CHECKING
 
 from geartrain.errors import GearTrainError, Problem
 from geartrain.numerics.decimal_text import fraction_text
+from geartrain.numerics.plain_data import plain
 from geartrain.scene.context import SceneContext
-from geartrain.scene.elements import ErrorLawTable, ErrorSource, ErrorStep, Movement, plain
+from geartrain.scene.error_steps import ErrorLawTable, ErrorSource, ErrorStep, Movement
 
 if TYPE_CHECKING:
     from geartrain.dynamics import Motion

@@ -1,4 +1,8 @@
-"""One page of HTML in which a train turns."""
+"""One page of HTML in which a train turns.
+
+In: one or two scenes of `geartrain.scene`. Out: one self-contained page, with the scene's data and the program that
+shows them; it computes angles as `geartrain.scene` says, exactly at any number of turns.
+"""
 
 from __future__ import annotations
 

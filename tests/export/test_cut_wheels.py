@@ -19,8 +19,8 @@ from shapely.affinity import rotate, translate
 
 import geartrain
 from geartrain import GearTrain, GearTrainError
-from geartrain.export import ManufacturingSizes, SolidModel, export_files, notices, wheel_file
-from geartrain.scene import make_scene
+from geartrain.export import export_files, notices, wheel_file
+from geartrain.scene import ManufacturingSizes, SolidModel, make_scene
 from geartrain.teeth.conjugate.wheel_pair import WheelPair
 from geartrain.teeth.involute import Involute
 from geartrain.teeth.outline_mesh import OutlineMesh

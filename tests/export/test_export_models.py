@@ -17,7 +17,8 @@ from hypothesis import strategies as st
 from shipped import train as load
 
 from geartrain import GearTrain, GearTrainError
-from geartrain.export import ManufacturingSizes, SolidModel, train_file, wheel_file
+from geartrain.export import train_file, wheel_file
+from geartrain.scene import ManufacturingSizes, SolidModel
 from geartrain.scene.solids.bevel_solids import likeness_solid
 from geartrain.scene.solids.triangle_solids import fill
 

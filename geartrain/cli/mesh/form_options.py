@@ -41,7 +41,7 @@ def form_command(form: str, common: Callable[..., None], run: Callable[..., None
 
 def pair_sinks(out: Path | None, plot: Path | None, profile: Path | None, force: bool) -> tuple[Sink, Sink, Sink]:
     """Where the page, the picture and the outline of a pair go; what cannot be written is refused before the work."""
-    from geartrain.export import OUTLINES
+    from geartrain.export.flat_files import OUTLINES
 
     to, picture = sink(out, force, (".md", ".html", ".json")), sink(plot, force, PICTURES, "--plot")
     outlined = sink(profile, force, option="--profile")

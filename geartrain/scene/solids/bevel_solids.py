@@ -13,7 +13,7 @@ from geartrain.teeth.standard_teeth import MOST_TEETH
 
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
-    from geartrain.scene import SceneWheel, ToothProfile
+    from geartrain.scene.elements import SceneWheel, ToothProfile
     from geartrain.scene.solids.triangle_solids import Integers
 
 _WEB = 0.75  # of the pitch radius: where the teeth of a crown wheel end inwards

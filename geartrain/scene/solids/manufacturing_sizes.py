@@ -19,12 +19,28 @@ from geartrain.train import GearPair, Train
 
 @dataclass(frozen=True, slots=True)
 class ManufacturingSizes:
-    """Sizes in mm; None leaves them to the layout.
+    """Sizes in which a train is made; None leaves one to the layout.
 
-    module      pitch diameter over teeth, where the declaration gives no sizes
-    thickness   of wheels and plates
-    bore        diameter of the arbors, and so of the holes in wheels and plates; 0: no holes
-    backlash    play on the pitch circle of every pair that does not declare its own
+    Parameters
+    ----------
+    module : float, optional
+        Pitch diameter over tooth count [mm], above 0; only where the declaration gives no sizes of its own.
+    thickness : float, optional
+        Of wheels and plates [mm], above 0.
+    bore : float, optional
+        Diameter of the arbors, and so of the holes in wheels and plates [mm]; 0: no holes.
+    backlash : float, optional
+        Play on the pitch circle of every pair that does not declare its own [mm], 0 or more.
+
+    Raises
+    ------
+    QuestionError
+        For a size that is none.
+
+    Examples
+    --------
+    >>> ManufacturingSizes(module=2.0, bore=6.0)
+    ManufacturingSizes(module=2.0, thickness=None, bore=6.0, backlash=None)
     """
 
     module: float | None = None

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from geartrain.scene import make_scene
+from geartrain.scene.construction import make_scene
 from geartrain.scene.layout import lay_out
 from geartrain.scene.solids.bearing_plates import Plate, basis, find_plates, pin_diameter, slotted_bar
 from geartrain.scene.solids.bevel_solids import likeness_solid
@@ -22,8 +22,9 @@ if TYPE_CHECKING:
     from geartrain.analysis.gear_train import GearTrain
     from geartrain.errors import Problem
     from geartrain.numerics.arrays import Floats
-    from geartrain.scene import Scene, SceneWheel
+    from geartrain.scene.elements import SceneWheel
     from geartrain.scene.layout import Layout
+    from geartrain.scene.train_scene import Scene
     from geartrain.teeth.outlines.contour import Contour
 
 _SHEET = 2.0  # mm, the thickness of plates
@@ -32,12 +33,30 @@ _GAP = 1.0  # mm between a plate and what turns before it
 
 @dataclass(frozen=True, slots=True)
 class SolidPart:
-    """One solid of a body.
+    """One solid of a body: a point p of it stands at turn p + place.
 
-    body       index of its body in the scene
-    kind       wheel, arbor or plate
-    solid      about its own origin; `turn` (3, 3) and `place` (3,) put it into the zero pose, mm
-    contours   its flat shape, and `height` its thickness; empty where it has none
+    Attributes
+    ----------
+    body : int
+        Index of its body in the scene.
+    name : str
+        Of the wheel, or what it belongs to.
+    kind : {"wheel", "arbor", "plate"}
+        What it is.
+    solid : Solid
+        A closed surface of triangles about its own origin [mm].
+    turn, place : array of float, (3, 3) and (3,)
+        Rotation and shift [mm] that put it into the zero pose.
+    status : str
+        Of a wheel as declared: surviving, reconstructed, ...
+    contours : tuple of Contour
+        Its flat shape, from which the solid is made; empty where it has none.
+    height : float
+        Thickness over the flat shape [mm].
+
+    See Also
+    --------
+    SolidModel : gives it, in `parts`.
     """
 
     body: int
@@ -58,7 +77,30 @@ class SolidPart:
 
 @dataclass(frozen=True)
 class SolidModel:
-    """A train with all that exports ask for, each made once; the layout and the scene are in mm."""
+    """A train with all that exports ask for, each made once when it is first asked for.
+
+    Parameters
+    ----------
+    train : GearTrain
+        Loaded or declared.
+    making : ManufacturingSizes
+        Sizes it is made in.
+    state : str, optional
+        One of its states; by default the first.
+
+    Raises
+    ------
+    QuestionError
+        By what is asked for, if the train declares sizes that `making` gives too, or teeth that cannot have the play.
+
+    Examples
+    --------
+    >>> import geartrain
+    >>> from geartrain.scene import ManufacturingSizes
+    >>> model = SolidModel(geartrain.load("planetary-24-18-60"), ManufacturingSizes(module=2.0))
+    >>> {name: wheel.radius for name, wheel in model.layout.wheels.items()}
+    {'ring': 60.0, 's': 24.0, 'p': 18.0}
+    """
 
     train: GearTrain
     making: ManufacturingSizes

@@ -1,0 +1,192 @@
+"""A train as a scene: all that a picture of it needs, as plain data. Lengths in mm, angles in rad.
+
+Everything stands in the zero pose: the one in which the angle of every link is zero. A body's angle about its
+`direction`, after `t` turns of the lead, is
+
+    A(t) = sense (start + 2 pi speed t + error(t))
+
+with speed exact and error from `Movement`. The body is turned, as seen from its parent, by A(body) - A(parent) about
+the line through `point` along `direction`, after its parent has carried that line along (the frame has A = 0).
+"""
+# Not in every train: the verdict's "advice" (trains that stand).
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, fields
+from typing import Any
+
+from geartrain.numerics.plain_data import plain
+from geartrain.numerics.vectors import Vector
+from geartrain.scene.elements import SceneBody, SceneCoupling, ScenePair, SceneWheel, ToothProfile
+from geartrain.scene.error_steps import Movement
+
+FORMAT = 1
+
+
+@dataclass(frozen=True, slots=True)
+class DialFace:
+    """A scale over which pointers turn.
+
+    Attributes
+    ----------
+    id : str
+        Its name.
+    body : int
+        Index of the body on which it stands.
+    face : str
+        front or back, or a name of its own.
+    centre : tuple of float
+        Its middle [mm].
+    normal, zero : tuple of float
+        Unit vectors: the way its face looks, and from the middle to its zero mark.
+    radius, inner : float
+        Of its outermost and of its innermost turn [mm].
+    turns, divisions : int
+        Turns of its spiral, and cells along all of them.
+    note : str
+        As declared.
+
+    See Also
+    --------
+    make_scene : gives it, in `Scene.dials`.
+    """
+
+    id: str
+    body: int
+    face: str
+    centre: Vector
+    normal: Vector
+    zero: Vector
+    radius: float
+    inner: float
+    turns: int
+    divisions: int
+    note: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Pointer:
+    """An output as a pointer.
+
+    Attributes
+    ----------
+    output : str
+        Its name.
+    body, base : int
+        Indices of the body that turns and of the one from which it is seen.
+    dial : int or None
+        Index of its dial; None for an output without one, which gets a small one of its own in the picture.
+    speed : str or None
+        Over the lead's, exact; None where it is not determined.
+    shown, decimal : str or None, str
+        Its speed at the declared inputs, in the train's unit: exact, and rounded.
+    sense : int
+        1 where a positive angle is clockwise for one who reads the dial, -1 where it is counter-clockwise.
+    text : str
+        What it shows, in words.
+    pairs : sequence of str
+        Names of the pairs and couplings on which the output depends, in order from the input.
+    bodies, wheels : sequence of int
+        The same as indices of bodies and of wheels.
+    note : str
+        As declared.
+
+    See Also
+    --------
+    make_scene : gives it, in `Scene.pointers`.
+    """
+
+    output: str
+    body: int
+    base: int
+    dial: int | None
+    speed: str | None
+    shown: str | None
+    decimal: str
+    sense: int
+    text: str
+    pairs: Sequence[str]
+    bodies: Sequence[int]
+    wheels: Sequence[int]
+    note: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Scene:
+    """A train in one state, ready to be drawn: plain data, in mm and rad.
+
+    Attributes
+    ----------
+    name, title, note : str
+        Of the train, as declared.
+    state : str or None
+        The state; None where the train has none.
+    unit, positive : str
+        Unit of speeds, and the declared sense of a positive one.
+    front : int
+        Side of z from which it is looked at, 1 or -1.
+    lead, crank : int or None
+        Indices of the body whose turns are given, and of that at which a hand would turn it.
+    step : str
+        Turns of the lead in one unit of the input, exact.
+    verdict : mapping
+        kind, text, the offending loops: {"pairs": [...], "links": [...], "text": ...}, and "advice", a list of
+        sentences that say what would free it.
+    bodies : sequence of SceneBody
+        Links, in the order declared, which is that of indices.
+    wheels : sequence of SceneWheel
+        In the order declared, which is that of indices.
+    profiles : sequence of ToothProfile
+        Tooth forms that wheels share.
+    pairs : sequence of ScenePair
+        Gear pairs.
+    couplings : sequence of SceneCoupling
+        Pins in slots.
+    dials : sequence of DialFace
+        Scales.
+    pointers : sequence of Pointer
+        Outputs.
+    movement : Movement
+        How angles differ from exact ones, for positive turns.
+    sources : mapping of str to mapping
+        Citations by key.
+    notices : sequence of mapping
+        What could not be placed or followed, and why: {"what", "why", "fix", "place"}.
+    back : Movement or None
+        The movement for negative turns, when the other flanks drive; None where it is the same.
+    unit_days : str or None
+        Length of the unit in days, exact, where it is a time; None elsewhere.
+
+    See Also
+    --------
+    make_scene : gives it.
+    """
+
+    name: str
+    title: str
+    note: str
+    state: str | None
+    unit: str
+    positive: str
+    front: int
+    lead: int | None
+    crank: int | None
+    step: str
+    verdict: Mapping[str, Any]
+    bodies: Sequence[SceneBody]
+    wheels: Sequence[SceneWheel]
+    profiles: Sequence[ToothProfile]
+    pairs: Sequence[ScenePair]
+    couplings: Sequence[SceneCoupling]
+    dials: Sequence[DialFace]
+    pointers: Sequence[Pointer]
+    movement: Movement
+    sources: Mapping[str, Mapping[str, str]]
+    notices: Sequence[Mapping[str, str]]
+    back: Movement | None = None
+    unit_days: str | None = None
+
+    def to_dict(self) -> dict[str, Any]:
+        """Plain data for JSON; float arrays as base64 of little-endian float64, row by row."""
+        return {"format": FORMAT} | {each.name: plain(getattr(self, each.name)) for each in fields(self)}

@@ -25,22 +25,10 @@ if TYPE_CHECKING:
     from geartrain.dynamics.motion.run_statistics import RunningStatistics
     from geartrain.dynamics.motion.superposition import ErrorEstimates
     from geartrain.dynamics.motion.tooth_impacts import ToothImpact
-    from geartrain.dynamics.torques.power_flow import (
-        PowerFlow,
-        PowerLoss,
-        PowerNode,
-        PowerStream,
-        RecirculatingPower,
-    )
-    from geartrain.dynamics.torques.torque_results import (
-        BearingTorque,
-        DrivenWay,
-        HoldingTorque,
-        NeglectedEffect,
-        PairTorque,
-        Torques,
-        TorqueVerdict,
-    )
+    from geartrain.dynamics.torques.member_torques import BearingTorque, HoldingTorque, PairTorque
+    from geartrain.dynamics.torques.power_circulation import PowerNode, PowerStream, RecirculatingPower
+    from geartrain.dynamics.torques.power_flow import PowerFlow, PowerLoss
+    from geartrain.dynamics.torques.torque_results import DrivenWay, NeglectedEffect, Torques, TorqueVerdict
 
 __all__ = [
     "BearingTorque",
@@ -65,27 +53,26 @@ __all__ = [
     "TransmissionErrorCurve",
 ]
 
-_FLOW, _RESULTS = "torques.power_flow", "torques.torque_results"
 _PLACES = {
-    "BearingTorque": _RESULTS,
-    "DrivenWay": _RESULTS,
+    "BearingTorque": "torques.member_torques",
+    "DrivenWay": "torques.torque_results",
     "ErrorEstimates": "motion.superposition",
     "ErrorSamples": "motion.error_composition",
-    "HoldingTorque": _RESULTS,
+    "HoldingTorque": "torques.member_torques",
     "Motion": "motion.motion_model",
     "MotionRun": "motion.motion_run",
-    "NeglectedEffect": _RESULTS,
-    "PairTorque": _RESULTS,
-    "PowerFlow": _FLOW,
-    "PowerLoss": _FLOW,
-    "PowerNode": _FLOW,
-    "PowerStream": _FLOW,
-    "RecirculatingPower": _FLOW,
+    "NeglectedEffect": "torques.torque_results",
+    "PairTorque": "torques.member_torques",
+    "PowerFlow": "torques.power_flow",
+    "PowerLoss": "torques.power_flow",
+    "PowerNode": "torques.power_circulation",
+    "PowerStream": "torques.power_circulation",
+    "RecirculatingPower": "torques.power_circulation",
     "RunningStatistics": "motion.run_statistics",
     "SpectrumLine": "motion.order_spectrum",
     "ToothImpact": "motion.tooth_impacts",
-    "TorqueVerdict": _RESULTS,
-    "Torques": _RESULTS,
+    "TorqueVerdict": "torques.torque_results",
+    "Torques": "torques.torque_results",
     "TransmissionErrorCurve": "motion.error_curve",
 }
 

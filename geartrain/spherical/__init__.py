@@ -1,18 +1,40 @@
-"""Gears on a sphere: configurations on polyhedra and graphs, whether they turn, close, and fit."""
+"""Gears on a sphere: axes through one point, on the faces, vertices and edges of polyhedra or on planar graphs.
 
-from geartrain.spherical.configuration import Configuration, to_train
-from geartrain.spherical.gear_sizes import SphereSizing, one_pitch, ratio_windows, size_gears
-from geartrain.spherical.graph_set import GraphSet, from_graph
-from geartrain.spherical.named_solids import solid, solid_names
-from geartrain.spherical.polyhedra import Polyhedron, polyhedron
-from geartrain.spherical.polyhedron_gears import from_polyhedron
-from geartrain.spherical.tooth_count_search import ToothCountSuggestions, suggest_tooth_counts
+In: a solid by name or by its vertices, or a graph of who meshes with whom; tooth numbers of the kinds of gear. Out: a
+`Configuration` of axes, meshes and kinds, and of it whether it turns, whether its teeth meet round every loop, its
+sizes, tooth numbers that nearly share one pitch, and the train that it is.
+
+Pitch cones obey rho_i = atan2(sin S, cos S + z_j/z_i), the pitch is lambda = sin rho_i / z_i (docs/sphere.md, equation
+1), and speeds about outward axes z_i w_i = -z_j w_j. Teeth meet where the phases of every loop close (docs/closure.md).
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from geartrain.numerics.lazy_names import lazy_names
+
+if TYPE_CHECKING:
+    from geartrain.spherical.configuration import Configuration, to_train
+    from geartrain.spherical.gear_sizes import SphereSizing, one_pitch, size_gears
+    from geartrain.spherical.gear_sphere import GearSphere
+    from geartrain.spherical.graph_set import GraphSet, from_graph
+    from geartrain.spherical.named_solids import solid, solid_names
+    from geartrain.spherical.neighbour_windows import NeighbourRatioWindow, ratio_windows
+    from geartrain.spherical.polyhedra import Polyhedron, polyhedron
+    from geartrain.spherical.polyhedron_gears import from_polyhedron
+    from geartrain.spherical.polyhedron_survey import SurveyRow, survey
+    from geartrain.spherical.tooth_count_search import ToothCountCompromise, ToothCountSuggestions, suggest_tooth_counts
 
 __all__ = [
     "Configuration",
+    "GearSphere",
     "GraphSet",
+    "NeighbourRatioWindow",
     "Polyhedron",
     "SphereSizing",
+    "SurveyRow",
+    "ToothCountCompromise",
     "ToothCountSuggestions",
     "from_graph",
     "from_polyhedron",
@@ -23,5 +45,31 @@ __all__ = [
     "solid",
     "solid_names",
     "suggest_tooth_counts",
+    "survey",
     "to_train",
 ]
+
+_PLACES = {
+    "Configuration": "configuration",
+    "GearSphere": "gear_sphere",
+    "GraphSet": "graph_set",
+    "NeighbourRatioWindow": "neighbour_windows",
+    "Polyhedron": "polyhedra",
+    "SphereSizing": "gear_sizes",
+    "SurveyRow": "polyhedron_survey",
+    "ToothCountCompromise": "tooth_count_search",
+    "ToothCountSuggestions": "tooth_count_search",
+    "from_graph": "graph_set",
+    "from_polyhedron": "polyhedron_gears",
+    "one_pitch": "gear_sizes",
+    "polyhedron": "polyhedra",
+    "ratio_windows": "neighbour_windows",
+    "size_gears": "gear_sizes",
+    "solid": "named_solids",
+    "solid_names": "named_solids",
+    "suggest_tooth_counts": "tooth_count_search",
+    "survey": "polyhedron_survey",
+    "to_train": "configuration",
+}
+
+__getattr__ = lazy_names(__name__, _PLACES)

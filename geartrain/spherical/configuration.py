@@ -24,16 +24,36 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Configuration:
-    """Gears with axes through one point. Axes point outwards; angles about them are counterclockwise seen from outside.
+    """Gears with axes through one point: where they point, who meshes with whom, and of which kinds they are.
 
-    names     of the gears
-    axes      unit vectors, (gears, 3)
-    meshes    pairs of gears by index
-    kinds     of each gear: gears of one kind are alike under the symmetries of the set, and have one tooth number
-    regular   of each gear: p where its contacts stand at multiples of a p-th of a turn from each other, exactly; 0
-              where their angles are only known in floats
-    teeth     tooth number of each kind, as far as they are chosen
-    title     for a reader
+    Axes point outwards; angles about them are counterclockwise seen from outside.
+
+    Parameters
+    ----------
+    names : tuple of str
+        Of the gears.
+    axes : array of float, (gears, 3)
+        Unit vectors.
+    meshes : tuple of tuple of int
+        Pairs of gears by index.
+    kinds : tuple of str
+        Of each gear: gears of one kind are alike under the symmetries of the set, and have one tooth number.
+    regular : tuple of int
+        Of each gear: p where its contacts stand at multiples of a p-th of a turn from each other, exactly; 0 where
+        their angles are only known in floats.
+    teeth : mapping of str to int
+        Tooth number of each kind, as far as they are chosen.
+    title : str
+        For a reader.
+
+    Examples
+    --------
+    Three gears on the axes x, y and z; x meshes with the other two:
+
+    >>> import numpy as np
+    >>> found = Configuration(("x", "y", "z"), np.eye(3), ((0, 1), (0, 2)), ("x", "yz", "yz"), (4, 1, 1))
+    >>> round(found.angle(0, 1) * 180 / np.pi, 12), round(abs(found.azimuth(0, 1) - found.azimuth(0, 2)) / np.pi, 12)
+    (90.0, 0.5)
     """
 
     names: tuple[str, ...]
@@ -45,16 +65,34 @@ class Configuration:
     title: str = ""
 
     def angle(self, i: int, j: int) -> float:
-        """Angle between two axes (rad)."""
+        """Angle between two axes [rad], 0 to pi.
+
+        Parameters
+        ----------
+        i, j : int
+            The gears.
+        """
         return float(angle_between(self.axes[i], self.axes[j]))
 
     def azimuth(self, i: int, j: int) -> float:
-        """Direction from gear i to gear j about the axis of i (rad), from an arbitrary but fixed direction of i."""
+        """Direction from one gear to another about the axis of the first [rad].
+
+        Parameters
+        ----------
+        i, j : int
+            The gears; directions about i are counted from the first of `frame(i)`, counterclockwise from outside.
+        """
         first, second = self.frame(i)
         return float(np.arctan2(self.axes[j] @ second, self.axes[j] @ first))
 
     def frame(self, i: int) -> tuple[Floats, Floats]:
-        """Two directions across axis i that make a right-handed frame with it, pointing outwards."""
+        """Two directions across an axis that make a right-handed frame with it, pointing outwards.
+
+        Parameters
+        ----------
+        i : int
+            The gear.
+        """
         first, second = frames(self.axes[i : i + 1])[0]
         return first, second
 
@@ -133,12 +171,36 @@ _SHORT = 1 << 20
 
 
 def to_train(configuration: Configuration, name: str = "") -> dict[str, Any]:
-    """The configuration as plain data with the keys of a declaration, for `GearTrain.declare` or `files.as_yaml`.
+    """The configuration as plain data with the keys of a declaration, for `GearTrain.declare`.
 
-    Links and wheels have the names of the gears, and so have their axes. With axes outwards every mesh reverses, as
-    the wheels stand on the positive sides of their axes (`facing` 1, the default): z_i w_i + z_j w_j = 0. The first
-    gear is the input, at speed 1. Directions are floats at full length. Raises `GearTrainError` where a tooth number
-    is missing.
+    Links, wheels and axes have the names of the gears. With axes outwards every mesh reverses, z_i w_i + z_j w_j = 0
+    (docs/sphere.md, section 1): the wheels stand on the positive sides of their axes (`facing` 1, the default). The
+    first gear is the input, at speed 1. Directions are floats at full length.
+
+    Parameters
+    ----------
+    configuration : Configuration
+        With a tooth number for every kind.
+    name : str
+        Of the train; default `spherical`.
+
+    Returns
+    -------
+    dict
+        The declaration.
+
+    Raises
+    ------
+    QuestionError
+        If a tooth number is missing, or there are no gears.
+
+    Examples
+    --------
+    >>> import geartrain
+    >>> from geartrain.spherical import from_polyhedron
+    >>> data = to_train(from_polyhedron("icosidodecahedron", teeth={"5": 20, "3": 12}))
+    >>> geartrain.GearTrain.declare(data).solve()["3-1"]
+    Fraction(-5, 3)
     """
     missing = [kind for kind in kinds_in_order(configuration) if kind not in configuration.teeth]
     if missing or not configuration.names:

@@ -1,6 +1,4 @@
-"""Sets on fixed axes of which it is proved that no tooth numbers give one pitch.
-
-How large the gears of a set on a sphere come out: cones, pitches, pressure angles, windows, tips that collide.
+"""How large the gears of a set on a sphere come out: cones, pitches, pressure angles, tips that collide.
 
 All angles in radians, all lengths in radii of the sphere on which the teeth are measured, axes outwards.
 """
@@ -9,7 +7,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from math import atan, degrees, inf, log, pi, sqrt
+from math import degrees, log
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -20,7 +18,6 @@ from geartrain.spherical.configuration import (
     Configuration,
     kinds_in_order,
     mesh_kinds,
-    nearest_unmeshed,
     unmeshed_angles,
 )
 from geartrain.spherical.pitch_cones import (
@@ -28,59 +25,17 @@ from geartrain.spherical.pitch_cones import (
     base_pitch,
     mesh_angles,
     operating_pitch,
-    overlap_limit,
     pitch_cone,
     pressure_angle,
-    separations,
     undercut_limit,
     virtual_teeth,
 )
+from geartrain.spherical.pitch_theorems import impossibility_theorem
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from geartrain.numerics.arrays import Floats
-
-
-_THEOREMS = {
-    "rhombicosidodecahedron": (
-        "equal pitch asks 2 (z5/z4) sin 72 - (z3/z4) sqrt3 phi = 1. A rational z5/z4 other than 0 would put "
-        "2 sin 72, which generates a cyclic quartic field, into the biquadratic field Q(sqrt3, sqrt5); "
-        "z5 = 0 makes z3 negative. No tooth numbers satisfy it"
-    ),
-    "rhombicuboctahedron": (
-        "equal pitch asks sqrt2 (z4a/z4b - 1) + 1 = sqrt3 z3/z4b. Squaring leaves a rational multiple of sqrt2, so "
-        "z4a = z4b and 3 (z3/z4b)^2 = 1. No tooth numbers satisfy it"
-    ),
-    "pseudo-rhombicuboctahedron": (
-        "the ring of eight equal squares has pitch cones of 22.5 deg, which asks sqrt3 z3/z4 = 1 of each triangle "
-        "beside it. No tooth numbers satisfy it"
-    ),
-}
-
-
-def impossibility_theorem(configuration: Configuration) -> str:
-    """Why no tooth numbers at all give one pitch on these fixed axes; "" where no such proof is known."""
-    name = _proven(configuration)
-    return f"{name}: {_THEOREMS[name]}" if name else ""
-
-
-def _proven(configuration: Configuration) -> str:
-    """The solid whose faces the gears stand on, among those with a proof: by its counts and mesh angles."""
-    counts = len(configuration.axes), len(configuration.meshes)
-    phi = (1 + sqrt(5)) / 2
-    angles = {(62, 120): (atan(1 / phi), atan(phi**-2)), (26, 48): (pi / 4, atan(sqrt(0.5)))}.get(counts, ())
-    if not angles:
-        return ""
-    seen = mesh_angles(configuration.axes, configuration.meshes)
-    near = [np.abs(seen - angle) < 1e-9 for angle in angles]
-    if sum(int(hit.sum()) for hit in near) < len(seen) or not all(int(hit.sum()) == len(seen) // 2 for hit in near):
-        return ""
-    if counts == (62, 120):
-        return "rhombicosidodecahedron"
-    # the twisted cap leaves one ring of squares of the three
-    across = np.abs(separations(configuration.axes) - pi) < 1e-9
-    return "rhombicuboctahedron" if across.any(axis=1).all() else "pseudo-rhombicuboctahedron"
 
 
 TIP_ROOM = 2.0
@@ -97,32 +52,37 @@ def teeth_of(configuration: Configuration) -> NDArray[np.int64]:
             Problem(
                 f"no tooth number for {', '.join(missing)}",
                 "sizes follow from the teeth of every kind of gear",
-                f"give teeth={{{missing[0]!r}: 20, ...}}, or ask suggest() for good ones",
+                f"give teeth={{{missing[0]!r}: 20, ...}}, or ask suggest_tooth_counts() for good ones",
             )
         )
     return np.array([configuration.teeth[kind] for kind in configuration.kinds], dtype=np.int64)
 
 
-def ratio_windows(configuration: Configuration) -> tuple[NeighbourRatioWindow, ...]:
-    """For each kind of mesh between unlike gears, the tooth ratios at which equal neighbours do not overlap.
-
-    With several kinds of mesh each window holds for the operating cones of its own mesh.
-    """
-    nearest = nearest_unmeshed(configuration)
-    found = []
-    for mesh in mesh_kinds(configuration):
-        if mesh.a == mesh.b:
-            continue
-        own, other = (nearest.get((kind, kind), pi) for kind in (mesh.a, mesh.b))
-        lift = overlap_limit(mesh.angle, own)
-        found.append(NeighbourRatioWindow(mesh.a, mesh.b, overlap_limit(mesh.angle, other), 1 / lift if lift else inf))
-    return tuple(found)
-
-
 def one_pitch(configuration: Configuration) -> float:
-    """The pitch lambda that all meshes share (radii of the sphere), for the teeth chosen.
+    """The pitch that all meshes share, equation (1) of docs/sphere.md, for the teeth chosen.
 
-    Refused with `RangeError` where the meshes ask for different pitches, with the theorem where no teeth can help.
+    Parameters
+    ----------
+    configuration : Configuration
+        With teeth.
+
+    Returns
+    -------
+    float
+        lambda, half the module [radii of the sphere].
+
+    Raises
+    ------
+    RangeError
+        If the meshes ask for different pitches; with the theorem where no teeth can help (section 4 there).
+    QuestionError
+        If teeth are not chosen, or no gears mesh.
+
+    Examples
+    --------
+    >>> from geartrain.spherical import from_polyhedron
+    >>> round(one_pitch(from_polyhedron("icosidodecahedron", teeth={"5": 20, "3": 12})), 10)
+    0.0199553931
     """
     sizing = size_gears(configuration)
     if sizing.exact:
@@ -133,14 +93,43 @@ def one_pitch(configuration: Configuration) -> float:
             f"no single pitch: {sizing.label(most)} asks for {sizing.pitches[most]:.12g} and {sizing.label(least)} "
             f"for {sizing.pitches[least]:.12g}, a mismatch of {100 * sizing.mismatch:.4g} %",
             impossibility_theorem(configuration) or "each kind of mesh fixes the pitch by its own axes and teeth",
-            "size() gives operating cones and pressure angles of involutes on one base pitch; suggest() seeks better "
-            "teeth; from_graph() or idlers on the edges give an exact pitch with other axes",
+            "size_gears() gives operating cones and pressure angles of involutes on one base pitch; "
+            "suggest_tooth_counts() seeks better teeth; from_graph() or idlers on the edges give an exact pitch with "
+            "other axes",
         )
     )
 
 
 def size_gears(configuration: Configuration, mean_pressure: float = MEAN_PRESSURE) -> SphereSizing:
-    """Operating cones, pitches and pressure angles of every mesh, for the teeth chosen; see `SphereSizing`."""
+    """Operating cones, pitches and pressure angles of every mesh: equation (1) of docs/sphere.md.
+
+    All gears share one base pitch, so that spherical involutes keep the ratio at any pitch (section 4 there).
+
+    Parameters
+    ----------
+    configuration : Configuration
+        With teeth.
+    mean_pressure : float
+        Pressure angle about which those of the meshes lie [rad]; default 20 deg.
+
+    Returns
+    -------
+    SphereSizing
+        The sizes.
+
+    Raises
+    ------
+    QuestionError
+        If teeth are not chosen, or no gears mesh.
+
+    Examples
+    --------
+    >>> from math import degrees
+    >>> from geartrain.spherical import from_polyhedron
+    >>> found = size_gears(from_polyhedron("icosidodecahedron", teeth={"5": 20, "3": 12}))
+    >>> found.exact, [round(degrees(cone), 6) for cone in found.cones[0]]
+    (True, [23.522418, 13.85495])
+    """
     z = teeth_of(configuration)
     if not configuration.meshes:
         raise QuestionError(Problem("no gears mesh", "sizes follow from meshes", "declare at least one mesh"))
@@ -152,19 +141,6 @@ def size_gears(configuration: Configuration, mean_pressure: float = MEAN_PRESSUR
     cones = np.stack([pitch_cone(S, z[i], z[j]), pitch_cone(S, z[j], z[i])], axis=1)
     c = base_pitch(pitches, mean_pressure)
     return SphereSizing(configuration, z, cones, pitches, c, pressure_angle(c, pitches))
-
-
-@dataclass(frozen=True)
-class NeighbourRatioWindow:
-    """Range of the ratio z_a/z_b in which equal neighbours do not overlap (tips not counted)."""
-
-    a: str
-    b: str
-    low: float
-    high: float
-
-    def __str__(self) -> str:
-        return f"{self.low:.9f} < z({self.a})/z({self.b}) < {self.high:.9f}"
 
 
 @dataclass(frozen=True)
@@ -195,11 +171,24 @@ class MeshSize(NamedTuple):
 class SphereSizing(Result):
     """Sizes of a set with teeth. Rows run over the meshes.
 
-    teeth      of each gear
-    cones      operating pitch cones of the first and second gear of each mesh (rad), (meshes, 2)
-    pitches    operating pitch lambda of each mesh, in radii of the sphere
-    base       base pitch c that all gears share: base cones sin g = c z
-    pressure   operating pressure angle of each mesh (rad); nan where involutes on one base pitch cannot mesh
+    Attributes
+    ----------
+    configuration : Configuration
+        The set.
+    teeth : array of int, (gears,)
+        Of each gear.
+    cones : array of float, (meshes, 2)
+        Operating pitch cones of the first and second gear of each mesh [rad].
+    pitches : array of float, (meshes,)
+        Operating pitch lambda of each mesh [radii of the sphere].
+    base : float
+        Base pitch c that all gears share [radii of the sphere]: base cones are sin g = c z.
+    pressure : array of float, (meshes,)
+        Operating pressure angle of each mesh [rad]; nan where involutes on one base pitch cannot mesh.
+
+    See Also
+    --------
+    size_gears : what gives these.
     """
 
     KEYS = (
@@ -288,7 +277,13 @@ class SphereSizing(Result):
         return {kind: float(count) for kind, count in pairs if count < limit}
 
     def label(self, mesh: int) -> str:
-        """A mesh by the names of its gears."""
+        """A mesh by the names of its gears.
+
+        Parameters
+        ----------
+        mesh : int
+            Its row.
+        """
         i, j = self.configuration.meshes[mesh]
         return f"{self.configuration.names[i]}-{self.configuration.names[j]}"
 

@@ -28,8 +28,25 @@ _SPREAD = Key("pitch_spread", "spread")
 class GearSphere(Result):
     """A set of gears on a sphere, and what is asked of it; each part is made when it is first needed.
 
-    radius   of the sphere, in the unit of the reader; wheels are sized by it
-    graph    how the set was fitted to a graph, where it was
+    Parameters
+    ----------
+    configuration : Configuration
+        The set.
+    radius : float
+        Of the sphere, in the unit of the reader; wheels are sized by it.
+    graph : GraphSet, optional
+        How the set was fitted to a graph, where it was.
+
+    Examples
+    --------
+    20 and 12 teeth on the faces of the icosidodecahedron turn, meet round all 29 loops, and have one pitch:
+
+    >>> from geartrain.spherical import from_polyhedron
+    >>> sphere = GearSphere(from_polyhedron("icosidodecahedron", teeth={"5": 20, "3": 12}), radius=3.13198541004301)
+    >>> sphere.moves, sphere.closes, sphere.rule, sphere.sizing.exact
+    (True, True, '3 divides z3 and 5 divides z5', True)
+    >>> {kind: round(radius, 6) for kind, radius in sphere.radii.items()}
+    {'5': 1.25, '3': 0.75}
     """
 
     KEYS = (

@@ -67,17 +67,46 @@ def from_graph(
     upto: int | None = None,
     teeth: Mapping[Hashable, int] | None = None,
 ) -> GraphSet:
-    """Gears on a sphere that mesh as a graph says: a networkx graph, or pairs of gears.
+    """Gears on a sphere that mesh as a graph says: circle packing, whole teeth, axes moved until pitches or phases fit.
 
-    The graph must be simple, planar and bipartite, and 3-connected once gears with two meshes (idlers) are left out
-    of account; `GearTrainError` says what is in the way. Circles are packed, teeth rounded to the circles, and the
-    axes moved by as little as it takes for what `aim` names to be exact:
+    Circles are packed (Koebe, Andreev and Thurston), teeth rounded to the circles, and the axes moved by as little as
+    it takes for what `aim` names to be exact. In a region beside an idler a circle stands in for the meshes it lacks
+    while circles are packed.
 
-    aim          "pitch": all meshes share one pitch; "phases": all loops close. Both at once seldom exist
-    least_teeth  of the smallest gear; with `upto`, the best rounding for smallest gears up to that
-    teeth        of each gear, in place of rounding
+    Parameters
+    ----------
+    graph : networkx.Graph, or iterable of pairs
+        Who meshes with whom. It must be simple, planar and bipartite, and 3-connected once gears with two meshes
+        (idlers) are left out of account.
+    least_teeth : int
+        Of the smallest gear.
+    aim : {"pitch", "phases"}
+        `pitch`: all meshes share one pitch; `phases`: all loops close. Both at once seldom exist.
+    upto : int, optional
+        The best rounding is sought for smallest gears from `least_teeth` up to that.
+    teeth : mapping of gear to int, optional
+        Of each gear, in place of rounding.
 
-    In a region beside an idler a circle stands in for the meshes it lacks while circles are packed.
+    Returns
+    -------
+    GraphSet
+        The set, and what of it is exact.
+
+    Raises
+    ------
+    QuestionError
+        If the graph cannot be packed, with what is in the way; or teeth are missing.
+    RangeError
+        If no packing is found in floats.
+
+    Examples
+    --------
+    The graph of a cube:
+
+    >>> cube = [(i, i ^ bit) for i in range(8) for bit in (1, 2, 4) if i < i ^ bit]
+    >>> found = from_graph(cube, least_teeth=12)
+    >>> found.exact, set(found.configuration.teeth.values())
+    (('pitch', 'phases'), {12})
     """
     if aim not in ("pitch", "phases"):
         raise QuestionError(Problem(f"no aim {aim!r}", "axes can be moved for one of two ends", "pitch or phases"))
@@ -135,13 +164,26 @@ def _teeth(names: Sequence[Hashable], teeth: Mapping[Hashable, int]) -> Ints:
 class GraphSet(Result):
     """Gears made from a graph, and what of them is exact.
 
-    configuration  axes, meshes and teeth; every gear is a kind of its own
-    aim            what the axes were moved for
-    packing        the circles from which the axes were moved; circles past the gears stood in beside idlers
-    sizing         cones, pitches and pressure angles
-    residue        largest residue of a loop, in pitches
-    moved          how far each axis moved from the packing (rad)
-    residuals      what was left (rad for pitches, pitches for phases) after each step of the fit
+    Attributes
+    ----------
+    configuration : Configuration
+        Axes, meshes and teeth; every gear is a kind of its own.
+    aim : {"pitch", "phases"}
+        What the axes were moved for.
+    packing : SpherePacking
+        The circles from which the axes were moved; circles past the gears stood in beside idlers.
+    sizing : SphereSizing
+        Cones, pitches and pressure angles.
+    residue : float
+        Largest residue of a loop [pitches].
+    moved : array of float, (gears,)
+        How far each axis moved from the packing [rad].
+    residuals : tuple of float
+        What was left after each step of the fit [rad for pitches, pitches for phases].
+
+    See Also
+    --------
+    from_graph : what gives these.
     """
 
     KEYS = (

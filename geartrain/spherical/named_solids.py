@@ -92,15 +92,47 @@ _FAMILY = re.compile(rf"(\d{{1,9}}|{'|'.join(_SIDES)})[- ]({'|'.join(_FAMILIES)}
 
 
 def solid_names() -> tuple[str, ...]:
-    """The names `solid` knows; n stands for a number of sides."""
+    """The names that `solid` knows; n stands for a number of sides.
+
+    Returns
+    -------
+    tuple of str
+        Uniform solids, their duals, J37, and families.
+
+    Examples
+    --------
+    >>> solid_names()[:3], solid_names()[-1]
+    (('tetrahedron', 'cube', 'octahedron'), 'n-trapezohedron')
+    """
     return (*_UNIFORM, *_DUALS, "J37", *(f"n-{family}" for family in _FAMILIES))
 
 
 @cache
 def solid(name: str) -> Polyhedron:
-    """A solid by name, such as "icosidodecahedron", "6-antiprism", "hexagonal prism", "J37" or "buckyball".
+    """A solid by name: the uniform ones by Wythoff's construction, their duals, prisms and antiprisms, and J37.
 
-    Coordinates are right to about 1e-15 of the size; uniform solids have edges of length 2. Raises `GearTrainError`.
+    Coordinates are right to about 1e-15 of the size; uniform solids have edges of length 2.
+
+    Parameters
+    ----------
+    name : str
+        Such as `icosidodecahedron`, `6-antiprism`, `hexagonal prism`, `J37` or `buckyball`.
+
+    Returns
+    -------
+    Polyhedron
+        Shared by all who ask for it; its arrays cannot be written to.
+
+    Raises
+    ------
+    GearTrainError
+        If no solid has this name, or a prism too few or too many sides (3 to 360).
+
+    Examples
+    --------
+    >>> cube = solid("cube")
+    >>> cube.faces[0], len(cube.edges), len(cube.symmetries)
+    ((0, 1, 2, 3), 12, 48)
     """
     key = " ".join(name.lower().split())
     key = _ALIASES.get(key, key)

@@ -26,12 +26,23 @@ NEAR = 1e-6
 class Polyhedron:
     """A convex polyhedron with the origin inside.
 
-    vertices  (vertices, 3), as they were given
-    faces     vertices of each face by index, counterclockwise seen from outside; faces from the top (z) down, and
-              counterclockwise from x where they are equally high
-    normals   outward unit normals, (faces, 3)
-    heights   distance of each face's plane from the origin
-    name      for a reader
+    Attributes
+    ----------
+    vertices : array of float, (vertices, 3)
+        As they were given, in any unit.
+    faces : tuple of tuple of int
+        Vertices of each face by index, counterclockwise seen from outside; faces from the top (z) down, and
+        counterclockwise from x where they are equally high.
+    normals : array of float, (faces, 3)
+        Outward unit normals.
+    heights : array of float, (faces,)
+        Distance of each face's plane from the origin, in the unit of the vertices.
+    name : str
+        For a reader.
+
+    See Also
+    --------
+    polyhedron, solid : what gives these.
     """
 
     vertices: Floats
@@ -79,11 +90,33 @@ class Polyhedron:
         return found
 
     def permutations(self, points: Floats) -> Ints:
-        """Where each symmetry takes each point of a set that it keeps, by index: (order, points)."""
+        """Where each symmetry takes each point of a set that it keeps.
+
+        Parameters
+        ----------
+        points : array of float, (points, 3)
+            A set that all symmetries keep.
+
+        Returns
+        -------
+        array of int, (symmetries, points)
+            Indices of the images.
+        """
         return self._nearest(points, points @ self.symmetries.transpose(0, 2, 1))[1]
 
     def orbits(self, points: Floats) -> Ints:
-        """For each point of a set that the symmetries keep, the first point that they take to it."""
+        """For each point of a set that the symmetries keep, the first point that they take to it.
+
+        Parameters
+        ----------
+        points : array of float, (points, 3)
+            A set that all symmetries keep.
+
+        Returns
+        -------
+        array of int, (points,)
+            Indices; equal for points of one orbit.
+        """
         first: Ints = self.permutations(points).min(axis=0)
         return first
 
@@ -93,7 +126,18 @@ class Polyhedron:
         return float(np.linalg.norm(self.vertices, axis=1).max())
 
     def dual(self, name: str = "") -> Polyhedron:
-        """The polar solid: its vertices stand on the normals of these faces, and its normals at these vertices."""
+        """The polar solid: its vertices stand on the normals of these faces, and its normals at these vertices.
+
+        Parameters
+        ----------
+        name : str
+            Of the polar solid, for a reader.
+
+        Returns
+        -------
+        Polyhedron
+            Vertices at the reciprocal heights.
+        """
         return polyhedron(self.normals / self.heights[:, None], name=name)
 
     @staticmethod
@@ -105,10 +149,34 @@ class Polyhedron:
 
 
 def polyhedron(points: ArrayLike, *, recentre: bool = False, name: str = "") -> Polyhedron:
-    """The convex polyhedron with these vertices, the origin inside; or with their mean as origin if `recentre`.
+    """The convex polyhedron with these vertices: convex hull (Qhull), flat facets joined, Euler's formula checked.
 
-    Vertices count as one, and a face as flat, within a millionth of the size. Raises `GearTrainError` where a point
-    is no corner of the hull, where the points are degenerate, and where the origin is not inside.
+    Vertices count as one, and a face as flat, within a millionth of the size.
+
+    Parameters
+    ----------
+    points : sequence of points, (vertices, 3)
+        The vertices, in any unit.
+    recentre : bool
+        Puts the mean of the vertices at the origin; else the origin must lie inside.
+    name : str
+        For a reader.
+
+    Returns
+    -------
+    Polyhedron
+        With faces, normals and heights.
+
+    Raises
+    ------
+    GearTrainError
+        If a point is no corner of the hull, the points are degenerate, or the origin is not inside.
+
+    Examples
+    --------
+    >>> found = polyhedron([(1, 1, 1), (1, -1, -1), (-1, 1, -1), (-1, -1, 1)])
+    >>> len(found.faces), len(found.symmetries), float(round(found.heights[0] * 3**0.5, 12))
+    (4, 24, 1.0)
     """
     vertices = _checked(points)
     if recentre:

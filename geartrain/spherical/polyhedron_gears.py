@@ -46,25 +46,52 @@ def from_polyhedron(
     exact: bool = False,
     recentre: bool = False,
 ) -> Configuration:
-    """Gears on a polyhedron, given by name, as a `Polyhedron`, or by its vertices.
+    """Gears on a polyhedron: on its faces, its vertices, both, or with idlers on its edges.
 
-    gears     "faces"           one on each face, about its normal; faces with a common edge mesh
-              "vertices"        one on each vertex; vertices with a common edge mesh
-              "faces+vertices"  a vertex meshes with the faces round it
-              "faces+edges"     faces that share an edge mesh with an idler between them
-              "faces+vertices+edges"  two gears on each edge, each in mesh with a vertex and both faces
-                                (Platonic solids: all edges are alike)
-    teeth     tooth number of each kind, {"5": 20, "3": 12}, or one for all; "4" stands for 4a and 4b
-    drop      kinds ("4b"), gears ("5-1") and meshes ("5-1~3-2", or "6~6" for all between two kinds) to leave out
-    exact     move the axes, keeping all symmetries, to where every mesh has the same pitch; needs teeth
-    recentre  put the mean of the vertices at the sphere's centre
+    Kinds are orbits under all rotations and reflections of the solid. They are named by the number of sides, v and e;
+    where several share that they get letters, fewer gears first, then those nearer to the smallest orbit. Gears are
+    numbered within their kind from the top (z) down, counterclockwise from x. Gears on edges stand where both their
+    pitches are equal, which depends on the teeth; while these are not chosen, at the middle of the arc (of two, at a
+    quarter and three quarters of the edge).
 
-    Kinds are orbits under all rotations and reflections of the solid. They are named by the number of sides, v and
-    e; where several share that they get letters, fewer gears first, then those nearer to the smallest orbit. Gears
-    are numbered within their kind from the top (z) down, counterclockwise from x.
+    Parameters
+    ----------
+    shape : str, Polyhedron or sequence of points, (vertices, 3)
+        A name that `solid` knows, a solid, or its vertices.
+    gears : str
+        Where gears stand:
 
-    Gears on edges stand where both their pitches are equal, which depends on the teeth; while these are not chosen,
-    at the middle of the arc (of two, at a quarter and three quarters of the edge). Raises `GearTrainError`.
+        - `faces`: one on each face, about its normal; faces with a common edge mesh.
+        - `vertices`: one on each vertex; vertices with a common edge mesh.
+        - `faces+vertices`: a vertex meshes with the faces round it.
+        - `faces+edges`: faces that share an edge mesh with an idler between them.
+        - `faces+vertices+edges`: two gears on each edge, each in mesh with a vertex and both faces (Platonic solids,
+          whose edges are all alike).
+    teeth : mapping of str to int, or int, optional
+        Tooth number of each kind, `{"5": 20, "3": 12}`, or one for all; `4` stands for 4a and 4b.
+    drop : iterable of str
+        Kinds (`4b`), gears (`5-1`) and meshes (`5-1~3-2`, or `6~6` for all between two kinds) to leave out.
+    exact : bool
+        Moves the axes, keeping all symmetries, to where every mesh has the same pitch; needs teeth.
+    recentre : bool
+        Puts the mean of the vertices at the sphere's centre.
+
+    Returns
+    -------
+    Configuration
+        The set.
+
+    Raises
+    ------
+    GearTrainError
+        If the solid, a kind, a gear or a mesh is not known, or no place with one pitch is found near the solid's own
+        axes.
+
+    Examples
+    --------
+    >>> found = from_polyhedron("icosidodecahedron", teeth={"5": 20, "3": 12})
+    >>> len(found.names), len(found.meshes), found.names[0], dict(found.teeth)
+    (32, 60, '5-1', {'5': 20, '3': 12})
     """
     base = _solid(shape, recentre)
     plan = places_on_polyhedron(base, gears)

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from geartrain.numerics.plain_data import Result
-from geartrain.spherical.configuration import Configuration
 from geartrain.spherical.gear_places import places_on_polyhedron
 from geartrain.spherical.named_solids import solid
 from geartrain.spherical.polyhedra import Polyhedron
@@ -29,15 +28,32 @@ SURVEYED = (
 
 @dataclass(frozen=True)
 class SurveyRow(Result):
-    """Gears on all faces of one solid.
+    """Gears on all faces of one solid: a row of the table in section 2 of docs/sphere.md.
 
-    gears, meshes  their numbers
-    bipartite      neighbours can turn against each other everywhere: the set moves, with one degree of freedom
-    gruebler       gears less meshes, the degrees of freedom that a count gives
-    drop           least number of meshes to take out so that it moves
-    types          kinds of gear, and `mesh_kinds` of mesh: orbits under the symmetries of the solid
-    positions      free parameters of the axes while all symmetries are kept
-    angles         of the meshes (deg), those that differ by more than 1e-9, ascending
+    Attributes
+    ----------
+    solid : str
+        Its name.
+    gears, meshes : int
+        Faces, and edges.
+    bipartite : bool
+        Neighbours can turn against each other everywhere: the set moves, with one degree of freedom.
+    gruebler : int
+        Gears less meshes, the degrees of freedom that a count gives.
+    drop : int
+        Least number of meshes to take out so that it moves.
+    types : int
+        Kinds of gear: orbits under the symmetries of the solid.
+    mesh_kinds : int
+        Kinds of mesh, likewise.
+    positions : int
+        Free parameters of the axes while all symmetries are kept.
+    angles : tuple of float
+        Of the meshes [deg], those that differ by more than 1e-9, ascending.
+
+    See Also
+    --------
+    survey : what gives these.
     """
 
     KEYS = (
@@ -71,14 +87,29 @@ class SurveyRow(Result):
         return self.positions + 1 >= self.mesh_kinds
 
 
-def survey(
-    solids: Iterable[str | Polyhedron] = SURVEYED, drop: Callable[[Configuration], int] | None = None
-) -> tuple[SurveyRow, ...]:
-    """One row for each solid; `drop` counts the meshes to take out, by default by a T-join on the odd vertices."""
-    return tuple(_row(solid(shape) if isinstance(shape, str) else shape, drop) for shape in solids)
+def survey(solids: Iterable[str | Polyhedron] = SURVEYED) -> tuple[SurveyRow, ...]:
+    """Gears on all faces of some solids: whether they move, what would free them, and what can be exact.
+
+    Parameters
+    ----------
+    solids : iterable of str or Polyhedron
+        Default the Platonic and Archimedean solids, and J37.
+
+    Returns
+    -------
+    tuple of SurveyRow
+        One a solid.
+
+    Examples
+    --------
+    >>> row, = survey(["cube"])
+    >>> row.gears, row.meshes, row.bipartite, row.drop
+    (6, 12, False, 4)
+    """
+    return tuple(_row(solid(shape) if isinstance(shape, str) else shape) for shape in solids)
 
 
-def _row(base: Polyhedron, drop: Callable[[Configuration], int] | None) -> SurveyRow:
+def _row(base: Polyhedron) -> SurveyRow:
     plan = places_on_polyhedron(base, "faces")
     types = [int(first) for first in np.unique(plan.movement.orbits())]
     configuration = from_polyhedron(base)
@@ -90,7 +121,7 @@ def _row(base: Polyhedron, drop: Callable[[Configuration], int] | None) -> Surve
         # two colours for the faces of a map, when every vertex has an even number of them
         bipartite=not any(degree % 2 for degree in base.degrees),
         gruebler=len(base.faces) - len(base.edges),
-        drop=drop(configuration) if drop else least_drop(base),
+        drop=least_drop(base),
         types=len(types),
         mesh_kinds=len(np.unique(plan.movement.mesh_orbits(plan.meshes))),
         positions=sum(len(plan.movement.freedom(gear, plan.axes[gear])) for gear in types),

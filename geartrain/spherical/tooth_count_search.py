@@ -39,16 +39,47 @@ def suggest_tooth_counts(
     tolerance: float = 1e-9,
     fixed: Mapping[str, int] | None = None,
 ) -> ToothCountSuggestions:
-    """The best tooth numbers from `least` to `most` whose loops close and whose tips clear.
+    """The best tooth numbers whose loops close and whose tips clear: an exhaustive search.
 
-    order       "mismatch": least |mismatch| first; "teeth": least total first; "front": only sets that every set of
-                no more teeth exceeds in mismatch, least total first
-    mismatch    sets whose pitches differ by more (as a logarithm) are left out
-    tolerance   pitches by which a loop may miss, where its angles are only known in floats
-    fixed       teeth of kinds that are chosen already
-
-    Every set is looked at: time grows with the product of the ranges. Tips clear if non-meshing gears leave two
+    Every set is looked at: time grows with the product of the ranges. Tips clear if gears that do not mesh leave two
     modules between their largest operating pitch cones.
+
+    Parameters
+    ----------
+    configuration : Configuration
+        The set; its own teeth are not asked for.
+    most, least : int
+        Bounds of the tooth numbers.
+    best : int
+        How many sets are given.
+    order : {"mismatch", "teeth", "front"}
+        `mismatch`: least |mismatch| first; `teeth`: least total first; `front`: only sets that every set of no more
+        teeth exceeds in mismatch, least total first.
+    mismatch : float
+        Sets whose pitches differ by more (as a logarithm) are left out.
+    tolerance : float
+        By how much a loop may miss where its angles are only known in floats [pitches].
+    fixed : mapping of str to int, optional
+        Teeth of kinds that are chosen already.
+
+    Returns
+    -------
+    ToothCountSuggestions
+        The sets, best first, and what removed the rest.
+
+    Raises
+    ------
+    QuestionError
+        If no gears mesh, or an odd loop keeps the set from turning.
+    RangeError
+        If there are more than 2e8 sets.
+
+    Examples
+    --------
+    >>> from geartrain.spherical import from_polyhedron
+    >>> found = suggest_tooth_counts(from_polyhedron("rhombicosidodecahedron"), most=30, best=1)
+    >>> found.considered, dict(found[0].teeth), round(found[0].mismatch, 8)
+    (15625, {'5': 25, '4': 14, '3': 12}, 0.00105949)
     """
     kinds, meshes = kinds_in_order(configuration), mesh_kinds(configuration)
     if not meshes:
@@ -118,13 +149,26 @@ def _sorted(rows: NDArray[np.int64], mismatches: Floats, order: Order) -> NDArra
 class ToothCountCompromise:
     """One set of tooth numbers.
 
-    teeth      of each kind
-    mismatch   ln(pitch of the first kind of mesh / pitch of the second); with more kinds, ln(greatest / least)
-    pitches    operating pitch of each kind of mesh, in radii of the sphere
-    cones      operating cones of its two gears (rad), for each kind of mesh
-    pressure   operating pressure angle (rad) of each kind of mesh, on one base pitch
-    room       least room between pitch circles of gears that do not mesh, in modules
-    residue    largest residue of a loop, in pitches; 0 where all loops close exactly
+    Attributes
+    ----------
+    teeth : mapping of str to int
+        Of each kind.
+    mismatch : float
+        ln(pitch of the first kind of mesh / pitch of the second); with more kinds, ln(greatest / least).
+    pitches : tuple of float
+        Operating pitch of each kind of mesh [radii of the sphere].
+    cones : tuple of tuple of float
+        Operating cones of its two gears [rad], for each kind of mesh.
+    pressure : tuple of float
+        Operating pressure angle of each kind of mesh, on one base pitch [rad].
+    room : float
+        Least room between pitch circles of gears that do not mesh [modules].
+    residue : float
+        Largest residue of a loop [pitches]; 0 where all loops close exactly.
+
+    See Also
+    --------
+    suggest_tooth_counts : what gives these.
     """
 
     teeth: Mapping[str, int]
@@ -148,11 +192,26 @@ class ToothCountCompromise:
 
 @dataclass(frozen=True)
 class ToothCountSuggestions(Result):
-    """What a search found, best first, and what removed the rest.
+    """What a search found, best first, and what removed the rest; a sequence of `ToothCountCompromise`.
 
-    considered   all tooth sets up to the bound
-    removed      how many each condition removed, in the order in which the conditions were asked
-    beyond       sets that meet every condition but are worse than the last one listed
+    Attributes
+    ----------
+    configuration : Configuration
+        The set.
+    meshes : tuple of MeshKind
+        Its kinds of mesh.
+    found : tuple of ToothCountCompromise
+        The sets.
+    considered : int
+        All tooth sets up to the bound.
+    removed : mapping of str to int
+        How many each condition removed, in the order in which the conditions were asked.
+    beyond : int
+        Sets that meet every condition but are worse than the last one listed.
+
+    See Also
+    --------
+    suggest_tooth_counts : what gives these.
     """
 
     KEYS = (

@@ -20,6 +20,7 @@ SHOWING = [
     "kinematics",
     "numerics",
     "scene",
+    "spherical",
     "synthesis",
     "train",
     "viewer",

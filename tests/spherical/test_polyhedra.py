@@ -574,11 +574,6 @@ def test_no_smaller_drop_frees_a_small_set(name: str) -> None:
     assert least_drop(solid(name)) == least
 
 
-def test_a_drop_may_be_counted_by_another_method() -> None:
-    (row,) = survey(["cube"], drop=lambda configuration: len(configuration.meshes))
-    assert row.drop == 12
-
-
 # places that follow from the teeth ------------------------------------------------------------------------------------
 
 

@@ -35,7 +35,6 @@ from geartrain.spherical import (
 )
 from geartrain.spherical.assembly_loops import fundamental_loops, loop_rules, regions, residue
 from geartrain.spherical.configuration import mesh_kinds
-from geartrain.spherical.gear_sizes import impossibility_theorem
 from geartrain.spherical.pitch_cones import (
     base_pitch,
     operating_pitch,
@@ -47,6 +46,7 @@ from geartrain.spherical.pitch_cones import (
     virtual_teeth,
     wheel_radius,
 )
+from geartrain.spherical.pitch_theorems import impossibility_theorem
 
 PHI = (1 + sqrt(5)) / 2
 

@@ -8,7 +8,7 @@ from fractions import Fraction
 from functools import cached_property
 
 from geartrain.dynamics.gear_meshes import PinMesh
-from geartrain.dynamics.torques.torque_results import BearingTorque
+from geartrain.dynamics.torques.member_torques import BearingTorque
 from geartrain.dynamics.torques.virtual_work import PRESCRIBED
 from geartrain.kinematics.circuits import Circuit, Tree
 from geartrain.kinematics.relative_speeds import relative_speed

@@ -14,9 +14,10 @@ from geartrain.dynamics.torques.mean_efficiencies import (
     find_mean_efficiencies,
     settle_mean_efficiencies,
 )
+from geartrain.dynamics.torques.member_torques import HoldingTorque, PairTorque
 from geartrain.dynamics.torques.neglected_effects import find_neglected_effects
 from geartrain.dynamics.torques.torque_balance import LoadedPair, TorqueBalance
-from geartrain.dynamics.torques.torque_results import HoldingTorque, NeglectedEffect, PairTorque, Torques, TorqueVerdict
+from geartrain.dynamics.torques.torque_results import NeglectedEffect, Torques, TorqueVerdict
 from geartrain.dynamics.torques.torque_verdicts import LoadedBalance, find_imbalance, find_torque_verdict
 from geartrain.kinematics.circuits import Axes, Circuit
 

@@ -117,7 +117,8 @@ def _report(
     spectrum: bool,
 ) -> None:
     """The figures, into the second place where they are cut short."""
-    from geartrain.report.motion_report import collect_motion, describe_motion
+    from geartrain.report.motion_figures import collect_motion
+    from geartrain.report.motion_report import describe_motion
 
     work = asked.samples * (1 + phases + estimates + spectrum)
     stopped = False

@@ -41,7 +41,8 @@ def run(
 ) -> None:
     """Torques on links and pairs under the declared loads, flow of power and losses, efficiency there and back."""
     from geartrain.analysis.loader import load
-    from geartrain.report.power_report import collect_torque_report, describe_torques
+    from geartrain.report.torque_figures import collect_torque_report
+    from geartrain.report.torque_report import describe_torques
 
     to = sink(out, force, (".md", ".html", ".json"))
     picture = sink(plot, force, PICTURES, "--plot")

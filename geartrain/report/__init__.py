@@ -1,16 +1,82 @@
-"""From a train's answers to a document, and from a document to Markdown, HTML or a terminal.
+"""Results as documents: on a terminal, as Markdown, as one page of HTML, and as JSON.
 
-In: a train's answers, or what any other room found out. Out: for each kind of result a `..._document`, titled sections
-of paragraphs and tables, and its `..._data` for JSON. Import from the module that holds a name: a command brings in the
-one page it shows, and not the others.
+In: a train (`collect_report`), or a result of another room. Out: a `Document`, titled sections of paragraphs and tables
+that know nothing of how they are shown; `to_markdown` and `to_html` show it. One function `describe_...` makes the
+document of a result, and the result's own `to_dict` its data, so that a page and its JSON are told from the same thing;
+`answer_schema` is the JSON Schema of all such data (docs/json.md). No figure is worked out here: speeds are those of
+the Willis equation (docs/theory.md, equations 4 and 5), torques and motion those of `geartrain.dynamics`.
 
-document                                 sections, tables, pictures: independent of how they are shown
-text, html_page                          a document as Markdown, on a terminal, as one page of HTML
-train_report, answers, shared_page       a train: structure, speeds, outputs, targets, doubts; the page to share
-reconstruction_comparison                 several trains side by side
-motion_report, power_report, gear_pairs  what real teeth do to a train; its torques; its pairs
-posterior_report, monte_carlo_report     counts in doubt; wheels cut by hand, many times over
-pair_page, conjugate_pair_page, tooth_form_comparison   one pair of wheels without a train
-tooth_numbers, spherical_report          tooth numbers that were found; gears on a sphere
-declaration_reference, json_schema       the keys of a declaration; the shapes of answers as JSON
+Results of other rooms are described in modules of their own: tooth numbers in `tooth_numbers`, gears on a sphere in
+`spherical_report`, one pair of wheels in `pair_page` and `conjugate_pair_page`, error against run time in
+`accuracy_report`.
 """
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from geartrain.numerics.lazy_names import lazy_names
+
+if TYPE_CHECKING:
+    from geartrain.report.document import Document as Document
+    from geartrain.report.document import Picture as Picture
+    from geartrain.report.document import Section as Section
+    from geartrain.report.document import Table as Table
+    from geartrain.report.html_page import to_html as to_html
+    from geartrain.report.json_schema import answer_schema as answer_schema
+    from geartrain.report.monte_carlo_report import describe_monte_carlo as describe_monte_carlo
+    from geartrain.report.motion_figures import MotionFigures as MotionFigures
+    from geartrain.report.motion_figures import collect_motion as collect_motion
+    from geartrain.report.motion_report import describe_motion as describe_motion
+    from geartrain.report.posterior_report import describe_posterior as describe_posterior
+    from geartrain.report.reconstruction_comparison import describe_comparison as describe_comparison
+    from geartrain.report.shared_page import describe_shared_page as describe_shared_page
+    from geartrain.report.text import to_markdown as to_markdown
+    from geartrain.report.torque_figures import TorqueReport as TorqueReport
+    from geartrain.report.torque_figures import collect_torque_report as collect_torque_report
+    from geartrain.report.torque_report import describe_torques as describe_torques
+    from geartrain.report.train_data import TrainReport as TrainReport
+    from geartrain.report.train_data import collect_report as collect_report
+    from geartrain.report.train_report import describe_train as describe_train
+
+_PLACES = {
+    **dict.fromkeys(("Document", "Picture", "Section", "Table"), "document"),
+    **dict.fromkeys(("MotionFigures", "collect_motion"), "motion_figures"),
+    **dict.fromkeys(("TorqueReport", "collect_torque_report"), "torque_figures"),
+    **dict.fromkeys(("TrainReport", "collect_report"), "train_data"),
+    "answer_schema": "json_schema",
+    "describe_comparison": "reconstruction_comparison",
+    "describe_monte_carlo": "monte_carlo_report",
+    "describe_motion": "motion_report",
+    "describe_posterior": "posterior_report",
+    "describe_shared_page": "shared_page",
+    "describe_torques": "torque_report",
+    "describe_train": "train_report",
+    "to_html": "html_page",
+    "to_markdown": "text",
+}
+
+__all__ = [
+    "Document",
+    "MotionFigures",
+    "Picture",
+    "Section",
+    "Table",
+    "TorqueReport",
+    "TrainReport",
+    "answer_schema",
+    "collect_motion",
+    "collect_report",
+    "collect_torque_report",
+    "describe_comparison",
+    "describe_monte_carlo",
+    "describe_motion",
+    "describe_posterior",
+    "describe_shared_page",
+    "describe_torques",
+    "describe_train",
+    "to_html",
+    "to_markdown",
+]
+
+__getattr__ = lazy_names(__name__, _PLACES)

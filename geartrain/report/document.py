@@ -37,7 +37,24 @@ class CitedText(str):
 
 @dataclass(frozen=True, slots=True)
 class Table:
-    """Rows of text under a header. The first column names the row; `wide` tables are matrices."""
+    """Rows of text under a header; the first column names the row.
+
+    Attributes
+    ----------
+    header : sequence of str
+        One title a column; "" where none is needed.
+    rows : sequence of sequence of str
+        Cells, as many in each row as the header has.
+    wide : bool
+        True for matrices, which a terminal shows in strips of columns and never wraps.
+
+    Examples
+    --------
+    >>> from geartrain.report import Document, Section, to_markdown
+    >>> table = Table(("wheel", "teeth"), [("sun", "24"), ("ring", "60")])
+    >>> print(to_markdown([Document("Set", (), [Section("Wheels", (), [table])])]).splitlines()[4])
+    | wheel | teeth |
+    """
 
     header: Sequence[str]
     rows: Sequence[Sequence[str]]
@@ -52,7 +69,22 @@ def filled_table(header: Sequence[str], rows: Sequence[Sequence[str]], always: i
 
 @dataclass(frozen=True, slots=True)
 class Section:
-    """A heading with paragraphs, then tables."""
+    """A heading with paragraphs, then tables.
+
+    Attributes
+    ----------
+    title : str
+        The heading.
+    paragraphs : sequence of str
+        Plain text; no markup in it is obeyed.
+    tables : sequence of Table
+        After the paragraphs.
+
+    Examples
+    --------
+    >>> Section("Mobility", ["By count: 3 - 2 = 1."]).tables
+    ()
+    """
 
     title: str
     paragraphs: Sequence[str] = ()
@@ -61,7 +93,20 @@ class Section:
 
 @dataclass(frozen=True, slots=True)
 class Picture:
-    """A picture with a caption. `svg` is one whole SVG document, made by a program that escapes what users write."""
+    """A picture with a caption, for pages of HTML.
+
+    Attributes
+    ----------
+    caption : str
+        One line below it.
+    svg : str
+        One whole SVG document, made by a program that escapes what users write: it stands in the page as it is.
+
+    Examples
+    --------
+    >>> Picture("A line", '<svg xmlns="http://www.w3.org/2000/svg"><path d="M0 0h9"/></svg>').caption
+    'A line'
+    """
 
     caption: str
     svg: str
@@ -98,7 +143,32 @@ class PageExtras:
 
 @dataclass(frozen=True, slots=True)
 class Document:
-    """A title, a lead, and sections; `aside` is for pages only."""
+    """A title, a lead, and sections, independent of how they are shown.
+
+    Attributes
+    ----------
+    title : str
+        The first heading.
+    lead : sequence of str
+        Paragraphs before the first section.
+    sections : sequence of Section
+        In the order in which they are read.
+    aside : PageExtras
+        Badge, pictures, viewer and sources, which only a page of HTML has room for.
+
+    See Also
+    --------
+    describe_train, describe_torques, describe_motion : Make documents.
+    to_markdown, to_html : Show them.
+
+    Examples
+    --------
+    >>> from geartrain.report import to_markdown
+    >>> print(to_markdown([Document("A title", ["A lead."], [])]).strip())
+    # A title
+    <BLANKLINE>
+    A lead.
+    """
 
     title: str
     lead: Sequence[str]

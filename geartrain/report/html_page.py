@@ -34,9 +34,30 @@ class _Anchors:
 
 
 def to_html(documents: Sequence[Document]) -> str:
-    """The documents as one self-contained page. Needs the `report` extra.
+    """Documents as one self-contained page of HTML, which asks the network for nothing.
 
-    Texts are escaped; pictures stand in the page as SVG, a viewer in a frame of its own that cannot reach the page.
+    Parameters
+    ----------
+    documents : sequence of Document
+        One or more, each with its own contents.
+
+    Returns
+    -------
+    str
+        The whole page. Texts are escaped; pictures stand in it as SVG, a viewer in a frame of its own that cannot reach
+        the page.
+
+    Raises
+    ------
+    MissingExtraError
+        Without jinja2, which the extra `report` brings.
+
+    Examples
+    --------
+    >>> from geartrain.report import Document
+    >>> page = to_html([Document("<b>", ["One & one."], [])])
+    >>> "<h1>&lt;b&gt;</h1>" in page, "One &amp; one." in page
+    (True, True)
     """
     try:
         from jinja2 import Environment

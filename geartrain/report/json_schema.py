@@ -72,8 +72,8 @@ def answers() -> dict[str, Schema]:
 def _of_trains() -> dict[str, Schema]:
     from geartrain.numerics.labelled_array import LabelledArray
     from geartrain.report.accuracy_report import AccuracyReport
-    from geartrain.report.motion_report import MotionFigures
-    from geartrain.report.power_report import TorqueReport
+    from geartrain.report.motion_figures import MotionFigures
+    from geartrain.report.torque_figures import TorqueReport
     from geartrain.report.train_data import TrainAnswers, TrainReport
 
     report = shape_of(TrainReport)
@@ -156,7 +156,20 @@ def _of_pairs() -> dict[str, Schema]:
 
 
 def answer_schema() -> Schema:
-    """One JSON Schema; `#/$defs/QUESTION` is that of one question's answer."""
+    """One JSON Schema (draft 2020-12) for all answers; `#/$defs/QUESTION` is that of one question's answer.
+
+    Returns
+    -------
+    dict
+        Keys and kinds of values are read off the results that are told, their descriptions off docstrings. Questions
+        are commands, or uses of a command whose answer has another shape; docs/json.md tells of them.
+
+    Examples
+    --------
+    >>> answer = answer_schema()["$defs"]["solve"]
+    >>> answer["required"]
+    ['name', 'title', 'unit', 'mobility', 'states']
+    """
     return {
         "$schema": "https://json-schema.org/draft/2020-12/schema",
         "title": "Answers of geartrain",

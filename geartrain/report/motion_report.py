@@ -1,30 +1,48 @@
-"""What real teeth and pins do to outputs: as a page, and as figures for JSON."""
+"""What real teeth and pins do to outputs, as a page."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
-from fractions import Fraction
+from collections.abc import Iterable, Iterator, Sequence
 from math import degrees
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
-from geartrain.errors import GearTrainError
 from geartrain.numerics.decimal_text import abridged_text
-from geartrain.numerics.plain_data import Key, Result
 from geartrain.report.document import Document, Section, Table, figure
+from geartrain.report.motion_figures import MotionFigures, UnfollowedMotion, ripples
 
 if TYPE_CHECKING:
     from geartrain.analysis.gear_train import GearTrain
     from geartrain.dynamics import ErrorEstimates, MotionRun, RunningStatistics, SpectrumLine
-    from geartrain.teeth.gear_mesh import GearMesh, MeshDriver
+    from geartrain.teeth.gear_mesh import GearMesh
 
 
 _ABREAST = 8  # outputs side by side
-_TURNS, _POSITIONS = 20.0, 20_001  # of the run in a report
 
 
 def describe_motion(found: MotionFigures) -> Document:
-    """Error and speed of each output of a run, and what else was asked of it."""
+    """Transmission error and speed of each output of a run, and whatever else was asked of it.
+
+    Parameters
+    ----------
+    found : MotionFigures
+        From `collect_motion`.
+
+    Returns
+    -------
+    Document
+        Errors in degrees; speeds over those of the input, their range over the mean.
+
+    Examples
+    --------
+    >>> import geartrain
+    >>> from geartrain.dynamics import MotionRun
+    >>> from geartrain.report import collect_motion
+    >>> run = MotionRun(geartrain.load("moon-triangular").motion(), turns=1.0, samples=101)
+    >>> run.go()
+    >>> page = describe_motion(collect_motion(run, "moon-triangular", None))
+    >>> [section.title for section in page.sections]
+    ['Outputs', 'Pairs']
+    """
     run = found.run
     train, period = run.motion.train, run.motion.period
     lead = [
@@ -64,28 +82,8 @@ def moving_sections(train: GearTrain, found: Sequence[MotionFigures | Unfollowed
         run = each.run
         text = f"While '{run.motion.train.lead}' makes {run.turns:g} turns; `geartrain motion` has more."
         yield Section(head, (text, *_remarks(run)), (_outputs(_rippling(run)),))
-    if train.meshes and not _ripples(train):
+    if train.meshes and not ripples(train):
         yield Section("Motion", (_rigid(train.meshes),))
-
-
-def collect_motions(train: GearTrain) -> Iterator[MotionFigures | UnfollowedMotion]:
-    """Motion in every state; nothing, and no computation, for a train of ideal teeth and pins without sizes."""
-    if not _ripples(train):
-        return
-    from geartrain.dynamics import MotionRun
-
-    for state in train.states or (None,):
-        try:
-            run = MotionRun(train.motion(state), _TURNS, _POSITIONS)
-            run.go()
-        except GearTrainError as error:
-            yield UnfollowedMotion(train.name, state, error)
-        else:
-            yield collect_motion(run, train.name, state)
-
-
-def _ripples(train: GearTrain) -> bool:
-    return bool(train.pins) or any(not mesh.rigid for mesh in train.meshes)
 
 
 def _rigid(meshes: Iterable[GearMesh]) -> str:
@@ -200,134 +198,3 @@ def _spectrum(name: str, lines: list[SpectrumLine]) -> Section:
     header = ("order", "per turn of the input", "pair and harmonic", "expected (deg)", "measured (deg)")
     text = "Amplitudes by exact order: expected to first order, and measured in the composed motion."
     return Section(f"Spectrum of {name}", (text,), (Table(header, rows),))
-
-
-# ---------------------------------------------------------------------------------------------------------- plain data
-
-
-class PhaseRange(NamedTuple):
-    """Least and greatest error (rad) of one output over runs with other phases."""
-
-    peak_to_peak: tuple[float, float]
-    rms: tuple[float, float]
-
-
-class PhaseSets(NamedTuple):
-    """How many sets of random phases were tried, and their seed."""
-
-    sets: int
-    seed: int | None
-
-
-class PartialRun(NamedTuple):
-    """What was done of an interrupted run."""
-
-    done: int
-    of: int
-
-
-@dataclass(frozen=True)
-class OutputMotion:
-    """One output of a run; what was not asked for is None.
-
-    setting       by how much the pointer is turned on its wheels, so that at turn 0 its teeth do not displace it (rad)
-    sensitivity   radians of the output per radian of error of a pair's driven side, by pair
-    """
-
-    KEYS = (Key("", "tally"), "setting", "sensitivity", "phases", "estimates", "spectrum")
-
-    tally: RunningStatistics
-    setting: float
-    sensitivity: Mapping[str, float]
-    phases: PhaseRange | None
-    estimates: ErrorEstimates | None
-    spectrum: Sequence[SpectrumLine] | None
-
-
-@dataclass(frozen=True)
-class MotionFigures(Result):
-    """A run of a train in a state; angles in rad.
-
-    run           what was done
-    state         as it was named
-    input         the link whose turns are counted
-    period        turns after which everything repeats; None where nothing ripples
-    drivers       by pair that ripples
-    turned_back   pairs whose driver turns against its mean at times
-    rigid         pairs with real teeth that keep their ratio at every instant and add nothing
-    """
-
-    KEYS = (
-        *("name", "state", "input", "turns", "positions", "period", "drivers", "turned_back", "rigid", "outputs"),
-        *("phases", "partial"),
-    )
-
-    run: MotionRun
-    name: str
-    state: str | None
-    input: str
-    turns: float
-    positions: int
-    period: Fraction | None
-    drivers: Mapping[str, MeshDriver]
-    turned_back: Sequence[str]
-    rigid: Sequence[str]
-    outputs: Mapping[str, OutputMotion]
-    phases: PhaseSets | None
-    partial: PartialRun | None
-
-
-@dataclass(frozen=True)
-class UnfollowedMotion:
-    """A state in which the motion cannot be followed, and why."""
-
-    KEYS = ("name", "state", "error")
-
-    name: str
-    state: str | None
-    why: GearTrainError
-
-    @property
-    def error(self) -> str:
-        """Why, in words."""
-        return str(self.why)
-
-
-def collect_motion(run: MotionRun, name: str, state: str | None) -> MotionFigures:
-    """A run of a train, by name, in a state."""
-    motion = run.motion
-    used = {source.id for source in motion.ahead.used}
-    composition = motion.ahead if run.turns >= 0 else motion.back
-    outputs = {
-        tally.name: OutputMotion(
-            tally,
-            motion.setting[tally.name],
-            motion.sensitivity[tally.name],
-            _phase_range([tallies[at] for tallies in run.phased]),
-            run.estimates.get(tally.name),
-            run.spectra.get(tally.name),
-        )
-        for at, tally in enumerate(run.tallies)
-    }
-    return MotionFigures(
-        run,
-        name,
-        state,
-        input=motion.train.lead,
-        turns=run.turns,
-        positions=run.done,
-        period=motion.period,
-        drivers={pair: driver for pair, driver in motion.train.drivers.items() if pair in used},
-        turned_back=sorted(composition.turned_back),
-        rigid=[mesh.name for mesh in motion.train.rigid],
-        outputs=outputs,
-        phases=PhaseSets(len(run.phased), run.seed) if run.phased else None,
-        partial=PartialRun(run.done, run.samples) if run.done < run.samples else None,
-    )
-
-
-def _phase_range(tallies: list[RunningStatistics]) -> PhaseRange | None:
-    if not tallies:
-        return None
-    peaks, rms = zip(*((tally.peak_to_peak, tally.rms) for tally in tallies), strict=True)
-    return PhaseRange((min(peaks), max(peaks)), (min(rms), max(rms)))

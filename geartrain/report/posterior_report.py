@@ -41,7 +41,28 @@ def posterior_rows(found: ToothCountPosterior) -> list[dict[str, Any]]:
 
 
 def describe_posterior(found: ToothCountPosterior) -> Document:
-    """Everything a sweep found."""
+    """What is known of counts in doubt: evidence, the posterior of each count, and what decides the outputs.
+
+    Parameters
+    ----------
+    found : ToothCountPosterior
+        From `geartrain.uncertainty.infer_counts`.
+
+    Returns
+    -------
+    Document
+        Assumptions first; probabilities with their intervals of 95 % where they are estimates.
+
+    Examples
+    --------
+    Of five counts of a sun one gives the declared speeds:
+
+    >>> from geartrain.train.declaration_files import read_declaration
+    >>> from geartrain.uncertainty.posterior import infer_counts
+    >>> found = infer_counts(read_declaration("planetary-24-18-60"), free={"s": (22, 23, 24, 25, 26)})
+    >>> describe_posterior(found).lead[1]
+    '1 fit: a share of 0.2 of the weight they have before.'
+    """
     return Document(f"Counts in doubt of {found.name}", list(_lead(found)), list(_sections(found)))
 
 

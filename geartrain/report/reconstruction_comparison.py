@@ -13,7 +13,24 @@ from geartrain.report.document import Document, ExactText, Section, Table, exact
 def describe_comparison(trains: Sequence[GearTrain], everything: bool = False) -> Document:
     """The outputs of several trains in columns: speeds, errors against targets, and tooth counts that differ.
 
-    Only pointers (outputs with a dial or a target) are compared where there are any, unless `everything` is asked.
+    Parameters
+    ----------
+    trains : sequence of GearTrain
+        A column for each, and for each of its states.
+    everything : bool
+        All outputs; by default pointers alone (outputs with a dial or a target), where there are any.
+
+    Returns
+    -------
+    Document
+        Sections on outputs, errors [ppm, positive is fast] and wheels that differ.
+
+    Examples
+    --------
+    >>> import geartrain
+    >>> page = describe_comparison([geartrain.load("freeth-2008"), geartrain.load("price-1974")])
+    >>> page.sections[0].tables[0].rows[1]
+    ('moon', '254/19 = 13.36842', '-254/19 = -13.36842')
     """
     columns = [(_label(train, answer), train, answer) for train in trains for answer in train.answers()]
     names = _names([answer for _, _, answer in columns], everything)

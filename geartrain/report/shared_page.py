@@ -26,7 +26,29 @@ def describe_shared_page(
 ) -> Document:
     """The report on a train with all that a page has room for; sources stand at its end instead of its lead.
 
-    `viewer` is a whole HTML page, embedded as it is; `notes` are remarks on the page, below the lead.
+    Parameters
+    ----------
+    found : TrainReport
+        From `collect_report`.
+    pictures : sequence of Picture
+        Shown before the sections.
+    viewer : str
+        A whole HTML page in which the train turns, embedded as it is; "" for none.
+    notes : sequence of str
+        Remarks on the page, below the lead.
+
+    Returns
+    -------
+    Document
+        The document of `describe_train` with its `aside` filled, for `to_html`.
+
+    Examples
+    --------
+    >>> import geartrain
+    >>> from geartrain.report import collect_report
+    >>> page = describe_shared_page(collect_report(geartrain.load("worm")), notes=["Not to scale."])
+    >>> page.aside.badge, page.aside.notes
+    ('determined', ('Not to scale.',))
     """
     document, declared = describe_train(found), found.train.declaration
     cited = {source_line(key, source) for key, source in declared.sources.items()}

@@ -15,7 +15,26 @@ if TYPE_CHECKING:
 
 
 def to_markdown(documents: Sequence[Document]) -> str:
-    """The documents as Markdown."""
+    """Documents as Markdown, one after the other.
+
+    Parameters
+    ----------
+    documents : sequence of Document
+        What is shown; pictures and other extras of pages are left out.
+
+    Returns
+    -------
+    str
+        CommonMark with tables in pipes. What a user wrote is text in it: no HTML, no further cells.
+
+    Examples
+    --------
+    >>> import geartrain
+    >>> from geartrain.report import collect_report, describe_train
+    >>> report = collect_report(geartrain.load("planetary-24-18-60"))
+    >>> [line for line in to_markdown([describe_train(report)]).splitlines() if line.startswith("| carrier | 2/7")]
+    ['| carrier | 2/7   | 0.28571429  | 1 : 3.5        |']
+    """
     return "\n".join(line for document in documents for line in _markdown(document))
 
 

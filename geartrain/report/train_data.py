@@ -18,8 +18,8 @@ if TYPE_CHECKING:
     from geartrain.kinematics.speeds import Mobility
     from geartrain.kinematics.tooth_sensitivity import Sensitivity
     from geartrain.report.gear_pairs import DrivenPair, DrivenPin
-    from geartrain.report.motion_report import MotionFigures, UnfollowedMotion
-    from geartrain.report.power_report import TorqueFigures
+    from geartrain.report.motion_figures import MotionFigures, UnfollowedMotion
+    from geartrain.report.torque_figures import TorqueFigures
     from geartrain.train.states import Erratum
 
 _MOST_LINKS = 500  # of a train whose adjacency is told
@@ -80,15 +80,44 @@ class StateSensitivity:
 
 @dataclass(frozen=True)
 class TrainReport(TrainAnswers):
-    """All that a report on a train holds.
+    """All that a report on a train holds; `to_dict` gives its JSON, `describe_train` its page.
 
-    closure     whether the teeth of all loops meet; None where axes have no positions
-    sources     citations by key
-    adjacency   None for very large trains
-    teeth       pairs with real teeth, in every way in which they are driven
-    pins        couplings with dimensions
-    torques     of every state with loads, or friction of bearings
-    motion      of every state of a train with real teeth or pins; where it cannot be followed, the `error`
+    Attributes
+    ----------
+    train : GearTrain
+        What is reported on; not part of the data.
+    mobility : Mobility or None
+        Degrees of freedom by count and by rank.
+    states : tuple of Answer
+        Speeds, verdict and judged outputs of each state; a train without states has one, whose `state` is None.
+    gridlock : Gridlock
+        Links that are locked together, and the least meshes to remove.
+    closure : MeshPhasing or None
+        Whether the teeth of all loops meet; None where axes have no positions.
+    sources : mapping of str to str
+        Citations by key.
+    circuits : tuple of Circuit
+        The fundamental circuit of each gear pair and coupling.
+    adjacency : AdjacencyLetters or None
+        Which links are joined; None for very large trains.
+    remarks : tuple of Problem
+        Remarks on the declaration.
+    sensitivity : tuple of StateSensitivity
+        What one tooth more or less on a wheel in doubt does.
+    teeth : tuple of DrivenPair
+        Pairs with real teeth, in every way in which they are driven.
+    pins : tuple of DrivenPin
+        Couplings with dimensions.
+    torques : tuple of TorqueFigures
+        Of every state with loads, or friction of bearings.
+    motion : tuple of MotionFigures or UnfollowedMotion
+        Of every state of a train with real teeth or pins; where it cannot be followed, the `error`.
+    errata : tuple of Erratum
+        Errors of the sources, as declared.
+
+    See Also
+    --------
+    collect_report : Gives it.
     """
 
     KEYS = (
@@ -113,11 +142,36 @@ class TrainReport(TrainAnswers):
 
 
 def collect_report(train: GearTrain) -> TrainReport:
-    """Everything a report holds: answers, structure, teeth, torques, motion, doubts and errata."""
+    """Everything a report holds: answers, structure, teeth, torques, motion, doubts and errata.
+
+    Parameters
+    ----------
+    train : GearTrain
+        A train in all its states. What it does not declare, such as teeth or loads, is not worked out.
+
+    Returns
+    -------
+    TrainReport
+        Its `to_dict` is the answer of `geartrain report --json`.
+
+    Raises
+    ------
+    GearTrainError
+        If teeth are declared that cannot be made.
+
+    Examples
+    --------
+    The carrier of a planetary set whose ring is held turns 24/(24 + 60) as fast as its sun (docs/theory.md, 4):
+
+    >>> import geartrain
+    >>> report = collect_report(geartrain.load("planetary-24-18-60"))
+    >>> report.to_dict()["states"][0]["speeds"]["carrier"]["exact"]
+    '2/7'
+    """
     from geartrain.kinematics.graph import adjacency_labels
     from geartrain.report.gear_pairs import driven_pairs, driven_pins
-    from geartrain.report.motion_report import collect_motions
-    from geartrain.report.power_report import collect_torques
+    from geartrain.report.motion_figures import collect_motions
+    from geartrain.report.torque_figures import collect_torques
 
     declared, small = train.declaration, len(train.declaration.links) <= _MOST_LINKS
     answers = tuple(train.answers())

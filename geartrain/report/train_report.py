@@ -15,7 +15,7 @@ from geartrain.report.answers import answer_sections, doubtful_wheels, expectati
 from geartrain.report.document import MOST_ROWS, Document, ExactText, Section, Table, cut, filled_table
 from geartrain.report.gear_pairs import teeth_sections
 from geartrain.report.motion_report import moving_sections
-from geartrain.report.power_report import loaded_sections
+from geartrain.report.torque_report import loaded_sections
 from geartrain.report.train_data import TrainReport
 from geartrain.train import Source, Train, Wheel
 
@@ -23,7 +23,26 @@ _CIRCUITS_ABREAST = 6
 
 
 def describe_train(found: TrainReport) -> Document:
-    """Structure, circuits, mobility, speeds, outputs, doubts and errata of one train."""
+    """The report on one train: structure, circuits, mobility, speeds, outputs, torques, motion, doubts and errata.
+
+    Parameters
+    ----------
+    found : TrainReport
+        From `collect_report`.
+
+    Returns
+    -------
+    Document
+        Sections in this order; those on which the train declares nothing are left out.
+
+    Examples
+    --------
+    >>> import geartrain
+    >>> from geartrain.report import collect_report
+    >>> page = describe_train(collect_report(geartrain.load("planetary-24-18-60")))
+    >>> [section.title for section in page.sections]
+    ['Structure', 'Adjacency matrix', 'Fundamental circuits', 'Mobility', 'Speeds', 'Outputs']
+    """
     train, answers = found.train, found.states
     declared = train.declaration
     sections = [*_structure(train), _circuits(train), _mobility(train)]

@@ -60,7 +60,7 @@ def test_solve_brings_the_rooms_that_solve_and_no_other_verb(more: tuple[str, ..
 
 def test_a_verb_brings_no_page_but_its_own() -> None:
     pages = {name for name in loaded("torques", "norton-planetary") if name.startswith("geartrain.report.")}
-    assert "geartrain.report.power_report" in pages
+    assert "geartrain.report.torque_report" in pages
     assert not pages & {f"geartrain.report.{other}" for other in ("spherical_report", "tooth_numbers", "motion_report")}
 
 

@@ -25,13 +25,9 @@ from geartrain.dynamics.torques.load_case import input_and_output
 from geartrain.dynamics.torques.power_flow import watts_per_unit
 from geartrain.numerics.decimal_text import percent_of_text, percent_text, watts_text
 from geartrain.report.document import Document
-from geartrain.report.power_report import (
-    collect_torque_report,
-    collect_torques,
-    describe_torques,
-    torque_sections,
-)
 from geartrain.report.text import to_markdown
+from geartrain.report.torque_figures import collect_torque_report, collect_torques
+from geartrain.report.torque_report import describe_torques, torque_sections
 
 RING = """
 extends: planetary-24-18-60

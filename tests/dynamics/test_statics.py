@@ -21,8 +21,9 @@ from strategies import Data, trains
 
 from geartrain import GearTrain, load
 from geartrain.dynamics import Torques
-from geartrain.report.power_report import collect_torque_report, collect_torques, describe_torques
 from geartrain.report.text import to_markdown
+from geartrain.report.torque_figures import collect_torque_report, collect_torques
+from geartrain.report.torque_report import describe_torques
 from geartrain.report.train_data import collect_report
 from geartrain.report.train_report import describe_train
 

@@ -20,8 +20,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from geartrain import load
-from geartrain.report.power_report import collect_torque_report, collect_torques, describe_torques
 from geartrain.report.text import to_markdown
+from geartrain.report.torque_figures import collect_torque_report, collect_torques
+from geartrain.report.torque_report import describe_torques
 from geartrain.report.train_data import collect_report
 from geartrain.report.train_report import describe_train
 from geartrain.teeth.pin_transmission import PinToSlotTransmission, SlotToPinTransmission

@@ -26,9 +26,9 @@ from rich.console import Console
 from geartrain import load
 from geartrain.cli.common import as_json
 from geartrain.report.html_page import to_html
-from geartrain.report.power_report import collect_torque_report
 from geartrain.report.reconstruction_comparison import describe_comparison
 from geartrain.report.text import to_markdown, to_terminal
+from geartrain.report.torque_figures import collect_torque_report
 from geartrain.report.train_data import collect_report
 from geartrain.report.train_report import describe_train
 

@@ -1,21 +1,18 @@
-"""Torques, flow of power and losses of a train: as sections, and as figures for JSON."""
+"""Torques, flow of power and losses of a train, as a page."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from fractions import Fraction
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
-from geartrain.analysis.gear_train import GearTrain
 from geartrain.numerics.decimal_text import percent_of_text, percent_text, watts_text
-from geartrain.numerics.exact import as_float
-from geartrain.numerics.plain_data import Key, Result
 from geartrain.report.document import Document, Section, Table, cut, figure
+from geartrain.report.torque_figures import DrivenWays, TorqueFigures, TorqueReport
 
 if TYPE_CHECKING:
-    from geartrain.dynamics import PowerFlow, PowerLoss, Torques, TorqueVerdict
-    from geartrain.dynamics.torques.torque_results import DrivenWay
+    from geartrain.dynamics import PowerFlow, Torques
 
 _UNITS = (
     "Torques as loads are given; power is torque times speed in the train's unit, positive into the train; in a pair, "
@@ -28,7 +25,29 @@ _UNITS_IN_WATTS = (
 
 
 def describe_torques(found: TorqueReport) -> Document:
-    """Torques under the declared loads, one answer a state, and the efficiency there and back."""
+    """Torques under the declared loads, state by state: verdict, efficiency both ways, links, pairs, flow and losses.
+
+    Parameters
+    ----------
+    found : TorqueReport
+        From `collect_torque_report`.
+
+    Returns
+    -------
+    Document
+        Torques in the unit of the loads; powers in watts where loads and speeds have units.
+
+    Examples
+    --------
+    >>> import geartrain
+    >>> from geartrain.report import collect_torque_report
+    >>> train = geartrain.GearTrain.declare({"links": {"frame": {}, "a": {"wheels": {"p": 20}},
+    ...     "b": {"wheels": {"w": 40}}}, "gears": [{"pair": ["p", "w"]}], "inputs": {"a": 1}, "loads": {"b": 3},
+    ...     "revolutes": [{"pair": ["frame", "a"], "axis": "A"}, {"pair": ["frame", "b"], "axis": "B"}]})
+    >>> page = describe_torques(collect_torque_report(train, [train.torques()]))
+    >>> page.sections[0].tables[0].rows[1]
+    ('a (asked)', '1.5', '1', '1.5')
+    """
     sections = [section for each in found.states for section in torque_sections(each)]
     lead = [f"Train '{found.name}'. {_units(found.states)}"]
     return Document(f"Torques of {found.name}", lead, sections)
@@ -195,109 +214,3 @@ def _there_and_back(drives: DrivenWays | None) -> Iterator[str]:
         elif efficiency is not None:
             word = " (ambiguous)" if torques.verdict.kind == "ambiguous" else ""
             yield f"Efficiency from '{first}' to '{last}': {figure(efficiency, 10)}{word}{uncounted_words(torques)}."
-
-
-# ---------------------------------------------------------------------------------------------------------- plain data
-
-
-class Impact(NamedTuple):
-    """Power (W) that the collisions of a pair dissipate."""
-
-    impact: float
-
-
-@dataclass(frozen=True)
-class LossFigures:
-    """What a pair or bearing loses; of a pair whose collisions are known, their `impact`."""
-
-    KEYS = (Key("", "loss"), Key("", "collisions"))
-
-    loss: PowerLoss
-    collisions: Impact | None
-
-
-@dataclass(frozen=True)
-class DrivenFigures:
-    """The efficiency of a train driven one way; None where it is not determined."""
-
-    KEYS = (
-        *("verdict", Key("efficiency", to=as_float), Key("exact", "efficiency")),
-        Key("left_out", "way.torques.left_out"),
-    )
-
-    way: DrivenWay
-
-    @property
-    def verdict(self) -> TorqueVerdict:
-        """Whether the train can be driven so."""
-        return self.way.torques.verdict
-
-    @property
-    def efficiency(self) -> Fraction | None:
-        """Power out over power in; None where it is not determined."""
-        return self.way.torques.efficiency if self.verdict else None
-
-
-class DrivenWays(NamedTuple):
-    """Driven from the input, and from the output."""
-
-    forward: DrivenFigures
-    backward: DrivenFigures
-
-
-@dataclass(frozen=True)
-class TorqueFigures(Result):
-    """Torques, flow of power and losses of one state.
-
-    drives             None where it is not plain which link is the output
-    watts_per_unit     None where torques or speeds are plain numbers
-    in_newton_metres   whether torques have a unit
-    blows              what the collisions of each pair dissipate (W), where inertias and a rate are declared
-    """
-
-    KEYS = (Key("", "torques"), "drives", "watts_per_unit", "losses", "flow")
-
-    torques: Torques
-    drives: DrivenWays | None
-    watts_per_unit: float | None
-    in_newton_metres: bool
-    flow: PowerFlow
-    blows: Mapping[str, float]
-
-    @property
-    def losses(self) -> tuple[LossFigures, ...]:
-        """What each pair and bearing loses."""
-        struck = {name: Impact(power) for name, power in self.blows.items()}
-        return tuple(
-            LossFigures(loss, struck.get(loss.node.name) if loss.node.kind == "pair" else None)
-            for loss in self.flow.shares
-        )
-
-
-@dataclass(frozen=True)
-class TorqueReport(Result):
-    """Torques of a train in every state that was asked for."""
-
-    name: str
-    title: str
-    states: tuple[TorqueFigures, ...]
-
-
-def collect_torque_report(train: GearTrain, found: Sequence[Torques]) -> TorqueReport:
-    """Torques of some states."""
-    return TorqueReport(train.name, train.declaration.title, tuple(collect_torques(train, each) for each in found))
-
-
-def collect_torques(train: GearTrain, found: Torques) -> TorqueFigures:
-    """Torques of one state, with the flow of power and the efficiency there and back."""
-    from geartrain.dynamics.torques.power_flow import has_torque_units, watts_per_unit
-
-    declared, state, ways = train.declaration, found.state, train.drive_both_ways(found.state)
-    return TorqueFigures(
-        found,
-        DrivenWays(*map(DrivenFigures, ways)) if ways else None,
-        watts_per_unit(declared, declared.case(state)),
-        has_torque_units(declared, state),
-        train.power_flow(found),
-        {pair: impact.power for pair, impact in train.impacts(state).items()},
-    )

@@ -12,7 +12,20 @@ from typing import Any
 import pytest
 from pydantic import BaseModel
 
-SHOWING = ["analysis", "dynamics", "errors", "export", "kinematics", "numerics", "report", "scene", "spherical", "synthesis", "train", "viewer"]
+SHOWING = [
+    "analysis",
+    "dynamics",
+    "errors",
+    "export",
+    "kinematics",
+    "numerics",
+    "report",
+    "scene",
+    "spherical",
+    "synthesis",
+    "train",
+    "viewer",
+]
 """Rooms whose `__all__` is complete. The shell shows commands, which `--help` and docs/commands.md describe."""
 
 

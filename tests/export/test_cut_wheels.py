@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from functools import cache
+from functools import cache, cached_property
 from itertools import pairwise
 from math import cos, degrees, hypot, pi, sin, tau
 from pathlib import Path
@@ -32,7 +32,9 @@ FEELER = 1e-12  # mm2: an overlap by which a touch is felt
 CHORDS = 2.5e-3  # modules: what the chords of two flanks add to their play
 
 
+@cache
 def workpiece(name: str, **making: float) -> SolidModel:
+    """A shipped train in some sizes, made once for all tests that ask for the same."""
     train = shipped.train(name)
     return SolidModel(train, ManufacturingSizes(**making), train.states[0] if train.states else None)
 
@@ -63,6 +65,11 @@ def material(blank: Any) -> Any:
     return whole
 
 
+def lines(blank: Any) -> tuple[bytes, ...]:
+    """All that `material` is made from."""
+    return (blank.kind.encode(), *(part.tobytes() for each in blank.contours for part in (each.points, each.bulges)))
+
+
 class Meshed:
     """The two wheels of a pair on their axles, the second, or the ring, to the right; turned as the pair's law has it.
 
@@ -89,8 +96,14 @@ class Meshed:
         self.distance = float(np.linalg.norm(apart - (apart @ along) * along))
         self.tip = one.tip_radius
         self.reach = self.distance - other.tip_radius
-        self.first, self.second = material(one), material(other)
-        self.key = (self.first.wkb, self.second.wkb, round(self.distance, 9))
+        self.blanks = one, other
+        self.key = (lines(one), lines(other), round(self.distance, 9))
+
+    @cached_property
+    def shapes(self) -> tuple[Any, Any]:
+        """Both wheels as polygons, made for pairs that are turned."""
+        one, other = self.blanks
+        return material(one), material(other)
 
     def overlap(self, t: float, lag: float = 0.0, back: bool = False) -> float:
         """Common area when the first wheel is t on, the second `lag` (rad) ahead of the middle of its play."""
@@ -101,9 +114,10 @@ class Meshed:
             turn = pi / self.z2 + t * self.z1 / self.z2 + lag
         else:
             turn = pi + pi / self.z2 - t * self.z1 / self.z2 - lag
-        own = rotate(self.first, t, (0, 0), use_radians=True)
+        first, second = self.shapes
+        own = rotate(first, t, (0, 0), use_radians=True)
         away = -self.distance if self.ring else self.distance
-        other = translate(rotate(self.second, turn, (0, 0), use_radians=True), away, 0)
+        other = translate(rotate(second, turn, (0, 0), use_radians=True), away, 0)
         if not self.ring:  # where the tip circles overlap, for speed
             high = self.tip * (1 - min(self.reach / self.tip, 1.0) ** 2) ** 0.5 + self.module
             zone = (self.reach - self.module, -high, self.tip + self.module, high)
@@ -253,7 +267,7 @@ def test_a_planet_is_cut_for_its_ring_too() -> None:
     assert max(meshed.overlap(t) for t in meshed.positions(60)) <= NOTHING
 
 
-@pytest.mark.parametrize("play", [0.0, 0.02, 0.1])
+@pytest.mark.parametrize("play", [0.0, 0.02, 0.08])
 @pytest.mark.parametrize(
     "name", ["planetary-24-18-60", "planetary-24-18-60-involute", "longcase-clock-cycloidal", "longcase-clock"]
 )

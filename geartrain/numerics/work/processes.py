@@ -65,7 +65,9 @@ class ProcessPool(WorkerPool):
         if self._pool is None:
             self._pool = ProcessPoolExecutor(self._workers, self._context, _begin, (self._leash,))
         with _deaf():
-            return self._pool.submit(fn, *args, **kwargs)
+            theirs = self._pool.submit(fn, *args, **kwargs)
+        _bear_cancellation(theirs)
+        return theirs
 
     def _abandon(self) -> None:
         """The pool is broken and goes. Its futures fail here: one that was handed over just then would stay open."""
@@ -91,6 +93,21 @@ class ProcessPool(WorkerPool):
         if self._open:
             self._hand.close()
         self.shutdown(cancel_futures=True)
+
+
+def _bear_cancellation(future: Future[Any]) -> None:
+    """Let a future that was cancelled fail in silence.
+
+    When workers end just after a future was cancelled, the thread of the pool still has it on its list of those that
+    fail; before Python 3.12 it dies of that one with a traceback, and leaves the others open.
+    """
+    fail = future.set_exception
+
+    def set_exception(error: BaseException | None) -> None:
+        with suppress(InvalidStateError):
+            fail(error)
+
+    future.set_exception = set_exception  # type: ignore[method-assign, assignment]
 
 
 def _translate(error: BaseException) -> BaseException:

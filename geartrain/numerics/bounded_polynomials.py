@@ -24,6 +24,9 @@ from geartrain.numerics.rounding_bounds import SLACK, UNIT_ROUNDOFF, quotient_er
 Monomial = tuple[tuple[int, int], ...]
 """A product of powers of variables: (variable, power) pairs, variables ascending, powers of either sign, never 0."""
 
+WholeTerm = tuple[int, tuple[int, ...]]
+"""A whole coefficient, and exponents parallel to the variables."""
+
 Product = Callable[[Monomial], Floats]
 """The values of a monomial at all points, arrays that broadcast."""
 
@@ -128,6 +131,17 @@ class BoundedQuotient:
 
     upper: BoundedPolynomial
     lower: BoundedPolynomial | None
+
+    @classmethod
+    def of(cls, upper: Sequence[WholeTerm], lower: Sequence[WholeTerm], roundings: Sequence[int]) -> BoundedQuotient:
+        """A quotient of two sums of whole coefficients with exponents parallel to the variables.
+
+        roundings   already in each variable
+        """
+        # over the largest coefficient, which may itself be beyond the range of float64
+        scale = max((abs(coefficient) for coefficient, _ in (*upper, *lower)), default=1)
+        above, below = ([(c, monomial_of(exponents)) for c, exponents in side] for side in (upper, lower))
+        return cls(BoundedPolynomial.of(above, scale, roundings), BoundedPolynomial.of(below, scale, roundings))
 
     @property
     def relative(self) -> float | None:

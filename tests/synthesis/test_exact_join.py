@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import product
@@ -21,11 +21,7 @@ import geartrain.synthesis.join.product_lists as items
 from geartrain.synthesis.constraints.count_conditions import Condition, CountConstraint, CountEquation
 from geartrain.synthesis.join.exact_join import ExactJoin
 from geartrain.synthesis.join.join_plan import JoinProblem, find_join_problem
-from geartrain.synthesis.join.partial_assignments import PartialAssignments
-from geartrain.synthesis.join.polynomial_constraints import PolynomialConstraint, possible
-from geartrain.synthesis.join.polynomial_signs import SignPolynomial
 from geartrain.synthesis.join.product_lists import Item, ItemRecipe, forecast
-from geartrain.synthesis.join.solution_windows import PolynomialInequality
 from geartrain.synthesis.join.wheel_monomials import IntervalConstraint, find_wheel_monomials
 from geartrain.synthesis.train.best_assignments import AssignmentOrder, BestAssignments
 from geartrain.synthesis.train.pass_tasks import PassWork, do_task, merged
@@ -41,7 +37,7 @@ class Quotient:
     numerator: Terms
     denominator: Terms
 
-    def at(self, teeth: dict[str, int]) -> Fraction | None:
+    def value(self, teeth: Mapping[str, int], /) -> Fraction | None:
         above, below = (
             value(terms, [teeth[wheel] for wheel in self.wheels]) for terms in (self.numerator, self.denominator)
         )
@@ -97,107 +93,6 @@ def test_long_lists_are_made_in_blocks_and_forecast_within_a_factor_of_three(mon
     assert 1 / 3 < guessed / len(whole.times) < 3
 
 
-# ---------------------------------------------------------------------------------------------------------------- signs
-
-coefficients = st.one_of(st.integers(-50, 50), st.integers(-(10**40), 10**40)).filter(bool)
-
-
-@st.composite
-def polynomials(draw: st.DrawFn, width: int) -> SignPolynomial:
-    powers = st.tuples(*[st.integers(0, 2)] * width)
-    terms = draw(st.lists(st.tuples(coefficients, powers), min_size=1, max_size=4))
-    return SignPolynomial.of(
-        (coefficient, tuple((at, power) for at, power in enumerate(some) if power)) for coefficient, some in terms
-    )
-
-
-def exact(polynomial: SignPolynomial, point: Sequence[Fraction]) -> Fraction:
-    return sum(
-        (
-            coefficient * prod((point[at] ** power for at, power in monomial), start=Fraction(1))
-            for coefficient, monomial in polynomial.terms
-        ),
-        Fraction(0),
-    )
-
-
-def some_items(kinds: Sequence[tuple[list[int], list[int]]]) -> list[Item]:
-    """Items of one wheel above and one below."""
-    domains = {
-        f"{side}{at}": tuple(sorted(set(counts)))
-        for at, kind in enumerate(kinds)
-        for side, counts in zip("tb", kind, strict=True)
-    }
-    return [Item(ItemRecipe(((f"t{at}", 1),), ((f"b{at}", 1),)), domains, {}, np.int64) for at in range(len(kinds))]
-
-
-def points(rows: PartialAssignments) -> list[list[Fraction]]:
-    columns = []
-    for item in sorted(rows.columns):
-        bottom = rows.bottom(item)
-        bottoms = [1] * rows.size if bottom is None else bottom.tolist()
-        columns.append([Fraction(top, below) for top, below in zip(rows.top(item).tolist(), bottoms, strict=True)])
-    return [list(point) for point in zip(*columns, strict=True)]
-
-
-def all_rows(made: list[Item], count: int) -> PartialAssignments:
-    grid = np.meshgrid(*(np.arange(len(item)) for item in made[:count]), indexing="ij")
-    return PartialAssignments(made, {at: column.ravel() for at, column in enumerate(grid)}, grid[0].size if grid else 1)
-
-
-counts = st.lists(st.one_of(st.integers(1, 12), st.integers(10**8, 10**9)), min_size=1, max_size=4)
-kinds = st.lists(st.tuples(counts, counts), min_size=2, max_size=2)
-
-
-@settings(deadline=None)
-@given(kinds, polynomials(2), st.data())
-def test_signs_are_exact_however_large_the_numbers(
-    chosen: list[tuple[list[int], list[int]]], polynomial: SignPolynomial, data: st.DataObject
-) -> None:
-    rows = all_rows(some_items(chosen), 2)
-    at = data.draw(st.integers(0, rows.size - 1))
-    root = exact(polynomial, points(rows)[at])
-    # the polynomial less its value at one point: 0 there, and near 0 where floats cannot tell
-    for tried in (polynomial, polynomial.plus(SignPolynomial.of([(1, ())]), -root)):
-        truth = [exact(tried, point) for point in points(rows)]
-        assert tried.signs(rows).tolist() == [(number > 0) - (number < 0) for number in truth]
-
-
-@settings(deadline=None)
-@given(kinds, st.lists(st.tuples(polynomials(2), st.sampled_from([1, -1]), st.booleans()), min_size=1, max_size=3))
-def test_windows_leave_nothing_out_and_are_sure_of_nothing_wrong(
-    chosen: list[tuple[list[int], list[int]]], halves: list[tuple[SignPolynomial, int, bool]]
-) -> None:
-    made = some_items(chosen)
-    case = tuple(PolynomialInequality(*half) for half in halves)
-    band = PolynomialConstraint("band", (case,))
-    open_item, rows = made[1], all_rows(made, 1)
-    everything = all_rows(made, 2)
-    truth = [
-        all(
-            (exact(half.polynomial, point) * half.sense > 0) or (not half.strict and not exact(half.polynomial, point))
-            for half in case
-        )
-        for point in points(everything)
-    ]
-    assert band.holds(everything).tolist() == truth
-    hopeful = possible(band.reaches({1: (float(open_item.x[0]), float(open_item.x[-1]))}), rows)
-    for row in range(rows.size):
-        own = truth[row * len(open_item) : (row + 1) * len(open_item)]
-        assert hopeful[row] or not any(own)
-    if not band.opens(1):
-        return
-    (window,) = band.windows(rows, 1)
-    window = window.clipped(0, len(open_item))
-    fringe = set(zip(*(column.tolist() for column in band.fringe(0, rows, 1, window)), strict=True))
-    for row in range(rows.size):
-        own = truth[row * len(open_item) : (row + 1) * len(open_item)]
-        sure = range(window.sure_start[row], window.sure_end[row])
-        assert all(own[at] for at in sure)
-        assert {at for at, good in enumerate(own) if good} == {*sure, *(at for other, at in fringe if other == row)}
-        assert all(window.start[row] <= at < window.end[row] for at, good in enumerate(own) if good)
-
-
 # ---------------------------------------------------------------------------------------------------------------- joins
 
 
@@ -225,7 +120,7 @@ def joins(draw: st.DrawFn) -> tuple[dict[str, tuple[int, ...]], list[IntervalCon
         if not any(any(powers) for _, powers in (*function.numerator, *function.denominator)):
             continue
         teeth = {wheel: draw(st.sampled_from(domains[wheel])) for wheel in wheels}
-        middle = function.at(teeth) or Fraction(draw(st.integers(-3, 3)))
+        middle = function.value(teeth) or Fraction(draw(st.integers(-3, 3)))
         width = draw(st.sampled_from([Fraction(0), abs(middle) / 10, Fraction(1)]))
         low, high = middle - width, middle + width
         intervals = draw(
@@ -273,7 +168,7 @@ def solutions(
 
 
 def fits(asked: IntervalConstraint, teeth: dict[str, int]) -> bool:
-    speed = asked.function.at(teeth)
+    speed = asked.function.value(teeth)
     if speed is None:
         return False
     if asked.strict:
@@ -318,6 +213,47 @@ def test_a_join_of_any_functions_and_rules_finds_what_loops_find(
     assert count == len(truth)
     assert sum(removed) + count == made.total
     assert sorted(made.order) == list(range(len(made.reasons)))
+
+
+sizes = st.one_of(st.integers(1, 12), st.integers(10**8, 10**9))
+coefficients = st.one_of(st.integers(-50, 50), st.integers(-(10**40), 10**40)).filter(bool)
+
+
+@st.composite
+def long_joins(draw: st.DrawFn) -> tuple[dict[str, tuple[int, ...]], list[IntervalConstraint]]:
+    """Polynomials whose terms cancel at one assignment, up to what floats cannot see, or nothing."""
+    names = "abc"[: draw(st.integers(1, 3))]
+    domains = {name: tuple(sorted(draw(st.sets(sizes, min_size=1, max_size=4)))) for name in names}
+    powers = st.tuples(*[st.integers(0, 2)] * len(names))
+    asked = []
+    for number in range(draw(st.integers(1, 2))):
+        terms = draw(st.lists(st.tuples(coefficients, powers), min_size=1, max_size=4).map(merge).filter(bool))
+        whole = Quotient(tuple(names), terms, ((1, (0,) * len(names)),))
+        teeth = {name: draw(st.sampled_from(counts)) for name, counts in domains.items()}
+        root = whole.value(teeth) or Fraction(0)
+        low, high = root - draw(st.integers(0, 1)), root + draw(st.integers(0, 1))
+        intervals = draw(
+            st.sampled_from([((low, high),), ((None, low),), ((high, None),), ((None, low), (high, None))])
+        )
+        if low == high:
+            intervals = intervals[:1]
+        function = used(whole)
+        if function.wheels:
+            asked.append(IntervalConstraint(f"demand {number}", function, intervals, draw(st.booleans())))
+    return domains, asked
+
+
+@settings(deadline=None, max_examples=150)
+@given(long_joins(), st.sampled_from([1.0, 1e-6]))
+def test_joins_are_exact_however_large_the_numbers_and_near_the_ends(
+    question: tuple[dict[str, tuple[int, ...]], list[IntervalConstraint]], guess: float
+) -> None:
+    domains, asked = question
+    truth = solutions(domains, asked, [])
+    count, found, removed = answered(find_join_problem(domains, asked, [], {one.name: guess for one in asked}))
+    assert found == truth
+    assert count == len(truth)
+    assert sum(removed) + count == prod(map(len, domains.values()))
 
 
 def test_numbers_of_assignments_beyond_a_machine_word_are_exact() -> None:

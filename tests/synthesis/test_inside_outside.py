@@ -111,7 +111,7 @@ def test_grades_multiply_weights_and_order_what_fits(case: Asked, wanted: list[F
 
     def misfit(row: tuple[int, ...]) -> float:
         teeth = dict(zip(domains, row, strict=True))
-        speeds = [one.function.at(teeth) for one in asked if isinstance(one.function, Quotient)]
+        speeds = [one.function.value(teeth) for one in asked if isinstance(one.function, Quotient)]
         return sum((float(speed or 0) - end) ** 2 for speed, end in zip(speeds, ends, strict=False))
 
     ones = {wheel: np.ones(len(counts)) for wheel, counts in domains.items()}

@@ -152,26 +152,15 @@ class Formula:
         """Values and bounds on their absolute errors."""
         import numpy as np
 
-        from geartrain.numerics.bounded_polynomials import (
-            BoundedPolynomial,
-            BoundedQuotient,
-            in_range,
-            monomial_of,
-            products_of,
-        )
+        from geartrain.numerics.bounded_polynomials import BoundedQuotient, in_range, products_of
 
-        terms = (self.upper, self.lower)
-        scale = max((abs(term.coefficient) for side in terms for term in side), default=1)
-        rounded = [group.roundings for group in self.groups]
-        upper, lower = (
-            BoundedPolynomial.of([(c, monomial_of(exponents)) for c, exponents in side], scale, rounded)
-            for side in terms
-        )
-        product = products_of([group.monomials(columns) for group in self.groups])
+        quotient = BoundedQuotient.of(self.upper, self.lower, [group.roundings for group in self.groups])
         with np.errstate(all="ignore"):
-            value, error = BoundedQuotient(upper, lower).bounded(product)
+            value, error = quotient.bounded(products_of([group.monomials(columns) for group in self.groups]))
+        terms = (*self.numerator, *self.denominator)
+        scale = max(abs(term.coefficient) for term in terms)
         largest = [log10(Fraction(int(np.max(columns[wheel], initial=1)))) for wheel in self.wheels]
-        scaled = ((Fraction(c, scale), exponents) for c, exponents in (*self.numerator, *self.denominator))
+        scaled = ((Fraction(c, scale), exponents) for c, exponents in terms)
         return value, error if in_range(scaled, largest) else np.full_like(error, np.inf)
 
 

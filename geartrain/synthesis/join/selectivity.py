@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from math import inf, isinf, log, prod
 
 import numpy as np
 
+from geartrain.numerics.bounded_polynomials import BoundedQuotient, products_of
 from geartrain.numerics.exact import as_float
 from geartrain.synthesis.constraints.count_conditions import CountConstraint, CountEquation
 from geartrain.synthesis.join.product_lists import Domains, Floats, Ints
-from geartrain.synthesis.join.wheel_monomials import Function, Interval, IntervalConstraint, WheelTerm
+from geartrain.synthesis.join.wheel_monomials import Function, Interval, IntervalConstraint
 
 _DRAWN = 4096
 _NEIGHBOURS = 40
@@ -49,19 +50,10 @@ class SelectivitySample:
 
     def speeds(self, function: Function) -> Floats:
         """Values of a function, those it has not left out."""
-        scale = max(abs(term[0]) for term in (*function.numerator, *function.denominator))
-        with np.errstate(all="ignore"):
-            values = self._sum(function, function.numerator, scale) / self._sum(function, function.denominator, scale)
+        quotient = BoundedQuotient.of(function.numerator, function.denominator, [1] * len(function.wheels))
+        values, _ = quotient(products_of([self.columns[wheel].astype(np.float64) for wheel in function.wheels]))
+        values = np.broadcast_to(values, _DRAWN)
         return np.asarray(values[np.isfinite(values)])
-
-    def _sum(self, function: Function, terms: Sequence[WheelTerm], scale: int) -> Floats:
-        total = np.zeros(_DRAWN)
-        for coefficient, powers in terms:
-            term = np.full(_DRAWN, coefficient / scale)
-            for wheel, power in zip(function.wheels, powers, strict=True):
-                term *= self.columns[wheel].astype(np.float64) ** power
-            total += term
-        return total
 
 
 def _rough(value: Fraction) -> float:

@@ -10,7 +10,7 @@ from itertools import product
 from typing import Protocol
 
 from geartrain.errors import Problem, RangeError
-from geartrain.numerics.bounded_polynomials import Monomial
+from geartrain.numerics.bounded_polynomials import Monomial, WholeTerm
 from geartrain.synthesis.formulas.monomial_groups import proportional_classes
 from geartrain.synthesis.join.partial_assignments import PartialAssignments
 from geartrain.synthesis.join.polynomial_constraints import PolynomialConstraint, possible
@@ -21,9 +21,6 @@ from geartrain.synthesis.join.solution_windows import PolynomialInequality
 Factors = tuple[tuple[str, int], ...]
 Interval = tuple[Fraction | None, Fraction | None]
 """Closed, least to greatest; None for an infinite end."""
-WheelTerm = tuple[int, tuple[int, ...]]
-"""A whole coefficient and powers (0 or more) in parallel to the function's wheels."""
-
 _MOST_VALUES = 10**7
 """Values of one item: half a gigabyte with all that belongs to them."""
 _MOST_QUOTIENTS = 1 << 22
@@ -33,19 +30,22 @@ _NOTHING = Fraction(1), Fraction(0)
 
 
 class Function(Protocol):
-    """A rational function of counts, as `formulas.find_formulas` gives it; see `functions.Formula`."""
+    """A rational function of counts, such as a `Formula`; powers (0 or more) are parallel to the wheels."""
 
     @property
     def wheels(self) -> tuple[str, ...]:
         """The wheels it depends on."""
 
     @property
-    def numerator(self) -> Sequence[WheelTerm]:
+    def numerator(self) -> Sequence[WholeTerm]:
         """Its terms above."""
 
     @property
-    def denominator(self) -> Sequence[WheelTerm]:
+    def denominator(self) -> Sequence[WholeTerm]:
         """Its terms below."""
+
+    def value(self, counts: Mapping[str, int], /) -> Fraction | None:
+        """Its exact value; None where the train is locked or free."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -181,7 +181,7 @@ def extent(recipe: ItemRecipe, domains: Domains) -> tuple[float, float]:
     return ends[0], ends[1]
 
 
-def _monomials(wheels: Sequence[str], terms: Sequence[WheelTerm], recipes: Sequence[ItemRecipe]) -> list[Monomial]:
+def _monomials(wheels: Sequence[str], terms: Sequence[WholeTerm], recipes: Sequence[ItemRecipe]) -> list[Monomial]:
     """The monomials in items of some terms, up to one common monomial."""
     rows: list[list[tuple[int, int]]] = [[] for _ in terms]
     for item, recipe in enumerate(recipes):

@@ -10,15 +10,14 @@ from typing import Any
 
 import numpy as np
 
-from geartrain.numerics.bounded_polynomials import BoundedPolynomial, BoundedQuotient, monomial_of, products_of
+from geartrain.numerics.bounded_polynomials import BoundedQuotient, WholeTerm, products_of
 from geartrain.numerics.exact import as_float
 from geartrain.numerics.integer_columns import distinct_quotients
 from geartrain.synthesis.join.exact_join import AssignmentColumns
 from geartrain.synthesis.join.polynomial_signs import ROUNDING
 from geartrain.synthesis.join.product_lists import Floats, Ints, Tallies
 from geartrain.synthesis.join.solution_windows import Bools
-from geartrain.synthesis.join.wheel_monomials import WheelTerm
-from geartrain.synthesis.train.output_requirements import OutputRequirement, value_of
+from geartrain.synthesis.train.output_requirements import OutputRequirement
 from geartrain.synthesis.train.train_findings import Assignment, By
 
 _POOL = 20_000
@@ -49,7 +48,7 @@ class AssignmentOrder:
         """What the outputs do with some counts; None where one has no speed."""
         outputs = {}
         for asking in self.askings:
-            speed = value_of(asking.function, teeth)
+            speed = asking.function.value(teeth)
             if speed is None:
                 return None
             outputs[asking.name] = asking.reached(speed)
@@ -96,13 +95,9 @@ class AssignmentOrder:
 def _errors(asking: OutputRequirement, columns: AssignmentColumns) -> tuple[Floats, Floats]:
     """Bounds on the largest |error| of one output."""
     function = asking.function
-    sides = [[(c, monomial_of(powers)) for c, powers in terms] for terms in (function.numerator, function.denominator)]
-    scale = max(abs(coefficient) for side in sides for coefficient, _ in side)
     # a count is rounded once at most, where it is beyond 2^53
-    rounded = [1] * len(function.wheels)
-    upper, lower = (BoundedPolynomial.of(side, scale, rounded) for side in sides)
-    product = products_of([columns[wheel].astype(np.float64) for wheel in function.wheels])
-    speed, off = BoundedQuotient(upper, lower).bounded(product)
+    quotient = BoundedQuotient.of(function.numerator, function.denominator, [1] * len(function.wheels))
+    speed, off = quotient.bounded(products_of([columns[wheel].astype(np.float64) for wheel in function.wheels]))
     size = len(next(iter(columns.values())))
     least, greatest = np.zeros(size), np.zeros(size)
     for demand in (demand for demand in asking.demands if demand.graded):
@@ -128,7 +123,7 @@ def _exact_errors(asking: OutputRequirement, columns: AssignmentColumns) -> tupl
     return [abs(asking.reached(speed).error) for speed in speeds], which
 
 
-def _whole(wheels: Sequence[str], terms: Sequence[WheelTerm], columns: AssignmentColumns) -> Tallies:
+def _whole(wheels: Sequence[str], terms: Sequence[WholeTerm], columns: AssignmentColumns) -> Tallies:
     """The sum of some terms, exact: int64 where it fits, Python integers otherwise."""
     most = {wheel: int(columns[wheel].max()) for wheel in wheels}
     bound = sum(

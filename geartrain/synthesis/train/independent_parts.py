@@ -19,7 +19,6 @@ from geartrain.synthesis.train.output_requirements import (
     OutputRequirement,
     find_output_requirements,
     find_turning_conditions,
-    value_of,
 )
 from geartrain.train import Teeth, Train
 
@@ -131,7 +130,7 @@ def find_requirements(
 
 def _idle(asking: OutputRequirement) -> Iterator[str]:
     """A remark on an output that no free wheel moves, if it is not as it should be."""
-    speed = value_of(asking.function, {})
+    speed = asking.function.value({})
     if speed is not None:
         reached = asking.reached(speed)
         if not reached.met:

@@ -11,7 +11,7 @@ from geartrain.kinematics.judged_outputs import RatioGoal, error_against, goal_o
 from geartrain.numerics.decimal_text import decimal
 from geartrain.numerics.quantity import Figure
 from geartrain.synthesis.formulas.output_formulas import Formulas
-from geartrain.synthesis.join.wheel_monomials import Function, Interval, IntervalConstraint, WheelTerm, is_within
+from geartrain.synthesis.join.wheel_monomials import Function, Interval, IntervalConstraint, is_within
 from geartrain.synthesis.train.train_findings import ReachedSpeed
 from geartrain.train import Output, Published, StateCase, Train
 
@@ -220,20 +220,3 @@ def _inverse(low: Fraction, high: Fraction, drive: Fraction) -> Iterator[Interva
         return
     rays = [drive / end for end in (low, high) if end]
     yield from ((None, ray) if ray < 0 else (ray, None) for ray in sorted(rays))
-
-
-def value_of(function: Function, teeth: Mapping[str, int]) -> Fraction | None:
-    """A function's exact value; None where the train is locked or free."""
-    point = [teeth[wheel] for wheel in function.wheels]
-    below = _sum(function.denominator, point)
-    return Fraction(_sum(function.numerator, point), below) if below else None
-
-
-def _sum(terms: Sequence[WheelTerm], point: Sequence[int]) -> int:
-    total = 0
-    for coefficient, powers in terms:
-        for count, power in zip(point, powers, strict=True):
-            if power:
-                coefficient *= count**power
-        total += coefficient
-    return total

@@ -7,9 +7,10 @@ from dataclasses import replace
 from fractions import Fraction
 from math import ceil, floor
 
+from geartrain.numerics.bounded_polynomials import WholeTerm
 from geartrain.numerics.decimal_text import decimal
 from geartrain.numerics.exact import log10
-from geartrain.synthesis.join.wheel_monomials import Interval, WheelTerm
+from geartrain.synthesis.join.wheel_monomials import Interval
 from geartrain.synthesis.search_outcome import Shortfall
 from geartrain.synthesis.train.output_requirements import OutputRequirement
 from geartrain.synthesis.train.search_passes import PartSearch, PassResult, size_of
@@ -68,7 +69,7 @@ def _against(interval: Interval, sense: int) -> bool:
     return near is not None and near * sense <= 0 and far != 0
 
 
-def _sense(terms: Sequence[WheelTerm]) -> int:
+def _sense(terms: Sequence[WholeTerm]) -> int:
     """1 or -1 where all terms have that sign, else 0."""
     signs = {term[0] > 0 for term in terms}
     return (1 if signs.pop() else -1) if len(signs) == 1 else 0

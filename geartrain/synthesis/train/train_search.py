@@ -16,7 +16,6 @@ from geartrain.synthesis.constraints.count_conditions import CountConstraint
 from geartrain.synthesis.search_outcome import Shortfall
 from geartrain.synthesis.train.best_assignments import AssignmentOrder
 from geartrain.synthesis.train.independent_parts import SearchPart, find_domains, find_parts, find_requirements
-from geartrain.synthesis.train.output_requirements import value_of
 from geartrain.synthesis.train.search_passes import NOT_BEGUN, PartSearch, PassResult, PassRunner
 from geartrain.synthesis.train.tolerance_expansion import solve
 from geartrain.synthesis.train.train_findings import ORDERS, Assignment, By, PartFindings, Standing, TrainFindings
@@ -199,7 +198,7 @@ def _refusals(part: SearchPart, teeth: Mapping[str, int], assignment: Assignment
     ]
     found += [rule.name for rule in part.rules if not rule.holds(columns).all()]
     for asked in part.conditions:
-        value = value_of(asked.function, teeth)
+        value = asked.function.value(teeth)
         if value is None or (value != 0) != asked.strict:
             found.append(asked.name)
     if assignment is None:

@@ -1,11 +1,14 @@
-"""Still pictures: a train as plan, stick diagram, graph, lever and dials.
+"""Still pictures: of a train, and of what was found out about it.
 
-And what it does: the law of a pair, its teeth in contact, tooth forms side by side, motion of outputs, flow of power,
-gears on a sphere; wheels cut by hand and counts in doubt: pointers that stray, maps of jams, sensitivities, likely
-counts, convergence.
+In: a train, or a result of another room. Out: a figure of matplotlib, which `render` writes as SVG, PNG or PDF; the
+same figure gives the same bytes. `picture` draws a train as plan to scale, stick diagram, graph, speed diagram or
+dials; the other functions draw one result each: a transmission function, teeth in contact, tooth forms side by side,
+the errors of pointers, the flow of power, gears on a sphere, trials of wheels cut by hand, counts in doubt. Nothing
+is worked out here but where things stand on the page: a speed diagram has its members at places that their teeth fix
+(docs/theory.md, equations 18 and 19), and bands of power are as wide as powers (docs/torques.md, 7).
 
-The figures need the `plot` extra: asking for one of these names without it raises `MissingExtraError`. Nothing here
-needs a display or touches the state of pyplot.
+The figures need the extra `plot`: a name that is asked for without it raises `MissingExtraError`. Nothing needs a
+display or touches the state of pyplot.
 """
 
 from __future__ import annotations
@@ -15,72 +18,47 @@ from typing import TYPE_CHECKING
 from geartrain.numerics.lazy_names import lazy_names
 
 if TYPE_CHECKING:
-    from geartrain.drawing.backend import render
-    from geartrain.drawing.corner_plot import CountProbabilities, corner_figure, counts_figure
-    from geartrain.drawing.form_comparison import shapes_figure
-    from geartrain.drawing.jam_map import jam_map_figure
-    from geartrain.drawing.monte_carlo_plots import ConvergenceTrace, convergence_figure, monte_carlo_figure
-    from geartrain.drawing.output_error_plots import motion_figure
-    from geartrain.drawing.pair_transmission import transmission_figure
-    from geartrain.drawing.parameter_sweep_plot import sweep_figure
-    from geartrain.drawing.pointer_error_plots import ErrorBands, histogram_figure, pointer_error_figure
-    from geartrain.drawing.power_sankey import power_figure
-    from geartrain.drawing.spherical_gears import sphere_figure
-    from geartrain.drawing.tooth_contact import teeth_figure
-    from geartrain.drawing.tornado_chart import VarianceShare, tornado_figure
-    from geartrain.drawing.train_pictures import KINDS, picture
-    from geartrain.drawing.transmission_curves import law_figure
-
-__all__ = [
-    "KINDS",
-    "ConvergenceTrace",
-    "CountProbabilities",
-    "ErrorBands",
-    "VarianceShare",
-    "convergence_figure",
-    "corner_figure",
-    "counts_figure",
-    "histogram_figure",
-    "jam_map_figure",
-    "law_figure",
-    "monte_carlo_figure",
-    "motion_figure",
-    "picture",
-    "pointer_error_figure",
-    "power_figure",
-    "render",
-    "shapes_figure",
-    "sphere_figure",
-    "sweep_figure",
-    "teeth_figure",
-    "tornado_figure",
-    "transmission_figure",
-]
+    from geartrain.drawing.backend import render as render
+    from geartrain.drawing.corner_plot import counts_figure as counts_figure
+    from geartrain.drawing.form_comparison import shapes_figure as shapes_figure
+    from geartrain.drawing.monte_carlo_plots import monte_carlo_figure as monte_carlo_figure
+    from geartrain.drawing.output_error_plots import motion_figure as motion_figure
+    from geartrain.drawing.pair_transmission import transmission_figure as transmission_figure
+    from geartrain.drawing.parameter_sweep_plot import sweep_figure as sweep_figure
+    from geartrain.drawing.power_sankey import power_figure as power_figure
+    from geartrain.drawing.spherical_gears import sphere_figure as sphere_figure
+    from geartrain.drawing.tooth_contact import teeth_figure as teeth_figure
+    from geartrain.drawing.train_pictures import picture as picture
+    from geartrain.drawing.transmission_curves import law_figure as law_figure
 
 _PLACES = {
-    "KINDS": "train_pictures",
-    "ErrorBands": "pointer_error_plots",
-    "CountProbabilities": "corner_plot",
-    "ConvergenceTrace": "monte_carlo_plots",
-    "VarianceShare": "tornado_chart",
-    "convergence_figure": "monte_carlo_plots",
-    "corner_figure": "corner_plot",
     "counts_figure": "corner_plot",
-    "monte_carlo_figure": "monte_carlo_plots",
-    "histogram_figure": "pointer_error_plots",
-    "jam_map_figure": "jam_map",
     "law_figure": "transmission_curves",
+    "monte_carlo_figure": "monte_carlo_plots",
     "motion_figure": "output_error_plots",
     "picture": "train_pictures",
     "power_figure": "power_sankey",
     "render": "backend",
     "shapes_figure": "form_comparison",
     "sphere_figure": "spherical_gears",
-    "pointer_error_figure": "pointer_error_plots",
     "sweep_figure": "parameter_sweep_plot",
     "teeth_figure": "tooth_contact",
-    "tornado_figure": "tornado_chart",
     "transmission_figure": "pair_transmission",
 }
+
+__all__ = [
+    "counts_figure",
+    "law_figure",
+    "monte_carlo_figure",
+    "motion_figure",
+    "picture",
+    "power_figure",
+    "render",
+    "shapes_figure",
+    "sphere_figure",
+    "sweep_figure",
+    "teeth_figure",
+    "transmission_figure",
+]
 
 __getattr__ = lazy_names(__name__, _PLACES)

@@ -58,9 +58,32 @@ _ONE_AT_A_TIME = Lock()  # the salt of SVG names can only be given for all figur
 
 
 def render(figure: Figure, suffix: str, dots: float = 100.0) -> bytes:
-    """The figure as a file of the format of `suffix` (.svg, .png or .pdf); `dots` per inch where it is of pixels.
+    """A figure as the bytes of an image file; the same figure gives the same bytes with one release of matplotlib.
 
-    The same figure gives the same bytes with one release of matplotlib. Raises `GearTrainError` for another suffix.
+    Parameters
+    ----------
+    figure : matplotlib.figure.Figure
+        From any function of this room.
+    suffix : {".svg", ".png", ".pdf"}
+        The format.
+    dots : float
+        Resolution of a .png [dots per inch], above 0.
+
+    Returns
+    -------
+    bytes
+        What the file holds; control characters in names are written out.
+
+    Raises
+    ------
+    GearTrainError
+        For another suffix.
+
+    Examples
+    --------
+    >>> from matplotlib.figure import Figure
+    >>> render(Figure(), ".png")[1:4], render(Figure(), ".pdf")[:4]
+    (b'PNG', b'%PDF')
     """
     kind = suffix.lower()
     if kind not in SUFFIXES:

@@ -176,11 +176,33 @@ Pairs = Mapping[tuple[str, str], Mapping[tuple[int, int], float]]
 
 
 def counts_figure(found: ToothCountPosterior, pairs: Pairs) -> Figure:
-    """Posteriors of some wheels, before and after, and of each two of them together.
+    """A corner plot of counts in doubt: the posterior of each wheel beside its prior, and of each two wheels together.
 
-    pairs   two wheels, in the order declared -> their counts -> probability
+    Parameters
+    ----------
+    found : ToothCountPosterior
+        What is known of the counts.
+    pairs : mapping
+        Two wheels, in the order declared -> their counts -> probability; from `joint_posterior`.
 
-    Raises `QuestionError` where nothing fits, and where no wheel or more than a page holds is to be drawn.
+    Returns
+    -------
+    matplotlib.figure.Figure
+        A panel for each wheel and each two.
+
+    Raises
+    ------
+    QuestionError
+        Where nothing fits, and where no wheel or more than a page holds is to be drawn.
+
+    Examples
+    --------
+    >>> from geartrain.train.declaration_files import read_declaration
+    >>> from geartrain.uncertainty.posterior import infer_counts
+    >>> found = infer_counts(read_declaration("planetary-24-18-60"), free={"s": (23, 24), "ring": (58, 60)})
+    >>> figure = counts_figure(found, {("s", "ring"): {(24, 60): 1.0}})
+    >>> figure.axes[-1].get_xlabel()
+    'ring'
     """
     wheels = list(dict.fromkeys(wheel for pair in pairs for wheel in pair))
     if not all(found[wheel].chances for wheel in wheels):

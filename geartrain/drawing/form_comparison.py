@@ -41,9 +41,29 @@ _STYLES: tuple[tuple[str, Dashes], ...] = (
 
 
 def shapes_figure(paths: Mapping[str, PathOfContact]) -> Figure:
-    """Flanks of both gears, path of contact, stress, heat, flash, sliding and loss of forms for one pair, by name.
+    """Tooth forms of one pair side by side: flanks, path of contact, stress, heat, flash, sliding and loss.
 
-    Raises `QuestionError` where there is none to draw.
+    Parameters
+    ----------
+    paths : mapping of str to PathOfContact
+        The path of contact of each form (docs/shapes.md, equation 1), by its name.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        Eight panels; lengths in modules, costs as in docs/shapes.md.
+
+    Raises
+    ------
+    QuestionError
+        Where there is none to draw.
+
+    Examples
+    --------
+    >>> import geartrain
+    >>> law = geartrain.load("planetary-24-18-60-involute").meshes[0].law
+    >>> len(shapes_figure({"involute": law.path}).axes)
+    8
     """
     if not paths:
         raise QuestionError(Problem("no form can be drawn", "none of them can run", "change the arcs or the teeth"))

@@ -101,16 +101,37 @@ PICTURES = ("errors", "course", "convergence", "sobol", "pairs", "map")
 
 
 def monte_carlo_figure(findings: MonteCarloResult, picture: str = "errors") -> Figure:
-    """One picture of what trials told.
+    """One picture of what trials of wheels cut by hand told.
 
-    errors        how often each pointer is how far off, at random positions of the input
-    course        bands of pointer errors along one turn, of each output that was followed
-    convergence   how the probability of a jam settled
-    sobol         whose errors move the first output: by wheel, or by kind where that alone was asked
-    pairs         by pair, from superposition
-    map           how often the train jams over clearance and scale of its errors: needs a sweep of both
+    Parameters
+    ----------
+    findings : MonteCarloResult
+        Trials, with whatever the picture shows.
+    picture : {"errors", "course", "convergence", "sobol", "pairs", "map"}
+        "errors": how often each pointer is how far off, at random positions of the input. "course": bands of pointer
+        errors along one turn, of each output that was followed. "convergence": how the probability of a jam settled.
+        "sobol": whose errors move the first output, by wheel, or by kind where that alone was asked. "pairs": the same
+        by pair, from superposition. "map": how often the train jams over clearance and scale of its errors.
 
-    Raises `QuestionError` where what it shows was not asked.
+    Returns
+    -------
+    matplotlib.figure.Figure
+        Errors in degrees, probabilities with their intervals of 95 %.
+
+    Raises
+    ------
+    QuestionError
+        Where what it shows was not asked for.
+
+    Examples
+    --------
+    >>> import geartrain
+    >>> from geartrain.uncertainty.monte_carlo import (
+    ...     MonteCarloResult, find_trial_plan, read_error_overrides, run_trials)
+    >>> plan = find_trial_plan(geartrain.load("moon-triangular"), read_error_overrides(["placement=2 %"]), ("moon",))
+    >>> found = MonteCarloResult(run_trials(plan, trials=2, seed=1))
+    >>> monte_carlo_figure(found, "convergence").axes[0].get_ylabel()
+    'probability of a jam'
     """
     trials = findings.trials
     if picture == "errors":

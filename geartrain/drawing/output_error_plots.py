@@ -34,7 +34,28 @@ class _Trace(NamedTuple):
 
 
 def motion_figure(run: MotionRun, on_done: Callable[[int], None] = lambda _: None) -> Figure:
-    """Of each output: its angle against its mean motion, the error, and the speed; where it goes back, in red."""
+    """Of each output: its angle against its mean motion, its error and its speed; in red where it goes back.
+
+    Parameters
+    ----------
+    run : MotionRun
+        What to follow: outputs, turns and positions; it need not have gone.
+    on_done : callable
+        Called with the number of positions that have been worked out since.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        Angles and errors [deg], speeds over that of the input, over turns of the input.
+
+    Examples
+    --------
+    >>> import geartrain
+    >>> from geartrain.dynamics import MotionRun
+    >>> run = MotionRun(geartrain.load("moon-triangular").motion(), turns=0.1, samples=51)
+    >>> motion_figure(run).axes[-1].get_xlabel()
+    'turns of crank'
+    """
     traces = _traces(run, on_done)
     panels_of = [_drawers(trace) for trace in traces]
     rows = sum(map(len, panels_of))

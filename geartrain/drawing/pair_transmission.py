@@ -17,7 +17,27 @@ _LABELS = ("transmission error\n(deg, driven)", "speed ratio\nover its mean", "e
 
 
 def transmission_figure(law: TransmissionFunction, title: str) -> Figure:
-    """Error, speed ratio and efficiency, drive flanks; corners of the law as thin lines."""
+    """Any transmission function over two periods: transmission error, speed ratio and efficiency on the drive flanks.
+
+    Parameters
+    ----------
+    law : TransmissionFunction
+        Of a pair of any form.
+    title : str
+        Above the first panel.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        Three panels over the driver's angle [deg]; corners of the law as thin lines.
+
+    Examples
+    --------
+    >>> import geartrain
+    >>> law = geartrain.load("moon-triangular").meshes[0].law
+    >>> transmission_figure(law, "a pair").axes[-1].get_xlabel()
+    "driver's angle (deg)"
+    """
     figure = Figure(figsize=(WIDTH, 7.5), layout="constrained")
     S = np.linspace(0, 2 * law.period, _SAMPLES)
     curves = (np.degrees(law.error(S)), law.speed(S) / float(law.ratio), law.efficiency(S))

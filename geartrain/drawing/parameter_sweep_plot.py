@@ -59,16 +59,41 @@ _REGION = 0.01  # of a map: a lesser region is not named
 def sweep_figure(
     parameters: Mapping[str, NDArray[Any]], columns: Mapping[str, NDArray[Any]], verdicts: NDArray[np.str_]
 ) -> Figure:
-    """Results of a sweep over one or two parameters; NaN is left out.
+    """Results of a sweep over one or two parameters of a pair with triangular teeth; NaN is left out.
 
-    One parameter, all arrays (n,): panels of mean efficiency, transmission error and speed ratios over it, before
-    bands for the verdicts. Two, all arrays grids (n, m) with each parameter constant along one axis: a map of the
-    mean efficiency, blank where the pair does not turn, with the faults hatched. The scale follows the pairs that run.
+    One parameter: panels of mean efficiency, transmission error and speed ratios over it, before bands for the
+    verdicts. Two: a map of the mean efficiency, blank where the pair does not turn, with the faults hatched. The scale
+    follows the pairs that run.
 
-    parameters   name as it stands at the axis, and values
-    columns      of these `efficiency_mean`, `error_pp_deg` and `tau_min` with `tau_max` are shown, or else all
-    verdicts     "jam", "clash", "standstill", "overhang", "no valley", "apart" or "none" of a pair that does not run;
-                 of one that runs any text, such as its phases
+    Parameters
+    ----------
+    parameters : mapping of str to array
+        One or two: name as it stands at the axis, and values, of shape (n,) or, as grids with each parameter constant
+        along one axis, (n, m).
+    columns : mapping of str to array
+        Results of the same shape: of these `efficiency_mean`, `error_pp_deg` [deg] and `tau_min` with `tau_max` are
+        shown, or else all.
+    verdicts : array of str
+        Of the same shape: "jam", "clash", "standstill", "overhang", "no valley", "apart" or "none" of a pair that does
+        not run; of one that runs any text, such as its phases.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        Panels, or a map.
+
+    Raises
+    ------
+    QuestionError
+        For arrays of different shapes, and for nothing to draw.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> found = sweep_figure({"clearance": np.array([1.0, 1.1])}, {"efficiency_mean": np.array([np.nan, 0.9])},
+    ...     np.array(["jam", "runs"]))
+    >>> found.axes[-1].get_xlabel()
+    'clearance'
     """
     verdicts = np.asarray(verdicts).astype(str)
     values = {name: np.asarray(column, dtype=float) for name, column in columns.items()}

@@ -24,10 +24,36 @@ _ROUND = 0.5523  # of a quarter circle by a cubic
 
 
 def power_figure(flow: PowerFlow, title: str, watts: float | None = None) -> Figure:
-    """Bands as wide as their powers, in shares of the power put in; what circles runs back above.
+    """The flow of power as a Sankey diagram: bands as wide as their powers, recirculating power running back above.
 
-    watts   in one unit of power, where that is known
-    Raises `GearTrainError` where no power flows, or through too many nodes to be seen.
+    Parameters
+    ----------
+    flow : PowerFlow
+        From `GearTrain.power_flow`; powers are absolute (docs/torques.md, 7).
+    title : str
+        Above the picture.
+    watts : float, optional
+        Watts in one unit of power, where that is known; powers stand as shares of the power put in otherwise.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        As large as its bands need.
+
+    Raises
+    ------
+    GearTrainError
+        Where no power flows, or through too many nodes to be seen.
+
+    Examples
+    --------
+    >>> import geartrain
+    >>> train = geartrain.GearTrain.declare({"links": {"frame": {}, "a": {"wheels": {"p": 20}},
+    ...     "b": {"wheels": {"w": 40}}}, "gears": [{"pair": ["p", "w"]}], "inputs": {"a": 1}, "loads": {"b": 3},
+    ...     "revolutes": [{"pair": ["frame", "a"], "axis": "A"}, {"pair": ["frame", "b"], "axis": "B"}]})
+    >>> figure = power_figure(train.power_flow(train.torques()), "A pair")
+    >>> {"a", "b", "A pair"} <= {text.get_text() for text in figure.axes[0].texts}
+    True
     """
     if not flow.streams or not flow.power_in:
         raise GearTrainError(Problem("there is no flow of power to draw", title, "give loads to links that turn"))

@@ -25,11 +25,31 @@ _COLOURS = (BLUE, ORANGE, GREEN, RED, PURPLE, SKY)
 def sphere_figure(
     configuration: Configuration, cones: Floats, phases: Sequence[float], view: tuple[float, float, float] = _VIEW
 ) -> Figure:
-    """Every gear of a set on its sphere.
+    """Every gear of a set on its sphere, seen from one side.
 
-    cones    half angle of each pitch cone (rad)
-    phases   of each gear, in pitches: a tooth stands that far past the gear's own zero direction
-    view     direction towards the reader
+    Parameters
+    ----------
+    configuration : Configuration
+        Axes, kinds, teeth and meshes.
+    cones : array of shape (gears,)
+        Half angle of each pitch cone [rad] (docs/sphere.md, equation 1).
+    phases : sequence of float
+        Of each gear [pitch]: a tooth stands that far past the gear's own zero direction.
+    view : tuple of three floats
+        Direction towards the reader.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        One picture; gears on the far side are pale.
+
+    Examples
+    --------
+    >>> from geartrain.spherical import from_polyhedron
+    >>> from geartrain.spherical.gear_sphere import GearSphere
+    >>> found = GearSphere(from_polyhedron("cube", teeth=12), 1.0)
+    >>> len(sphere_figure(*found.pose()).axes)
+    1
     """
     figure = Figure(figsize=(_SIZE, _SIZE), dpi=100, layout="constrained")
     axes = figure.subplots()

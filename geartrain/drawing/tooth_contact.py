@@ -34,11 +34,34 @@ _NAMES = {DRIVER: "driver", DRIVEN: "driven"}
 
 
 def teeth_figure(law: TriangularTransmission, alpha1: float | None = None, whole: bool | None = None) -> Figure:
-    """The wheels when the driving couple is at `alpha1` (rad); by default in the middle of the first interval.
+    """Triangular teeth in contact, drawn to scale, with the contact and the line of centres.
 
-    Where no couple drives at alpha1, the moment at which some driver's tooth is there. Only the teeth near the
-    contact are drawn, or the wheels as a whole if `whole`, by default if they have few teeth. Raises `GearTrainError`
-    where no teeth touch.
+    Parameters
+    ----------
+    law : TriangularTransmission
+        The pair.
+    alpha1 : float, optional
+        Angle of the driving tooth from the line of centres [rad]; by default in the middle of the first interval.
+        Where no couple drives there, the moment at which some driver's tooth is there.
+    whole : bool, optional
+        The wheels as a whole, or only the teeth near the contact; by default by how many teeth they have.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        One picture with equal scales.
+
+    Raises
+    ------
+    GearTrainError
+        Where no teeth touch.
+
+    Examples
+    --------
+    >>> import geartrain
+    >>> law = geartrain.load("moon-triangular").meshes[0].law
+    >>> teeth_figure(law).axes[0].get_aspect()
+    1.0
     """
     require_contact(law)
     here = tooth_pair_pose(law, alpha1)

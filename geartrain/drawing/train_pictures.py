@@ -24,13 +24,39 @@ def picture(
     labels: bool = True,
     outputs: Sequence[str] = (),
 ) -> Figure:
-    """A picture of a train: plan, stick, graph, lever or dials.
+    """A picture of a train: plan to scale, stick diagram, graph, speed diagram or dials.
 
-    state     by default the first; of lever, all
-    turns     of the input since the pose where all angles are zero (plan, dials)
-    labels    names and numbers beside what is drawn
-    outputs   those to be drawn, by default all (dials)
-    Raises `QuestionError` for a kind that does not fit the train, and for states and outputs it does not have.
+    Parameters
+    ----------
+    train : GearTrain
+        What is drawn.
+    kind : {"plan", "stick", "graph", "lever", "dials"}
+        How.
+    state : str, optional
+        Its name; by default the first, of "lever" all.
+    turns : Fraction
+        Of the input since the pose where all angles are zero [turn]; counts for "plan" and "dials".
+    labels : bool
+        Names and numbers beside what is drawn.
+    outputs : sequence of str
+        Those whose dials are drawn; by default all.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        For `render`, or to be drawn on.
+
+    Raises
+    ------
+    QuestionError
+        For a kind that does not fit the train, and for states and outputs that it does not have.
+
+    Examples
+    --------
+    >>> import geartrain
+    >>> figure = picture(geartrain.load("planetary-24-18-60"), "lever")
+    >>> figure.axes[0].texts[0].get_text()
+    'planetary-24-18-60: A simple planetary, ring held'
     """
     if kind == "graph":
         from geartrain.drawing.kinematic_graph import graph_figure

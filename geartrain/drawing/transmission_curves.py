@@ -25,10 +25,32 @@ _BEYOND = 4.0  # of the real range: how far an axis follows the ideal path beyon
 
 
 def law_figure(law: TriangularTransmission) -> Figure:
-    """alpha_2 (deg), tau and sliding efficiency over alpha_1 (deg), which falls with time.
+    """The law of triangular teeth: driven angle, speed ratio and sliding efficiency over the driver's angle.
 
-    Thin lines are the ideal path of one couple of teeth, thick lines the real path of all of them. Raises
-    `GearTrainError` where no teeth touch.
+    Thin lines are the ideal path of one couple of teeth (docs/teeth.md, equations 2 to 9), thick lines the real path of
+    all of them. The driver's angle falls with time.
+
+    Parameters
+    ----------
+    law : TriangularTransmission
+        The pair.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        Three panels; angles in degrees.
+
+    Raises
+    ------
+    GearTrainError
+        Where no teeth touch.
+
+    Examples
+    --------
+    >>> import geartrain
+    >>> law = geartrain.load("moon-triangular").meshes[0].law
+    >>> [axes.get_ylabel().splitlines()[0] for axes in law_figure(law).axes]
+    ['driven angle', 'speed ratio', 'sliding efficiency']
     """
     require_contact(law)
     figure = Figure(figsize=(WIDTH, 9.0), layout="constrained")

@@ -31,10 +31,11 @@ pytest.importorskip("svgelements")
 import svgelements
 from matplotlib.figure import Figure
 
-from geartrain.drawing import KINDS, picture, render
+from geartrain.drawing import picture, render
 from geartrain.drawing.arrangement import arrange, spread
 from geartrain.drawing.dial_faces import dials_figure
 from geartrain.drawing.plan_view import _within, plan_figure
+from geartrain.drawing.train_pictures import KINDS
 from geartrain.scene import make_scene
 from geartrain.scene.pose import body_errors, scene_pose
 

@@ -20,22 +20,12 @@ from matplotlib.figure import Figure
 from matplotlib.text import Text
 
 from geartrain import load
-from geartrain.drawing import (
-    ConvergenceTrace,
-    CountProbabilities,
-    ErrorBands,
-    VarianceShare,
-    convergence_figure,
-    corner_figure,
-    counts_figure,
-    histogram_figure,
-    jam_map_figure,
-    monte_carlo_figure,
-    pointer_error_figure,
-    render,
-    tornado_figure,
-)
-from geartrain.drawing.monte_carlo_plots import indices_figure
+from geartrain.drawing import counts_figure, monte_carlo_figure, render
+from geartrain.drawing.corner_plot import CountProbabilities, corner_figure
+from geartrain.drawing.jam_map import jam_map_figure
+from geartrain.drawing.monte_carlo_plots import ConvergenceTrace, convergence_figure, indices_figure
+from geartrain.drawing.pointer_error_plots import ErrorBands, histogram_figure, pointer_error_figure
+from geartrain.drawing.tornado_chart import VarianceShare, tornado_figure
 from geartrain.errors import QuestionError
 from geartrain.uncertainty.monte_carlo import IntervalEstimate as Figure_
 from geartrain.uncertainty.monte_carlo import (

@@ -14,6 +14,7 @@ from pydantic import BaseModel
 
 SHOWING = [
     "analysis",
+    "drawing",
     "dynamics",
     "errors",
     "export",

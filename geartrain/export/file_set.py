@@ -249,7 +249,7 @@ def _sheets(work: SolidModel, kinds: Sequence[str]) -> Iterator[ExportFile]:
             if "stl" in kinds:
                 yield ExportFile(f"wheels/{sheet.file}.stl", sheet.drawing.title, _printed(work, sheet))
     if flat:
-        plates, _ = work.plates
+        plates = work.plates.plates
         for plate, name in zip(plates, file_names(plate.name for plate in plates), strict=True):
             for kind in flat:
                 yield ExportFile(f"plates/{name}.{kind}", plate.drawing.title, _drawing(plate.drawing, kind))
@@ -299,7 +299,7 @@ def notices(work: SolidModel, kinds: Sequence[str]) -> list[Problem]:
     if {"svg", "dxf", "stl"} & set(kinds):
         found += work.blanks.notices
     if {"svg", "dxf"} & set(kinds):
-        found += work.plates[1]
+        found += work.plates.notices
     if "step" in kinds:
         from geartrain.export.step_file import left_out
 

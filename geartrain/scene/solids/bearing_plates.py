@@ -42,14 +42,20 @@ class Plate:
     holes: Mapping[str, tuple[Point, float]]
 
 
-def find_plates(
-    train: GearTrain, layout: Layout, making: ManufacturingSizes
-) -> tuple[tuple[Plate, ...], tuple[Problem, ...]]:
-    """All plates of a train as placed, and what could not be drawn."""
+@dataclass(frozen=True, slots=True)
+class Plates:
+    """Plates of a train, and what could not be drawn on them."""
+
+    plates: tuple[Plate, ...]
+    notices: tuple[Problem, ...]
+
+
+def find_plates(train: GearTrain, layout: Layout, making: ManufacturingSizes) -> Plates:
+    """All plates of a train as placed."""
     diameters = bores(layout, making)
     notices: list[Problem] = []
     plates = [*_bearing(train, layout, diameters, notices), *_discs(train, diameters, notices)]
-    return tuple(plates), tuple(notices)
+    return Plates(tuple(plates), tuple(notices))
 
 
 # ---------------------------------------------------------------------------------------------------- plates of arbors

@@ -8,13 +8,14 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from geartrain.scene.solids.triangle_solids import Solid, between, fill, joined, raised
+from geartrain.scene.solids.triangle_solids import Solid, between, joined, raised
+from geartrain.scene.solids.triangulation import fill
 from geartrain.teeth.standard_teeth import MOST_TEETH
 
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
     from geartrain.scene.elements import SceneWheel, ToothProfile
-    from geartrain.scene.solids.triangle_solids import Integers
+    from geartrain.scene.solids.triangulation import Integers
 
 _WEB = 0.75  # of the pitch radius: where the teeth of a crown wheel end inwards
 _FACE = 0.7  # a bevel tooth ends at this part of its cone's length, or where its thickness does

@@ -12,7 +12,7 @@ import numpy as np
 
 from geartrain.scene.construction import make_scene
 from geartrain.scene.layout import lay_out
-from geartrain.scene.solids.bearing_plates import Plate, basis, find_plates, pin_diameter, slotted_bar
+from geartrain.scene.solids.bearing_plates import Plate, Plates, basis, find_plates, pin_diameter, slotted_bar
 from geartrain.scene.solids.bevel_solids import likeness_solid
 from geartrain.scene.solids.manufacturing_sizes import ManufacturingSizes, bores, sized, thick
 from geartrain.scene.solids.triangle_solids import Solid, cylinder, plate_solid, wheel_solid
@@ -20,7 +20,6 @@ from geartrain.scene.solids.wheel_blanks import Blanks, find_blanks
 
 if TYPE_CHECKING:
     from geartrain.analysis.gear_train import GearTrain
-    from geartrain.errors import Problem
     from geartrain.numerics.arrays import Floats
     from geartrain.scene.elements import SceneWheel
     from geartrain.scene.layout import Layout
@@ -122,8 +121,8 @@ class SolidModel:
         return find_blanks(self.sized, self.layout, self.making)
 
     @cached_property
-    def plates(self) -> tuple[tuple[Plate, ...], tuple[Problem, ...]]:
-        """Plates, and what could not be drawn."""
+    def plates(self) -> Plates:
+        """Plates that bear the arbors, and discs of pins and slots."""
         return find_plates(self.sized, self.layout, self.making)
 
     @cached_property
@@ -192,9 +191,8 @@ class _Parts:
 
     def plates(self) -> Iterator[SolidPart]:
         """Plates of carriers, under all that turns on them, and that of the frame, behind the whole."""
-        plates, _ = self.work.plates
         thickness = self.work.making.thickness or _SHEET
-        for plate in plates:
+        for plate in self.work.plates.plates:
             if not plate.name.startswith("plate-"):
                 continue
             at = self.bodies[plate.link]

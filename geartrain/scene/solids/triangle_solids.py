@@ -1,150 +1,21 @@
-"""Triangles that fill a polygon with holes: ears cut off one by one, holes first joined to the outside by bridges.
-
-Closed surfaces of triangles: shapes raised along an axis, cylinders, and wheels of bevel and crown form.
-"""
+"""Closed surfaces of triangles: flat shapes raised along an axis, arbors, wheels."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from heapq import heapify, heappop, heappush
 from math import ceil, pi
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from geartrain.scene.solids.triangulation import fill
 from geartrain.teeth.outlines.contour import Contour
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
     from geartrain.numerics.arrays import Floats
+    from geartrain.scene.solids.triangulation import Integers
     from geartrain.scene.solids.wheel_blanks import Blank
-
-    Integers = NDArray[np.int64]
-
-_FLAT = 1e-12  # twice the area (mm2) of a triangle that is none
-
-
-def fill(outer: Floats, holes: Sequence[Floats] = ()) -> tuple[Floats, Integers]:
-    """Points (n, 2), those given in their order, and triangles (m, 3) of them, counter-clockwise.
-
-    Polygons (k, 2) do not cross themselves or each other, whichever way they go round.
-    """
-    parts = [outer if area(outer) > 0 else outer[::-1], *(hole if area(hole) < 0 else hole[::-1] for hole in holes)]
-    points = np.concatenate(parts)
-    starts = np.cumsum([0, *map(len, parts)])
-    rings = [list(range(start, end)) for start, end in zip(starts[:-1].tolist(), starts[1:].tolist(), strict=True)]
-    loop = rings[0]
-    # from the right, so that a bridge meets no hole that is not joined yet
-    for ring in sorted(rings[1:], key=lambda ring: -points[ring, 0].max()):
-        loop = _bridged(points, loop, ring)
-    return points, np.array(_ears(points, loop), dtype=np.int64).reshape(-1, 3)
-
-
-def area(polygon: Floats) -> float:
-    """Signed area, positive counter-clockwise."""
-    x, y = polygon.T
-    return float(x @ np.roll(y, -1) - y @ np.roll(x, -1)) / 2
-
-
-def _bridged(points: Floats, loop: list[int], hole: list[int]) -> list[int]:
-    """The loop with a hole joined to it: from the hole's rightmost point to the nearest one it sees on its right."""
-    at = int(np.argmax(points[hole, 0]))
-    hole = hole[at:] + hole[:at]
-    start = points[hole[0]]
-    a, b = points[loop], points[loop[1:] + loop[:1]]
-    for k in np.argsort(np.hypot(*(a - start).T), kind="stable"):
-        end = a[k]
-        if end[0] < start[0] or not _inside(points, loop, int(k), start):
-            continue
-        away = (a != end).any(axis=1) & (b != end).any(axis=1)
-        cross = (_turn(start, end, a) * _turn(start, end, b) <= 0) & (_turn(a, b, start) * _turn(a, b, end) <= 0)
-        if not (cross & away).any():
-            return [*loop[: k + 1], *hole, hole[0], *loop[k:]]
-    raise ValueError("a hole does not lie inside its polygon")
-
-
-def _inside(points: Floats, loop: list[int], k: int, to: Floats) -> bool:
-    """True if the way from vertex k of the loop to a point begins inside."""
-    before, here, after = points[loop[k - 1]], points[loop[k]], points[loop[(k + 1) % len(loop)]]
-    left, right = _turn(here, after, to) > 0, _turn(before, here, to) > 0
-    return bool(left and right if _turn(before, here, after) > 0 else left or right)
-
-
-def _turn(a: Floats, b: Floats, c: Floats) -> Floats:
-    """Twice the signed area of the triangle a b c; of any shapes that go together."""
-    turn: Floats = (b[..., 0] - a[..., 0]) * (c[..., 1] - a[..., 1]) - (b[..., 1] - a[..., 1]) * (c[..., 0] - a[..., 0])
-    return turn
-
-
-def _ears(points: Floats, loop: list[int]) -> list[tuple[int, int, int]]:
-    """Ear clipping: the fattest ear is cut off first."""
-    corners = _Corners(points[loop])
-    found: list[tuple[int, int, int]] = []
-    while len(corners.left) > 3:
-        at = corners.find_ear()
-        if abs(float(corners.turn[at])) > 0:
-            found.append((loop[corners.before[at]], loop[at], loop[corners.after[at]]))
-        corners.cut(at)
-    a, b, c = corners.left.tolist()
-    return [*found, (loop[a], loop[b], loop[c])]
-
-
-class _Corners:
-    """The corners that are left of a polygon. A cut changes two of them, and all others keep their place in a heap."""
-
-    def __init__(self, corners: Floats) -> None:
-        count = len(corners)
-        self.corners, self.left = corners, np.arange(count)
-        self.before, self.after = [count - 1, *range(count - 1)], [*range(1, count), 0]
-        self.turn, self.fatness = _shape(corners[self.before], corners, corners[self.after])
-        self.heap = [(-fat, at) for at, fat in enumerate(self.fatness.tolist())]
-        heapify(self.heap)
-
-    def find_ear(self) -> int:
-        """A corner that can be cut off: convex, no other point in it; the fattest first."""
-        passed, ear = [], -1
-        while self.heap:
-            fat, at = heappop(self.heap)
-            if -fat != self.fatness[at]:  # it was cut off, or its shape has changed since
-                continue
-            if self.turn[at] > _FLAT and self._empty(at):
-                ear = at
-                break
-            passed.append((fat, at))
-            if self.turn[at] <= _FLAT:
-                break
-        for each in passed:
-            heappush(self.heap, each)
-        # without an ear nothing but flat corners is left
-        return ear if ear >= 0 else int(self.left[np.argmin(np.abs(self.turn[self.left]))])
-
-    def _empty(self, at: int) -> bool:
-        """True if no point but its own lies in the triangle of a corner."""
-        here, own = self.corners[self.left], self.corners[[self.before[at], at, self.after[at]]]
-        a, b, c = own
-        within = (_turn(a, b, here) >= 0) & (_turn(b, c, here) >= 0) & (_turn(c, a, here) >= 0)
-        return bool((here[within][:, None] == own).all(-1).any(-1).all())
-
-    def cut(self, at: int) -> None:
-        """Cut a corner off."""
-        a, c = self.before[at], self.after[at]
-        self.left = np.delete(self.left, np.searchsorted(self.left, at))
-        self.after[a], self.before[c], self.fatness[at] = c, a, np.nan
-        for k in (a, c):
-            ends = self.corners[self.before[k]], self.corners[k], self.corners[self.after[k]]
-            self.turn[k], self.fatness[k] = _shape(*ends)
-            heappush(self.heap, (-float(self.fatness[k]), k))
-
-
-def _shape(before: Floats, here: Floats, after: Floats) -> tuple[Floats, Floats]:
-    """Twice the signed area of each corner's triangle, and that over the square of its greatest length."""
-    turn = _turn(before, here, after)
-    sides = ((here - before) ** 2).sum(-1) + ((after - here) ** 2).sum(-1)
-    longest = np.maximum(((after - before) ** 2).sum(-1), sides)
-    return turn, turn / np.where(longest > 0, longest, 1)
-
 
 FINE = 0.02  # mm, how far the chords of a solid may leave a curve
 _SAME = 7  # decimals of a mm to which points are one
@@ -157,12 +28,6 @@ class Solid:
 
     vertices: Floats
     faces: Integers
-
-    @property
-    def volume(self) -> float:
-        """Volume within (mm3)."""
-        a, b, c = (self.vertices[self.faces[:, k]] for k in range(3))
-        return float(np.einsum("ij,ij->", a, np.cross(b, c))) / 6
 
     def moved(self, turn: Floats, by: Sequence[float]) -> Solid:
         """Turned by a matrix (3, 3), then moved."""
@@ -271,6 +136,7 @@ def _repeated(points: Floats, triangles: Integers, times: int) -> tuple[Floats, 
     c, s = np.cos(turn), np.sin(turn)
     x, y = points.T
     every = np.stack([c * x - s * y, s * x + c * y], axis=-1).reshape(-1, 2)
+    # rounded only to be compared: last digits of a point seen from two pitches differ; + 0.0 makes -0.0 the same as 0.0
     _, first, index = np.unique(every.round(_SAME) + 0.0, axis=0, return_index=True, return_inverse=True)
     faces = (triangles + len(points) * np.arange(times)[:, None, None]).reshape(-1, 3)
     return every[first], np.asarray(index).reshape(-1)[faces]

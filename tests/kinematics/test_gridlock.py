@@ -154,9 +154,10 @@ def test_the_thirty_meshes_of_a_truncated_icosahedron_are_proved_by_loops() -> N
     hexagons = [f"{i}-{j}" for i, j in polyhedra.neighbours(solid) if len(solid[i]) == len(solid[j]) == 6]
     assert len(hexagons) == 30
     assert GearTrain.declare(less(data, hexagons)).solve().verdict
-    text = str(release)
-    assert text.startswith("disengage 30 meshes: ")
-    assert "and 18 more; no fewer will do: 60 loops that do not close have each mesh in at most two of them" in text
+    assert [(len(proof.loops), proof.sharing) for proof in release.proofs] == [(60, 2)]
+    told = str(release)
+    assert all(number in told for number in ("30", "60")), "how many meshes, and how many loops prove it"
+    assert sum(mesh in told.replace(",", " ").replace(";", " ").split() for mesh in release.meshes) == 12
 
 
 # trains of the collection ---------------------------------------------------------------------------------------------
@@ -183,7 +184,7 @@ def test_of_two_parallel_meshes_of_different_ratio_either_frees() -> None:
     assert found.release is not None
     assert set(found.release.choices) == set(jam.loop.pairs)
     assert len(jam.loop.pairs) == 2
-    assert f"each wheel would turn at two speeds, {jam.loop.product} of each other" in str(jam)
+    assert str(jam.loop.product) in str(jam)
 
 
 @pytest.mark.parametrize("name", [name for name, case in KINEMATIC.items() if case["mobility"] > 0])
@@ -348,7 +349,8 @@ def test_meshes_about_two_carriers_that_hold_each_other_are_found_without_a_loop
     assert release is not None
     assert (len(release.meshes), release.method) == (1, "one")
     assert set(release.choices) == {gear for gear in ("s20", "r20", "s21", "c1") if _frees(data, [gear])}
-    assert "about several carriers together, each loop of which closes" in str(found)
+    assert all(link in str(found) for link in found.held)
+    assert release.choices[0] in str(found)
 
 
 def test_a_wheel_that_its_ratio_keeps_upright_is_not_held() -> None:
@@ -511,8 +513,11 @@ def test_nine_mutual_wheels_are_beyond_the_plane_and_small_enough_to_search_or_s
 
 
 def test_a_greedy_set_says_that_a_smaller_one_may_do() -> None:
-    text = str(MeshRemoval(("a", "b", "c"), "greedy", 2))
-    assert text == ("disengage 3 meshes: a, b, c; none of them can stay, but a smaller set may do; at least 2 must go")
+    good, least = (MeshRemoval(("a", "b", "c"), "greedy", bound) for bound in (2, 3))
+    assert (good.least, least.least) == (False, True)
+    assert "at least 2" in str(good)
+    assert "at least" not in str(least)
+    assert all("a, b, c" in str(each) for each in (good, least))
 
 
 # whole trains, against dense elimination ------------------------------------------------------------------------------
@@ -632,11 +637,12 @@ def test_check_and_report_say_what_to_disengage(train_file: Callable[..., Path])
     done = call("check", path)
     out = done.stdout
     assert done.exit_code == 1
-    assert "gridlock: loop a - b - c (pairs a20~b30, b30~c40, c40~a20; ratio product -1) does not close" in out
-    assert "to free the train, disengage one of a20~b30, b30~c40, c40~a20" in out
+    (locked,) = (line for line in out.splitlines() if "gridlock:" in line)
+    assert all(said in locked for said in ("a - b - c", "a20~b30, b30~c40, c40~a20", "ratio product -1"))
+    assert "disengage one of a20~b30, b30~c40, c40~a20" in out
     done = call("report", path)
     assert done.exit_code == 1
-    assert "To free the train, disengage one of a20~b30, b30~c40, c40~a20." in done.stdout
+    assert "disengage one of a20~b30, b30~c40, c40~a20" in done.stdout
 
 
 def test_the_json_of_a_report_has_the_gridlock(train_file: Callable[..., Path]) -> None:

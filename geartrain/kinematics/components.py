@@ -143,7 +143,7 @@ def find_components(
             here = queue.popleft()
             entered = reached[here]
             for at, there, a, b in edges[here]:
-                if at == entered:
+                if at == entered:  # by circuit, not by node: a second mesh with the same wheel closes a loop
                     continue
                 if group[there] < 0:
                     group[there], reached[there] = this, at
@@ -264,7 +264,7 @@ def reduce_components(parts: Components) -> ReducedSystem:
             add_into(row, shell.seen_from(node), -1)
             equations.append(row)
             origin.append(("share", link, node))
-    still: set[int] = set()
+    still: set[int] = set()  # components that are stopped already
     for kind, chords in (("loop", parts.breaking), ("hold", parts.holding)):
         for circuit in chords:
             group = parts.group_of(parts.circuits[circuit])

@@ -283,6 +283,7 @@ def _expect_holds(output: Output, speed: SpeedValue | None) -> bool | None:
     if expect is None or speed is None:
         return None if expect is None else False
     exact = Fraction(speed)
+    # an exact expectation is no float: floats agree with it within what they are good for, and more than rounding
     if not isinstance(speed, Fraction) and abs(exact - expect.value.value) <= Fraction(1, 10**9) * max(
         Fraction(1), abs(exact)
     ):

@@ -1,4 +1,4 @@
-"""What a fitter would remark: none of it stops the train on paper, so all of it is a note, never an error."""
+"""Remarks on a sound declaration: none of it stops the train on paper, so all of it is a note, never an error."""
 
 from __future__ import annotations
 

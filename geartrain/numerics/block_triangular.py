@@ -58,7 +58,7 @@ def _strong(rows: Sequence[Sequence[int]], taken: Sequence[int]) -> list[Block]:
                     break
                 if not done[other]:
                     low[column] = min(low[column], order[other])
-            else:
+            else:  # all that the column hangs on is done
                 stack.pop()
                 if stack:
                     above = stack[-1][0]
@@ -116,6 +116,7 @@ def _maximum_matching(rows: Mapping[int, Collection[int]]) -> dict[int, int]:
     row_of: dict[int, int] = {}
     free = _peel(rows, row_of)
     while True:
+        # one set for all rows of a round: a column from which no way led on leads nowhere until the matching changes
         seen: set[int] = set()
         left = [row for row in free if not _augment_from(rows, row, row_of, seen)]
         if len(left) == len(free):

@@ -44,7 +44,7 @@ class Echelon:
         """
         solved: dict[int, LinearForm] = {}
         work = 0
-        for column, rest in reversed(self.pivots):
+        for column, rest in reversed(self.pivots):  # the last pivot's rest holds free columns only
             form: LinearForm = {}
             for other, coefficient in rest.items():
                 known = solved.get(other)
@@ -52,6 +52,7 @@ class Echelon:
                     add_into(form, {other: -coefficient}, 1)
                 else:
                     add_into(form, known, -coefficient)
+                    # long numbers cost as many machine words as they have
                     work += len(known) * (1 + coefficient.numerator.bit_length() // 64)
             if budget is not None and work > budget:
                 raise TooDenseError
@@ -100,7 +101,7 @@ def eliminate(rows: Iterable[Mapping[int, Fraction]], budget: int | None = None,
         row = active.get(index, {})
         unknowns = [column for column in row if column >= 0]
         if index not in active or len(unknowns) != length:
-            continue
+            continue  # an old entry of a row that changed since, and was queued again
         del active[index]
         if not unknowns:
             if row:
@@ -108,6 +109,7 @@ def eliminate(rows: Iterable[Mapping[int, Fraction]], budget: int | None = None,
             else:
                 redundant.append(index)
             continue
+        # Markowitz' rule in part: the column that fewest rows hold fills least; ties by number, so that runs repeat
         pivot = min(unknowns, key=lambda column: (len(users[column]), column))
         lead = row.pop(pivot)
         if modulus:

@@ -15,7 +15,7 @@ _SPLITTER = 134217729.0  # 2^27 + 1: cuts a float64 into two halves of 26 bits, 
 def two_sum(a: Floats, b: Floats) -> tuple[Floats, Floats]:
     """a + b = s + e exactly (Knuth 1969)."""
     s = a + b
-    part = s - a
+    part = s - a  # what of b arrived in s; without a branch on which of the two is larger
     return s, (a - (s - part)) + (b - part)
 
 
@@ -24,11 +24,12 @@ def two_product(a: Floats, b: Floats) -> tuple[Floats, Floats]:
     p = a * b
     a_high, a_low = split(a)
     b_high, b_low = split(b)
+    # in this order every step is exact
     return p, ((a_high * b_high - p) + a_high * b_low + a_low * b_high) + a_low * b_low
 
 
 def split(a: F) -> tuple[F, F]:
     """A float as the sum of two of 26 bits (Dekker 1971; Veltkamp)."""
     big = _SPLITTER * a
-    high = big - (big - a)
+    high = big - (big - a)  # overflows beyond about 2^996
     return high, a - high

@@ -40,6 +40,7 @@ def log10(value: Fraction) -> float:
     """Decimal logarithm of |value| for numbers of any size; -inf for zero."""
     if not value:
         return -math.inf
+    # of integers of any length; their quotient as a float may not exist
     return math.log10(abs(value.numerator)) - math.log10(value.denominator)
 
 
@@ -49,6 +50,6 @@ def as_float(value: Fraction) -> float | None:
         number = float(value)
     except OverflowError:
         return None
-    if value and abs(number) < 2.2250738585072014e-308:
+    if value and abs(number) < 2.2250738585072014e-308:  # subnormal: its last digits are lost
         return None
     return number

@@ -148,7 +148,7 @@ def product_of_powers(powers: dict[int, int]) -> Fraction:
         primes[factor] = primes.get(factor, 0) + power
     top = _balanced([factor**power for factor, power in primes.items() if power > 0])
     bottom = _balanced([factor**-power for factor, power in primes.items() if power < 0])
-    if len(rough) > _MOST_ROUGH:
+    if len(rough) > _MOST_ROUGH:  # they were not parted, and may have factors in common
         return Fraction(sign * top, bottom)
     return coprime(sign * top, bottom)
 
@@ -202,6 +202,6 @@ def _balanced(factors: list[int]) -> int:
         return 1
     heapify(factors)
     while len(factors) > 1:
-        least = heappop(factors)
+        least = heappop(factors)  # factors of like length: fast multiplication pays for those alone
         heapreplace(factors, least * factors[0])
     return factors[0]

@@ -32,10 +32,10 @@ def saturated_lattice(rows: Sequence[Mapping[int, int]]) -> tuple[list[Row], lis
         rest = dict(row)
         for known, before in zip(basis, pivots, strict=True):
             add_into(rest, known, -before.get(at, 0))
-        basis.append({key: value // column[at] for key, value in rest.items()})
+        basis.append({key: value // column[at] for key, value in rest.items()})  # divides without a rest
         pivots.append(column)
         dual.append(move)
-        index *= abs(column[at])
+        index *= abs(column[at])  # the diagonal of H
     return basis, dual, index
 
 
@@ -43,6 +43,7 @@ def _reduce(columns: dict[int, Row], moves: dict[int, Row], at: int) -> int | No
     """Euclid's algorithm on the entries of one row, until one column has all of it."""
     live = [key for key, column in columns.items() if at in column]
     while len(live) > 1:
+        # by the smallest entry: remainders, and the numbers in `moves`, stay short
         least = min(live, key=lambda key: abs(columns[key][at]))
         size = columns[least][at]
         for key in live:

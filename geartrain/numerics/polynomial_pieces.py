@@ -49,7 +49,7 @@ def fitted(curve: Callable[[Floats], Floats], start: float, end: float, depth: i
     middle = start + (end - start) / 2
     halves = [_piece(curve, *ends) for ends in ((start, middle), (middle, end))]
     if tail <= _NOISE and min(half[1] for half in halves) > tail / 4:
-        return [piece]
+        return [piece]  # halving a smooth curve lessens the tail by far more: what is left is noise of the curve
     if depth == _DEEPEST or not np.isfinite(tail):
         raise RangeError(
             Problem(
@@ -65,7 +65,7 @@ def _piece(curve: Callable[[Floats], Floats], start: float, end: float) -> tuple
     """The piece through the curve's points at Chebyshev nodes, and how far its last coefficients have fallen."""
     half, middle = (end - start) / 2, start + (end - start) / 2
     t = middle + half * np.concatenate([_NODES, _BETWEEN])
-    t[0], t[COUNT - 1] = start, end
+    t[0], t[COUNT - 1] = start, end  # rounding must not put a node outside, where the curve may not be defined
     with np.errstate(all="ignore"):
         values = np.asarray(curve(t), dtype=float).T
         series = _SERIES @ values[:COUNT]
@@ -80,7 +80,7 @@ def value(coefficients: Floats, piece: Indices, u: Floats) -> tuple[Floats, Floa
     """Value and derivative at u of the given pieces; coefficients (COUNT, pieces)."""
     single = coefficients.shape[1] == 1
     found, slope = np.zeros(u.shape), np.zeros(u.shape)
-    for row in coefficients[::-1]:
+    for row in coefficients[::-1]:  # Horner's rule in place, value and derivative together
         slope *= u
         slope += found
         found *= u

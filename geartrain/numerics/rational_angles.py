@@ -20,7 +20,7 @@ def rational_angle(u: IntegerVector, v: IntegerVector, turn: float) -> Fraction 
     """
     along = dot(u, v)
     square = dot(u, u) * dot(v, v)
-    if 4 * along * along % square:
+    if 4 * along * along % square:  # the square of the cosine is no multiple of 1/4
         return None
     return Fraction(round(24 * turn) % 24, 24)
 

@@ -6,8 +6,8 @@ from collections.abc import Callable, Iterator
 from math import isfinite, ulp
 
 Function = Callable[[float], float]
-_MOST_STEPS = 200
-_DEEPEST = 40
+_MOST_STEPS = 200  # halving alone needs some 60 where the root is not near 0
+_DEEPEST = 40  # halvings of a bracket in which the slope keeps changing its sign
 
 
 def bracketed_root(value: Function, slope: Function, low: float, high: float) -> float:
@@ -19,7 +19,7 @@ def bracketed_root(value: Function, slope: Function, low: float, high: float) ->
     if at_low == 0:
         return low
     rising = at_low < 0
-    x = (low + high) / 2
+    x = (low + high) / 2  # Newton from the middle: an end may be where the slope vanishes
     for _ in range(_MOST_STEPS):
         here = value(x)
         if here == 0:
@@ -31,12 +31,12 @@ def bracketed_root(value: Function, slope: Function, low: float, high: float) ->
         steep = slope(x)
         step = x - here / steep if steep else low
         width = high - low
-        if not low < step < high or abs(step - x) > width / 2:
+        if not low < step < high or abs(step - x) > width / 2:  # halving does better than such a step
             step = low + width / 2
         elif abs(step - x) < 1e-8 * width:
             # the step is finer than the bracket: go a little too far, so that the other end comes in too
             step = min(max(step + 4 * (step - x), low), high)
-        if step in (low, high):
+        if step in (low, high):  # neighbouring floats: no step is left
             break
         x = step
     return x
@@ -57,6 +57,7 @@ def sign_changes(
         if crosses:
             yield low, high
         return
+    # the lowest and the highest that the function can come to between its end values with such slopes
     width, spread = high - low, greatest - least
     below = at_low + least * (at_low - at_high + greatest * width) / spread
     above = at_low + greatest * (at_high - at_low - least * width) / spread
@@ -88,6 +89,7 @@ def root(value: Function, low: float, high: float, at_low: float, at_high: float
             c, at_c, b, at_b = b, at_b, a, at_a
         a, at_a = x, here
         nearest = a if abs(at_a) < abs(at_b) else b
+        # the least share of the bracket that moves a float: nearer to an end a step would be lost
         narrow = 2 * ulp(nearest) / abs(b - c) if b != c else 1.0
         if here == 0 or narrow > 0.5:
             return nearest
@@ -102,6 +104,6 @@ def _quadratic_share(a: float, b: float, c: float, at_a: float, at_b: float, at_
         return 0.5
     xi, phi = (a - b) / (c - b), (at_a - at_b) / (at_c - at_b)
     if not 0 <= xi <= 1 or not 1 - (1 - xi) ** 0.5 < phi < xi**0.5:
-        return 0.5
+        return 0.5  # the inverse quadratic is not monotonic between the points (Chandrupatla's condition)
     first = at_a / (at_b - at_a) * at_c / (at_b - at_c)
     return first + (c - a) / (b - a) * at_a / (at_c - at_a) * at_b / (at_c - at_b)

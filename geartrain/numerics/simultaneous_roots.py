@@ -47,7 +47,7 @@ def roots_by_chandrupatla(value: Value, low: Floats, high: Floats) -> Floats:
         best = np.where(np.abs(at_a[i]) < np.abs(at_b[i]), a[i], b[i])
         found[i] = best
         width = np.abs(b[i] - a[i])
-        least = 2 * np.spacing(np.abs(best)) + 1e-300
+        least = 2 * np.spacing(np.abs(best)) + 1e-300  # at a root of 0, too, the width must come below something
         part[i] = _next(a[i], b[i], c[i], at_a[i], at_b[i], at_c[i], least / np.maximum(width, least))
         open_[i] = (width > 2 * least) & (here != 0)
     return found
@@ -85,7 +85,7 @@ def roots_by_false_position(
     for _ in range(_MOST_STEPS):
         if not len(which):
             break
-        with np.errstate(invalid="ignore", divide="ignore"):
+        with np.errstate(invalid="ignore", divide="ignore"):  # f = g: nan is not inside, and the bracket is halved
             x = b - g * (b - a) / (g - f)
         inside = (x - a) * (x - b) < 0
         x = np.where(inside & (stuck < _PATIENCE), x, a + (b - a) / 2)
@@ -94,6 +94,7 @@ def roots_by_false_position(
         crossed = np.sign(at) != np.sign(g)
         with np.errstate(invalid="ignore", divide="ignore"):
             share = 1 - at / g
+        # an end that stays has its value lessened (Anderson and Bjorck), so that the next step goes past the root
         f = np.where(crossed, g, f * np.where(share > 0, share, 0.5))
         a = np.where(crossed, b, a)
         b, g = x, at

@@ -30,6 +30,7 @@ class SparseRows:
 
     def least_squares(self, right: Floats) -> Floats:
         """x with the least |A x - right|: dense if small, else by conjugate gradients on columns of like size."""
+        # columns of like size: tooth counts from 8 to 10^6 side by side would slow the gradients down and skew `rcond`
         size = np.zeros(self.width)
         np.maximum.at(size, self.columns.ravel(), np.abs(self.factors).ravel())
         size[size == 0] = 1.0
@@ -43,7 +44,9 @@ class SparseRows:
 
     def _dense(self, right: Floats) -> Floats:
         matrix = np.zeros((len(right), self.width))
+        # a row may hold a column twice: `add.at` counts both, where an assignment would keep one
         np.add.at(matrix, (np.arange(len(right))[:, None], self.columns), self.factors)
+        # motions that stay free make the matrix singular up to rounding: 1e-11 of the greatest singular value is none
         return np.asarray(np.linalg.lstsq(matrix, right, rcond=1e-11)[0], float)
 
     def _gradients(self, right: Floats) -> Floats:

@@ -60,7 +60,7 @@ def size(v: Vector) -> float:
 
 def unit(v: Vector) -> Vector:
     """The direction of a vector other than zero."""
-    top = max(abs(part) for part in v)
+    top = max(abs(part) for part in v)  # first: squares of what is left neither overflow nor vanish
     x, y, z = (part / top for part in v)
     length = sqrt(x * x + y * y + z * z)
     return x / length, y / length, z / length
@@ -73,6 +73,7 @@ def across(v: Vector, n: Vector) -> Vector:
 
 def frame(n: Vector) -> tuple[Vector, Vector]:
     """Two unit vectors across n that make a right-handed frame with it: x and y where n is z."""
+    # x, unless it lies so near to n that its part across n is mostly rounding
     start: Vector = (1.0, 0.0, 0.0) if abs(n[0]) < 0.9 else (0.0, 1.0, 0.0)
     first = unit(across(start, n))
     return first, cross(n, first)
@@ -104,4 +105,4 @@ def beside(axis: Vector) -> Vector:
 
 def azimuth(u: Vector, axis: Vector, reference: Vector) -> float:
     """Angle (rad) of u about a unit vector, counted from a unit vector across it."""
-    return atan2(dot(u, cross(axis, reference)), dot(u, reference))
+    return atan2(dot(u, cross(axis, reference)), dot(u, reference))  # not acos, which loses half the digits near 0

@@ -79,6 +79,7 @@ class Circuit(NamedTuple):
         """
         c = -self.a - self.b
         terms = (self.i, self.a), (self.j, self.b), (self.carrier, c)
+        # b is 0 for a follower, and a + b for a pin that turns its slot: the third link then has no part in it
         return terms if self.b and c else tuple(term for term in terms if term[1])
 
     def with_counts(self, counts: Mapping[str, int]) -> Circuit:
@@ -111,7 +112,7 @@ def find_circuits(train: Train, tree: Tree) -> tuple[Circuit, ...]:
         if wheel_i.count is None or wheel_j.count is None:
             problems.append(_no_count(train, gear.pair, (wheel_i, wheel_j)))
             continue
-        if axes.plain and wheel_i.kind == wheel_j.kind == "spur":
+        if axes.plain and wheel_i.kind == wheel_j.kind == "spur":  # nearly all pairs: no direction is looked at
             sign = -1 if wheel_i.internal or wheel_j.internal else 1
             circuits.append(Circuit(gear.name, "gear", i, j, carrier, wheel_i.count, sign * wheel_j.count, gear.pair))
             continue

@@ -38,7 +38,7 @@ def shaft_angle(train: Train, tree: Tree, circuit: Circuit) -> float | None:
                 Problem("its axes do not meet", "they pass each other", "correct the positions of its axes")
             )
     facing = train.wheels[circuit.wheels[0]][1].facing * train.wheels[circuit.wheels[1]][1].facing
-    return atan2(size, facing * dot(u, v))
+    return atan2(size, facing * dot(u, v))  # not acos, which loses half the digits near 0 and pi
 
 
 def _floats(vector: ExactVector) -> Vector:

@@ -39,6 +39,7 @@ def planar_removal(network: GainGraph, most_odd: int = MOST_ODD) -> TJoin | None
     if not planar or not isinstance(drawing, nx.PlanarEmbedding):
         return None
     faces = _faces(drawing)
+    # each region's boundary multiplies to -1 or 1; a loop fails if it encloses an odd number of those with -1
     odd = [at for at, face in enumerate(faces) if _fails(bundles, face)]
     if len(odd) > most_odd:
         return None

@@ -152,6 +152,7 @@ def spherical_azimuths(axes: Floats, meshes: np.ndarray) -> tuple[Floats, Floats
 
     They count from the first of two directions: the axis across the coordinate axis that is farthest from it.
     """
+    # farthest from the axis, so that the vector product is never near 0
     least = np.eye(3)[np.argmin(np.abs(axes), axis=1)]
     first = np.cross(axes, least)
     first /= np.linalg.norm(first, axis=1)[:, None]

@@ -165,9 +165,10 @@ def _side_by_side(first: _Axis, second: _Axis, internal: Sequence[bool]) -> _Con
     if not any(way):
         return "its axes are one"
     # across_whole lengthens by the square of the sense
-    length = _norm(way) / dot(first.sense, first.sense)
+    length = _norm(way) / dot(first.sense, first.sense)  # a Fraction: positions may have hundreds of digits
     rounded = _turns(float((first.error + second.error) / length))
     back = minus((0, 0, 0), way)
+    # 4 roundings of an arctangent of exact whole numbers
     return back if internal[1] else way, way if internal[0] else back, rounded, 4 * EPS
 
 
@@ -182,6 +183,7 @@ def _through_a_point(first: _Axis, second: _Axis, facing: Sequence[int]) -> _Con
     n, m = ((f * a.way[0], f * a.way[1], f * a.way[2]) for a, f in ((first, facing[0]), (second, facing[1])))
     sine = float(_norm(cross(n, m)) / (_norm(n) * _norm(m)))
     rounded = _turns((first.unsure + second.unsure) / sine)
+    # the smaller the angle between the axes, the more of a direction across one is rounding
     return across_whole(m, first.way), across_whole(n, second.way), rounded, 16 * EPS / sine
 
 
@@ -191,7 +193,7 @@ def _norm(vector: IntegerVector) -> Fraction:
 
 
 def _turns(sine: float) -> float:
-    return math.asin(sine) / math.tau if sine < 1 else 0.5
+    return math.asin(sine) / math.tau if sine < 1 else 0.5  # rounding as large as the distance: anywhere
 
 
 def _azimuths(
@@ -216,6 +218,7 @@ def _azimuths(
 def _frame(sense: IntegerVector) -> tuple[list[float], list[float]]:
     n = np.array(_floats(sense))
     n /= np.linalg.norm(n)
+    # x, unless what is left of it across n would be mostly rounding
     start = np.array([1.0, 0.0, 0.0]) if abs(n[0]) < 0.9 else np.array([0.0, 1.0, 0.0])
     first = start - (start @ n) * n
     first /= np.linalg.norm(first)
@@ -226,7 +229,7 @@ def _floats(vector: IntegerVector) -> tuple[float, float, float]:
     """A direction in floats; numbers of hundreds of digits are divided first."""
     x, y, z = vector
     top = max(abs(x), abs(y), abs(z))
-    if top.bit_length() < 300:
+    if top.bit_length() < 300:  # and so are squares and products within float64
         return float(x), float(y), float(z)
     return float(Fraction(x, top)), float(Fraction(y, top)), float(Fraction(z, top))
 
@@ -251,7 +254,7 @@ def _families(
         found.append([])
         for link, way, turn in zip((circuit.i, circuit.j), ways[at], turns[at], strict=True):
             known = heads.setdefault((link, circuit.carrier), [])
-            for number, head, zero, other in known[-_COMPARED:]:
+            for number, head, zero, other in known[-_COMPARED:]:  # a hub of thousands of mates stays linear
                 part = rational_angle(head, way, (turn - zero) % 1)
                 if part is None and rounded[at] + rounded[other]:
                     slack = rounded[at] + rounded[other] + blurred[at] + blurred[other]

@@ -32,7 +32,7 @@ class PhaseCycle(NamedTuple):
 
 
 _LENGTHS = (4, 6, 8, 12, math.inf)  # meshes of a loop: short ones are looked for first
-_PASSES = 8
+_PASSES = 8  # over those that wait: a loop taken makes others shorter
 
 _Edges = dict[int, list[tuple[int, int]]]
 
@@ -97,7 +97,7 @@ def _shortest(edges: _Edges, start: int, goal: int, most: float) -> tuple[list[i
     fronts = [[start], [goal]]
     length = 0
     while (length := length + 1) <= most:
-        side = 0 if len(fronts[0]) <= len(fronts[1]) else 1
+        side = 0 if len(fronts[0]) <= len(fronts[1]) else 1  # the smaller front grows: far fewer nodes are looked at
         fresh = []
         own, other = came[side], came[1 - side]
         for node in fronts[side]:

@@ -154,6 +154,7 @@ class PhaseSystem:
             slack += abs(weight) * self._doubt[mesh]
         if families is None:
             total = math.fsum(self._times(weight, self._constant[mesh]) for mesh, weight in row.items())
+            # above -1/2, up to 1/2, as `centred_residue` has it: `round` would take halves to even numbers
             return PhaseCondition(cycle, row, total - math.ceil(total - 0.5), slack, False)
         scale, exact = contacts.scale, contacts.exact_constant
         parts = sum(weight * exact[mesh] for mesh, weight in row.items()) % scale
@@ -267,7 +268,7 @@ class PhaseSystem:
     def _asked(self, factors: Floats) -> Floats:
         """Rows of meshes that let loops stand only somewhere are not asked for anything."""
         found = factors.copy()
-        found[list(self.parts.breaking)] = 0.0
+        found[list(self.parts.breaking)] = 0.0  # their loops are asked for no phase
         return found
 
     def errors(self, angles: Sequence[float] | Floats) -> Floats:

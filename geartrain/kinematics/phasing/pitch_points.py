@@ -64,6 +64,7 @@ class PitchPoints:
     @cached_property
     def doubt(self) -> Floats:
         """How far off `constant` may be (pitches)."""
+        # a pitch is 1 / z turn: what is unsure of an azimuth counts z times
         doubt: Floats = (np.abs(self.teeth) * (self.slack + 2 * EPS)).sum(axis=1) + 4 * EPS
         return doubt
 
@@ -71,6 +72,7 @@ class PitchPoints:
     def scale(self) -> int:
         """A denominator that all exact parts of a turn, and one half, have in common."""
         found = {part.denominator for parts in self.part for part in parts}
+        # as objects: a common denominator of many parts may pass 64 bits
         return int(np.lcm.reduce(np.array([2, *found], dtype=object)))
 
     @cached_property

@@ -41,6 +41,7 @@ def diagnose(reduced: ReducedSystem, case: StateCase, signs: Mapping[str, int], 
         forms = eliminate(rows[:held], budget).forms(budget)
         for row, stated in zip(rows[held:], statements[held - structural :], strict=True):
             resolved = resolve_form(row, forms)
+            # no unknown is left: the circuits and brakes alone say that this speed is 0
             if stated.speed and not any(column >= 0 for column in resolved):
                 return _name(reduced, case, _uses(resolved), statements)
         echelon = eliminate(rows, budget)

@@ -176,12 +176,12 @@ def _solve(
     except RuntimeError as error:
         raise RangeError(_no_factors(len(rows), str(error))) from None
     x = lu.solve(right)
-    if way.refine:
+    if way.refine:  # equation (23); one step is enough, for the rows are exact
         x = x + lu.solve(matrix.residual(x, right, remainder))
         matrix.prescribe(x, right)
     rest = matrix.residual(x, right, remainder)
     _check_range(matrix, x, rest, rows)
-    left = lu.solve(rest)
+    left = lu.solve(rest)  # what is still off, itself refined once below
     more = lu.solve(matrix.residual(left, rest, np.zeros_like(rest)))
     # what is left, the rounding of x itself, and what residuals in twice the precision and the last solution may hide
     hidden = 16 * UNIT_ROUNDOFF**2 * matrix.size(x) + 16 * UNIT_ROUNDOFF * matrix.size(more) + matrix.sunk(x)
@@ -318,6 +318,7 @@ def _check_range(matrix: PaddedRows, x: Floats, rest: Floats, rows: Sequence[Wil
     """
     with np.errstate(invalid="ignore", over="ignore"):
         size = matrix.size(x)
+        # rows near the end of float64 whose terms do not cancel: subnormal numbers have lost their digits
         lost = (size < 1e-250) & (np.abs(rest) > 1e-8 * size)
         wrong = ~(
             np.abs(rest) <= 1e-6 * np.maximum(size, np.abs(matrix.coefficients).sum(axis=1)[:, None] * np.abs(x).max())

@@ -78,6 +78,7 @@ def raised(error: Exception) -> RemoteFailure:
         back = pickle.loads(pickled)
     except Exception:  # pickling calls code of the exception's own
         return RemoteFailure(trace)
+    # an exception whose __init__ takes other arguments may come back as another text, or not as itself
     faithful = type(back) is type(error) and str(back) == str(error)
     return RemoteFailure(trace, pickled=pickled if faithful else b"")
 

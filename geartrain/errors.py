@@ -99,7 +99,7 @@ class Problem:
 
 
 MOST_TOLD = 20
-"""Problems told at once: who has mended these sees the rest."""
+"""Problems reported at once; the others are seen when these are mended."""
 
 
 def first_problems(problems: Iterable[Problem], count: int | None = None) -> tuple[Problem, ...]:

@@ -7,7 +7,7 @@ a (w_i - w_k) + b (w_j - w_k) = 0, one for each gear pair (docs/theory.md, 3 to 
 
 graph                 the declared links, turning pairs and gear pairs as a networkx graph
 circuits              joint tree, axes, rigid bodies, fundamental circuits
-willis_system         the rows of the system, for whoever solves it
+willis_system         the rows of the system, for all that solve it
 components            ordinary trains of one carrier, and the reduced system between them
 speeds                propagation, exact elimination, floats
 relative_speeds       the speed of one link seen from another

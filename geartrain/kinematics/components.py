@@ -296,7 +296,7 @@ class SolvedPart:
 def relevant_circuits(circuits: Sequence[Circuit], keep: Iterable[str]) -> list[Circuit]:
     """The circuits that can matter to the links in `keep`.
 
-    A circuit with a link that no other circuit has and nobody asks for only serves to move that link: it goes,
+    A circuit with a link that is in no other circuit and not wanted only serves to move that link: it goes,
     and so on until none is left. Loops have no such end, so a locked train stays locked.
     """
     wanted = set(keep)

@@ -39,7 +39,7 @@ def connect(address: str, answer: float = _ANSWER, patience: float = _PATIENCE) 
     answer    s to wait for the scheduler, and again for its first worker
     patience  s for which a running cluster may be without workers
 
-    Raises `GearTrainError` if nobody answers, if there are no workers, or if they cannot run geartrain.
+    Raises `GearTrainError` if no scheduler answers, if there are no workers, or if they cannot run geartrain.
     """
     with ExitStack() as undo:
         undo.enter_context(_silence())

@@ -1,4 +1,4 @@
-"""How a long run is done: by which executor, with which journal, and who hears of its progress."""
+"""How a long run is done: by which executor, with which journal, and where its progress is reported."""
 
 from __future__ import annotations
 

@@ -71,7 +71,7 @@ def _crew(workers: int | None, scheduler: str | None) -> WorkerPool | None:
         why = "how many workers a cluster has is its own matter"
         raise QuestionError(Problem("both workers and a scheduler are given", why, "give one of the two"))
     if workers is not None and workers < 1:
-        raise QuestionError(Problem(f"{workers} workers", "somebody has to do the work", "ask for 1 or more"))
+        raise QuestionError(Problem(f"{workers} workers", "it takes one to do the work", "ask for 1 or more"))
     if scheduler is not None:
         from geartrain.numerics.work.cluster import connect
 

@@ -1,4 +1,4 @@
-"""Tasks in, results out, in the order of the tasks: the same whoever does the work, and whoever dies doing it."""
+"""Tasks in, results out, in the order of the tasks: the same for every executor, and if workers die."""
 
 from __future__ import annotations
 

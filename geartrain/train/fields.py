@@ -47,6 +47,7 @@ class Declared(BaseModel):
 def _count(raw: object) -> int:
     """A tooth count: a positive integer up to 10^12."""
     try:
+        # True is an int of Python's; a text of thousands of digits would take minutes to read
         number = raw if type(raw) is int else int(raw) if isinstance(raw, str) and len(raw) <= 30 else None
     except ValueError:
         number = None

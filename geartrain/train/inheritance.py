@@ -53,7 +53,7 @@ def _overlay(old: YamlNode, new: YamlNode, kind: str) -> YamlNode:
 
 def _entry(old: YamlNode, new: YamlNode, kind: str) -> YamlNode:
     """One named entry laid over another of its kind; a short form is written out first."""
-    if kind == "clutches":
+    if kind == "clutches":  # one of `fixes` and `locks`: laid over each other they would be both
         return new
     old, new = _long(old, kind), _long(new, kind)
     if not isinstance(old.value, dict) or not isinstance(new.value, dict):

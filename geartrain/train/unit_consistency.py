@@ -1,4 +1,4 @@
-"""Units of a declaration that do not go together, and targets that the train's unit cannot be held against."""
+"""Units of a declaration that do not go together, and targets that cannot be compared in the train's unit."""
 
 from __future__ import annotations
 

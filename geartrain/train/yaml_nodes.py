@@ -2,9 +2,8 @@
 
 Every scalar stays the text it was: `1:30`, `010`, `no` and `1.0000` reach the models unharmed. Only a plain
 null is nothing. Nesting, values and the expansion of aliases are bounded, keys are unique, tags are refused. Plain
-data of Python become nodes too, so that what is done with a file can be done with them.
-
-Plain data of a declaration as the text of a YAML file.
+data of Python become nodes too, so that what is done with a file can be done with them; and plain data of a declaration
+are written as the text of a YAML file.
 """
 
 from __future__ import annotations
@@ -107,7 +106,7 @@ def _syntax(error: yaml.MarkedYAMLError, name: str, text: str) -> Problem:
 
 
 class _Builder:
-    """Builds nodes from parser events without recursion."""
+    """Builds nodes from parser events without recursion: nesting is refused before any stack runs out."""
 
     def __init__(self, name: str) -> None:
         self.name = name
@@ -171,6 +170,7 @@ class _Builder:
                     place,
                 )
             )
+        # an alias of aliases doubles at each step ("billion laughs"): what counts is the size written out
         self.expanded += target.size
         if self.expanded > MOST_EXPANDED:
             raise DeclarationError(

@@ -22,7 +22,7 @@ GainLoop = list[tuple[int, int]]
 
 def inverse(gain: Gain) -> Gain:
     """The gain walked backwards; signs stay integers, which are fast."""
-    return gain if gain == 1 or gain == -1 else 1 / Fraction(gain)
+    return gain if gain == 1 or gain == -1 else 1 / Fraction(gain)  # a float never: products must close exactly
 
 
 @dataclass(frozen=True)
@@ -158,6 +158,7 @@ def single_mesh_removals(network: GainGraph, found: GainWalk) -> list[int]:
     chord = next(iter(found.breaking))
     path = tree_path(*network.ends[chord], found.above)
     anchors = _anchors(found, path)
+    # each chord covers a stretch of the path: +1 where it begins, -1 where it ends, and sums tell how many are open
     opened, agreed, amounts = [0] * (len(path) + 1), [0] * (len(path) + 1), set()
     for mesh, amount in found.breaking.items():
         low, high = (anchors[end] for end in network.ends[mesh])
@@ -239,7 +240,7 @@ def shortest_loop(
         loop = _loop_through(network, without, start, len(best) if best else 2 * network.size + 1)
         if loop is not None and (best is None or len(loop) < len(best)):
             best = loop
-            if len(best) == 2:
+            if len(best) == 2:  # none is shorter
                 break
     return best
 
@@ -252,7 +253,7 @@ def _loop_through(network: GainGraph, without: Collection[int], start: int, belo
     best: tuple[int, int, int] | None = None
     queue = [start]
     for here in queue:
-        if 2 * depth[here] + 1 >= below:
+        if 2 * depth[here] + 1 >= below:  # what closes from here on is as long as the best at least
             break
         for mesh in network.at[here]:
             if mesh in without or (here in came and mesh == came[here][1]):

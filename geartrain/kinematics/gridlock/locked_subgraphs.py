@@ -20,8 +20,8 @@ from geartrain.numerics.containers import collector_paused
 
 MOST_COUPLED = 2000
 """Meshes up to which those about several carriers are tried; each trial solves the train."""
-_ONE_BY_ONE = 200
-_TRIALS = 3000
+_ONE_BY_ONE = 200  # meshes up to which each is tried alone
+_TRIALS = 3000  # sets that are tried at most
 
 
 class LockedNetwork(NamedTuple):
@@ -167,7 +167,9 @@ def _varied(part: SolvedPart) -> SolvedPart:
 
     circuits = [
         circuit._replace(
-            a=circuit.a * factor(circuit.j, circuit.carrier), b=circuit.b * factor(circuit.i, circuit.carrier)
+            # each link's speed about the carrier times a factor of its own: products round loops stay as they are
+            a=circuit.a * factor(circuit.j, circuit.carrier),
+            b=circuit.b * factor(circuit.i, circuit.carrier),
         )
         for circuit in part.circuits
     ]

@@ -132,7 +132,7 @@ def _join(bundles: dict[Pair, int], faces: Sequence[Sequence[int]], odd: Sequenc
     for pair, surplus in bundles.items():
         one, two = side[pair], side[pair[1], pair[0]]
         if one != two:
-            dual[one].append((two, abs(surplus), pair))
+            dual[one].append((two, abs(surplus), pair))  # crossing a bundle costs the meshes that would go
             dual[two].append((one, abs(surplus), pair))
     ways = {start: _ways(dual, start) for start in odd}
     graph: nx.Graph[int] = nx.Graph()
@@ -141,6 +141,7 @@ def _join(bundles: dict[Pair, int], faces: Sequence[Sequence[int]], odd: Sequenc
     )
     join: set[Pair] = set()
     for one, two in nx.min_weight_matching(graph):
+        # ways that share a bundle cancel there: the join is their symmetric difference
         came = ways[one][1]
         while two != one:
             two, pair = came[two]

@@ -28,8 +28,8 @@ SMALL = 20
 """Meshes of a block up to which branch and bound always ends with a least set."""
 LARGE = 10_000
 """Meshes of a component past which only one mesh, or a greedy set, is looked for."""
-_MEDIUM = 300
-_SEARCHED = 100
+_MEDIUM = 300  # nodes, or meshes, up to which a loop is looked for from everywhere: that costs their square
+_SEARCHED = 100  # meshes of a block up to which branch and bound is tried
 _BRANCHES = 20_000  # times meshes: a second or two
 
 

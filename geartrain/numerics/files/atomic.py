@@ -2,9 +2,8 @@
 
 Every file that geartrain makes for a user goes through here. `destination` says where it is put, or why it cannot be;
 `write_bytes` and `place` put it there under one rule: what is written stands beside its place first, is safe on the
-disk, and takes the name in one step, so that a reader sees the old file or the new one.
-
-A folder of finished files to disk: all of them, or none.
+disk, and takes the name in one step, so that a reader sees the old file or the new one. `write_folder` does the same
+for many files: all of them, or none.
 """
 
 from __future__ import annotations
@@ -60,7 +59,7 @@ def write_bytes(path: Path, data: bytes, force: bool = False) -> None:
         try:
             with os.fdopen(handle, "wb") as file:
                 file.write(data)
-            temporary.chmod(0o666 & ~umask())
+            temporary.chmod(0o666 & ~umask())  # `mkstemp` lets the owner alone read what is to be a plain file
             place(temporary, path, force)
         finally:
             temporary.unlink(missing_ok=True)
@@ -75,7 +74,7 @@ def place(temporary: Path, path: Path, force: bool = False) -> None:
     """
     real = destination(path, force)
     with temporary.open("rb") as file:
-        os.fsync(file.fileno())
+        os.fsync(file.fileno())  # before it takes the name: or a power failure leaves the new name with no content
     if real.exists():
         _inherit(real, temporary)
     if force or not _link(temporary, real, path):
@@ -92,7 +91,7 @@ def unfinished_file(path: Path, error: Exception) -> GearTrainError:
 
 def umask() -> int:
     """Permissions that new files do without."""
-    mask = os.umask(0)
+    mask = os.umask(0)  # it can be read by setting it only
     os.umask(mask)
     return mask
 

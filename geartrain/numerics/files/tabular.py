@@ -1,10 +1,8 @@
-"""Long tables to disk, piece by piece: under a name that says partial until they are whole, and taken up again.
+"""Tables to and from disk: long ones as CSV or Parquet, small ones as text.
 
-Columns to disk as Parquet, row group by row group: under a name that says partial until they are whole.
-
-Comma-separated values: the one place where rows become the text of a CSV.
-
-Small tables of a user's own: points, and edges of a graph, one a line.
+Long tables are written piece by piece, under a name that says partial until they are whole; a CSV that was interrupted
+is taken up again. Rows become the text of a CSV here and nowhere else. What a user has in small tables, points or the
+edges of a graph, one a line, is read here.
 """
 
 from __future__ import annotations

@@ -87,7 +87,10 @@ class Skeleton:
         data: Data = train.data
         self.frame = data.get("frame", "frame")
         self.axis = [joint["axis"] for joint in data["revolutes"]]
-        self.unit = {label: _unit(train.directions.get(label, (0, 0, 1))) for label in self.axis}
+        units: dict[Unit, Unit] = {}  # equal ones are one object
+        self.unit = {
+            label: units.setdefault(unit := _unit(train.directions.get(label, (0, 0, 1))), unit) for label in self.axis
+        }
         self.point = train.positions
         self.count = len(self.axis)
         self._up: dict[str, tuple[str, int]] = {}
@@ -131,6 +134,9 @@ class Skeleton:
         about = about or self.own(of)
         for at, sense, _ in self.path(base, of):
             unit = self.unit[self.axis[at]]
+            if unit is about:  # its length is 1
+                row[at] += sense
+                continue
             if any(cross(unit, about)):
                 return None
             row[at] += sense * _dot(unit, about)
@@ -174,20 +180,45 @@ class Motion:
         return {link for link in self.links if self.is_free(link)}
 
 
-def move(train: RandomTrain, state: str | None = None) -> Motion:
-    """Solve a train in one state."""
+@dataclass
+class Resting:
+    """A train in one state with nothing driven: what its pairs and rigid connections leave of the joint rates.
+
+    refused   some of them are a linkage
+    """
+
+    skeleton: Skeleton
+    held: Space
+    links: Sequence[str]
+    refused: bool = False
+
+
+def rest(train: RandomTrain, state: str | None = None) -> Resting:
+    """What holds whatever is driven."""
     data, skeleton = train.data, Skeleton(train)
     bodies = list(_bodies(data, state))
-    links = list(data["links"])
-    held = Space(skeleton.count)
+    found = Resting(skeleton, Space(skeleton.count), list(data["links"]))
     for row in circuits(data, skeleton):
-        held.add(row)
+        found.held.add(row)
     try:
         for row in rigid(train, skeleton, bodies):
-            held.add(row)
+            found.held.add(row)
     except LinkageError:
+        found.refused = True
+    return found
+
+
+def move(train: RandomTrain, state: str | None = None) -> Motion:
+    """Solve a train in one state."""
+    resting = rest(train, state)
+    return drive(resting, {} if resting.refused else inputs_of(train.data, state))
+
+
+def drive(resting: Resting, inputs: Mapping[str, Fraction]) -> Motion:
+    """Solve a train with some speeds of links."""
+    skeleton, held, links = resting.skeleton, resting.held, resting.links
+    if resting.refused:
         return Motion("refused", skeleton, held, links)
-    inputs = inputs_of(data, state)
     space = held.copy()
     for link, speed in inputs.items():
         row = skeleton.spin(skeleton.frame, link)
@@ -246,7 +277,7 @@ def _pitch_point(
     assert spin_i is not None
     assert spin_j is not None
     z_i, z_j = Fraction(first["teeth"]), Fraction(second["teeth"])
-    if any(cross(u, v)):
+    if u is not v and any(cross(u, v)):
         # cones with one apex: c along their common line, at the distances z_i and z_j from the axes
         f_i, f_j = first.get("facing", 1), second.get("facing", 1)
         c = tuple(f_i * z_j * a + f_j * z_i * b for a, b in zip(u, v, strict=True))

@@ -13,10 +13,13 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from fractions import Fraction
 from random import Random
-from typing import Any
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from joint_rates import Resting
 
 Data = dict[str, Any]
 Vector = tuple[int, int, int]
@@ -85,26 +88,29 @@ def random_train(seed: int, most: int = 9, oblique: bool = True, asked: bool = T
 
 def driven_train(seed: int, **options: Any) -> RandomTrain:
     """A train that is determined: of those from this seed on the first that can be, driven until nothing is free."""
-    from joint_rates import move
+    from joint_rates import drive, inputs_of, rest
 
     for at in itertools.count(seed * 1000):
         found = random_train(at, asked=False, **options)
         random = Random(at)
         if random.random() < 0.3:
             found.data["fixed"] = [random.choice([link for link in found.data["links"] if _on_the_frame(found, link)])]
-        found.data["inputs"] = drive(found, random)
-        if found.data["inputs"] and move(found).kind == "determined":
+        resting = rest(found)
+        found.data["inputs"] = inputs_until_determined(found, resting, random)
+        if found.data["inputs"] and drive(resting, inputs_of(found.data, None)).kind == "determined":
             return found
     raise AssertionError("unreachable")
 
 
-def drive(train: RandomTrain, random: Random, write: Callable[[Fraction], str] = str, most: int = 9) -> dict[str, str]:
+def inputs_until_determined(
+    train: RandomTrain, resting: Resting, random: Random, write: Callable[[Fraction], str] = str, most: int = 9
+) -> dict[str, str]:
     """Inputs for a train, one by one on links that are still free, until nothing is free or `most` are driven."""
-    from joint_rates import move
+    from joint_rates import drive, inputs_of
 
     inputs: dict[str, str] = {}
     while len(inputs) < most:
-        motion = move(replace(train, data={**train.data, "inputs": inputs, "states": {}}))
+        motion = drive(resting, inputs_of({"inputs": inputs}, None))
         loose = [link for link in train.data["links"] if motion.is_free(link)] if motion.kind == "free" else []
         if motion.kind == "locked" and not inputs:
             break
@@ -278,11 +284,14 @@ class _Asking:
             self.units = tuple(random.sample(UNITS, random.randint(1, 3)))
 
     def ask(self) -> None:
+        from joint_rates import rest
+
         random = self.random
         self.data["fixed"] = self._fixed(0.3)
         self.data["locks"] = self._locks(0.2)
         if random.random() < 0.6:
-            self.data["inputs"] = drive(self.train, random, self._given, random.randint(1, 4))
+            most = random.randint(1, 4)
+            self.data["inputs"] = inputs_until_determined(self.train, rest(self.train), random, self._given, most)
         else:
             self.data["inputs"] = self._inputs(random.choice([0, 0, 1, 1, 2, 2, 3]))
         if random.random() < 0.3:

@@ -165,6 +165,8 @@ def pairs(draw: st.DrawFn) -> Drawn:
     return Drawn(z1, z2, x1, x2, add1, add2, ring)
 
 
+SAMPLE = 40 if settings().derandomize else 80  # `--slow` draws new pairs, and twice as many
+
 ISSUE = Drawn(36, 70, 0.696, 0.226, 1.0, 1.0, True)
 AFTER = Drawn(40, 60, 1.15, -1.15, 1.0, 1.0, False)
 BEFORE = Drawn(60, 40, -1.15, 1.15, 1.0, 1.0, False)
@@ -179,7 +181,7 @@ def possible(pair: Drawn) -> bool:
 @example(AFTER)
 @example(BEFORE)
 @given(pairs())
-@settings(max_examples=40, deadline=None, phases=(Phase.explicit, Phase.reuse, Phase.generate))
+@settings(max_examples=SAMPLE, deadline=None, phases=(Phase.explicit, Phase.reuse, Phase.generate))
 def test_a_pair_runs_where_its_drawn_flanks_keep_the_ratio_and_nowhere_else(pair: Drawn) -> None:
     assume(possible(pair) and pair.whole() and abs(pair.ratio - 1) > 0.02)
     if pair.ratio <= 0:

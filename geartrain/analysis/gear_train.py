@@ -18,7 +18,8 @@ if TYPE_CHECKING:
     from geartrain.dynamics.motion.motion_problem import MotionProblem
     from geartrain.dynamics.torques.load_case import LoadCase
     from geartrain.kinematics.phasing import MeshPhasing
-    from geartrain.teeth.gear_mesh import GearMesh, MeshDriver
+    from geartrain.teeth.gear_mesh import GearMesh
+    from geartrain.teeth.meshing_wheels import MeshDriver
 
 
 class GearTrain(TrainKinematics):

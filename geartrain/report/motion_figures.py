@@ -13,7 +13,7 @@ from geartrain.numerics.plain_data import Key, Result
 if TYPE_CHECKING:
     from geartrain.analysis.gear_train import GearTrain
     from geartrain.dynamics import ErrorEstimates, MotionRun, RunningStatistics, SpectrumLine
-    from geartrain.teeth.gear_mesh import MeshDriver
+    from geartrain.teeth.meshing_wheels import MeshDriver
 
 _TURNS, _POSITIONS = 20.0, 20_001  # of the run in a report
 

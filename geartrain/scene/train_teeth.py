@@ -25,8 +25,9 @@ from geartrain.teeth.standard_teeth import PLAY, UndeclaredWheel, check_size, lo
 
 if TYPE_CHECKING:
     from geartrain.analysis.gear_train import GearTrain
-    from geartrain.teeth.gear_mesh import DeclaredPair, GearMesh
+    from geartrain.teeth.gear_mesh import GearMesh
     from geartrain.teeth.involute import Involute
+    from geartrain.teeth.meshing_wheels import DeclaredPair
     from geartrain.teeth.outlines.wheel_requirement import WheelRequirement
     from geartrain.teeth.standard_teeth import StandardTeeth
     from geartrain.train import GearPair, Wheel

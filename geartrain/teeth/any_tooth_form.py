@@ -36,18 +36,13 @@ def conjugate_forms() -> tuple[str, ...]:
 
 
 __all__ = [
-    "AnyToothForm",
     "CircularArc",
-    "ConjugateForm",
     "Cycloidal",
     "Ideal",
     "Involute",
     "Lantern",
     "LeastFriction",
-    "ToothForm",
     "Triangular",
     "UniformStress",
     "UniformTemperature",
-    "conjugate_forms",
-    "tooth_forms",
 ]

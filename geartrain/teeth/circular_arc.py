@@ -18,26 +18,22 @@ The depth of the leaves, the wheel's addendum and 0.4 modules, is Sparks's.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from functools import lru_cache
-from math import asin, atan2, cos, hypot, pi, sin, sqrt, tan
+from math import atan2, cos, pi, sin, sqrt
 from typing import TYPE_CHECKING, Annotated, ClassVar, Literal
 
 from pydantic import BeforeValidator, Field, model_validator
 
 from geartrain.errors import Problem
 from geartrain.numerics.quantity import Length, Quantity
+from geartrain.teeth.outlines.arc_tooth import ArcTooth
 from geartrain.teeth.outlines.wheel_requirement import FixedTooth
 from geartrain.teeth.tooth_form import IDEAL, ShaftAngle, ToothForm, TwoFigures, bad, refused
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from geartrain.numerics.arrays import Floats
-    from geartrain.teeth.contact.outline_curves import GearOutline
-    from geartrain.teeth.gear_mesh import GearMesh, MeshingWheels
+    from geartrain.teeth.gear_mesh import GearMesh
+    from geartrain.teeth.meshing_wheels import MeshingWheels
     from geartrain.teeth.outline_transmission import OutlineGears, OutlineTransmission
-    from geartrain.teeth.outlines.tooth_outline import Vertex
 
 _PRACTICAL, _ARC = 0.95, 1.40  # of f_a: the wheel's addendum, and the radius of its arc
 _BOTTOM = 0.4  # modules: what the spaces are deeper than the mate's tips are high
@@ -65,94 +61,30 @@ def addendum_factor(z: int, ratio: float) -> float:
     return z / 4 * (sqrt(1 + k * k - 2 * k * cos(t)) - 2 * ratio)
 
 
-@dataclass(frozen=True, slots=True)
-class ArcTooth:
-    """A tooth with radial flanks and a tip of two arcs, lengths in modules.
-
-    z           teeth of the wheel; `thickness` of one along the pitch circle
-    addendum    height of the tip over the pitch circle; `radius` of the arcs
-    dedendum    depth of the root under it
-    """
-
-    z: int
-    thickness: float
-    addendum: float
-    radius: float
-    dedendum: float
-
-    @property
-    def tip(self) -> float:
-        """Radius of the tip (modules)."""
-        return self.z / 2 + self.addendum
-
-    @property
-    def root(self) -> float:
-        """Radius of the root circle (modules)."""
-        return self.z / 2 - self.dedendum
-
-    @property
-    def centre(self) -> tuple[float, float]:
-        """Of the arc on the side of positive x, the middle of the tooth along y; beyond it for a pointed tip."""
-        half = self.thickness / self.z
-        x, y = self.z / 2 * sin(half), self.z / 2 * cos(half)
-        chord = hypot(x, self.tip - y)
-        far = sqrt(self.radius**2 - chord**2 / 4) / chord
-        return x / 2 - far * (self.tip - y), (self.tip + y) / 2 - far * x
-
-    @property
-    def fits(self) -> bool:
-        """True if the arc spans from the pitch circle to the tip and rises all the way, and the flank ends on it."""
-        half = self.thickness / self.z
-        chord = hypot(self.z / 2 * sin(half), self.tip - self.z / 2 * cos(half))
-        if 2 * self.radius < chord or not 0 < half < pi / self.z:
-            return False
-        x, y = self.centre
-        start, lean = self.flank
-        return x <= 1e-3 * self.radius and hypot(x, y) > self.radius and self.root < start and 0 < lean < pi / self.z
-
-    @property
-    def flank(self) -> tuple[float, float]:
-        """Radius at which the flank ends and the arc begins, and angle (rad) of the flank from the tooth's middle."""
-        x, y = self.centre
-        far = hypot(x, y)
-        return sqrt(far**2 - self.radius**2), atan2(x, y) + asin(self.radius / far)
-
-    def outline(self) -> GearOutline:
-        """All teeth of the wheel, for the contact of outlines."""
-        import numpy as np
-
-        from geartrain.teeth.contact.outline_curves import GearOutline, OutlineCurve, ToothFlanks
-
-        (start, lean), (cx, cy), radius = self.flank, self.centre, self.radius
-        way = np.array([sin(lean), cos(lean)])
-        # angles on the arc, counted from x towards y
-        low, high = atan2(start * way[1] - cy, start * way[0] - cx), atan2(self.tip - cy, -cx)
-
-        def arc(turn: Floats) -> Floats:
-            return np.stack([cx + radius * np.cos(turn), cy + radius * np.sin(turn)], axis=1)
-
-        side = (OutlineCurve(lambda r: r[:, None] * way, self.root, start), OutlineCurve(arc, low, high))
-        return GearOutline((ToothFlanks.symmetric(side),), self.z)
-
-    def vertices(self) -> Iterator[Vertex]:
-        """The tooth about the x axis, from root to root, with the bulge of each edge; the arcs are exact."""
-        (start, lean), (cx, cy) = self.flank, self.centre
-        sweep = atan2(self.tip - cy, -cx) - atan2(start * cos(lean) - cy, start * sin(lean) - cx)
-        along, beside = cos(lean), sin(lean)
-        yield self.root * along, -self.root * beside, 0.0
-        yield start * along, -start * beside, tan(sweep / 4)
-        yield self.tip, 0.0, tan(sweep / 4)
-        yield start * along, start * beside, 0.0
-        yield self.root * along, self.root * beside, tan((pi / self.z - lean) / 2)
-
-
 def _wheel_number(raw: object) -> object:
     """A declaration gives numbers as text."""
     return int(raw) if raw in ("1", "2") else raw
 
 
 class CircularArc(ToothForm):
-    """Circular-arc clock teeth as BS 978 Part 2 has them: radial flanks, ogive tips, thin leaves."""
+    """Circular-arc clock teeth as BS 978 Part 2 has them: radial flanks, ogive tips, thin leaves.
+
+    They are not conjugate: error, play and efficiency come from the contact of their outlines (docs/shapes.md).
+
+    See Also
+    --------
+    geartrain.teeth.Cycloidal : the teeth that the arcs stand for.
+
+    Examples
+    --------
+    A wheel of 60 teeth and a pinion of 8 leaves: thickness, addendum and radius of the arcs, in modules.
+
+    >>> wheel, pinion = CircularArc(form="circular_arc").teeth(60, 8)
+    >>> round(wheel.thickness, 3), round(wheel.addendum, 3), round(wheel.radius, 3)
+    (1.571, 1.471, 2.168)
+    >>> pinion.thickness, pinion.addendum, pinion.radius
+    (1.05, 0.67, 0.7)
+    """
 
     any_distance: ClassVar[bool] = True
 
@@ -198,9 +130,24 @@ class CircularArc(ToothForm):
     # ----------------------------------------------------------------------------------------------- teeth of a pair
 
     def teeth(self, z1: int, z2: int, module: float | None = None) -> tuple[ArcTooth, ArcTooth]:
-        """The teeth of both wheels; `module` (m) for lengths with a unit.
+        """The teeth of both wheels.
 
-        Raises `GearTrainError` where these sizes give no tooth.
+        Parameters
+        ----------
+        z1, z2 : int
+            Teeth of the first and of the second wheel, 5 to 10000.
+        module : float, optional
+            Module [m], for lengths with a unit.
+
+        Returns
+        -------
+        tuple of ArcTooth
+            Of the first and of the second wheel; lengths in modules.
+
+        Raises
+        ------
+        GearTrainError
+            Where these sizes give no tooth.
         """
         for z in (z1, z2):
             if not _FEWEST <= z <= _MOST_TEETH:
@@ -240,7 +187,20 @@ class CircularArc(ToothForm):
         return made[0], made[1]
 
     def distance(self, z1: int, z2: int, module: float | None = None) -> float:
-        """Of the axes, in modules."""
+        """Distance of the axes.
+
+        Parameters
+        ----------
+        z1, z2 : int
+            Teeth of both wheels.
+        module : float, optional
+            Module [m], for a distance with a unit.
+
+        Returns
+        -------
+        float
+            Modules; half the sum of the teeth unless declared.
+        """
         if self.centre_distance is None:
             return (z1 + z2) / 2
         return _modules(self.centre_distance, module, "centre_distance")
@@ -248,14 +208,56 @@ class CircularArc(ToothForm):
     def law(
         self, z1: int, z2: int, friction: float = 0.0, driver: int = 1, direction: int = 1, module: float | None = None
     ) -> OutlineTransmission:
-        """The transmission function of a pair: `driver` 2 lets the second wheel drive, `direction` -1 turns back."""
+        """The transmission function of a pair, from the contact of its outlines.
+
+        Parameters
+        ----------
+        z1, z2 : int
+            Teeth of the first and of the second wheel.
+        friction : float
+            Coefficient of friction, 0 or more.
+        driver : {1, 2}
+            Which wheel drives.
+        direction : {1, -1}
+            -1 turns back, on the other flanks.
+        module : float, optional
+            Module [m], for lengths with a unit.
+
+        Returns
+        -------
+        OutlineTransmission
+            Its `verdict` says whether the pair can turn.
+
+        Raises
+        ------
+        GearTrainError
+            Where these sizes give no tooth.
+        """
         from geartrain.teeth.outline_transmission import OutlineTransmission
 
         gears = _gears(*self.teeth(z1, z2, module), self.distance(z1, z2, module))
         return OutlineTransmission(gears, friction, driver, direction)
 
     def mesh(self, wheels: MeshingWheels, shaft_angle: ShaftAngle) -> GearMesh:
-        """The mesh of a pair, its first wheel driving."""
+        """The mesh of a pair, its first wheel driving.
+
+        Parameters
+        ----------
+        wheels : MeshingWheels
+            The two wheels as declared.
+        shaft_angle : callable
+            Not asked: only parallel axes can have these teeth.
+
+        Returns
+        -------
+        GearMesh
+            What a train asks of the pair.
+
+        Raises
+        ------
+        GearTrainError
+            For rings and bevels, and where these sizes give no tooth.
+        """
         from geartrain.teeth.outline_mesh import OutlineMesh
 
         del shaft_angle
@@ -271,7 +273,18 @@ class CircularArc(ToothForm):
     # ------------------------------------------------------------------------------------------------- a maker's play
 
     def own_play(self, pair: str) -> Problem | None:
-        """Declared play or thickness wins over a maker's."""
+        """Why a maker's play does not hold for this pair: declared play or thickness wins.
+
+        Parameters
+        ----------
+        pair : str
+            Name of the pair, for the message.
+
+        Returns
+        -------
+        Problem or None
+            None where neither is declared.
+        """
         if self.backlash is None and self.thickness is None:
             return None
         why = "it declares its backlash or thickness, and what is declared wins"
@@ -279,7 +292,18 @@ class CircularArc(ToothForm):
         return Problem(f"pair '{pair}' has a backlash of its own", why, fix)
 
     def thinned(self, backlash: Quantity) -> CircularArc:
-        """The same teeth, the leaves thinner where they leave less play."""
+        """The same teeth, the leaves thinner where they leave less play.
+
+        Parameters
+        ----------
+        backlash : Quantity
+            Least play on the pitch circle, in modules or with a unit.
+
+        Returns
+        -------
+        CircularArc
+            A copy.
+        """
         return self.model_copy(update={"backlash": backlash})
 
 

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Literal
 from pydantic import Field, model_validator
 
 from geartrain.numerics.quantity import Figure
-from geartrain.teeth.conjugate.conjugate_form import ConjugateToothForm, arcs_of, check_arcs
+from geartrain.teeth.conjugate.conjugate_form import ConjugateToothForm
+from geartrain.teeth.conjugate.form_checks import arcs_of, check_arcs
 from geartrain.teeth.conjugate.wheel_pair import WheelPair
 from geartrain.teeth.tooth_form import TwoFigures, TwoLengths, bad, refused
 
@@ -20,7 +21,20 @@ _HALF = Figure.parse("1/2")
 
 
 class Cycloidal(ConjugateToothForm):
-    """Cycloidal teeth, as in clocks: by default every dedendum is radial."""
+    """Cycloidal teeth, as in clocks: by default every dedendum is radial.
+
+    Epicycloids outside the pitch circles, hypocycloids inside; one rolling circle makes each side (docs/shapes.md).
+
+    See Also
+    --------
+    geartrain.teeth.Lantern : pins in place of the teeth of one wheel.
+
+    Examples
+    --------
+    >>> law = Cycloidal(form="cycloidal").law(8, 60)
+    >>> law.verdict.text, law.ratio, law.path.contact_ratio
+    ('the teeth run', Fraction(2, 15), 1.0)
+    """
 
     form: Literal["cycloidal"] = Field(description="The name of this form")
     rolling: TwoLengths | None = Field(
@@ -58,7 +72,23 @@ class Cycloidal(ConjugateToothForm):
         return self
 
     def pair(self, wheels: WheelPair) -> ConjugatePair:
-        """The pair at its design distance."""
+        """The pair at its design distance.
+
+        Parameters
+        ----------
+        wheels : WheelPair
+            Tooth numbers of the two, how their axes stand, and their module if a length says it.
+
+        Returns
+        -------
+        ConjugatePair
+            Path of contact, thickness of the teeth, and what keeps them from running.
+
+        Raises
+        ------
+        GearTrainError
+            Where these wheels cannot have such teeth, with what would let them.
+        """
         from geartrain.teeth.conjugate.closed_form_sides import cycloid
         from geartrain.teeth.conjugate.path_of_contact import PathOfContact
 
@@ -66,7 +96,7 @@ class Cycloidal(ConjugateToothForm):
         circles = self._circles(pitch, wheels)
         arcs = self._arcs(pitch, circles)
         approach, recess = (cycloid(pitch, X, rho) for X, rho in zip(arcs, circles, strict=True))
-        return self.standard(PathOfContact(pitch, approach, recess), wheels)
+        return self._standard(PathOfContact(pitch, approach, recess), wheels)
 
     def _circles(self, pitch: PitchSurfaces, wheels: WheelPair) -> tuple[float, float]:
         """Rolling circles of approach and recess: modules, or rad."""

@@ -1,4 +1,4 @@
-"""What a train needs of a gear pair with real teeth, whatever their form."""
+"""A gear pair with real teeth: what a train asks of it, whatever their form."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any, Protocol, Self
 
 from geartrain.errors import Problem, RangeError
-from geartrain.numerics.plain_data import Key, Result
+from geartrain.teeth.meshing_wheels import DeclaredPair, MeshDriver, MeshingWheels
 from geartrain.teeth.transmission import ExactRatio
 
 if TYPE_CHECKING:
@@ -18,22 +18,6 @@ if TYPE_CHECKING:
     from geartrain.teeth.pair_verdict import PairVerdict
     from geartrain.teeth.transmission import TransmissionFunction
     from geartrain.teeth.transmission_figures import SlidingEfficiency
-
-
-class DeclaredPair(Protocol):
-    """What a mesh reads of the gear pair that declares it."""
-
-    @property
-    def name(self) -> str:
-        """As others refer to it."""
-
-    @property
-    def pair(self) -> tuple[str, str]:
-        """The two wheels."""
-
-    @property
-    def fitting(self) -> Any:
-        """How exactly it is mounted; None: as the train says."""
 
 
 class NamedForm(Protocol):
@@ -52,63 +36,6 @@ class NamedForm(Protocol):
         """True for teeth declared in units of length."""
 
 
-@dataclass(frozen=True)
-class MeshDriver(Result):
-    """The wheel that drives a gear pair (of a coupling, the link), and how that is known.
-
-    known   False where the way of power is not determined: `wheel` is then taken to go on with, and no more
-    """
-
-    KEYS = (Key("driver", "wheel"), Key("driver_is", "why"), Key("determined", "known"))
-
-    wheel: str
-    why: str
-    known: bool = True
-
-
-_CONTRATE = "the contrate is taken for a spur wheel"
-
-
-@dataclass(frozen=True)
-class MeshingWheels:
-    """The two wheels of a gear pair as a train declares them: what a tooth form makes a mesh of.
-
-    place      where the pair is declared
-    counts     tooth numbers; `kinds` of the wheels, and which of them are rings
-    friction   None where none is declared
-    distance   half the modules times the teeth, summed (m); None unless both wheels declare a module with a unit
-    """
-
-    gear: DeclaredPair
-    place: str
-    counts: tuple[int, int]
-    kinds: tuple[str, str] = ("spur", "spur")
-    internal: tuple[bool, bool] = (False, False)
-    friction: float | None = None
-    distance: float | None = None
-
-    @property
-    def module(self) -> float | None:
-        """Mean module (m); None where no length says it."""
-        return None if self.distance is None else 2 * self.distance / sum(self.counts)
-
-    @property
-    def touching(self) -> float:
-        """The distance (modules) at which pitch circles touch."""
-        z1, z2 = self.counts
-        return abs(z1 - z2) / 2 if any(self.internal) else (z1 + z2) / 2
-
-    @property
-    def driver(self) -> MeshDriver:
-        """The first wheel, until who drives is known."""
-        return MeshDriver(self.gear.pair[0], "", False)
-
-    @property
-    def note(self) -> str:
-        """What the wheels are taken for, where it is not what they are; empty where it is."""
-        return _CONTRATE if "contrate" in self.kinds else ""
-
-
 @dataclass(frozen=True, slots=True)
 class PairSize:
     """Of a pair with real teeth.
@@ -125,10 +52,31 @@ class PairSize:
 
 @dataclass(frozen=True)
 class GearMesh(ABC):
-    """A gear pair with real teeth, and friction if it is declared: all that others ask of it, whatever its form.
+    """A gear pair with real teeth: all that others ask of it, whatever their form.
 
-    who    the wheel that drives, and how that is known
-    law    with that wheel driving, forwards; `coast` is that of the other flanks
+    Attributes
+    ----------
+    wheels : MeshingWheels
+        The two wheels as declared, with their friction.
+    tooth_form : NamedForm
+        The form that made it.
+    who : MeshDriver
+        The wheel that drives, and how that is known.
+    law : TransmissionFunction
+        With that wheel driving, forwards; `coast` is that of the other flanks, `reversed` with the other wheel driving.
+
+    See Also
+    --------
+    geartrain.GearTrain.meshes : the pairs of a train.
+
+    Examples
+    --------
+    >>> import geartrain
+    >>> mesh = geartrain.load("sorge-pairs").meshes[0]
+    >>> mesh.form, mesh.counts, mesh.verdict.text, mesh.law.ratio
+    ('triangular', (48, 96), 'the wheels turn', Fraction(1, 2))
+    >>> mesh.rigid, mesh.friction
+    (False, 0.2)
     """
 
     wheels: MeshingWheels
@@ -211,9 +159,17 @@ class GearMesh(ABC):
 
     @abstractmethod
     def size(self, tips: Mapping[str, float]) -> PairSize | None:
-        """How large the pair is, and how far apart its axes stand; None where the axes are not parallel.
+        """How large the pair is, and how far apart its axes stand.
 
-        tips   tip radii (modules) of wheels that have a size already, for teeth that are similar at any scale
+        Parameters
+        ----------
+        tips : mapping of str to float
+            Tip radii [module] of wheels that have a size already, for teeth that are similar at any scale.
+
+        Returns
+        -------
+        PairSize or None
+            None where the axes are not parallel.
         """
 
     @property
@@ -225,8 +181,19 @@ class GearMesh(ABC):
     def requirement(self, wheel: str, scale: float, tolerance: float) -> WheelRequirement:
         """The teeth that this pair asks of one of its wheels.
 
-        scale       modules in one unit of the law's lengths, as of `size`
-        tolerance   how far (modules) a chord may leave a flank
+        Parameters
+        ----------
+        wheel : str
+            Name of the wheel.
+        scale : float
+            Modules in one unit of the law's lengths, as of `size`.
+        tolerance : float
+            How far a chord may leave a flank [module].
+
+        Returns
+        -------
+        WheelRequirement
+            What can be compared with the demands of the wheel's other pairs, and cut.
         """
 
     @property
@@ -253,9 +220,18 @@ class GearMesh(ABC):
         """What is told of the pair, as it is driven."""
 
     def play_apart(self, gap: float) -> float | None:
-        """Play on the pitch circle (modules) of axes that stand `gap` modules too far apart; below 0 they jam.
+        """Play of axes that stand farther apart than declared.
 
-        None for teeth that do not run there as they do at home.
+        Parameters
+        ----------
+        gap : float
+            By how much [module]; below 0 they stand too near.
+
+        Returns
+        -------
+        float or None
+            On the pitch circle [module], below 0 where the teeth jam; None for teeth that do not run there as they do
+            at home.
         """
         del gap
         return None
@@ -296,7 +272,18 @@ class GearMesh(ABC):
         return bool(self.friction)
 
     def efficiency(self, driver: str) -> SlidingEfficiency:
-        """What arrives of the power that this wheel puts in, over a turn."""
+        """What arrives of the power that one wheel puts in, over a turn.
+
+        Parameters
+        ----------
+        driver : str
+            Name of the wheel that drives.
+
+        Returns
+        -------
+        SlidingEfficiency
+            At constant torque of either side.
+        """
         from geartrain.teeth.transmission_figures import SlidingEfficiency
 
         return SlidingEfficiency(self.law if driver == self.driver else self.reversed)
@@ -309,7 +296,18 @@ class GearMesh(ABC):
         return self.efficiency(self.driver).text, self.efficiency(self.driven).text
 
     def driven_by(self, driver: MeshDriver) -> Self:
-        """The same teeth with this wheel driving."""
+        """The same teeth with another wheel driving.
+
+        Parameters
+        ----------
+        driver : MeshDriver
+            The wheel, and how it is known that it drives.
+
+        Returns
+        -------
+        GearMesh
+            With the law of that way.
+        """
         law = self.law if driver.wheel == self.driver else self.reversed
         return replace(self, who=driver, law=law)
 

@@ -12,18 +12,57 @@ from geartrain.teeth.tooth_form import ShaftAngle, ToothForm
 from geartrain.teeth.transmission import ExactRatio
 
 if TYPE_CHECKING:
-    from geartrain.teeth.gear_mesh import MeshingWheels
+    from geartrain.teeth.meshing_wheels import MeshingWheels
 
 
 class Ideal(ToothForm):
-    """Teeth that transmit the exact ratio at every instant."""
+    """Ideal teeth: the ratio of tooth counts at every instant, without error, play or loss.
+
+    A pair that declares them computes no tooth.
+
+    See Also
+    --------
+    geartrain.teeth.Involute : real teeth that keep the ratio too.
+
+    Examples
+    --------
+    >>> law = Ideal(form="ideal").law(20, 40)
+    >>> law.ratio, law.error_range(), law.efficiency_mean()
+    (Fraction(1, 2), (0.0, 0.0), 1.0)
+    """
 
     form: Literal["ideal"] = Field(description="The name of this form")
 
     def mesh(self, wheels: MeshingWheels, shaft_angle: ShaftAngle) -> None:
-        """None: these teeth add nothing to the ratio."""
+        """None: these teeth add nothing to the ratio.
+
+        Parameters
+        ----------
+        wheels : MeshingWheels
+            The two wheels as declared.
+        shaft_angle : callable
+            Not asked.
+
+        Returns
+        -------
+        None
+            No mesh.
+        """
 
     def law(self, z1: int, z2: int, driver: int = 1) -> ExactRatio:
-        """The law of a pair: its ratio and nothing else, both ways round. `driver` 2 lets the second wheel drive."""
+        """The transmission function of a pair: its ratio and nothing else.
+
+        Parameters
+        ----------
+        z1, z2 : int
+            Teeth of the first and of the second wheel, 1 or more.
+        driver : {1, 2}
+            Which wheel drives.
+
+        Returns
+        -------
+        ExactRatio
+            Driven angle = ratio times driver angle.
+        """
         first, second = (z1, z2) if driver == 1 else (z2, z1)
         return ExactRatio(Fraction(first, second), 2 * pi / first)

@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, ClassVar, Literal
 from pydantic import Field, model_validator
 
 from geartrain.numerics.quantity import Angle
-from geartrain.teeth.conjugate.conjugate_form import ConjugateToothForm, check_angle
+from geartrain.teeth.conjugate.conjugate_form import ConjugateToothForm
+from geartrain.teeth.conjugate.form_checks import check_angle
 from geartrain.teeth.conjugate.wheel_pair import WheelPair
 from geartrain.teeth.tooth_form import TwoFigures, bad, refused
 
@@ -23,7 +24,24 @@ _PAIR = "give a sum of 0, such as `shift: [0.3, -0.3]`"
 
 
 class Involute(ConjugateToothForm):
-    """Involute teeth as a rack cuts them, shifted or not; spherical involutes on bevels."""
+    """Involute teeth as a rack cuts them, shifted or not; spherical involutes on bevels.
+
+    The path of contact is straight, so that the ratio is exact at any centre distance (docs/shapes.md).
+
+    See Also
+    --------
+    geartrain.teeth.Cycloidal : teeth that keep the ratio at one distance only.
+
+    Examples
+    --------
+    >>> law = Involute(form="involute", backlash="0.1").law(24, 36, 0.1)
+    >>> round(law.path.contact_ratio, 4), round(law.efficiency_mean(), 4)
+    (1.6472, 0.9847)
+    >>> round(law.verdict.play * 36 / 2, 12)  # play on a pitch radius of 36/2 modules
+    0.1
+    >>> Involute(form="involute").law(8, 60).verdict.kind
+    'interference'
+    """
 
     any_distance: ClassVar[bool] = True
 
@@ -55,11 +73,38 @@ class Involute(ConjugateToothForm):
         return self
 
     def misplaced(self, wheels: WheelPair) -> float | None:
-        """None: these teeth are at home at any distance, which `pair` takes into account."""
+        """None: these teeth are at home at any distance, which `pair` takes into account.
+
+        Parameters
+        ----------
+        wheels : WheelPair
+            Tooth numbers of the two, how their axes stand, and their module if a length says it.
+
+        Returns
+        -------
+        None
+            Never another distance than that of the design.
+        """
         return None
 
     def pair(self, wheels: WheelPair) -> ConjugatePair:
-        """The pair at its own centre distance, declared or without play."""
+        """The pair at its own centre distance, declared or without play.
+
+        Parameters
+        ----------
+        wheels : WheelPair
+            Tooth numbers of the two, how their axes stand, and their module if a length says it.
+
+        Returns
+        -------
+        ConjugatePair
+            Path of contact, thickness of the teeth, and what keeps them from running.
+
+        Raises
+        ------
+        GearTrainError
+            Where these wheels cannot have such teeth, with what would let them.
+        """
         wheels.check()
         return self._bevel(wheels) if wheels.bevel else self._spur(wheels)
 
@@ -71,7 +116,20 @@ class Involute(ConjugateToothForm):
     # ------------------------------------------------------------------------------------------------ parallel axes
 
     def bottom_clearance(self, wheels: WheelPair, gear: int) -> float:
-        """What the dedendum leaves under the mate's tip (modules); below 0 the root stands in its way."""
+        """What the dedendum leaves under the mate's tip.
+
+        Parameters
+        ----------
+        wheels : WheelPair
+            Tooth numbers of the two, how their axes stand, and their module if a length says it.
+        gear : {1, 2}
+            Whose root.
+
+        Returns
+        -------
+        float
+            Modules; below 0 the root stands in the mate's way.
+        """
         found = self.involutes(wheels)
         own, mate = (found.first, found.second) if gear == 1 else (found.second, found.first)
         if not found.second.ring:
@@ -80,7 +138,20 @@ class Involute(ConjugateToothForm):
         return free - found.distance
 
     def play_apart(self, wheels: WheelPair, gap: float) -> float | None:
-        """Involutes run at any distance, with other play; None where their base circles would not reach."""
+        """Play of axes that stand too far apart: involutes run there, with other play.
+
+        Parameters
+        ----------
+        wheels : WheelPair
+            Tooth numbers of the two, how their axes stand, and their module if a length says it.
+        gap : float
+            By how much [module]; below 0 they stand too near.
+
+        Returns
+        -------
+        float or None
+            On the pitch circle [module]; None where the base circles would not reach each other.
+        """
         found = self.involutes(wheels)
         moved = replace(found, distance=found.distance + (-gap if wheels.internal else gap))
         try:
@@ -89,7 +160,23 @@ class Involute(ConjugateToothForm):
             return None  # nearer than the base circles touch
 
     def involutes(self, wheels: WheelPair) -> InvolutePair:
-        """Sizes of a pair with parallel axes, in modules."""
+        """Sizes of a pair with parallel axes.
+
+        Parameters
+        ----------
+        wheels : WheelPair
+            Tooth numbers of the two, how their axes stand, and their module if a length says it.
+
+        Returns
+        -------
+        InvolutePair
+            Base circles, tips, roots and operating pressure angle; lengths in modules.
+
+        Raises
+        ------
+        GearTrainError
+            Where the declared centre distance is too short for the base circles.
+        """
         from geartrain.teeth.conjugate.involute_geometry import InvolutePair, free_distance
 
         first, second = self._wheel(wheels, 0), self._wheel(wheels, 1)
@@ -165,7 +252,7 @@ class Involute(ConjugateToothForm):
 
     def _bevel_halves(self, pitch: PitchSurfaces, wheels: WheelPair) -> tuple[float, float]:
         """Half the thickness of the teeth on the pitch cones, as X; a shift thickens by 2 x tan psi modules."""
-        module, thin = pitch.p / pi, self.play(pitch, wheels) / 4
+        module, thin = pitch.p / pi, self._play(pitch, wheels) / 4
         first, second = (
             pitch.p / 4 + float(figure.value) * tan(self.pressure_angle.si) * module - thin for figure in self.shift
         )

@@ -9,7 +9,8 @@ from pydantic import BeforeValidator, Field, model_validator
 
 from geartrain.errors import Problem, RangeError
 from geartrain.numerics.quantity import Figure, Length
-from geartrain.teeth.conjugate.conjugate_form import ConjugateToothForm, arcs_of, check_arcs
+from geartrain.teeth.conjugate.conjugate_form import ConjugateToothForm
+from geartrain.teeth.conjugate.form_checks import arcs_of, check_arcs
 from geartrain.teeth.conjugate.wheel_pair import WheelPair
 from geartrain.teeth.tooth_form import TwoFigures, bad, refused
 
@@ -26,7 +27,21 @@ def _first_or_second(raw: object) -> object:
 
 
 class Lantern(ConjugateToothForm):
-    """Round pins on one wheel, a lantern, and teeth that mate with them on the other."""
+    """Round pins on one wheel, a lantern, and teeth that mate with them on the other.
+
+    A tooth is the curve beside the epicycloid of the pins' centres, by the radius of a pin (docs/shapes.md). By default
+    all contact is on one side of the pitch point.
+
+    See Also
+    --------
+    geartrain.teeth.Cycloidal : what the mate's teeth would be for pins without a diameter.
+
+    Examples
+    --------
+    >>> law = Lantern(form="lantern").law(60, 8)
+    >>> law.verdict.text, [round(arc / law.path.pitch.p, 3) for arc in law.path.arcs]
+    ('the teeth run', [0.0, 1.0])
+    """
 
     form: Literal["lantern"] = Field(description="The name of this form")
     pins: Annotated[Literal[1, 2], BeforeValidator(_first_or_second)] = Field(
@@ -57,7 +72,23 @@ class Lantern(ConjugateToothForm):
         return self
 
     def misplaced(self, wheels: WheelPair) -> float | None:
-        """Always None: raises `RangeError` where the declared centre distance is not the design's."""
+        """None: these teeth have a law at their design distance only.
+
+        Parameters
+        ----------
+        wheels : WheelPair
+            Tooth numbers of the two, how their axes stand, and their module if a length says it.
+
+        Returns
+        -------
+        None
+            Never another distance than that of the design.
+
+        Raises
+        ------
+        RangeError
+            Where another centre distance is declared.
+        """
         if (distance := super().misplaced(wheels)) is not None:
             raise RangeError(
                 Problem(
@@ -69,7 +100,23 @@ class Lantern(ConjugateToothForm):
         return None
 
     def pair(self, wheels: WheelPair) -> ConjugatePair:
-        """The pair at its design distance."""
+        """The pair at its design distance.
+
+        Parameters
+        ----------
+        wheels : WheelPair
+            Tooth numbers of the two, how their axes stand, and their module if a length says it.
+
+        Returns
+        -------
+        ConjugatePair
+            Path of contact, thickness of the teeth, and what keeps them from running.
+
+        Raises
+        ------
+        GearTrainError
+            Where pins do not reach the pitch circle or touch each other; `RangeError` for bevels and rings of pins.
+        """
         from geartrain.teeth.conjugate.closed_form_sides import lantern, pin_angle
         from geartrain.teeth.conjugate.conjugate_transmission import ConjugatePair
         from geartrain.teeth.conjugate.path_of_contact import PathOfContact
@@ -87,7 +134,7 @@ class Lantern(ConjugateToothForm):
         sides = lantern(R, A, B, outside), lantern(R, A, B, inside, inside=True)
         real = outside, min(inside, -start)
         pin = pin_angle(R, A, B) * R
-        tooth = pitch.p / 2 - pin - self.play(pitch, wheels) / 2
+        tooth = pitch.p / 2 - pin - self._play(pitch, wheels) / 2
         halves = (pin, tooth) if self.pins == 1 else (tooth, pin)
         (approach, recess), arcs = (sides, real) if self.pins == 1 else (sides[::-1], real[::-1])
         path, cut = PathOfContact(pitch, approach, recess, (arcs[0], arcs[1])), self._cut(pitch, start, outside, inside)
@@ -114,7 +161,18 @@ class Lantern(ConjugateToothForm):
         return (fault,)
 
     def lantern_pins(self, wheels: WheelPair) -> LanternPins:
-        """Which wheel has the pins, and how large their circle and they are."""
+        """Which wheel has the pins, and how large their circle and they are.
+
+        Parameters
+        ----------
+        wheels : WheelPair
+            Tooth numbers of the two, how their axes stand, and their module if a length says it.
+
+        Returns
+        -------
+        LanternPins
+            Lengths in modules.
+        """
         from geartrain.teeth.outlines.wheel_requirement import LanternPins
 
         z = wheels.z1 if self.pins == 1 else wheels.z2

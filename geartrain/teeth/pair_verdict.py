@@ -41,10 +41,27 @@ class ToothFault(Result):
 class PairVerdict(Result):
     """Whether a pair of wheels can turn; true if it can.
 
-    kind     "runs", or the kind of the first fault
-    text     what is the case
-    play     least play of the teeth (rad of the driven wheel)
-    faults   all reasons why they cannot, each with what, why and what to do
+    Attributes
+    ----------
+    kind : str
+        "runs", or the kind of the first fault.
+    text : str
+        What is the case.
+    play : float
+        Least play of the teeth over a pitch [rad of the driven wheel].
+    faults : tuple of ToothFault
+        All reasons why they cannot, each with what, why and what to do.
+
+    See Also
+    --------
+    geartrain.teeth.GearMesh : its `verdict`.
+
+    Examples
+    --------
+    >>> from geartrain.teeth import Involute
+    >>> verdict = Involute(form="involute").law(8, 60).verdict
+    >>> bool(verdict), verdict.kind, verdict.faults[0].gear
+    (False, 'interference', 1)
     """
 
     KEYS = ("kind", "text", Key("play", to=finite), "faults", "why", "fix")
@@ -68,7 +85,18 @@ class PairVerdict(Result):
         return self.faults[0].fix if self.faults else ""
 
     def explained(self, why: str, fix: str) -> PairVerdict:
-        """The verdict with its one reason told in full."""
+        """The verdict with its one reason told in full.
+
+        Parameters
+        ----------
+        why, fix : str
+            The reason, and what would let the pair turn.
+
+        Returns
+        -------
+        PairVerdict
+            With one fault, of the pair as a whole.
+        """
         return replace(self, faults=(ToothFault(self.kind, 0, float("nan"), self.text, why, fix),))
 
 

@@ -103,6 +103,33 @@ class PinToSlotTransmission(PinTransmission):
     The mean ratio is 1 where the pin's circle encloses the slot's axis (r > e), else 0: then the follower's angle is
     counted from the direction that points from its axis to the pin's. Friction leaves 1/(1 + f |tan d|) of the power,
     d the angle between pin radius and slot, on a follower's way back too.
+
+    Parameters
+    ----------
+    pin_radius : float
+        Distance r of the pin from its own axis, above 0, in the unit of the offset.
+    offset : float
+        Distance e of the two axes, 0 or more, and not r.
+    friction : float
+        Coefficient of friction f of the pin along the slot, 0 or more.
+
+    Raises
+    ------
+    RangeError
+        For distances that are none, and where the pin passes through the slot's axis.
+
+    See Also
+    --------
+    geartrain.teeth.SlotToPinTransmission : the slot driving.
+
+    Examples
+    --------
+    The lunar pin of the Antikythera mechanism, 9.6 mm from an axis 1.1 mm away (Freeth 2006):
+
+    >>> from math import degrees
+    >>> law = PinToSlotTransmission(9.6, 1.1)
+    >>> law.ratio, round(degrees(law.amplitude), 3), [round(speed, 4) for speed in law.speed_range()]
+    (Fraction(1, 1), 6.58, [0.8972, 1.1294])
     """
 
     def __init__(self, pin_radius: float, offset: float, friction: float = 0.0) -> None:
@@ -110,7 +137,18 @@ class PinToSlotTransmission(PinTransmission):
         self.ratio = Fraction(1 if pin_radius > offset else 0)
 
     def error(self, S: ArrayLike) -> Floats:
-        """Slot angle less its mean motion (rad)."""
+        """Slot angle less its mean motion.
+
+        Parameters
+        ----------
+        S : array_like
+            Driver angles [rad], any shape.
+
+        Returns
+        -------
+        ndarray
+            Of that shape [rad of the slot].
+        """
         S = np.asarray(S, dtype=float)
         less, more = min(self.r, self.e), max(self.r, self.e)
         # more - less cos S, as a sum: near r = e the difference would cancel
@@ -119,7 +157,18 @@ class PinToSlotTransmission(PinTransmission):
         return error if self.r > self.e else -error
 
     def speed(self, S: ArrayLike) -> Floats:
-        """r (r - e cos S)/(r^2 + e^2 - 2 r e cos S)."""
+        """Speed ratio r (r - e cos S)/(r^2 + e^2 - 2 r e cos S).
+
+        Parameters
+        ----------
+        S : array_like
+            Driver angles [rad], any shape.
+
+        Returns
+        -------
+        ndarray
+            Of that shape.
+        """
         along, square = self._reach(S)
         return np.asarray(self.r * along / square)
 
@@ -135,7 +184,18 @@ class PinToSlotTransmission(PinTransmission):
         return min(far, near), max(far, near)
 
     def efficiency(self, S: ArrayLike) -> Floats:
-        """cos d/(cos d + f sin d), by magnitude; 0 at a follower's dead points if there is friction."""
+        """Power out over power in: cos d/(cos d + f sin d), by magnitude.
+
+        Parameters
+        ----------
+        S : array_like
+            Driver angles [rad], any shape.
+
+        Returns
+        -------
+        ndarray
+            Of that shape; 0 at a follower's dead points if there is friction.
+        """
         along, _ = self._reach(S)
         across = self.friction * np.abs(self.e * np.sin(np.asarray(S, dtype=float)))
         along = np.abs(along)
@@ -163,7 +223,32 @@ class PinToSlotTransmission(PinTransmission):
 
 
 class SlotToPinTransmission(PinTransmission):
-    """A slot drives its pin: pin angle = S - asin((e/r) sin S). Only where the pin's circle encloses its axis."""
+    """A slot drives its pin: pin angle = S - asin((e/r) sin S). Only where the pin's circle encloses the slot's axis.
+
+    Parameters
+    ----------
+    pin_radius : float
+        Distance r of the pin from its own axis, above the offset and in its unit.
+    offset : float
+        Distance e of the two axes, 0 or more.
+    friction : float
+        Coefficient of friction f of the pin along the slot, 0 or more; it locks from sqrt(r^2 - e^2)/e on.
+
+    Raises
+    ------
+    RangeError
+        For distances that are none, and for a follower, which cannot drive its pin.
+
+    See Also
+    --------
+    geartrain.teeth.PinToSlotTransmission : the pin driving.
+
+    Examples
+    --------
+    >>> law = SlotToPinTransmission(2, 1)
+    >>> law.speed_range()
+    (0.5, 1.5)
+    """
 
     ratio = Fraction(1)
 
@@ -179,11 +264,33 @@ class SlotToPinTransmission(PinTransmission):
             )
 
     def error(self, S: ArrayLike) -> Floats:
-        """Pin angle less its mean motion (rad)."""
+        """Pin angle less its mean motion.
+
+        Parameters
+        ----------
+        S : array_like
+            Driver angles [rad], any shape.
+
+        Returns
+        -------
+        ndarray
+            Of that shape [rad of the pin].
+        """
         return np.asarray(-np.arcsin(self.e / self.r * np.sin(np.asarray(S, dtype=float))))
 
     def speed(self, S: ArrayLike) -> Floats:
-        """1 - e cos S/sqrt(r^2 - e^2 sin^2 S)."""
+        """Speed ratio 1 - e cos S/sqrt(r^2 - e^2 sin^2 S).
+
+        Parameters
+        ----------
+        S : array_like
+            Driver angles [rad], any shape.
+
+        Returns
+        -------
+        ndarray
+            Of that shape.
+        """
         S = np.asarray(S, dtype=float)
         return np.asarray(1 - self.e * np.cos(S) / np.sqrt(self.r**2 - (self.e * np.sin(S)) ** 2))
 
@@ -192,7 +299,18 @@ class SlotToPinTransmission(PinTransmission):
         return 1 - self.e / self.r, 1 + self.e / self.r
 
     def efficiency(self, S: ArrayLike) -> Floats:
-        """1 - f |tan d|, d the angle between pin radius and slot; 0 where friction locks."""
+        """Power out over power in: 1 - f |tan d|, d the angle between pin radius and slot.
+
+        Parameters
+        ----------
+        S : array_like
+            Driver angles [rad], any shape.
+
+        Returns
+        -------
+        ndarray
+            Of that shape; 0 where friction locks.
+        """
         d = np.arcsin(self.e / self.r * np.sin(np.asarray(S, dtype=float)))
         return np.asarray(np.maximum(1 - self.friction * np.abs(np.tan(d)), 0.0))
 

@@ -13,7 +13,8 @@ from geartrain.errors import GearTrainError, Problem
 from geartrain.numerics.quantity import Figure, Length, Quantity
 
 if TYPE_CHECKING:
-    from geartrain.teeth.gear_mesh import GearMesh, MeshingWheels
+    from geartrain.teeth.gear_mesh import GearMesh
+    from geartrain.teeth.meshing_wheels import MeshingWheels
     from geartrain.teeth.pair_account import PairFigures
 
 IDEAL = "give this pair `tooth_form: {form: ideal}`"
@@ -40,7 +41,12 @@ TwoLengths = Annotated[tuple[Length, Length], BeforeValidator(twice), _schema("l
 
 
 class ToothForm(BaseModel, ABC):
-    """The teeth of a gear pair as declared: what knows how to make a mesh of two wheels, whatever the form."""
+    """The teeth of a gear pair as declared: what makes a mesh of two wheels, whatever the form.
+
+    See Also
+    --------
+    geartrain.teeth.GearMesh : what it makes.
+    """
 
     model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
 
@@ -57,10 +63,24 @@ class ToothForm(BaseModel, ABC):
 
     @abstractmethod
     def mesh(self, wheels: MeshingWheels, shaft_angle: ShaftAngle) -> GearMesh | None:
-        """The mesh of a gear pair, its first wheel driving; None for teeth that add nothing to the ratio.
+        """The mesh of a gear pair, its first wheel driving.
 
-        shaft_angle   asked only where the form needs it
-        Raises `GearTrainError` where these wheels cannot have such teeth, without naming pair or place.
+        Parameters
+        ----------
+        wheels : MeshingWheels
+            The two wheels as declared.
+        shaft_angle : callable
+            Gives the angle of the axes [rad], None where they are parallel; called only where the form needs it.
+
+        Returns
+        -------
+        GearMesh or None
+            None for teeth that add nothing to the ratio.
+
+        Raises
+        ------
+        GearTrainError
+            Where these wheels cannot have such teeth, without naming pair or place.
         """
 
     @classmethod
@@ -81,12 +101,34 @@ class ToothForm(BaseModel, ABC):
         return None
 
     def own_play(self, pair: str) -> Problem | None:
-        """Why a maker's play does not hold for this pair; None where it does."""
+        """Why a maker's play does not hold for this pair.
+
+        Parameters
+        ----------
+        pair : str
+            Name of the pair, for the message.
+
+        Returns
+        -------
+        Problem or None
+            None where it does hold.
+        """
         del pair
         return None
 
     def thinned(self, backlash: Quantity) -> Self:
-        """The form with this much play on the pitch circle (modules); itself where it has no play to declare."""
+        """The form with this much play; itself where it has no play to declare.
+
+        Parameters
+        ----------
+        backlash : Quantity
+            On the pitch circle, in modules or with a unit.
+
+        Returns
+        -------
+        ToothForm
+            A copy.
+        """
         del backlash
         return self
 

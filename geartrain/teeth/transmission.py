@@ -29,12 +29,35 @@ def check_friction(friction: float) -> float:
 
 
 class TransmissionFunction(ABC):
-    """Driven angle, speed ratio and efficiency of one pair as functions of the driver's forward angle.
+    """Driven angle, speed ratio and efficiency of one pair as functions of the driver's forward angle S.
 
-    `ratio` is the exact mean of the speed ratio, driven over driver, without sign; `period` the driver's angle (rad)
-    after which the law repeats. The transmission error is q - ratio S, in radians of the driven side: positive where
-    the driven side is ahead of uniform motion. Its mean, a lag that depends on where angles are counted from, is left
-    in the error and out of its rms.
+    The transmission error is q - ratio S, positive where the driven side is ahead of uniform motion. Its mean, a lag
+    that depends on where angles are counted from, is left in the error and out of its rms.
+
+    Attributes
+    ----------
+    ratio : Fraction
+        Exact mean of the speed ratio, driven over driver, without sign.
+    period : float
+        Driver's angle after which the law repeats [rad].
+    friction : float
+        Coefficient of friction, 0 or more.
+
+    See Also
+    --------
+    geartrain.teeth.GearMesh : a pair with such a law; every tooth form has a method `law`.
+
+    Examples
+    --------
+    A pin at 2 from its axis in a slot whose axis is 1 away: its greatest error is asin(1/2).
+
+    >>> from math import degrees, pi
+    >>> from geartrain.teeth import PinToSlotTransmission
+    >>> law = PinToSlotTransmission(2, 1)
+    >>> law.ratio, law.period == 2 * pi, round(degrees(law.error_range()[1]), 9)
+    (Fraction(1, 1), True, 30.0)
+    >>> [float(speed) for speed in law.speed([0, pi])]
+    [2.0, 0.6666666666666666]
     """
 
     ratio: Fraction
@@ -43,15 +66,48 @@ class TransmissionFunction(ABC):
 
     @abstractmethod
     def error(self, S: ArrayLike) -> Floats:
-        """Transmission error (rad of the driven side) at driver angles S (rad), any shape."""
+        """Transmission error q - ratio S.
+
+        Parameters
+        ----------
+        S : array_like
+            Driver angles [rad], any shape.
+
+        Returns
+        -------
+        ndarray
+            Of that shape [rad of the driven side].
+        """
 
     @abstractmethod
     def speed(self, S: ArrayLike) -> Floats:
-        """Instantaneous speed ratio dq/dS at driver angles S (rad)."""
+        """Instantaneous speed ratio dq/dS.
+
+        Parameters
+        ----------
+        S : array_like
+            Driver angles [rad], any shape.
+
+        Returns
+        -------
+        ndarray
+            Of that shape.
+        """
 
     @abstractmethod
     def efficiency(self, S: ArrayLike) -> Floats:
-        """Power out over power in at driver angles S (rad); NaN where nothing is in contact."""
+        """Power out over power in.
+
+        Parameters
+        ----------
+        S : array_like
+            Driver angles [rad], any shape.
+
+        Returns
+        -------
+        ndarray
+            Of that shape, 0 to 1; NaN where nothing is in contact.
+        """
 
     @abstractmethod
     def speed_range(self) -> tuple[float, float]:
@@ -91,7 +147,18 @@ class TransmissionFunction(ABC):
         return None
 
     def error_and_speed(self, S: ArrayLike) -> tuple[Floats, Floats]:
-        """Both at driver angles S (rad), for less than the two apart where a law can."""
+        """Transmission error and speed ratio, for less than the two apart where a law can.
+
+        Parameters
+        ----------
+        S : array_like
+            Driver angles [rad], any shape.
+
+        Returns
+        -------
+        tuple of ndarray
+            As of `error` and `speed`.
+        """
         return self.error(S), self.speed(S)
 
     def turned_back(self) -> TransmissionFunction:
@@ -99,12 +166,34 @@ class TransmissionFunction(ABC):
         return self
 
     def picked(self, columns: NDArray[np.int64]) -> TransmissionFunction:
-        """The law for some of the angles it was asked at, by number: the same, but where each angle has its own."""
+        """The law for some of the angles it was asked at: the same, but where each angle has a law of its own.
+
+        Parameters
+        ----------
+        columns : ndarray of int
+            Which of them, by number.
+
+        Returns
+        -------
+        TransmissionFunction
+            For these.
+        """
         del columns
         return self
 
     def angle(self, S: ArrayLike) -> Floats:
-        """Driven angle q (rad) at driver angles S (rad)."""
+        """Driven angle q.
+
+        Parameters
+        ----------
+        S : array_like
+            Driver angles [rad], any shape.
+
+        Returns
+        -------
+        ndarray
+            Of that shape [rad].
+        """
         import numpy as np
 
         S = np.asarray(S, dtype=float)

@@ -18,10 +18,24 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class SpeedRatio(Result):
-    """Speed ratio of a pair, driven over driver, without sign.
+    """Speed ratio of a pair over a period: driven over driver, without sign.
 
-    mean             exact
-    least, greatest  at single angles
+    Attributes
+    ----------
+    mean : Fraction
+        The ratio of tooth numbers, or the winding number of a pin.
+    least, greatest : float
+        At single angles.
+
+    See Also
+    --------
+    geartrain.teeth.TransmissionFunction.speed : the ratio at each angle.
+
+    Examples
+    --------
+    >>> from geartrain.teeth import PinToSlotTransmission
+    >>> SpeedRatio.of(PinToSlotTransmission(2, 1)).to_dict()
+    {'mean': 1.0, 'exact': '1', 'min': 0.6666666666666666, 'max': 2.0}
     """
 
     KEYS = (Key("mean", to=float), Key("exact", "mean"), Key("min", "least"), Key("max", "greatest"))
@@ -32,7 +46,18 @@ class SpeedRatio(Result):
 
     @classmethod
     def of(cls, law: TransmissionFunction) -> SpeedRatio:
-        """Of a transmission function."""
+        """Of a transmission function.
+
+        Parameters
+        ----------
+        law : TransmissionFunction
+            Any.
+
+        Returns
+        -------
+        SpeedRatio
+            Over its period.
+        """
         return cls(law.ratio, *law.speed_range())
 
     @property
@@ -43,11 +68,28 @@ class SpeedRatio(Result):
 
 @dataclass(frozen=True, slots=True)
 class TransmissionError(Result):
-    """Transmission error of a pair (rad of the driven side), positive where that is ahead of uniform motion.
+    """Transmission error of a pair over a period, positive where the driven side is ahead of uniform motion.
 
-    peak_to_peak   greatest less least
-    rms            about the mean
-    mean           a lag, which depends on where angles are counted from
+    Attributes
+    ----------
+    peak_to_peak : float
+        Greatest less least [rad of the driven side].
+    rms : float
+        About the mean [rad].
+    mean : float
+        A lag that depends on where angles are counted from [rad].
+
+    See Also
+    --------
+    geartrain.teeth.TransmissionFunction.error : the error at each angle.
+
+    Examples
+    --------
+    >>> from math import pi
+    >>> from geartrain.teeth import PinToSlotTransmission
+    >>> error = TransmissionError.of(PinToSlotTransmission(2, 1))  # amplitude asin(1/2)
+    >>> round(error.peak_to_peak / pi, 12), error.mean
+    (0.333333333333, 0.0)
     """
 
     KEYS = ("peak_to_peak", "rms", "mean")
@@ -58,7 +100,18 @@ class TransmissionError(Result):
 
     @classmethod
     def of(cls, law: TransmissionFunction) -> TransmissionError:
-        """Of a transmission function."""
+        """Of a transmission function.
+
+        Parameters
+        ----------
+        law : TransmissionFunction
+            Any.
+
+        Returns
+        -------
+        TransmissionError
+            Over its period.
+        """
         low, high = law.error_range()
         mean, rms = law.error_moments()
         return cls(high - low, rms, mean)
@@ -71,9 +124,28 @@ class TransmissionError(Result):
 
 @dataclass(frozen=True, slots=True)
 class SlidingEfficiency(Result):
-    """Power out over power in of a pair with friction, read off its transmission function when asked; None if it locks.
+    """Power out over power in of a pair with friction, read off its transmission function when asked.
 
-    Two means, for over a turn the torques of both sides cannot be constant at once.
+    Over a turn the torques of both sides cannot be constant at once: `mean` is at constant torque of the driver,
+    `at_constant_load` at constant torque of the driven side. All are None where friction locks the pair.
+
+    Attributes
+    ----------
+    law : TransmissionFunction
+        Of the pair.
+
+    See Also
+    --------
+    geartrain.teeth.GearMesh.efficiency : that of a pair of a train, either wheel driving.
+
+    Examples
+    --------
+    A slot that drives its pin locks from sqrt(r^2 - e^2)/e on.
+
+    >>> from geartrain.teeth import SlotToPinTransmission
+    >>> efficiency = SlidingEfficiency(SlotToPinTransmission(5, 3, 0.1))
+    >>> round(efficiency.locking_friction, 6), efficiency.locks, round(efficiency.least, 6)
+    (1.333333, False, 0.925)
     """
 
     KEYS = ("friction", "mean", "at_constant_load", Key("min", "least"), Key("locks_at", "locking_friction"))

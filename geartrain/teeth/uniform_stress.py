@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Literal
 from pydantic import Field, model_validator
 
 from geartrain.numerics.quantity import Angle
-from geartrain.teeth.conjugate.conjugate_form import ConjugateToothForm, arcs_of, check_angle, check_arcs
+from geartrain.teeth.conjugate.conjugate_form import ConjugateToothForm
+from geartrain.teeth.conjugate.form_checks import arcs_of, check_angle, check_arcs
 from geartrain.teeth.conjugate.wheel_pair import WheelPair
 from geartrain.teeth.tooth_form import TwoFigures
 
@@ -16,7 +17,21 @@ if TYPE_CHECKING:
 
 
 class UniformStress(ConjugateToothForm):
-    """Teeth whose contact pressure is the same at every instant while one pair bears the load."""
+    """Teeth of uniform Hertz stress: the shortest for a given limit of contact pressure.
+
+    The pressure is the same at every instant while one pair bears the load (docs/shapes.md).
+
+    See Also
+    --------
+    geartrain.teeth.LeastFriction, geartrain.teeth.UniformTemperature : the other optima of that source.
+
+    Examples
+    --------
+    >>> from geartrain.teeth.conjugate.path_costs import measure
+    >>> stress = measure(UniformStress(form="uniform_stress").path(24, 36)).one_pair
+    >>> round(stress.stress / stress.off_pitch, 6)
+    1.0
+    """
 
     form: Literal["uniform_stress"] = Field(description="The name of this form")
     pressure_angle: Angle = Field(
@@ -31,7 +46,23 @@ class UniformStress(ConjugateToothForm):
         return self
 
     def pair(self, wheels: WheelPair) -> ConjugatePair:
-        """The pair at its design distance."""
+        """The pair at its design distance.
+
+        Parameters
+        ----------
+        wheels : WheelPair
+            Tooth numbers of the two, how their axes stand, and their module if a length says it.
+
+        Returns
+        -------
+        ConjugatePair
+            Path of contact, thickness of the teeth, and what keeps them from running.
+
+        Raises
+        ------
+        GearTrainError
+            Where these wheels cannot have such teeth, with what would let them.
+        """
         from geartrain.teeth.conjugate.optimal_sides import uniform_stress
         from geartrain.teeth.conjugate.path_of_contact import PathOfContact
         from geartrain.teeth.conjugate.path_side import none
@@ -42,4 +73,4 @@ class UniformStress(ConjugateToothForm):
             uniform_stress(pitch, a, b, X, psi) if X else none(psi)
             for a, b, X in zip((B, A), (A, B), arcs_of(self.arcs, pitch), strict=True)
         )
-        return self.standard(PathOfContact(pitch, approach, recess), wheels)
+        return self._standard(PathOfContact(pitch, approach, recess), wheels)

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Literal
 from pydantic import Field, model_validator
 
 from geartrain.numerics.quantity import Angle, Figure, Quantity
-from geartrain.teeth.conjugate.conjugate_form import ConjugateToothForm, arcs_of, check_angle, check_arcs
+from geartrain.teeth.conjugate.conjugate_form import ConjugateToothForm
+from geartrain.teeth.conjugate.form_checks import arcs_of, check_angle, check_arcs
 from geartrain.teeth.conjugate.wheel_pair import WheelPair
 from geartrain.teeth.tooth_form import TwoFigures, bad, refused
 
@@ -22,10 +23,21 @@ _INVOLUTE = pi / 9  # 20 deg, whose working depth is the default
 
 
 class UniformTemperature(ConjugateToothForm):
-    """Teeth whose heat per area of profile is the same at every instant.
+    """Teeth of uniform temperature: the heat of friction per area of profile is the same at every instant.
 
-    Three readings: a, on the first wheel only; b, on the hotter of the two, which is always the dedendum; c, as b, but
-    a constant pressure angle from the pitch point until that heat is reached, which keeps the stress there finite.
+    Three readings of the source: a, on the first wheel only; b, on the hotter of the two, which is always the
+    dedendum; c, as b, but a constant pressure angle from the pitch point until that heat is reached, which keeps the
+    stress there finite (docs/shapes.md).
+
+    See Also
+    --------
+    geartrain.teeth.UniformStress, geartrain.teeth.LeastFriction : the other optima of that source.
+
+    Examples
+    --------
+    >>> form = UniformTemperature(form="uniform_temperature", heat="1.5", arcs="1/2")
+    >>> form.law(24, 36).verdict.text
+    'the teeth run'
     """
 
     form: Literal["uniform_temperature"] = Field(description="The name of this form")
@@ -56,7 +68,23 @@ class UniformTemperature(ConjugateToothForm):
         return self
 
     def pair(self, wheels: WheelPair) -> ConjugatePair:
-        """The pair at its design distance."""
+        """The pair at its design distance.
+
+        Parameters
+        ----------
+        wheels : WheelPair
+            Tooth numbers of the two, how their axes stand, and their module if a length says it.
+
+        Returns
+        -------
+        ConjugatePair
+            Path of contact, thickness of the teeth, and what keeps them from running.
+
+        Raises
+        ------
+        GearTrainError
+            Where these wheels cannot have such teeth, with what would let them.
+        """
         from geartrain.teeth.conjugate.path_of_contact import PathOfContact
 
         pitch = wheels.pitch
@@ -64,7 +92,7 @@ class UniformTemperature(ConjugateToothForm):
             approach, recess = self._sides(pitch, (pitch.A + pitch.B) / float(self.heat.value))
         else:
             approach, recess = self._deep(pitch)
-        return self.standard(PathOfContact(pitch, approach, recess), wheels)
+        return self._standard(PathOfContact(pitch, approach, recess), wheels)
 
     def _sides(self, pitch: PitchSurfaces, gamma: float) -> tuple[PathSide, PathSide]:
         """Approach and recess with gamma = (A + B) / heat."""

@@ -24,6 +24,7 @@ SHOWING = [
     "scene",
     "spherical",
     "synthesis",
+    "teeth",
     "train",
     "viewer",
 ]

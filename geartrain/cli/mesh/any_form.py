@@ -96,7 +96,7 @@ def _run(
 
 def _mesh(form: str, own: FormOptions, driver: int, given: dict[str, Any]) -> GearMesh:
     """The two wheels in mesh. Raises `GearTrainError` where the form gives no such pair."""
-    from geartrain.teeth.gear_mesh import MeshDriver, MeshingWheels
+    from geartrain.teeth.meshing_wheels import MeshDriver, MeshingWheels
     from geartrain.train import GearPair
 
     size = read_module(given["module"])

@@ -15,7 +15,8 @@ from geartrain.kinematics.willis_system import WillisSystem, assemble_willis_sys
 
 if TYPE_CHECKING:
     from geartrain.dynamics.gear_meshes import PinMesh
-    from geartrain.teeth.gear_mesh import GearMesh, MeshDriver
+    from geartrain.teeth.gear_mesh import GearMesh
+    from geartrain.teeth.meshing_wheels import MeshDriver
     from geartrain.train import StateCase, Train
 
 

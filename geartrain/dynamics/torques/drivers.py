@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from geartrain.dynamics.torques.load_influence import NOTHING, LoadGroup, find_load_influence
 from geartrain.dynamics.torques.torque_analysis import build_balance, find_torques, power_inputs
-from geartrain.teeth.gear_mesh import MeshDriver
+from geartrain.teeth.meshing_wheels import MeshDriver
 
 if TYPE_CHECKING:
     from geartrain.dynamics.torques.load_case import LoadCase

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from functools import lru_cache
-from math import pi, tau
+from math import pi
 from typing import TYPE_CHECKING, Self
 
 from pydantic import Field, model_validator
 
 from geartrain.errors import Problem
-from geartrain.numerics.quantity import Angle, Figure, Length, Quantity
+from geartrain.numerics.quantity import Length, Quantity
+from geartrain.teeth.conjugate.form_checks import check_order, refusal
 from geartrain.teeth.conjugate.wheel_pair import WheelPair
 from geartrain.teeth.tooth_form import IDEAL, ShaftAngle, ToothForm, bad, refused
 
@@ -19,7 +20,8 @@ if TYPE_CHECKING:
     from geartrain.teeth.conjugate.off_design import OffDesignTransmission
     from geartrain.teeth.conjugate.path_of_contact import PathOfContact
     from geartrain.teeth.conjugate.pitch_surfaces import PitchSurfaces
-    from geartrain.teeth.gear_mesh import GearMesh, MeshingWheels
+    from geartrain.teeth.gear_mesh import GearMesh
+    from geartrain.teeth.meshing_wheels import MeshingWheels
     from geartrain.teeth.outlines.wheel_requirement import LanternPins
     from geartrain.teeth.pair_account import PairFigures
 
@@ -54,7 +56,25 @@ class ConjugateToothForm(ToothForm):
         return ConjugateFigures
 
     def mesh(self, wheels: MeshingWheels, shaft_angle: ShaftAngle) -> GearMesh:
-        """The mesh of a pair, its first wheel driving; a ring is gear 2 of the form in whichever order it is named."""
+        """The mesh of a pair, its first wheel driving; a ring is gear 2 of the form whichever the pair names first.
+
+        Parameters
+        ----------
+        wheels : MeshingWheels
+            The two wheels as declared.
+        shaft_angle : callable
+            Gives the angle of the axes [rad], None where they are parallel; called only where the form needs it.
+
+        Returns
+        -------
+        GearMesh
+            What a train asks of the pair.
+
+        Raises
+        ------
+        GearTrainError
+            Where these wheels cannot have such teeth, without naming pair or place.
+        """
         from geartrain.teeth.conjugate.conjugate_mesh import ConjugateMesh
 
         if why := refusal(wheels.kinds):
@@ -89,7 +109,18 @@ class ConjugateToothForm(ToothForm):
         return angle
 
     def own_play(self, pair: str) -> Problem | None:
-        """Declared play wins over a maker's."""
+        """Why a maker's play does not hold for this pair: declared play wins.
+
+        Parameters
+        ----------
+        pair : str
+            Name of the pair, for the message.
+
+        Returns
+        -------
+        Problem or None
+            None where no play is declared.
+        """
         if "backlash" not in self.model_fields_set:
             return None
         why = f"it declares {self.backlash.text}, and what is declared wins"
@@ -97,30 +128,92 @@ class ConjugateToothForm(ToothForm):
         return Problem(f"pair '{pair}' has a backlash of its own", why, fix)
 
     def thinned(self, backlash: Quantity) -> Self:
-        """The same teeth with this play."""
+        """The same teeth with this play.
+
+        Parameters
+        ----------
+        backlash : Quantity
+            On the pitch circle, in modules or with a unit.
+
+        Returns
+        -------
+        ConjugateToothForm
+            A copy.
+        """
         return self.model_copy(update={"backlash": backlash})
 
     def bottom_clearance(self, wheels: WheelPair, gear: int) -> float | None:
-        """Room under the mate's tip at the root of gear 1 or 2 (modules); None where the form does not say."""
+        """Room under the mate's tip at the root of one gear.
+
+        Parameters
+        ----------
+        wheels : WheelPair
+            Tooth numbers of the two, how their axes stand, and their module if a length says it.
+        gear : {1, 2}
+            Whose root.
+
+        Returns
+        -------
+        float or None
+            Modules; None where the form does not say.
+        """
         del wheels, gear
         return None
 
     def play_apart(self, wheels: WheelPair, gap: float) -> float | None:
-        """Play on the pitch circle (modules) of axes that stand `gap` modules too far apart; below 0 they jam.
+        """Play of axes that stand too far apart.
 
-        None for forms that do not run there as they do at home.
+        Parameters
+        ----------
+        wheels : WheelPair
+            Tooth numbers of the two, how their axes stand, and their module if a length says it.
+        gap : float
+            By how much [module]; below 0 they stand too near.
+
+        Returns
+        -------
+        float or None
+            On the pitch circle [module], below 0 where the teeth jam; None for forms that do not run there as they do
+            at home.
         """
         del wheels, gap
         return None
 
     def lantern_pins(self, wheels: WheelPair) -> LanternPins | None:
-        """The round pins that one wheel has for teeth; None where both have teeth."""
+        """The round pins that one wheel has for teeth.
+
+        Parameters
+        ----------
+        wheels : WheelPair
+            Tooth numbers of the two, how their axes stand, and their module if a length says it.
+
+        Returns
+        -------
+        LanternPins or None
+            None where both have teeth.
+        """
         del wheels
         return None
 
     @abstractmethod
     def pair(self, wheels: WheelPair) -> ConjugatePair:
-        """The pair of wheels as designed, whatever their distance. Raises `GearTrainError` where there is none."""
+        """The pair of wheels as designed, whatever their distance.
+
+        Parameters
+        ----------
+        wheels : WheelPair
+            Tooth numbers of the two, how their axes stand, and their module if a length says it.
+
+        Returns
+        -------
+        ConjugatePair
+            Path of contact, thickness of the teeth, and what keeps them from running.
+
+        Raises
+        ------
+        GearTrainError
+            Where there is none.
+        """
 
     def path(
         self,
@@ -131,9 +224,28 @@ class ConjugateToothForm(ToothForm):
         shaft_angle: float | None = None,
         pitch_distance: float | None = None,
     ) -> PathOfContact:
-        """The path of contact; `internal`: the second wheel is a ring; `shaft_angle` rad for bevels.
+        """The path of contact of a pair.
 
-        pitch_distance   m: half the module of each wheel times its teeth, summed, for a ring too
+        Parameters
+        ----------
+        z1, z2 : int
+            Teeth of gear 1 and gear 2, 3 or more.
+        internal : bool
+            Gear 2 is a ring.
+        shaft_angle : float, optional
+            Angle of the axes [rad], for bevels; parallel without.
+        pitch_distance : float, optional
+            Half the module of each wheel times its teeth, summed, for a ring too [m]; only lengths with a unit need it.
+
+        Returns
+        -------
+        PathOfContact
+            Lengths in modules; of bevels rad on the unit sphere.
+
+        Raises
+        ------
+        GearTrainError
+            Where the form gives no such pair.
         """
         return conjugate_pair_of(self, _wheels(z1, z2, internal, shaft_angle, pitch_distance)).path
 
@@ -148,10 +260,31 @@ class ConjugateToothForm(ToothForm):
         internal: bool = False,
         shaft_angle: float | None = None,
     ) -> ConjugateTransmission | OffDesignTransmission:
-        """The transmission law of a pair. `driver` 2 lets the second wheel drive, `direction` -1 turns backwards.
+        """The transmission function of a pair.
 
-        pitch_distance, internal, shaft_angle   as in `path`
-        Raises `GearTrainError` where the form gives no such pair; the law's `verdict` says whether a pair can run.
+        Parameters
+        ----------
+        z1, z2 : int
+            Teeth of gear 1 and gear 2, 3 or more.
+        friction : float
+            Coefficient of friction, 0 or more.
+        driver : {1, 2}
+            Which gear drives.
+        direction : {1, -1}
+            -1 turns back, on the other flanks.
+        pitch_distance, internal, shaft_angle
+            As in `path`.
+
+        Returns
+        -------
+        ConjugateTransmission or OffDesignTransmission
+            The second where the axes stand at another distance than the teeth are made for; the `verdict` of either
+            says whether the pair can run.
+
+        Raises
+        ------
+        GearTrainError
+            Where the form gives no such pair.
         """
         from geartrain.teeth.conjugate.conjugate_transmission import ConjugateTransmission
 
@@ -164,9 +297,22 @@ class ConjugateToothForm(ToothForm):
         return OffDesignTransmission(pair, distance, friction, driver, direction)
 
     def misplaced(self, wheels: WheelPair) -> float | None:
-        """The declared centre distance in modules, where it is not the design's; else None.
+        """The declared centre distance, where it is not that of the design.
 
-        Raises `GearTrainError` for bevel wheels, which have none.
+        Parameters
+        ----------
+        wheels : WheelPair
+            Tooth numbers of the two, how their axes stand, and their module if a length says it.
+
+        Returns
+        -------
+        float or None
+            Modules; None at the distance of the design.
+
+        Raises
+        ------
+        GearTrainError
+            For bevel wheels, which have none.
         """
         if self.centre_distance is None:
             return None
@@ -175,14 +321,14 @@ class ConjugateToothForm(ToothForm):
         given, design = wheels.modules(self.centre_distance, "centre_distance"), wheels.distance
         return given if abs(given - design) > _DESIGN * design else None
 
-    def standard(self, path: PathOfContact, wheels: WheelPair) -> ConjugatePair:
+    def _standard(self, path: PathOfContact, wheels: WheelPair) -> ConjugatePair:
         """A pair whose teeth share the pitch equally, less half the backlash each."""
         from geartrain.teeth.conjugate.conjugate_transmission import ConjugatePair
 
-        half = path.pitch.p / 4 - self.play(path.pitch, wheels) / 4
+        half = path.pitch.p / 4 - self._play(path.pitch, wheels) / 4
         return ConjugatePair(path, (half, half))
 
-    def play(self, pitch: PitchSurfaces, wheels: WheelPair) -> float:
+    def _play(self, pitch: PitchSurfaces, wheels: WheelPair) -> float:
         """The declared backlash as X: of a bevel pair a module is p / pi on the unit sphere."""
         return wheels.modules(self.backlash, "backlash") * pitch.p / pi
 
@@ -196,53 +342,3 @@ def _wheels(z1: int, z2: int, internal: bool, shaft_angle: float | None, pitch_d
 def conjugate_pair_of(form: ConjugateToothForm, wheels: WheelPair) -> ConjugatePair:
     """The pair of a form, made once."""
     return form.pair(wheels)
-
-
-def arcs_of(figures: tuple[Figure, Figure], pitch: PitchSurfaces) -> tuple[float, float]:
-    """Arcs declared in pitches, as X."""
-    return float(figures[0].value) * pitch.p, float(figures[1].value) * pitch.p
-
-
-def check_arcs(arcs: tuple[Figure, Figure]) -> None:
-    """Raises pydantic's error for arcs that are none."""
-    if min(arc.value for arc in arcs) < 0 or sum(arc.value for arc in arcs) <= 0:
-        text = ", ".join(arc.text for arc in arcs)
-        raise bad("arcs", f"arcs [{text}] are none", "give those of approach and recess in pitches, a pitch in all")
-
-
-def check_angle(name: str, angle: Angle, below: float = 0.25) -> None:
-    """Raises pydantic's error for a pressure angle outside 0 to `below` of a turn, an eighth or a quarter."""
-    turns = angle.si / tau
-    if not 0 < turns < below:
-        raise bad(
-            "pressure_angle",
-            f"{name} {angle.text} is outside 0 to {360 * below:g} deg",
-            f"a pressure angle of these teeth lies between 0 and {360 * below:g} deg; 20 deg is usual",
-        )
-
-
-def refusal(kinds: tuple[str, str]) -> str:
-    """Why a pair cannot have conjugate teeth; empty if it can."""
-    if "worm" in kinds:
-        return "a worm's thread slides along the wheel, and rolls on no pitch surface"
-    if set(kinds) >= {"bevel", "contrate"}:
-        return "a bevel and a contrate wheel have no pair of pitch cones"
-    return ""
-
-
-def wheel_specific_parameters(form: ConjugateToothForm) -> list[str]:
-    """Parameters that tell the two wheels apart."""
-    given = {name: getattr(form, name) for name in type(form).model_fields}
-    uneven = [name for name, value in given.items() if isinstance(value, tuple) and value[0].value != value[1].value]
-    return uneven + [name for name in ("pins",) if name in form.model_fields_set]
-
-
-def check_order(form: ConjugateToothForm, pair: tuple[str, str]) -> None:
-    """Raises `GearTrainError` for a form whose wheels differ on a pair that names its ring first."""
-    if uneven := wheel_specific_parameters(form):
-        ring, pinion = pair
-        raise refused(
-            f"it is not plain whose {' and '.join(uneven)} is whose",
-            f"the pair names its ring '{ring}' first, and these teeth count the ring as the second wheel",
-            f"name the pinion first: `pair: [{pinion}, {ring}]`",
-        )

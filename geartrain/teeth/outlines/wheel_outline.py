@@ -21,14 +21,36 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class BlankSizes:
-    """Sizes in mm.
+    """What a maker says of a wheel besides its teeth. Lengths in mm.
 
-    module      pitch diameter over teeth
-    clearance   between a tip and the mate's root; None: a quarter of a module
-    fillet      radius of the round at the root; None: 0.38 modules, or what fits
-    bore        diameter of the hole in the middle; None: no hole
-    rim         what stands round the roots of a ring, or the pins of a lantern; None: two modules, or a pin
-    tolerance   how far a chord may leave a flank
+    Attributes
+    ----------
+    module : float
+        Pitch diameter over teeth [mm], above 0.
+    clearance : float, optional
+        Between a tip and the mate's root [mm], 0 or more; default a quarter of a module.
+    fillet : float, optional
+        Radius of the round at the root [mm], 0 or more; default 0.38 modules, or what fits.
+    bore : float, optional
+        Diameter of the hole in the middle [mm]; default no hole.
+    rim : float, optional
+        What stands round the roots of a ring, or the pins of a lantern [mm]; default two modules, or a pin.
+    tolerance : float
+        How far a chord may leave a flank [mm].
+
+    Raises
+    ------
+    QuestionError
+        For what is no size.
+
+    See Also
+    --------
+    geartrain.teeth.mesh_outline : takes them.
+
+    Examples
+    --------
+    >>> BlankSizes(module=2, bore=6).clearance is None
+    True
     """
 
     module: float = 1.0
@@ -64,14 +86,34 @@ OutlineSizes = tuple[float, float, float, float, float]
 
 @dataclass(frozen=True, slots=True)
 class WheelOutline:
-    """A wheel's outline and sizes, mm.
+    """A wheel's outline and sizes, to scale. Lengths in mm.
 
-    gear, z     which of the pair (1 drives), and its teeth or pins
-    contours    the outer one first, then holes; the axle at (0, 0), a tooth, or a pin, on the x axis
-    thickness   of a tooth along the pitch circle
-    fillet      radius of the round at the root; 0 where there is none (pins)
-    relief      how far (rad) the root is turned off the flank's tangent, so that the mate's tip passes
-    kind        external, ring or pins
+    Attributes
+    ----------
+    gear : int
+        Which of the pair, 1 or 2.
+    z : int
+        Its teeth, or pins.
+    kind : {"external", "ring", "pins"}
+        Teeth outwards, teeth inwards, or holes for pins.
+    contours : tuple of Contour
+        The outer one first, then holes; the axle at (0, 0), a tooth, or a pin, on the x axis.
+    module, pitch_radius, tip_radius, root_radius : float
+        Of the wheel [mm].
+    thickness : float
+        Of a tooth along the pitch circle [mm].
+    fillet : float
+        Radius of the round at the root [mm]; 0 where there is none.
+    relief : float
+        How far the root is turned off the flank's tangent, so that the mate's tip passes [rad].
+    clearance, backlash, centre_distance : float
+        Of the pair [mm].
+    tolerance : float
+        How far a chord may leave a flank [mm].
+
+    See Also
+    --------
+    geartrain.teeth.mesh_outline : makes one.
     """
 
     gear: int
@@ -116,9 +158,34 @@ def outline(pair: ConjugatePair, gear: int, cut: BlankSizes, pins: LanternPins |
 
 
 def mesh_outline(mesh: GearMesh, gear: int, cut: BlankSizes) -> WheelOutline:
-    """The outline of the first or the second wheel of any mesh, as its form wants it cut.
+    """The outline of one wheel of any gear pair, as its form wants it cut.
 
-    Raises `GearTrainError` where no such wheel can be cut.
+    Parameters
+    ----------
+    mesh : GearMesh
+        The pair.
+    gear : {1, 2}
+        The first or the second wheel that it names.
+    cut : BlankSizes
+        Module, bore and tolerance.
+
+    Returns
+    -------
+    WheelOutline
+        A tooth stands on the x axis; the two mesh at `centre_distance` where a space of gear 2 faces a tooth of gear 1.
+
+    Raises
+    ------
+    GearTrainError
+        Where no such wheel can be cut.
+
+    Examples
+    --------
+    >>> import geartrain
+    >>> mesh = geartrain.load("sorge-pairs").meshes[0]
+    >>> wheel = mesh_outline(mesh, 1, BlankSizes(module=2))
+    >>> wheel.z, wheel.pitch_radius, len(wheel.contours[0].points)
+    (48, 48.0, 96)
     """
     size = mesh.size({})
     scale, tolerance = 1.0 if size is None else size.scale, cut.tolerance / cut.module

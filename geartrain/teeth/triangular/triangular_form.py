@@ -13,7 +13,8 @@ from geartrain.numerics.units import RADIANS_PER_TURN
 from geartrain.teeth.tooth_form import IDEAL, ShaftAngle, ToothForm, refused, twice
 
 if TYPE_CHECKING:
-    from geartrain.teeth.gear_mesh import GearMesh, MeshingWheels
+    from geartrain.teeth.gear_mesh import GearMesh
+    from geartrain.teeth.meshing_wheels import MeshingWheels
     from geartrain.teeth.pair_account import PairFigures
     from geartrain.teeth.triangular.clearance_window import ClearanceWindow
     from geartrain.teeth.triangular.pair_geometry import TriangularSizes
@@ -31,7 +32,24 @@ TRIANGULAR_SCOPE = (
 
 
 class Triangular(ToothForm):
-    """Triangular teeth: straight flanks that meet in a point."""
+    """Triangular teeth, as in ancient gearing: straight flanks that meet in a point.
+
+    The ratio changes within each pitch, and teeth collide as they take over (docs/teeth.md; F. Sorge, "A note on the
+    mechanics of ancient gear systems"). How far the axes stand apart is given in one of five ways: `clearance`,
+    `excess`, `backlash`, `centre_distance` or `window`.
+
+    See Also
+    --------
+    geartrain.teeth.Involute : teeth that keep their ratio.
+
+    Examples
+    --------
+    >>> law = Triangular(form="triangular", half_angle="30 deg", window="0.5").law(48, 96, 0.2)
+    >>> law.verdict.text, law.ratio, [round(speed, 4) for speed in law.speed_range()]
+    ('the wheels turn', Fraction(1, 2), [0.457, 0.5392])
+    >>> round(law.efficiency_mean(), 4)
+    0.9681
+    """
 
     form: Literal["triangular"] = Field(description="The name of this form")
     half_angle: Annotated[tuple[Angle, Angle], BeforeValidator(twice), WithJsonSchema(_ONE_OR_TWO)] = Field(
@@ -130,7 +148,25 @@ class Triangular(ToothForm):
         return TriangularFigures
 
     def mesh(self, wheels: MeshingWheels, shaft_angle: ShaftAngle) -> GearMesh:
-        """The mesh of a pair, its first wheel driving."""
+        """The mesh of a pair, its first wheel driving.
+
+        Parameters
+        ----------
+        wheels : MeshingWheels
+            The two wheels as declared.
+        shaft_angle : callable
+            Not asked: a contrate is taken for a spur wheel.
+
+        Returns
+        -------
+        GearMesh
+            What a train asks of the pair.
+
+        Raises
+        ------
+        GearTrainError
+            For rings and bevels, and where the declaration gives no pair that can be built.
+        """
         from geartrain.teeth.triangular.triangular_mesh import TriangularMesh
 
         del shaft_angle
@@ -140,7 +176,18 @@ class Triangular(ToothForm):
         return TriangularMesh(wheels, self, wheels.driver, law)
 
     def own_play(self, pair: str) -> Problem:
-        """The play of triangular teeth is not for a maker to say."""
+        """Why the play of triangular teeth is not for a maker to say.
+
+        Parameters
+        ----------
+        pair : str
+            Name of the pair, for the message.
+
+        Returns
+        -------
+        Problem
+            Their play follows from their clearance.
+        """
         return Problem(
             f"--backlash cannot thin the triangular teeth of pair '{pair}'",
             "their play follows from their clearance, and thinner teeth would have another motion",
@@ -148,10 +195,24 @@ class Triangular(ToothForm):
         )
 
     def sizes(self, z1: int, z2: int, pitch_distance: float | None = None) -> TriangularSizes:
-        """The sizes of a pair in m, or in the unit of plain radii, or with R1 = 1 where nothing gives a length.
+        """Radii, half angles and clearance of a pair.
 
-        pitch_distance   m: half the module of each wheel times its teeth, summed; the least centre distance
-        Raises `GearTrainError` where the declaration does not give a pair that can be built.
+        Parameters
+        ----------
+        z1, z2 : int
+            Teeth of the driver and of the driven wheel, 3 or more.
+        pitch_distance : float, optional
+            Half the module of each wheel times its teeth, summed [m]; the least centre distance.
+
+        Returns
+        -------
+        TriangularSizes
+            Lengths in m, or in the unit of plain radii, or with an outer radius of 1 where nothing gives a length.
+
+        Raises
+        ------
+        GearTrainError
+            Where the declaration gives no pair that can be built.
         """
         from geartrain.teeth.triangular.pair_geometry import TriangularSizes, equal_depth, pitch_true
 
@@ -204,7 +265,31 @@ class Triangular(ToothForm):
         direction: int = 1,
         pitch_distance: float | None = None,
     ) -> TriangularTransmission:
-        """The transmission law of a pair. `driver` 2 lets the second wheel drive, `direction` -1 turns backwards."""
+        """The transmission function of a pair.
+
+        Parameters
+        ----------
+        z1, z2 : int
+            Teeth of the first and of the second wheel, 3 or more.
+        friction : float
+            Coefficient of friction, 0 or more.
+        driver : {1, 2}
+            Which wheel drives.
+        direction : {1, -1}
+            -1 turns back, on the other flanks.
+        pitch_distance : float, optional
+            As in `sizes` [m].
+
+        Returns
+        -------
+        TriangularTransmission
+            Its `verdict` says whether the pair can turn.
+
+        Raises
+        ------
+        GearTrainError
+            Where the declaration gives no pair that can be built.
+        """
         from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
 
         sizes = self.sizes(z1, z2, pitch_distance)

@@ -1,0 +1,81 @@
+"""The two wheels of a gear pair as a train declares them, and which of them drives."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, Protocol
+
+from geartrain.numerics.plain_data import Key, Result
+
+
+class DeclaredPair(Protocol):
+    """What a mesh reads of the gear pair that declares it."""
+
+    @property
+    def name(self) -> str:
+        """As others refer to it."""
+
+    @property
+    def pair(self) -> tuple[str, str]:
+        """The two wheels."""
+
+    @property
+    def fitting(self) -> Any:
+        """How exactly it is mounted; None: as the train says."""
+
+
+@dataclass(frozen=True)
+class MeshDriver(Result):
+    """The wheel that drives a gear pair (of a coupling, the link), and how that is known.
+
+    known   False where the way of power is not determined: `wheel` is then taken to go on with, and no more
+    """
+
+    KEYS = (Key("driver", "wheel"), Key("driver_is", "why"), Key("determined", "known"))
+
+    wheel: str
+    why: str
+    known: bool = True
+
+
+_CONTRATE = "the contrate is taken for a spur wheel"
+
+
+@dataclass(frozen=True)
+class MeshingWheels:
+    """The two wheels of a gear pair as a train declares them: what a tooth form makes a mesh of.
+
+    place      where the pair is declared
+    counts     tooth numbers; `kinds` of the wheels, and which of them are rings
+    friction   None where none is declared
+    distance   half the modules times the teeth, summed (m); None unless both wheels declare a module with a unit
+    """
+
+    gear: DeclaredPair
+    place: str
+    counts: tuple[int, int]
+    kinds: tuple[str, str] = ("spur", "spur")
+    internal: tuple[bool, bool] = (False, False)
+    friction: float | None = None
+    distance: float | None = None
+
+    @property
+    def module(self) -> float | None:
+        """Mean module (m); None where no length says it."""
+        return None if self.distance is None else 2 * self.distance / sum(self.counts)
+
+    @property
+    def touching(self) -> float:
+        """The distance (modules) at which pitch circles touch."""
+        z1, z2 = self.counts
+        return abs(z1 - z2) / 2 if any(self.internal) else (z1 + z2) / 2
+
+    @property
+    def driver(self) -> MeshDriver:
+        """The first wheel, until who drives is known."""
+        return MeshDriver(self.gear.pair[0], "", False)
+
+    @property
+    def note(self) -> str:
+        """What the wheels are taken for, where it is not what they are; empty where it is."""
+        return _CONTRATE if "contrate" in self.kinds else ""

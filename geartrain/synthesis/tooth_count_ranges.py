@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 Counts = Sequence[int]
-"""Admissible tooth counts, ascending and distinct, each from 1 to 10^12: a tuple, a range or `Runs`."""
+"""Admissible tooth counts, ascending and distinct, each from 1 to 10^12: a tuple, a range or `CountRuns`."""
 
 MOST_TEETH = 10**12
 _MOST_LISTED = 10**6

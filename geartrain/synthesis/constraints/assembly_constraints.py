@@ -1,4 +1,4 @@
-"""A fitter's rules on tooth counts that a search asks for: which there are in a declared train.
+"""Constraints on tooth counts besides ratios: which there are in a declared train.
 
 `find_constraints` makes them out of a train and of `ConstraintOptions`. There are two kinds: a `CountEquation`, which
 can be solved for a wheel, and a `Condition`, which only tells. Both judge many candidates at once.
@@ -246,7 +246,7 @@ class _Asking:
             raise QuestionError(
                 Problem(
                     "the room between planets is not known",
-                    "it hangs on how many there are on a carrier",
+                    "it depends on how many there are on a carrier",
                     "say how many equal planets there are: planets=3",
                 )
             )

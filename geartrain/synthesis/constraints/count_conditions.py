@@ -92,7 +92,7 @@ class Condition:
 
 
 CountConstraint = CountEquation | Condition
-"""A fitter's rule: `.name`, `.wheels`, `.holds(columns)`."""
+"""A constraint on counts: `.name`, `.wheels`, `.holds(columns)`."""
 
 
 def counts_of(columns: CandidateColumns, part: CountRef) -> Ints:

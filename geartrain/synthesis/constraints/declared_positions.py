@@ -145,7 +145,7 @@ class DeclaredPositions:
         if not wheels:
             return
         alone = len({circuit.carrier for circuit in self.closure.problem.circuits}) == 1 and not self.closure.rigid
-        # with several carriers, or loops that do not turn, which loops there are hangs on the counts
+        # with several carriers, or loops that do not turn, which loops there are depends on the counts
         rule = replace(self.closure, alike=dict).rule if alone else None
         name = "phase closure: teeth of all loops meet at the declared positions"
         if rule is None:

@@ -28,7 +28,7 @@ class PlanetContact:
 
 @dataclass(frozen=True, slots=True)
 class PlanetArm:
-    """A planet as its teeth see it: contacts with central wheels, and with planets that hang on it."""
+    """A planet as its teeth see it: contacts with central wheels, and with planets outward of it."""
 
     central: tuple[PlanetContact, ...]
     outward: tuple[tuple[PlanetContact, PlanetArm], ...]
@@ -80,6 +80,7 @@ class EqualPlanets:
         left = []
         for contact in arm.central:
             own, mate = counts_of(columns, contact.own), counts_of(columns, contact.mate)
+            # b matters modulo n only: reduced, so that products of counts stay within int64
             left.append((own, np.asarray(-contact.sense * mate % n)))
         for contact, other in arm.outward:
             further, fits = self._left(other, columns)
@@ -114,6 +115,7 @@ def bezout(a: Ints, b: Ints) -> tuple[Ints, Ints, Ints]:
     while np.any(r2):
         done = r2 == 0
         q = np.where(done, 0, r // np.maximum(r2, 1))
+        # rows that have ended keep their values while others go on
         r, r2 = np.where(done, r, r2), np.where(done, r2, r - q * r2)
         s, s2 = np.where(done, s, s2), np.where(done, s2, s - q * s2)
         t, t2 = np.where(done, t, t2), np.where(done, t2, t - q * t2)

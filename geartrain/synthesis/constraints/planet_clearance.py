@@ -70,6 +70,7 @@ class PassingClearance:
     def __call__(self, columns: CandidateColumns) -> Bools:
         """True where they can and do, (candidates,); arguments as in `passing_terms`."""
         A, B, D, tips = (one.of(columns) for one in (self.A, self.B, self.D, self.tips))
+        # the triangle of the central axis and the two planets must close
         found = np.asarray((np.abs(A - B) <= D) & (D <= A + B))
         for step in range(1, self.number):
             turn = Fraction(step, self.number)

@@ -1,4 +1,4 @@
-"""What a fitter sees of a declared train: meshes with their axes and modules, and the sets of planets on a carrier."""
+"""What assembly asks of a declared train: meshes with their axes and modules, and the sets of planets on a carrier."""
 
 from __future__ import annotations
 
@@ -70,11 +70,11 @@ class AssemblyMesh:
 
 @dataclass(frozen=True, slots=True)
 class Planet:
-    """A planet of a set, with its meshes; planets that mesh with each other hang on the first of them.
+    """A planet of a set, with its meshes; those that mesh with each other form a tree whose root is the first.
 
-    inward    the mesh with the planet it hangs on; None for the first
+    inward    the mesh with the planet inward of it; None for the first
     central   meshes with wheels on the carrier's own axis, by the names of those
-    outward   meshes with planets that hang on this one, in the same order for sets that are alike
+    outward   meshes with planets outward of this one, in the same order for sets that are alike
     """
 
     link: str
@@ -83,7 +83,7 @@ class Planet:
     outward: tuple[tuple[AssemblyMesh, Planet], ...]
 
     def walk(self) -> Iterator[Planet]:
-        """This planet, and all that hang on it."""
+        """This planet, and all outward of it."""
         yield self
         for _, planet in self.outward:
             yield from planet.walk()
@@ -120,7 +120,7 @@ class Planet:
 class PlanetSet:
     """Planets of one carrier that mesh with each other; most often one.
 
-    planets  the first of them, and what hangs on it; None where they mesh in a loop
+    planets  the first of them, the root of their tree; None where they mesh in a loop
     links    all of them
     copies   further sets that mesh with the same central wheels alike: equal planets declared one by one
     """

@@ -87,6 +87,7 @@ def room(kind: EpicyclicKind, columns: Columns, planets: int) -> Floats:
     if len(own) == 1:
         return own[0]
     (first, second), (a, b) = distances, kind.between[0]
+    # no division by 0 where a planet would stand on the axis: such sets do not fit anyway
     cosine = (first**2 + second**2 - (columns[a] + columns[b]) ** 2) / np.maximum(2 * first * second, 1)
     angle = np.arccos(np.clip(cosine, -1, 1))
     for turn in range(1, planets):

@@ -74,6 +74,7 @@ def blocks(
         raise RangeError(Problem(f"{total:.2g} tooth sets to look at", why, "narrow the counts, or ask for less slack"))
     first, *rest = (np.array(bounds[wheel], dtype=np.int64) for wheel in kind.free)
     inner = [column.ravel() for column in np.meshgrid(*rest, indexing="ij")]
+    # about 20,000 sets at a time fit the processor's cache
     step = max(1, 20_000 // max(1, len(inner[0])))
     for at in range(0, len(first), step):
         head = first[at : at + step]
@@ -117,6 +118,7 @@ def _with_idle(
     kind: EpicyclicKind, bounds: SetBounds, columns: Columns, planets: int, clearance: Fraction | None
 ) -> dict[str, Ints]:
     """The least count of the idle wheels that fits, in every set that has one."""
+    # an idle wheel takes part in no ratio: the least count that fits stands for all
     common = set[int].intersection(*(set(bounds[wheel]) for wheel in kind.idle))
     found: Ints = np.zeros_like(columns[kind.free[0]])
     for count in sorted(common):

@@ -220,6 +220,7 @@ class _Search:
         self.charge(NO_MATCH, int((~inside).sum()))
         if not self.count:
             nearest = self._set(columns, int(errors.argmin()), mode)
+            # only while nothing is within the tolerance: an explanation is wanted then
             if self.nearest is None or abs(nearest.error) < abs(self.nearest.error):
                 self.nearest = nearest
         if not inside.any():
@@ -252,6 +253,7 @@ class _Search:
         """What a set must not exceed to be among the best."""
         worst = np.inf if len(self.found) < self.best else float(self.found[-1][0][0])
         if len(first) > self.best:
+            # the n-th best of this block bounds the n-th best of all
             worst = min(worst, float(np.partition(first, self.best - 1)[self.best - 1]))
         return worst + _MARGIN * (1 + worst) if np.isfinite(worst) else np.inf
 

@@ -91,6 +91,7 @@ def proportional_classes(lists: Iterable[tuple[Member, Sequence[int]]]) -> dict[
     """
     classes: dict[Exponents, dict[Member, int]] = {}
     for key, steps in lists:
+        # multiples of one list are the same list once divided by their common divisor and sign
         size = math.gcd(*steps)
         if size:
             size = size if next(step for step in steps if step) > 0 else -size

@@ -114,6 +114,7 @@ def _equations(
 ) -> SymbolicEquations:
     """The rows of what matters to the outputs. Free wheels stand in with large random counts, so none are alike."""
     stand_in = with_counts(train, {name: free[name][0] for name in wheels})
+    # large and random: no two free wheels are alike, so that no loop closes by accident
     draw = random.Random(0)
     sizes = {name: draw.randrange(10**6, 10**9) for name in wheels}
     circuits = [circuit.with_counts(sizes) for circuit in find_circuits(stand_in, tree)]
@@ -206,6 +207,6 @@ def _check_counts(train: Train, counts: Mapping[str, int]) -> None:
 def _too_coupled(train: Train) -> Problem:
     return Problem(
         f"'{train.name}' is too coupled for formulas",
-        "so many speeds hang on each other that, written out, they would have millions of terms",
+        "so many speeds depend on each other that, written out, they would have millions of terms",
         "free fewer wheels, or ask for fewer outputs",
     )

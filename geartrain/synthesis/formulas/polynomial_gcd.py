@@ -123,6 +123,7 @@ def _minus(exponents: Exponents) -> Exponents:
 def _may_share(p: Laurent, q: Laurent, at: int) -> bool:
     """False only if no common divisor holds the variable: the others are given numbers modulo a prime."""
     draw = random.Random(len(p) * 1000 + len(q))
+    # at a random point the degree of the common divisor may come out too large, never too small
     point = [draw.randrange(1, PRIME) for _ in range(p.width)]
     left, right = (_image(each, at, point) for each in (p, q))
     if len(left) <= _degree(p, at) and len(right) <= _degree(q, at):

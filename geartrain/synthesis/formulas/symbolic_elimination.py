@@ -73,9 +73,11 @@ def solve_rows(rows: Sequence[Row], width: int, preferred: Sequence[int] | None 
     preferred   an assignment that is known to be meant: if more rows than unknowns are coupled, those are used that
                 are independent there; without it, rows that hold what is given come first
 
-    Raises `TooLongError` where so many unknowns hang on each other that their functions are of no use.
+    Raises `TooLongError` where so many unknowns depend on each other that their functions are of no use.
     """
     draw = random.Random(width)
+    # a polynomial that is not 0 vanishes at a random point with a chance below its degree over the prime, 2^61 - 1
+    # (Schwartz and Zippel)
     point = [draw.randrange(1, PRIME) for _ in range(width)]
     pivots, core, conditions = _divide_out(rows)
     chosen, span = _independent(core, point)
@@ -110,6 +112,7 @@ def _divide_out(
         units = [column for column, entry in row.items() if column != GIVEN and entry.is_unit]
         if length != len(row) or not units:
             continue
+        # Markowitz' rule in short: short rows and rare columns fill in least
         pivot = min(units, key=lambda column: (len(users[column]), column))
         del active[at]
         for column in row:

@@ -28,7 +28,7 @@ class Chord:
 
 
 class SymbolicEquations:
-    """The rows of one case, all of which must vanish, in unknowns numbered as in `components.Reduced`.
+    """The rows of one case, all of which must vanish, in unknowns numbered as in `reduce_components`.
 
     circuits   with any counts that make no two free wheels alike
     free       wheel -> index of its variable

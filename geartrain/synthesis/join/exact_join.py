@@ -38,6 +38,7 @@ class RefusalCounts:
         """Add to some rows, which may repeat."""
         if constraint not in self.by:
             self.by[constraint] = np.zeros(self.size, dtype=self.dtype)
+        # not `+=`: of rows that repeat that would add one number only
         np.add.at(self.by[constraint], rows, numbers)
 
 
@@ -50,10 +51,14 @@ class ExactJoin:
 
     def __init__(self, question: JoinProblem, slices: Slices | None = None, budget: float = np.inf) -> None:
         self.question = question
+        # no tally is larger than the total, so that int64 cannot overflow below 2^62
         self.dtype: Any = np.int64 if question.total < 1 << 62 else object
         self.items = [find_item(one, question.domains, question.weights, self.dtype) for one in question.recipes]
         self.extents = extents(question)
-        self.constraints: list[CountConstraint | PolynomialConstraint] = [*question.rules, *question.bands]
+        self.constraints: list[CountConstraint | PolynomialConstraint] = [
+            *question.rules,
+            *question.polynomial_constraints,
+        ]
         self.wheel_of = {
             recipe.top[0][0]: at for at, recipe in enumerate(question.recipes) if len(recipe.wheels) == 1 and recipe.top
         }
@@ -85,6 +90,7 @@ class ExactJoin:
         total = np.zeros(rows.size, dtype=self.dtype)
         removed = RefusalCounts(rows.size, self.dtype)
         at, alive = self.pruned(node, rows, removed)
+        # a last item with nothing but its guide is counted by the ends of windows, without a row for each value
         if not node.children and not node.checks and node.guide >= len(self.question.rules):
             total[at] = self._windowed(node, at, alive, removed)
             return total, removed.by
@@ -101,6 +107,7 @@ class ExactJoin:
         node = nodes[0]
         _, alive = self.pruned(node, rows, None)
         for _, grown in self.grown(node, alive, np.arange(alive.size), None):
+            # of several children the later ones may have nothing, which the first would bring out in vain
             if len(node.children) > 1:
                 grown = self._promising(node, grown)
             yield from self.stream((*node.children, *nodes[1:]), grown)
@@ -146,7 +153,7 @@ class ExactJoin:
     def pruned(
         self, node: PlanNode, rows: PartialAssignments, removed: RefusalCounts | None
     ) -> tuple[Ints, PartialAssignments]:
-        """The rows that no band surely refuses, whatever is set below; and which they are."""
+        """The rows that no constraint surely refuses, whatever is set below; and which they are."""
         at = np.arange(rows.size)
         for number, reaches in self._prunes(node):
             hopeful = possible(reaches, rows)
@@ -159,28 +166,28 @@ class ExactJoin:
         return at, rows
 
     def _prunes(self, node: PlanNode) -> list[tuple[int, list[list[RelaxedInequality]]]]:
-        """The bands that may end rows at a node, with its item and those below open."""
+        """The constraints that may end rows at a node, with its item and those below open."""
         if id(node) not in self._reaches:
             found = []
             below = set(node.below())
             for number in node.prunes:
-                band = self.constraints[number]
-                assert isinstance(band, PolynomialConstraint)
-                corners = {item: self.extents[item] for item in band.items if item in below}
-                found.append((number, band.reaches(corners)))
+                constraint = self.constraints[number]
+                assert isinstance(constraint, PolynomialConstraint)
+                corners = {item: self.extents[item] for item in constraint.items if item in below}
+                found.append((number, constraint.reaches(corners)))
             self._reaches[id(node)] = found
         return self._reaches[id(node)]
 
     def _windowed(self, node: PlanNode, at: Ints, rows: PartialAssignments, removed: RefusalCounts) -> Tallies:
-        """The count of a last item with one band: its windows, without a look at what is inside."""
-        band, item = self.constraints[node.guide], self.items[node.item]
-        assert isinstance(band, PolynomialConstraint)
+        """The count of a last item with one constraint: its windows, without a look at what is inside."""
+        constraint, item = self.constraints[node.guide], self.items[node.item]
+        assert isinstance(constraint, PolynomialConstraint)
         self.spend(rows.size)
         total = np.zeros(rows.size, dtype=self.dtype)
-        for number, window in enumerate(band.windows(rows, node.item)):
+        for number, window in enumerate(constraint.windows(rows, node.item)):
             window = window.clipped(*self._run(node.item))
             total += item.sums[window.sure_end] - item.sums[window.sure_start]
-            parents, indices = band.fringe(number, rows, node.item, window)
+            parents, indices = constraint.fringe(number, rows, node.item, window)
             np.add.at(total, parents, item.times[indices])
         removed.charge(node.guide, at, self.full(node) - total)
         return total
@@ -191,13 +198,14 @@ class ExactJoin:
         """Rows with the node's item set as its guide says, checked; `at` says which row of the caller's each is."""
         times, total = self.items[node.item].times, self._total(node.item)
         below = self.full(node) // total
-        banded = node.guide >= len(self.question.rules)
+        polynomial = node.guide >= len(self.question.rules)
+        # charged in full here; what the guide leaves is taken back below
         if node.guide >= 0 and removed is not None:
             removed.charge(node.guide, at, np.full(rows.size, total * below, dtype=self.dtype))
         for parents, indices in self._candidates(node, rows):
             grown = rows.plus(parents, node.item, indices)
             self.spend(grown.size)
-            if banded:
+            if polynomial:
                 met = self._holds(node.guide, grown)
                 parents, indices, grown = parents[met], indices[met], grown.pick(met)
             if node.guide >= 0 and removed is not None:

@@ -36,15 +36,16 @@ def find_item_monomials(
         for item in items
         if not set(lists[item].recipe.wheels).isdisjoint(rule.wheels)
     }
-    bands = [one for one in constraints if isinstance(one, PolynomialConstraint)]
+    polynomials = [one for one in constraints if isinstance(one, PolynomialConstraint)]
     yield from (((item, 1),) for item in items if item in alone)
-    steps = ((item, [step for band in bands for step in band.steps(item)]) for item in items if item not in alone)
+    steps = ((item, [step for one in polynomials for step in one.steps(item)]) for item in items if item not in alone)
     for group in proportional_classes(steps).values():
         yield from _cut(tuple(group.items()), lists)
 
 
 def _cut(group: Sequence[tuple[int, int]], lists: Sequence[Item]) -> Iterator[ItemMonomial]:
     """A monomial cut where its values would not fit int64."""
+    # cut greedily: what fits 2^62 above and below stays one monomial
     held: list[tuple[int, int]] = []
     largest = [1, 1]
     for item, power in group:

@@ -36,7 +36,7 @@ class PlanNode:
     interface   items above that this node or one below it looks at
     guide       the constraint that says which values to look at; -1: all
     checks      further constraints that are complete with this item, in the order they are asked
-    prunes      bands of which two or more items are open yet: rows that they surely refuse end here
+    prunes      polynomial constraints of which two or more items are open yet: rows that they surely refuse end here
     children    what is set next; no two of them share a constraint
     reach       all constraints of this node and those below
     """
@@ -69,7 +69,7 @@ class JoinProblem:
     """Everything a worker needs to know of a join. Plain data and rules: it can be pickled.
 
     domains   wheel -> its counts, ascending
-    rules     fitter's rules, then `asked`, are the constraints, numbered in this order
+    rules     constraints on counts; these, then `asked`, are numbered in this order
     late      rules that are asked last, of assignments of all wheels
     recipes   the items
     plan      the tree; its root is the first item
@@ -87,7 +87,7 @@ class JoinProblem:
     weights: Weights = field(default_factory=dict)
 
     @cached_property
-    def bands(self) -> tuple[PolynomialConstraint, ...]:
+    def polynomial_constraints(self) -> tuple[PolynomialConstraint, ...]:
         """The demands in items."""
         return tuple(find_polynomial_constraints(self.asked, self.recipes, self.domains))
 
@@ -110,7 +110,7 @@ class JoinProblem:
     @property
     def reasons(self) -> tuple[str, ...]:
         """Names of the constraints, the late rules at the end."""
-        return tuple(one.name for one in (*self.rules, *self.bands, *self.late))
+        return tuple(one.name for one in (*self.rules, *self.polynomial_constraints, *self.late))
 
 
 def find_join_problem(
@@ -141,6 +141,7 @@ def _lateness(
     """Ways to part rules into those asked while wheels are set and those asked at the end."""
     equations = tuple(rule for rule in rules if isinstance(rule, CountEquation))
     conditions = tuple(rule for rule in rules if isinstance(rule, Condition))
+    # a rule asked while wheels are set makes them items of their own, which may cost more than it saves
     yield tuple(rules), ()
     if conditions:
         yield equations, conditions
@@ -156,14 +157,14 @@ def _planned(
     recipes: tuple[ItemRecipe, ...],
     chances: Mapping[str, float],
 ) -> JoinProblem:
-    bands = find_polynomial_constraints(asked, recipes, domains)
-    planner = _Planner(domains, recipes, early, bands, chances)
+    polynomials = find_polynomial_constraints(asked, recipes, domains)
+    planner = _Planner(domains, recipes, early, polynomials, chances)
     node, steps = min((planner.plan(*way) for way in planner.ways()), key=lambda found: found[1])
     steps += sum(planner.sizes)
     steps += sum(forecast(side, domains)[1] / 4 for recipe in recipes for side in (recipe.top, recipe.bottom))
     if late:
         left = prod(len(counts) for counts in domains.values())
-        steps += 3 * left * prod(chances.get(one.name, 1.0) for one in (*early, *bands))
+        steps += 3 * left * prod(chances.get(one.name, 1.0) for one in (*early, *polynomials))
     return JoinProblem(domains, tuple(asked), early, late, recipes, node, steps)
 
 
@@ -174,7 +175,7 @@ class _Planner:
     domains: Domains
     recipes: Sequence[ItemRecipe]
     rules: Sequence[CountConstraint]
-    bands: Sequence[PolynomialConstraint]
+    polynomial_constraints: Sequence[PolynomialConstraint]
     chances: Mapping[str, float]
     sizes: list[int] = field(init=False)
     scopes: list[Items] = field(init=False)
@@ -184,12 +185,13 @@ class _Planner:
         self.sizes = [quotients(recipe.top, recipe.bottom, self.domains) for recipe in self.recipes]
         at = {wheel: item for item, recipe in enumerate(self.recipes) for wheel in recipe.wheels}
         self.scopes = [frozenset(at[wheel] for wheel in rule.wheels) for rule in self.rules]
-        self.scopes += [frozenset(band.items) for band in self.bands]
-        self.likely = [self.chances.get(one.name, 1.0) for one in (*self.rules, *self.bands)]
+        self.scopes += [frozenset(one.items) for one in self.polynomial_constraints]
+        self.likely = [self.chances.get(one.name, 1.0) for one in (*self.rules, *self.polynomial_constraints)]
 
     def ways(self) -> Iterator[tuple[int, bool]]:
         """Which constraint to complete first, and whether items in many constraints come before small ones."""
         order = sorted(range(len(self.scopes)), key=lambda one: (len(self.scopes[one]), one))
+        # six first constraints and two orders of items are tried: planning stays at milliseconds
         yield from product(order[:6] or [-1], (True, False))
 
     def plan(self, first: int, shared: bool) -> tuple[PlanNode, float]:
@@ -212,6 +214,7 @@ class _Planner:
         rest = open_ - {item}
         children, cost = [], rows + (looked if rest or checks or guide < 0 else 0)
         for part in joined_groups(sorted(rest), (self.scopes[at] for at in active)):
+            # less than one row is expected where guesses are rough: never so few that what follows looks free
             child, more = self._grow(frozenset(part), known | {item}, max(kept, 1e-3), first, shared)
             children.append(child)
             cost += more
@@ -246,12 +249,16 @@ class _Planner:
         return prod(self.sizes[item] for item in self.scopes[at] & open_) * self.likely[at]
 
     def _guide(self, item: int, complete: Sequence[int]) -> int:
-        """The equation that gives the item, else the sharpest band with windows in it."""
+        """The equation that gives the item, else the most selective polynomial constraint with windows in it."""
         for at in complete:
             if at < len(self.rules) and isinstance(self.rules[at], CountEquation):
                 return at
-        bands = [at for at in complete if at >= len(self.rules) and self.bands[at - len(self.rules)].opens(item)]
-        return min(bands, key=lambda at: self.likely[at], default=-1)
+        opening = [
+            at
+            for at in complete
+            if at >= len(self.rules) and self.polynomial_constraints[at - len(self.rules)].opens(item)
+        ]
+        return min(opening, key=lambda at: self.likely[at], default=-1)
 
 
 def extents(question: JoinProblem) -> list[tuple[float, float]]:

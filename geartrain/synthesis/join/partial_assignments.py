@@ -88,6 +88,7 @@ class PartialAssignments:
                 top *= self.top(item)
                 if bottom is not None:
                     under *= bottom
+        # in lowest terms, so that 2/4 and 3/6 are one; with both sides in int64 that is exact
         common = np.gcd(above, below)
         for side in (above, below):
             values, code = np.unique(side // common, return_inverse=True)

@@ -1,14 +1,13 @@
-"""Whether a demand can be met at all while some of its items are still open: what lets a join give up rows early.
+"""What is required of one output, as signs of polynomials in items; and whether that can be met while items are open.
 
-The open items lie between bounds. Where a polynomial has at most two powers of each of them, it is, divided by the
-lower ones, monotone in each: its extremes lie at the corners of the box. Where no open item is in two of its terms,
-each term has its own extreme. Otherwise, or with too many corners, the terms' own extremes are bounds all the same.
+|N/D - w| <= t w is one of a few cases, such as D > 0, N - (1-t) w D >= 0, N - (1+t) w D <= 0. Each case is a set of
+inequalities (sense * polynomial >= 0). Where one item is still open each case leaves one window of its values; entries
+that floats cannot place are settled by exact signs.
 
-What is demanded of one output, as signs of polynomials.
-
-|N/D - w| <= t w is one of a few cases, such as D > 0, N - (1-t) w D >= 0, N - (1+t) w D <= 0. Each is a set of halves
-(sense * polynomial >= 0). Where one item is still open each case leaves one window of its values; entries that floats
-cannot place are settled by exact signs.
+Where more items are open they lie between bounds, and rows are given up that no values between these can save. Where a
+polynomial has at most two powers of each open item it is, divided by the lower ones, monotone in each: its extremes lie
+at the corners of the box. Where no open item is in two of its terms, each term has its own extreme. Otherwise, or with
+too many corners, the terms' own extremes are bounds all the same.
 """
 
 from __future__ import annotations
@@ -37,9 +36,9 @@ _SHORT = 4096
 
 @dataclass(frozen=True, slots=True)
 class RelaxedInequality:
-    """A half with some items open.
+    """An inequality with some items open.
 
-    sense        of the half
+    sense        of the inequality
     rest         what the items that are set make of each term
     lows, highs  what the open items make of each term at the least and at the greatest, (terms,)
     points       what they make of each term at each corner, (terms, corners); None where each term is taken by itself
@@ -56,7 +55,7 @@ class RelaxedInequality:
     scale: int
 
     def possible(self, rows: PartialAssignments) -> Bools:
-        """False where the half surely fails for all values of the open items."""
+        """False where the inequality surely fails for all values of the open items."""
         factors = [self.sense * one.values(rows, self.scale)[0] for one in self.rest]
         least = np.zeros(rows.size)
         for factor, high in zip(factors, self.highs, strict=True):
@@ -77,9 +76,9 @@ class RelaxedInequality:
         return found
 
 
-def relax_inequality(half: PolynomialInequality, corners: Corners) -> RelaxedInequality:
-    """A half with the items in `corners` open; others that it depends on are set."""
-    polynomial = half.polynomial
+def relax_inequality(inequality: PolynomialInequality, corners: Corners) -> RelaxedInequality:
+    """An inequality with the items in `corners` open; others that it depends on are set."""
+    polynomial = inequality.polynomial
     inside = [item for item in polynomial.items if item in corners]
     lows, highs = (_factors(polynomial, inside, [corners[item][end] for item in inside]) for end in (0, 1))
     few = all(len(polynomial.powers(item)) <= 2 for item in inside) and 2 ** len(inside) <= _MOST_CORNERS
@@ -91,7 +90,7 @@ def relax_inequality(half: PolynomialInequality, corners: Corners) -> RelaxedIne
         SignPolynomial(((coefficient, tuple(pair for pair in monomial if pair[0] not in inside)),))
         for coefficient, monomial in polynomial.terms
     )
-    return RelaxedInequality(half.sense, rest, lows, highs, points, 2 * polynomial.rounding, polynomial.scale)
+    return RelaxedInequality(inequality.sense, rest, lows, highs, points, 2 * polynomial.rounding, polynomial.scale)
 
 
 def _alone(polynomial: SignPolynomial, item: int) -> bool:
@@ -112,7 +111,7 @@ def _factors(polynomial: SignPolynomial, inside: Sequence[int], point: Sequence[
 
 @dataclass(frozen=True)
 class PolynomialConstraint:
-    """A demand: at least one case holds, that is, all of its halves. No two cases hold at once.
+    """A demand: at least one case holds, that is, all of its inequalities. No two cases hold at once.
 
     name       what is demanded, in words
     function   numerator and denominator of what the demand is on, where its value is asked for too
@@ -125,16 +124,16 @@ class PolynomialConstraint:
     @cached_property
     def items(self) -> tuple[int, ...]:
         """The items it depends on, ascending."""
-        polynomials = [*(half.polynomial for half in self._halves), *(self.function or ())]
+        polynomials = [*(inequality.polynomial for inequality in self._inequalities), *(self.function or ())]
         return tuple(sorted({item for polynomial in polynomials for item in polynomial.items}))
 
     @property
-    def _halves(self) -> Iterable[PolynomialInequality]:
-        return (half for case in self.cases for half in case)
+    def _inequalities(self) -> Iterable[PolynomialInequality]:
+        return (inequality for case in self.cases for inequality in case)
 
     def steps(self, item: int) -> Iterator[int]:
         """Powers of an item in the terms of its polynomials, each less that in the polynomial's first term."""
-        sums = [half.polynomial.terms for half in self._halves]
+        sums = [inequality.polynomial.terms for inequality in self._inequalities]
         if self.function is not None:
             sums.append(self.function[0].terms + self.function[1].terms)
         for terms in sums:
@@ -143,7 +142,7 @@ class PolynomialConstraint:
 
     def opens(self, item: int) -> bool:
         """True if `windows` can be found in an item: each polynomial has at most two powers of it."""
-        return all(len(half.polynomial.powers(item)) <= 2 for half in self._halves)
+        return all(len(inequality.polynomial.powers(item)) <= 2 for inequality in self._inequalities)
 
     def holds(self, rows: PartialAssignments) -> Bools:
         """Where it is met, exactly; all its items must be set."""
@@ -161,8 +160,8 @@ class PolynomialConstraint:
         return np.asarray(above / below)
 
     def reaches(self, corners: Corners) -> list[list[RelaxedInequality]]:
-        """Its halves, case by case, with some items open; for `possible`."""
-        return [[relax_inequality(half, corners) for half in case] for case in self.cases]
+        """Its inequalities, case by case, with some items open; for `possible`."""
+        return [[relax_inequality(inequality, corners) for inequality in case] for case in self.cases]
 
     def windows(self, rows: PartialAssignments, item: int) -> list[SolutionWindow]:
         """For each case its window of the values of the one open item."""
@@ -184,15 +183,15 @@ def _case_holds(
     case: Sequence[PolynomialInequality], rows: PartialAssignments, known: dict[SignPolynomial, Signs]
 ) -> Bools:
     met: Bools = np.ones(rows.size, dtype=np.bool_)
-    for half in case:
-        if half.polynomial not in known:
-            known[half.polynomial] = half.polynomial.signs(rows)
-        met &= half.met(known[half.polynomial])
+    for inequality in case:
+        if inequality.polynomial not in known:
+            known[inequality.polynomial] = inequality.polynomial.signs(rows)
+        met &= inequality.met(known[inequality.polynomial])
     return met
 
 
 def possible(reaches: Sequence[Sequence[RelaxedInequality]], rows: PartialAssignments) -> Bools:
-    """False where no values of the open items meet a band; `reaches` are its."""
+    """False where no values of the open items meet a constraint; `reaches` are its."""
     found: Bools = np.zeros(rows.size, dtype=np.bool_)
     for case in reaches:
         met: Bools = np.ones(rows.size, dtype=np.bool_)

@@ -106,6 +106,7 @@ class SignPolynomial:
 
     def _exactly(self, rows: PartialAssignments, bounds: Floats) -> Signs:
         """Exact signs where the value is at most twice `bounds` (over the scale) in size."""
+        # times all denominators: a bound on the whole number that is worked out below
         least: Floats = 2 * bounds * float(self.scale) if self.scale < 10**300 else np.full(rows.size, np.inf)
         for item in self.items:
             bottom = rows.bottom(item)
@@ -121,6 +122,7 @@ class SignPolynomial:
 
     def _wrapped(self, rows: PartialAssignments) -> Ints:
         """The value times denominators, modulo 2^64 as a signed number."""
+        # numpy's unsigned integers wrap without a warning; the true value is below 2^63 in size, so the sign is right
         total = np.zeros(rows.size, dtype=np.uint64)
         for coefficient, monomial in self.terms:
             term = np.full(rows.size, coefficient & _WRAP, dtype=np.uint64)

@@ -1,7 +1,7 @@
 """What a join runs over: the distinct products of some wheels' counts, sorted, with the number of ways to each.
 
 An output sees most wheels through one monomial only, such as a c / (b d). So not wheels are joined but items: a list of
-products of counts, or of quotients of two such products. A wheel that a fitter's rule looks at is an item by itself.
+products of counts, or of quotients of two such products. A wheel that a count constraint looks at is an item by itself.
 """
 
 from __future__ import annotations
@@ -60,6 +60,7 @@ def _forecast(factors: tuple[tuple[int, ...], ...]) -> tuple[int, int]:
             values = np.unique(np.multiply.outer(values, np.array(some, dtype=np.int64)))
             sizes.append(len(values))
         else:
+            # a guess from here on
             # every further wheel finds more of its products known: the growth falls, by a fifth at least
             growth = 0.8 * sizes[-1] / sizes[-2] * len(some) / len(factors[at - 1]) if at else len(some)
             sizes.append(max(sizes[-1], int(sizes[-1] * min(growth, len(some)))))
@@ -173,6 +174,7 @@ def _times(values: Ints, times: Tallies, factors: Ints, weights: Tallies) -> tup
         products = np.multiply.outer(block, values).ravel()
         found.append(_distinct(products, np.multiply.outer(weights[at : at + step], times).ravel()))
         last = at + step >= len(factors)
+        # lists of about one length are merged, as digits are carried: each value is moved a few times only
         while len(found) > 1 and (last or len(found[-2][0]) <= 2 * len(found[-1][0])):
             (left, p), (right, q) = found.pop(), found.pop()
             found.append(_distinct(np.concatenate([left, right]), np.concatenate([p, q])))
@@ -180,6 +182,7 @@ def _times(values: Ints, times: Tallies, factors: Ints, weights: Tallies) -> tup
 
 
 def _distinct(values: Ints, times: Tallies) -> tuple[Ints, Tallies]:
+    # sorted and added up by `reduceat`: np.unique would not add weights, which may be Python integers
     order = np.argsort(values, kind="stable")
     values = values[order]
     first = np.flatnonzero(np.concatenate([[True], values[1:] != values[:-1]]))
@@ -243,6 +246,7 @@ class Item:
         above = np.repeat(np.arange(len(self._top.values)), len(bottom.values))
         below = np.tile(np.arange(len(bottom.values)), len(self._top.values))
         tops, bottoms = self._top.values[above], bottom.values[below]
+        # rounding may exchange quotients that are nearly equal: windows allow for that
         order = np.argsort(tops / bottoms, kind="stable")
         self._at = above[order], below[order]
         self.tops, self.bottoms = tops[order], bottoms[order]

@@ -145,8 +145,10 @@ class _Recorder:
         """A node and all below, for some distinct rows on its interface."""
         at, alive = self.join.pruned(node, rows, None)
         blocks = list(self.join.grown(node, alive, at, None))
+        # rows without any block still have columns
         nothing = [(at[:0], alive.pick(at[:0]).plus(at[:0], node.item, at[:0]))]
         parents = np.concatenate([owners for owners, _ in blocks or nothing])
+        # transitions of one row stand together: `BestFirst` finds them by bisection
         order = np.argsort(parents, kind="stable")
         parents, grown = parents[order], _joined([block for _, block in blocks or nothing]).pick(order)
         misfit = self._misfit(node, grown)

@@ -70,6 +70,7 @@ def _part(speeds: Floats, interval: Interval) -> float:
     within = float(((speeds >= low) & (speeds <= high)).mean()) if len(speeds) else 1.0
     if within * len(speeds) >= _NEIGHBOURS or low <= 0 <= high or not len(speeds):
         return within
+    # by the distance to the nearest few, in logarithms: ratios are spread evenly there, more or less
     side = np.log(speeds[speeds > 0] if low > 0 else -speeds[speeds < 0])
     if len(side) < _NEIGHBOURS or isinf(low) or isinf(high):
         return within

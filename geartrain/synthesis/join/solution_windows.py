@@ -1,7 +1,7 @@
 """Where a polynomial in one open item keeps its sign: a ray of the item's sorted values, found by binary search.
 
 Divided by the item's lowest power it is A y + B, with y a power of the item, and changes its sign at -B/A. Rounding
-leaves a doubt about values next to that: a window says which values surely meet its halves, and which may.
+leaves a doubt about values next to that: a window says which values surely meet its inequalities, and which may.
 """
 
 from __future__ import annotations
@@ -58,31 +58,32 @@ def find_window(case: Sequence[PolynomialInequality], rows: PartialAssignments, 
     """The window of a case in the one open item: the common part of its rays."""
     start, end = np.zeros(rows.size, dtype=np.int64), np.full(rows.size, len(rows.items[item]))
     sure_start, sure_end = start.copy(), end.copy()
-    for half in case:
-        ray = _ray(half, rows, item)
+    for inequality in case:
+        ray = _ray(inequality, rows, item)
         start, end = np.maximum(start, ray.start), np.minimum(end, ray.end)
         sure_start, sure_end = np.maximum(sure_start, ray.sure_start), np.minimum(sure_end, ray.sure_end)
     return SolutionWindow(start, end, sure_start, sure_end)
 
 
-def _ray(half: PolynomialInequality, rows: PartialAssignments, item: int) -> SolutionWindow:
+def _ray(inequality: PolynomialInequality, rows: PartialAssignments, item: int) -> SolutionWindow:
     """Where sense * (A y + B) >= 0, y the item's value to some power (after dividing by its lowest power)."""
-    parts = half.polynomial.split(item)
+    parts = inequality.polynomial.split(item)
     most = len(rows.items[item])
     if len(parts) < 2:
-        met = half.met(next(iter(parts.values()), half.polynomial).signs(rows))
+        met = inequality.met(next(iter(parts.values()), inequality.polynomial).signs(rows))
         return _all_or_nothing(met, most)
     (low, B), (high, A) = parts.items()
-    scale = half.polynomial.scale
+    scale = inequality.polynomial.scale
     a, size = A.values(rows, scale)
+    # four times the rounding: then |a| less its error is at least three quarters of |a|, and its sign is sure
     known = np.abs(a) > 4 * A.rounding * size
     if known.all():
-        return _bounded(half, rows, rows.items[item], high - low, (a, A.rounding * size), B)
-    return _in_doubt(half, rows, item, known, (A, B))
+        return _bounded(inequality, rows, rows.items[item], high - low, (a, A.rounding * size), B)
+    return _in_doubt(inequality, rows, item, known, (A, B))
 
 
 def _bounded(
-    half: PolynomialInequality,
+    inequality: PolynomialInequality,
     rows: PartialAssignments,
     item: Item,
     power: int,
@@ -91,12 +92,13 @@ def _bounded(
 ) -> SolutionWindow:
     """The ray where the sign of A is sure: its end is -B/A, give or take what rounding may do."""
     a, off_a = slope
-    b, size = rest.values(rows, half.polynomial.scale)
+    b, size = rest.values(rows, inequality.polynomial.scale)
     end = -b / a
+    # first-order bound on the error of -b/a, and what rounding does to the item's power itself
     off = (rest.rounding * size + np.abs(end) * off_a) / (np.abs(a) - off_a)
     off += np.abs(end) * (8 * power + 8) * ROUNDING
     least, greatest, y = end - off, end + off, item.powers(power)
-    rising = (a > 0) == (half.sense > 0)
+    rising = (a > 0) == (inequality.sense > 0)
     if rising.all():
         return _rising(y, least, greatest)
     if not rising.any():
@@ -137,7 +139,7 @@ def _all_or_nothing(met: Bools, most: int) -> SolutionWindow:
 
 
 def _in_doubt(
-    half: PolynomialInequality,
+    inequality: PolynomialInequality,
     rows: PartialAssignments,
     item: int,
     known: Bools,
@@ -149,11 +151,11 @@ def _in_doubt(
     found[1] = len(rows.items[item])
     sure = np.flatnonzero(known)
     if len(sure):
-        ray = _ray(half, rows.pick(sure), item)
+        ray = _ray(inequality, rows.pick(sure), item)
         found[:, sure] = ray.start, ray.end, ray.sure_start, ray.sure_end
     doubtful = np.flatnonzero(~known)
     flat = doubtful[A.signs(rows.pick(doubtful)) == 0]
     if len(flat):
-        ray = _all_or_nothing(half.met(B.signs(rows.pick(flat))), len(rows.items[item]))
+        ray = _all_or_nothing(inequality.met(B.signs(rows.pick(flat))), len(rows.items[item]))
         found[:, flat] = ray.start, ray.end, ray.sure_start, ray.sure_end
     return SolutionWindow(*found)

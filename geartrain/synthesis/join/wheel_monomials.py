@@ -152,7 +152,7 @@ def find_polynomial_constraints(
 ) -> list[PolynomialConstraint]:
     """The demands in items."""
     extremes = {at: extent(recipe, domains) for at, recipe in enumerate(recipes)}
-    bands = []
+    constraints = []
     for one in asked:
         function = one.function
         terms = [*function.numerator, *function.denominator]
@@ -161,8 +161,8 @@ def find_polynomial_constraints(
         N = SignPolynomial.of(polynomials[: len(function.numerator)])
         D = SignPolynomial.of(polynomials[len(function.numerator) :])
         cases = _feasible(list(_cases(N, D, one)), extremes)
-        bands.append(PolynomialConstraint(one.name, cases, (N, D) if one.graded else None))
-    return bands
+        constraints.append(PolynomialConstraint(one.name, cases, (N, D) if one.graded else None))
+    return constraints
 
 
 def is_within(value: Fraction, intervals: Iterable[Interval]) -> bool:
@@ -203,18 +203,18 @@ def _cases(
 ) -> Iterator[tuple[PolynomialInequality, ...]]:
     for sense in (D.definite,) if D.definite else (1, -1):
         for low, high in asked.intervals or (_NOTHING,):
-            halves = [] if D.definite else [PolynomialInequality(D, sense, strict=True)]
+            inequalities = [] if D.definite else [PolynomialInequality(D, sense, strict=True)]
             if low is not None:
-                halves.append(PolynomialInequality(N.plus(D, -low), sense, asked.strict))
+                inequalities.append(PolynomialInequality(N.plus(D, -low), sense, asked.strict))
             if high is not None:
-                halves.append(PolynomialInequality(N.plus(D, -high), -sense, asked.strict))
-            yield tuple(halves)
+                inequalities.append(PolynomialInequality(N.plus(D, -high), -sense, asked.strict))
+            yield tuple(inequalities)
 
 
 def _feasible(
     cases: Sequence[tuple[PolynomialInequality, ...]], extremes: Mapping[int, tuple[float, float]]
 ) -> tuple[tuple[PolynomialInequality, ...], ...]:
-    """Without the cases that no counts meet; the first is kept if none is left, so that the band keeps its items."""
+    """Without the cases that no counts meet; the first is kept if none is left: the constraint keeps its items."""
     nothing = PartialAssignments((), {}, 1)
     kept = [case for case in cases if possible(PolynomialConstraint("", (case,)).reaches(extremes), nothing)[0]]
     return tuple(kept or cases[:1])

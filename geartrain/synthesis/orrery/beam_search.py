@@ -114,6 +114,7 @@ class BeamSearch:
         """The most promising trees that one more extra arbor makes of a part-built one, and what they lead to."""
         reaches = [self._reach(arbor, part.left) for arbor in part.tree]
         rows = np.concatenate([self._moves(part, at, known) for at, known in enumerate(reaches)])
+        # the best of each gain: one that shows more aims at once needs more wheels, and would lose to the others
         for gain in np.unique(rows[:, 0]):
             mine = rows[rows[:, 0] == gain]
             for row in mine[np.lexsort((mine[:, 2], mine[:, 1]))[:_TRIED]]:

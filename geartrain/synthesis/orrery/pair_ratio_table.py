@@ -80,10 +80,12 @@ def pair_ratios(counts: Sequence[int]) -> PairRatios:
     teeth = np.array(admissible, dtype=np.int64)
     over, under = (part.ravel() for part in np.meshgrid(teeth, teeth))
     common = np.gcd(over, under)
+    # a ratio in lowest terms as one integer, below 2^62, so that np.unique takes pairs
     shift = admissible[-1] + 1
     keys = np.unique(over // common * shift + under // common)
     over, under = keys // shift, keys % shift
     logs = np.log(over / under)
+    # ratios whose logarithms round alike are told apart by their terms: the order is always the same
     order = np.lexsort((under, logs))
     return PairRatios(admissible, over[order], under[order], logs[order])
 

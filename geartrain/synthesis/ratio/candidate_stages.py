@@ -38,7 +38,7 @@ class RowFinder:
         self.count = 0
 
     def result(self) -> dict[str, Any]:
-        """Plain data: see `stages_work.search_segment`."""
+        """Plain data: see `search_segments.search_segment`."""
         found = self.judge.result()
         return {**found, "count": self.count} if self.loose else found
 
@@ -51,6 +51,7 @@ class RowFinder:
         used = span[1] > span[0]
         if not used.any():
             return
+        # products on top that some window holds: windows opened less windows closed so far
         opened, closed = (np.bincount(ends, minlength=len(above[0]) + 1) for ends in span)
         needed = np.cumsum(opened - closed)[:-1] > 0
         under = self._useful(sets_of(*question.under.members(*beneath, below[0][used])), question.top[0])
@@ -100,7 +101,7 @@ class StageFilter:
         self.count = 0
 
     def result(self) -> dict[str, Any]:
-        """Plain data: see `stages_work.search_segment`."""
+        """Plain data: see `search_segments.search_segment`."""
         rows = self.best.rows()
         plain = zip(rows.first.tolist(), rows.top.tolist(), rows.beneath.tolist(), strict=True) if rows else ()
         return {"count": self.count, "removed": self.removed, "rows": [list(row) for row in plain]}
@@ -143,6 +144,7 @@ class StageFilter:
         fit, at = self.fit, np.arange(len(j))
         top, beneath = over.counts[j], under.counts[i]
         if fit.different:
+            # equal counts stand beside each other once they are sorted
             both = np.sort(np.concatenate([top, beneath], axis=1), axis=1)
             at = self._left(at, (both[:, 1:] != both[:, :-1]).all(axis=1), "a count that is there twice")
         if fit.totals_matter:

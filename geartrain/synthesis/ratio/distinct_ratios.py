@@ -36,7 +36,7 @@ class ValueFinder:
         self.keys: list[Key] = []
 
     def result(self) -> dict[str, Any]:
-        """Plain data: see `stages_work.search_segment`."""
+        """Plain data: see `search_segments.search_segment`."""
         rows = [[0, list(key[4]), list(key[5])] for key in self.keys]
         return {"count": self.count, "removed": {}, "rows": rows}
 
@@ -57,6 +57,7 @@ class ValueFinder:
             limit = min(limit, self.most[0])
         tolerance = min(self.hint, limit)
         span = self._span(under, over, whole, tolerance)
+        # widened until the block's best are surely within
         while weight(under, over, span) < best and tolerance < limit:
             tolerance = min(8 * tolerance, limit)
             span = self._span(under, over, whole, tolerance)

@@ -192,6 +192,7 @@ def _array(counts: tuple[int, ...]) -> Ints:
 @lru_cache(maxsize=4)
 def _ends(products: ProductWindows, bound: int) -> Places:
     """For each row, the place after the last high part whose product with it is less than `bound`."""
+    # one search in one key for all tables: the offset of a row leads to its own table
     most = np.minimum((bound - 1) // products.rows, products.step - 1) + products.offsets
     return np.asarray(np.maximum(np.searchsorted(products.keys, most, side="right"), products.starts), dtype=np.int64)
 

@@ -54,7 +54,7 @@ def tally(question: StageProblem) -> dict[str, int]:
 
 
 def search_sums(task: Mapping[str, Any]) -> dict[str, Any]:
-    """Solutions whose stages have a sum in [low, high): counted, and the best of them, as `stages_work` gives them.
+    """Solutions whose stages have a sum in [low, high): counted, and the best of them, as `search_segment` gives them.
 
     Every unordered set of stages is looked at once, as a lower and an upper half, by the products of their ratios.
     """
@@ -79,10 +79,12 @@ def _search(question: StageProblem, stages: list[tuple[int, int]], judge: StageF
     low_ratios, high_ratios = ratios[lower].prod(axis=1), ratios[upper].prod(axis=1)
     order = np.argsort(high_ratios, kind="stable")
     upper, high_ratios = upper[order], high_ratios[order]
+    # floats find candidates, a little too many; `_judge` decides in integers
     low, high = question.edges
     first = np.searchsorted(high_ratios, float(low) * (1 - _SLACK) / low_ratios)
     last = np.searchsorted(high_ratios, float(high) * (1 + _SLACK) / low_ratios, side="right")
     for i, j in spread_in_blocks(first, np.maximum(first, last), CHUNK):
+        # halves that ascend across the cut: each unordered set is met in one way only
         once = np.flatnonzero(lower[i, -1] <= upper[j, 0]) if size > 1 else np.arange(len(i))
         chosen = np.concatenate([lower[i[once]], upper[j[once]]], axis=1)
         _judge(question, counts, chosen, judge)

@@ -80,6 +80,7 @@ def _spread(counts: tuple[int, ...], size: int, width: float) -> Floats:
     found = np.ones(1)
     for _ in range(size):
         found = np.convolve(found, one)
+    # the convolution counts ordered choices: scaled to the number of unordered sets
     return np.asarray(found * (multisets(len(counts), size) / found.sum()))
 
 
@@ -150,6 +151,7 @@ def pieces(products: ProductWindows, low: int, high: int, most: int) -> Iterator
     low, high = max(low, products.least), min(high, products.most + 1)
     number = products.below(high) - products.below(low) if low < high else 0
     if number > most and high - low > 1:
+        # the geometric mean, for products are spread evenly in logarithms
         middle = min(max(isqrt(low * high), low + 1), high - 1)
         yield from pieces(products, low, middle, most)
         yield from pieces(products, middle, high, most)

@@ -96,12 +96,14 @@ def margin(error: float) -> float:
 def cut(rows: RankedStages, best: int, value: Fraction) -> RankedStages:
     """The first `best` of the rows in their order, decided exactly."""
     if len(rows) > best:
+        # near errors choose generously, for only these few are compared as Fractions
         order = np.lexsort((rows.error, rows.first))
         last = order[best - 1]
         first, error = rows.first[last], margin(float(rows.error[last]))
         rows = rows.taken(np.flatnonzero((rows.first < first) | ((rows.first == first) & (rows.error <= error))))
     sums = rows.top.sum(axis=1) + rows.beneath.sum(axis=1)
     largest = np.maximum(rows.top[:, -1], rows.beneath[:, -1])
+    # lexsort takes its last key first
     counts = [np.asarray(each, dtype=np.int64) for each in [*rows.top.T, *rows.beneath.T][::-1]]
     sizes = [np.asarray(each, dtype=np.int64) for each in (largest, sums)]
     _, errors = error_places(rows.over, rows.under, value)

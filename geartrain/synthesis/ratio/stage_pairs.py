@@ -66,6 +66,7 @@ def _judged(
     possible = np.ones((len(tops), len(orders)), dtype=bool)
     alone = kinds = np.zeros(possible.shape, dtype=np.int64)
     if fit.hunting or coprime:
+        # pairs as bits of one integer: an arrangement is tested by one `and`
         alone = np.bitwise_count(_code(_coprime(tops, beneaths))[:, None] & meshes).astype(np.int64)
         if fit.hunting:
             possible &= alone == size

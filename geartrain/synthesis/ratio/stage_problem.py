@@ -205,7 +205,7 @@ class StageProblem:
 
 
 def stage_problem_of(plain: Mapping[str, Any]) -> StageProblem:
-    """The question that `Question.plain` wrote."""
+    """The question that `StageProblem.plain` wrote."""
     return StageProblem(
         Fraction(plain["value"]),
         plain["stages"],

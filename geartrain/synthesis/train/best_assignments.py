@@ -180,6 +180,7 @@ class BestAssignments:
             return
         first = self.order.first(self._columns())
         least, greatest = self.order.errors(self._columns())
+        # the n-th least upper bound: what lies surely above it is none of the best n
         last = np.lexsort((greatest, first))[best - 1]
         kept: Bools = (first < first[last]) | ((first == first[last]) & (least <= greatest[last]))
         self._table = self._table[:, kept]
@@ -189,5 +190,6 @@ class BestAssignments:
         if self._table.shape[1]:
             columns = self._columns()
             sizes = self._table.max(axis=0), self._table.sum(axis=0)
+            # lexsort takes its last key first
             keys = (*self._table[::-1], *sizes, self.order.ranks(columns), self.order.first(columns))
             self._table = self._table[:, np.lexsort(keys)[: self.order.best]]

@@ -32,7 +32,7 @@ class SearchPart:
     domains      wheel -> its counts, ascending, in the order declared
     askings      outputs that they move
     conditions   loops and locks that must close for the train to turn
-    rules        of the fitter
+    rules        constraints on counts
     """
 
     domains: Domains
@@ -59,7 +59,7 @@ class TrainRequirements:
 
 
 def find_domains(train: Train, free: str | Sequence[str]) -> dict[str, tuple[int, ...]]:
-    """The counts of each free wheel, ascending, in the order declared; see `searching.search` for `free`.
+    """The counts of each free wheel, ascending, in the order declared; see `search_train` for `free`.
 
     Raises `QuestionError` where there is none, or where one has no counts to choose from.
     """

@@ -19,7 +19,7 @@ from geartrain.synthesis.train.best_assignments import AssignmentOrder, BestAssi
 from geartrain.synthesis.train.train_findings import Assignment
 
 Task = dict[str, Any]
-"""As `merging.do_task` takes it."""
+"""What `do_task` takes."""
 
 _SMALL = 3e6
 """Steps below which a pass is one task: about a second."""
@@ -43,6 +43,7 @@ def cut(question: JoinProblem, limit: float) -> tuple[list[Task], float]:
     budget = 2 * limit / _SAMPLED if sampled else limit
     chosen: Sequence[int] = range(number)
     if sampled and number > _SAMPLED:
+        # always the same sample, so that a question has one answer
         chosen = sorted(random.Random(0).sample(range(number), _SAMPLED))
     tasks = [{"parts": _digits(at, chain), "budget": budget, "pieces": 16} for at in chosen]
     return tasks, len(tasks) / number if sampled else 1.0

@@ -60,6 +60,7 @@ def _fitting(search: PartSearch, guess: Fraction, long: Fraction | None, some: i
             short = share
             guess = share * _growth(search, passed.tally.count, some)
         if short and long is not None:
+            # between too few and too many, halved in logarithms
             guess = Fraction(10 ** ((log10(short) + log10(long)) / 2))
     if long is None:
         return search.run(None, search.limit / 8)
@@ -79,6 +80,7 @@ def _powers(search: PartSearch) -> int:
 def _first(search: PartSearch) -> Fraction:
     """The tolerance in which about as many lie as are wanted."""
     trial = Fraction(1, 1000)
+    # hits grow as the tolerance to the power of the outputs that have an error
     hits = size_of(search.domains) * prod(search.chances(search.asked(trial)).values())
     guess = float(trial) * (3 * search.order.best / max(hits, 1e-300)) ** (1 / max(_powers(search), 1))
     return Fraction(min(max(guess, 1e-12), 1.0))

@@ -65,6 +65,7 @@ def _turns_wrong(asking: OutputRequirement) -> bool:
 def _against(interval: Interval, sense: int) -> bool:
     """True if an interval has speeds of the other sense, and none of this one."""
     low, high = interval
+    # an interval whose end is 0 is met by a standstill, so it is not of the other sense alone
     near, far = (high, low) if sense > 0 else (low, high)
     return near is not None and near * sense <= 0 and far != 0
 

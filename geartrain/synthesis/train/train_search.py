@@ -113,7 +113,7 @@ def search_train(
         rules = find_constraints(train, domains, rules or ConstraintOptions())
     if not demands.askings and not rules:
         fix = "declare `targets`, or an `expect`, at an output that the wheels move"
-        raise QuestionError(Problem("nothing is asked of the free wheels", "no output hangs on them", fix))
+        raise QuestionError(Problem("nothing is asked of the free wheels", "no output depends on them", fix))
     declared = {wheel: count for wheel in domains if (count := train.wheels[wheel][1].count) is not None}
     runner = PassRunner(executor, journal, tell)
     searches = [

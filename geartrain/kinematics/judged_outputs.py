@@ -113,7 +113,7 @@ class TargetResult(Result):
     @property
     def ppm(self) -> float | None:
         """The error in parts per million; None where 0 is wanted, and beyond the range of floats."""
-        return is_near(self.error, 10**6) if self.speed else None
+        return as_plain_product(self.error, 10**6) if self.speed else None
 
 
 class SpeedFigures(TypedDict, total=False):
@@ -226,7 +226,7 @@ class OutputResult(Result):
         return self.expect_holds is not False and self.published_holds is not False
 
 
-def is_near(value: SpeedValue, times: int) -> float | None:
+def as_plain_product(value: SpeedValue, times: int) -> float | None:
     """A product as a float, or None where float64 has none."""
     size = as_float(value) if isinstance(value, Fraction) else as_plain(value)
     return None if size is None else size * times
@@ -331,7 +331,7 @@ def _against(train: Train, target: Target, speed: SpeedValue) -> TargetResult:
     return TargetResult(
         goal,
         error,
-        is_near(error, DAYS_PER_CENTURY) if train.unit_days is not None and goal.speed else None,
-        is_near(-ahead if goal.speed < 0 else ahead, 360),
+        as_plain_product(error, DAYS_PER_CENTURY) if train.unit_days is not None and goal.speed else None,
+        as_plain_product(-ahead if goal.speed < 0 else ahead, 360),
         None if tolerance is None else magnitude(error) <= tolerance,
     )

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
 from geartrain.kinematics.circuits import Circuit
-from geartrain.kinematics.judged_outputs import OutputResult, Relative, is_near
+from geartrain.kinematics.judged_outputs import OutputResult, Relative, as_plain_product
 from geartrain.numerics.plain_data import Key, Result
 from geartrain.train import Train
 
@@ -82,4 +82,4 @@ def _shift(result: OutputResult, relative: Relative) -> float | None:
         return None
     if speed == result.speed:
         return 0.0
-    return is_near(speed / result.speed - 1, 10**6) if result.speed else None
+    return as_plain_product(speed / result.speed - 1, 10**6) if result.speed else None

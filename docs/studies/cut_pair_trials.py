@@ -13,17 +13,13 @@ from numpy.typing import NDArray
 
 from geartrain.numerics.work import open_executor, run
 from geartrain.teeth.triangular.pair_geometry import TriangularSizes, equal_depth
+from geartrain.uncertainty import CutWheel, cut_transmission_function
 from geartrain.uncertainty.confidence_intervals import wilson
-from geartrain.uncertainty.manufacturing_errors import (
-    CuttingErrorModel,
-    CutWheel,
-    ErrorDistribution,
-    MeshingVerdicts,
-    batch_verdicts,
-    cut_transmission_function,
-    nominal_backlash,
-)
 from geartrain.uncertainty.manufacturing_errors.cut_pair import CutGearPair
+from geartrain.uncertainty.manufacturing_errors.least_backlash import nominal_backlash
+from geartrain.uncertainty.manufacturing_errors.meshing_cycle import MeshingVerdicts
+from geartrain.uncertainty.manufacturing_errors.meshing_verdicts import batch_verdicts
+from studies.cutting_errors import CuttingErrorModel, ErrorDistribution
 from studies.uncertainty_records import ErrorRecord
 
 Bools = NDArray[np.bool_]

@@ -29,7 +29,9 @@ from geartrain.cli.uncertainty_plots import Picture, Plot, check_plot, draw_find
 
 if TYPE_CHECKING:
     from geartrain.numerics.work import Execution
-    from geartrain.uncertainty.monte_carlo import MonteCarloResult, TrialPlan, TrialRecord, TrialResults
+    from geartrain.uncertainty import TrialPlan, TrialResults
+    from geartrain.uncertainty.monte_carlo.monte_carlo_result import MonteCarloResult
+    from geartrain.uncertainty.monte_carlo.trial_run import TrialRecord
 
 Names = list[str] | None
 TABLES = (".parquet", ".csv")
@@ -66,14 +68,10 @@ def run(
 ) -> None:
     """How often a train cut by hand jams, and how far its pointers stray; to a .parquet or .csv, every trial."""
     from geartrain.analysis.loader import load
-    from geartrain.uncertainty.monte_carlo import (
-        MonteCarloResult,
-        check_trials,
-        find_trial_plan,
-        journal_key,
-        read_clearances,
-        read_error_overrides,
-    )
+    from geartrain.uncertainty import find_trial_plan, read_error_overrides
+    from geartrain.uncertainty.monte_carlo.clearance_study import read_clearances
+    from geartrain.uncertainty.monte_carlo.monte_carlo_result import MonteCarloResult
+    from geartrain.uncertainty.monte_carlo.trial_run import check_trials, journal_key
 
     to = sink(out, force, (".md", ".html", ".json", *TABLES))
     check_trials(trials)
@@ -128,7 +126,7 @@ class _StoppedError(Exception):
 
 def _trials(plan: TrialPlan, trials: int, seed: int, given: Execution, table: _Table | None) -> TrialResults:
     """The trials, kept in the journal, and handed on to a table block by block."""
-    from geartrain.uncertainty.monte_carlo import run_trials
+    from geartrain.uncertainty import run_trials
 
     with suppress(_StoppedError), nullcontext() if table is None else table.open() as take:
         found = run_trials(plan, trials, seed, given, take)
@@ -147,13 +145,9 @@ def _studied(
     means: Execution,
 ) -> MonteCarloResult:
     """The trials with all that is asked beside them; courses only of outputs that were named."""
-    from geartrain.uncertainty.monte_carlo import (
-        MonteCarloResult,
-        find_sobol_indices,
-        find_tolerance,
-        run_clearances,
-        run_course,
-    )
+    from geartrain.uncertainty import find_sobol_indices, find_tolerance, run_course
+    from geartrain.uncertainty.monte_carlo.clearance_study import run_clearances
+    from geartrain.uncertainty.monte_carlo.monte_carlo_result import MonteCarloResult
 
     plan, seed, count = trials.plan, trials.seed, trials.wanted
     few = range(min(_FEW, len(plan.outputs)))

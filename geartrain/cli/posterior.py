@@ -31,7 +31,7 @@ from geartrain.cli.option_values import MOST_COUNT
 from geartrain.cli.uncertainty_plots import Plot, check_plot, draw_counts
 
 if TYPE_CHECKING:
-    from geartrain.uncertainty.posterior import ToothCountPosterior
+    from geartrain.uncertainty import ToothCountPosterior
 
 Names = list[str] | None
 FORMS = (".md", ".html", ".json", ".csv", ".parquet")
@@ -74,7 +74,7 @@ def run(
     """Which tooth counts fit what the outputs show; exit 0 if any does, 1 if none."""
     from geartrain.numerics.files import ColumnTable
     from geartrain.train.declaration_files import read_declaration
-    from geartrain.uncertainty.posterior import infer_counts
+    from geartrain.uncertainty import infer_counts
 
     to, drawing = sink(out, force, FORMS), check_plot(plot, force)
     check_distinct_outputs(to, drawing)

@@ -13,8 +13,8 @@ from geartrain.cli.common import PICTURES, Sink, draw, sink
 
 if TYPE_CHECKING:
     from geartrain.numerics.work import Execution
-    from geartrain.uncertainty.monte_carlo import MonteCarloResult
-    from geartrain.uncertainty.posterior import ToothCountPosterior
+    from geartrain.uncertainty import ToothCountPosterior
+    from geartrain.uncertainty.monte_carlo.monte_carlo_result import MonteCarloResult
 
 Plot = Annotated[Path | None, typer.Option("--plot", help="Draw to this file (.svg, .png or .pdf).")]
 Picture = Annotated[
@@ -40,7 +40,7 @@ def with_map(
     """The findings with what a map needs, where one is to be drawn: other clearances, and errors of other sizes."""
     if picture != "map":
         return findings
-    from geartrain.uncertainty.monte_carlo import jamming_map
+    from geartrain.uncertainty import jamming_map
 
     of = findings.trials
     return replace(findings, cleared=jamming_map(of.plan, clearances or _SHARES, _SCALES, of.wanted, of.seed, means))
@@ -61,7 +61,7 @@ def draw_counts(
     again   sweeps the same train for the same evidence, with some wheels held to the counts given
     """
     from geartrain.drawing import counts_figure
-    from geartrain.uncertainty.posterior.posterior_result import joint_posterior, most_informative_wheels
+    from geartrain.uncertainty.posterior.pairwise_posterior import joint_posterior, most_informative_wheels
 
     wheels = most_informative_wheels(found)
     draw(counts_figure(found, joint_posterior(found, wheels, again)), to)

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
     from geartrain.numerics.arrays import Floats
-    from geartrain.uncertainty.posterior import ToothCountPosterior
+    from geartrain.uncertainty import ToothCountPosterior
 
 
 Chances = Mapping[int, float]
@@ -198,7 +198,7 @@ def counts_figure(found: ToothCountPosterior, pairs: Pairs) -> Figure:
     Examples
     --------
     >>> from geartrain.train.declaration_files import read_declaration
-    >>> from geartrain.uncertainty.posterior import infer_counts
+    >>> from geartrain.uncertainty import infer_counts
     >>> found = infer_counts(read_declaration("planetary-24-18-60"), free={"s": (23, 24), "ring": (58, 60)})
     >>> figure = counts_figure(found, {("s", "ring"): {(24, 60): 1.0}})
     >>> figure.axes[-1].get_xlabel()

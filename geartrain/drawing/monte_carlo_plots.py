@@ -17,14 +17,8 @@ from geartrain.errors import Problem, QuestionError
 
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
-    from geartrain.uncertainty.monte_carlo import (
-        ClearanceCase,
-        MonteCarloResult,
-        PointerErrorCourse,
-        ProbabilityEstimate,
-        SobolIndices,
-        TrialResults,
-    )
+    from geartrain.uncertainty import ClearanceCase, PointerErrorCourse, ProbabilityEstimate, SobolIndices, TrialResults
+    from geartrain.uncertainty.monte_carlo.monte_carlo_result import MonteCarloResult
 
 
 _LOOKS = ((BLUE, "-"), (RED, "--"), (GREEN, "-."), (PURPLE, ":"), (ORANGE, "-"), (BLACK, "--"))
@@ -126,8 +120,7 @@ def monte_carlo_figure(findings: MonteCarloResult, picture: str = "errors") -> F
     Examples
     --------
     >>> import geartrain
-    >>> from geartrain.uncertainty.monte_carlo import (
-    ...     MonteCarloResult, find_trial_plan, read_error_overrides, run_trials)
+    >>> from geartrain.uncertainty import MonteCarloResult, find_trial_plan, read_error_overrides, run_trials
     >>> plan = find_trial_plan(geartrain.load("moon-triangular"), read_error_overrides(["placement=2 %"]), ("moon",))
     >>> found = MonteCarloResult(run_trials(plan, trials=2, seed=1))
     >>> monte_carlo_figure(found, "convergence").axes[0].get_ylabel()

@@ -9,14 +9,14 @@ from typing import TYPE_CHECKING, Any
 from geartrain.report.document import Document, Section, Table, cut
 
 if TYPE_CHECKING:
-    from geartrain.uncertainty.monte_carlo import (
+    from geartrain.uncertainty import (
         IntervalEstimate,
-        MonteCarloResult,
         PairEventRates,
         PointerErrorStatistics,
         ProbabilityEstimate,
         SobolIndices,
     )
+    from geartrain.uncertainty.monte_carlo.monte_carlo_result import MonteCarloResult
 
 
 def describe_monte_carlo(found: MonteCarloResult) -> Document:
@@ -35,8 +35,7 @@ def describe_monte_carlo(found: MonteCarloResult) -> Document:
     Examples
     --------
     >>> import geartrain
-    >>> from geartrain.uncertainty.monte_carlo import (
-    ...     MonteCarloResult, find_trial_plan, read_error_overrides, run_trials)
+    >>> from geartrain.uncertainty import MonteCarloResult, find_trial_plan, read_error_overrides, run_trials
     >>> plan = find_trial_plan(geartrain.load("moon-triangular"), read_error_overrides(["placement=2 %"]), ("moon",))
     >>> describe_monte_carlo(MonteCarloResult(run_trials(plan, trials=2, seed=1))).lead[0]
     '2 trials, seed 1; intervals hold with 95 %.'

@@ -11,13 +11,8 @@ from geartrain.report.document import Document, Section, Table, cut, figure
 from geartrain.report.tooth_numbers import error_text
 
 if TYPE_CHECKING:
-    from geartrain.uncertainty.posterior import (
-        CountCombination,
-        CountProbability,
-        ToothCountPosterior,
-        VarianceShares,
-        WheelPosterior,
-    )
+    from geartrain.uncertainty import CountCombination, CountProbability, ToothCountPosterior, WheelPosterior
+    from geartrain.uncertainty.posterior.posterior_result import VarianceShares
 
 _LIKELIEST = 4  # counts told of one wheel; the JSON has all
 _STRONGEST = 12
@@ -58,7 +53,7 @@ def describe_posterior(found: ToothCountPosterior) -> Document:
     Of five counts of a sun one gives the declared speeds:
 
     >>> from geartrain.train.declaration_files import read_declaration
-    >>> from geartrain.uncertainty.posterior import infer_counts
+    >>> from geartrain.uncertainty import infer_counts
     >>> found = infer_counts(read_declaration("planetary-24-18-60"), free={"s": (22, 23, 24, 25, 26)})
     >>> describe_posterior(found).lead[1]
     '1 fit: a share of 0.2 of the weight they have before.'

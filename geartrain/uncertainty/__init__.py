@@ -1,3 +1,112 @@
-"""Trains in doubt: tooth counts that evidence leaves open, wheels cut by hand."""
+"""Trains in doubt: tooth counts that are not certain, wheels that are not cut true.
+
+posterior
+    In: a declaration with wheels in doubt, and what is known of its outputs. Out, by `infer_counts`: the posterior of
+    every count by Bayes' theorem, exact by the weighted join of `synthesis` or from a sample (docs/counts-in-doubt.md).
+monte_carlo
+    In: a train with triangular teeth and errors of cutting and fitting, as a `TrialPlan`. Out: how often it jams, how
+    far its pointers stray, with confidence intervals; whose errors matter (Sobol indices), and how great they may be
+    (tolerance allocation) (docs/cut-by-hand.md).
+manufacturing_errors
+    In: wheels with each tooth where it stands, `CutWheel`. Out, by `cut_transmission_function`: the transmission
+    function and events of one pair over the cycle of its teeth.
+"""
 
 from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from geartrain.numerics.lazy_names import lazy_names
+
+if TYPE_CHECKING:
+    from geartrain.uncertainty.confidence_intervals import IntervalEstimate as IntervalEstimate
+    from geartrain.uncertainty.confidence_intervals import ProbabilityEstimate as ProbabilityEstimate
+    from geartrain.uncertainty.manufacturing_errors.cut_transmission import (
+        CutTransmissionFunction as CutTransmissionFunction,
+    )
+    from geartrain.uncertainty.manufacturing_errors.cut_transmission import (
+        cut_transmission_function as cut_transmission_function,
+    )
+    from geartrain.uncertainty.manufacturing_errors.cut_wheel import CutWheel as CutWheel
+    from geartrain.uncertainty.manufacturing_errors.declared_errors import read_error_overrides as read_error_overrides
+    from geartrain.uncertainty.monte_carlo.clearance_study import ClearanceCase as ClearanceCase
+    from geartrain.uncertainty.monte_carlo.clearance_study import jamming_map as jamming_map
+    from geartrain.uncertainty.monte_carlo.monte_carlo_result import MonteCarloResult as MonteCarloResult
+    from geartrain.uncertainty.monte_carlo.pointer_error import PointerErrorCourse as PointerErrorCourse
+    from geartrain.uncertainty.monte_carlo.pointer_error import PointerErrorStatistics as PointerErrorStatistics
+    from geartrain.uncertainty.monte_carlo.sobol_indices import SobolIndices as SobolIndices
+    from geartrain.uncertainty.monte_carlo.sobol_indices import find_sobol_indices as find_sobol_indices
+    from geartrain.uncertainty.monte_carlo.tolerance_allocation import ToleranceAllocation as ToleranceAllocation
+    from geartrain.uncertainty.monte_carlo.tolerance_allocation import find_tolerance as find_tolerance
+    from geartrain.uncertainty.monte_carlo.trial_plan import TrialPlan as TrialPlan
+    from geartrain.uncertainty.monte_carlo.trial_plan import find_trial_plan as find_trial_plan
+    from geartrain.uncertainty.monte_carlo.trial_results import PairEventRates as PairEventRates
+    from geartrain.uncertainty.monte_carlo.trial_results import TrialResults as TrialResults
+    from geartrain.uncertainty.monte_carlo.trial_run import run_course as run_course
+    from geartrain.uncertainty.monte_carlo.trial_run import run_trials as run_trials
+    from geartrain.uncertainty.posterior.inference import infer_counts as infer_counts
+    from geartrain.uncertainty.posterior.posterior_result import CountCombination as CountCombination
+    from geartrain.uncertainty.posterior.posterior_result import CountProbability as CountProbability
+    from geartrain.uncertainty.posterior.posterior_result import ToothCountPosterior as ToothCountPosterior
+    from geartrain.uncertainty.posterior.posterior_result import WheelPosterior as WheelPosterior
+
+__all__ = [
+    "ClearanceCase",
+    "CountCombination",
+    "CountProbability",
+    "CutTransmissionFunction",
+    "CutWheel",
+    "IntervalEstimate",
+    "MonteCarloResult",
+    "PairEventRates",
+    "PointerErrorCourse",
+    "PointerErrorStatistics",
+    "ProbabilityEstimate",
+    "SobolIndices",
+    "ToleranceAllocation",
+    "ToothCountPosterior",
+    "TrialPlan",
+    "TrialResults",
+    "WheelPosterior",
+    "cut_transmission_function",
+    "find_sobol_indices",
+    "find_tolerance",
+    "find_trial_plan",
+    "infer_counts",
+    "jamming_map",
+    "read_error_overrides",
+    "run_course",
+    "run_trials",
+]
+
+__getattr__ = lazy_names(
+    __name__,
+    {
+        "ClearanceCase": "monte_carlo.clearance_study",
+        "CountCombination": "posterior.posterior_result",
+        "CountProbability": "posterior.posterior_result",
+        "CutTransmissionFunction": "manufacturing_errors.cut_transmission",
+        "CutWheel": "manufacturing_errors.cut_wheel",
+        "IntervalEstimate": "confidence_intervals",
+        "MonteCarloResult": "monte_carlo.monte_carlo_result",
+        "PairEventRates": "monte_carlo.trial_results",
+        "PointerErrorCourse": "monte_carlo.pointer_error",
+        "PointerErrorStatistics": "monte_carlo.pointer_error",
+        "ProbabilityEstimate": "confidence_intervals",
+        "SobolIndices": "monte_carlo.sobol_indices",
+        "ToleranceAllocation": "monte_carlo.tolerance_allocation",
+        "ToothCountPosterior": "posterior.posterior_result",
+        "TrialPlan": "monte_carlo.trial_plan",
+        "TrialResults": "monte_carlo.trial_results",
+        "WheelPosterior": "posterior.posterior_result",
+        "cut_transmission_function": "manufacturing_errors.cut_transmission",
+        "find_sobol_indices": "monte_carlo.sobol_indices",
+        "find_tolerance": "monte_carlo.tolerance_allocation",
+        "find_trial_plan": "monte_carlo.trial_plan",
+        "infer_counts": "posterior.inference",
+        "jamming_map": "monte_carlo.clearance_study",
+        "read_error_overrides": "manufacturing_errors.declared_errors",
+        "run_course": "monte_carlo.trial_run",
+        "run_trials": "monte_carlo.trial_run",
+    },
+)

@@ -26,7 +26,21 @@ def deviations(confidence: float = CONFIDENCE) -> float:
 
 @dataclass(frozen=True, slots=True)
 class ProbabilityEstimate(Result):
-    """So many of so many trials: a probability, estimated."""
+    """A probability estimated from independent trials, with Wilson's 95 % interval.
+
+    Attributes
+    ----------
+    count, of : int
+        In so many of so many trials it happened.
+
+    Examples
+    --------
+    Of none in 256 trials the upper end is z^2 / (256 + z^2), z = 1.96.
+
+    >>> never = ProbabilityEstimate(0, 256)
+    >>> never.value, [round(end, 5) for end in never.interval]
+    (0.0, [0.0, 0.01478])
+    """
 
     KEYS = ("count", "of", Key("share", "value", finite), "interval")
 
@@ -52,15 +66,28 @@ def wilson(count: float, of: float, z: float | None = None) -> tuple[float, floa
     if not of:
         return 0.0, 1.0
     z = deviations() if z is None else z
+    # E. B. Wilson, J. Am. Stat. Assoc. 22 (1927): the p with |p' - p| <= z sqrt(p (1 - p) / n)
     p, square = count / of, z * z / of
     middle, half = p + square / 2, z * sqrt(max(p * (1 - p), 0.0) / of + square / (4 * of))
     low, high = (middle - half) / (1 + square), (middle + half) / (1 + square)
+    # the ends of none and of all are 0 and 1 exactly, not to rounding
     return (max(0.0, low) if count else 0.0), (min(1.0, high) if count < of else 1.0)
 
 
 @dataclass(frozen=True, slots=True)
 class IntervalEstimate:
-    """An estimate and its interval."""
+    """An estimate and its 95 % interval.
+
+    Attributes
+    ----------
+    value, low, high : float
+        In the unit of what is estimated; the ends are infinite where there are too few trials to say.
+
+    Examples
+    --------
+    >>> IntervalEstimate(1.0, 0.5, float("inf")).to_dict()
+    [1.0, 0.5, None]
+    """
 
     value: float
     low: float
@@ -86,7 +113,10 @@ def mean_of(values: Floats) -> IntervalEstimate:
 
 
 def deviation_of(values: Floats) -> IntervalEstimate:
-    """Standard deviation, its interval from the fourth moment: right for distributions that are not normal."""
+    """Standard deviation, its interval from the fourth moment: right for distributions that are not normal.
+
+    Var(s^2) = (mu_4 - sigma^4) / n to first order; the chi-square interval would hold for normal values only.
+    """
     n = len(values)
     if n < 3:
         return IntervalEstimate(nan, 0.0, inf)
@@ -100,7 +130,10 @@ def deviation_of(values: Floats) -> IntervalEstimate:
 
 
 def percentile_of(ordered: Floats, percent: float) -> IntervalEstimate:
-    """Percentile of values in order; its interval is between two of them, whatever their distribution."""
+    """Percentile of values in order; its interval is between two order statistics, whatever their distribution.
+
+    How many of n values lie below the percentile is binomial, here by its normal limit.
+    """
     n, p = len(ordered), percent / 100
     if not n:
         return IntervalEstimate(nan, -inf, inf)

@@ -17,13 +17,8 @@ from geartrain import GearTrainError, load
 from geartrain.cli import app
 from geartrain.errors import MissingExtraError, QuestionError, RangeError
 from geartrain.numerics.files import ColumnTable
-from geartrain.uncertainty.monte_carlo import (
-    find_tolerance,
-    find_trial_plan,
-    read_clearances,
-    read_error_overrides,
-    run_trials,
-)
+from geartrain.uncertainty import find_tolerance, find_trial_plan, read_error_overrides, run_trials
+from geartrain.uncertainty.monte_carlo.clearance_study import read_clearances
 
 PAIR = """
     name: pair
@@ -123,7 +118,7 @@ def test_an_interrupted_run_says_so_and_is_taken_up(
 
 def test_a_journal_of_another_question_is_refused(train_file: Write, here: Path) -> None:
     from geartrain.numerics.work import Journal
-    from geartrain.uncertainty.monte_carlo import journal_key
+    from geartrain.uncertainty.monte_carlo.trial_run import journal_key
 
     plan = find_trial_plan(load(train_file(PAIR)))
     asked = journal_key(plan, 1, 300)
@@ -226,7 +221,7 @@ def test_without_its_extra_it_says_which_one(train_file: Write, here: Path, monk
         ColumnTable(here / "t.parquet", {})
     plan = find_trial_plan(load(train_file(PAIR)))
     monkeypatch.setitem(sys.modules, "SALib.analyze.sobol", None)
-    from geartrain.uncertainty.monte_carlo import find_sobol_indices
+    from geartrain.uncertainty import find_sobol_indices
 
     with pytest.raises(MissingExtraError, match=r"geartrain\[errors\]"):
         find_sobol_indices(plan, 0, trials=8)

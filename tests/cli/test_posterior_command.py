@@ -124,3 +124,19 @@ def test_a_sample_may_be_resumed_and_another_question_is_refused(train: Path, mo
     assert "another question" in str(other.exception)
     assert json.loads(call("posterior", train, *options, "--resume").stdout) == whole
     assert not list(train.parent.glob("*.partial.jsonl"))
+
+
+def test_an_interrupted_exact_run_prints_a_short_sample_and_keeps_nothing(
+    train: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def interrupted(*_: object) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("geartrain.uncertainty.posterior.inference.find_exact_posterior", interrupted)
+    result = call("posterior", train, "--method", "exact", "--json")
+    assert result.exit_code == 130
+    found = json.loads(result.stdout)
+    assert (found["ended"], found["method"], found["ranked"]) == ("interrupted", "sample", False)
+    assert any("knows nothing before its end" in remark for remark in found["remarks"])
+    assert "stopped before anything was done that could be kept" in result.stderr
+    assert not list(train.parent.glob("*.partial.jsonl"))

@@ -27,7 +27,8 @@ from studies.cut_pair_trials import (
 from studies.uncertainty_records import COUNTS, SINGLY, ErrorRecord, UncertaintyRecords, slope
 from studies.uncertainty_study import uncertainty
 
-from geartrain.uncertainty.manufacturing_errors import batch_verdicts, nominal_backlash
+from geartrain.uncertainty.manufacturing_errors.least_backlash import nominal_backlash
+from geartrain.uncertainty.manufacturing_errors.meshing_verdicts import batch_verdicts
 
 
 @pytest.fixture(scope="module")

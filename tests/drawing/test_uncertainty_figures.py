@@ -27,19 +27,19 @@ from geartrain.drawing.monte_carlo_plots import ConvergenceTrace, convergence_fi
 from geartrain.drawing.pointer_error_plots import ErrorBands, histogram_figure, pointer_error_figure
 from geartrain.drawing.tornado_chart import VarianceShare, tornado_figure
 from geartrain.errors import QuestionError
-from geartrain.uncertainty.monte_carlo import IntervalEstimate as Figure_
-from geartrain.uncertainty.monte_carlo import (
-    MonteCarloResult,
-    SobolIndex,
+from geartrain.uncertainty import IntervalEstimate as Figure_
+from geartrain.uncertainty import (
     SobolIndices,
     find_trial_plan,
+    infer_counts,
     jamming_map,
     read_error_overrides,
     run_course,
     run_trials,
 )
-from geartrain.uncertainty.posterior import infer_counts
-from geartrain.uncertainty.posterior.posterior_result import joint_posterior, most_informative_wheels
+from geartrain.uncertainty.monte_carlo.monte_carlo_result import MonteCarloResult
+from geartrain.uncertainty.monte_carlo.sobol_indices import SobolIndex
+from geartrain.uncertainty.posterior.pairwise_posterior import joint_posterior, most_informative_wheels
 
 RNG = np.random.default_rng(1)
 TURNS = np.linspace(0, 2, 50)

@@ -26,6 +26,7 @@ SHOWING = [
     "synthesis",
     "teeth",
     "train",
+    "uncertainty",
     "viewer",
 ]
 """Rooms whose `__all__` is complete. The shell shows commands, which `--help` and docs/commands.md describe."""

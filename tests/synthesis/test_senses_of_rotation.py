@@ -23,7 +23,7 @@ from geartrain.report.train_data import collect_report
 from geartrain.report.train_report import describe_train
 from geartrain.synthesis.formulas import with_counts
 from geartrain.synthesis.train.train_search import search_train
-from geartrain.uncertainty.posterior import infer_counts
+from geartrain.uncertainty import infer_counts
 
 Counts = tuple[int, int]
 HELD, SUN = 20, 21

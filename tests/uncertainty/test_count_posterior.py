@@ -19,9 +19,10 @@ from geartrain.analysis.gear_train import GearTrain
 from geartrain.errors import GearTrainError, QuestionError, RangeError
 from geartrain.numerics.work import Journal, open_executor
 from geartrain.synthesis.formulas import with_counts
-from geartrain.uncertainty.posterior import ToothCountPosterior, find_priors, infer_counts
+from geartrain.uncertainty import ToothCountPosterior, infer_counts
 from geartrain.uncertainty.posterior.inference_problem import InferenceProblem, build_inference_problem
 from geartrain.uncertainty.posterior.observations import ObservedOutput
+from geartrain.uncertainty.posterior.priors import find_priors
 from geartrain.uncertainty.posterior.sampled_posterior import LikelihoodBatch, sample_task
 
 CHAIN: dict[str, Any] = {
@@ -490,6 +491,26 @@ def test_an_interrupted_run_says_what_it_knows(monkeypatch: pytest.MonkeyPatch) 
     assert 0 < found.looked < 60_000
     assert found.evidence.low is not None
     assert found.evidence.low < float(run(CHAIN).evidence) < (found.evidence.high or 0)
+
+
+def test_an_interrupted_exact_run_says_that_it_knows_nothing_but_a_short_sample(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    whole = run(CHAIN)
+
+    def interrupted(*_: Any) -> Any:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("geartrain.uncertainty.posterior.inference.find_exact_posterior", interrupted)
+    for method in (None, "exact"):
+        found = run(CHAIN, method=method)
+        assert found.cut
+        assert (found.method, found.looked) == ("sample", 1 << 16)
+        assert "knows nothing before its end" in found.remarks[-1]
+        assert found.evidence.low is not None
+        assert found.evidence.low < float(whole.evidence) < (found.evidence.high or 0)
+        assert not found.ranked
+    assert run(CHAIN, samples=1000).looked == 1000, "no more is drawn than was allowed"
 
 
 def test_a_batch_says_what_the_solver_says() -> None:

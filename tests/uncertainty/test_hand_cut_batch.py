@@ -7,20 +7,15 @@ from math import lcm, pi, radians, sqrt
 import numpy as np
 import pytest
 from sorge import Pair, least_play
+from studies.cutting_errors import CuttingErrorModel, ErrorDistribution
 from test_hand_cut_law import equally_deep, even
 
 from geartrain.errors import RangeError
 from geartrain.teeth.triangular.clearance_window import find_window
 from geartrain.teeth.triangular.pair_geometry import TriangularSizes
-from geartrain.uncertainty.manufacturing_errors import (
-    CuttingErrorModel,
-    CutWheel,
-    ErrorDistribution,
-    batch_verdicts,
-    cut_transmission_function,
-    jamming_bound,
-    nominal_backlash,
-)
+from geartrain.uncertainty import CutWheel, cut_transmission_function
+from geartrain.uncertainty.manufacturing_errors.least_backlash import jamming_bound, nominal_backlash
+from geartrain.uncertainty.manufacturing_errors.meshing_verdicts import batch_verdicts
 
 THIRTY = radians(30)
 

@@ -13,7 +13,7 @@ from geartrain.errors import RangeError
 from geartrain.teeth.triangular.clearance_window import find_window
 from geartrain.teeth.triangular.pair_geometry import TriangularSizes, equal_depth
 from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
-from geartrain.uncertainty.manufacturing_errors import CutTransmissionFunction, CutWheel, cut_transmission_function
+from geartrain.uncertainty import CutTransmissionFunction, CutWheel, cut_transmission_function
 
 THIRTY = radians(30)
 KINDS = ("place", "tip", "leading", "trailing")

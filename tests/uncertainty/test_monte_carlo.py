@@ -17,21 +17,23 @@ from test_hand_cut_batch import chance_that_none_rises
 from geartrain import GearTrain, load
 from geartrain.numerics.work import Execution, Journal, open_executor
 from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
-from geartrain.uncertainty.confidence_intervals import IntervalEstimate, deviation_of, mean_of, percentile_of, wilson
-from geartrain.uncertainty.manufacturing_errors import CutWheel, batch_verdicts, cut_transmission_function
-from geartrain.uncertainty.monte_carlo import (
+from geartrain.uncertainty import (
+    CutWheel,
     TrialPlan,
+    cut_transmission_function,
     find_sobol_indices,
     find_tolerance,
     find_trial_plan,
-    journal_key,
     read_error_overrides,
-    run_clearances,
     run_course,
     run_trials,
 )
+from geartrain.uncertainty.confidence_intervals import IntervalEstimate, deviation_of, mean_of, percentile_of, wilson
+from geartrain.uncertainty.manufacturing_errors.meshing_verdicts import batch_verdicts
+from geartrain.uncertainty.monte_carlo.clearance_study import run_clearances
 from geartrain.uncertainty.monte_carlo.random_streams import RandomStreams
 from geartrain.uncertainty.monte_carlo.trial_block import JAM, draw_trial_wheels, judge_trial_pairs, trial_pointers
+from geartrain.uncertainty.monte_carlo.trial_run import journal_key
 
 
 def chain(*counts: tuple[int, int], clearance: float = 1.02, **more: Any) -> GearTrain:

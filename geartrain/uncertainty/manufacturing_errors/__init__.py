@@ -1,25 +1,11 @@
-"""Wheels cut by hand: each tooth with its own place, height and flanks; their law, where they jam, and how often."""
+"""Wheels cut by hand: each tooth with its own place, height and flanks.
 
-from geartrain.uncertainty.manufacturing_errors.cut_transmission import (
-    CutTransmissionFunction,
-    cut_transmission_function,
-)
-from geartrain.uncertainty.manufacturing_errors.cut_wheel import CuttingErrorModel, CutWheel, ErrorDistribution
-from geartrain.uncertainty.manufacturing_errors.least_backlash import jamming_bound, nominal_backlash
-from geartrain.uncertainty.manufacturing_errors.meshing_cycle import MeshingVerdicts
-from geartrain.uncertainty.manufacturing_errors.meshing_events import MeshingEvent, MeshingEvents
-from geartrain.uncertainty.manufacturing_errors.meshing_verdicts import batch_verdicts
-
-__all__ = [
-    "CutTransmissionFunction",
-    "CutWheel",
-    "CuttingErrorModel",
-    "ErrorDistribution",
-    "MeshingEvent",
-    "MeshingEvents",
-    "MeshingVerdicts",
-    "batch_verdicts",
-    "cut_transmission_function",
-    "jamming_bound",
-    "nominal_backlash",
-]
+declared_errors                       what a train declares, and what is set in its place
+cut_wheel, cut_pair                   one wheel, or many; two of them on their axles
+contact_envelope, contact_intervals   one pair: which couple pushes, and from where to where
+cut_transmission, meshing_events      its transmission function, and what goes wrong in a cycle
+trial_transmission                    the transmission functions of many pairs at once
+meshing_cycle, least_backlash         many pairs at once: whether they jam, clash, stand still, lose contact
+pitch_error_verdicts                  the same where teeth are right but for their places, at much less cost
+meshing_verdicts                      the cheaper of the two that is right
+"""

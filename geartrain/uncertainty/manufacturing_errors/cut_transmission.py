@@ -1,14 +1,10 @@
-"""The law of two cut wheels over the full cycle of their teeth.
-
-The laws of many pairs of one plan at once, each asked at angles of its own: trial t of its wheels at angle S[t].
-"""
+"""The transmission function of two cut wheels over the full cycle of their teeth."""
 
 from __future__ import annotations
 
-from copy import copy
 from fractions import Fraction
 from functools import cached_property
-from math import ceil, floor, inf, sqrt
+from math import inf, sqrt
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -17,7 +13,7 @@ from geartrain.errors import Problem, RangeError
 from geartrain.teeth.transmission import TransmissionFunction, behind
 from geartrain.uncertainty.manufacturing_errors.contact_envelope import APPROACHES, LEFT, ContactEnvelope
 from geartrain.uncertainty.manufacturing_errors.contact_intervals import ContactIntervals, find_contact_intervals
-from geartrain.uncertainty.manufacturing_errors.cut_pair import CutGearPair, CutToothPairs
+from geartrain.uncertainty.manufacturing_errors.cut_pair import CutGearPair
 from geartrain.uncertainty.manufacturing_errors.meshing_events import MeshingEvents, find_meshing_events
 
 if TYPE_CHECKING:
@@ -39,13 +35,45 @@ def cut_transmission_function(
     friction: float = 0.0,
     direction: int = 1,
 ) -> CutTransmissionFunction:
-    """The law of two wheels cut by hand.
+    """The transmission function of two wheels cut by hand, over the whole cycle of their teeth.
 
-    sizes           what they were meant to be; of a mesh of a train its `cut_sizes`
-    first, second   the driver and the driven wheel as they are
-    shift           by how much their axles stand farther apart than meant, as the radii: error of the centre distance
-                    and play of the bearings
-    Raises `RangeError` for wheels of other tooth numbers, and teeth that lean.
+    Parameters
+    ----------
+    sizes : TriangularSizes
+        What they were meant to be; of a mesh of a train its `cut_sizes`.
+    first, second : CutWheel
+        The driver and the driven wheel as they are.
+    shift : float
+        By how much their axles stand farther apart than meant: error of the centre distance, clearance of the
+        bearings [as the radii].
+    friction : float
+        Coefficient of friction, for efficiencies.
+    direction : {1, -1}
+        -1 turns backwards.
+
+    Returns
+    -------
+    CutTransmissionFunction
+        Errors, speeds and events at any angle of the driver.
+
+    Raises
+    ------
+    RangeError
+        For wheels of other tooth numbers, and teeth that lean beyond the perpendicular.
+
+    Examples
+    --------
+    Driven teeth that all stand 0.001 rad late leave the driven wheel 0.001 rad ahead of where even teeth have it.
+
+    >>> import geartrain
+    >>> from geartrain.uncertainty import CutWheel
+    >>> sizes = geartrain.load("moon-triangular").meshes[0].cut_sizes
+    >>> driver = CutWheel.even(sizes.z1, sizes.R1, sizes.beta1)
+    >>> driven = CutWheel.even(sizes.z2, sizes.R2, sizes.beta2)
+    >>> even = cut_transmission_function(sizes, driver, driven)
+    >>> late = cut_transmission_function(sizes, driver, driven.placed(0.001))
+    >>> round(float(abs(late.error(0.2) - even.error(0.2))), 9)
+    0.001
     """
     if (first.z, second.z) != (sizes.z1, sizes.z2):
         raise RangeError(
@@ -59,11 +87,28 @@ def cut_transmission_function(
 
 
 class CutTransmissionFunction(TransmissionFunction):
-    """Driven angle, speed and events of two cut wheels; the law repeats after lcm(z1, z2) pitches.
+    """Driven angle, speed and events of two cut wheels; all repeats after lcm(z1, z2) pitches.
 
     The transmission error is that against uniform motion of the ratio of tooth numbers: positive where the driven
-    wheel is ahead. `direction` -1 turns backwards, pushed by the other flanks. What jams or clashes has the law its
-    pushing flanks alone would give.
+    wheel is ahead. What jams or clashes has the transmission function that its pushing flanks alone would give.
+
+    Parameters
+    ----------
+    pair : CutGearPair
+        The two wheels and their centre distance.
+    friction : float
+        Coefficient of friction, for efficiencies.
+    direction : {1, -1}
+        -1 turns backwards, pushed by the other flanks.
+
+    See Also
+    --------
+    cut_transmission_function : makes it
+
+    Notes
+    -----
+    Every couple of teeth in reach forbids the driven wheel to lag behind its contact; it follows the least of them,
+    and where none pushes it stands (docs/cut-by-hand.md, 2).
     """
 
     def __init__(self, pair: CutGearPair, friction: float = 0.0, direction: int = 1) -> None:
@@ -76,19 +121,43 @@ class CutTransmissionFunction(TransmissionFunction):
     # ---------------------------------------------------------------------------------------------------- over samples
 
     def error(self, S: ArrayLike) -> Floats:
-        """Transmission error (rad of the driven wheel) at driver angles S (rad)."""
+        """Transmission error [rad of the driven wheel].
+
+        Parameters
+        ----------
+        S : array_like
+            Driver angles [rad].
+        """
         return self.error_and_speed(S)[0]
 
     def speed(self, S: ArrayLike) -> Floats:
-        """dq/dS at driver angles S (rad); 0 where the driven wheel stands still."""
+        """dq/dS; 0 where the driven wheel stands still.
+
+        Parameters
+        ----------
+        S : array_like
+            Driver angles [rad].
+        """
         return self.error_and_speed(S)[1]
 
     def efficiency(self, S: ArrayLike) -> Floats:
-        """Sliding efficiency at driver angles S (rad); NaN where nothing pushes."""
+        """Sliding efficiency, 0 to 1; NaN where nothing pushes.
+
+        Parameters
+        ----------
+        S : array_like
+            Driver angles [rad].
+        """
         return self._map(S, self._efficiency)
 
     def error_and_speed(self, S: ArrayLike) -> tuple[Floats, Floats]:
-        """Both at driver angles S (rad): who pushes is found once."""
+        """Transmission error [rad] and dq/dS together: which couple pushes is found once.
+
+        Parameters
+        ----------
+        S : array_like
+            Driver angles [rad].
+        """
         both = self._map(S, lambda found: np.stack((found.lag, self._envelope.speed(found))))
         return self._signed(both[0]), both[1]
 
@@ -97,9 +166,12 @@ class CutTransmissionFunction(TransmissionFunction):
         return CutTransmissionFunction(self.pair, self.friction, -self.direction)
 
     def play(self, S: ArrayLike) -> Floats:
-        """How far the driven wheel could be turned on at driver angles S (rad of it); below 0 it jams there.
+        """How far the driven wheel could be turned on [rad of it]; below 0 it jams there, infinite if nothing stops it.
 
-        Infinite where nothing would stop it.
+        Parameters
+        ----------
+        S : array_like
+            Driver angles [rad].
         """
         ahead = self._map(S, lambda found: found.lag)
         back = ContactEnvelope(self._envelope.pair.mirrored, dragged=False)
@@ -108,7 +180,13 @@ class CutTransmissionFunction(TransmissionFunction):
         return play
 
     def driving(self, S: ArrayLike) -> tuple[Ints, Ints]:
-        """Driver's tooth and driven tooth that touch, or touched last, at driver angles S (rad)."""
+        """Numbers of the driver's tooth and the driven tooth that touch, or touched last.
+
+        Parameters
+        ----------
+        S : array_like
+            Driver angles [rad].
+        """
         couple = self._map(S, lambda found: found.couple).astype(np.int64)
         k, back = (couple, 0) if self.direction > 0 else (-couple, 1)
         return k % self.pair.sizes.z1, (k + back) % self.pair.sizes.z2
@@ -197,133 +275,3 @@ class CutTransmissionFunction(TransmissionFunction):
     def runs(self) -> bool:
         """True if the pair turns without jam, clash, standstill or gap."""
         return not self.events and self.pair.widest > -inf
-
-
-_LEFT_BEHIND = 2  # pitches beyond the reach: who left so long ago lags more than who left later
-_TRIAL_BLOCK = 8192  # angles worked on at once: their arrays stay in a cache
-
-
-class TrialTransmissionFunction(TransmissionFunction):
-    """Many pairs of cut wheels as one law.
-
-    pair   arrays (trials, z), or (z,) where all trials share a wheel
-    even   the mean error of wheels without errors (rad)
-    rows   the trial asked at each angle
-    last   errors (rad of the driven wheel) as they were when each trial was last asked
-    """
-
-    def __init__(self, pair: CutGearPair, even: float, rows: Ints) -> None:
-        self.pair, self.even, self.rows = pair, even, rows
-        self.ratio, self.period = Fraction(pair.sizes.z1, pair.sizes.z2), pair.sizes.p1 * pair.count
-        self.last: Floats = np.zeros(len(rows))
-        self._columns: Ints | slice = slice(None)
-        widest, place = pair.widest, pair.first.place
-        apart = float(np.ptp(place)) / pair.sizes.p1 + float(np.ptp(pair.second.place)) / pair.sizes.p2
-        low = floor((-widest - float(place.max())) / pair.sizes.p1) if widest > -inf else 0
-        high = ceil((widest - float(place.min())) / pair.sizes.p1) + 1 if widest > -inf else -1
-        self._window = range(low - _LEFT_BEHIND - ceil(apart), high + 1)
-
-    def error_and_speed(self, S: ArrayLike) -> tuple[Floats, Floats]:
-        """Transmission errors (rad of the driven wheel), -inf where nothing touches, and dq/dS; S is (n,)."""
-        S = np.asarray(S, dtype=float)
-        error, speed = np.empty_like(S), np.empty_like(S)
-        for start in range(0, len(S), _TRIAL_BLOCK):
-            part = slice(start, start + _TRIAL_BLOCK)
-            error[part], speed[part] = self._found(S[part], self.rows[part])
-        self.last[self._columns] = error
-        return error, speed
-
-    def _found(self, S: Floats, rows: Ints) -> tuple[Floats, Floats]:
-        pitch = self.pair.sizes.p1
-        u = np.empty_like(S)
-        behind(S, pitch, u, np.empty_like(S))
-        n = np.rint((S - u) / pitch).astype(np.int64)
-        lag, first = np.full(len(S), inf), n
-        for m in self._window:
-            here = self._lag(rows, n + m, m * pitch - u)
-            less = here < lag
-            lag, first = np.where(less, here, lag), np.where(less, n + m, first)
-        return -lag, self._speed(rows, first, (first - n) * pitch - u)
-
-    def _lag(self, rows: Ints, k: Ints, ahead: Floats) -> Floats:
-        """What couples k make the driven wheel lag (rad); inf out of reach. One that has left holds it where it did."""
-        pair, sizes = self.pair, self.pair.sizes
-        i, j = k % sizes.z1, k % sizes.z2
-        place = _of(pair.first.place, rows, i)
-        x, couples = ahead + place, self._couples(rows, i, j)
-        reach = couples.reach
-        with np.errstate(all="ignore"):
-            y = np.where(x < -reach, couples.exit_angle, couples.contact(np.clip(x, -reach, reach)))
-            lag = (y - sizes.ratio * x) + (sizes.ratio * place - _of(pair.second.place, rows, j))
-        return np.where((x <= reach) & (reach > -inf), lag, inf)
-
-    def _speed(self, rows: Ints, k: Ints, ahead: Floats) -> Floats:
-        """The speed couples k give the driven wheel; 0 where they have left."""
-        i, j = k % self.pair.sizes.z1, k % self.pair.sizes.z2
-        x, couples = ahead + _of(self.pair.first.place, rows, i), self._couples(rows, i, j)
-        reach = couples.reach
-        with np.errstate(all="ignore"):
-            inside = np.clip(x, -reach, reach)
-            return np.where(np.abs(x) <= reach, couples.tau(inside, couples.approaches(inside)), 0.0)
-
-    def _couples(self, rows: Ints, i: Ints, j: Ints) -> CutToothPairs:
-        one, two, sizes = self.pair.first, self.pair.second, self.pair.sizes
-        shift = self.pair.shift if np.ndim(self.pair.shift) == 0 else self.pair.shift[rows]
-        tip1, tip2 = _of(one.tip, rows, i), _of(two.tip, rows, j)
-        return CutToothPairs(
-            sizes.R1 + tip1,
-            sizes.R2 + tip2,
-            sizes.beta1 + _of(one.leading, rows, i),
-            sizes.beta2 + _of(two.trailing, rows, j),
-            sizes.D + shift,
-            sizes.delta + tip1 + tip2 - shift,
-        )
-
-    def picked(self, columns: Ints) -> TrialTransmissionFunction:
-        """The laws of some of the trials."""
-        found = copy(self)
-        found.rows, found._columns = self.rows[columns], columns
-        return found
-
-    def error(self, S: ArrayLike) -> Floats:
-        """Transmission errors (rad of the driven wheel)."""
-        return self.error_and_speed(S)[0]
-
-    def speed(self, S: ArrayLike) -> Floats:
-        """dq/dS."""
-        return self.error_and_speed(S)[1]
-
-    def error_moments(self) -> tuple[float, float]:
-        """The mean error of even wheels, and no ripple: what a superposition counts in its phases."""
-        return self.even, 0.0
-
-    def error_range(self) -> tuple[float, float]:
-        """Not known before all trials are asked."""
-        return -inf, inf
-
-    def speed_range(self) -> tuple[float, float]:
-        """Not known before all trials are asked."""
-        return 0.0, inf
-
-    def efficiency(self, S: ArrayLike) -> Floats:
-        """Not asked of trials."""
-        return np.full(np.shape(S), np.nan)
-
-    def efficiency_mean(self) -> float:
-        """Not asked of trials."""
-        return float("nan")
-
-    def efficiency_at_constant_load(self) -> float:
-        """Not asked of trials."""
-        return float("nan")
-
-    def efficiency_least(self) -> float:
-        """Not asked of trials."""
-        return float("nan")
-
-
-def _of(each: Floats, rows: Ints, teeth: Ints) -> Any:
-    """The value of one tooth of each trial; a plain 0 where all are."""
-    if each.ndim == 1:
-        return each[teeth] if each.any() else 0.0
-    return each[rows, teeth]

@@ -4,20 +4,17 @@ Teeth are numbered in the order in which they pass the line of centres as the wh
 stands at the angle i p + place[i] behind that of an even wheel's tooth 0 (p the pitch), at radius R + tip[i]; its
 flanks make the angles beta + leading[i] and beta + trailing[i] with the radius through the tip. The leading flank looks
 forward: it pushes where the wheel drives, and the trailing flank is pushed where it is driven.
-
-Errors of cutting as distributions, and wheels drawn from them.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from math import inf, pi
-from typing import TYPE_CHECKING, Literal
+from math import pi
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from geartrain.errors import Problem, RangeError
-from geartrain.teeth.triangular.pair_geometry import depth
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
@@ -35,18 +32,37 @@ def displaced(radius: Floats, angle: Floats, e: Floats, towards: Floats) -> tupl
     across = e * np.sin(towards - angle)
     turned = np.arctan2(across, radius + along)
     far = np.hypot(radius + along, across)
+    # (far^2 - radius^2) / (far + radius): far - radius would lose the digits of a small shift
     out: Floats = (2 * radius * along + np.square(e)) / (far + radius)
     return out, turned
 
 
 @dataclass(frozen=True, slots=True)
 class CutWheel:
-    """Teeth as they are, each array (..., z) and relative to an even wheel: leading axes are trials.
+    """A wheel cut by hand: each tooth with its own place, height and flanks, relative to an even wheel.
 
-    radius, half_angle   of the even wheel: outer radius R in any one unit, half aperture beta (rad)
-    place                how far behind its even place a tip stands (rad)
-    tip                  how far a tip stands out beyond R (as R)
-    leading, trailing    by how much the flanks are flatter than beta, about the axle (rad)
+    All arrays are (..., z) for z teeth, numbered as they pass while the wheel turns forward; leading axes are trials.
+
+    Attributes
+    ----------
+    radius : float
+        Outer radius R of the even wheel [any one unit].
+    half_angle : float
+        Half aperture of its teeth [rad].
+    place : ndarray
+        How far behind its even place a tip stands [rad].
+    tip : ndarray
+        How far a tip stands out beyond R [as R].
+    leading, trailing : ndarray
+        By how much the flanks are flatter than the half angle, about the axle [rad].
+
+    Examples
+    --------
+    The wheel of 16 teeth cut about a centre 0.01 R off its axle: its tips lie between 0.99 R and 1.01 R.
+
+    >>> wheel = CutWheel.even(16, 1.0, 0.5).eccentric(0.01)
+    >>> round(float(wheel.r.min()), 6), round(float(wheel.r.max()), 6)
+    (0.99, 1.01)
     """
 
     radius: float
@@ -58,14 +74,39 @@ class CutWheel:
 
     @classmethod
     def even(cls, z: int, radius: float, half_angle: float) -> CutWheel:
-        """A wheel without errors."""
+        """A wheel without errors.
+
+        Parameters
+        ----------
+        z : int
+            Tooth number.
+        radius : float
+            Outer radius [any one unit].
+        half_angle : float
+            Half aperture of its teeth [rad].
+        """
         return cls(radius, half_angle, *(np.zeros(z) for _ in range(4)))
 
     @classmethod
     def measured(
         cls, even: CutWheel, theta: ArrayLike, r: ArrayLike, leading: ArrayLike, trailing: ArrayLike
     ) -> CutWheel:
-        """A wheel measured tooth by tooth: polar angle (rad) and radius of each tip, half angle (rad) of each flank."""
+        """A wheel measured tooth by tooth.
+
+        Parameters
+        ----------
+        even : CutWheel
+            What it was meant to be.
+        theta, r : array_like
+            Polar angle [rad] and radius [as R] of each tip.
+        leading, trailing : array_like
+            Half angle of each flank [rad].
+
+        Raises
+        ------
+        RangeError
+            For tables of another length, or teeth that cannot be cut.
+        """
         teeth = [np.asarray(each, dtype=float) for each in (theta, r, leading, trailing)]
         if any(each.shape[-1:] != (even.z,) for each in teeth):
             raise RangeError(
@@ -113,27 +154,57 @@ class CutWheel:
         return not any(np.any(each) for each in (self.tip, self.leading, self.trailing))
 
     def trial(self, at: int) -> CutWheel:
-        """One wheel out of many; an array that all share stays."""
+        """One wheel out of many; an array that all share stays.
+
+        Parameters
+        ----------
+        at : int
+            The number of the trial.
+        """
         one = (each[at] if each.ndim > 1 else each for each in (self.place, self.tip, self.leading, self.trailing))
         return CutWheel(self.radius, self.half_angle, *one)
 
     def taken(self, part: slice | NDArray[np.int64]) -> CutWheel:
-        """Some wheels out of many."""
+        """Some wheels out of many.
+
+        Parameters
+        ----------
+        part : slice or ndarray of int
+            The trials.
+        """
         some = (each[part] if each.ndim > 1 else each for each in (self.place, self.tip, self.leading, self.trailing))
         return CutWheel(self.radius, self.half_angle, *some)
 
     # ------------------------------------------------------------------------------------------------------ with errors
 
     def placed(self, place: ArrayLike) -> CutWheel:
-        """Teeth moved along the rim, late where positive (rad): flanks turn with them."""
+        """Teeth moved along the rim: flanks turn with them.
+
+        Parameters
+        ----------
+        place : array_like
+            Late where positive [rad].
+        """
         return replace(self, place=self.place + np.asarray(place)).checked()
 
     def grown(self, tip: ArrayLike) -> CutWheel:
-        """Teeth cut to other heights: only tips move, radially."""
+        """Teeth cut to other heights: only tips move, radially.
+
+        Parameters
+        ----------
+        tip : array_like
+            Outwards where positive [as R].
+        """
         return replace(self, tip=self.tip + np.asarray(tip)).checked()
 
     def widened(self, leading: ArrayLike, trailing: ArrayLike | None = None) -> CutWheel:
-        """Teeth with other half angles (rad); one value gives both flanks."""
+        """Teeth with other half angles.
+
+        Parameters
+        ----------
+        leading, trailing : array_like
+            Flatter where positive [rad]; the first alone gives both flanks.
+        """
         trailing = leading if trailing is None else trailing
         return replace(
             self, leading=self.leading + np.asarray(leading), trailing=self.trailing + np.asarray(trailing)
@@ -142,8 +213,12 @@ class CutWheel:
     def eccentric(self, e: ArrayLike, towards: ArrayLike = 0.0) -> CutWheel:
         """The same teeth cut about a centre that lies off the axle: the sinusoidal error.
 
-        e         distance of the two (as R), one or one for each trial
-        towards   direction of the centre from the axle (rad, as theta)
+        Parameters
+        ----------
+        e : array_like
+            Distance of the two, one or one for each trial [as R].
+        towards : array_like
+            Direction of the centre from the axle [rad].
         """
         far, direction = (np.asarray(each, dtype=float)[..., None] for each in (e, towards))
         out, turned = displaced(self.r, self.theta, far, direction)
@@ -157,7 +232,13 @@ class CutWheel:
         ).checked()
 
     def mirrored(self, first: int = 0) -> CutWheel:
-        """The wheel seen from behind, turning the other way: tooth i is tooth `first` - i as it was."""
+        """The wheel seen from behind, turning the other way.
+
+        Parameters
+        ----------
+        first : int
+            Tooth i is tooth `first` - i as it was.
+        """
         order = (first - np.arange(self.z)) % self.z
         return CutWheel(
             self.radius,
@@ -197,51 +278,3 @@ class CutWheel:
         good = (near > 0) & (gap > 0) & (gap < pi) & (trailing > 0) & (leading > 0)
         tipped: NDArray[np.bool_] = good & (trailing < at_near) & (leading < at_far)
         return tipped
-
-
-@dataclass(frozen=True, slots=True)
-class ErrorDistribution:
-    """An error without bias: `size` is the standard deviation of a normal one, half the width of a uniform one."""
-
-    size: float = 0.0
-    kind: Literal["normal", "uniform"] = "normal"
-
-    def __post_init__(self) -> None:
-        if not 0 <= self.size < inf:
-            raise RangeError(Problem(f"an error of {self.size:g} is no size", "", "give 0 or more, and finite"))
-
-    def draw(self, rng: np.random.Generator, shape: tuple[int, ...]) -> Floats:
-        """Independent errors; zeros are drawn too, so that one size does not change what others draw."""
-        unit = rng.standard_normal(shape) if self.kind == "normal" else rng.uniform(-1.0, 1.0, shape)
-        return self.size * unit
-
-
-@dataclass(frozen=True, slots=True)
-class CuttingErrorModel:
-    """How badly a wheel is cut.
-
-    place         of each tooth, in pitches
-    tip           height of each tooth, in depths of its tooth
-    aperture      half angle of each flank apart, in half angles
-    eccentricity  distance of the centre from the axle, in depths of a tooth; any direction is as likely
-    """
-
-    place: ErrorDistribution = ErrorDistribution()
-    tip: ErrorDistribution = ErrorDistribution()
-    aperture: ErrorDistribution = ErrorDistribution()
-    eccentricity: ErrorDistribution = ErrorDistribution()
-
-    def draw(self, even: CutWheel, rng: np.random.Generator, trials: int) -> CutWheel:
-        """Wheels (trials, z) cut so, from a wheel without errors. Raises `RangeError` if one of them cannot be cut."""
-        if trials < 1:
-            raise RangeError(Problem(f"{trials} trials tell nothing", "", "ask for at least 1"))
-        shape, high = (trials, even.z), even.radius * depth(even.z, even.half_angle)
-        place, tip = self.place.draw(rng, shape), self.tip.draw(rng, shape)
-        leading, trailing = self.aperture.draw(rng, shape), self.aperture.draw(rng, shape)
-        e, towards = self.eccentricity.draw(rng, (trials,)), rng.uniform(0.0, 2 * pi, trials)
-        wheel = even.placed(even.pitch * place)
-        if self.tip.size:
-            wheel = wheel.grown(high * tip)
-        if self.aperture.size:
-            wheel = wheel.widened(even.half_angle * leading, even.half_angle * trailing)
-        return wheel.eccentric(high * np.abs(e), towards) if self.eccentricity.size else wheel

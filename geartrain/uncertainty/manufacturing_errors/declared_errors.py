@@ -80,7 +80,30 @@ class WheelErrors:
 
 
 def read_error_overrides(texts: Iterable[str]) -> tuple[ErrorOverride, ...]:
-    """`placement=4.13 %`, `m2.eccentricity=value 0.2 mm`: what is set is normal unless another way is named."""
+    """Errors of cutting and fitting set by hand, in place of those that a train declares.
+
+    Parameters
+    ----------
+    texts : iterable of str
+        `KIND=SIZE` or `NAME.KIND=SIZE`, of all or of one wheel or pair: `placement=4.13 %`, `m2.eccentricity=value
+        0.2 mm`. What is set is normal, SIZE its standard deviation, unless `value` or `uniform` stands before it.
+
+    Returns
+    -------
+    tuple of ErrorOverride
+        For `find_trial_plan`.
+
+    Raises
+    ------
+    QuestionError
+        For a text that names no kind of error, or no size.
+
+    Examples
+    --------
+    >>> (error,) = read_error_overrides(["m2.eccentricity=value 0.2 mm"])
+    >>> error.of, error.kind, error.way, error.amount.text
+    ('m2', 'eccentricity', 'value', '0.2 mm')
+    """
     return tuple(_setting(text) for text in texts)
 
 

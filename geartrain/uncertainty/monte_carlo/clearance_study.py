@@ -13,9 +13,9 @@ from geartrain.errors import Problem, QuestionError
 from geartrain.numerics.plain_data import Key, Result
 from geartrain.numerics.work import Execution
 from geartrain.uncertainty.confidence_intervals import ProbabilityEstimate
-from geartrain.uncertainty.monte_carlo.pointer_error import EVENTS, EventRates
 from geartrain.uncertainty.monte_carlo.random_streams import BLOCK, RandomStreams
 from geartrain.uncertainty.monte_carlo.trial_block import UNCUT, draw_trial_wheels, judge_trial_pairs
+from geartrain.uncertainty.monte_carlo.trial_results import EVENTS, EventRates
 from geartrain.uncertainty.monte_carlo.trial_run import block_tasks, check_trials
 
 if TYPE_CHECKING:
@@ -26,9 +26,22 @@ _MOST = 1000
 
 @dataclass(frozen=True, slots=True)
 class ClearanceCase(Result):
-    """The train at one clearance (None: as declared), its errors `scale` times as great.
+    """The train at one clearance, its errors so many times as great.
 
-    events   by event, in any pair; `pairs`, the same by pair
+    Attributes
+    ----------
+    clearance : float or None
+        Factor of the centre distance, or share of each pair's own window; None as declared.
+    scale : float
+        Factor of all errors.
+    events : mapping of str to ProbabilityEstimate
+        Jam, clash, stops (jam or clash), standstill, disengaged -> how often in any pair.
+    pairs : mapping of str to mapping
+        The same by pair.
+
+    See Also
+    --------
+    jamming_map : gives it
     """
 
     KEYS = ("clearance", "scale", Key("", "rates"), "pairs")
@@ -72,7 +85,44 @@ def jamming_map(
     seed: int = 1,
     means: Execution | None = None,
 ) -> list[ClearanceCase]:
-    """The train at every clearance with its errors at every scale, the clearance running slowest."""
+    """Monte Carlo of the same wheels at every clearance and every scale of their errors: how often the train jams.
+
+    Parameters
+    ----------
+    plan : TrialPlan
+        The train with its errors.
+    clearances : sequence of float or None
+        From 1 on factors of the least centre distance at which teeth bottom, 0 to 1 shares of each pair's own window,
+        None as declared; it runs slowest.
+    scales : sequence of float
+        Factors of all errors, 0 or more.
+    trials : int
+        Of each case, 1 to 10^9.
+    seed : int
+        The same seed cuts the same wheels.
+    means : Execution, optional
+        Who works, what is kept; by default this process, and nothing.
+
+    Returns
+    -------
+    list of ClearanceCase
+        A case for each clearance and scale.
+
+    Raises
+    ------
+    QuestionError
+        For a number of trials that tells nothing.
+    RangeError
+        For a share of a window, where a pair has none.
+
+    Examples
+    --------
+    >>> from geartrain import load
+    >>> from geartrain.uncertainty import find_trial_plan, read_error_overrides
+    >>> plan = find_trial_plan(load("moon-triangular"), read_error_overrides(["placement=0.1 %"]), ["sun"])
+    >>> [case.events["jam"].count for case in jamming_map(plan, [0.5], [1.0, 80.0], trials=16)]
+    [0, 16]
+    """
     check_trials(trials)
     means = means or Execution()
     cases = [(clearance, scale, "") for clearance in clearances for scale in scales]

@@ -13,9 +13,10 @@ from geartrain.uncertainty.monte_carlo.random_streams import BLOCK
 
 if TYPE_CHECKING:
     from geartrain.uncertainty.monte_carlo.clearance_study import ClearanceCase
-    from geartrain.uncertainty.monte_carlo.pointer_error import PointerErrorCourse, TrialResults
+    from geartrain.uncertainty.monte_carlo.pointer_error import PointerErrorCourse
     from geartrain.uncertainty.monte_carlo.sobol_indices import SobolIndices
     from geartrain.uncertainty.monte_carlo.tolerance_allocation import ToleranceAllocation
+    from geartrain.uncertainty.monte_carlo.trial_results import TrialResults
 
 
 ErrorSizes = dict[str, dict[str, dict[str, float]]]
@@ -30,7 +31,25 @@ class PartialTrials(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class MonteCarloResult(Result):
-    """Trials, and what else was asked: other clearances, courses along a turn, indices, a tolerance."""
+    """Trials, and what else was asked of one train: what reports and pictures are made from.
+
+    Attributes
+    ----------
+    trials : TrialResults
+        As `run_trials` gives them.
+    cleared : sequence of ClearanceCase
+        At other clearances, from `jamming_map`.
+    courses : sequence of PointerErrorCourse
+        Along a turn, from `run_course`.
+    indices : sequence of SobolIndices
+        From `find_sobol_indices`.
+    tolerance : ToleranceAllocation or None
+        From `find_tolerance`.
+
+    See Also
+    --------
+    run_trials : gives what it must hold
+    """
 
     KEYS = (
         Key("train", "trials.plan.name"),
@@ -114,7 +133,13 @@ class MonteCarloResult(Result):
         return None if self.trials.complete else PartialTrials(self.trials.done, self.trials.wanted)
 
     def pointer_convergence(self, at: int) -> list[tuple[int, float, float, float]]:
-        """Trials, and the standard deviation of an output with its interval (deg)."""
+        """Trials, and the standard deviation of an output with its interval [deg].
+
+        Parameters
+        ----------
+        at : int
+            The number of the output, from 0.
+        """
         rows = self.trials.pointer_convergence(at)
         return [(n, degrees(each.value), degrees(each.low), degrees(each.high)) for n, each in rows]
 

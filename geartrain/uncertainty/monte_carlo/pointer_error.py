@@ -1,16 +1,15 @@
-"""What many trials say: how often pairs jam, and how far pointers stray."""
+"""How far pointers stray: at random positions of the input, and along a turn."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
-from functools import cached_property
-from math import degrees, nan, sqrt
-from typing import TYPE_CHECKING, NamedTuple, TypedDict, cast
+from collections.abc import Mapping
+from dataclasses import dataclass
+from math import degrees
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from geartrain.numerics.plain_data import Key, Result, finite
+from geartrain.numerics.plain_data import Key, Result
 from geartrain.uncertainty.confidence_intervals import (
     IntervalEstimate,
     ProbabilityEstimate,
@@ -19,29 +18,12 @@ from geartrain.uncertainty.confidence_intervals import (
     mean_of,
     percentiles_of,
 )
-from geartrain.uncertainty.monte_carlo.trial_block import CLASH, DISENGAGED, JAM, LOST, STANDSTILL, STOPS, UNCUT
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from geartrain.numerics.arrays import Bools, Floats
-    from geartrain.uncertainty.monte_carlo.trial_plan import TrialPlan
-
-    Marks = NDArray[np.uint8]
+    from geartrain.numerics.arrays import Floats
 
 FEWEST = 30
 """Trials that must run for a pointer to be judged by them alone."""
-EVENTS = {"jam": JAM, "clash": CLASH, "stops": STOPS, "standstill": STANDSTILL, "disengaged": DISENGAGED}
-
-
-class EventRates(TypedDict):
-    """How often wheels do what beside turning."""
-
-    jam: ProbabilityEstimate
-    clash: ProbabilityEstimate
-    stops: ProbabilityEstimate
-    standstill: ProbabilityEstimate
-    disengaged: ProbabilityEstimate
 
 
 class FirstOrderError(NamedTuple):
@@ -52,38 +34,27 @@ class FirstOrderError(NamedTuple):
 
 
 @dataclass(frozen=True, slots=True)
-class PairEventRates(Result):
-    """How often one pair, or any pair of the train, does what over its full cycle of teeth.
-
-    events   jam, clash, stops (jam or clash), standstill, disengaged: of the trials whose wheels can be cut
-    uncut    trials that hold a wheel that cannot be cut
-    play     nominal play of even wheels in pitches of the driven wheel; NaN for the train
-    bound    bound on the probability of a jam by placement alone; NaN where other errors take part
-    """
-
-    KEYS = (Key("pair", "name"), "uncut", Key("play", to=finite), Key("bound", to=finite), Key("", "rates"))
-
-    name: str
-    events: Mapping[str, ProbabilityEstimate]
-    uncut: int
-    play: float = nan
-    bound: float = nan
-
-    @property
-    def rates(self) -> EventRates:
-        """The events, by name."""
-        return cast("EventRates", self.events)
-
-
-@dataclass(frozen=True, slots=True)
 class PointerErrorStatistics(Result):
     """How far one output is from where even teeth would have it on average, at random positions of the input.
 
-    errors    (rad) of the trials in which no pair that moves it jams or is lost, in their order
-    all       (rad) of all trials, as the pushing flanks alone would have it; none where nothing touches
-    stopped   trials left out of `errors`
-    first     rms of what superposition to first order is off (rad), and of the errors there
-    shares    of the variance by pair, from superposition: they sum to 1
+    Attributes
+    ----------
+    name : str
+        Of the output.
+    errors : ndarray
+        Of the trials in which no pair that moves it jams or is lost, in their order [rad].
+    all : ndarray
+        Of all trials, as the pushing flanks alone would have it; none where nothing touches [rad].
+    stopped : int
+        Trials left out of `errors`.
+    first : FirstOrderError
+        Rms of what superposition to first order is off, and of the errors there [rad].
+    shares : mapping of str to float
+        Pair -> its share of the variance, from superposition; they sum to 1.
+
+    See Also
+    --------
+    TrialResults : holds them
     """
 
     KEYS = (
@@ -148,13 +119,33 @@ class PointerErrorStatistics(Result):
         return float(np.abs(self.kept).max(initial=0.0))
 
     def beyond(self, angle: float) -> ProbabilityEstimate:
-        """How often the error exceeds an angle (rad), either way."""
+        """How often the error exceeds an angle, either way.
+
+        Parameters
+        ----------
+        angle : float
+            0 or more [rad].
+        """
         return ProbabilityEstimate(int(np.count_nonzero(np.abs(self.kept) > angle)), len(self.kept))
 
 
 @dataclass(frozen=True, slots=True)
 class PointerErrorCourse(Result):
-    """Errors of one output along one turn of it: `turns` of the input (n,), errors (rad) by trial (trials, n)."""
+    """Errors of one output along one turn of it, trial by trial.
+
+    Attributes
+    ----------
+    name : str
+        Of the output.
+    turns : ndarray
+        Where the input stands, (n,) [turn].
+    errors : ndarray
+        By trial, (trials, n) [rad].
+
+    See Also
+    --------
+    run_course : gives it
+    """
 
     KEYS = (
         Key("output", "name"),
@@ -194,132 +185,3 @@ class PointerErrorCourse(Result):
         """Least, 2.5, 25, 50, 75, 97.5 % and greatest at each position (rad), (7, n)."""
         found: Floats = np.quantile(self.errors, (0, 0.025, 0.25, 0.5, 0.75, 0.975, 1), axis=0)
         return found
-
-
-@dataclass(frozen=True)
-class ConvergenceStep:
-    """A probability from the first so many trials."""
-
-    KEYS = ("trials", Key("", "share"))
-
-    trials: int
-    share: ProbabilityEstimate
-
-
-@dataclass(frozen=True)
-class TrialResults:
-    """All trials that were done, in their order.
-
-    marks    what each pair does (trials, pairs), a sum of the marks of `block`
-    turns    where the input stands in each (trials,)
-    errors   of each output (rad), (trials, outputs); infinite where nothing touches
-    first    by output: sums of squares of what superposition is off, and of the errors there, and of how many trials
-    sums     by output: the sums over trials that variance shares are made of
-    """
-
-    plan: TrialPlan
-    seed: int
-    wanted: int
-    marks: Marks
-    turns: Floats
-    errors: Floats
-    first: Sequence[tuple[float, float, int]]
-    sums: Sequence[Mapping[str, tuple[float, ...]]]
-    bounds: Mapping[str, float] = field(default_factory=dict)
-    courses: Sequence[PointerErrorCourse] = ()
-
-    @property
-    def done(self) -> int:
-        """Trials done: fewer than wanted in a run that was interrupted."""
-        return len(self.turns)
-
-    @property
-    def complete(self) -> bool:
-        """True if no trial is missing."""
-        return self.done == self.wanted
-
-    @cached_property
-    def pairs(self) -> tuple[PairEventRates, ...]:
-        """Each pair."""
-        from geartrain.uncertainty.manufacturing_errors import nominal_backlash
-
-        return tuple(
-            _tally(pair.name, self.marks[:, at], nominal_backlash(pair.sizes), self.bounds.get(pair.name, nan))
-            for at, pair in enumerate(self.plan.pairs)
-        )
-
-    @cached_property
-    def train(self) -> PairEventRates:
-        """Any pair of the train."""
-        bound = min(1.0, sum(self.bounds.values())) if len(self.bounds) == len(self.plan.pairs) else nan
-        return _tally("the train", np.bitwise_or.reduce(self.marks, axis=1), nan, bound)
-
-    @cached_property
-    def pointers(self) -> tuple[PointerErrorStatistics, ...]:
-        """Each output."""
-        return tuple(self._pointer(at) for at in range(len(self.plan.outputs)))
-
-    def pointer(self, name: str) -> PointerErrorStatistics:
-        """One output."""
-        return self.pointers[self.plan.outputs.index(name)]
-
-    def _pointer(self, at: int) -> PointerErrorStatistics:
-        errors = self.errors[:, at]
-        runs = turning_trials(self.marks, self.plan.reach[at]) & np.isfinite(errors)
-        off, size, count = self.first[at]
-        first = FirstOrderError(sqrt(off / count), sqrt(size / count)) if count else FirstOrderError(nan, nan)
-        return PointerErrorStatistics(
-            self.plan.outputs[at],
-            errors[runs],
-            errors[np.isfinite(errors)],
-            int(np.count_nonzero(~runs)),
-            first,
-            _shares(self.sums[at]),
-        )
-
-    @property
-    def jams(self) -> list[ConvergenceStep]:
-        """How often some pair jams, in ever more trials."""
-        return [ConvergenceStep(*each) for each in self.convergence("jam")]
-
-    @property
-    def stops(self) -> list[ConvergenceStep]:
-        """How often some pair jams or clashes, in ever more trials."""
-        return [ConvergenceStep(*each) for each in self.convergence("stops")]
-
-    def convergence(self, event: str = "jam") -> list[tuple[int, ProbabilityEstimate]]:
-        """The share of trials in which any pair does this, after 1/16, 1/8, ... and all of them."""
-        mark, whole = EVENTS[event], np.bitwise_or.reduce(self.marks, axis=1)
-        counts = sorted({max(1, self.done >> half) for half in range(5)}) if self.done else []
-        return [(count, _share(whole[:count], mark)) for count in counts]
-
-    def pointer_convergence(self, at: int) -> list[tuple[int, IntervalEstimate]]:
-        """The standard deviation of an output (rad) after 1/16, 1/8, ... and all trials that run."""
-        kept = self.pointers[at].kept
-        counts = sorted({len(kept) >> half for half in range(5)} - {0})
-        return [(count, deviation_of(kept[:count])) for count in counts]
-
-
-def turning_trials(marks: Marks, pairs: Sequence[int]) -> Bools:
-    """The trials in which none of some pairs jams, is lost or cannot be cut (trials,); a clash may be led past."""
-    runs: Bools = np.all((marks[:, list(pairs)] & LOST) == 0, axis=1)
-    return runs
-
-
-def _share(marks: Marks, mark: int) -> ProbabilityEstimate:
-    cut = marks[(marks & UNCUT) == 0]
-    return ProbabilityEstimate(int(np.count_nonzero(cut & mark)), len(cut))
-
-
-def _tally(name: str, marks: Marks, play: float, bound: float) -> PairEventRates:
-    events = {event: _share(marks, mark) for event, mark in EVENTS.items()}
-    return PairEventRates(name, events, int(np.count_nonzero(marks & UNCUT)), play, bound)
-
-
-def _shares(sums: Mapping[str, tuple[float, ...]]) -> dict[str, float]:
-    """Covariance of each pair's part with the whole, over the variance of the whole."""
-    found = {}
-    for name, (count, part, whole, product) in sums.items():
-        found[name] = product - part * whole / count if count else 0.0
-    total = sum(found.values())
-    return {name: each / total for name, each in found.items()} if total else {}

@@ -12,8 +12,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from geartrain.uncertainty.manufacturing_errors import CutWheel
-from geartrain.uncertainty.manufacturing_errors.cut_wheel import displaced
+from geartrain.uncertainty.manufacturing_errors.cut_wheel import CutWheel, displaced
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -8,14 +8,14 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
 from geartrain.errors import MissingExtraError, Problem, QuestionError
 from geartrain.numerics.plain_data import Key, Result
-from geartrain.numerics.work import Execution, run
+from geartrain.numerics.work import Execution
 from geartrain.uncertainty.confidence_intervals import CONFIDENCE, IntervalEstimate
 from geartrain.uncertainty.manufacturing_errors.declared_errors import ERROR_KINDS
 from geartrain.uncertainty.monte_carlo.random_streams import BLOCK, ECCENTRICITY, NUMBER, TOWARDS, RandomStreams
@@ -34,7 +34,7 @@ _RESAMPLES = 200
 
 @dataclass(frozen=True, slots=True)
 class SobolIndex(Result):
-    """First-order and total index of one input, with 95 % intervals by resampling."""
+    """First-order and total Sobol index of one input, with 95 % intervals by resampling."""
 
     KEYS = (Key("of", "name"), "first", "total")
 
@@ -45,7 +45,23 @@ class SobolIndex(Result):
 
 @dataclass(frozen=True, slots=True)
 class SobolIndices(Result):
-    """Shares of the variance of one output by wheel or kind, the greatest first; `trials` of base samples."""
+    """Shares of the variance of one output by wheel or by kind of error.
+
+    Attributes
+    ----------
+    output : str
+        Its name.
+    by : {"wheel", "kind"}
+        What an input is: all errors of one wheel, or one kind of error of all wheels.
+    trials : int
+        Base samples in which every output was found.
+    indices : tuple of SobolIndex
+        `name`, `first` and `total` of each input, the greatest first; "position" is where the input stands.
+
+    See Also
+    --------
+    find_sobol_indices : gives it
+    """
 
     output: str
     by: By
@@ -61,9 +77,48 @@ def find_sobol_indices(
     seed: int = 1,
     means: Execution | None = None,
 ) -> SobolIndices:
-    """Sobol indices of an output's error at random positions; pairs that jam move it by their pushing flanks.
+    """Sobol indices of an output's error at random positions, by Saltelli's scheme through SALib.
 
-    Raises `MissingExtraError` without SALib, `QuestionError` where nothing that is off moves the output.
+    Pairs that jam move the output by their pushing flanks.
+
+    Parameters
+    ----------
+    plan : TrialPlan
+        The train with its errors.
+    output : int
+        Its number in `plan.outputs`, from 0.
+    by : {"wheel", "kind"}
+        What an input is: all errors of one wheel, or one kind of error of all wheels.
+    trials : int
+        Base samples, 1 to 10^9; each costs as many trials as there are inputs, and two.
+    seed : int
+        Of the random numbers.
+    means : Execution, optional
+        Who works; by default this process. Nothing is journalled.
+
+    Returns
+    -------
+    SobolIndices
+        The greatest total index first.
+
+    Raises
+    ------
+    MissingExtraError
+        Without SALib.
+    QuestionError
+        Where nothing that is off moves the output.
+
+    References
+    ----------
+    Saltelli, A. et al. 2010. Variance based sensitivity analysis of model output. Comput. Phys. Commun. 181, table 2.
+
+    Examples
+    --------
+    >>> from geartrain import load
+    >>> from geartrain.uncertainty import find_trial_plan, read_error_overrides
+    >>> plan = find_trial_plan(load("moon-triangular"), read_error_overrides(["placement=1 %"]), ["sun"])
+    >>> sorted(index.name for index in find_sobol_indices(plan, 0, trials=16).indices)
+    ['a', 'b1', 'position']
     """
     sobol = _sobol()
     check_trials(trials)
@@ -72,12 +127,13 @@ def find_sobol_indices(
         what = f"no wheel that is off moves '{plan.outputs[output]}'"
         raise QuestionError(Problem(what, "its error does not vary", "ask for another output"))
     rows: list[Any] = []
-    for part in run(SobolBlock(plan, seed, output, by), block_tasks(trials), means.executor, None, means.tell):
+    # not journalled: a journal knows its tasks by block and trials, which are those of the trials themselves
+    for part in replace(means, journal=None).run(SobolBlock(plan, seed, output, by), block_tasks(trials)):
         rows += part
     values = np.array(rows, dtype=float)
     values = values[np.isfinite(values).all(axis=1)]
     problem = {"num_vars": len(names), "names": names, "bounds": [[0, 1]] * len(names)}
-    with warnings.catch_warnings():
+    with warnings.catch_warnings():  # SALib divides by the variance, which may be 0
         warnings.simplefilter("ignore")
         found = sobol.analyze(problem, values.ravel(), False, _RESAMPLES, CONFIDENCE, print_to_console=False, seed=seed)
     indices = [

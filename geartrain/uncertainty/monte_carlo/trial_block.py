@@ -12,9 +12,11 @@ import numpy as np
 from geartrain.dynamics.motion.error_composition import ErrorComposition
 from geartrain.dynamics.motion.superposition import Superposition
 from geartrain.teeth.transmission import ConstantLag
-from geartrain.uncertainty.manufacturing_errors import CutWheel, MeshingVerdicts, batch_verdicts
 from geartrain.uncertainty.manufacturing_errors.cut_pair import CutGearPair
-from geartrain.uncertainty.manufacturing_errors.cut_transmission import TrialTransmissionFunction
+from geartrain.uncertainty.manufacturing_errors.cut_wheel import CutWheel
+from geartrain.uncertainty.manufacturing_errors.meshing_cycle import MeshingVerdicts
+from geartrain.uncertainty.manufacturing_errors.meshing_verdicts import batch_verdicts
+from geartrain.uncertainty.manufacturing_errors.trial_transmission import TrialTransmissionFunction
 from geartrain.uncertainty.monte_carlo.random_streams import BLOCK, POSITION, RandomStreams, draw_wheel, fitted
 
 if TYPE_CHECKING:

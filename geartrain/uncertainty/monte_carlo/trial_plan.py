@@ -55,11 +55,32 @@ class TrialPair:
 
 @dataclass(frozen=True)
 class TrialPlan:
-    """All that one block of trials needs; it travels to the workers.
+    """A train as its trials see it, in one state: all that one block of trials needs.
 
-    composition   the motion with even teeth, whose laws the trials replace
-    reach         for each output the pairs that can move it, by number
-    span          turns of the input within which positions are drawn
+    Attributes
+    ----------
+    name : str
+        Of the train.
+    wheels : tuple of WheelErrors
+        Every wheel with triangular teeth, and how it is cut.
+    pairs : tuple of TrialPair
+        Every pair of them, with its sizes and the errors of its axes.
+    composition : ErrorComposition
+        The motion with even teeth, whose laws the trials replace.
+    outputs : tuple of str
+        Names of the outputs.
+    speeds : tuple of Fraction
+        Of the outputs, over the input's.
+    reach : tuple of tuple of int
+        For each output the pairs that can move it, by number.
+    span : float
+        Turns of the input within which positions are drawn [turn].
+    lead : str
+        The link that is turned.
+
+    See Also
+    --------
+    find_trial_plan : makes it
     """
 
     name: str
@@ -78,7 +99,15 @@ class TrialPlan:
         return len(self.wheels) + len(self.pairs)
 
     def scaled(self, factor: float, kind: str = "") -> TrialPlan:
-        """All errors, or those of one kind, so many times as great."""
+        """The plan with all errors, or those of one kind, so many times as great.
+
+        Parameters
+        ----------
+        factor : float
+            0 or more.
+        kind : str
+            A kind of error; "" for all.
+        """
 
         def times(errors: Mapping[str, ErrorSpecification]) -> dict[str, ErrorSpecification]:
             return {each: off.times(factor) if kind in ("", each) else off for each, off in errors.items()}
@@ -88,7 +117,13 @@ class TrialPlan:
         return replace(self, wheels=wheels, pairs=pairs)
 
     def cleared(self, clearance: float) -> TrialPlan:
-        """Every pair at a clearance factor (1 and above), or at a share of its own window (below 1)."""
+        """The plan with every pair at another clearance.
+
+        Parameters
+        ----------
+        clearance : float
+            A factor of the least centre distance (1 and above), or a share of each pair's own window (below 1).
+        """
         return replace(self, pairs=tuple(replace(each, sizes=_cleared(each, clearance)) for each in self.pairs))
 
     def question(self) -> dict[str, Any]:
@@ -134,11 +169,42 @@ def find_trial_plan(
     state: str | None = None,
     without: Sequence[str] = (),
 ) -> TrialPlan:
-    """The plan of a train in one state.
+    """Everything that Monte Carlo trials of a train with hand-cut wheels need, in one state.
 
-    settings   errors in place of what is declared; `outputs`, by default all; `without`, pairs left out
-    Raises `QuestionError` for trains without triangular teeth or without errors, `RangeError` for errors greater than
-    the tooth, `GearTrainError` for loops of real teeth.
+    Parameters
+    ----------
+    train : GearTrain
+        With triangular teeth, and `cutting` or `fitting` errors unless they are set here.
+    settings : sequence of ErrorOverride
+        Errors in place of what is declared; `read_error_overrides` reads them.
+    outputs : sequence of str
+        By default all.
+    state : str, optional
+        A declared state; None only of a train that has none.
+    without : sequence of str
+        Pairs left out, so that real teeth do not contradict each other around a loop.
+
+    Returns
+    -------
+    TrialPlan
+        To be handed to `run_trials`, `jamming_map`, `find_tolerance`, `find_sobol_indices` and `run_course`.
+
+    Raises
+    ------
+    QuestionError
+        For trains without triangular teeth or without errors.
+    RangeError
+        For errors greater than the tooth.
+    GearTrainError
+        For loops of real teeth.
+
+    Examples
+    --------
+    >>> from geartrain import load
+    >>> from geartrain.uncertainty import find_trial_plan, read_error_overrides
+    >>> plan = find_trial_plan(load("moon-triangular"), read_error_overrides(["placement=0.1 %"]), ["sun"])
+    >>> [pair.name for pair in plan.pairs], plan.wheels[0].errors["placement"].size
+    (['a~b1', 'b2~c1', 'c2~d1', 'd2~e'], 0.001)
     """
     motion = train.motion(state, outputs, without)
     meshes = [mesh for mesh in motion.train.teeth if mesh.has_cut_sizes]

@@ -1,25 +1,10 @@
-"""Tooth counts in doubt: which combinations fit what the outputs show, and how likely each count is then."""
+"""Tooth counts in doubt: Bayes' theorem for counts, by an exact join or a sample.
 
-from geartrain.uncertainty.posterior.inference import LIMIT, METHODS, SAMPLES, infer_counts
-from geartrain.uncertainty.posterior.posterior_result import (
-    CountCombination,
-    CountProbability,
-    ToothCountPosterior,
-    VarianceShares,
-    WheelPosterior,
-)
-from geartrain.uncertainty.posterior.priors import ToothCountPrior, find_priors
-
-__all__ = [
-    "LIMIT",
-    "METHODS",
-    "SAMPLES",
-    "CountCombination",
-    "CountProbability",
-    "ToothCountPosterior",
-    "ToothCountPrior",
-    "VarianceShares",
-    "WheelPosterior",
-    "find_priors",
-    "infer_counts",
-]
+priors, observations        what is assumed of each wheel, and what is known of the outputs
+inference_problem           both together for one train, and what must hold for it to turn
+inference                   the question, and which method answers it
+exact_posterior             the weighted join of `synthesis`, in whole numbers
+sampled_posterior           combinations drawn and judged in blocks: likelihood, monomial_columns
+posterior_summary, posterior_result, pairwise_posterior   what comes out
+variance_shares             which wheel decides an output
+"""

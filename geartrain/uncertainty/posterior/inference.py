@@ -1,46 +1,41 @@
-"""Counts in doubt: all combinations taken together, or a sample of them."""
+"""The posterior of counts in doubt: by the exact join of all combinations, or from a sample of them."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import Executor
 from dataclasses import replace
 from fractions import Fraction
 from functools import partial
 from math import inf, prod
-from typing import Any
+from typing import NamedTuple
 
 from geartrain.errors import Problem, QuestionError, RangeError, suggest
-from geartrain.numerics.work import Execution, Journal, run
+from geartrain.numerics.work import Execution, Journal
 from geartrain.synthesis.join.exact_join import BudgetSpentError
 from geartrain.train import Train
+from geartrain.uncertainty.posterior.exact_posterior import evidence_of, find_exact_posterior
 from geartrain.uncertainty.posterior.inference_problem import InferenceProblem, build_inference_problem
-from geartrain.uncertainty.posterior.joined_posterior import evidence_of, find_joined_posterior
 from geartrain.uncertainty.posterior.observations import LikelihoodKind
 from geartrain.uncertainty.posterior.posterior_result import CountProbability, Method, ToothCountPosterior
-from geartrain.uncertainty.posterior.posterior_summary import (
-    PosteriorSummary,
-    rank_combinations,
-    summary_of_sample,
-)
+from geartrain.uncertainty.posterior.posterior_summary import PosteriorSummary, rank_combinations, summary_of_sample
 from geartrain.uncertainty.posterior.priors import find_priors
-from geartrain.uncertainty.posterior.sampled_posterior import (
-    LikelihoodBatch,
-    PosteriorTally,
-    packed,
-    sample_task,
-)
+from geartrain.uncertainty.posterior.sampled_posterior import LikelihoodBatch, PosteriorTally, packed, sample_task
 from geartrain.uncertainty.posterior.variance_shares import find_variance_shares
 
 LIMIT = 2_000_000
-"""Steps that the exact way may take by default: some seconds."""
+"""Steps that the exact join may take by default: some seconds."""
 SAMPLES = 1_000_000
-_ALONE = 200_000
-_DRAWN = 1 << 16
-_ENOUGH = 100
+_ALONE = 200_000  # steps for one output by itself: a fraction of a second
+_DRAWN = 1 << 16  # combinations where that is too much, or where the exact join is interrupted
+_ENOUGH = 100  # effective combinations: below, an interval is as wide as a tenth of what it is about
 METHODS: tuple[Method, ...] = ("exact", "sample")
+_NOTHING_YET = (
+    "interrupted: the exact method knows nothing before its end, so the figures are of {} combinations drawn at "
+    "random; the method `sample` draws as many as are wanted"
+)
 _FORMER: dict[str, Method] = {"enumerate": "exact", "decompose": "exact"}
-"""What a method was called when combinations could also be listed one by one."""
+"""What the exact method was called when combinations could also be listed one by one."""
 
 
 def infer_counts(
@@ -62,27 +57,79 @@ def infer_counts(
     journal: Journal | None = None,
     tell: Callable[[int, int], None] | None = None,
 ) -> ToothCountPosterior:
-    """Which tooth counts fit what is known of a train's outputs, and how likely each is then.
+    """Bayes' theorem for tooth counts in doubt: which fit what is known of the outputs, and how likely each is then.
 
-    state      of a train with states; None: all of them at once
-    free       wheel -> counts it may have, beside or in place of what is declared
-    outputs    those that count as evidence; all without any
-    tolerance  relative, for targets without one
-    against    which claims count: "targets", "figures" (`expect` and `published`), or "all"
-    scale      multiplies every tolerance
-    soft       False: within its tolerances or not; True: Gaussian, the tolerances taken as standard deviations
-    method     "exact": all combinations taken together; "sample"; None: the former where there are at most `limit`
-               combinations or it takes at most `limit` steps, else the latter
-    most       combinations to list
-    limit      bounds the work of the exact way
-    samples    combinations drawn otherwise
-    seed       of the sample, and of variance shares that are not exact
-    executor   None: in this process; see `geartrain.numerics.work.open_executor`. The answer does not depend on it
-    journal    where finished work is kept, for a run that may be cut
-    tell       called with (tasks done, tasks in all)
+    Interrupted (Ctrl-C), it returns what is known, with `cut` True: of a sample what had been drawn. The exact join
+    knows nothing before its end; of the combinations a short sample is drawn then, and a remark says so.
 
-    Interrupted while it samples, it returns what is known, with `cut` True. Raises `QuestionError` for what
-    cannot be asked, `RangeError` where the method asked for would pass the limit.
+    Parameters
+    ----------
+    train : Train
+        A declared train with wheels in doubt: `teeth: {value: 64, range: [63, 66]}`, `choices` or `search`.
+    state : str, optional
+        Of a train with states; None takes all of them at once.
+    free : mapping of str to sequence of int, optional
+        Wheel -> counts it may have, beside or in place of what is declared.
+    outputs : sequence of str
+        Those that count as evidence; default all.
+    tolerance : Fraction, optional
+        Relative, for targets without one, 0 or more.
+    against : {"all", "targets", "figures"}
+        Which claims count; figures are `expect` and `published`.
+    scale : Fraction
+        Multiplies every tolerance, 0 or more.
+    soft : bool
+        False: an output is within its tolerances or it is not. True: Gaussian, the tolerances taken as standard
+        deviations.
+    method : {"exact", "sample"}, optional
+        By default exact where there are at most `limit` combinations or it takes at most `limit` steps.
+    most : int
+        Combinations to list, 1 or more.
+    limit : int
+        Bounds the work of the exact join, 1 or more.
+    samples : int
+        Combinations drawn otherwise, 1 or more.
+    seed : int
+        Of the sample, and of variance shares that are not exact; 0 or more.
+    executor : Executor, optional
+        By default in this process; see `geartrain.numerics.work.open_executor`. The answer does not depend on it.
+    journal : Journal, optional
+        Where finished work is kept, for a run that may be cut.
+    tell : callable, optional
+        Called with (tasks done, tasks in all).
+
+    Returns
+    -------
+    ToothCountPosterior
+        Evidence, posteriors by wheel, correlations, the best combinations.
+
+    Raises
+    ------
+    QuestionError
+        For what cannot be asked: no wheel in doubt, nothing known of an output, weights that are no probabilities.
+    RangeError
+        Where the exact method is asked for and would pass the limit, or a doubt is too wide to list.
+
+    Notes
+    -----
+    p(counts | outputs) = p(counts) L(outputs | counts) / evidence. The prior p is that of independent wheels; the
+    likelihood L is 1 or 0, or exp(-misfit / 2) where agreement is by degree; the evidence is the sum of their products
+    (docs/counts-in-doubt.md). The exact join groups what no later output can tell apart, and sums in whole numbers.
+
+    Examples
+    --------
+    A wheel of 60 to 62 teeth on a pinion of 20 turns 1/3 as fast, to 2 %: 60 and 61 fit, 62 is 3.2 % slow.
+
+    >>> from fractions import Fraction
+    >>> from geartrain.train import declare
+    >>> train = declare({"links": {"frame": {}, "a": {"wheels": {"p": 20}},
+    ...         "b": {"wheels": {"w": {"teeth": {"value": 60, "range": [60, 62]}}}}},
+    ...     "revolutes": [{"pair": ["frame", "a"], "axis": "A"}, {"pair": ["frame", "b"], "axis": "B"}],
+    ...     "gears": [{"pair": ["p", "w"]}], "inputs": {"a": 1},
+    ...     "outputs": {"b": {"targets": [{"speed": "-1/3", "tolerance": "2 %"}]}}})
+    >>> found = infer_counts(train)
+    >>> found.evidence.value, [str(chance) for chance in found["w"].chances]
+    (Fraction(2, 3), ['0.5', '0.5', '0'])
     """
     method = None if method is None else _FORMER.get(method, method)
     _check(method, most, limit, samples, seed)
@@ -97,7 +144,8 @@ def infer_counts(
         soft=soft,
     )
     means = Execution(executor, journal, tell)
-    chosen, found, cut = _find(question, method, most, limit, samples, seed, means)
+    outcome = _find(question, method, most, limit, samples, seed, means)
+    chosen, found, cut = outcome.method, outcome.found, outcome.cut
     exact = found.evidence if chosen != "sample" else None
     shares = {
         name: find_variance_shares(name, formula, question.doubts, seed) for name, formula in question.outputs.items()
@@ -118,7 +166,7 @@ def infer_counts(
         rank_combinations(question, found.candidates, most, exact),
         found.ranked and chosen != "sample" and not cut,
         {name: one for name, one in shares.items() if one is not None},
-        (*question.remarks, *_doubts_of_sample(found, chosen)),
+        (*question.remarks, *outcome.remarks, *_doubts_of_sample(found, chosen)),
         seed if chosen == "sample" else None,
         cut,
     )
@@ -141,6 +189,15 @@ def _check(method: str | None, most: int, limit: int, samples: int, seed: int) -
             raise QuestionError(Problem(f"{name} is {value}", "nothing is found with it", f"give {least} or more"))
 
 
+class _Outcome(NamedTuple):
+    """What was found, by which method; `cut` if it was interrupted."""
+
+    method: Method
+    found: PosteriorSummary
+    cut: bool = False
+    remarks: tuple[str, ...] = ()
+
+
 def _find(
     question: InferenceProblem,
     method: Method | None,
@@ -149,17 +206,22 @@ def _find(
     samples: int,
     seed: int,
     means: Execution,
-) -> tuple[Method, PosteriorSummary, bool]:
-    """The way asked for, or the first that stays within the limit."""
+) -> _Outcome:
+    """By the method asked for, or the first that stays within the limit."""
     if method != "sample":
         few = prod(len(doubt.counts) for doubt in question.moved.values()) <= limit
         try:
-            return "exact", find_joined_posterior(question, most, inf if few else limit), False
+            return _Outcome("exact", find_exact_posterior(question, most, inf if few else limit))
+        except KeyboardInterrupt:
+            # the exact join has no partial answer: a moment's sample says more than nothing, and it is not journalled,
+            # since the exact join would begin anew
+            found, _ = _sampled(question, most, min(samples, _DRAWN), seed, Execution())
+            return _Outcome("sample", found, True, (_NOTHING_YET.format(found.looked),))
         except BudgetSpentError:
             if method is not None:
                 fix = "raise the limit, narrow the doubts, or let it sample"
                 raise RangeError(Problem("too many steps", f"the limit is {limit}", fix)) from None
-    return "sample", *_sampled(question, most, samples, seed, means)
+    return _Outcome("sample", *_sampled(question, most, samples, seed, means))
 
 
 def _sampled(
@@ -170,9 +232,8 @@ def _sampled(
     tasks = [[seed, at, min(size, samples - at * size)] for at in range(-(-samples // size))]
     tally, cut = PosteriorTally(LikelihoodBatch(question), most), False
     work = partial(sample_task, packed(question, most))
-    results: Iterable[Any] = run(work, tasks, means.executor, means.journal, means.tell)
     try:
-        for result in results:
+        for result in means.run(work, tasks):
             tally.join(result)
     except KeyboardInterrupt:
         cut = True

@@ -33,7 +33,7 @@ class InferenceProblem:
     conditions  what must hold for the train to turn: loops that close, links driven in one way
     remarks     what the reader should know
     soft        False: a combination fits or it does not; True: it agrees less and less, exp(-misfit / 2), up
-                to `evidence.FAR` tolerances
+                to `observations.FAR` tolerances
     """
 
     name: str
@@ -67,8 +67,8 @@ class InferenceProblem:
         return prod(doubt.total for doubt in self.doubts.values())
 
     def weight(self, teeth: Mapping[str, int]) -> int:
-        """The prior weight of one combination; its chance is this over `total`."""
-        return prod(doubt.weights[doubt.counts.index(teeth[wheel])] for wheel, doubt in self.doubts.items())
+        """The prior weight of some wheels' counts; of all wheels, the prior probability is this over `total`."""
+        return prod(self.doubts[wheel].weight(count) for wheel, count in teeth.items())
 
 
 def build_inference_problem(

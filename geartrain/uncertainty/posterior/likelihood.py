@@ -7,15 +7,15 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 import numpy as np
-from numpy.typing import NDArray
 
+from geartrain.numerics.arrays import Bools, Floats
 from geartrain.numerics.bounded_polynomials import BoundedPolynomial, BoundedQuotient, in_range
 from geartrain.numerics.exact import log10
 from geartrain.numerics.rounding_bounds import UNIT_ROUNDOFF
 from geartrain.synthesis.formulas import Formula
 from geartrain.synthesis.formulas.laurent import Term
 from geartrain.synthesis.join.polynomial_constraints import PolynomialConstraint
-from geartrain.synthesis.join.product_lists import Floats
+from geartrain.synthesis.join.product_lists import Domains
 from geartrain.synthesis.join.wheel_monomials import Interval, IntervalConstraint, find_polynomial_constraints
 from geartrain.uncertainty.posterior.monomial_columns import (
     Key,
@@ -26,9 +26,6 @@ from geartrain.uncertainty.posterior.monomial_columns import (
     recipe_of,
 )
 from geartrain.uncertainty.posterior.observations import Observation, ObservedOutput
-
-Bools = NDArray[np.bool_]
-Domains = Mapping[str, tuple[int, ...]]
 
 
 @dataclass(frozen=True, eq=False)

@@ -8,8 +8,9 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from geartrain.numerics.arrays import Floats, Ints
 from geartrain.synthesis.join.partial_assignments import PartialAssignments
-from geartrain.synthesis.join.product_lists import Floats, Ints, ItemRecipe
+from geartrain.synthesis.join.product_lists import ItemRecipe
 from geartrain.synthesis.join.wheel_monomials import IntervalConstraint, find_wheel_monomials
 
 LARGEST = 1 << 62

@@ -1,8 +1,8 @@
-"""What is known of tooth counts once the outputs have spoken, of each by itself and of two together."""
+"""The posterior of tooth counts: of each wheel by itself, of two together, of whole combinations."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from math import log2
@@ -19,10 +19,21 @@ Method = Literal["exact", "sample"]
 
 @dataclass(frozen=True, slots=True)
 class CountProbability(Result):
-    """A probability.
+    """A probability: exact, to rounding, or estimated from a sample.
 
-    value      exact where it is a Fraction, to rounding where it is a float
-    low, high  95 % interval where it is estimated from a sample; None where it is not
+    Attributes
+    ----------
+    value : Fraction or float
+        0 to 1; exact where it is a Fraction, to rounding where it is a float.
+    low, high : float or None
+        95 % interval where it is estimated from a sample.
+
+    Examples
+    --------
+    >>> from fractions import Fraction
+    >>> one = CountProbability(Fraction(1, 3))
+    >>> one.is_exact, float(one) == 1 / 3, str(one), str(CountProbability(0.25, 0.2, 0.3))
+    (True, True, '0.3333', '0.25 (0.2 to 0.3)')
     """
 
     KEYS = (Key("value", to=float), "exact", "low", "high")
@@ -51,11 +62,20 @@ class CountProbability(Result):
 
 @dataclass(frozen=True, slots=True)
 class WheelPosterior(Result):
-    """A wheel's counts once the outputs have spoken.
+    """The posterior of one wheel's count.
 
-    doubt    its counts and their chances before
-    chances  in parallel to its counts; they sum to 1. Empty where nothing fits
-    idle     True if no output that is known depends on it
+    Attributes
+    ----------
+    doubt : ToothCountPrior
+        Its `counts`, and their `priors`: the probabilities before the outputs are looked at.
+    chances : tuple of CountProbability
+        Posterior probabilities in parallel to the counts; they sum to 1. Empty where nothing fits.
+    idle : bool
+        True if no known output depends on it, so that its posterior is its prior.
+
+    See Also
+    --------
+    infer_counts : gives it, by wheel
     """
 
     KEYS = (Key("", "doubt"), Key("posterior", "chances"), "likeliest", "bits", "idle")
@@ -74,12 +94,18 @@ class WheelPosterior(Result):
 
     @property
     def bits(self) -> float:
-        """What the outputs tell of it: the relative entropy of posterior and prior, in bits; 0 for nothing."""
+        """What the outputs tell of it: the relative entropy of posterior and prior [bit]; 0 for nothing."""
         pairs = zip(map(float, self.chances), self.doubt.priors, strict=False)
         return max(0.0, sum(chance * log2(chance / prior) for chance, prior in pairs if chance))
 
     def chance(self, count: int) -> CountProbability:
-        """The chance of a count: 0 for one the wheel cannot have."""
+        """The posterior probability of a count.
+
+        Parameters
+        ----------
+        count : int
+            A tooth count; of one the wheel cannot have the probability is 0.
+        """
         if count not in self.doubt.counts or not self.chances:
             return CountProbability(Fraction(0))
         return self.chances[self.doubt.counts.index(count)]
@@ -97,14 +123,26 @@ class CombinedOutput:
 
 @dataclass(frozen=True, slots=True)
 class CountCombination(Result):
-    """Counts of all wheels that some known output depends on.
+    """One combination: counts of all wheels that some known output depends on.
 
-    teeth    wheel -> count, in the order declared
-    speeds   output -> exact speed, in the train's unit
-    errors   output -> relative error against the claim it agrees with least; the speed itself where 0 is wanted
-    misfit   sum over the claims of (error / tolerance)^2, exact; an exact claim adds nothing
-    chance   posterior; None where it is not known (a sample)
-    changed  wheels whose count is not the declared one
+    Attributes
+    ----------
+    teeth : mapping of str to int
+        Wheel -> count, in the order declared.
+    speeds : mapping of str to Fraction
+        Output -> exact speed [unit of the train].
+    errors : mapping of str to Fraction
+        Output -> relative error against the claim it agrees with least; the speed itself where 0 is wanted.
+    misfit : Fraction
+        Sum over the claims of (error / tolerance)^2; an exact claim adds nothing.
+    chance : CountProbability or None
+        Posterior probability; None where it is not known, in a sample.
+    changed : tuple of str
+        Wheels whose count is not the declared one.
+
+    See Also
+    --------
+    infer_counts : lists the best
     """
 
     KEYS = ("teeth", "outputs", Key("misfit", to=float), "chance", "changed")
@@ -124,14 +162,32 @@ class CountCombination(Result):
 
 @dataclass(frozen=True, slots=True)
 class VarianceShares(Result):
-    """Which wheel decides an output: parts of the variance of its speed over the counts as they are before evidence.
+    """Which wheel decides an output: Sobol indices of its speed over the prior of the counts.
 
-    output   its name
-    mean     of its speed, in the train's unit
-    spread   its standard deviation
-    own      wheel -> share of the variance that goes if the wheel's count is known, 0 to 1 (first-order Sobol index)
-    whole    wheel -> share that stays if all other counts are known (total Sobol index); `whole` is at least `own`
-    exact    True where the shares are exact; False where they are estimated from `samples` combinations
+    Attributes
+    ----------
+    output : str
+        Its name.
+    mean : Fraction or float
+        Of its speed [unit of the train].
+    spread : float
+        Standard deviation of its speed [unit of the train].
+    own : mapping of str to Fraction or float
+        Wheel -> first-order index, 0 to 1: the share of the variance that goes if the wheel's count is known.
+    whole : mapping of str to Fraction or float
+        Wheel -> total index, at least `own`: the share that stays if all other counts are known.
+    exact : bool
+        False where the indices are estimated from `samples` combinations.
+    samples : int
+        0 where they are exact.
+
+    See Also
+    --------
+    infer_counts : gives it, by output
+
+    References
+    ----------
+    Sobol, I. M. 2001. Global sensitivity indices for nonlinear mathematical models. Math. Comput. Simul. 55.
     """
 
     KEYS = ("output", Key("mean", to=float), "spread", Key("own", to=float), Key("whole", to=float), "exact", "samples")
@@ -156,25 +212,50 @@ class KnownOutput(TypedDict):
 
 @dataclass(frozen=True, slots=True)
 class ToothCountPosterior(Result):
-    """Everything a sweep found.
+    """The posterior of all tooth counts in doubt; `found["wheel"]` is that of one wheel.
 
-    name          of the train
-    method        how: every combination, a decomposition of all of them, or a sample
-    soft          whether agreement is a matter of degree
-    combinations  of counts there are
-    looked        rows looked at: combinations, transitions of the decomposition, or combinations drawn
-    evidence      share of the prior weight that fits; the mean of exp(-misfit / 2) where agreement is by degree
-    turning       share of the prior weight with which the train turns at all
-    fits          number of combinations that fit; None where it is not known
-    witnesses     outputs of which something is known
-    alone         output -> share of the prior weight that fits it alone; empty where that was not found
-    posteriors    wheel -> its counts now
-    correlations  pairs of wheels -> correlation of their counts in what fits, strongest first
-    best          combinations that agree best, best first; `ranked` says whether none better is left out
-    shares        output -> which wheel decides it
-    remarks       what the reader should know
-    seed          of the sample; None without one
-    cut           True if it was interrupted: figures are of what had been looked at
+    Attributes
+    ----------
+    name : str
+        Of the train.
+    method : {"exact", "sample"}
+        All combinations by the exact join, or a sample of them.
+    soft : bool
+        Whether agreement is a matter of degree.
+    combinations : int
+        Of counts there are.
+    looked : int
+        Steps of the exact join, or combinations drawn.
+    evidence : CountProbability
+        Share of the prior weight that fits; the mean of exp(-misfit / 2) where agreement is by degree.
+    turning : CountProbability
+        Share of the prior weight with which the train turns at all.
+    fits : int or None
+        Number of combinations that fit, where it is known.
+    witnesses : tuple of ObservedOutput
+        Outputs of which something is known.
+    alone : mapping of str to CountProbability
+        Output -> share of the prior weight that fits it alone.
+    posteriors : mapping of str to WheelPosterior
+        By wheel.
+    correlations : mapping of (str, str) to float
+        Pairs of wheels -> correlation of their counts in what fits, -1 to 1, strongest first.
+    best : tuple of CountCombination
+        Combinations that agree best, best first.
+    ranked : bool
+        Whether none better than the last of them is left out.
+    shares : mapping of str to VarianceShares
+        Output -> which wheel decides it.
+    remarks : tuple of str
+        What the reader should know.
+    seed : int or None
+        Of the sample, if there is one.
+    cut : bool
+        True if it was interrupted: the figures are of what had been drawn.
+
+    See Also
+    --------
+    infer_counts : gives it
     """
 
     KEYS = (
@@ -255,36 +336,3 @@ class ToothCountPosterior(Result):
             agree,
             "What the outputs show is taken to be what they were meant to show; no misprint or repair is allowed for.",
         )
-
-
-Again = Callable[[Mapping[str, Sequence[int]]], ToothCountPosterior]
-Pairs = dict[tuple[str, str], dict[tuple[int, int], float]]
-
-
-def most_informative_wheels(found: ToothCountPosterior, most: int = 6) -> list[str]:
-    """The wheels of which the outputs tell most, in the order declared; those with one count possible say nothing."""
-    heard = [wheel for wheel, each in found.posteriors.items() if not each.idle and len(each.doubt.counts) > 1]
-    kept = set(sorted(heard, key=lambda wheel: -found[wheel].bits)[:most])
-    return [wheel for wheel in heard if wheel in kept]
-
-
-def joint_posterior(found: ToothCountPosterior, wheels: Sequence[str], again: Again) -> Pairs:
-    """The chance of every two counts of every two of some wheels.
-
-    again   sweeps the same train for the same evidence, with some wheels held to the counts given
-
-    Each is the chance of the one times that of the other where the one is held: one more sweep for each count that is
-    possible, of every wheel but the last. As exact as the sweeps.
-    """
-    pairs: Pairs = {(a, b): {} for at, a in enumerate(wheels) for b in wheels[at + 1 :]}
-    for at, wheel in enumerate(wheels[:-1]):
-        for count, chance in zip(found[wheel].doubt.counts, found[wheel].chances, strict=False):
-            if not float(chance):
-                continue
-            held = again({wheel: [count]})
-            for other in wheels[at + 1 :]:
-                after = held[other]
-                for its, likely in zip(after.doubt.counts, after.chances, strict=False):
-                    if float(likely):
-                        pairs[wheel, other][count, its] = float(chance) * float(likely)
-    return pairs

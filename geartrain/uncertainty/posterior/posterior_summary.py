@@ -1,6 +1,6 @@
-"""The combinations that agree best, in an order that no rounding and no way of searching can change.
+"""What the exact join and the sample have in common when they are done: shares, correlations, the best combinations.
 
-What the two ways of looking at combinations have in common when they are done.
+The best stand in an order that no rounding and no way of searching can change.
 """
 
 from __future__ import annotations
@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from math import exp, sqrt
+from math import exp, prod, sqrt
 from typing import Any
 
 import numpy as np
@@ -19,19 +19,16 @@ from geartrain.uncertainty.confidence_intervals import deviations, wilson
 from geartrain.uncertainty.posterior.inference_problem import InferenceProblem
 from geartrain.uncertainty.posterior.posterior_result import CountCombination, CountProbability, WheelPosterior
 from geartrain.uncertainty.posterior.priors import ToothCountPrior
-from geartrain.uncertainty.posterior.sampled_posterior import PosteriorTally, origin_of, plain_number
-
-_NEAR = 1 + 1e-9
-_MOST = 2000
+from geartrain.uncertainty.posterior.sampled_posterior import KEPT, TIE, PosteriorTally, origin_of, plain_number
 
 
 def first_with_ties(candidates: Iterator[GradedAssignment], most: int) -> tuple[list[GradedAssignment], bool]:
     """The first `most` of an ascending list and all equals of the last; False if equals had to be left out."""
     found: list[GradedAssignment] = []
     for candidate in candidates:
-        if len(found) >= most and candidate.misfit > found[most - 1].misfit * _NEAR:
+        if len(found) >= most and candidate.misfit > found[most - 1].misfit * TIE:
             return found, True
-        if len(found) >= max(most, _MOST):
+        if len(found) >= max(most, KEPT):
             return found, False
         found.append(candidate)
     return found, True
@@ -45,7 +42,8 @@ def rank_combinations(
     evidence   of all that fits; None where it is not known, and then no chances are given
     """
     made = [_combination(question, candidate.teeth, evidence) for candidate in candidates]
-    made.sort(key=lambda one: (one.misfit, -_weight(question, one.teeth), len(one.changed), tuple(one.teeth.values())))
+    # exact misfits, then whole numbers: no two ways of searching can disagree on this order
+    made.sort(key=lambda one: (one.misfit, -question.weight(one.teeth), len(one.changed), tuple(one.teeth.values())))
     return tuple(made[:most])
 
 
@@ -74,23 +72,12 @@ def _chance(
 ) -> CountProbability | None:
     if evidence is None or not evidence.value:
         return None
-    prior = Fraction(1)
-    for wheel, count in teeth.items():
-        doubt = question.doubts[wheel]
-        prior *= doubt.priors[doubt.counts.index(count)]
+    prior = Fraction(question.weight(teeth), prod(question.doubts[wheel].total for wheel in teeth))
     if question.soft or not isinstance(evidence.value, Fraction):
         return CountProbability(
             float(prior) * (exp(-float(misfit) / 2) if question.soft else 1) / float(evidence.value)
         )
     return CountProbability(prior / evidence.value)
-
-
-def _weight(question: InferenceProblem, teeth: Mapping[str, int]) -> int:
-    found = 1
-    for wheel, count in teeth.items():
-        doubt = question.doubts[wheel]
-        found *= doubt.weights[doubt.counts.index(count)]
-    return found
 
 
 _CERTAIN = 1e-4
@@ -127,6 +114,7 @@ def summary_of_sample(question: InferenceProblem, tally: PosteriorTally) -> Post
         for misfit, at in tally.best
     ]
     by = dict(zip(wheels, tally.by, strict=True))
+    # Kish's effective sample size: hits of unequal weight tell as much as so many of equal weight
     trials = tally.weight**2 / tally.square if tally.square else None
     posteriors = {
         wheel: wheel_posterior(doubt, by.get(wheel), tally.weight, trials) for wheel, doubt in question.doubts.items()
@@ -153,7 +141,7 @@ def _share(weight: float, looked: int, tally: PosteriorTally, soft: bool) -> Cou
     mean = float(weight) / looked
     if not soft or not weight:
         return CountProbability(mean, *wilson(float(weight), looked))
-    half = deviations() * sqrt(max(tally.square / looked - mean**2, 0.0) / looked)
+    half = deviations() * sqrt(max(tally.square / looked - mean**2, 0.0) / looked)  # a variance: 0 but for rounding
     return CountProbability(mean, max(0.0, mean - half), min(1.0, mean + half))
 
 
@@ -231,6 +219,7 @@ def _moments(
     for wheel, weights in by.items():
         counts, whole = question.doubts[wheel].counts, Fraction(plain_number(total))
         pairs = [(count, Fraction(plain_number(weight)) / whole) for count, weight in zip(counts, weights, strict=True)]
+        # in fractions: of counts near 10^12 the square of a deviation is lost in a float
         mean = sum((chance * count for count, chance in pairs), Fraction(0))
         means[wheel] = float(mean)
         spread = sqrt(sum((chance * (count - mean) ** 2 for count, chance in pairs), Fraction(0)))
@@ -245,6 +234,6 @@ def _correlated(
     for (first, second), covariance in covariances.items():
         size = spreads[first] * spreads[second]
         if size:
-            value = min(1.0, max(-1.0, covariance / size))
+            value = min(1.0, max(-1.0, covariance / size))  # rounding may lead beyond
             found[first, second] = value if abs(value) > _NONE else 0.0
     return dict(sorted(found.items(), key=lambda pair: -abs(pair[1])))

@@ -18,13 +18,20 @@ MOST_COUNTS = 10**5
 
 @dataclass(frozen=True, slots=True)
 class ToothCountPrior(Result):
-    """The counts one wheel may have.
+    """The counts one wheel may have, and their prior probabilities.
 
-    wheel     its id
-    counts    ascending, each once
-    weights   in parallel to them: positive whole numbers without a common divisor; prior chance = weight / `total`
-    declared  the count the train declares; None where it declares none
-    assumed   where the counts come from, in words; all are as likely unless it says that they are weighted
+    Attributes
+    ----------
+    wheel : str
+        Its id.
+    counts : tuple of int
+        Ascending, each once.
+    weights : tuple of int
+        In parallel to the counts: positive, without a common divisor; the prior probability is weight / `total`.
+    declared : int or None
+        The count the train declares.
+    assumed : str
+        Where the counts come from, in words; all are equally likely unless it says that they are weighted.
     """
 
     KEYS = ("wheel", "declared", "counts", "priors", "assumed")
@@ -40,6 +47,10 @@ class ToothCountPrior(Result):
         """The sum of the weights."""
         return sum(self.weights)
 
+    def weight(self, count: int) -> int:
+        """The weight of one of its counts."""
+        return self.weights[self.counts.index(count)]
+
     @property
     def priors(self) -> tuple[Fraction, ...]:
         """The chance of each count before the outputs are looked at; they sum to 1."""
@@ -47,13 +58,13 @@ class ToothCountPrior(Result):
 
 
 def find_priors(train: Train, free: Mapping[str, Sequence[int]] | None = None) -> tuple[ToothCountPrior, ...]:
-    """The wheels in doubt, in the order declared.
+    """The priors of the wheels in doubt, in the order declared.
 
     free   wheel -> its counts, for wheels that are to have others than those declared; one count takes the doubt away
 
     A wheel with `range` or `choices` is in doubt with its `weights` (uniform where none are declared), one with
     `search` uniformly. Raises `QuestionError` for wheels the train does not have, for what is no tooth count, for
-    weights that are no chances, and where no wheel is in doubt; `RangeError` for a doubt too wide to list.
+    weights that are no probabilities, and where no wheel is in doubt; `RangeError` for a doubt too wide to list.
     """
     given = dict(free or {})
     for name in given:
@@ -113,7 +124,7 @@ def _declared(name: str, teeth: Teeth, place: str) -> ToothCountPrior:
         raise QuestionError(Problem(what, why, "give weights of 0 and more, one of them above 0", place))
     total: dict[int, Fraction] = {}
     for count, weight in zip(listed, figures, strict=True):
-        total[count] = total.get(count, Fraction(0)) + weight
+        total[count] = total.get(count, Fraction(0)) + weight  # a count may be listed twice
     kept = {count: total[count] for count in sorted(total) if total[count]}
     kind = "choices" if teeth.choices is not None else "range"
     said = ", weighted" if teeth.weights is not None else ""

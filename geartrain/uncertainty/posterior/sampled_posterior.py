@@ -13,10 +13,10 @@ from typing import Any
 
 import numpy as np
 
-from geartrain.synthesis.join.product_lists import Floats, Ints
+from geartrain.numerics.arrays import Bools, Floats, Ints
 from geartrain.synthesis.join.wheel_monomials import IntervalConstraint
 from geartrain.uncertainty.posterior.inference_problem import InferenceProblem
-from geartrain.uncertainty.posterior.likelihood import Bools, ExactConstraint, FormulaValues, OutputLikelihood
+from geartrain.uncertainty.posterior.likelihood import ExactConstraint, FormulaValues, OutputLikelihood
 from geartrain.uncertainty.posterior.monomial_columns import (
     CombinationColumns,
     MonomialColumns,
@@ -26,8 +26,8 @@ from geartrain.uncertainty.posterior.monomial_columns import (
 from geartrain.uncertainty.posterior.priors import ToothCountPrior
 
 BLOCK = 1 << 13
-"""Combinations worked on at a time: 64 kB an array."""
-_FEW = 0.5
+"""Combinations worked on at a time: 64 kB an array, so that a formula's columns stay in the processor's cache."""
+_FEW = 0.5  # of the rows: where fewer are left, to copy them out costs less than to judge the others too
 
 
 class LikelihoodBatch:
@@ -98,8 +98,8 @@ class LikelihoodBatch:
 
 KEPT = 2000
 """Combinations that a task brings out to find the best; equals beyond are left out."""
-_LONG = 1 << 53
-_NEAR = 1 + 1e-9
+TIE = 1 + 1e-9
+"""Misfits in floats this near may be equal: which is less is decided later, exactly."""
 
 
 class PosteriorTally:
@@ -138,7 +138,7 @@ class PosteriorTally:
         if not size:
             return
         at = [np.broadcast_to(places[wheel], (size,)) for wheel in self.batch.wheels]
-        self.weight += plain_number(weights.sum())
+        self.weight += plain_number(weights.sum())  # Python's own number: over many blocks int64 would not hold it
         self.square += float((weights.astype(np.float64) ** 2).sum())
         for sums, index in zip(self.by, at, strict=True):
             for choice in np.unique(index):
@@ -154,7 +154,7 @@ class PosteriorTally:
         self._trim()
 
     def _bar(self) -> float:
-        return self.best[self.most - 1][0] * _NEAR if len(self.best) >= self.most else np.inf
+        return self.best[self.most - 1][0] * TIE if len(self.best) >= self.most else np.inf
 
     def _trim(self) -> None:
         self.best.sort()
@@ -216,6 +216,7 @@ def sample_task(shared: bytes, task: Sequence[int]) -> dict[str, Any]:
     batch, most = _unpacked(shared)
     tally = PosteriorTally(batch, most)
     seed, block, size = task
+    # a stream for each block: what is drawn does not depend on who draws the others
     draw = np.random.Generator(np.random.PCG64(np.random.SeedSequence([seed, block])))
     places = {}
     for wheel in batch.wheels:

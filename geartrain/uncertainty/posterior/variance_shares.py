@@ -15,8 +15,8 @@ from math import isqrt, prod, sqrt
 import numpy as np
 from numpy.typing import NDArray
 
+from geartrain.numerics.arrays import Floats
 from geartrain.synthesis.formulas import Formula
-from geartrain.synthesis.join.product_lists import Floats
 from geartrain.uncertainty.posterior.posterior_result import VarianceShares
 from geartrain.uncertainty.posterior.priors import ToothCountPrior
 

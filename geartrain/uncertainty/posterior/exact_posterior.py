@@ -34,7 +34,7 @@ from geartrain.uncertainty.posterior.sampled_posterior import plain_number
 _LONG = 1 << 62
 
 
-def find_joined_posterior(question: InferenceProblem, most: int, limit: float) -> PosteriorSummary:
+def find_exact_posterior(question: InferenceProblem, most: int, limit: float) -> PosteriorSummary:
     """All that is asked, exactly. Raises `BudgetSpentError` where it takes more than `limit` steps.
 
     most   combinations to list

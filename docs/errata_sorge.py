@@ -8,6 +8,7 @@ from math import atan2, cos, degrees, hypot, pi, radians, sin, sqrt
 import numpy as np
 
 import geartrain
+from geartrain.dynamics.motion.pair_impacts import collision_energies
 from geartrain.teeth import Triangular
 from geartrain.teeth.triangular.clearance_window import find_window
 from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
@@ -239,7 +240,7 @@ def lost(a: float) -> float:
 
 def dissipated(a: float) -> float:
     """What the collisions of a pitch dissipate, over J2 w1^2."""
-    return law(96, 96, f"{a:.12f}").impact(1.0, 1.0)[1]
+    return collision_energies(law(96, 96, f"{a:.12f}").speed_leaps(), 1.0, 1.0)[1]
 
 
 def least_of(what: Callable[[float], float]) -> float:

@@ -18,7 +18,7 @@ import numpy as np
 from geartrain.teeth.contact.outline_contact import contact, solve
 from geartrain.teeth.contact.transmission_fit import tabulate
 from geartrain.teeth.pair_verdict import PairVerdict, ToothFault, verdict_of_faults
-from geartrain.teeth.transmission import TransmissionFunction, check_friction
+from geartrain.teeth.transmission import SpeedLeap, TransmissionFunction, check_friction
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -113,9 +113,13 @@ class OutlineTransmission(TransmissionFunction):
         """Speed ratio at driver angles S (rad)."""
         return self.table.speed(self._forward(S))
 
-    def speed_leaps(self) -> tuple[float, ...]:
+    def speed_leaps(self) -> tuple[SpeedLeap, ...]:
         """Where the next tooth takes over faster than the last one left; the other flanks do the same turning back."""
         return self.table.speed_leaps()
+
+    def steepest_fall(self) -> float:
+        """Of the polynomials; turned back the law is the mirror image, and falls as steeply."""
+        return self.table.steepest_fall()
 
     def corners(self) -> list[float]:
         """Driver angles (rad) where something else begins to touch."""

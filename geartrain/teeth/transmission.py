@@ -10,7 +10,7 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from fractions import Fraction
 from math import inf
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from geartrain.errors import Problem, RangeError
 
@@ -26,6 +26,18 @@ def check_friction(friction: float) -> float:
     if not 0 <= friction < inf:
         raise RangeError(Problem(f"a friction of {friction:g}", "it would push", "give 0 or more, such as 0.1"))
     return friction
+
+
+class SpeedLeap(NamedTuple):
+    """A collision of teeth: the speed ratio before it, and the greater one after."""
+
+    before: float
+    after: float
+
+    @property
+    def size(self) -> float:
+        """By how much it leaps."""
+        return self.after - self.before
 
 
 class TransmissionFunction(ABC):
@@ -142,8 +154,16 @@ class TransmissionFunction(ABC):
         """Driver angles (rad) where the law or a slope of it is not smooth; none by default."""
         return []
 
-    def speed_leaps(self) -> tuple[float, ...] | None:
-        """What the speed ratio leaps up by at each collision of a pitch; None for laws without an account of them."""
+    def speed_leaps(self) -> tuple[SpeedLeap, ...] | None:
+        """Every collision of a pitch; None for laws without an account of them."""
+        return None
+
+    def steepest_fall(self) -> float | None:
+        """Greatest rate -d(speed ratio)/dS at which the speed falls between collisions (1/rad), 0 if it never does.
+
+        As it falls the driven inertia J runs ahead of a slack drive: the law holds at a driver's speed w while the load
+        torque is at least J w^2 times this. None for laws without an account of it.
+        """
         return None
 
     def error_and_speed(self, S: ArrayLike) -> tuple[Floats, Floats]:
@@ -258,6 +278,10 @@ class ExactRatio(TransmissionFunction):
     def efficiency_least(self) -> float:
         """1."""
         return 1.0
+
+    def steepest_fall(self) -> float:
+        """0."""
+        return 0.0
 
     @staticmethod
     def _constant(S: ArrayLike, value: float) -> Floats:

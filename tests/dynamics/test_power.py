@@ -21,6 +21,7 @@ from places import ROOT
 
 from geartrain import GearTrain, GearTrainError, load, shipped
 from geartrain.dynamics import PowerFlow, PowerNode, Torques
+from geartrain.dynamics.motion.pair_impacts import collision_energies
 from geartrain.dynamics.torques.load_case import input_and_output
 from geartrain.dynamics.torques.power_flow import watts_per_unit
 from geartrain.numerics.decimal_text import percent_of_text, percent_text, watts_text
@@ -438,7 +439,7 @@ def test_collisions_stand_beside_sliding() -> None:
     table = rows(page(train), "where")
     assert table[0] == ["where", "sliding", "of power in", "of all sliding", "impact", "of power in"]
     law = train.meshes[0].law
-    energy = law.impact((4 + 7 * (24 / 40) ** 2) * 1e-7, 2 * pi * 3)[1]
+    energy = collision_energies(law.speed_leaps(), (4 + 7 * (24 / 40) ** 2) * 1e-7, 2 * pi * 3)[1]
     data = collect_torques(train, found).to_dict()["losses"]
     assert data[0]["impact"] == pytest.approx(energy * 3 * 20, rel=1e-12)
     assert {loss["name"] for loss in data} == {"a~b", "c~d"}

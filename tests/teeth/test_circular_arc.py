@@ -19,6 +19,7 @@ from shapely.geometry import Polygon
 import geartrain
 from geartrain import GearTrain, load
 from geartrain.cli.mesh import PairGroup
+from geartrain.dynamics.motion.pair_impacts import PairOperation, find_pair_impacts
 from geartrain.errors import GearTrainError
 from geartrain.report.text import to_markdown
 from geartrain.report.train_data import collect_report
@@ -160,12 +161,31 @@ def test_the_ratio_holds_in_the_mean_and_the_other_flanks_are_the_mirror_image()
 
 def test_the_next_tooth_strikes_where_the_speed_leaps() -> None:
     law = FORM.law(60, 8)
-    leaps = law.speed_leaps()
+    leaps = [leap.size for leap in law.speed_leaps()]
     fine = np.linspace(0, law.period, 200_001)
     steps = np.diff(law.angle(fine)) / np.diff(fine)  # a leap of speed is one of slope
     at = int(np.argmax(np.diff(steps)))
     assert leaps == pytest.approx([steps[at + 2] - steps[at - 1]], abs=1e-4)
-    assert law.turned_back().speed_leaps() == leaps
+    assert law.turned_back().speed_leaps() == law.speed_leaps()
+
+
+def test_the_steepest_fall_is_the_steepest_of_a_scan() -> None:
+    law = FORM.law(60, 8)
+    S = np.linspace(0, law.period, 20_001)
+    falls = -np.diff(law.speed(S)) / np.diff(S)
+    assert law.steepest_fall() == pytest.approx(falls.max(), rel=1e-3)
+    assert law.turned_back().steepest_fall() == law.steepest_fall()
+
+
+def test_collisions_of_any_form_cost_what_inelastic_blows_do() -> None:
+    law, inertia, rate = FORM.law(60, 8), 3e-7, 2.0
+    found = find_pair_impacts(law, PairOperation(inertia, rate, load=1e-3))
+    (leap,), omega = law.speed_leaps(), 2 * pi * rate
+    assert found is not None
+    assert found.dissipated == pytest.approx(inertia * (omega * (leap.after - leap.before)) ** 2 / 2)
+    assert found.handed == pytest.approx(inertia * omega**2 * (leap.after**2 - leap.before**2) / 2)
+    assert inertia * (2 * pi * found.void) ** 2 * law.steepest_fall() == pytest.approx(1e-3)
+    assert find_pair_impacts(law, PairOperation(rate=rate)) is None
 
 
 def test_friction_costs_and_no_friction_costs_nothing() -> None:

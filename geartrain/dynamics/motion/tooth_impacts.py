@@ -62,6 +62,6 @@ def find_impacts(motion: Motion, inertias: Mapping[str, float], speed: float) ->
         unit[source.pair] = 1.0
         struck = float(weight @ spread.errors(unit)[:, 0] ** 2)
         driver = abs(source.mean * speed)
-        blows = tuple(leap * driver for leap in leaps)
+        blows = tuple(leap.size * driver for leap in leaps)
         found[source.id] = ToothImpact(struck, driver / law.period, blows)
     return found

@@ -11,6 +11,7 @@ import numpy as np
 from geartrain.numerics.decimal_text import fraction_text
 from geartrain.numerics.polynomial_pieces import ends, extremes, moments, value
 from geartrain.teeth.contact.outline_contact import KINDS
+from geartrain.teeth.transmission import SpeedLeap
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -78,11 +79,18 @@ class PiecewiseTransmission:
         """Least and greatest speed ratio."""
         return extremes(self.speeds)
 
-    def speed_leaps(self) -> tuple[float, ...]:
-        """What the speed ratio leaps up by where one stretch follows another, but for rounding, in order of angle."""
-        start, end = ends(self.speeds)
-        leaps = np.roll(start, -1) - end
-        return tuple(leaps[leaps > _LEAP * float(self.ratio)].tolist())
+    def speed_leaps(self) -> tuple[SpeedLeap, ...]:
+        """Where the speed ratio leaps up as one stretch follows another, but for rounding, in order of angle."""
+        start, before = ends(self.speeds)
+        after = np.roll(start, -1)
+        leaps = after - before > _LEAP * float(self.ratio)
+        return tuple(SpeedLeap(*each) for each in zip(before[leaps].tolist(), after[leaps].tolist(), strict=True))
+
+    def steepest_fall(self) -> float:
+        """Greatest -d speed / d phi1 within the stretches (1/rad), 0 if the speed never falls."""
+        slopes = np.zeros_like(self.speeds)  # one degree less, in as many coefficients
+        slopes[:-1] = self.speeds[1:] * np.arange(1, len(slopes))[:, None] / self.halves
+        return max(0.0, -extremes(slopes)[0])
 
     def moments(self) -> tuple[float, float]:
         """Mean of the transmission error over a period, and its rms about that mean (rad); NaN with gaps in contact."""

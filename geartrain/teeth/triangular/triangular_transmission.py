@@ -13,7 +13,7 @@ import numpy as np
 
 from geartrain.errors import Problem, RangeError
 from geartrain.numerics.roots import bracketed_root
-from geartrain.teeth.transmission import TransmissionFunction, behind, check_friction
+from geartrain.teeth.transmission import SpeedLeap, TransmissionFunction, behind, check_friction
 from geartrain.teeth.triangular.clearance_window import TriangularContact
 from geartrain.teeth.triangular.pair_geometry import TriangularSizes
 from geartrain.teeth.triangular.real_path import DriveInterval
@@ -285,10 +285,7 @@ class TriangularTransmission(TransmissionFunction):
         return 1 / steepest if steepest else inf
 
     def steepest_fall(self) -> float:
-        """Greatest d tau / d alpha_1 (1/rad): as tau falls, the driven inertia J runs ahead of a slack drive.
-
-        The quasi-static law holds while the load torque is at least J omega_1^2 times this.
-        """
+        """Greatest d tau / d alpha_1 (1/rad), for alpha_1 falls as the driver turns."""
         couple = self.contact.path.couple
         steepest = 0.0
         for interval, high, low in self.stretches:
@@ -309,17 +306,6 @@ class TriangularTransmission(TransmissionFunction):
             )
         return found
 
-    def speed_leaps(self) -> tuple[float, ...]:
+    def speed_leaps(self) -> tuple[SpeedLeap, ...]:
         """Every collision of a pitch."""
-        return tuple(jump.after - jump.before for jump in self.jumps)
-
-    def impact(self, inertia: float, omega1: float) -> tuple[float, float, float]:
-        """Energies of one pitch's collisions (J): handed to the driven side, dissipated, and their sum.
-
-        Inelastic, the driver at constant speed omega1 (rad/s), `inertia` (kg m2) all that turns with the driven wheel.
-        The source counts the first as lost; what is lost is the second, and the driver's work is their sum.
-        """
-        scale = inertia * omega1**2
-        handed = sum((jump.after**2 - jump.before**2) / 2 for jump in self.jumps) * scale
-        dissipated = sum((jump.after - jump.before) ** 2 / 2 for jump in self.jumps) * scale
-        return handed, dissipated, handed + dissipated
+        return tuple(SpeedLeap(jump.before, jump.after) for jump in self.jumps)

@@ -123,9 +123,17 @@ def _outputs(work: SolidModel) -> tuple[str, Rows]:
     states = train.states if work.state is None else (work.state,)
     rows = []
     for answer in (train.solve(state, method="exact") for state in states or (None,)):
-        declared = train.declaration.case(answer.state).outputs
         for name, result in answer.outputs.items():
             speed = _both(None if result.speed is None else Fraction(result.speed))
-            of, base = declared[name].of or name, declared[name].relative_to or train.declaration.frame
-            rows.append((answer.state, name, of, base, *speed, answer.unit, "yes" if result.holds else "no"))
+            rows.append(
+                (
+                    answer.state,
+                    name,
+                    result.of,
+                    result.relative_to,
+                    *speed,
+                    answer.unit,
+                    "yes" if result.holds else "no",
+                )
+            )
     return "state output of relative_to speed speed_decimal unit holds", rows

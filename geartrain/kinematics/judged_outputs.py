@@ -260,7 +260,7 @@ def judge_outputs(
     """
     moving = [speed for speed in case.inputs.values() if speed]
     for name, output in case.outputs.items():
-        of, base = output.of or name, output.relative_to or train.frame
+        of, base = output.links(name, train.frame)
         speed = relative(of, base)
         ratio = speed / moving[0] if speed is not None and len(moving) == 1 else None
         yield OutputResult(

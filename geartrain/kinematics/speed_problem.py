@@ -108,7 +108,7 @@ class SpeedProblem:
                 )
             )
         outputs = {output: declared} if declared else {}
-        links = (declared.of or output, declared.relative_to or train.frame) if declared else (output, train.frame)
+        links = declared.links(output, train.frame) if declared else (output, train.frame)
         return replace(case, outputs=outputs), links
 
     # ------------------------------------------------------------------------------------------ the part that matters

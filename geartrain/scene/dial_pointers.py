@@ -56,8 +56,8 @@ def dial_key(stage: SceneContext, name: str) -> Key | None:
     output = stage.case.outputs[name]
     if output.dial is None:
         return None
-    base = output.relative_to or stage.train.declaration.frame
-    return output.dial, base, stage.train.tree.axis(output.of or name) or ""
+    of, base = output.links(name, stage.train.declaration.frame)
+    return output.dial, base, stage.train.tree.axis(of) or ""
 
 
 def facing(stage: SceneContext, name: str) -> Vector:
@@ -127,7 +127,7 @@ def find_pointers(stage: SceneContext, dials: Sequence[Key]) -> tuple[Pointer, .
 
 def _pointer(stage: SceneContext, name: str, dials: Sequence[Key], pairs: Sequence[str]) -> Pointer:
     output = stage.case.outputs[name]
-    of, base = output.of or name, output.relative_to or stage.train.declaration.frame
+    of, base = output.links(name, stage.train.declaration.frame)
     signs = stage.train.signs
     speed, ratio = (_exact(relative_speed(of, base, each, signs)) for each in (stage.speed, stage.ratio))
     # seen from the side to which its axis points, a positive angle is counter-clockwise

@@ -12,6 +12,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
+from geartrain.kinematics.relative_speeds import axis_sense
 from geartrain.numerics.elimination import LinearForm, TooDenseError, eliminate
 from geartrain.scene.context import SceneContext
 
@@ -56,14 +57,13 @@ def _with_swings(used: set[str], swings: Mapping[str, set[str]]) -> set[str]:
 
 def _ends(stage: SceneContext, name: str) -> dict[str, int]:
     """An output as a sum of declared speeds."""
-    output = stage.case.outputs[name]
-    return _seen(stage, output.of or name, output.relative_to or stage.train.declaration.frame)
+    return _seen(stage, *stage.case.outputs[name].links(name, stage.train.declaration.frame))
 
 
 def _seen(stage: SceneContext, of: str, base: str) -> dict[str, int]:
     """A link seen from another, as a sum of declared speeds."""
     found = {of: 1}
-    found[base] = found.get(base, 0) - stage.sense(of) * stage.sense(base)
+    found[base] = found.get(base, 0) - axis_sense(of, base, stage.train.signs)
     return found
 
 

@@ -196,6 +196,18 @@ class Output(Declared):
     dial: Id | None = Field(None, description="The dial it is read on")
     note: str | None = Field(None, description="A remark for the reader")
 
+    def links(self, name: str, frame: str) -> tuple[str, str]:
+        """The link that turns, and the link it is seen from.
+
+        Parameters
+        ----------
+        name : str
+            The output's own name, which is that of its link by default.
+        frame : str
+            The train's frame.
+        """
+        return self.of or name, self.relative_to or frame
+
     @classmethod
     def __get_pydantic_json_schema__(cls, schema: Any, handler: GetJsonSchemaHandler) -> dict[str, Any]:
         return also({"type": "null"}, handler(schema))

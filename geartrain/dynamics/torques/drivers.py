@@ -112,7 +112,7 @@ def _pointers(setting: LoadCase) -> UnitLoads:
 def _outer(setting: LoadCase) -> UnitLoads:
     """Every output that is a shaft in the frame: what turns on a carrier, or is seen from one, is a reading."""
     frame = setting.train.frame
-    ends = {name: (out.of or name, out.relative_to or frame) for name, out in setting.case.outputs.items()}
+    ends = {name: output.links(name, frame) for name, output in setting.case.outputs.items()}
     outer = {name for name, (of, base) in ends.items() if base == frame == setting.bearer(of)}
     return {name: drag for name, drag in _outputs(setting).items() if name in outer}
 
@@ -120,7 +120,7 @@ def _outer(setting: LoadCase) -> UnitLoads:
 def _outputs(setting: LoadCase) -> UnitLoads:
     """Every output, against its own motion."""
     frame = setting.train.frame
-    ends = {name: (out.of or name, out.relative_to or frame) for name, out in setting.case.outputs.items()}
+    ends = {name: output.links(name, frame) for name, output in setting.case.outputs.items()}
     return {name: drag for name, (of, base) in ends.items() if (drag := _drag(setting, of, base))}
 
 

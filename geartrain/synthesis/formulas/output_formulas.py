@@ -118,9 +118,9 @@ def _equations(
     draw = random.Random(0)
     sizes = {name: draw.randrange(10**6, 10**9) for name in wheels}
     circuits = [circuit.with_counts(sizes) for circuit in find_circuits(stand_in, tree)]
-    asked = {link for name, output in case.outputs.items() for link in (output.of or name, output.relative_to)}
-    kept = {train.frame, *asked, *case.inputs, *case.fixed, *(link for lock in case.locks for link in lock)} - {None}
-    circuits = relevant_circuits(circuits, (link for link in kept if link))
+    asked = {link for name, output in case.outputs.items() for link in output.links(name, train.frame)}
+    kept = {train.frame, *asked, *case.inputs, *case.fixed, *(link for lock in case.locks for link in lock)}
+    circuits = relevant_circuits(circuits, kept)
     kept |= {link for circuit in circuits for link in (circuit.i, circuit.j, circuit.carrier)}
     links = [link for link in train.links if link in kept]
     variables = {name: at for at, name in enumerate(wheels)}
@@ -134,7 +134,7 @@ def _read_off(train: Train, case: StateCase, equations: SymbolicEquations, wheel
     undetermined: list[str] = []
     cancelled: dict[str, Laurent] = {}
     for name, output in case.outputs.items():
-        value = solution.value(equations.relative(output.of or name, output.relative_to or train.frame))
+        value = solution.value(equations.relative(*output.links(name, train.frame)))
         if value is None:
             undetermined.append(name)
             continue

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from geartrain.synthesis.join.product_lists import Floats, Ints
+from geartrain.numerics.arrays import Floats, Ints
 from geartrain.uncertainty.posterior.monomial_columns import CombinationColumns, MonomialColumns, Powers
 from geartrain.uncertainty.posterior.sampled_posterior import BLOCK, LikelihoodBatch
 

@@ -1,4 +1,9 @@
-"""Common divisors of polynomials in several variables, exact."""
+"""Common divisors of polynomials in several variables, exact.
+
+Formulas of trains are short once wheels are grouped: all shipped trains with all wheels free spend 4 % of their time
+here and on determinants. FLINT (python-flint) finds the divisors of long random products many times faster, but handing
+it these short ones and taking them back costs 1.4 to 2 times what is done here; sympy takes 2.4 to 15 times.
+"""
 
 from __future__ import annotations
 

@@ -8,14 +8,14 @@ from typing import Any
 
 import numpy as np
 
+from geartrain.numerics.arrays import Bools, Ints
 from geartrain.numerics.integer_columns import spread, spread_in_blocks
 from geartrain.synthesis.constraints.count_conditions import CountConstraint, CountEquation
 from geartrain.synthesis.join.item_monomials import find_item_monomials
 from geartrain.synthesis.join.join_plan import JoinProblem, PlanNode, extents
 from geartrain.synthesis.join.partial_assignments import BLOCK, ItemMonomial, PartialAssignments
 from geartrain.synthesis.join.polynomial_constraints import PolynomialConstraint, RelaxedInequality, possible
-from geartrain.synthesis.join.product_lists import Ints, Tallies, find_item
-from geartrain.synthesis.join.solution_windows import Bools
+from geartrain.synthesis.join.product_lists import Tallies, find_item
 
 Slices = Mapping[int, tuple[int, int]]
 """Item -> the run of its values that this piece of the work looks at; all of them where it is missing."""

@@ -18,7 +18,8 @@ from typing import Any
 
 import numpy as np
 
-from geartrain.synthesis.join.product_lists import Floats, Tallies
+from geartrain.numerics.arrays import Floats
+from geartrain.synthesis.join.product_lists import Tallies
 from geartrain.synthesis.join.recorded_join import CountWeights, RecordedNode, sums_by
 
 

@@ -8,7 +8,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from geartrain.synthesis.join.product_lists import Floats, Ints, Item, Tallies
+from geartrain.numerics.arrays import Floats, Ints
+from geartrain.synthesis.join.product_lists import Item, Tallies
 
 BLOCK = 1 << 18
 """Rows worked on at a time: bounds the memory of a join to some tens of megabytes, beside its lists."""

@@ -20,11 +20,11 @@ from math import prod
 
 import numpy as np
 
+from geartrain.numerics.arrays import Bools, Floats, Ints
 from geartrain.numerics.integer_columns import spread
 from geartrain.synthesis.join.partial_assignments import PartialAssignments
 from geartrain.synthesis.join.polynomial_signs import SignPolynomial, Signs
-from geartrain.synthesis.join.product_lists import Floats, Ints
-from geartrain.synthesis.join.solution_windows import Bools, PolynomialInequality, SolutionWindow, find_window
+from geartrain.synthesis.join.solution_windows import PolynomialInequality, SolutionWindow, find_window
 
 Corners = Mapping[int, tuple[float, float]]
 """Open item -> its least and greatest value."""

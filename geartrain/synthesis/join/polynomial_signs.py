@@ -15,10 +15,10 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from geartrain.numerics.arrays import Floats, Ints
 from geartrain.numerics.bounded_polynomials import Monomial, sum_and_size
 from geartrain.numerics.rounding_bounds import UNIT_ROUNDOFF
 from geartrain.synthesis.join.partial_assignments import PartialAssignments
-from geartrain.synthesis.join.product_lists import Floats, Ints
 
 Signs = NDArray[np.int8]
 

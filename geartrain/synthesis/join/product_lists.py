@@ -16,8 +16,8 @@ from typing import Any, Generic, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-Ints = NDArray[np.int64]
-Floats = NDArray[np.float64]
+from geartrain.numerics.arrays import Floats, Ints
+
 Tallies = NDArray[Any]
 """Numbers or weights of assignments: int64 where all of them fit, Python integers otherwise."""
 Domains = Mapping[str, tuple[int, ...]]

@@ -11,11 +11,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from geartrain.numerics.arrays import Floats, Ints
 from geartrain.synthesis.join.exact_join import ExactJoin
 from geartrain.synthesis.join.join_plan import JoinProblem, PlanNode
 from geartrain.synthesis.join.partial_assignments import PartialAssignments
 from geartrain.synthesis.join.polynomial_constraints import PolynomialConstraint
-from geartrain.synthesis.join.product_lists import Floats, Ints, Item, ProductStep, Tallies
+from geartrain.synthesis.join.product_lists import Item, ProductStep, Tallies
 
 Misfits = Mapping[int, Callable[[Floats], Floats]]
 """Number of a graded demand in `JoinProblem.asked` -> how badly its values agree with it, 0 for perfectly."""

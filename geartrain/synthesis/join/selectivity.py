@@ -9,10 +9,11 @@ from math import inf, isinf, log, prod
 
 import numpy as np
 
+from geartrain.numerics.arrays import Floats, Ints
 from geartrain.numerics.bounded_polynomials import BoundedQuotient, products_of
 from geartrain.numerics.exact import as_float
 from geartrain.synthesis.constraints.count_conditions import CountConstraint, CountEquation
-from geartrain.synthesis.join.product_lists import Domains, Floats, Ints
+from geartrain.synthesis.join.product_lists import Domains
 from geartrain.synthesis.join.wheel_monomials import Function, Interval, IntervalConstraint
 
 _DRAWN = 4096

@@ -10,13 +10,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from geartrain.numerics.arrays import Bools, Floats, Ints
 from geartrain.synthesis.join.partial_assignments import PartialAssignments
 from geartrain.synthesis.join.polynomial_signs import ROUNDING, SignPolynomial, Signs
-from geartrain.synthesis.join.product_lists import Floats, Ints, Item
-
-Bools = NDArray[np.bool_]
+from geartrain.synthesis.join.product_lists import Item
 
 
 @dataclass(frozen=True)

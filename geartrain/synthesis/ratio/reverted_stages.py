@@ -1,4 +1,8 @@
-"""Reverted trains: all stages have the same sum of counts, so each sum is a search of its own, and a small one."""
+"""Reverted trains: all stages have the same sum of counts, so each sum is a search of its own, and a small one.
+
+As an exact join (equal sums as equations, stages in order as conditions) the same took 0.6 times as long for two stages
+of 15 to 120 teeth, 1.3 times for 12 to 400, and 1.5 to 4.3 times for three and four stages: so it stays.
+"""
 
 from __future__ import annotations
 

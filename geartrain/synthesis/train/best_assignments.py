@@ -10,13 +10,13 @@ from typing import Any
 
 import numpy as np
 
+from geartrain.numerics.arrays import Bools, Floats, Ints
 from geartrain.numerics.bounded_polynomials import BoundedQuotient, WholeTerm, products_of
 from geartrain.numerics.exact import as_float
 from geartrain.numerics.integer_columns import distinct_quotients
 from geartrain.synthesis.join.exact_join import AssignmentColumns
 from geartrain.synthesis.join.polynomial_signs import ROUNDING
-from geartrain.synthesis.join.product_lists import Floats, Ints, Tallies
-from geartrain.synthesis.join.solution_windows import Bools
+from geartrain.synthesis.join.product_lists import Tallies
 from geartrain.synthesis.train.output_requirements import OutputRequirement
 from geartrain.synthesis.train.train_findings import Assignment, By
 

@@ -1,9 +1,8 @@
 """From a declared train to its real teeth: every gear pair with a tooth form, every pin whose dimensions are known.
 
-How large real teeth are, and how far apart their axes want to stand, where only their shape is declared.
-
-Triangular teeth have sizes up to a scale, and a wheel with several mates has one size: from the first pair of wheels
-that hang together the others follow, each at the distance its own law asks for.
+And how large they are where only their shape is declared: triangular teeth have sizes up to a scale, and a wheel with
+several mates has one size, so from the first pair of wheels that hang together the others follow (breadth first), each
+at the distance its own law asks for.
 """
 
 from __future__ import annotations

@@ -1,4 +1,8 @@
-"""Loops of gears on a sphere, and what their teeth must satisfy to be put together: whole numbers of teeth inside."""
+"""Loops of gears on a sphere, and what their teeth must satisfy to be put together: equation (3) of docs/closure.md.
+
+Whole numbers of teeth inside each loop of a basis: the regions between the meshes, by Euler's formula, or fundamental
+loops where arcs cross.
+"""
 
 from __future__ import annotations
 
@@ -28,9 +32,9 @@ def wrapped(turns: Floats) -> Floats:
 
 
 def closes(teeth: Sequence[NDArray[np.int64]], rule: Sequence[Fraction | float], tolerance: float) -> Mask:
-    """Whether sum z_k a_k is an integer: exactly where every a_k is a Fraction, else to `tolerance` pitches.
+    """Whether sum z_k a_k is an integer, docs/closure.md (3): exactly where all a_k are Fractions, else to `tolerance`.
 
-    z_k a_k is the signed number of teeth that gears of kind k have inside one loop of meshes.
+    z_k a_k is the signed number of teeth that gears of kind k have inside one loop of meshes; `tolerance` in pitches.
     """
     if all(isinstance(share, Fraction) for share in rule):
         whole = lcm(*(Fraction(share).denominator for share in rule))

@@ -1,4 +1,4 @@
-"""Axes moved a little until integers fit: all meshes of one pitch, or all loops closed."""
+"""Axes moved a little until all meshes have one pitch (Levenberg's method), or all loops close (Newton's)."""
 
 from __future__ import annotations
 
@@ -22,8 +22,8 @@ _EXACT = 1e-11
 """Residual (rad, or pitches) under which a fit counts as exact: rounding leaves about 1e-15."""
 _TRIES = (0.0, 0.01, 0.02, 0.04, 0.08)
 """Random moves (rad) that break a symmetry at which the tangencies are not independent."""
-_MOST_DENSE = 600
-_PHASE_DAMPING = 1e-4
+_MOST_DENSE = 600  # meshes: a dense singular value decomposition grows with the cube of their number
+_PHASE_DAMPING = 1e-4  # keeps axes where neither loops nor pitches ask for a move
 _LONGEST = 0.1
 """Largest move of an axis in one step (rad)."""
 

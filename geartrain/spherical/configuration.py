@@ -1,8 +1,7 @@
-"""A set of gears on a sphere: where their axes point, who meshes with whom, and of which kinds they are.
+"""A set of gears on a sphere: where their axes point, who meshes with whom, of which kinds they are, and as a train.
 
-What is alike in a set on a sphere: kinds of gear, kinds of mesh, and how near gears come that do not mesh.
-
-A configuration as the declaration of a train: a link, a bevel wheel and an axis for each gear.
+Kinds of gear and of mesh, how near gears come that do not mesh, and the declaration of a train: a link, a bevel wheel
+and an axis for each gear.
 """
 
 from __future__ import annotations

@@ -1,8 +1,8 @@
-"""Cones of gears on a sphere, one pair at a time: pitch and base cones, pressure angles, and limits of shape.
+"""Cones of gears on a sphere, one pair at a time, and how angles between axes change as axes move.
 
-All angles in radians, all lengths in radii of the sphere on which the teeth are measured, axes outwards.
-
-How angles between axes, and azimuths about them, change as axes move: sparse rows for Newton's method.
+Pitch and base cones, pressure angles and limits of shape: docs/sphere.md, sections 1 and 4. Derivatives come as sparse
+rows for Newton's method. All angles in radians, all lengths in radii of the sphere on which the teeth are measured,
+axes outwards.
 """
 
 from __future__ import annotations
@@ -24,17 +24,16 @@ MEAN_PRESSURE = radians(20)
 
 
 def pitch_cone(S: ArrayLike, z_i: ArrayLike, z_j: ArrayLike) -> Floats:
-    """Half-angle of gear i's pitch cone (rad): rho_i = atan2(sin S, cos S + z_j/z_i).
+    """Half-angle of gear i's pitch cone [rad]: rho_i = atan2(sin S, cos S + z_j/z_i), docs/sphere.md (1).
 
-    S is the angle between outward axes (rad, 0 < S < pi), z the teeth. From w_i sin rho_i = -w_j sin rho_j,
-    w_i/w_j = -z_j/z_i and rho_i + rho_j = S: Willis with the frame as carrier. pi/2 is a crown gear, more an
-    internal gear.
+    S is the angle between outward axes (rad, 0 < S < pi), z the teeth. From w_i sin rho_i = -w_j sin rho_j, w_i/w_j =
+    -z_j/z_i and rho_i + rho_j = S: Willis with the frame as carrier. pi/2 is a crown gear, more an internal gear.
     """
     return np.asarray(np.arctan2(np.sin(S), np.cos(S) + np.divide(z_j, z_i)), dtype=float)
 
 
 def operating_pitch(S: ArrayLike, z_i: ArrayLike, z_j: ArrayLike) -> Floats:
-    """lambda = sin rho_i / z_i = sin rho_j / z_j of one pair: sin S / sqrt(z_i^2 + z_j^2 + 2 z_i z_j cos S).
+    """lambda = sin rho_i / z_i = sin rho_j / z_j = sin S / sqrt(z_i^2 + z_j^2 + 2 z_i z_j cos S), docs/sphere.md (1).
 
     In radii of the sphere; the module is 2 lambda, the circular pitch 2 pi lambda. Arguments as in `pitch_cone`.
     """

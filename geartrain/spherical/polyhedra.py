@@ -85,6 +85,7 @@ class Polyhedron:
         guesses = np.linalg.inv(corners[0]) @ corners[alike]  # rows: v -> v @ guess
         distance, image = self._nearest(self.vertices, self.vertices @ guesses)
         image = image[distance.max(axis=1) < NEAR * self.size]
+        # orthogonal Procrustes
         left, _, right = np.linalg.svd(self.vertices[image].transpose(0, 2, 1) @ self.vertices)
         found: Floats = left @ right  # of all matrices the best one for all vertices, not for the first corner only
         return found

@@ -1,4 +1,7 @@
-"""Where axes may stand while a set keeps its symmetries, and the places where all its meshes have one pitch."""
+"""Where axes may stand while a set keeps its symmetries, and the places where all its meshes have one pitch.
+
+Newton's method on log lambda, docs/sphere.md (1), over one axis of each orbit.
+"""
 
 from __future__ import annotations
 
@@ -14,7 +17,7 @@ if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats, Ints
 
 
-_SOLVED = 1e-13
+_SOLVED = 1e-13  # of a log pitch: rounding of axes leaves about 1e-15
 _MOST_STEPS = 60
 _LONGEST = 0.2  # rad, of one step
 
@@ -130,6 +133,7 @@ def _newton(wrong: Callable[[Floats], Floats], unknown: Floats) -> tuple[Floats,
 
 
 def _slopes(wrong: Callable[[Floats], Floats], unknown: Floats) -> Floats:
+    # central differences: 1e-5 leaves slopes to 1e-10, enough for steps that correct themselves
     apart = 1e-5 * np.eye(len(unknown))
     return np.array([(wrong(unknown + d) - wrong(unknown - d)) / 2e-5 for d in apart]).T
 

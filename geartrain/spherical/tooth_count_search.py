@@ -1,4 +1,4 @@
-"""Tooth numbers that nearly share one pitch, with loops that close and tips that clear inside the search."""
+"""Tooth numbers that nearly share one pitch, by exhaustive search: loops that close and tips that clear come first."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
 
 Order = Literal["mismatch", "teeth", "front"]
-_MOST_SETS = 2 * 10**8
+_MOST_SETS = 2 * 10**8  # each is looked at
 
 
 def suggest_tooth_counts(

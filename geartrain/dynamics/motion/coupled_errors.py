@@ -1,7 +1,7 @@
 """Pairs that hang on each other, as around a differential: their errors at one position are found together.
 
-Newton's iteration on delta_m = sense_m error_m(S_m + gain_m delta), at all positions at once. Laws have corners, so a
-step that does not lessen the residual is halved.
+Newton's method with halved steps, equation (5) of docs/motion.md, on delta_m = sense_m error_m(S_m + gain_m delta), at
+all positions at once. Laws have corners, so a step that does not lessen the residual is halved.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
     Flags = NDArray[np.bool_]
 
-_MOST_STEPS = 120
+_MOST_STEPS = 120  # halved steps count too
 _SETTLED = 2e-15  # rad, over the scale of the angles added
 _FORGIVEN = 1e-9  # rad: a residual that no step lessens any more, at a corner
 
@@ -50,7 +50,7 @@ class CoupledErrors:
         return error, slope
 
     def jacobian(self, slope: Floats) -> Floats:
-        """I - slope gain at each position, (n, pairs, pairs)."""
+        """J = I - slope gain of equation (5) at each position, (n, pairs, pairs)."""
         return np.eye(len(self.laws)) - slope.T[:, :, None] * self.gain
 
 
@@ -65,6 +65,7 @@ def solve_coupled_errors(
     delta, slope = _newton(pairs, base)
     jacobian = pairs.jacobian(slope)
     speed = np.stack([np.broadcast_to(w, base.shape[1:]) for w in turning])
+    # 1 for ideal teeth: not positive any more means past a dead centre
     if not (_determinant(jacobian) > 0).all():
         raise _refusal(pairs, "past a dead centre: one of them drives another faster than it is driven by it")
     rate = _solve(jacobian, slope * speed)
@@ -114,7 +115,7 @@ def _stepped(matrices: Floats, right: Floats) -> Floats:
 
 
 def _solve(matrices: Floats, right: Floats) -> Floats:
-    """Solutions (pairs, n) of n small systems; by Cramer's rule for two."""
+    """Solutions (pairs, n) of n small systems; by Cramer's rule for two, the usual number around a differential."""
     if matrices.shape[1] == 1:
         return np.asarray(right / matrices[:, 0, 0])
     if matrices.shape[1] == 2:

@@ -1,7 +1,8 @@
-"""How the errors of pairs spread to links: the Willis system with its speeds taken out, solved block by block.
+"""How the errors of pairs spread to links: equation (2) of docs/motion.md, solved block by block (its section 2).
 
-What is left of it is linear: a (e_i - e_k) + b (e_j - e_k) = c delta, with e the error of a link's angle and delta that
-of the pair's driven side. Blocks are solved once, exactly; after that every link is a sum over a few links before it.
+a (e_i - e_k) + b (e_j - e_k) = c delta, with e the error of a link's angle and delta that of the pair's driven side:
+the Willis system with its speeds taken out. Blocks (matching and strong components) are solved once, exactly; after
+that every link is a sum over a few links before it.
 """
 
 from __future__ import annotations

@@ -27,7 +27,7 @@ MOST_TURNS = 10**12
 """Beyond so many turns of an input, positions as floats no longer tell the teeth of one turn apart."""
 
 
-def _nobody(_: int) -> None:
+def _untold(_: int) -> None:
     pass
 
 
@@ -96,7 +96,7 @@ class MotionRun:
                 Problem(f"{self.samples} positions of the input", "from one to the next it turns", "give 2 or more")
             )
 
-    def go(self, on_done: OnDone = _nobody) -> None:
+    def go(self, on_done: OnDone = _untold) -> None:
         """Count every position, and sharpen the extremes between them.
 
         Parameters
@@ -119,7 +119,7 @@ class MotionRun:
             on_done(len(passage.turns))
         peaks.sharpen(self.motion.ahead if self.turns >= 0 else self.motion.back, self.turns, self.tallies)
 
-    def try_phases(self, count: int, seed: int, on_done: OnDone = _nobody) -> None:
+    def try_phases(self, count: int, seed: int, on_done: OnDone = _untold) -> None:
         """The same run with random phases of the pairs that declare none.
 
         Parameters
@@ -140,7 +140,7 @@ class MotionRun:
             other.go(on_done)
             self.phased.append(other.tallies)
 
-    def estimate(self, on_done: OnDone = _nobody) -> None:
+    def estimate(self, on_done: OnDone = _untold) -> None:
         """Make the cheap estimates, with their true error.
 
         Parameters
@@ -150,7 +150,7 @@ class MotionRun:
         """
         self.estimates = find_estimates(self.motion, self.turns, self.samples, on_done)
 
-    def analyse(self, on_done: OnDone = _nobody) -> None:
+    def analyse(self, on_done: OnDone = _untold) -> None:
         """Make the spectra by exact order.
 
         Parameters

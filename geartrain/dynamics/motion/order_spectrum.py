@@ -1,8 +1,9 @@
 """The spectrum of an output's ripple by exact orders of the input: which pair contributes what.
 
-A pair repeats `cycles` times in a turn of the input, a rational number known exactly, so its harmonics fall on orders
-k cycles. To first order each line is the pair's own harmonic times the output's sensitivity; the line that the composed
-motion really has there is measured beside it. What no line explains is the product of pairs that modulate each other.
+Section 5 of docs/motion.md. A pair repeats `cycles` times in a turn of the input, a rational number known exactly, so
+its harmonics fall on orders k cycles. To first order each line is the pair's own harmonic times the output's
+sensitivity; the line that the composed motion really has there is measured beside it, by a Fourier sum under a Hann
+window. What no line explains is the product of pairs that modulate each other.
 """
 
 from __future__ import annotations
@@ -137,6 +138,7 @@ def _measure(
     for passage in motion.passages(turns, samples):
         at = np.arange(done, done + len(passage.turns)) / (samples - 1)
         done += len(passage.turns)
+        # over whole periods every line closes, and the last position repeats the first; else Hann against leakage
         window = np.where(at < 1, 1.0, 0.0) if closes else 1 - np.cos(2 * np.pi * at)
         angle = InputPhase(passage.turns)
         waves = np.exp(-2j * np.pi * np.stack([angle.cycles(order) for order in orders])) * window

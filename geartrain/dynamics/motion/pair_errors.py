@@ -1,4 +1,7 @@
-"""The errors of each pair of a train that moves: who drives, where its teeth stand, and how its error spreads."""
+"""The errors of each pair of a train that moves: who drives, where its teeth stand, and how its error spreads.
+
+Sections 1 and 3 of docs/motion.md: the driver's forward angle S (3), and the phase at which its teeth start.
+"""
 
 from __future__ import annotations
 
@@ -151,6 +154,7 @@ class PairErrors:
         phase -= self._stands[circuit.id]
         wanted = phase * float(law.ratio) * law.period
         low, high = (phase - 2) * law.period, (phase + 2) * law.period
+        # bisection: an angle grows with its driver's, and laws have corners that other methods stumble on
         for _ in range(_HALVINGS):
             middle = (low + high) / 2
             low, high = (middle, high) if float(law.angle(middle)) < wanted else (low, middle)

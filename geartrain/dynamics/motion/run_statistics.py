@@ -1,9 +1,8 @@
-"""Peaks and moments of an output, gathered stretch by stretch.
+"""Peaks and moments of an output, gathered stretch by stretch, and peaks between the positions of a run.
 
-Extremes of errors and speeds between the positions of a run: the highest of them, looked at more closely.
-
-Errors of teeth have sharp peaks, which a sample misses by up to half a step on either side. The greatest sampled values
-of a run are kept, and the steps around them are sampled again, twice, ever finer.
+Moments of stretches are joined by the update of Chan, Golub and LeVeque (1983). Errors of teeth have sharp peaks, which
+a sample misses by up to half a step on either side: the greatest sampled values of a run are kept, and the steps around
+them are sampled again, twice, ever finer (docs/motion.md, section 5).
 """
 
 from __future__ import annotations
@@ -92,6 +91,7 @@ class RunningStatistics(Result):
         """
         new = len(error)
         centre = float(error.mean())
+        # differences from each stretch's own mean: a sum of squares would lose a small error beside a large lag
         gap = centre - self.centre
         total = self.count + new
         self.square += float(((error - centre) ** 2).sum()) + gap**2 * self.count * new / total

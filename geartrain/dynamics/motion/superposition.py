@@ -1,9 +1,9 @@
-"""Cheap estimates of ripple, and how far off they are: sums over pairs, with none reacting on another.
+"""Cheap estimates of ripple, equation (6) of docs/motion.md, and how far off they are: sums over pairs.
 
-To first order an output's error is the sum of its sensitivities times the pairs' errors. The sum of their ranges bounds
-its range, and with phases that nothing relates the squares of their rms values add. Superposed in phase, the sum
-follows the motion itself as far as the drivers' own errors may be left out of their angles; counting the mean of these
-errors, a lag of some tenths of a pitch, brings most of the rest.
+No pair reacts on another here. To first order an output's error is the sum of its sensitivities times the pairs'
+errors. The sum of their ranges bounds its range, and with phases that nothing relates the squares of their rms values
+add. Superposed in phase, the sum follows the motion itself as far as the drivers' own errors may be left out of their
+angles; counting the mean of these errors, a lag of some tenths of a pitch, brings most of the rest.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""What the collisions of teeth cost: where the speed ratio leaps up, the driven side is struck to its new speed.
+"""What the collisions of teeth cost, where the speed ratio leaps up: Carnot's theorem, equation (7) of docs/motion.md.
 
 The input keeps its speed. A pair whose driven side jumps by one radian a second makes every link l jump by its response
 g_l, so that side strikes with the inertia sum J_l g_l^2; an inelastic blow of a speed difference v takes half of it

@@ -1,8 +1,9 @@
-"""Bearings that turn back within a turn, though their mean speed says nothing of it: behind pins and uneven teeth.
+"""Bearings that turn back within a turn, though their mean speed does not show it: interval bounds, equation (21).
 
-To the mean speed of every link each uneven pair adds g (tau(S) - m) w: g its gain there, tau its speed ratio at the
-angle S of its driver, m the mean of that, w the speed of its driver seen from the carrier. Gains are exact, and w lies
-within bounds that widen from pair to pair; so a bearing named here may turn back, and one not named does not.
+docs/torques.md, section 13. To the mean speed of every link each uneven pair adds g (tau(S) - m) w: g its gain there,
+tau its speed ratio at the angle S of its driver, m the mean of that, w the speed of its driver seen from the carrier.
+Gains are exact, and w lies within bounds that widen from pair to pair; so a bearing named here may turn back, and one
+not named does not.
 """
 
 from __future__ import annotations

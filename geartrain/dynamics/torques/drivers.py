@@ -1,10 +1,10 @@
-"""Who drives each gear pair and coupling: the way power flows through it, seen from its carrier.
+"""Which side drives each gear pair and coupling: from which power flows through it, seen from its carrier.
 
-Where loads are declared the torques tell. Else every pointer on a dial is taken to resist its motion, with a torque
-that nothing says: without loss the multiplier of a pair is linear in these torques, x = sum c_o T_o with T_o >= 0, so
-if all c_o of a pair have one sign power flows one way whatever the pointers weigh, and else the way is open. Pairs
-through which no pointer takes power are asked again: what if the outputs on shafts resisted, all outputs, all shafts,
-and at last every joint. Nothing here hangs on the order in which things are declared.
+"Who drives a pair" in docs/torques.md, section 3. Where loads are declared the torques tell. Else every pointer on a
+dial is taken to resist its motion, with a torque that is not known: without loss the multiplier of a pair is linear in
+these torques, x = sum c_o T_o with T_o >= 0, so if all c_o of a pair have one sign power flows one way whatever the
+pointers weigh, and else the way is open. For pairs through which no pointer takes power, resistance is assumed at the
+outputs on shafts, then at all outputs, all shafts, and at last every joint. The order of declaration has no part in it.
 """
 
 from __future__ import annotations

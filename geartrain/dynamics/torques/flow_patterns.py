@@ -1,9 +1,9 @@
-"""Who drives whom: the patterns of power flow that balance with losses, found block by block.
+"""Patterns of power flow that agree with the losses, equations (5), (7) and (8) of docs/torques.md, block by block.
 
 The balance is piecewise linear, one piece a pattern. Where all pieces have one orientation there is exactly one
-solution; else none (self-locking) or several. Most torques follow one after another: in block triangular form an
-ordinary train has one unknown a block, and only the meshes of one block need their patterns tried together. In a
-block with too many the iteration's answer stands, and says that it was not checked.
+solution (Samelson, Thrall and Wesler); else none (self-locking) or several. Most torques follow one after another: in
+block triangular form an ordinary train has one unknown a block, and only the meshes of one block need their patterns
+tried together. In a block with too many the iteration's answer stands, and it is said that it was not checked.
 """
 
 from __future__ import annotations
@@ -18,10 +18,10 @@ from geartrain.dynamics.torques.torque_balance import DrivingSides, SolvedTorque
 from geartrain.numerics.block_triangular import Block
 from geartrain.numerics.elimination import LinearForm, feasible
 
-_MOST_TRIED = 14  # lossy torques of a block whose patterns are all tried
+_MOST_TRIED = 14  # lossy torques of a block whose patterns are all tried: 2^14 small solutions
 _MOST_OPEN = 10  # the same where torques stay open anyway, and the iteration has found some that balance
 _FEW = 4  # lossy torques whose patterns are not worth a trial in floats
-_CHUNK = 2**21  # numbers in the matrices tried at once
+_CHUNK = 2**21  # numbers in the matrices tried at once: 16 MB of float64
 _MOST_ROUNDS = 50
 _MOST_FLOWS = 256  # kept while blocks are gone through
 _NEAR = 1e-9  # of the greatest torque: a direction this faint may be either
@@ -52,7 +52,10 @@ class _Partial:
 
 
 def find_flow_patterns(balance: TorqueBalance) -> tuple[tuple[FlowPattern, ...], bool]:
-    """All consistent flows, and whether all patterns were tried."""
+    """All consistent flows, and whether all patterns were tried.
+
+    Dulmage and Mendelsohn's blocks in order; in each, enumeration of the patterns of its own pairs, or iteration.
+    """
     found = _through(balance, balance.parts)
     if found is None:
         found = _through(balance, [balance.whole])
@@ -152,7 +155,7 @@ def _solutions(
 def _is_consistent(
     columns: Sequence[TorqueUnknown], block: Block, sides: Sides, values: Values, known: Mapping[int, Fraction]
 ) -> bool:
-    """True if power flows as the sides say, or, where torques are open, if there are some with which it does."""
+    """True if power flows as the sides say, equation (7); where torques are open, if some exist with which it does."""
     if not all(columns[column].admits(sides[column], value or Fraction(0)) for column, value in values.items()):
         return False
     bound = [column for column, value in values.items() if value is None and (sides[column] or columns[column].barred)]
@@ -186,7 +189,7 @@ def _forms(known: Mapping[int, Fraction]) -> dict[int, LinearForm]:
 def _candidates(
     columns: Sequence[TorqueUnknown], block: Block, lossy: Sequence[int], base: Sides, known: Mapping[int, Fraction]
 ) -> Iterator[Sides]:
-    """Sides that may be consistent: all of them, or, where a block is large, those that are so in floats."""
+    """Sides that may be consistent: all of them, or, with several lossy torques, those that are so in floats."""
     every = ({**base, **dict(zip(lossy, sides, strict=True))}
              for sides in product(*(columns[column].sides for column in lossy)))  # fmt: skip
     if len(lossy) < _FEW or len(block.rows) != len(block.columns):
@@ -200,13 +203,14 @@ def _candidates(
 def _iterate(
     columns: Sequence[TorqueUnknown], block: Block, lossy: Sequence[int], base: Sides, known: Mapping[int, Fraction]
 ) -> Sides | None:
-    """Begin without losses, and turn round every mesh through which power flows against its direction."""
+    """Begin without losses, and turn round every mesh through which power flows against its direction; repeat."""
     sides: Sides = {**base, **dict.fromkeys(lossy, 0)}
     seen: list[Sides] = []
     for _ in range(_MOST_ROUNDS):
         values = _solve(columns, block, sides, known)
         if values is None:
             return None
+        # the first round is without losses, which is no pattern
         if seen and _is_consistent(columns, block, sides, values, known):
             return sides
         wanted = {column: -1 if (values[column] or 0) * columns[column].turn > 0 else 1 for column in lossy}
@@ -225,6 +229,7 @@ class _Floats:
 
         self.block = block
         self.turns = np.array([columns[column].turn for column in block.columns])
+        # patterns hang on signs alone; loads of any size are brought within the range of floats
         greatest = max(map(abs, known.values()))
         self.right = np.array([-float(known[row] / greatest) for row in block.rows])
         size = len(block.rows)
@@ -244,5 +249,6 @@ class _Floats:
         except np.linalg.LinAlgError:
             yield from chunk
             return
+        # a direction that fails by rounding only is left to the fractions
         against = np.max(found * self.turns * sides, axis=1) > _NEAR * np.max(np.abs(found), axis=1)
         yield from (each for each, bad in zip(chunk, against.tolist(), strict=True) if not bad)

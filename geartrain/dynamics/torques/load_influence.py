@@ -1,8 +1,9 @@
-"""What every torque of a train without losses owes to each of its loads, exact and whatever the loads weigh.
+"""The influence of each load on every torque of a train without losses, exact and whatever the loads weigh.
 
-One solution for all loads at once: each load is a symbol, and every unknown torque becomes a linear form of symbols.
-Where loads go on through one torque only, and with one sign, only their sum matters from there on: it becomes a
-symbol of its own, so that long trains stay cheap and their numbers short.
+x = sum c_o T_o, point 3 of "Who drives a pair" in docs/torques.md: one elimination for all loads at once, each load a
+symbol, and every unknown torque a linear form of symbols. Where loads go on through one torque only, and with one sign,
+only their sum matters from there on: it becomes a symbol of its own, so that long trains stay cheap and their numbers
+short.
 """
 
 from __future__ import annotations
@@ -48,7 +49,7 @@ NOTHING = LoadGroup(0, ())
 
 
 class LoadInfluence(NamedTuple):
-    """What one mesh owes to loads: those that make its multiplier positive, and negative; `open` if nothing says."""
+    """Which loads act on one mesh: those that make its multiplier positive, and negative; `open` if nothing tells."""
 
     plus: LoadGroup = NOTHING
     minus: LoadGroup = NOTHING
@@ -56,7 +57,7 @@ class LoadInfluence(NamedTuple):
 
 
 def find_load_influence(balance: TorqueBalance, loads: UnitLoads) -> dict[str, LoadInfluence] | None:
-    """The share of every mesh; None where no torques balance the loads.
+    """The influence of loads on every mesh; None where no torques balance the loads.
 
     balance   without losses; its known torques only tell which links are loaded
     """

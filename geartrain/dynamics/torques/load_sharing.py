@@ -1,4 +1,7 @@
-"""How pairs that the balance leaves open share a torque: as declared, or alike among equal planets."""
+"""How pairs that the balance leaves open share a torque: as declared, equation (11), or alike among equal planets.
+
+docs/torques.md, section 8.
+"""
 
 from __future__ import annotations
 

@@ -1,8 +1,8 @@
-"""What a pair loses: declared, or the mean efficiency of its teeth or of its pin, at the torque that is constant there.
+"""What a pair loses: as declared, or the mean efficiency of its teeth or of its pin, equations (17) to (20).
 
-Over a turn the torques on the two sides of a pair cannot both be constant. Where that of the driver is, a part
-mean(eta) of the work arrives; where that of the driven side is, mean(tau)/mean(tau/eta). Which of the two is given
-follows from the balance: the link whose own row determines the pair.
+docs/torques.md, section 12. Over a turn the torques on the two sides of a pair cannot both be constant. Where that of
+the driver is, a part mean(eta) of the work arrives; where that of the driven side is, mean(tau)/mean(tau/eta). Which of
+the two is given follows from the balance: the link whose own row determines the pair.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from geartrain.kinematics.circuits import Circuit
 from geartrain.teeth.transmission_figures import SlidingEfficiency
 
 _ONE = Fraction(1)
-_ROUNDING = 1e-9
+_ROUNDING = 1e-9  # by so much the quadrature of a mean may pass 1
 
 
 @dataclass(frozen=True)

@@ -1,4 +1,4 @@
-"""What a balance of mean torques does not count, named: friction without a share of the power, swings within a turn."""
+"""What a balance of mean torques does not count, by name: the table in section 13 of docs/torques.md."""
 
 from __future__ import annotations
 
@@ -74,7 +74,7 @@ def _teeth(
 def _open(
     setting: LoadCase, busy: Sequence[Circuit], means: Mapping[str, MeanEfficiencies]
 ) -> Iterator[NeglectedEffect]:
-    """Losses of pairs that roll nobody knows which way."""
+    """Losses of pairs whose direction of rolling is not determined."""
     found = tuple(
         circuit.id
         for circuit in busy
@@ -95,7 +95,7 @@ def _all_bearings(setting: LoadCase) -> Iterator[NeglectedEffect]:
 
 
 def _bearings(setting: LoadCase) -> Iterator[NeglectedEffect]:
-    """Bearings that turn nobody knows which way, or now this way and now that."""
+    """Bearings whose direction of turning is not determined, or changes within a turn."""
     rubbing = _rubbing(setting)
     free = tuple(link for link in rubbing if setting.relative(link, setting.tree.parent[link][0]) is None)
     if free:

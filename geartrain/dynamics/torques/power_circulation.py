@@ -1,4 +1,4 @@
-"""Streams of power, and the part of them that runs in closed loops."""
+"""Streams of power, and the part of them that runs in closed loops: cycles cancelled, the widest first."""
 
 from __future__ import annotations
 
@@ -124,7 +124,7 @@ def find_circulation(
 
 
 def _widest(streams: Sequence[PowerStream], left: Sequence[Fraction]) -> list[int]:
-    """The closed way whose narrowest stream is the widest, as places of its streams; empty where there is none."""
+    """The closed way whose narrowest stream is widest, by bisection over widths, as places of its streams; or none."""
     best = _closed(streams, [at for at, power in enumerate(left) if power])
     if not best:
         return []
@@ -138,7 +138,7 @@ def _widest(streams: Sequence[PowerStream], left: Sequence[Fraction]) -> list[in
 
 
 def _closed(streams: Sequence[PowerStream], open_: Iterable[int]) -> list[int]:
-    """One closed way through the streams at these places, or none."""
+    """One closed way through the streams at these places, by depth-first search without recursion; or none."""
     after: dict[PowerNode, list[int]] = {}
     for at in open_:
         after.setdefault(streams[at].source, []).append(at)
@@ -162,7 +162,7 @@ def _closed(streams: Sequence[PowerStream], open_: Iterable[int]) -> list[int]:
 
 
 def _mutual(streams: Sequence[PowerStream], node: PowerNode) -> frozenset[PowerNode]:
-    """All nodes that power from this one reaches and that reach it."""
+    """The strongly connected component of a node: all that power from it reaches and that reach it."""
     ways: list[set[PowerNode]] = []
     for pairs in (((s.source, s.target) for s in streams), ((s.target, s.source) for s in streams)):
         after: dict[PowerNode, list[PowerNode]] = {}

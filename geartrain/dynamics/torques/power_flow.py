@@ -3,8 +3,6 @@
 The power that a link gives to a pair is minus its torque there times its absolute speed. A pair takes in what it gives
 on and what it loses; a shaft gives on all it takes in. Links that are locked together are one shaft. A friction of a
 bearing stands between its link and the carrier like a pair that only loses.
-
-Amounts of power for a reader: watts where torques and speeds are real, and shares of the whole.
 """
 
 from __future__ import annotations

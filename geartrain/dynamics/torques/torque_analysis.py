@@ -36,7 +36,7 @@ class UnknownLinks:
 
 
 def find_torques(setting: LoadCase) -> Torques:
-    """Torques under the declared loads, or under the friction of bearings alone."""
+    """Torques under the declared loads, or under the friction of bearings alone: equations (3) to (8) and (10)."""
     loads = {link: torque.base for link, torque in setting.case.loads.items()}
     if not loads and not any(map(setting.bearing, setting.train.links)):
         text = "no load is declared: give `loads` on links, negative against their turning, or `bearing` friction"
@@ -194,7 +194,7 @@ def _locks(setting: LoadCase) -> tuple[tuple[str, str], ...]:
 
 
 def _mesh(setting: LoadCase, circuit: Circuit, means: MeanEfficiencies | None) -> LoadedPair:
-    """A circuit as a path of power, with what its teeth lose; nothing where nobody knows which way it rolls."""
+    """A circuit as a path of power, with what its teeth lose; without loss where the way it rolls is not determined."""
     i, j, k = circuit.i, circuit.j, circuit.carrier
     senses = (setting.sense(i), setting.sense(j), setting.sense(k))
     relative = setting.relative(i, k) or Fraction(0)

@@ -1,8 +1,9 @@
-"""Torque balance of every link: the transpose of the Willis system, exact, with losses applied in carriers' frames.
+"""Torque balance of every link, A^T x + T = 0: the transpose of the Willis system, exact, with losses.
 
-A mesh of links i and j with carrier k and row a (w_i - w_k) + b (w_j - w_k) = 0 carries one multiplier x: without loss
-its torques are a x on i, b x on j, and minus their sum on k. Where i drives in the carrier's frame, j gets the share
-eta of its torque; where j drives, i does. The loss is the driver's power in that frame times 1 - eta: never negative.
+Equations (1) to (7) of docs/torques.md. A mesh of links i and j with carrier k and the row a (w_i - w_k) +
+b (w_j - w_k) = 0 carries one multiplier x: without loss its torques are a x on i, b x on j, and minus their sum on k.
+Where i drives in the carrier's frame, j gets the share eta of its torque; where j drives, i does. The loss is the
+driver's power in that frame times 1 - eta: never negative.
 """
 
 from __future__ import annotations
@@ -25,12 +26,12 @@ LoadShares = tuple[str, Mapping[str, Fraction]]
 
 @dataclass(frozen=True)
 class LoadedPair:
-    """One gear pair or coupling as a path of power.
+    """One gear pair or coupling as a path of power: equations (1), (2), (4) and (5) of docs/torques.md.
 
     links, senses   i, j, k, and 1 or -1 for the sense of each link's axis
     a, b            coefficients of its row
     rolling         a (w_i - w_k), which is -b (w_j - w_k): 0 where the two do not roll on each other
-    forward         efficiency with i driving, `backward` with j driving; 0 or less locks
+    forward         efficiency with i driving, `backward` with j driving; at most 1, 0 or less locks
     """
 
     id: str
@@ -70,13 +71,13 @@ class LoadedPair:
         return self.forward if side > 0 else self.backward if side < 0 else Fraction(1)
 
     def torques(self, side: int) -> tuple[Fraction, Fraction, Fraction]:
-        """Torques on i, j, k per unit of the multiplier."""
+        """Torques on i, j, k per unit of the multiplier: equation (5)."""
         left = self.a * (self.backward if side < 0 else Fraction(1))
         right = self.b * (self.forward if side > 0 else Fraction(1))
         return left * self.senses[0], right * self.senses[1], -(left + right) * self.senses[2]
 
     def power(self, multiplier: Fraction) -> Fraction:
-        """Power that flows from i to j in the carrier's frame, before losses where i drives."""
+        """Power p that flows from i to j in the carrier's frame, before losses where i drives: equation (4)."""
         return -multiplier * self.rolling
 
 

@@ -1,4 +1,7 @@
-"""Verdicts on torques: why nothing balances, which of several balances is given, and who must help whom."""
+"""Verdicts on torques: why nothing balances, which of several balances is given, where the input must drive as well.
+
+Sections 5, 6, 8 and 11 of docs/torques.md.
+"""
 
 from __future__ import annotations
 
@@ -13,7 +16,7 @@ from geartrain.dynamics.torques.torque_results import NeglectedEffect, TorqueVer
 from geartrain.dynamics.torques.virtual_work import balancing_torque, unbalanced_motions
 from geartrain.numerics.decimal_text import decimal
 
-_GREAT = 10**12  # a load so many times as great makes constant friction as good as nothing
+_GREAT = 10**12  # lambda of section 6: beside a load so many times as great, constant friction hardly matters
 
 
 @dataclass(frozen=True)

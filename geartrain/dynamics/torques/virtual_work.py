@@ -1,6 +1,7 @@
-"""Equilibrium by virtual work: loads balance if they do no work in any motion that the known constraints leave.
+"""Equilibrium by virtual work: equations (14) to (16) of docs/torques.md.
 
-Speeds do not enter. A link may turn as it likes and its torque be determined all the same.
+Loads balance if they do no work in any motion that the known constraints leave. Speeds do not enter: a link may turn as
+it likes and its torque be determined all the same.
 """
 
 from __future__ import annotations
@@ -32,9 +33,9 @@ def speed_forms(system: WillisSystem) -> dict[str, LinearForm]:
 def unbalanced_motions(
     system: WillisSystem, loads: Mapping[str, Fraction], still: Collection[str]
 ) -> list[VirtualMotion]:
-    """Independent motions with some links at rest, in one of which at least the loads do work; none if they balance.
+    """Independent motions in one of which at least the loads do work, equation (15); none if they balance.
 
-    still   the links whose torque is unknown: it does no work then
+    still   the links whose torque is unknown: they stand still in all these motions, and it does no work
     """
     held = [WillisEquation(f"still {link}", "fixed", ((link, 1),)) for link in still]
     forms = _forms(system.links, [*(row for row in system.equations if row.kind != "input"), *held])
@@ -47,7 +48,7 @@ def unbalanced_motions(
 
 
 def balancing_torque(motions: Sequence[VirtualMotion], link: str) -> Fraction | None:
-    """The torque on one link that takes up what the loads do in every motion; None where no single one does."""
+    """The torque on one link that takes up what the loads do in every motion, equation (16); None where none does."""
     found: Fraction | None = None
     for motion in motions:
         speed = motion.speeds.get(link, Fraction(0))

@@ -1,7 +1,7 @@
 """What collisions of one pair of teeth cost, and from what speed its quasi-static law is void.
 
-Where the speed ratio tau falls at a rate s = max(-d tau / dS), the driven inertia J stays in contact at the driver's speed w if
-the load torque is at least J w^2 s; under a load T the law is void above w = sqrt(T / (J s)).
+Where the speed ratio tau falls at a rate s = max(-d tau / dS), the driven inertia J stays in contact at the driver's
+speed w if the load torque is at least J w^2 s; under a load T the law is void above w = sqrt(T / (J s)).
 """
 
 from __future__ import annotations

@@ -75,23 +75,10 @@ def _pairs(work: SolidModel) -> tuple[str, Rows]:
         first, second = gear.pair
         form = gear.tooth_form or declared.tooth_form
         counts = [declared.wheels[wheel][1].count for wheel in gear.pair]
-        distance = _between(work, first, second)
-        rows.append((gear.name, first, second, *counts, carriers[gear.name], form.form if form else "", distance))
+        distance = work.layout.axis_distance(first, second)
+        shown = "" if distance is None else f"{distance:.9g}"
+        rows.append((gear.name, first, second, *counts, carriers[gear.name], form.form if form else "", shown))
     return "pair first second first_teeth second_teeth carrier form distance_mm", rows
-
-
-def _between(work: SolidModel, first: str, second: str) -> str:
-    """Distance of two parallel axes."""
-    one, other = (work.layout.wheels[each] for each in (first, second))
-    along, across = (
-        work.layout.axes[each.axis].direction if each.axis in work.layout.axes else (0.0, 0.0, 1.0)
-        for each in (one, other)
-    )
-    if abs(abs(sum(a * b for a, b in zip(along, across, strict=True))) - 1) > 1e-9:
-        return ""
-    away = [a - b for a, b in zip(one.centre, other.centre, strict=True)]
-    rise = sum(a * b for a, b in zip(away, along, strict=True))
-    return f"{max(sum(each * each for each in away) - rise * rise, 0.0) ** 0.5:.9g}"
 
 
 def _circuits(work: SolidModel) -> tuple[str, Rows]:

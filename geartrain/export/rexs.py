@@ -117,9 +117,9 @@ class _Unit:
         worm = "worm_gear" in kinds
         kind = "worm_stage" if worm else "bevel_stage" if "bevel_gear" in kinds else "cylindrical_stage"
         attributes = []
-        if kind == "cylindrical_stage":
-            places = [self.work.layout.wheels[each] for each in (first, second)]
-            attributes.append(_mm("center_distance", _distance(*places)))
+        distance = self.work.layout.axis_distance(first, second)
+        if kind == "cylindrical_stage" and distance is not None:
+            attributes.append(_mm("center_distance", distance))
         number = self.add(kind, gear.name, attributes)
         self.relate("assembly", assembly=unit, part=number)
         if worm and self.declared.wheels[second][1].kind == "worm":
@@ -179,9 +179,3 @@ def _frame(
     for name, vector in (("u_axis_vector", along), ("support_vector", point), ("w_axis_vector", right)):
         yield {"id": name, "unit": "mm", "floating_point_array": [float(each) for each in vector]}
     yield {"id": "reference_component_for_position", "reference_component": reference}
-
-
-def _distance(first: WheelPlace, second: WheelPlace) -> float:
-    """Of the two wheels' axes (mm), those being parallel: of their centres but for the height."""
-    a, b = first.centre, second.centre
-    return float(((a[0] - b[0]) ** 2 + (a[1] - b[1]) ** 2) ** 0.5)

@@ -203,6 +203,7 @@ def _edges(contour: Contour) -> Iterator[Floats | _Arc]:
         if at >= 0:
             start, end, bulge = contour.points[at], contour.points[(at + 1) % count], contour.bulges[at]
             chord = end - start
+            # the middle of an arc is off the middle of its chord by half the bulge times the chord, to its right
             yield _Arc(start, (start + end) / 2 + np.array([chord[1], -chord[0]]) * bulge / 2, end)
 
 
@@ -216,4 +217,4 @@ def _smooth(line: Floats) -> Iterator[Floats]:
         if len(part) < _CURVED:
             yield from (part[at : at + 2] for at in range(len(part) - 1))
         else:
-            yield thinned(line[low : high + 1], FINE / 4)
+            yield thinned(line[low : high + 1], FINE / 4)  # finer than chords: the curve may leave them by FINE / 2

@@ -28,7 +28,7 @@ def _body(stage: SceneContext, link: str) -> SceneBody:
     tree, train = stage.train.tree, stage.train
     label = tree.axis(link) or ""
     place = stage.layout.axes.get(label)
-    # coaxial links hang on the link that bears their axis, however their joints were declared
+    # coaxial links are parts of the link that bears their axis, however their joints were declared
     bearer = tree.top.get(link)
     speed = stage.speed(link)
     return SceneBody(

@@ -1,4 +1,4 @@
-"""Dials, where a scale stands and which way it looks, and pointers, what they show and what they hang on."""
+"""Dials, where a scale stands and which way it looks, and pointers, what they show and on which pairs they depend."""
 
 from __future__ import annotations
 

@@ -45,6 +45,7 @@ def laws_and_sources(composition: ErrorComposition) -> tuple[tuple[ErrorLawTable
     sources = []
     for source in composition.sources:
         law = tabulated(source.id, source.law)
+        # bit by bit: laws that differ only by rounding come from pairs that are not alike
         key = law.period, law.breaks.tobytes(), law.coefficients.tobytes()
         laws.setdefault(key, law)
         joint = composition.spread.joints[source.pair]
@@ -75,9 +76,10 @@ def tabulated(pair: str, law: ToothLaw) -> ErrorLawTable:
     pitch = (float(law.ratio) or 1.0) * law.period
     # where rounding keeps all tables from the tolerance, the nearest one
     table = min(tables, key=lambda each: (max(each.uncertainty / pitch, TOLERANCE), each.coefficients.size))
+    # corners, where the error has a kink, part cells: no polynomial runs across one
     breaks = np.sort(np.concatenate((np.arange(table.cells + 1) * (law.period / table.cells), table.corners)))
-    breaks[-1] = law.period
-    wide = np.diff(breaks) > 0
+    breaks[-1] = law.period  # not cells times a quotient, which rounds
+    wide = np.diff(breaks) > 0  # a corner on the border of a cell leaves none between
     return ErrorLawTable(
         pair,
         law.period,
@@ -87,7 +89,7 @@ def tabulated(pair: str, law: ToothLaw) -> ErrorLawTable:
     )
 
 
-_TRIED = 257  # positions at which pairs that hang on each other are tried
+_TRIED = 257  # positions at which pairs that depend on each other are tried
 
 
 @dataclass(frozen=True, slots=True)
@@ -165,7 +167,7 @@ def _followed(stage: SceneContext, motion: Motion) -> MovementStart:
 
 
 def _try(composition: ErrorComposition, turns: float) -> None:
-    """Raises `GearTrainError` where pairs that hang on each other have no common position."""
+    """Raises `GearTrainError` where pairs that depend on each other have no common position."""
     import numpy as np
 
     if any(step.coupled for step in composition.steps):

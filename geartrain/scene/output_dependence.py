@@ -1,4 +1,4 @@
-"""What an output hangs on: the pairs whose error would move it, exactly.
+"""What an output depends on: the pairs whose error would move it, exactly.
 
 An error in one pair is a right-hand side in its row. What it does to an output is the weight of that row in the one
 combination of rows that gives the output, so that one elimination of the transposed system answers for all outputs.

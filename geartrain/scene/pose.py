@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
 
 
-_ROUNDS, _SETTLED = 500, 1e-14  # of pairs that hang on each other; rad
+_ROUNDS, _SETTLED = 500, 1e-14  # of fixed-point iteration, for pairs that depend on each other; rad
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,7 +49,7 @@ def turns_of(speed: str | None, turns: Fraction) -> Fraction:
 def scene_pose(scene: Scene, turns: Fraction = Fraction(0)) -> ScenePose:
     """The pose after `turns` of the lead: mean angles exact, errors of teeth and pins from the scene's tables.
 
-    Raises `RangeError` where pairs that hang on each other do not settle.
+    Raises `RangeError` where pairs that depend on each other do not settle.
     """
     error = body_errors(scene, turns)
     angles = np.array(
@@ -68,7 +68,7 @@ def scene_pose(scene: Scene, turns: Fraction = Fraction(0)) -> ScenePose:
 
 def _place(scene: Scene, angles: Floats, turned: Floats, moved: Floats, done: set[int], at: int) -> None:
     """A body after its parents: each turns in its parent about its own axis, which the parent carries along."""
-    line, here = [], at
+    line, here = [], at  # up to a body that is placed: a chain may be longer than Python's stack is deep
     while here not in done:
         line.append(here)
         done.add(here)
@@ -146,6 +146,7 @@ def _delta(scene: Scene, source: ErrorSource, turns: Fraction, error: Floats) ->
 def _value(law: ErrorLawTable, S: float) -> float:
     """The error law at a driver's angle."""
     s = S % law.period
+    # clamped: rounding may put s on the period itself
     cell = min(max(int(np.searchsorted(law.breaks, s, side="right")) - 1, 0), len(law.breaks) - 2)
     x = s - (law.breaks[cell] + law.breaks[cell + 1]) / 2
     return float(np.polynomial.polynomial.polyval(x, law.coefficients[cell]))

@@ -35,12 +35,10 @@ class MeshDirections:
 
     contact    unit vectors from their centres, across their axes, to where they touch
     same       1 where both turn about their own direction with teeth going one way at the contact, else -1
-    distance   of their axes (mm); None unless these are parallel
     """
 
     contact: tuple[Vector, Vector]
     same: int
-    distance: float | None
 
 
 def mesh_directions(stage: SceneContext, circuit: Circuit) -> MeshDirections | None:
@@ -50,8 +48,7 @@ def mesh_directions(stage: SceneContext, circuit: Circuit) -> MeshDirections | N
         return None
     first, second = (stage.layout.wheels[name] for name in circuit.wheels)
     axes = stage.reference(first.axis), stage.reference(second.axis)
-    parallel = size(cross(*axes)) < _NONE
-    if parallel:
+    if size(cross(*axes)) < _NONE:  # they are parallel
         between = across(minus(second.centre, first.centre), axes[0])
         if size(between) < _NONE:
             return None
@@ -62,7 +59,7 @@ def mesh_directions(stage: SceneContext, circuit: Circuit) -> MeshDirections | N
     else:
         contact = _towards(stage, first, second, axes[0]), _towards(stage, second, first, axes[1])
     ways = [cross(axis, n) for axis, n in zip(axes, contact, strict=True)]
-    return MeshDirections(contact, 1 if dot(*ways) > 0 else -1, size(between) if parallel else None)
+    return MeshDirections(contact, 1 if dot(*ways) > 0 else -1)
 
 
 def _towards(stage: SceneContext, own: WheelPlace, mate: WheelPlace, axis: Vector) -> Vector:
@@ -138,6 +135,7 @@ class _Mounting:
         if own == self._driver(circuit):
             setting = self.moved.driving.get(circuit.id)
             if setting is not None:
+                # to the nearest whole pitch: teeth are alike
                 lag = (stands - setting.S / self._pitch(circuit.wheels[own]) + 0.5) % 1 - 0.5
                 self.off += [circuit.id] if abs(lag) > _NEAR else []
             self._set(circuit, 1 - own, stands + ahead)

@@ -13,8 +13,11 @@ import pytest
 
 pytest.importorskip("playwright", reason="playwright is not installed: no page is tested in a browser")
 
+import shipped
 from playwright.sync_api import Browser, ConsoleMessage, Error, Page, Request, sync_playwright
 from viewing import DESK, Opening, html_of, wait
+
+from geartrain.viewer import page
 
 NAMES = ("chromium", "chromium-browser", "google-chrome")
 SWITCHES = (
@@ -54,6 +57,7 @@ class Shown:
 
 
 OpenPage = Callable[..., Shown]
+Asked = Callable[[str], Shown]
 
 
 def find_browser() -> str | None:
@@ -86,17 +90,38 @@ def open_page(browser: Browser) -> Iterator[OpenPage]:
         context = browser.new_context(**({"viewport": {"width": 900, "height": 640}} | window))
         contexts.append(context)
         context.add_init_script(before)
-        shown = Shown(context.new_page())
-        address = path.resolve().as_uri()
-        _listen(shown, address)
-        shown.page.set_default_timeout(PATIENCE)
-        shown.page.goto(address)
-        wait(shown, "Boolean(globalThis.geartrain?.ready)")
-        return shown
+        return _opened(context.new_page(), path)
 
     yield show
     for context in contexts:
         context.close()
+
+
+@pytest.fixture(scope="module")
+def asked(browser: Browser, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Asked]:
+    """The page of a shipped train without teeth, opened once for tests that only ask where its parts stand."""
+    context = browser.new_context(viewport={"width": 900, "height": 640})
+    pages: dict[str, Shown] = {}
+
+    def show(name: str) -> Shown:
+        if name not in pages:
+            path = tmp_path_factory.mktemp(name) / "page.html"
+            path.write_text(page([shipped.scene(name)], teeth=False), encoding="utf-8")
+            pages[name] = _opened(context.new_page(), path)
+        return pages[name]
+
+    yield show
+    context.close()
+
+
+def _opened(sheet: Page, path: Path) -> Shown:
+    shown = Shown(sheet)
+    address = path.resolve().as_uri()
+    _listen(shown, address)
+    sheet.set_default_timeout(PATIENCE)
+    sheet.goto(address)
+    wait(shown, "Boolean(globalThis.geartrain?.ready)")
+    return shown
 
 
 @pytest.fixture
@@ -121,13 +146,13 @@ def _listen(shown: Shown, address: str) -> None:
     def failed(error: Error) -> None:
         shown.errors.append(str(error))
 
-    def asked(request: Request) -> None:
+    def requested(request: Request) -> None:
         if not request.url.startswith((address, "data:", "blob:")):
             shown.requests.append(request.url)
 
     shown.page.on("console", heard)
     shown.page.on("pageerror", failed)
-    shown.page.on("request", asked)
+    shown.page.on("request", requested)
 
 
 def _is_of_the_driver(text: str) -> bool:

@@ -7,6 +7,7 @@ from fractions import Fraction
 from pathlib import Path
 
 import pytest
+import shipped
 from playwright.sync_api import Browser, Page
 
 from geartrain import load
@@ -66,7 +67,7 @@ def sort_by(page: Page, heading: str, column: str) -> list[str]:
 
 @pytest.fixture(scope="module")
 def freeth() -> str:
-    return to_html([describe_shared_page(collect_report(load("freeth-2008")), [Picture("a line", SVG)])])
+    return to_html([describe_shared_page(shipped.report("freeth-2008"), [Picture("a line", SVG)])])
 
 
 def test_a_click_sorts_fractions_by_their_exact_size_and_another_turns_them_round(
@@ -85,7 +86,7 @@ def test_a_click_sorts_fractions_by_their_exact_size_and_another_turns_them_roun
 
 
 def test_names_are_sorted_as_people_count_and_cells_without_a_value_come_last(open_report: Opened) -> None:
-    page, wrong = open_report(to_html([describe_shared_page(collect_report(load("pennestri-2002")))]))
+    page, wrong = open_report(to_html([describe_shared_page(shipped.report("pennestri-2002"))]))
     names = sort_by(page, "Structure", "link")
     assert [int(name) for name in names] == sorted(int(name) for name in names)
     ratios = sort_by(page, "Speeds", "output : input")
@@ -120,7 +121,6 @@ def test_a_train_named_like_a_script_is_harmless(train_file: Callable[..., Path]
         f"sources: {{'{quoted}': {{cite: '{quoted}', url: 'javascript:alert(3)'}}}}\n"
     )
     page, wrong = open_report(to_html([describe_shared_page(collect_report(load(path)))]))
-    page.wait_for_timeout(300)
     assert page.title() == EVIL
     assert page.locator("h1").inner_text() == EVIL
     assert wrong == []
@@ -135,11 +135,11 @@ def test_a_script_smuggled_into_a_page_would_not_run(freeth: str, open_report: O
 
 def test_a_script_in_the_frame_cannot_reach_the_page_round_it(open_report: Opened) -> None:
     inner = "<p>inside</p><script>document.title = 'inside'; parent.document.title = 'taken'</script>"
-    page, wrong = open_report(to_html([describe_shared_page(collect_report(load("worm")), viewer=inner)]))
+    page, wrong = open_report(to_html([describe_shared_page(shipped.report("worm"), viewer=inner)]))
     (frame,) = [each for each in page.frames if each.parent_frame]
     frame.wait_for_selector("p")
     assert frame.title() == "inside", "scripts run in the frame"
-    assert page.title() == load("worm").declaration.title
+    assert page.title() == shipped.train("worm").declaration.title
     assert len(wrong) == 1
     assert "Blocked a frame" in wrong[0]
 
@@ -192,12 +192,10 @@ def test_it_prints_on_white_without_what_can_only_be_clicked(freeth: str, open_r
 
 
 def test_the_train_turns_in_its_frame_within_the_policy_of_the_page(open_report: Opened) -> None:
-    from geartrain.scene import make_scene
     from geartrain.viewer import page as viewer
 
-    train = load("worm")
     page, wrong = open_report(
-        to_html([describe_shared_page(collect_report(train), viewer=viewer([make_scene(train)]))])
+        to_html([describe_shared_page(shipped.report("worm"), viewer=viewer([shipped.scene("worm")]))])
     )
     (frame,) = [each for each in page.frames if each.parent_frame]
     # asked again and again from outside: the policy forbids the page to evaluate what it is given to wait for

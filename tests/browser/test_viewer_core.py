@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pytest
+import shipped
 from matplotlib.image import imread, imsave
 from viewing import wait
 
@@ -21,9 +22,15 @@ from geartrain.scene import make_scene
 from geartrain.viewer import page
 
 if TYPE_CHECKING:
-    from conftest import OpenPage, Shown
+    from conftest import Asked, OpenPage, Shown
 
 TURN = 2 * pi
+DRAWN = """() => new Promise((done) => {
+  let frames = 20;
+  const next = () => { frames -= 1; if (frames) requestAnimationFrame(next); else done(); };
+  next();
+})"""
+"""Until the browser has had twenty occasions to draw: what was begun is done, and what never rests is seen."""
 PICTURES = Path(__file__).parent / "pictures"
 THREE = """
 links: {frame: {}, a: {wheels: {x: 20}}, b: {wheels: {y: 30}}, c: {wheels: {z: 40}}}
@@ -34,7 +41,7 @@ revolutes: [{pair: [frame, a], axis: A}, {pair: [frame, b], axis: B}, {pair: [fr
 def write_page(folder: Path, *names: str, **options: Any) -> Path:
     """The page of shipped trains, in their first states."""
     path = folder / "page.html"
-    path.write_text(page([make_scene(load(name)) for name in names], **options), encoding="utf-8")
+    path.write_text(page([shipped.scene(name) for name in names], **options), encoding="utf-8")
     return path
 
 
@@ -45,7 +52,7 @@ def apart(one: float, other: float) -> float:
 
 def directions(name: str, turns: Fraction) -> Iterator[tuple[str, float]]:
     """Outputs and their mean directions after some turns of the first input, by Fractions alone."""
-    train = load(name)
+    train = shipped.train(name)
     case = train.declaration
     state = train.states[0] if train.states else None
     inputs = case.inputs if state is None else case.states[state].inputs or case.inputs
@@ -61,22 +68,22 @@ def directions(name: str, turns: Fraction) -> Iterator[tuple[str, float]]:
 @pytest.mark.parametrize("name", ["freeth-2021", "bevel-differential", "zf-8hp70"])
 def test_a_page_opens_from_disk_without_errors_or_requests(open_page: OpenPage, tmp_path: Path, name: str) -> None:
     shown = open_page(write_page(tmp_path, name))
-    shown.page.wait_for_timeout(300)
+    shown.run(DRAWN)
     assert shown.errors == []
     assert shown.requests == []
     assert shown.run("geartrain.stages[0] !== null"), "no WebGL"
 
 
 @pytest.mark.parametrize("name", ["price-1974", "prague-orloj", "gosper-2005", "humpage"])
-def test_pointers_of_ideal_trains_stand_where_fractions_say(open_page: OpenPage, tmp_path: Path, name: str) -> None:
-    shown = open_page(write_page(tmp_path, name, teeth=False))
+def test_pointers_of_ideal_trains_stand_where_fractions_say(asked: Asked, name: str) -> None:
+    shown = asked(name)
     for text in ("0", "1", "-3/7", "235/19", "1000000", "123456789/254", "1e15", "987654321987654321987/1000003"):
         for output, expected in directions(name, Fraction(text)):
             assert apart(shown.at(text, output), expected) < 1e-12, (output, text)
 
 
-def test_a_float_of_turns_is_taken_as_exactly_what_it_is(open_page: OpenPage, tmp_path: Path) -> None:
-    shown = open_page(write_page(tmp_path, "price-1974", teeth=False))
+def test_a_float_of_turns_is_taken_as_exactly_what_it_is(asked: Asked) -> None:
+    shown = asked("price-1974")
     for turns in (0.1, -2.7, 1e9 + 0.1, 123456.789):
         for output, expected in directions("price-1974", Fraction(turns)):
             assert apart(shown.at(turns, output), expected) < 1e-12, (output, turns)
@@ -85,12 +92,11 @@ def test_a_float_of_turns_is_taken_as_exactly_what_it_is(open_page: OpenPage, tm
 @pytest.mark.parametrize(
     "name", ["freeth-2008", "freeth-2021", "moon-triangular", "freeth-2021-teeth", "pennestri-2002-teeth"]
 )
-def test_pins_and_real_teeth_move_as_the_motion_says(open_page: OpenPage, tmp_path: Path, name: str) -> None:
-    train = load(name)
-    motion = train.motion()
+def test_pins_and_real_teeth_move_as_the_motion_says(asked: Asked, name: str) -> None:
+    motion = shipped.train(name).motion()
     turns = np.array([0.0, 0.4140625, 3.25, 1000.0, 76543.21875, 1e6 + 0.8125])
     errors = motion.at(turns).error
-    shown = open_page(write_page(tmp_path, name, teeth=False))
+    shown = asked(name)
     rippled = 0.0
     for at, turn in enumerate(turns):
         mean = dict(directions(name, Fraction(turn)))
@@ -101,11 +107,11 @@ def test_pins_and_real_teeth_move_as_the_motion_says(open_page: OpenPage, tmp_pa
     assert rippled > 1e-3, "nothing rippled: this asks nothing"
 
 
-def test_backwards_the_other_flanks_drive(open_page: OpenPage, tmp_path: Path) -> None:
+def test_backwards_the_other_flanks_drive(asked: Asked) -> None:
     """Negative turns, against a run backwards; forwards the teeth stand otherwise, by their play."""
     name = "pennestri-2002-teeth"
-    motion = load(name).motion()
-    shown = open_page(write_page(tmp_path, name, teeth=False))
+    motion = shipped.train(name).motion()
+    shown = asked(name)
     differ = 0.0
     for passage in motion.passages(-37.6875, 5, first=1):
         forwards = motion.at(passage.turns).error
@@ -118,9 +124,9 @@ def test_backwards_the_other_flanks_drive(open_page: OpenPage, tmp_path: Path) -
     assert differ > 1e-4, "the way back is the way forth: this asks nothing"
 
 
-def test_a_slot_follows_its_pin_as_plane_geometry_says(open_page: OpenPage, tmp_path: Path) -> None:
+def test_a_slot_follows_its_pin_as_plane_geometry_says(asked: Asked) -> None:
     """The drawn pin stays in the drawn slot: both parts are asked where they are."""
-    shown = open_page(write_page(tmp_path, "freeth-2008"))
+    shown = asked("freeth-2008")
     script = """t => {
       geartrain.setTurns(t);
       const stage = geartrain.stages[0]; stage.render(); stage.world.root.updateMatrixWorld(true);
@@ -136,9 +142,9 @@ def test_a_slot_follows_its_pin_as_plane_geometry_says(open_page: OpenPage, tmp_
         assert shown.run(script, turns) == pytest.approx([1.0], abs=1e-9)
 
 
-def test_meshing_wheels_have_one_velocity_where_they_touch(open_page: OpenPage, tmp_path: Path) -> None:
+def test_meshing_wheels_have_one_velocity_where_they_touch(asked: Asked) -> None:
     """Spin of both wheels at the pitch point, by finite differences of what is drawn."""
-    shown = open_page(write_page(tmp_path, "planetary"))
+    shown = asked("planetary")
     script = """h => {
       const stage = geartrain.stages[0], scene = geartrain.scenes[0], Vector = stage.camera.position.constructor;
       const at = t => {
@@ -278,10 +284,10 @@ def test_without_webgl_all_but_the_picture_is_there(open_page: OpenPage, tmp_pat
 
 def test_nothing_is_drawn_while_nothing_changes(open_page: OpenPage, tmp_path: Path) -> None:
     shown = open_page(write_page(tmp_path, "planetary-24-18-60"))
-    shown.page.wait_for_timeout(500)
+    shown.run(DRAWN)
     frames = "geartrain.stages[0].renderer.info.render.frame"
     before = shown.run(frames)
-    shown.page.wait_for_timeout(300)
+    shown.run(DRAWN)
     assert shown.run(frames) == before
     shown.run("geartrain.setTurns(1/3)")
     wait(shown, f"{frames} > {before}")

@@ -5,10 +5,8 @@ from __future__ import annotations
 from fractions import Fraction
 
 import pytest
+import shipped
 from viewing import ANTIKYTHERA, SIMPLE, Opening, turns, wait
-
-from geartrain import load
-from geartrain.scene import make_scene
 
 
 def test_a_number_of_turns_is_typed_exactly_and_nonsense_is_refused(show: Opening) -> None:
@@ -30,7 +28,7 @@ def test_a_number_of_turns_is_typed_exactly_and_nonsense_is_refused(show: Openin
 
 def test_a_step_is_one_unit_of_the_input(show: Opening) -> None:
     shown = show("clock-10000-years")
-    step = Fraction(make_scene(load("clock-10000-years")).step)
+    step = Fraction(shipped.scene("clock-10000-years").step)
     shown.page.get_by_label("one unit of the input forward").click(click_count=3)
     assert turns(shown) == 3 * step
     shown.page.get_by_label("one unit of the input back").click()

@@ -6,6 +6,7 @@ from fractions import Fraction
 from pathlib import Path
 
 import pytest
+import shipped
 from viewing import ANTIKYTHERA, Opening, tab, wait
 
 from geartrain import load
@@ -20,7 +21,7 @@ DRAWN = """geartrain.scenes[0].wheels.map(({ id }, k) => {
 
 def needed(name: str, output: str, folder: Path) -> set[str]:
     """Gears and couplings without which an output is not determined: each left out in turn, and all solved anew."""
-    declared = load(name).declaration
+    declared = shipped.train(name).declaration
     found = set()
     for kind, ids in (
         ("gears", [gear.id or "~".join(gear.pair) for gear in declared.gears]),
@@ -46,7 +47,7 @@ def test_the_path_is_exactly_what_the_output_cannot_do_without(show: Opening, tm
     assert set(listed) == expected
     wheels = {
         str(wheel)
-        for gear in load(ANTIKYTHERA).declaration.gears
+        for gear in shipped.train(ANTIKYTHERA).declaration.gears
         if (gear.id or "~".join(gear.pair)) in expected
         for wheel in gear.pair
     }
@@ -63,7 +64,7 @@ def test_the_path_is_exactly_what_the_output_cannot_do_without(show: Opening, tm
 
 def test_dials_read_clockwise_what_fractions_say(show: Opening) -> None:
     shown = show(ANTIKYTHERA)
-    train = load(ANTIKYTHERA)
+    train = shipped.train(ANTIKYTHERA)
     solved = train.solve()
     at = Fraction(100_003, 7)
     shown.page.get_by_label("Go to turn").fill(str(at))

@@ -5,10 +5,8 @@ from __future__ import annotations
 from fractions import Fraction
 
 import pytest
+import shipped
 from viewing import ANTIKYTHERA, SIMPLE, Opening, turns, wait
-
-from geartrain import load
-from geartrain.scene import make_scene
 
 # the rims of all wheels and dials as the camera has them: the most each stands off the middle, across and upwards
 SPREAD = """(scene) => {
@@ -69,7 +67,7 @@ def test_the_whole_train_and_its_crank_fill_the_picture(show: Opening, names: tu
 
 def test_needles_in_the_picture_point_where_fractions_say(show: Opening) -> None:
     shown = show(ANTIKYTHERA)
-    train = load(ANTIKYTHERA)
+    train = shipped.train(ANTIKYTHERA)
     solved = train.solve()
     at = Fraction(1234, 7)
     shown.run("(t) => geartrain.setTurns(t)", str(at))
@@ -87,7 +85,7 @@ def test_what_stands_before_the_middle_is_hidden_and_comes_back(show: Opening) -
     seen = "geartrain.stages[0].world.wheels.map(({own}) => geartrain.stages[0].world.palette.looks[own].shown)"
     assert all(shown.run(seen))
     shown.page.get_by_label("Hide front").check()
-    scene = make_scene(load(ANTIKYTHERA))
+    scene = shipped.scene(ANTIKYTHERA)
     heights = [scene.front * wheel.centre[2] for wheel in scene.wheels]
     middle = (min(heights) + max(heights)) / 2
     assert shown.run(seen) == [height <= middle + 1e-9 for height in heights]
@@ -132,7 +130,7 @@ def test_only_what_is_shown_holds_a_drawing_context(show: Opening) -> None:
         return found;
       };"""
     shown = show("zf-8hp70", before=count)
-    names = list(load("zf-8hp70").states)
+    names = list(shipped.train("zf-8hp70").states)
     live = "[...contexts].filter((each) => !each.isContextLost()).length"
     assert shown.run(live) == 1
     for name in (*names[1:], names[0]):
@@ -150,7 +148,7 @@ def test_only_what_is_shown_holds_a_drawing_context(show: Opening) -> None:
 
 def test_equal_times_pass_in_two_trains_whose_units_are_times(show: Opening) -> None:
     shown = show("huygens-planetarium-1682", "longcase-clock", compare=True)
-    first, second = (load(name).declaration for name in ("huygens-planetarium-1682", "longcase-clock"))
+    first, second = (shipped.train(name).declaration for name in ("huygens-planetarium-1682", "longcase-clock"))
     assert first.unit_days is not None
     assert second.unit_days == Fraction(1, 24)
     speeds = [next(Fraction(speed.value) for speed in each.inputs.values()) for each in (first, second)]

@@ -5,9 +5,8 @@ from __future__ import annotations
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
+import shipped
 from viewing import ANTIKYTHERA, LOCKED, SIMPLE, Opening, rgb, tab, turns
-
-from geartrain import load
 
 if TYPE_CHECKING:
     from playwright.sync_api import Dialog
@@ -49,7 +48,7 @@ def test_without_webgl_all_but_the_picture_is_there(show: Opening) -> None:
 
 def test_states_are_chosen_and_stand_beside_each_other(show: Opening) -> None:
     shown = show("planetary")
-    names = list(load("planetary").declaration.states)
+    names = list(shipped.train("planetary").declaration.states)
     assert shown.page.locator(".view:visible").count() == 1
     shown.page.get_by_label("State").select_option(label=names[1])
     assert shown.page.locator("figcaption .caption").nth(1).text_content() == names[1]
@@ -61,7 +60,7 @@ def test_states_are_chosen_and_stand_beside_each_other(show: Opening) -> None:
 
 def test_two_trains_turn_in_step_and_their_difference_is_exact(show: Opening) -> None:
     shown = show("price-1974", ANTIKYTHERA, compare=True)
-    solved = [load(name).solve() for name in ("price-1974", ANTIKYTHERA)]
+    solved = [shipped.train(name).solve() for name in ("price-1974", ANTIKYTHERA)]
     tab(shown, "Outputs")
     shown.page.get_by_label("one unit of the input forward").click(click_count=2)
     assert turns(shown) == 2

@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
+import shipped
 from viewing import ANTIKYTHERA, SIMPLE, Opening, tab
-
-from geartrain import load
-from geartrain.scene import make_scene
 
 # what each wheel is drawn with: what its body's slot of the palette holds
 PAINTED = """geartrain.scenes[0].wheels.map(({ status }, k) => {
@@ -30,14 +28,16 @@ def test_the_wheel_panel_tells_all_that_is_declared(show: Opening) -> None:
 def test_a_wheel_picked_in_the_picture_is_shown_in_the_panel(show: Opening) -> None:
     shown = show(SIMPLE)
     shown.run("geartrain.stages[0].onPick(1)")
-    wheel = make_scene(load(SIMPLE)).wheels[1]
+    wheel = shipped.scene(SIMPLE).wheels[1]
     assert f"Wheel {wheel.id}" in shown.page.locator(".detail").inner_text()
 
 
 def test_the_legend_of_the_status_counts_every_wheel_and_shows_its_colour(show: Opening) -> None:
     shown = show(ANTIKYTHERA)
     shown.page.get_by_label("Colours").select_option("status")
-    declared = [wheel.status for link in load(ANTIKYTHERA).declaration.links.values() for wheel in link.wheels.values()]
+    declared = [
+        wheel.status for link in shipped.train(ANTIKYTHERA).declaration.links.values() for wheel in link.wheels.values()
+    ]
     rows = shown.page.locator(".legend li")
     told = {
         row.inner_text(): row.locator(".swatch").evaluate("(s) => getComputedStyle(s).backgroundColor")
@@ -54,7 +54,7 @@ def test_losses_are_told_where_they_are_known(show: Opening) -> None:
     shown.page.get_by_label("Colours").select_option("loss")
     assert "of the power put in" in shown.page.locator(".legend").inner_text()
     tab(shown, "Wheels")
-    wheel = next(wheel for wheel in make_scene(load("norton-compound")).wheels if wheel.loss)
+    wheel = next(wheel for wheel in shipped.scene("norton-compound").wheels if wheel.loss)
     shown.page.locator(f"[data-wheel='{wheel.id}']").click()
     assert f"{100 * float(wheel.loss or 0):.3g} % of the power put in" in shown.page.locator(".detail").inner_text()
     shown = show(SIMPLE)

@@ -8,12 +8,16 @@ from fractions import Fraction
 from functools import cache
 from typing import TYPE_CHECKING, Any
 
+import shipped
+
 from geartrain import load
 from geartrain.scene import make_scene
 from geartrain.viewer import page
 
 if TYPE_CHECKING:
     from conftest import Shown
+
+    from geartrain.scene import Scene
 
 SIMPLE, ANTIKYTHERA = "planetary-24-18-60", "freeth-2008"
 DESK: dict[str, Any] = {"viewport": {"width": 1000, "height": 620}}
@@ -38,9 +42,16 @@ Opening = Callable[..., "Shown"]
 @cache
 def html_of(trains: tuple[str, ...], compare: bool = False, teeth: bool = False) -> str:
     """The page of shipped trains, or of declarations, in all their states."""
-    loaded = [load(train) for train in trains]
-    states = [(train, state) for train in loaded for state in train.states or (None,)]
-    return page([make_scene(*each) for each in states], compare=compare, teeth=teeth)
+    scenes = [scene for train in trains for scene in _scenes(train)]
+    return page(scenes, compare=compare, teeth=teeth)
+
+
+def _scenes(train: str) -> list[Scene]:
+    """Of a declaration as text, or of a shipped train, whose scenes other tests may have made."""
+    if "\n" in train:
+        declared = load(train)
+        return [make_scene(declared, state) for state in declared.states or (None,)]
+    return [shipped.scene(train, state) for state in shipped.train(train).states or (None,)]
 
 
 def tab(shown: Shown, name: str) -> None:

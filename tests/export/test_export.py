@@ -420,3 +420,30 @@ def test_helpers_of_this_file_measure_what_they_say() -> None:
     assert shapely.Polygon(square).area == pytest.approx(4 + pi / 2, rel=1e-2), "a half circle bulges out"
     star = np.array([((1 + k % 2) * cos(pi * k / 5), (1 + k % 2) * sin(pi * k / 5)) for k in range(10)])
     assert teeth_of(star, 1.5) == 5
+
+
+def test_distances_of_axes_that_lie_are_those_of_their_plane() -> None:
+    """Axes along x, 30 mm apart in y and 40 mm in z, are 50 mm apart, wherever their wheels stand on them."""
+    data = {
+        "links": {
+            "frame": {},
+            "a": {"wheels": {"p": {"teeth": 20, "module": "2 mm"}}},
+            "b": {"wheels": {"q": {"teeth": 30}}},
+        },
+        "axes": {
+            "A": {"direction": ["1", "0", "0"], "position": ["0 mm", "0 mm", "0 mm"]},
+            "B": {"direction": ["1", "0", "0"], "position": ["7 mm", "30 mm", "40 mm"]},
+        },
+        "revolutes": [{"pair": ["frame", "a"], "axis": "A"}, {"pair": ["frame", "b"], "axis": "B"}],
+        "gears": [{"id": "G", "pair": ["p", "q"]}],
+        "inputs": {"a": 1},
+    }
+    work = SolidModel(GearTrain.declare(data), ManufacturingSizes())
+    (stage,) = (
+        part
+        for part in json.loads(train_file(work, "rexs"))["model"]["components"]
+        if part["type"] == "cylindrical_stage"
+    )
+    (distance,) = (each["floating_point"] for each in stage["attributes"] if each["id"] == "center_distance")
+    assert distance == pytest.approx(50, rel=1e-12)
+    assert tables(work)["pairs"][0]["distance_mm"] == "50"

@@ -8,7 +8,7 @@ from typing import Literal
 
 from geartrain.analysis.gear_train import GearTrain
 from geartrain.errors import Problem
-from geartrain.numerics.vectors import Vector, dot
+from geartrain.numerics.vectors import Vector, across, dot, minus, size
 from geartrain.scene.layout.declared_geometry import read_geometry
 from geartrain.scene.layout.layout_diagnostics import notices, pitch_gaps
 from geartrain.scene.layout.mesh_alignment import align_meshes, reference
@@ -16,6 +16,8 @@ from geartrain.scene.layout.parallel_groups import Arrangement, arrange
 from geartrain.scene.layout.wheel_sizes import Seat, size_geometry
 
 How = Literal["given", "found", "free"]
+_Z: Vector = (0.0, 0.0, 1.0)  # the axis of what is declared to stand on none
+_PARALLEL = 1e-9  # of the cosine: directions are rounded to floats
 
 
 @dataclass(frozen=True, slots=True)
@@ -125,6 +127,25 @@ class Layout:
     front: int = 1
     apart: Mapping[str, float] = field(default_factory=dict)
 
+    def axis_distance(self, first: str, second: str) -> float | None:
+        """How far apart the axes of two wheels are, where they are parallel.
+
+        Parameters
+        ----------
+        first, second : str
+            Names of wheels.
+
+        Returns
+        -------
+        float or None
+            In mm; None where the axes are not parallel.
+        """
+        one, other = self.wheels[first], self.wheels[second]
+        directions = [self.axes[each.axis].direction if each.axis in self.axes else _Z for each in (one, other)]
+        if abs(abs(dot(*directions)) - 1) > _PARALLEL:
+            return None
+        return size(across(minus(one.centre, other.centre), directions[0]))
+
 
 def lay_out(train: GearTrain) -> Layout:
     """Places of all axes and wheels of a train by beam search and local search; the same for the same declaration.
@@ -188,17 +209,17 @@ def _wheel_places(found: Arrangement, turns: Mapping[str, float]) -> dict[str, W
     layers, coned = _layers(found), _coned_seats(found)
     places = {}
     for wheel, (link, kind) in declared.wheels.items():
-        axis, size = declared.axis[wheel], geometry.sizes[wheel]
-        direction = declared.lines[axis].direction if axis else (0.0, 0.0, 1.0)
+        axis, sized = declared.axis[wheel], geometry.sizes[wheel]
+        direction = declared.lines[axis].direction if axis else _Z
         cone = coned[wheel].cone if wheel in coned else 0.0
         places[wheel] = WheelPlace(
             wheel=wheel,
             link=link,
             axis=axis,
             centre=found.centres[wheel],
-            radius=size.radius,
-            module=size.module,
-            thickness=size.thickness,
+            radius=sized.radius,
+            module=sized.module,
+            thickness=sized.thickness,
             given=wheel in geometry.modules.declared,
             cone=cone,
             facing=kind.facing if cone else 0,

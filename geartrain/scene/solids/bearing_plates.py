@@ -130,6 +130,7 @@ def around(points: Sequence[Point], radius: float) -> Contour:
         first = atan2(y - before[1], x - before[0]) - pi / 2
         last = atan2(after[1] - y, after[0] - x) - pi / 2
         sweep = (last - first) % (2 * pi)
+        # a bulge is the tangent of a quarter of the arc's angle
         vertices.append((x + radius * cos(first), y + radius * sin(first), tan(sweep / 4)))
         vertices.append((x + radius * cos(last), y + radius * sin(last), 0.0))
     return Contour.of(vertices)

@@ -19,6 +19,7 @@ if TYPE_CHECKING:
 
 _WEB = 0.75  # of the pitch radius: where the teeth of a crown wheel end inwards
 _FACE = 0.7  # a bevel tooth ends at this part of its cone's length, or where its thickness does
+_FLAT = 0.45 * pi  # rad: the height of a wider cone is next to nothing, so it is drawn as a crown
 _SLICES = 48  # of a worm
 _SIDES = 720  # of a wheel without teeth
 
@@ -30,7 +31,7 @@ def likeness_solid(wheel: SceneWheel, profile: ToothProfile, hand: int = 1) -> S
     """
     if wheel.kind == "worm":
         return _worm(wheel, profile, hand)
-    if wheel.kind == "contrate" or wheel.cone > 0.45 * pi:
+    if wheel.kind == "contrate" or wheel.cone > _FLAT:
         return _crown(wheel, profile)
     if wheel.cone:
         return _bevel(wheel, profile)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from fractions import Fraction
 from math import ceil, pi
 from typing import TYPE_CHECKING
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
     from geartrain.scene.solids.solid_assembly import SolidModel
 
-_A_TURN = 3  # key frames: between two of them a rotation takes the shorter way
+_A_TURN = 3  # key frames: between two of them a rotation takes the shorter way, so two would be ambiguous
 _RIPPLING = 48  # of a turn, where teeth or pins add something
 _LEAST_RIPPLING = 240
 _MOST = 60_000  # key frames of one body: a longer period is not shown whole
@@ -39,6 +39,7 @@ class Keyframes:
     seconds: float
     speeds: tuple[Fraction | None, ...]
     ripples: bool
+    _found: dict[int, Floats] = field(default_factory=dict, repr=False, compare=False)
 
     @classmethod
     def of(cls, work: SolidModel, turns: Fraction | None = None) -> Keyframes | None:
@@ -93,12 +94,11 @@ class Keyframes:
         bodies = self.work.scene.bodies
         if not self.ripples:
             return np.zeros((len(bodies), count + 1))
-        cache: dict[int, Floats] = self.__dict__.setdefault("_found", {})
-        if count not in cache:
+        if count not in self._found:  # bodies of one count share it
             links = tuple(self.work.train.declaration.links)
             motion = self.work.sized.motion(self.work.scene.state, links)
-            cache[count] = motion.at(float(self.turns) * np.arange(count + 1) / count).error
-        return cache[count]
+            self._found[count] = motion.at(float(self.turns) * np.arange(count + 1) / count).error
+        return self._found[count]
 
 
 def _relative(work: SolidModel) -> tuple[Fraction | None, ...]:

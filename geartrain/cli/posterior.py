@@ -29,6 +29,7 @@ from geartrain.cli.common import (
 from geartrain.cli.long_runs import Resume, RunOptions, Scheduler, SingleWorker, close_journal, long_run
 from geartrain.cli.option_values import MOST_COUNT
 from geartrain.cli.uncertainty_plots import Plot, check_plot, draw_counts
+from geartrain.errors import GearTrainError
 
 if TYPE_CHECKING:
     from geartrain.uncertainty import ToothCountPosterior
@@ -127,27 +128,20 @@ def _answer(found: ToothCountPosterior, json: bool, to: Sink) -> None:
 
 def _read_free(texts: Sequence[str]) -> dict[str, tuple[int, ...]]:
     """`m3=15:80`, `a1=45,48`, `b1=223`."""
+    from geartrain.synthesis.tooth_count_ranges import as_array, read_counts
+
     found: dict[str, tuple[int, ...]] = {}
     for text in texts:
         wheel, equals, counts = text.partition("=")
-        try:
-            listed = tuple(count for part in counts.split(",") for count in _run(part))
-        except ValueError:
-            equals, listed = "", ()
         if not equals or not wheel.strip():
             raise typer.BadParameter(f"'{text}' is not of the form WHEEL=60:64 or WHEEL=60,62", param_hint="--free")
+        try:
+            listed = tuple(as_array(read_counts(counts)).tolist())
+        except GearTrainError as error:
+            problem = error.problems[0]
+            raise typer.BadParameter(f"{problem.what}; {problem.fix}", param_hint="--free") from None
         found[wheel.strip()] = found.get(wheel.strip(), ()) + listed
     return found
-
-
-def _run(text: str) -> Sequence[int]:
-    first, colon, last = text.partition(":")
-    ends = int(first), int(last) if colon else int(first)
-    if ends[1] < ends[0]:
-        raise typer.BadParameter(f"the range {text} is empty; write the least count first", param_hint="--free")
-    if ends[1] - ends[0] > 10**6:
-        raise typer.BadParameter(f"the range {text} is too wide", param_hint="--free")
-    return range(ends[0], ends[1] + 1)
 
 
 def _write_parquet(rows: Sequence[Mapping[str, Any]], to: Sink, about: Mapping[str, str]) -> None:

@@ -1,0 +1,96 @@
+"""Whether a train is sound: what fails, and what is to be noted of it, on lines that begin with a place in a file."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from geartrain.report.answers import expectations_met, result_words
+from geartrain.report.document import exact
+
+if TYPE_CHECKING:
+    from geartrain.analysis.gear_train import GearTrain
+    from geartrain.kinematics.answer import Answer
+    from geartrain.kinematics.judged_outputs import OutputResult
+
+
+@dataclass(frozen=True)
+class Soundness:
+    """What was found of a train in a file; true if nothing fails.
+
+    failures   verdicts that leave speeds open, figures that do not hold, teeth that cannot turn
+    """
+
+    train: GearTrain
+    file: str
+    answers: Sequence[Answer]
+    failures: tuple[str, ...]
+
+    def __bool__(self) -> bool:
+        return not self.failures
+
+    def lines(self, quiet: bool = False) -> Iterator[str]:
+        """As `geartrain check` prints them; `quiet` leaves out what is said of trains that are sound."""
+        train, whole = self.train, not quiet or not self
+        yield from (f"FAIL {each}" for each in self.failures)
+        if whole:
+            yield from (f"note {self.file}: {line}" for line in train.gridlock.lines())
+        if train.is_placed and train.closure.kind in ("misses", "unclear"):
+            yield f"note {self.file}: {train.closure.text}"
+        if whole:
+            for remark in train.remarks:
+                yield f"note {remark.place}: {remark.what}" + (f"; {remark.why}" if remark.why else "")
+            yield from (f"note {self.file}: {line}" for line in _left_out(train))
+        if self and not quiet:
+            yield f"ok   {self.file}: {_summary(train, self.answers)}"
+
+
+def find_soundness(train: GearTrain, file: str) -> Soundness:
+    """Judge every state of a train that was read from a file. Raises `GearTrainError` for teeth that cannot be made."""
+    answers = list(train.answers())
+    failures = [line for answer in answers for line in _failures(train, answer, file)]
+    for fault in train.faults:
+        failures.append(f"{fault.place}: " + "; ".join(filter(None, (fault.what, fault.why, fault.fix))))
+    return Soundness(train, file, answers, tuple(failures))
+
+
+def _summary(train: GearTrain, answers: Sequence[Answer]) -> str:
+    redundant = train.mobility.redundant
+    loops = f", {redundant} redundant circuit{'' if redundant == 1 else 's'}" if redundant else ""
+    return f"mobility {train.mobility.by_rank}{loops}, {expectations_met(answers) or 'nothing expected'}"
+
+
+def _failures(train: GearTrain, answer: Answer, file: str) -> Iterator[str]:
+    """The verdict if it leaves speeds open, or each figure that does not hold, with its place."""
+    state = f" state {answer.state}" if answer.state is not None else ""
+    if not answer.verdict:
+        yield f"{answer.place}:{state} {answer.verdict}"
+        return
+    for result in answer.failures:
+        own = answer.state is not None and result.name in train.declaration.states[answer.state].outputs
+        path = ("states", str(answer.state), "outputs") if own else ("outputs",)
+        place = train.declaration.place(*path, result.name)
+        # a figure may be declared in a parent of the file that was asked about
+        head, tail = (place, "") if place.startswith(file) else (file, f" (declared at {place})")
+        yield f"{head}:{state} output '{result.name}' is {exact(result.speed)}{_wanted(result)}{tail}"
+
+
+def _left_out(train: GearTrain) -> Iterator[str]:
+    """What the torques of loaded states do not count; nothing of teeth that cannot turn."""
+    if train.faults:
+        return
+    for state in train.states or (None,):
+        if train.declaration.is_loaded(state):
+            where = f"state {state}: " if state is not None else ""
+            yield from (f"{where}torques leave out {each}: {each.why}" for each in train.torques(state).left_out)
+
+
+def _wanted(result: OutputResult) -> str:
+    words = []
+    if result.expect_holds is False and result.output.expect:
+        words.append(f"expected {result.output.expect.value}")
+    if result.published_holds is False and result.output.published:
+        published = result.output.published
+        words.append(f"published {published.value} as {published.as_}, {result_words(result)}")
+    return "; " + ", ".join(words)

@@ -1,0 +1,44 @@
+"""Speeds of one state as plain lines, exact and in decimals: what `geartrain solve` prints."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from geartrain.report.document import exact, figure
+
+if TYPE_CHECKING:
+    from geartrain.kinematics.answer import Answer
+
+
+def speeds_text(answer: Answer, output: str | None, oblique: frozenset[str]) -> str:
+    """The speeds of one state, or that of one output, a line each; `oblique` links have sums of joint speeds."""
+    state = f" state {answer.state}" if answer.state is not None else ""
+    place = "" if answer.verdict else f" ({answer.place})"
+    unit = f" ({answer.unit})" if answer.unit and answer.verdict else ""
+    lines = [f"{answer.train}{state}: {answer.verdict}{place}{unit}"]
+    rows = [
+        (name, result.speed, _errors(answer, result.of) + ("" if result.holds else "  FAILS"))
+        for name, result in answer.outputs.items()
+    ]
+    if output is None:
+        links = [(link, speed, _marks(answer, link, oblique)) for link, speed in answer.speeds.items()]
+        rows = links + [row for row in rows if row[0] not in answer.speeds or "FAILS" in row[2]]
+    elif not rows:
+        rows = [(output, answer.speeds.get(output), _marks(answer, output, oblique))]
+    width = max((len(name) for name, _, _ in rows), default=0)
+    for name, speed, mark in rows:
+        lines.append(f"  {name:<{width}}  {exact(speed):>20}  {figure(speed, 12)}{mark}")
+    return "\n".join(lines)
+
+
+def _marks(answer: Answer, link: str, oblique: frozenset[str]) -> str:
+    return _errors(answer, link) + ("  (sum of joint speeds)" if link in oblique else "")
+
+
+def _errors(answer: Answer, link: str) -> str:
+    """Estimate and true error of a float, where there is one."""
+    accuracy = answer.accuracy.get(link)
+    if accuracy is None:
+        return ""
+    true = "" if accuracy.true_error is None else f", true error {accuracy.true_error:.1e}"
+    return f"  estimate {accuracy.estimate:.1e}{true}"

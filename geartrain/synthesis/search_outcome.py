@@ -18,7 +18,7 @@ class Shortfall(Result):
     Attributes
     ----------
     considered : int
-        Candidates there were before anything was asked of them.
+        Candidates there were before any constraint.
     removed : mapping of str to int, optional
         Reason -> candidates it removed; each candidate is charged to the first reason that refuses it.
     nearest : str

@@ -139,7 +139,7 @@ class _Asking:
         yield Condition(words, scaled.wheels, NearZero(scaled, room.constant))
 
     def _is_broken(self, total: LinearSum, shift: Fraction | int) -> bool:
-        """True if the declared counts do not meet the rule, and nobody insists: modules differ, or are shifted."""
+        """True if the declared counts do not meet the rule, and it is not asked for: modules differ, or are shifted."""
         counts = {wheel: self._evident(wheel) for wheel in total.terms}
         known = [weight * (counts[wheel] or 0) for wheel, weight in total.terms.items()]
         return self.asked.coaxial is None and None not in counts.values() and abs(sum(known) + total.constant) > shift

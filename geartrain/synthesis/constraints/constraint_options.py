@@ -17,7 +17,7 @@ Read = TypeVar("Read")
 
 @dataclass(frozen=True, slots=True)
 class ConstraintOptions:
-    """What is asked of tooth counts, besides ratios. By default only that wheels between the same axes fit.
+    """Constraints on tooth counts besides ratios. By default only that wheels between the same axes fit.
 
     Attributes
     ----------
@@ -99,7 +99,7 @@ def read_constraint_options(
     largest_radius: str | None = None,
     **others: Any,
 ) -> ConstraintOptions:
-    """What is asked, from texts as a command line has them; what is not given stays off.
+    """Options read from texts as a command line has them; what is not given stays off.
 
     planets         "3" on every carrier, or "arm=3,inner=4"
     clearance, addendum, ring_addendum   numbers of modules: "0.5", "4/5"

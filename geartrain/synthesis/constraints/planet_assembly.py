@@ -123,7 +123,7 @@ def bezout(a: Ints, b: Ints) -> tuple[Ints, Ints, Ints]:
 
 
 def equal_planets(found: PlanetSet, number: int, name: str) -> Condition | None:
-    """The condition on a set of planets; None where no count in it is free, or nothing is asked of it."""
+    """The condition on a set of planets; None where no count in it is free, or it constrains nothing."""
     assert found.planets is not None
     first = _arm(found.planets)
     if sum(len(planet.central) for planet in found.planets.walk()) < 2:

@@ -91,7 +91,7 @@ class PositiveRoom:
 
 @dataclass(frozen=True, slots=True)
 class PlanetRoom:
-    """What is asked of the room between planets: addenda of wheels and rings, and what is to be left (modules)."""
+    """The room required between planets: addenda of wheels and rings, and what is to be left (modules)."""
 
     number: int
     addendum: Fraction

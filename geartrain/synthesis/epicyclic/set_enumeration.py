@@ -52,7 +52,7 @@ def _usable(whose: str, counts: Counts) -> tuple[int, ...]:
 
 
 def size(kind: EpicyclicKind, bounds: SetBounds, slack: int = 0) -> int:
-    """How many sets there are before anything is asked of them."""
+    """How many sets there are before any constraint."""
     chosen = prod(len(bounds[wheel]) for wheel in kind.free)
     return int(chosen * (2 * slack + 1) ** len(_followers(kind)))
 

@@ -107,7 +107,7 @@ class ExactJoin:
         node = nodes[0]
         _, alive = self.pruned(node, rows, None)
         for _, grown in self.grown(node, alive, np.arange(alive.size), None):
-            # of several children the later ones may have nothing, which the first would bring out in vain
+            # of several children the later ones may have nothing, and rows of the first would be listed for nothing
             if len(node.children) > 1:
                 grown = self._promising(node, grown)
             yield from self.stream((*node.children, *nodes[1:]), grown)
@@ -272,7 +272,7 @@ class ExactJoin:
         return counts
 
     def _promising(self, node: PlanNode, grown: PartialAssignments) -> PartialAssignments:
-        """The rows that have assignments below in every child: none of the others' need be brought out in vain."""
+        """The rows that have assignments below in every child: the others need not be listed."""
         for child in node.children:
             distinct, which = self.seen(child, grown)
             found, _ = self.count(child, distinct)

@@ -19,7 +19,7 @@ class OrreryArbor(Result):
     Attributes
     ----------
     name : str
-        The period it shows, or `arbor 1`, `arbor 2`...; whoever asks names the first.
+        The period it shows, or `arbor 1`, `arbor 2`...; the caller names the first.
     period : Fraction
         Turns of the first arbor in one of its own, exact and positive.
     sense : {-1, 1}
@@ -27,7 +27,7 @@ class OrreryArbor(Result):
     wheels : tuple of int
         Tooth counts of its wheels, ascending, all different.
     shows : bool
-        True if a period was asked of it.
+        True if it shows a period that was asked for.
     """
 
     KEYS = ("name", "period", Key("value", "period", as_float), "sense", "wheels", "shows")

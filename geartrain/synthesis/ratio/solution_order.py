@@ -1,4 +1,4 @@
-"""The orders in which solutions are listed: total orders, the same whoever finds the solutions and when."""
+"""The orders in which solutions are listed: total orders, independent of where and when solutions are found."""
 
 from __future__ import annotations
 

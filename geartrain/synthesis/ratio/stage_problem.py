@@ -1,4 +1,4 @@
-"""One ratio by stages as a question in plain data: the ratio, and what else is asked of the stages."""
+"""One ratio by stages as a question in plain data: the ratio, and the constraints on its stages."""
 
 from __future__ import annotations
 

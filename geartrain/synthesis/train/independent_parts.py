@@ -1,4 +1,4 @@
-"""The free wheels of a train and what is asked of them, in parts that have nothing to do with each other."""
+"""The free wheels of a train and their requirements, in parts that share neither output nor constraint."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ _MOST_COUNTS = 10**6
 
 @dataclass(frozen=True, slots=True)
 class SearchPart:
-    """Wheels that outputs or rules join, and what is asked of them.
+    """Wheels that outputs or constraints join, and their requirements.
 
     domains      wheel -> its counts, ascending, in the order declared
     askings      outputs that they move
@@ -48,7 +48,7 @@ class SearchPart:
 
 @dataclass(frozen=True, slots=True)
 class TrainRequirements:
-    """What is asked of a train in one or several states.
+    """The requirements of a train in one or several states.
 
     remarks   outputs that no free wheel moves and that are not as asked, and outputs that nothing determines
     """
@@ -108,7 +108,7 @@ def _counts(train: Train, wheel: str, link: str, teeth: Teeth) -> Iterable[int]:
 def find_requirements(
     train: Train, state: str | None, domains: Domains, tolerance: Fraction | None
 ) -> TrainRequirements:
-    """All that is asked of the outputs, in one state or in all of them."""
+    """All requirements on the outputs, in one state or in all of them."""
     train.check_state(state)
     states: Sequence[str | None] = tuple(train.states) or (None,) if state is None else (state,)
     askings: list[OutputRequirement] = []

@@ -20,7 +20,7 @@ _ANYTHING_ELSE = (None, Fraction(0)), (Fraction(0), None)
 
 @dataclass(frozen=True, slots=True)
 class SpeedRequirement:
-    """One thing asked of an output.
+    """One requirement on the speed of an output.
 
     label      in words, such as "period 583.92 d" or "expect 2/7"
     wanted     the speed asked for, in the train's unit; positive where only the magnitude counts
@@ -49,7 +49,7 @@ class SpeedRequirement:
         return replace(demand, allowed=demand.within(share), approached=False)
 
     def loosened(self) -> SpeedRequirement:
-        """The same, to be come near to: with nothing asked of a speed but its sense."""
+        """The same, to be come near to: with nothing required of a speed but its sense."""
         allowed: tuple[Interval, ...] | None = None
         if self.signed and self.wanted:
             allowed = ((Fraction(0), None),) if self.wanted > 0 else ((None, Fraction(0)),)
@@ -100,7 +100,7 @@ def meet(left: Sequence[Interval], right: Sequence[Interval]) -> tuple[Interval,
 
 @dataclass(frozen=True, slots=True)
 class OutputRequirement:
-    """An output with all that is asked of it.
+    """An output with all its requirements.
 
     name      of the output; "state: output" where several states are asked at once
     function  its speed, of the free wheels

@@ -1,4 +1,4 @@
-"""One pass of a search over a part: asked, planned, cut into tasks, and run by whoever runs them."""
+"""One pass of a search over a part: its requirements as a join, planned, cut into tasks, and run."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ Tell = Callable[[int, int], None]
 
 @dataclass
 class PassRunner:
-    """Who does the work, what is kept of it, and who is told.
+    """How the tasks of all passes are run: executor, journal of finished tasks, report of progress.
 
     Several passes share a journal: each begins where the last one ended.
     """
@@ -56,7 +56,7 @@ class PassRunner:
         return tally
 
     def release(self) -> None:
-        """The search is over: what is still asked is done here, and nobody is told."""
+        """The search is over: further questions are answered in this process, without journal or report."""
         self.executor = self.journal = self.tell = None
         self.stopped = False
 

@@ -1,4 +1,4 @@
-"""Tooth numbers in a train: every assignment of its free wheels with which all outputs do what is asked of them."""
+"""Tooth numbers in a train: every assignment of its free wheels with which all outputs meet their requirements."""
 
 from __future__ import annotations
 
@@ -42,9 +42,9 @@ def search_train(
 ) -> TrainFindings:
     """All tooth counts of a train's free wheels that meet every requirement, counted, and the best: an exact join.
 
-    Lists of products of counts are joined along what the outputs share, so that assignments are counted which nobody
-    could list; integers decide. What is required of an output: its `expect` and `published`, at their digits and in
-    their sense; every target that has a tolerance; with `tolerance`, the first target where none has. An output with
+    Lists of products of counts are joined along what the outputs share, so that far more assignments are counted than
+    could be listed; integers decide. What is required of an output: its `expect` and `published`, at their digits and
+    in their sense; every target that has a tolerance; with `tolerance`, the first target where none has. An output with
     targets and none of all these is approached: the best `best` by error are found, proved by widening a common
     tolerance.
 

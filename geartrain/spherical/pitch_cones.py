@@ -42,15 +42,15 @@ def operating_pitch(S: ArrayLike, z_i: ArrayLike, z_j: ArrayLike) -> Floats:
 
 
 def base_pitch(pitches: ArrayLike, mean: float = MEAN_PRESSURE) -> float:
-    """c of the base cones sin g_i = c z_i that all gears share: cos(mean) times the geometric mean of the pitches.
+    """c of the base cones sin g_i = c z_i that all gears share, docs/sphere.md (3): cos(mean) times the mean pitch.
 
-    With two pitches the cosines of their pressure angles then lie about cos(mean), geometrically.
+    The mean is geometric: with two pitches the cosines of their pressure angles then lie about cos(mean).
     """
     return cos(mean) * float(np.exp(np.mean(np.log(pitches))))
 
 
 def pressure_angle(c: float, pitch: ArrayLike) -> Floats:
-    """Operating pressure angle of spherical involutes (rad): cos alpha_ij = c / lambda_ij.
+    """Operating pressure angle of spherical involutes [rad]: cos alpha_ij = c / lambda_ij, docs/sphere.md (3).
 
     nan where the operating pitch is less than the base pitch: there the base cones overlap, and no involute meshes.
     """
@@ -84,7 +84,9 @@ def undercut_limit(pressure: float = MEAN_PRESSURE) -> float:
 
 
 def overlap_limit(S: float, between: float) -> float:
-    """The ratio z_other/z_own at which equal neighbours `between` apart touch: sin S cot(between/2) - cos S.
+    """The ratio z_other/z_own at which equal neighbours `between` apart touch: docs/sphere.md (4).
+
+    sin S cot(between/2) - cos S, all angles in rad.
 
     From rho_own = between/2 in `pitch_cone`; z_other/z_own must be greater. 0 if every ratio is.
     """

@@ -21,6 +21,11 @@ MOST_COUNT = 10**9
 
 def quantity(place: str, text: str, dimension: str, plain: bool = False, least: Least = None) -> float:
     """A quantity in SI units; `least` says that it must be 0 or more, or above 0. Raises `GearTrainError`."""
+    return read_quantity(place, text, dimension, plain, least).si
+
+
+def read_quantity(place: str, text: str, dimension: str, plain: bool = False, least: Least = None) -> Quantity:
+    """The same as it was written."""
     try:
         found = Quantity.parse(text, dimension, plain)
     except PydanticCustomError as error:
@@ -32,7 +37,7 @@ def quantity(place: str, text: str, dimension: str, plain: bool = False, least: 
         raise GearTrainError(Problem(f"{text} is below 0", "", f"give a {dimension} of 0 or more", place))
     if found.value == 0 and least == "above 0":
         raise GearTrainError(Problem(f"{text} is not above 0", "", f"give a {dimension} above 0", place))
-    return found.si
+    return found
 
 
 def friction(text: str) -> float:

@@ -14,8 +14,8 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 from geartrain.errors import GearTrainError, Problem
-from geartrain.teeth.gear_mesh import GearMesh, PairSize
-from geartrain.teeth.meshing_wheels import MeshingWheels
+from geartrain.teeth.gear_mesh import GearMesh
+from geartrain.teeth.meshing_wheels import MeshingWheels, PairSize
 from geartrain.train import GearPair, Train, Wheel
 
 if TYPE_CHECKING:

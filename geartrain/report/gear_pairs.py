@@ -6,20 +6,17 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from math import degrees
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from geartrain.analysis.gear_train import GearTrain
-from geartrain.numerics.plain_data import Key, Result, plain
-from geartrain.report.document import Document, Section, Table
+from geartrain.numerics.plain_data import Key, Result
+from geartrain.report.document import Section, Table
 from geartrain.teeth.gear_mesh import GearMesh
 from geartrain.teeth.pair_account import AccountTable, PairAccount, PairFigures
 from geartrain.teeth.pin_figures import PinFigures, pin_figures
 
 if TYPE_CHECKING:
-    from geartrain.dynamics.motion.pair_impacts import PairImpacts, PairOperation
-    from geartrain.teeth.triangular.clearance_window import ClearanceWindow
-    from geartrain.teeth.triangular.triangular_account import TriangularFigures
-    from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
+    from geartrain.errors import Problem
 
 _OF_PAIR = (Key("form", "mesh.form"), Key("gears", "mesh.gears"), Key("note", "mesh.note"), Key("", "figures"))
 
@@ -48,16 +45,6 @@ class DrivenPair(Result):
 
 
 @dataclass(frozen=True)
-class TriangularPair(Result):
-    """A pair with triangular teeth in no train, and what its collisions cost, where a run of it is given."""
-
-    KEYS = (Key("", "figures"), "impacts")
-
-    figures: TriangularFigures
-    impacts: PairImpacts | None
-
-
-@dataclass(frozen=True)
 class DrivenPin(Result):
     """A coupling with dimensions, its pin driving."""
 
@@ -80,36 +67,23 @@ def _teeth(train: GearTrain, pairs: Sequence[DrivenPair]) -> Section:
     for pair in pairs:
         accounts.setdefault(pair.account.words, []).append(pair.account)
     lines = list(accounts)
-    tables = [_joined(each) for same in accounts.values() for each in zip(*(one.tables for one in same), strict=True)]
+    tables = [
+        joined_table(each) for same in accounts.values() for each in zip(*(one.tables for one in same), strict=True)
+    ]
     tables.append(_drivers(pairs, 4 if train.states else 3))
     lines += [f"Pair '{mesh.name}': {mesh.note}." for mesh in train.meshes if mesh.note]
-    for fault in train.faults:
-        lines.append(f"{fault.what}; {fault.why}. {fault.fix}." if fault.why else f"{fault.what}. {fault.fix}.")
+    lines += map(fault_text, train.faults)
     return Section("Teeth", lines, tables)
 
 
-def _joined(rows: Sequence[AccountTable]) -> Table:
+def joined_table(rows: Sequence[AccountTable]) -> Table:
     """One table of all pairs of a kind."""
     return Table(rows[0].header, [each.row for each in rows], wide=rows[0].wide)
 
 
-def describe_pair(mesh: GearMesh) -> Document:
-    """A page on one pair, as its mesh tells of itself."""
-    account = mesh.account()
-    first, second = mesh.wheels.counts
-    lead = [mesh.verdict.text.capitalize() + ".", account.words]
-    lead += [
-        f"{each.what}; {each.why}. {each.fix}." if each.why else f"{each.what}. {each.fix}." for each in mesh.faults
-    ]
-    tables = [_joined([each]) for each in account.tables]
-    title = f"{mesh.tooth_form.words.capitalize()} teeth {first}/{second}"
-    return Document(title, lead, [Section("Motion and losses", (), tables)])
-
-
-def pair_data(mesh: GearMesh) -> dict[str, Any]:
-    """The same as plain data."""
-    found: dict[str, Any] = plain(DrivenPair(mesh), keys=(Key("driver", "mesh.driver"), *_OF_PAIR))
-    return found
+def fault_text(fault: Problem) -> str:
+    """What is wrong, why, and what to do, as sentences."""
+    return f"{fault.what}; {fault.why}. {fault.fix}." if fault.why else f"{fault.what}. {fault.fix}."
 
 
 def _drivers(pairs: Sequence[DrivenPair], used: int) -> Table:
@@ -147,14 +121,3 @@ def driven_pairs(train: GearTrain) -> tuple[DrivenPair, ...]:
 def driven_pins(train: GearTrain) -> tuple[DrivenPin, ...]:
     """Pins of a train; empty where none has dimensions."""
     return tuple(DrivenPin(joint.coupling.name, pin_figures(joint.law)) for joint in train.pins)
-
-
-def mesh_data(
-    law: TriangularTransmission, window: ClearanceWindow | None, operation: PairOperation | None = None
-) -> dict[str, Any]:
-    """One pair with triangular teeth as plain data with stable keys, and what its collisions cost; angles in rad."""
-    from geartrain.dynamics.motion.pair_impacts import find_pair_impacts
-    from geartrain.teeth.triangular.triangular_account import triangular_figures
-
-    found = find_pair_impacts(law, operation) if operation is not None and law.intervals else None
-    return TriangularPair(triangular_figures(law, window), found).to_dict()

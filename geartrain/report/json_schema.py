@@ -1,7 +1,6 @@
 """The JSON answer of each question: of a command, or of one of its uses that is a question of its own.
 
-Shapes are read off the results that are told. Written by hand are those of pages on one pair of teeth, whose figures
-no result holds together, and what commands add to a result.
+Shapes are read off the results that are told. Written by hand is what commands add to a result.
 """
 
 from __future__ import annotations
@@ -9,56 +8,21 @@ from __future__ import annotations
 from functools import cache
 
 from geartrain.report.json_shapes import Schema, shape_of
-from geartrain.teeth.transmission_figures import SlidingEfficiency
 
-TEXT, NUMBER, COUNT, FLAG, NULL = map(shape_of, (str, float, int, bool, None.__class__))
-TEXTS, EXACT, SOME = shape_of(list[str]), shape_of(str | None), shape_of(float | None)
+FLAG = shape_of(bool)
 
 
-def _list(item: Schema, length: int | None = None) -> Schema:
-    """A list of one kind of thing, of a length if it has one."""
-    fixed = {} if length is None else {"minItems": length, "maxItems": length}
-    return {"type": "array", "items": item, **fixed}
+def _list(item: Schema) -> Schema:
+    """A list of one kind of thing."""
+    return {"type": "array", "items": item}
 
 
-def _maybe(kind: Schema) -> Schema:
-    return {"anyOf": [kind, NULL]}
-
-
-def _has(keys: Schema, optional: Schema | None = None) -> Schema:
-    """An object with all of these keys. `optional` ones are told of in docs/json.md; a later version may add others."""
-    return {"type": "object", "required": list(keys), "properties": keys | (optional or {})}
+def _has(keys: Schema) -> Schema:
+    """An object with all of these keys; a later version may add others."""
+    return {"type": "object", "required": list(keys), "properties": keys}
 
 
 OBJECT: Schema = {"type": "object"}
-
-# ------------------------------------------------------------------------------------------------------ a pair of teeth
-
-EFFICIENCY = shape_of(SlidingEfficiency | None)
-
-SHAPE = _has(
-    {
-        "form": TEXT,
-        "teeth": _list(COUNT, 2),
-        "verdict": _has({"kind": TEXT, "text": TEXT, "play": SOME, "faults": _list(OBJECT)}),
-        "pitch_radii": _list(NUMBER, 2),
-        "arcs": _list(NUMBER, 2),
-        "contact_ratio": SOME,
-        "pressure_angles": _list(SOME),
-        "costs": _maybe(OBJECT),
-        "efficiency": EFFICIENCY,
-        "outlines": _list(OBJECT),
-    }
-)
-COMPARED = _has(
-    {
-        "teeth": _list(COUNT, 2),
-        "matched": TEXT,
-        "base": _has({"form": TEXT}),
-        "forms": _list(_has({"form": TEXT, "runs": FLAG, "ratios": _maybe(OBJECT), "faults": _list(OBJECT)})),
-    }
-)
-
 
 # ----------------------------------------------------------------------------------------------------------- questions
 
@@ -72,12 +36,13 @@ def answers() -> dict[str, Schema]:
 def _of_trains() -> dict[str, Schema]:
     from geartrain.numerics.labelled_array import LabelledArray
     from geartrain.report.accuracy_report import AccuracyReport
+    from geartrain.report.gear_pairs import DrivenPair
     from geartrain.report.motion_figures import MotionFigures
     from geartrain.report.torque_figures import TorqueReport
     from geartrain.report.train_data import TrainAnswers, TrainReport
 
     report = shape_of(TrainReport)
-    report = report | {"properties": report["properties"] | {"teeth": _list(_driven_pair())}}
+    report = report | {"properties": report["properties"] | {"teeth": _list(_of_any_form(DrivenPair))}}
     edges = {"nodes": _list(OBJECT), "edges": _list(OBJECT)}
     return {
         "solve": shape_of(TrainAnswers),
@@ -128,12 +93,11 @@ def _of_tooth_numbers() -> dict[str, Schema]:
     }
 
 
-def _driven_pair() -> Schema:
-    """A pair with teeth of any form, with the figures of that form."""
-    from geartrain.report.gear_pairs import DrivenPair
+def _of_any_form(kind: type) -> Schema:
+    """A result on a pair with teeth of any form, with the figures of that form."""
     from geartrain.teeth.any_tooth_form import tooth_forms
 
-    pair = shape_of(DrivenPair)
+    pair = shape_of(kind)
     found = []
     for figures in dict.fromkeys(form.figures() for form in tooth_forms().values()):
         own = shape_of(figures)
@@ -143,15 +107,17 @@ def _driven_pair() -> Schema:
 
 
 def _of_pairs() -> dict[str, Schema]:
-    from geartrain.report.gear_pairs import TriangularPair
+    from geartrain.report.pair_page import FormedPair, TriangularPair
+    from geartrain.teeth.conjugate.pair_design import PairDesign
+    from geartrain.teeth.form_comparison import FormComparison
     from geartrain.teeth.pin_figures import PinFigures
 
     return {
         "mesh triangular": shape_of(TriangularPair),
         "mesh triangular --vary": shape_of(list[dict[str, float | str | None]]),
         "mesh pin": shape_of(PinFigures),
-        "mesh FORM": SHAPE,
-        "mesh compare": COMPARED,
+        "mesh FORM": {"anyOf": [shape_of(PairDesign), *_of_any_form(FormedPair)["anyOf"]]},
+        "mesh compare": shape_of(FormComparison),
     }
 
 

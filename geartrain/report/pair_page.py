@@ -1,187 +1,151 @@
-"""A page on one pair of wheels with triangular teeth, or on one pin in a slot."""
+"""Pages on one pair of wheels, whatever the form of its teeth, and on one pin in a slot."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from math import degrees, isfinite, isnan, pi
-from typing import TYPE_CHECKING, Any
+from collections.abc import Sequence
+from dataclasses import dataclass
+from math import degrees, isnan
+from typing import TYPE_CHECKING
 
+from geartrain.numerics.plain_data import Key, Result
 from geartrain.report.document import Document, Section, Table, figure
-from geartrain.teeth.triangular.triangular_explanations import explain_clearance, explain_friction_lock
+from geartrain.report.gear_pairs import fault_text, joined_table
+from geartrain.teeth.conjugate.conjugate_mesh import ConjugateMesh
+from geartrain.teeth.triangular.triangular_mesh import TriangularMesh
 
 if TYPE_CHECKING:
-    from geartrain.dynamics.motion.pair_impacts import PairOperation
+    from geartrain.dynamics.motion.pair_impacts import PairImpacts, PairOperation
+    from geartrain.teeth.conjugate.pair_design import PairDesign
+    from geartrain.teeth.gear_mesh import GearMesh
+    from geartrain.teeth.outlines.cut_wheel import WheelOutline
+    from geartrain.teeth.pair_account import PairFigures
     from geartrain.teeth.pin_transmission import PinTransmission
-    from geartrain.teeth.triangular.clearance_window import ClearanceWindow
-    from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
+    from geartrain.teeth.triangular.triangular_account import TriangularFigures
 
 
-def mesh_document(
-    law: TriangularTransmission, window: ClearanceWindow | None, operation: PairOperation, notes: tuple[str, ...] = ()
+@dataclass(frozen=True)
+class FormedPair(Result):
+    """A pair of any form, with the figures of its mesh.
+
+    mesh       the pair, as it is driven
+    outlines   wheels that were cut
+    """
+
+    KEYS = (
+        *(Key("form", "mesh.form"), Key("driver", "mesh.driver"), Key("gears", "mesh.gears"), Key("note", "mesh.note")),
+        *(Key("", "figures"), "outlines"),
+    )
+
+    mesh: GearMesh
+    outlines: tuple[WheelOutline, ...] = ()
+
+    @property
+    def figures(self) -> PairFigures:
+        """What the mesh tells of itself."""
+        return self.mesh.account().figures
+
+
+@dataclass(frozen=True)
+class TriangularPair(Result):
+    """A pair with triangular teeth in no train, and what its collisions cost, where a run of it is given."""
+
+    KEYS = (Key("", "figures"), "impacts")
+
+    figures: TriangularFigures
+    impacts: PairImpacts | None
+
+
+def collect_pair(
+    mesh: GearMesh, outlines: Sequence[WheelOutline] = (), operation: PairOperation | None = None
+) -> PairDesign | TriangularPair | FormedPair:
+    """What there is to tell of one pair, as its form has it.
+
+    outlines    wheels that were cut
+    operation   how the pair is run, for the impacts of triangular teeth
+    """
+    if isinstance(mesh, TriangularMesh):
+        return _triangular_pair(mesh, operation)
+    design = _design(mesh, outlines)
+    return FormedPair(mesh, tuple(outlines)) if design is None else design
+
+
+def describe_pair(
+    mesh: GearMesh, outlines: Sequence[WheelOutline] = (), operation: PairOperation | None = None
 ) -> Document:
-    """Sizes, clearance, path, law, collisions and losses of one pair."""
-    sizes = law.sizes
-    lead = [f"The wheel of {sizes.z1} drives the wheel of {sizes.z2}.", _verdict(law, window), *notes]
-    sections = [_sizes(law)]
-    if window is not None:
-        sections.append(_clearance(law, window))
-    if law.intervals:
-        sections += [_path(law), _law(law), _collisions(law), _losses(law), *_impacts(law, operation)]
-    return Document(f"Triangular teeth {sizes.z1}/{sizes.z2}", lead, sections)
+    """A page on the same: verdict, design or figures, motion, losses, and wheels that were cut."""
+    if isinstance(mesh, TriangularMesh):
+        return _triangular_page(mesh, operation)
+    design = _design(mesh, outlines)
+    return _formed_page(mesh, outlines) if design is None else _design_page(design)
 
 
-def _verdict(law: TriangularTransmission, window: ClearanceWindow | None) -> str:
-    found = law.verdict
-    words = [f"Verdict: {found.kind}: {found.text}."]
-    if not found:
-        why, fix = explain_clearance(law, window)
-        words += [f"Why: {why}." if why else "", f"What to do: {fix}."]
-    elif law.friction >= law.locking_friction:
-        what, why, fix = explain_friction_lock(law)
-        words = [f"Verdict: friction locks: {what}.", f"Why: {why}.", f"What to do: {fix}."]
-    return " ".join(word for word in words if word)
-
-
-def _sizes(law: TriangularTransmission) -> Section:
-    sizes = law.sizes
-    wheels = (
-        ("driver", sizes.z1, sizes.beta1, sizes.R1, sizes.depths[0], sizes.flanks[0], sizes.p1),
-        ("driven", sizes.z2, sizes.beta2, sizes.R2, sizes.depths[1], sizes.flanks[1], sizes.p2),
-    )
-    rows = [
-        (name, str(z), _deg(beta), figure(R), figure(h), figure(e), _deg(pitch))
-        for name, z, beta, R, h, e, pitch in wheels
-    ]
-    header = ("wheel", "teeth", "half angle", "outer radius", "depth", "flank", "pitch")
-    text = f"Centre distance {figure(sizes.D)}, in the unit of radii, depths and flanks (Eqs. 1 to 3). Angles in deg."
-    return Section("Sizes", (text,), (Table(header, rows),))
-
-
-def _clearance(law: TriangularTransmission, window: ClearanceWindow) -> Section:
-    sizes = law.sizes
-    turns = (
-        f"These teeth turn from {1 + window.jam:.6f} ({window.jam_kind}) to {1 + window.run:.6f} ({window.run_kind})"
-        if window
-        else f"No clearance works: {window.jam_kind} up to {1 + window.jam:.6f}, {window.run_kind} from "
-        f"{1 + window.run:.6f}"
-    )
-    lines = [f"Clearance factor {1 + sizes.excess:.9g}. {turns}; beyond {1 + window.reach:.6f} tips never touch."]
-    if law.intervals:
-        play = law.verdict.play
-        arc = play * sizes.D * sizes.z2 / (sizes.z1 + sizes.z2)
-        lines.append(
-            f"Least play of the back flanks over a pitch: {degrees(play):.6g} deg of the driven wheel, an arc of "
-            f"{arc:.6g} on its pitch circle."
-        )
-    return Section("Clearance", lines)
-
-
-def _path(law: TriangularTransmission) -> Section:
-    sizes = law.sizes
-    ideal = (
-        f"Ideally a couple of teeth meets from alpha_1 = {_deg(sizes.reach1)} to {_deg(-sizes.reach1)} deg (Eq. 4), "
-        f"its flanks matching at {_deg(sizes.matching)} deg (Eq. 10): approach before, recess after. The real path is "
-        f"one pitch, {_deg(sizes.p1)} deg; alpha_1 decreases with time."
-    )
-    rows = []
-    for interval in law.intervals:
-        first, last = law.contact.speed(interval, interval.start), law.contact.speed(interval, interval.end)
-        share = interval.width / sizes.p1
-        rows.append(
-            (interval.phase, _deg(interval.start), _deg(interval.end), f"{share:.4f}", figure(first), figure(last))
-        )
-    header = ("phase", "from alpha_1", "to alpha_1", "pitches", "tau at first", "tau at last")
-    return Section("Path of contact", (ideal,), (Table(header, rows),))
-
-
-def _law(law: TriangularTransmission) -> Section:
-    least, most = law.speed_range()
-    low, high = law.error_range()
-    lag, rms = law.error_moments()
-    mean = float(law.ratio)
-    rows = [
-        ("speed ratio, mean", f"{law.ratio} = {figure(law.ratio)}", ""),
-        ("speed ratio, least", figure(least), f"{(least / mean - 1) * 100:+.3f} %"),
-        ("speed ratio, greatest", figure(most), f"{(most / mean - 1) * 100:+.3f} %"),
-        ("transmission error, peak to peak", f"{high - low:.9g} rad", f"{degrees(high - low):.9g} deg"),
-        ("transmission error, rms", f"{rms:.9g} rad", f"{degrees(rms):.9g} deg"),
-        ("transmission error, mean", f"{lag:.9g} rad", f"{degrees(lag):.9g} deg"),
-    ]
-    text = (
-        "Transmission error: driven angle less its mean motion, positive where the driven wheel is ahead; counted from "
-        "the driver's tooth on the line of centres."
-    )
-    return Section("Law of motion", (text,), (Table(("quantity", "value", ""), rows),))
-
-
-def _collisions(law: TriangularTransmission) -> Section:
-    rows = [
-        (jump.kind, _deg(jump.alpha1), figure(jump.before), figure(jump.after), f"{jump.value:.5f}")
-        for jump in law.jumps
-    ]
-    header = ("begins", "at alpha_1", "tau before", "tau after", "jump")
-    text = "Jump: 1 - before/after, the leap of normal velocity over the driver's (Eqs. 22, 25, 26, 27)."
-    return Section("Collisions", (text,), (Table(header, rows),))
-
-
-def _losses(law: TriangularTransmission) -> Section:
-    if not law.friction:
-        return Section("Friction", ("No friction is given: nothing is lost by sliding.",))
-    if law.friction >= law.locking_friction:
-        what, why, _ = explain_friction_lock(law)
-        return Section("Friction", (f"{what}: {why}.",))
-    lines = [
-        f"Coefficient of friction {law.friction:g}. Sliding efficiency: mean {law.efficiency_mean():.9f} at constant "
-        f"driver torque (Eq. 34), {law.efficiency_at_constant_load():.9f} at constant load torque, least "
-        f"{law.efficiency_least():.6f}.",
-    ]
-    if isfinite(law.locking_friction):
-        lines.append(f"From a friction of {law.locking_friction:.6g} on these teeth lock.")
-    return Section("Friction", lines)
-
-
-def _impacts(law: TriangularTransmission, operation: PairOperation) -> Iterator[Section]:
+def _triangular_pair(mesh: TriangularMesh, operation: PairOperation | None) -> TriangularPair:
     from geartrain.dynamics.motion.pair_impacts import find_pair_impacts
+    from geartrain.teeth.triangular.triangular_account import triangular_figures
 
-    found = find_pair_impacts(law, operation)
-    if found is None:
-        return
-    lines = []
-    if found.work is not None:
-        watts = found.work * (operation.rate or 0) * law.sizes.z1
-        lines.append(
-            f"At {operation.rate:g} turns of the driver a second the collisions of one pitch hand "
-            f"{found.handed:.6g} J to the driven side, dissipate {found.dissipated:.6g} J, and cost the driver their "
-            f"sum, {found.work:.6g} J, or {watts:.6g} W. The source counts the first as lost; inelastic teeth lose "
-            "the second."
-        )
-        lines.append(
-            f"The driven inertia stays in contact as tau falls if the load torque is at least {found.least_load:.6g} "
-            "N m."
-        )
-    if found.void is not None:
-        lines.append(
-            f"With a load torque of {operation.load:g} N m the quasi-static law is void above {found.void:.6g} "
-            f"turns of the driver a second ({2 * pi * found.void:.6g} rad/s)."
-        )
-    if not lines:
-        lines.append(
-            "Give a rate for the impacts, or a load torque for the speed above which the quasi-static law is void."
-        )
-    yield Section("Impacts", lines)
+    impacts = None if operation is None or not mesh.law.intervals else find_pair_impacts(mesh.law, operation)
+    return TriangularPair(triangular_figures(mesh.law, mesh.window), impacts)
 
 
-def _deg(angle: float) -> str:
-    return f"{degrees(angle):.6g}" if isfinite(angle) else "none"
+def _triangular_page(mesh: TriangularMesh, operation: PairOperation | None) -> Document:
+    from geartrain.report.triangular_pair_page import triangular_sections, triangular_verdict
+
+    z1, z2 = mesh.counts
+    lead = [f"The wheel of {z1} drives the wheel of {z2}.", triangular_verdict(mesh)]
+    return Document(f"Triangular teeth {z1}/{z2}", lead, list(triangular_sections(mesh, operation)))
 
 
-def pin_document(law: PinTransmission, drives: str) -> Document:
+def _design(mesh: GearMesh, outlines: Sequence[WheelOutline]) -> PairDesign | None:
+    """The design of conjugate teeth; None for others, and at a distance at which they are conjugate no more."""
+    if not isinstance(mesh, ConjugateMesh) or not mesh.rigid:
+        return None
+    from geartrain.teeth.conjugate.pair_design import PairDesign
+
+    return PairDesign(mesh, tuple(outlines))
+
+
+def _design_page(design: PairDesign) -> Document:
+    from geartrain.report.conjugate_pair_page import conjugate_sections, conjugate_verdict, pair_name
+
+    driver, driven = design.mesh.counts
+    lead = [f"The wheel of {driver} drives the wheel of {driven}.", conjugate_verdict(design)]
+    sections = [*conjugate_sections(design), *map(_outline, design.outlines)]
+    return Document(f"{design.mesh.tooth_form.words.capitalize()} teeth {pair_name(design.path)}", lead, sections)
+
+
+def _formed_page(mesh: GearMesh, outlines: Sequence[WheelOutline]) -> Document:
+    account = mesh.account()
+    first, second = mesh.wheels.counts
+    lead = [f"{mesh.verdict.text.capitalize()}.", account.words, *map(fault_text, mesh.faults)]
+    tables = [joined_table([each]) for each in account.tables]
+    sections = [Section("Motion and losses", (), tables), *map(_outline, outlines)]
+    return Document(f"{mesh.tooth_form.words.capitalize()} teeth {first}/{second}", lead, sections)
+
+
+def _outline(wheel: WheelOutline) -> Section:
+    sizes = wheel.to_dict()
+    names = ("module", "pitch_diameter", "tip_diameter", "root_diameter", "thickness", "fillet", "clearance")
+    rows = [
+        (name.replace("_", " "), f"{sizes[name]:.6g}") for name in (*names, "backlash", "centre_distance", "tolerance")
+    ]
+    kinds = {"pins": "a disc with a hole for each pin", "ring": "teeth inwards", "external": "teeth outwards"}
+    text = (
+        f"Wheel {wheel.gear}, {kinds[wheel.kind]}; lengths in mm, thickness along the pitch circle. The axle is at "
+        "the origin, a tooth or pin on the x axis."
+    )
+    lines = [text]
+    if wheel.relief:
+        lines.append(f"The root is turned {degrees(wheel.relief):.3g} deg off the flank so that the mate's tip passes.")
+    return Section("Outline", lines, (Table(("quantity", "mm"), rows),))
+
+
+def describe_pin(law: PinTransmission) -> Document:
     """Mean ratio, amplitude, extreme speeds and friction of one coupling."""
     least, most = law.speed_range()
     kind = "encloses" if law.ratio else "leaves out"
     lead = [
-        f"The {drives} drives. The pin's circle, of radius {figure(law.r)}, {kind} the slot's axis at {figure(law.e)}: "
-        f"the mean ratio is {law.ratio}.",
+        f"The {law.driver} drives. The pin's circle, of radius {figure(law.r)}, {kind} the slot's axis at "
+        f"{figure(law.e)}: the mean ratio is {law.ratio}.",
     ]
     rows = [
         ("amplitude", f"{law.amplitude:.9g} rad", f"{degrees(law.amplitude):.9g} deg"),
@@ -200,10 +164,3 @@ def pin_document(law: PinTransmission, drives: str) -> Document:
 def _share(efficiency: float) -> str:
     """An efficiency; `-` where friction locks, or no work is done on a constant load."""
     return "-" if isnan(efficiency) else f"{efficiency:.9f}"
-
-
-def pin_data(law: PinTransmission) -> dict[str, Any]:
-    """One coupling as plain data with stable keys; angles in rad."""
-    from geartrain.teeth.pin_figures import pin_figures
-
-    return pin_figures(law).to_dict()

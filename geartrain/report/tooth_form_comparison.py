@@ -3,62 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
-from math import isfinite, pi
-from typing import TYPE_CHECKING, Any
+from math import isfinite
+from typing import TYPE_CHECKING
 
-from geartrain.report.conjugate_pair_page import FREE, LOADED, cost, finite, measures_data, pair_name
+from geartrain.report.conjugate_pair_page import cost, pair_name
 from geartrain.report.document import Document, Section, Table
+from geartrain.teeth.conjugate.path_costs import FREE, LOADED, ONE_PAIR, SHARED
 
 if TYPE_CHECKING:
-    from geartrain.errors import Problem
-    from geartrain.teeth.conjugate.path_costs import PathMeasures
-    from geartrain.teeth.conjugate.path_of_contact import PathOfContact
-    from geartrain.teeth.pair_verdict import ToothFault
+    from geartrain.teeth.form_comparison import FormComparison, MeasuredForm
 
-_LOADED = ("loss", "stress", "stress off pitch", "heat", "flash")
-_FREE = ("depth", "contact ratio", "slowest")
+_HEADERS = {"off_pitch": "stress off pitch"}
 
 
-@dataclass(frozen=True)
-class MeasuredForm:
-    """One form of a comparison: its path and measures, or why it cannot run."""
-
-    name: str
-    path: PathOfContact | None
-    measures: PathMeasures | None
-    faults: tuple[ToothFault | Problem, ...] = ()
-
-    @property
-    def runs(self) -> bool:
-        """True if teeth of this form can run."""
-        return self.measures is not None and not self.faults
-
-
-@dataclass(frozen=True)
-class FormComparison:
-    """Forms beside the 20 degree involute of the same pair and arcs.
-
-    matched   what all have in common, in words
-    """
-
-    base: MeasuredForm
-    forms: tuple[MeasuredForm, ...]
-    matched: str
-
-    @property
-    def path(self) -> PathOfContact:
-        """The path of the involute."""
-        assert self.base.path is not None
-        return self.base.path
-
-
-def compared_document(found: FormComparison) -> Document:
+def describe_form_comparison(found: FormComparison) -> Document:
     """Tables of ratios, and what keeps the others from running."""
-    from geartrain.teeth.conjugate.path_costs import ONE_PAIR, SHARED
-
-    base = found.base.measures
-    assert base is not None
     text = (
         "Ratios to the involute of 20 deg. Loss: of the mean power lost; stress: of the greatest Hertz pressure, "
         "infinite where the pressure angle is 0 at the pitch point, and off pitch where contact is more than a tenth "
@@ -66,56 +25,58 @@ def compared_document(found: FormComparison) -> Document:
         "temperature; depth: of the working depth; slowest: of the least speed of the contact along a dedendum. Arcs: "
         f"approach and recess in pitches. Of loss, stress, heat and flash: {ONE_PAIR}."
     )
-    rows = [_ratios(form, base) for form in found.forms]
-    sections = [Section("Ratios", (text,), [Table(("form", "arcs", *_LOADED, *_FREE), rows, True)])]
-    sections += [_sharing(found, SHARED), _base(found)]
+    rows = [_ratios(form) for form in found.forms]
+    header = ("form", "arcs", *map(_header, (*LOADED, *FREE)))
+    sections = [Section("Ratios", (text,), [Table(header, rows, True)]), _sharing(found), _base(found)]
     faulty = [line for form in found.forms for line in _reasons(form)]
     if faulty:
         sections.append(Section("What cannot run", faulty))
     return Document(f"Tooth forms, {pair_name(found.path)}", [found.matched], sections)
 
 
-def _sharing(found: FormComparison, words: str) -> Section:
+def _header(name: str) -> str:
+    """What a column of this measure is called."""
+    return _HEADERS.get(name, name.replace("_", " "))
+
+
+def _sharing(found: FormComparison) -> Section:
     """The same costs where pairs in contact share the load; a sentence where never two touch at once."""
-    base = found.base.measures
-    assert base is not None
+    base = found.measures
     runs = [form.measures for form in found.forms if form.runs and form.measures]
     if all(each.contact_ratio < 1 + 1e-9 for each in (base, *runs)):
         return Section("Ratios, shared load", ("One pair of teeth touches at a time: sharing changes nothing.",))
-    rows = [_shared(form, base) for form in found.forms]
-    return Section("Ratios, shared load", (f"As above, where {words}.",), [Table(("form", *_LOADED), rows, True)])
+    rows = [_shared(form) for form in found.forms]
+    table = Table(("form", *map(_header, LOADED)), rows, True)
+    return Section("Ratios, shared load", (f"As above, where {SHARED}.",), [table])
 
 
-def _shared(form: MeasuredForm, base: PathMeasures) -> tuple[str, ...]:
-    if not form.runs or form.measures is None:
+def _shared(form: MeasuredForm) -> tuple[str, ...]:
+    if form.ratios is None:
         return (form.name, *("-" for _ in LOADED))
-    over = form.measures.shared.over(base.shared)
-    return (form.name, *(_ratio(over[name]) for name in LOADED))
+    return (form.name, *(_ratio(form.ratios.shared[name]) for name in LOADED))
 
 
-def _ratios(form: MeasuredForm, base: PathMeasures) -> tuple[str, ...]:
-    if form.path is None or form.measures is None or form.faults:
-        words = ", ".join(dict.fromkeys(getattr(fault, "kind", "refused") for fault in form.faults))
-        return (form.name, _arcs(form.path) if form.path else "-", words, *("-" for _ in (*LOADED, *FREE)[1:]))
-    over = form.measures.one_pair.over(base.one_pair)
-    free = (getattr(form.measures, name) / getattr(base, name) for name in FREE)
-    return (form.name, _arcs(form.path), *(_ratio(over[name]) for name in LOADED), *map(_ratio, free))
+def _ratios(form: MeasuredForm) -> tuple[str, ...]:
+    if form.ratios is None:
+        words = ", ".join(dict.fromkeys(fault.kind for fault in form.faults))
+        return (form.name, _arcs(form), words, *("-" for _ in (*LOADED, *FREE)[1:]))
+    loaded, free = form.ratios.one_pair, form.ratios.free
+    return (form.name, _arcs(form), *(_ratio(loaded[name]) for name in LOADED), *(_ratio(free[name]) for name in FREE))
 
 
 def _ratio(value: float) -> str:
     return f"{value:.4f}" if isfinite(value) else "inf"
 
 
-def _arcs(path: PathOfContact) -> str:
-    return " + ".join(f"{arc / path.pitch.p:.4g}" for arc in path.arcs)
+def _arcs(form: MeasuredForm) -> str:
+    return "-" if form.pitches is None else " + ".join(f"{arc:.4g}" for arc in form.pitches)
 
 
 def _base(found: FormComparison) -> Section:
-    base = found.base.measures
-    assert base is not None
+    base = found.measures
     loads = base.one_pair, base.shared
-    rows = [(name, *(cost(getattr(each, key)) for each in loads)) for name, key in zip(_LOADED, LOADED, strict=True)]
-    rows += [(name, *[cost(getattr(base, key))] * 2) for name, key in zip(_FREE, FREE, strict=True)]
+    rows = [(_header(name), *(cost(getattr(each, name)) for each in loads)) for name in LOADED]
+    rows += [(_header(name), *[cost(getattr(base, name))] * 2) for name in FREE]
     unit = "rad on the unit sphere" if found.path.pitch.bevel else "modules"
     text = (
         f"The involute itself, lengths in {unit}: mean loss over friction; greatest Hertz pressure as the root of "
@@ -128,40 +89,3 @@ def _reasons(form: MeasuredForm) -> Iterator[str]:
     for fault in form.faults:
         words = (fault.what, fault.why, fault.fix)
         yield f"{form.name}: " + "; ".join(word for word in words if word) + "."
-
-
-def compared_data(found: FormComparison) -> dict[str, Any]:
-    """The comparison as plain data; infinite ratios are null."""
-    base = found.base.measures
-    assert base is not None
-    pitch = found.path.pitch
-    return {
-        "teeth": [pitch.z1, pitch.z2],
-        "matched": found.matched,
-        "base": {"form": "involute", "pressure_angle": pi / 9} | measures_data(base),
-        "forms": [_form_data(form, base) for form in found.forms],
-    }
-
-
-def _form_data(form: MeasuredForm, base: PathMeasures) -> dict[str, Any]:
-    data: dict[str, Any] = {"form": form.name, "runs": form.runs, "arcs": None, "ratios": None}
-    if form.path is not None:
-        data["arcs"] = [arc / form.path.pitch.p for arc in form.path.arcs]
-    if form.measures is not None and form.runs:
-        data["ratios"] = _finite(form.measures.over(base))
-    return data | {"faults": [_fault_data(fault) for fault in form.faults]}
-
-
-def _finite(ratios: dict[str, Any]) -> dict[str, Any]:
-    """Infinite ratios as null, at any depth."""
-    return {name: _finite(value) if isinstance(value, dict) else finite(value) for name, value in ratios.items()}
-
-
-def _fault_data(fault: ToothFault | Problem) -> dict[str, Any]:
-    return {
-        "kind": getattr(fault, "kind", "refused"),
-        "gear": getattr(fault, "gear", 0) or None,
-        "what": fault.what,
-        "why": fault.why,
-        "fix": fault.fix,
-    }

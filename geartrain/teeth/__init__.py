@@ -20,9 +20,8 @@ if TYPE_CHECKING:
     from geartrain.teeth import any_tooth_form
     from geartrain.teeth.any_tooth_form import *  # noqa: F403
     from geartrain.teeth.gear_mesh import GearMesh as GearMesh
-    from geartrain.teeth.outlines.wheel_outline import BlankSizes as BlankSizes
-    from geartrain.teeth.outlines.wheel_outline import WheelOutline as WheelOutline
-    from geartrain.teeth.outlines.wheel_outline import mesh_outline as mesh_outline
+    from geartrain.teeth.outlines.cut_wheel import BlankSizes as BlankSizes
+    from geartrain.teeth.outlines.cut_wheel import WheelOutline as WheelOutline
     from geartrain.teeth.pair_verdict import PairVerdict as PairVerdict
     from geartrain.teeth.pin_transmission import PinToSlotTransmission as PinToSlotTransmission
     from geartrain.teeth.pin_transmission import SlotToPinTransmission as SlotToPinTransmission
@@ -42,12 +41,11 @@ if TYPE_CHECKING:
         "TransmissionError",
         "TransmissionFunction",
         "WheelOutline",
-        "mesh_outline",
     ]
     __all__ += any_tooth_form.__all__
 
 _PLACES = {
-    "BlankSizes": "outlines.wheel_outline",
+    "BlankSizes": "outlines.cut_wheel",
     "GearMesh": "gear_mesh",
     "PairVerdict": "pair_verdict",
     "PinToSlotTransmission": "pin_transmission",
@@ -56,8 +54,7 @@ _PLACES = {
     "SpeedRatio": "transmission_figures",
     "TransmissionError": "transmission_figures",
     "TransmissionFunction": "transmission",
-    "WheelOutline": "outlines.wheel_outline",
-    "mesh_outline": "outlines.wheel_outline",
+    "WheelOutline": "outlines.cut_wheel",
 }
 
 _find = lazy_names(__name__, _PLACES)

@@ -6,48 +6,21 @@ from abc import ABC, abstractmethod
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, Protocol, Self
+from typing import TYPE_CHECKING, Any, Self
 
 from geartrain.errors import Problem, RangeError
-from geartrain.teeth.meshing_wheels import DeclaredPair, MeshDriver, MeshingWheels
+from geartrain.teeth.meshing_wheels import DeclaredPair, MeshDriver, MeshingWheels, NamedForm, PairSize
+from geartrain.teeth.pair_verdict import friction_lock
 from geartrain.teeth.transmission import ExactRatio
 
 if TYPE_CHECKING:
+    from geartrain.teeth.conjugate.path_of_contact import PathOfContact
+    from geartrain.teeth.outlines.cut_wheel import BlankSizes, WheelOutline
     from geartrain.teeth.outlines.wheel_requirement import WheelRequirement
     from geartrain.teeth.pair_account import PairAccount
     from geartrain.teeth.pair_verdict import PairVerdict
     from geartrain.teeth.transmission import TransmissionFunction
     from geartrain.teeth.transmission_figures import SlidingEfficiency
-
-
-class NamedForm(Protocol):
-    """What a mesh reads of the tooth form that made it."""
-
-    @property
-    def form(self) -> str:
-        """Its name."""
-
-    @property
-    def words(self) -> str:
-        """Its name as prose has it."""
-
-    @property
-    def has_lengths(self) -> bool:
-        """True for teeth declared in units of length."""
-
-
-@dataclass(frozen=True, slots=True)
-class PairSize:
-    """Of a pair with real teeth.
-
-    scale      modules in one unit of its law's lengths
-    distance   of its axes, in modules
-    stretch    that distance over the one at which pitch circles touch
-    """
-
-    scale: float
-    distance: float
-    stretch: float
 
 
 @dataclass(frozen=True)
@@ -197,6 +170,36 @@ class GearMesh(ABC):
         """
 
     @property
+    def path(self) -> PathOfContact | None:
+        """The path of contact by which the teeth are designed; None for those that are not designed by one."""
+        return None
+
+    def wheel_outline(self, gear: int, cut: BlankSizes) -> WheelOutline:
+        """The outline of one wheel of the pair, whole, as its form wants it cut.
+
+        Parameters
+        ----------
+        gear : {1, 2}
+            The first or the second wheel that the pair names.
+        cut : BlankSizes
+            Module, bore, tolerance, and of conjugate teeth what else their roots are cut with.
+
+        Returns
+        -------
+        WheelOutline
+            A tooth stands on the x axis; the two mesh at `centre_distance` where a space of gear 2 faces a tooth of
+            gear 1.
+
+        Raises
+        ------
+        GearTrainError
+            Where no such wheel can be cut.
+        """
+        from geartrain.teeth.outlines.wheel_outline import mesh_outline
+
+        return mesh_outline(self, gear, cut)
+
+    @property
     def has_cut_sizes(self) -> bool:
         """True for teeth whose manufacturing errors are reckoned tooth by tooth."""
         return False
@@ -315,15 +318,6 @@ class GearMesh(ABC):
     def ways(self) -> tuple[Self, ...]:
         """The mesh as it is driven; where that is not determined, both ways."""
         return (self,) if self.who.known else (self, self.driven_by(replace(self.who, wheel=self.driven)))
-
-
-def friction_lock(friction: float, locking: float) -> Problem:
-    """The fault of teeth that lock from a friction of `locking` on."""
-    return Problem(
-        f"a friction of {friction:g} locks these teeth",
-        f"from {locking:.6g} on the driver pushes somewhere against more sliding than it can overcome",
-        f"give a friction below {locking:.4g}, or let the other wheel drive",
-    )
 
 
 def find_faults(ways: Sequence[GearMesh]) -> tuple[Problem, ...]:

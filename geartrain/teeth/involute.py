@@ -15,6 +15,8 @@ from geartrain.teeth.conjugate.wheel_pair import WheelPair
 from geartrain.teeth.tooth_form import TwoFigures, bad, refused
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from geartrain.teeth.conjugate.conjugate_transmission import ConjugatePair
     from geartrain.teeth.conjugate.involute_geometry import InvolutePair, InvoluteWheel
     from geartrain.teeth.conjugate.pitch_surfaces import PitchSurfaces
@@ -107,6 +109,33 @@ class Involute(ConjugateToothForm):
         """
         wheels.check()
         return self._bevel(wheels) if wheels.bevel else self._spur(wheels)
+
+    @classmethod
+    def pair_of_arcs(cls, wheels: WheelPair, arcs: tuple[float, float], given: Mapping[str, object]) -> ConjugatePair:
+        """The involute pair whose arcs of contact are given, whatever addenda they take.
+
+        Parameters
+        ----------
+        wheels : WheelPair
+            The two wheels.
+        arcs : tuple of float
+            Of approach and recess, gear 1 driving [pitch]; one may be negative.
+        given : mapping
+            What else the form declares: its pressure angle.
+
+        Returns
+        -------
+        ConjugatePair
+            Teeth that share the pitch equally, without play.
+        """
+        from geartrain.teeth.conjugate import optimal_sides as forms
+        from geartrain.teeth.conjugate.conjugate_transmission import ConjugatePair
+        from geartrain.teeth.conjugate.path_of_contact import PathOfContact
+
+        pitch, psi = wheels.pitch, cls.declared(given).pressure_angle.si
+        first, last = (arc * pitch.p for arc in arcs)
+        approach, recess = (forms.involute(max(X, 0.0), psi) for X in (first, last))
+        return ConjugatePair(PathOfContact(pitch, approach, recess, (first, last)), (pitch.p / 4, pitch.p / 4))
 
     @property
     def rack_angle(self) -> float:

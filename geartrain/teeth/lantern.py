@@ -3,22 +3,26 @@
 from __future__ import annotations
 
 from math import pi, sin
-from typing import TYPE_CHECKING, Annotated, Literal
+from typing import TYPE_CHECKING, Annotated, ClassVar, Literal
 
 from pydantic import BeforeValidator, Field, model_validator
 
 from geartrain.errors import Problem, RangeError
 from geartrain.numerics.quantity import Figure, Length
-from geartrain.teeth.conjugate.conjugate_form import ConjugateToothForm
+from geartrain.teeth.conjugate.conjugate_form import ConjugateToothForm, conjugate_pair_of
 from geartrain.teeth.conjugate.form_checks import arcs_of, check_arcs
 from geartrain.teeth.conjugate.wheel_pair import WheelPair
 from geartrain.teeth.tooth_form import TwoFigures, bad, refused
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from geartrain.teeth.conjugate.conjugate_transmission import ConjugatePair
     from geartrain.teeth.conjugate.pitch_surfaces import PitchSurfaces
     from geartrain.teeth.outlines.wheel_requirement import LanternPins
     from geartrain.teeth.pair_verdict import ToothFault
+
+_BEYOND = 1 + 1e-8  # times what the pins cut off: without it rounding may leave a hair less than a pitch of contact
 
 
 def _first_or_second(raw: object) -> object:
@@ -42,6 +46,8 @@ class Lantern(ConjugateToothForm):
     >>> law.verdict.text, [round(arc / law.path.pitch.p, 3) for arc in law.path.arcs]
     ('the teeth run', [0.0, 1.0])
     """
+
+    matched: ClassVar[str] = "the pins of a lantern have all of it in recess, beyond what they cut off"
 
     form: Literal["lantern"] = Field(description="The name of this form")
     pins: Annotated[Literal[1, 2], BeforeValidator(_first_or_second)] = Field(
@@ -122,6 +128,7 @@ class Lantern(ConjugateToothForm):
         from geartrain.teeth.conjugate.path_of_contact import PathOfContact
         from geartrain.teeth.conjugate.pin_undercut import flank_start
 
+        wheels.check()
         if wheels.bevel:
             raise _beyond("a bevel lantern", "round pins on a cone have no mate in closed form")
         if wheels.internal and self.pins == 2:
@@ -139,6 +146,28 @@ class Lantern(ConjugateToothForm):
         (approach, recess), arcs = (sides, real) if self.pins == 1 else (sides[::-1], real[::-1])
         path, cut = PathOfContact(pitch, approach, recess, (arcs[0], arcs[1])), self._cut(pitch, start, outside, inside)
         return ConjugatePair(path, halves, extra=cut, solid=(self.pins != 1, self.pins != 2))
+
+    @classmethod
+    def pair_of_arcs(cls, wheels: WheelPair, arcs: tuple[float, float], given: Mapping[str, object]) -> ConjugatePair:
+        """The pair with as much contact, all of it in recess, beyond what the pins on their way in cut off.
+
+        Parameters
+        ----------
+        wheels : WheelPair
+            The two wheels.
+        arcs : tuple of float
+            Of approach and recess, gear 1 driving [pitch], whose sum counts.
+        given : mapping
+            What else the form declares.
+
+        Returns
+        -------
+        ConjugatePair
+            Path of contact, thickness of the teeth, and what keeps them from running.
+        """
+        usual = conjugate_pair_of(cls.declared(given), wheels)
+        lost = max(-usual.arcs[0], 0.0) / usual.path.pitch.p * _BEYOND
+        return super().pair_of_arcs(wheels, (0.0, sum(arcs) + lost), given)
 
     def _cut(self, pitch: PitchSurfaces, start: float, outside: float, inside: float) -> tuple[ToothFault, ...]:
         """A fault where the pins on their way in leave less of the mate's flank than the arcs need."""

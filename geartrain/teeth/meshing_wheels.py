@@ -24,6 +24,22 @@ class DeclaredPair(Protocol):
         """How exactly it is mounted; None: as the train says."""
 
 
+class NamedForm(Protocol):
+    """What a mesh reads of the tooth form that made it."""
+
+    @property
+    def form(self) -> str:
+        """Its name."""
+
+    @property
+    def words(self) -> str:
+        """Its name as prose has it."""
+
+    @property
+    def has_lengths(self) -> bool:
+        """True for teeth declared in units of length."""
+
+
 @dataclass(frozen=True)
 class MeshDriver(Result):
     """The wheel that drives a gear pair (of a coupling, the link), and how that is known.
@@ -62,7 +78,7 @@ class MeshingWheels:
     @property
     def module(self) -> float | None:
         """Mean module (m); None where no length says it."""
-        return None if self.distance is None else 2 * self.distance / sum(self.counts)
+        return None if self.distance is None or not sum(self.counts) else 2 * self.distance / sum(self.counts)
 
     @property
     def touching(self) -> float:
@@ -79,3 +95,17 @@ class MeshingWheels:
     def note(self) -> str:
         """What the wheels are taken for, where it is not what they are; empty where it is."""
         return _CONTRATE if "contrate" in self.kinds else ""
+
+
+@dataclass(frozen=True, slots=True)
+class PairSize:
+    """Of a pair with real teeth.
+
+    scale      modules in one unit of its law's lengths
+    distance   of its axes, in modules
+    stretch    that distance over the one at which pitch circles touch
+    """
+
+    scale: float
+    distance: float
+    stretch: float

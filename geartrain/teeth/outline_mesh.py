@@ -8,7 +8,8 @@ from functools import cached_property
 from math import degrees, pi
 from typing import TYPE_CHECKING
 
-from geartrain.teeth.gear_mesh import GearMesh, PairSize
+from geartrain.teeth.gear_mesh import GearMesh
+from geartrain.teeth.meshing_wheels import PairSize
 
 if TYPE_CHECKING:
     from geartrain.teeth.outline_transmission import OutlineTransmission

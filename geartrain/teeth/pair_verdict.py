@@ -104,3 +104,12 @@ def verdict_of_faults(faults: tuple[ToothFault, ...], play: float) -> PairVerdic
     """The verdict on teeth with these faults; `play` in rad of the driven wheel."""
     text = "; ".join(fault.what for fault in faults) or "the teeth run"
     return PairVerdict(faults[0].kind if faults else "runs", text, play, faults)
+
+
+def friction_lock(friction: float, locking: float) -> Problem:
+    """The fault of teeth that lock from a friction of `locking` on."""
+    return Problem(
+        f"a friction of {friction:g} locks these teeth",
+        f"from {locking:.6g} on the driver pushes somewhere against more sliding than it can overcome",
+        f"give a friction below {locking:.4g}, or let the other wheel drive",
+    )

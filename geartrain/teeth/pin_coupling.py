@@ -12,10 +12,11 @@ from typing import TYPE_CHECKING, Annotated, Literal
 from pydantic import BaseModel, ConfigDict, Field, model_validator
 from pydantic_core import PydanticCustomError
 
+from geartrain.errors import Problem, RangeError
 from geartrain.numerics.quantity import Friction, Length
 
 if TYPE_CHECKING:
-    from geartrain.teeth.pin_transmission import PinToSlotTransmission
+    from geartrain.teeth.pin_transmission import PinToSlotTransmission, PinTransmission
 
 
 class _Coupling(BaseModel):
@@ -121,3 +122,20 @@ def _refuse_unless_winding(coupling: PinAndSlot | PinFollower, winding: int) -> 
                 "fix": f"write kind: {other}, or correct the dimensions",
             },
         )
+
+
+def pin_transmission(
+    pin_radius: float, offset: float, friction: float = 0.0, driver: Literal["pin", "slot"] = "pin"
+) -> PinTransmission:
+    """The law of a pin in a slot, whichever drives, `offset` being the distance of the two axes.
+
+    Raises `RangeError` where it does not turn; its place is `driver` or `friction` where that one is to be changed.
+    """
+    from geartrain.teeth.pin_transmission import PinToSlotTransmission, SlotToPinTransmission
+
+    law = (PinToSlotTransmission if driver == "pin" else SlotToPinTransmission)(pin_radius, offset, friction)
+    if friction >= law.locking_friction:
+        what = f"a friction of {friction:g} locks the pin in its slot"
+        why = f"the pin locks from {law.locking_friction:.6g} on when the slot drives"
+        raise RangeError(Problem(what, why, "give less friction, or let the pin drive", "friction"))
+    return law

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from fractions import Fraction
 from math import acos, acosh, asin, inf, log, nan, pi, sqrt
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, ClassVar, Literal
 
 import numpy as np
 
@@ -48,6 +48,8 @@ class PinTransmission(TransmissionFunction):
     """What a pin in a slot and a pin in a follower share. `friction` is that of the pin along the slot."""
 
     period = 2 * pi
+    driver: ClassVar[Literal["pin", "slot"]]
+    """Which of the two drives."""
 
     def __init__(self, pin_radius: float, offset: float, friction: float = 0.0) -> None:
         self.r, self.e, self.friction = pin_radius, offset, friction
@@ -131,6 +133,8 @@ class PinToSlotTransmission(PinTransmission):
     >>> law.ratio, round(degrees(law.amplitude), 3), [round(speed, 4) for speed in law.speed_range()]
     (Fraction(1, 1), 6.58, [0.8972, 1.1294])
     """
+
+    driver = "pin"
 
     def __init__(self, pin_radius: float, offset: float, friction: float = 0.0) -> None:
         super().__init__(pin_radius, offset, friction)
@@ -250,6 +254,7 @@ class SlotToPinTransmission(PinTransmission):
     (0.5, 1.5)
     """
 
+    driver = "slot"
     ratio = Fraction(1)
 
     def __init__(self, pin_radius: float, offset: float, friction: float = 0.0) -> None:
@@ -260,6 +265,7 @@ class SlotToPinTransmission(PinTransmission):
                     f"a follower cannot drive a pin of radius {pin_radius:g} at an offset of {offset:g}",
                     "it swings, and stands at its dead points while the pin goes on",
                     "let the pin drive",
+                    "driver",
                 )
             )
 

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable
-from typing import TYPE_CHECKING, Annotated, ClassVar, Self
+from collections.abc import Callable, Mapping
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Self, get_args
 
-from pydantic import BaseModel, BeforeValidator, ConfigDict, WithJsonSchema
+from pydantic import BaseModel, BeforeValidator, ConfigDict, ValidationError, WithJsonSchema
 from pydantic_core import PydanticCustomError
 
 from geartrain.errors import GearTrainError, Problem
@@ -53,8 +53,40 @@ class ToothForm(BaseModel, ABC):
     any_distance: ClassVar[bool] = False
     """True for teeth that are told of at any centre distance, not at that of their design only."""
 
+    conjugate: ClassVar[bool] = False
+    """True for teeth designed by a path of contact: for rings and cones too, their roots left to who cuts them."""
+
     if TYPE_CHECKING:
         form: str
+
+    @classmethod
+    def declared(cls, parameters: Mapping[str, object]) -> Self:
+        """The form with these parameters.
+
+        Parameters
+        ----------
+        parameters : mapping
+            As a declaration writes them, without `form`.
+
+        Raises
+        ------
+        GearTrainError
+            For what is none, its place the parameter's name where one alone is at fault.
+        """
+        (form,) = get_args(cls.model_fields["form"].annotation)
+        try:
+            return cls.model_validate({"form": form, **parameters})
+        except ValidationError as error:
+            # one value given for both wheels would be complained of twice
+            raise GearTrainError(dict.fromkeys(map(cls._problem, error.errors(include_url=False)))) from None
+
+    @classmethod
+    def _problem(cls, item: Any) -> Problem:
+        """What pydantic complains of, with what to do where the form says so."""
+        context = item.get("ctx") or {}
+        place = item["loc"][0] if item["loc"] else item["type"] if item["type"] in cls.model_fields else ""
+        what = item["msg"] if "fix" in context else f"'{item['input']}' does not fit here"
+        return Problem(what, "", str(context.get("fix", "")), str(place))
 
     @property
     def words(self) -> str:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from math import pi
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, ClassVar, Literal
 
 from pydantic import Field, model_validator
 
@@ -39,6 +39,8 @@ class UniformTemperature(ConjugateToothForm):
     >>> form.law(24, 36).verdict.text
     'the teeth run'
     """
+
+    matched: ClassVar[str] = "of uniform temperature also the working depth"
 
     form: Literal["uniform_temperature"] = Field(description="The name of this form")
     reading: Literal["a", "b", "c"] = Field("b", description="Which surface is kept uniform: a, b or c")

@@ -257,12 +257,11 @@ def drawn(figure: Any, panel: int, gid: str) -> Any:
 @cache
 def figure() -> Any:
     pytest.importorskip("matplotlib")
-    from geartrain.cli.mesh.conjugate_options import pair, read_form, read_wheels
     from geartrain.drawing import shapes_figure
+    from geartrain.teeth.any_tooth_form import tooth_forms
 
-    asked = read_wheels((24, 36))
     forms = ("involute", "uniform_stress", "uniform_temperature", "least_friction", "cycloidal", "lantern")
-    return shapes_figure({form: pair(read_form(form, {}), asked).path for form in forms})
+    return shapes_figure({form: tooth_forms()[form].declared({}).path(24, 36) for form in forms})  # type: ignore[attr-defined]
 
 
 def test_each_panel_draws_what_it_says() -> None:
@@ -297,13 +296,13 @@ def test_a_comparison_is_drawn_to_a_file(tmp_path: File) -> None:
     assert all(f'id="{name}"' in text for name in ("involute", "uniform_stress", "pitch point"))
 
 
-@pytest.mark.parametrize("more", [{"internal": True}, {"bevel": "90deg"}], ids=str)
+@pytest.mark.parametrize("more", [{"internal": True}, {"shaft_angle": pi / 2}], ids=str)
 def test_one_form_of_a_ring_or_a_bevel_is_drawn_too(more: dict[str, Any]) -> None:
     pytest.importorskip("matplotlib")
-    from geartrain.cli.mesh.conjugate_options import pair, read_form, read_wheels
     from geartrain.drawing import shapes_figure
+    from geartrain.teeth import UniformStress
 
-    path = pair(read_form("uniform_stress", {}), read_wheels((24, 60), **more)).path
+    path = UniformStress.declared({}).path(24, 60, **more)
     made = shapes_figure({"uniform_stress": path})
     stress = drawn(made, 3, "uniform_stress")[:, 1]
     unit = path.pitch.p / pi
@@ -318,20 +317,54 @@ def test_a_friction_that_locks_is_part_of_the_verdict() -> None:
     assert "the teeth run" not in done.output
 
 
-def test_every_field_of_a_conjugate_form_is_an_option_of_its_command() -> None:
+def test_every_field_of_a_form_is_an_option_of_its_command() -> None:
     import typer.main
 
     from geartrain.cli import app
-    from geartrain.teeth.any_tooth_form import ConjugateForm
+    from geartrain.teeth.any_tooth_form import ConjugateForm, tooth_forms
 
     mesh = typer.main.get_command(app).commands["mesh"]  # type: ignore[attr-defined]
-    for form in get_args(ConjugateForm):
-        schema = form.model_json_schema()
-        (name,) = (schema["properties"]["form"]["const"],)
-        fields = {f"--{field.replace('_', '-')}" for field in schema["properties"]} - {"--form", "--centre-distance"}
+    for name, form in tooth_forms().items():
+        if name == "ideal":
+            continue
+        properties = form.model_json_schema()["properties"]
+        fields = {f"--{field.replace('_', '-')}" for field in properties} - {"--form", "--centre-distance"}
         options = {option for each in mesh.commands[name].params for option in each.opts}
         assert fields <= options, name
         assert ("--centre-distance" in options) == form.any_distance
+        of_conjugate = {"--internal", "--bevel", "--clearance", "--fillet", "--rim"} - fields
+        assert of_conjugate & options == (of_conjugate if form in get_args(ConjugateForm) else set()), name
+
+
+def test_teeth_without_a_path_are_cut_as_finely_as_is_asked_and_the_page_tells_what_was_cut(tmp_path: File) -> None:
+    asked = ("mesh", "circular_arc", "--teeth", 60, 8, "--module", "2mm", "--wheel", 1)
+    points = {}
+    for tolerance in ("0.001mm", "0.1mm"):
+        file = tmp_path / f"w{tolerance}.csv"
+        done = call(*asked, "--profile", file, "--tolerance", tolerance)
+        assert re.search(r"\| pitch diameter +\| 120 ", done.output)
+        assert re.search(r"\| centre distance +\| 68 ", done.output)
+        points[tolerance] = len(file.read_text(encoding="utf-8").splitlines())
+    assert points["0.1mm"] < points["0.001mm"] / 2
+    data = json.loads(call(*asked, "--profile", tmp_path / "w.svg", "--json").stdout)
+    (outline,) = data["outlines"]
+    assert (outline["gear"], outline["z"], outline["pitch_diameter"]) == (1, 60, pytest.approx(120))
+    assert data["gears"] == ["wheel 1", "wheel 2"]
+
+
+def test_a_page_on_teeth_off_their_design_distance_does_not_say_that_they_keep_the_ratio() -> None:
+    from geartrain.report.pair_page import collect_pair, describe_pair
+    from geartrain.teeth import UniformStress
+    from geartrain.teeth.meshing_wheels import MeshingWheels
+    from geartrain.train import GearPair
+
+    wheels = MeshingWheels(GearPair(pair=("a", "b")), "", (24, 36), friction=0.05)
+    at_home = UniformStress.declared({}).mesh(wheels, lambda: None)
+    apart = UniformStress.declared({"centre_distance": "30.02"}).mesh(wheels, lambda: None)
+    assert "keep the ratio exactly" in " ".join(describe_pair(at_home).lead)
+    assert "keep the ratio exactly at every instant." not in " ".join(describe_pair(apart).lead)
+    assert collect_pair(at_home).to_dict()["costs"]["one_pair"]["loss"] == pytest.approx(0.109176344569, rel=1e-9)
+    assert collect_pair(apart).to_dict()["transmission_error"]["peak_to_peak"] > 1e-6
 
 
 def test_an_option_that_is_no_text_is_read_as_its_form_has_it() -> None:

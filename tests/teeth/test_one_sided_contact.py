@@ -18,7 +18,8 @@ import geartrain
 from geartrain.errors import GearTrainError
 from geartrain.teeth.contact import GearOutline, OutlineCurve, ToothFlanks, solve
 from geartrain.teeth.involute import Involute
-from geartrain.teeth.outlines.wheel_outline import BlankSizes, outline
+from geartrain.teeth.outlines.cut_wheel import BlankSizes
+from geartrain.teeth.outlines.wheel_outline import outline
 
 ALPHA = pi / 9
 BACKLASH = 0.05

@@ -19,7 +19,8 @@ from geartrain.teeth.conjugate.conjugate_transmission import ConjugatePair
 from geartrain.teeth.conjugate.path_of_contact import PathOfContact
 from geartrain.teeth.conjugate.pitch_surfaces import PitchSurfaces
 from geartrain.teeth.outlines.contour import Contour
-from geartrain.teeth.outlines.wheel_outline import BlankSizes, WheelOutline, outline
+from geartrain.teeth.outlines.cut_wheel import BlankSizes, WheelOutline
+from geartrain.teeth.outlines.wheel_outline import outline
 
 shapely = pytest.importorskip("shapely")
 Points = np.ndarray[tuple[int, int], np.dtype[np.float64]]

@@ -5,6 +5,7 @@ from __future__ import annotations
 import cmath
 from fractions import Fraction
 from math import asin, degrees, pi
+from typing import Any
 
 import numpy as np
 import pytest
@@ -12,6 +13,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from geartrain import load
+from geartrain.errors import GearTrainError
+from geartrain.teeth.pin_coupling import pin_transmission
 from geartrain.teeth.pin_transmission import PinToSlotTransmission, PinTransmission, SlotToPinTransmission
 from geartrain.teeth.transmission_figures import SlidingEfficiency
 
@@ -157,3 +160,24 @@ def test_a_pin_that_locks_has_no_efficiency_and_a_follower_none_at_a_constant_lo
     assert follower["at_constant_load"] is follower["locks_at"] is None
     assert 0 < follower["mean"] < 1
     assert SlidingEfficiency(PinToSlotTransmission(5, 10)).least == 1.0
+
+
+def test_a_pin_and_its_slot_drive_each_other_by_one_name() -> None:
+    there, back = (pin_transmission(9.6, 1.1, 0.1, driver) for driver in ("pin", "slot"))
+    assert (there.driver, back.driver) == ("pin", "slot")
+    assert there.amplitude == back.amplitude == pytest.approx(asin(1.1 / 9.6))
+
+
+@pytest.mark.parametrize(
+    ("asked", "said", "place"),
+    [
+        ((1.0, 9.0, 0.0, "slot"), "a follower cannot drive", "driver"),
+        ((9.0, 8.0, 0.6, "slot"), "locks the pin in its slot", "friction"),  # sqrt(81 - 64) / 8 = 0.515
+        ((9.0, 9.0, 0.0, "pin"), "through the slot's axis", ""),
+    ],
+)
+def test_a_pin_that_cannot_turn_says_which_parameter_would_let_it(asked: Any, said: str, place: str) -> None:
+    with pytest.raises(GearTrainError) as refused:
+        pin_transmission(*asked)
+    assert said in refused.value.problems[0].what
+    assert refused.value.problems[0].place == place

@@ -1,8 +1,9 @@
-"""`geartrain mesh FORM` for any tooth form: what its mesh tells of itself, its law as a picture, its wheels to cut."""
+"""`geartrain mesh FORM` for any tooth form: verdict, motion and losses of a pair, and its wheels to cut."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -10,113 +11,143 @@ import typer
 
 from geartrain.cli.common import (
     GOOD,
+    PICTURES,
     VERDICT,
     Force,
     Json,
     Out,
+    Sink,
+    check_distinct_outputs,
     draw,
     emit,
     give,
+    sink,
 )
-from geartrain.cli.mesh.conjugate_options import FormOptions, read_any_form, read_module
 from geartrain.cli.mesh.form_options import (
-    Backlash,
-    Bore,
-    Driver,
-    Friction,
-    Module,
-    Profile,
-    ProfiledWheel,
     form_command,
-    no_scale,
-    pair_sinks,
+    pair_in_mesh,
+    read_form,
+    read_module,
+    read_shaft_angle,
+    two_wheels,
 )
 from geartrain.cli.option_values import at_option, quantity
-from geartrain.cli.option_values import friction as _friction
-from geartrain.errors import GearTrainError
+from geartrain.cli.option_values import friction as read_friction
+from geartrain.errors import GearTrainError, Problem
+from geartrain.teeth.tooth_form import ToothForm
 
 if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
     from geartrain.teeth.gear_mesh import GearMesh
-    from geartrain.teeth.outlines.wheel_outline import WheelOutline
+    from geartrain.teeth.outlines.cut_wheel import BlankSizes, WheelOutline
+
+_CONJUGATE = ("internal", "bevel", "clearance", "fillet", "rim")
+"""Options of conjugate forms: for a ring, for cones, and for the root that their path of contact leaves open."""
 
 
-def _common(
+def command(name: str, model: type[ToothForm]) -> Callable[..., None]:
+    """The command of a form: the options all have, and its own."""
+    kind = "Costs, faults and outlines" if model.conjugate else "Motion, losses and outlines"
+    words = f"{kind} of a pair with {name.replace('_', '-')} teeth."
+    return form_command(model, partial(_run, model), words, without=() if model.conjugate else _CONJUGATE)
+
+
+def _run(
+    model: type[ToothForm],
     teeth: Annotated[tuple[int, int], typer.Option("--teeth", help="Teeth of the first and the second wheel.")],
-    friction: Friction = "0",
-    driver: Driver = 1,
-    backlash: Backlash = None,
-    module: Module = None,
-    profile: Profile = None,
-    wheel: ProfiledWheel = 1,
-    bore: Bore = None,
+    internal: Annotated[bool, typer.Option("--internal", help="The second wheel is a ring.")] = False,
+    bevel: Annotated[str | None, typer.Option("--bevel", help="Angle between the axes, such as 90deg.")] = None,
+    friction: Annotated[str, typer.Option("--friction", help="Coefficient of friction.")] = "0",
+    driver: Annotated[int, typer.Option("--driver", min=1, max=2, help="Which wheel drives, 1 or 2.")] = 1,
+    backlash: Annotated[
+        str | None, typer.Option("--backlash", help="Play on the pitch circle, in modules or with a unit.")
+    ] = None,
+    module: Annotated[str | None, typer.Option("--module", help="Pitch diameter over teeth, such as 2mm.")] = None,
+    profile: Annotated[
+        Path | None, typer.Option("--profile", help="Write the outline of a whole wheel, to scale: .svg, .dxf, .csv.")
+    ] = None,
+    wheel: Annotated[int, typer.Option("--wheel", min=1, max=2, help="With --profile: which wheel, 1 or 2.")] = 1,
+    clearance: Annotated[
+        str | None, typer.Option("--clearance", help="With --profile: root to mate's tip; default module/4.")
+    ] = None,
+    fillet: Annotated[
+        str | None, typer.Option("--fillet", help="With --profile: radius at the root; default 0.38 module, or less.")
+    ] = None,
+    bore: Annotated[str | None, typer.Option("--bore", help="With --profile: diameter of the hole.")] = None,
+    rim: Annotated[
+        str | None, typer.Option("--rim", help="With --profile: what stands round a ring or a lantern.")
+    ] = None,
+    tolerance: Annotated[
+        str, typer.Option("--tolerance", help="With --profile: how far chords may leave a flank.")
+    ] = "0.001mm",
     plot: Annotated[
-        Path | None, typer.Option("--plot", help="Draw error, speed ratio and efficiency over a pitch to this file.")
+        Path | None,
+        typer.Option(
+            "--plot",
+            help="Draw flanks, path of contact and costs, or of teeth without a path their motion, to this file.",
+        ),
     ] = None,
     json: Json = False,
     out: Out = None,
     force: Force = False,
+    **own: Any,
 ) -> None:
-    """Only its parameters count: those that all forms have."""
+    from geartrain.report.pair_page import collect_pair, describe_pair
 
-
-def command(form: str) -> Callable[..., None]:
-    """The command of a form: the options all have, and its own."""
-    return form_command(form, _common, _run, "Motion, losses and outlines")
-
-
-def _run(
-    form: str,
-    own: FormOptions,
-    *,
-    driver: int,
-    wheel: int,
-    bore: str | None,
-    profile: Path | None,
-    plot: Path | None,
-    json: bool,
-    out: Out,
-    force: bool,
-    **given: Any,
-) -> None:
-    from geartrain.report.gear_pairs import describe_pair, pair_data
-
-    to, picture, outlined = pair_sinks(out, plot, profile, force)
-    mesh = _mesh(form, own, driver, given)
-    if profile is not None:
-        from geartrain.export import outline_text
-
-        emit(outline_text(_outline(mesh, wheel, bore), outlined.suffix), outlined)
-    give(to, json, lambda: pair_data(mesh), lambda: [describe_pair(mesh)])
+    to, picture, outlined = _sinks(out, plot, profile, force)
+    angle, size = read_shaft_angle(internal, bevel), read_module(module, backlash)
+    wheels = two_wheels(teeth, read_friction(friction), size, internal, angle)
+    form = read_form(model, own | {"backlash": backlash})
+    try:
+        mesh = pair_in_mesh(form, wheels, angle, driver)
+    except GearTrainError as error:
+        raise at_option(error, "--teeth") from None
+    blank = {"clearance": clearance, "fillet": fillet, "bore": bore, "rim": rim, "tolerance": tolerance}
+    outlines = [] if profile is None else [_cut(mesh, wheel, blank, outlined)]
+    give(to, json, lambda: collect_pair(mesh, outlines), lambda: [describe_pair(mesh, outlines)])
     if plot is not None:
-        from geartrain.drawing import transmission_figure
-
-        draw(transmission_figure(mesh.law, f"{mesh.tooth_form.words} teeth, {mesh.name}"), picture)
+        draw(_figure(mesh), picture)
     raise typer.Exit(GOOD if not mesh.faults else VERDICT)
 
 
-def _mesh(form: str, own: FormOptions, driver: int, given: dict[str, Any]) -> GearMesh:
-    """The two wheels in mesh. Raises `GearTrainError` where the form gives no such pair."""
-    from geartrain.teeth.meshing_wheels import MeshDriver, MeshingWheels
-    from geartrain.train import GearPair
+def _figure(mesh: GearMesh) -> Figure:
+    """Flanks and costs along the path of contact where there is one, else the motion over a pitch."""
+    from geartrain.drawing import shapes_figure, transmission_figure
 
-    size = read_module(given["module"])
-    teeth = given["teeth"]
-    pair = GearPair(pair=("wheel 1", "wheel 2"))
-    distance = None if size is None else size * sum(teeth) / 2
-    wheels = MeshingWheels(pair, "", teeth, friction=_friction(given["friction"]), distance=distance)
-    try:
-        mesh = read_any_form(form, own, given["backlash"]).mesh(wheels, lambda: None)
-    except GearTrainError as error:
-        raise at_option(error, "--teeth") from None
-    assert mesh is not None
-    return mesh.driven_by(MeshDriver(pair.pair[driver - 1], ""))
+    if mesh.path is not None:
+        return shapes_figure({mesh.form: mesh.path})
+    return transmission_figure(mesh.law, f"{mesh.tooth_form.words} teeth, {mesh.name}")
 
 
-def _outline(mesh: GearMesh, wheel: int, bore: str | None) -> WheelOutline:
-    """A wheel of the pair, to scale."""
-    from geartrain.teeth.outlines.wheel_outline import BlankSizes, mesh_outline
+def _sinks(out: Path | None, plot: Path | None, profile: Path | None, force: bool) -> tuple[Sink, Sink, Sink]:
+    """Where the page, the picture and the outline of a pair go; what cannot be written is refused before the work."""
+    from geartrain.export.flat_files import OUTLINES
 
-    if mesh.wheels.module is None:
-        raise no_scale()
-    hole = None if bore is None else 1000 * quantity("--bore", bore, "length")
-    return mesh_outline(mesh, wheel, BlankSizes(1000 * mesh.wheels.module, bore=hole))
+    to, picture = sink(out, force, (".md", ".html", ".json")), sink(plot, force, PICTURES, "--plot")
+    outlined = sink(profile, force, option="--profile")
+    if outlined.path is not None and outlined.suffix not in OUTLINES:
+        what = f"'{outlined.suffix}' is no form of outline"
+        raise GearTrainError(Problem(what, "", f"use {', '.join(OUTLINES)}", "--profile"))
+    check_distinct_outputs(to, outlined, picture)
+    return to, picture, outlined
+
+
+def _cut(mesh: GearMesh, wheel: int, blank: dict[str, str | None], to: Sink) -> WheelOutline:
+    """The outline of a wheel, written."""
+    from geartrain.export import outline_text
+
+    made = mesh.wheel_outline(wheel, _blank(mesh.wheels.module, blank))
+    emit(outline_text(made, to.suffix), to)
+    return made
+
+
+def _blank(module: float | None, sizes: dict[str, str | None]) -> BlankSizes:
+    """Sizes in mm."""
+    from geartrain.teeth.outlines.cut_wheel import BlankSizes
+
+    if module is None:
+        why = "an outline is to scale, and nothing gives these wheels a size"
+        raise GearTrainError(Problem("there is no module", why, "give for example --module 2mm", "--module"))
+    given = {name: 1000 * quantity(f"--{name}", text, "length") for name, text in sizes.items() if text is not None}
+    return BlankSizes(1000 * module, **given)

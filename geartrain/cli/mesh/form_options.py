@@ -1,77 +1,199 @@
-"""The options of `geartrain mesh FORM`: those that all forms have, and those that a form's fields give its command."""
+"""Tooth forms as options give them: the options of a form are the fields of its model, read back as a declaration is.
+
+What `geartrain mesh` asks of a pair of wheels besides their form: whether one is a ring, how axes meet, the module.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Mapping
+from dataclasses import replace
 from inspect import Parameter, Signature
-from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, Literal, get_args, get_origin
 
 import typer
 
-from geartrain.cli.common import PICTURES, Sink, check_distinct_outputs, sink
-from geartrain.cli.mesh.conjugate_options import own_options
+from geartrain.cli.option_values import at_option, quantity
 from geartrain.errors import GearTrainError, Problem
 
-Friction = Annotated[str, typer.Option("--friction", help="Coefficient of friction.")]
-Driver = Annotated[int, typer.Option("--driver", min=1, max=2, help="Which wheel drives, 1 or 2.")]
-Backlash = Annotated[
-    str | None, typer.Option("--backlash", help="Play on the pitch circle, in modules or with a unit.")
-]
-Module = Annotated[str | None, typer.Option("--module", help="Pitch diameter over teeth, such as 2mm.")]
-Profile = Annotated[
-    Path | None, typer.Option("--profile", help="Write the outline of a whole wheel, to scale: .svg, .dxf, .csv.")
-]
-ProfiledWheel = Annotated[int, typer.Option("--wheel", min=1, max=2, help="With --profile: which wheel, 1 or 2.")]
-Bore = Annotated[str | None, typer.Option("--bore", help="With --profile: diameter of the hole.")]
+if TYPE_CHECKING:
+    from pydantic.fields import FieldInfo
+
+    from geartrain.teeth.conjugate.wheel_pair import WheelPair
+    from geartrain.teeth.gear_mesh import GearMesh
+    from geartrain.teeth.meshing_wheels import MeshingWheels
+    from geartrain.teeth.tooth_form import ToothForm
+
+FormOptions = dict[str, str | bool | None]
 
 
-def form_command(form: str, common: Callable[..., None], run: Callable[..., None], tells: str) -> Callable[..., None]:
-    """The command of a form: `common`'s options, after the first its own, handed to `run(form, own, **common)`."""
+def option_name(field: str) -> str:
+    """`--centre-distance` of `centre_distance`."""
+    return f"--{field.replace('_', '-')}"
+
+
+def own_options(model: type[ToothForm]) -> dict[str, tuple[type, str]]:
+    """The options of a form by the names of its fields: of which type, and what the field says of itself.
+
+    Of forms that keep their design at any distance there is none for the distance.
+    """
+    hidden = {"form"} if model.any_distance else {"form", "centre_distance"}
+    return {name: _option(field) for name, field in model.model_fields.items() if name not in hidden}
+
+
+def form_command(
+    model: type[ToothForm],
+    run: Callable[..., None],
+    words: str,
+    defaults: Mapping[str, str] | None = None,
+    without: Collection[str] = (),
+) -> Callable[..., None]:
+    """The command of a form: the options of `run` with the form's own after the first of them.
+
+    run        takes them all by name, and those of the form that it does not name as `own`
+    words      what `--help` says
+    defaults   of the form's own options, where the form itself has none
+    without    options of `run` that the form does not have
+    """
+    first, *rest = Signature.from_callable(run, eval_str=True).parameters.values()
+    taken = [each for each in rest if each.kind is not Parameter.VAR_KEYWORD and each.name not in without]
+    own = [
+        Parameter(
+            name,
+            Parameter.KEYWORD_ONLY,
+            default=(defaults or {}).get(name),
+            annotation=Annotated[kind | None, typer.Option(option_name(name), help=text)],
+        )
+        for name, (kind, text) in own_options(model).items()
+        if name not in {each.name for each in taken}
+    ]
+    parameters = [each.replace(kind=Parameter.KEYWORD_ONLY) for each in (first, *own, *taken)]
 
     def command(**given: Any) -> None:
-        own = {name: given.pop(name) for name in own_options(form)}
-        run(form, own, **given)
+        run(**given)
 
-    first, *rest = Signature.from_callable(common, eval_str=True).parameters.values()
-    signed(command, [first, *own_parameters(form), *rest])
-    command.__doc__ = f"{tells} of a pair with {form.replace('_', '-')} teeth."
+    command.__signature__ = Signature(parameters)  # type: ignore[attr-defined]
+    command.__annotations__ = {each.name: each.annotation for each in parameters}
+    command.__doc__ = words
     return command
 
 
-def pair_sinks(out: Path | None, plot: Path | None, profile: Path | None, force: bool) -> tuple[Sink, Sink, Sink]:
-    """Where the page, the picture and the outline of a pair go; what cannot be written is refused before the work."""
-    from geartrain.export.flat_files import OUTLINES
-
-    to, picture = sink(out, force, (".md", ".html", ".json")), sink(plot, force, PICTURES, "--plot")
-    outlined = sink(profile, force, option="--profile")
-    if outlined.path is not None and outlined.suffix not in OUTLINES:
-        what = f"'{outlined.suffix}' is no form of outline"
-        raise GearTrainError(Problem(what, "", f"use {', '.join(OUTLINES)}", "--profile"))
-    check_distinct_outputs(to, outlined, picture)
-    return to, picture, outlined
-
-
-def no_scale() -> GearTrainError:
-    """What is said of an outline of wheels without a module."""
-    why = "an outline is to scale, and nothing gives these wheels a size"
-    return GearTrainError(Problem("there is no module", why, "give for example --module 2mm", "--module"))
+def _option(field: FieldInfo) -> tuple[type, str]:
+    text = (field.description or "").replace("a list of two", "two with a comma")
+    if isinstance(field.default, bool):
+        return bool, f"{text}."
+    if any(each not in text for each in _words(field.annotation)):
+        text += f": {', '.join(_words(field.annotation))}"
+    if field.default is not None and not field.is_required():
+        text += f"; default {field.default}"
+    if _is_pair(field.annotation) and "two with a comma" not in text:
+        text += "; two with a comma"
+    return str, f"{text}."
 
 
-def own_parameters(form: str) -> list[Parameter]:
-    """A form's own options, their text left to the form."""
-    return [
-        Parameter(
-            name,
-            Parameter.POSITIONAL_OR_KEYWORD,
-            default=None,
-            annotation=Annotated[kind | None, typer.Option(f"--{name.replace('_', '-')}", help=text)],
-        )
-        for name, (kind, text) in own_options(form).items()
-    ]
+def _words(annotation: Any) -> list[str]:
+    """The words among which one can be chosen."""
+    if get_origin(annotation) is Literal:
+        return [each for each in get_args(annotation) if isinstance(each, str)]
+    return [word for each in get_args(annotation) for word in _words(each)]
 
 
-def signed(run: Callable[..., Any], parameters: Sequence[Parameter]) -> None:
-    """Give a function the parameters that a command line reads it by."""
-    run.__signature__ = Signature(list(parameters))  # type: ignore[attr-defined]
-    run.__annotations__ = {parameter.name: parameter.annotation for parameter in parameters}
+def _is_pair(annotation: Any) -> bool:
+    return get_origin(annotation) is tuple or any(map(_is_pair, get_args(annotation)))
+
+
+def read_form(model: type[ToothForm], given: FormOptions, place: str = "") -> ToothForm:
+    """The tooth form with the options given.
+
+    Raises `GearTrainError` for options it cannot have, at `place` where none alone is at fault.
+    """
+    fields = model.model_fields
+    (form,) = get_args(fields["form"].annotation)
+    try:
+        return model.declared({name: _value(fields[name], each) for name, each in given.items() if each is not None})
+    except GearTrainError as error:
+        raise as_options(error, place or f"mesh {form}", f"see geartrain mesh {form} --help") from None
+
+
+def as_options(error: GearTrainError, place: str, fix: str = "") -> GearTrainError:
+    """The error with its places, which are names of parameters, as options; `place` and `fix` where it names none."""
+    return GearTrainError(
+        replace(each, place=option_name(each.place) if each.place else place, fix=each.fix or fix)
+        for each in error.problems
+    )
+
+
+def _value(field: FieldInfo, given: str | bool) -> Any:
+    """What an option says, as a declaration would: a list where there is a comma, a number where one can be chosen."""
+    if isinstance(given, bool):
+        return given
+    if given.isdigit() and int(given) in get_args(field.annotation):
+        return int(given)
+    return [part.strip() for part in given.split(",")] if "," in given else given
+
+
+def read_shaft_angle(internal: bool, bevel: str | None) -> float | None:
+    """The angle (rad) under which axes meet; None where they are parallel. Raises `GearTrainError`."""
+    if internal and bevel is not None:
+        why = "a ring's axis is parallel to its pinion's"
+        raise GearTrainError(Problem("a ring is no bevel wheel", why, "give --internal or --bevel", "--bevel"))
+    return None if bevel is None else quantity("--bevel", bevel, "angle")
+
+
+def read_module(module: str | None, backlash: str | None = None) -> float | None:
+    """The module (m), None if not given. Raises `GearTrainError`, too where a backlash with a unit would need one."""
+    size = None if module is None else quantity("--module", module, "length")
+    if size is not None and size <= 0:
+        raise GearTrainError(Problem(f"a module of {module} is no size", "", "give a module above 0", "--module"))
+    if size is None and backlash is not None and quantity("--backlash", backlash, "length", plain=True):
+        _check_plain(backlash)
+    return size
+
+
+def _check_plain(backlash: str) -> None:
+    from geartrain.numerics.quantity import Quantity
+
+    if Quantity.parse(backlash, "length", True).unit is not None:
+        why = "forms are in modules, and nothing says how long one is"
+        fix = "give for example --module 2mm, or the backlash as a plain number of modules"
+        raise GearTrainError(Problem(f"a backlash of {backlash} has nothing to be compared with", why, fix, "--module"))
+
+
+def read_wheels(teeth: tuple[int, int], internal: bool, bevel: str | None) -> WheelPair:
+    """Two wheels without a size, that conjugate teeth can be made for. Raises `GearTrainError`."""
+    from geartrain.teeth.conjugate.wheel_pair import WheelPair
+
+    wheels = WheelPair(*teeth, internal, read_shaft_angle(internal, bevel))
+    try:
+        wheels.check()
+    except GearTrainError as error:
+        raise at_option(error, "--teeth") from None
+    return wheels
+
+
+def pair_in_mesh(form: ToothForm, wheels: MeshingWheels, shaft_angle: float | None, driver: int) -> GearMesh:
+    """Two wheels in mesh, of which the first or the second drives.
+
+    Raises `GearTrainError` where the form gives no such pair.
+    """
+    from geartrain.teeth.meshing_wheels import MeshDriver
+
+    mesh = form.mesh(wheels, lambda: shaft_angle)
+    assert mesh is not None  # ideal teeth are no form to ask about
+    return mesh.driven_by(MeshDriver(wheels.gear.pair[driver - 1], ""))
+
+
+def two_wheels(
+    teeth: tuple[int, int],
+    friction: float,
+    module: float | None,
+    internal: bool = False,
+    shaft_angle: float | None = None,
+) -> MeshingWheels:
+    """The wheels of a pair without a train; `module` in m."""
+    from geartrain.teeth.meshing_wheels import MeshingWheels
+    from geartrain.train import GearPair
+
+    kind = "spur" if shaft_angle is None else "bevel"
+    distance = None if module is None else module * sum(teeth) / 2
+    pair = GearPair(pair=("wheel 1", "wheel 2"))
+    return MeshingWheels(pair, "", teeth, (kind, kind), (False, internal), friction, distance)

@@ -2,18 +2,15 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated, Literal, cast
 
 import typer
 
 from geartrain.cli.common import Force, Json, Out, give, sink
-from geartrain.cli.option_values import at_option
-from geartrain.cli.option_values import friction as _friction
-from geartrain.cli.option_values import quantity as _quantity
-from geartrain.errors import GearTrainError, Problem
-
-if TYPE_CHECKING:
-    from geartrain.teeth.pin_transmission import PinTransmission
+from geartrain.cli.mesh.form_options import as_options
+from geartrain.cli.option_values import friction as read_friction
+from geartrain.cli.option_values import quantity
+from geartrain.errors import GearTrainError
 
 
 def run(
@@ -26,26 +23,18 @@ def run(
     force: Force = False,
 ) -> None:
     """Law of a pin in a slot or in a follower: mean ratio, amplitude, extreme speeds."""
-    from geartrain.report.pair_page import pin_data, pin_document
+    from geartrain.report.pair_page import describe_pin
+    from geartrain.teeth.pin_coupling import pin_transmission
+    from geartrain.teeth.pin_figures import pin_figures
 
     to = sink(out, force, (".md", ".html", ".json"))
-    law = _pin_law(pin_radius, offset, _friction(friction), driver)
-    give(to, json, lambda: pin_data(law), lambda: [pin_document(law, driver)])
-
-
-def _pin_law(pin_radius: str, offset: str, friction: float, driver: str) -> PinTransmission:
-    from geartrain.teeth.pin_transmission import PinToSlotTransmission, SlotToPinTransmission
-
+    rub = read_friction(friction)
     if driver not in ("pin", "slot"):
         raise typer.BadParameter(f"'{driver}' is neither pin nor slot", param_hint="--driver")
-    r = _quantity("--pin-radius", pin_radius, "length", plain=True)
-    e = _quantity("--offset", offset, "length", plain=True)
+    r = quantity("--pin-radius", pin_radius, "length", plain=True)
+    e = quantity("--offset", offset, "length", plain=True)
     try:
-        law = (PinToSlotTransmission if driver == "pin" else SlotToPinTransmission)(r, e, friction)
+        law = pin_transmission(r, e, rub, cast(Literal["pin", "slot"], driver))
     except GearTrainError as error:
-        raise at_option(error, "--driver" if driver == "slot" and 0 < r < e else "--pin-radius") from None
-    if friction >= law.locking_friction:
-        what = f"a friction of {friction:g} locks the pin in its slot"
-        why = f"the pin locks from {law.locking_friction:.6g} on when the slot drives"
-        raise GearTrainError(Problem(what, why, "give less friction, or let the pin drive", "--friction"))
-    return law
+        raise as_options(error, "--pin-radius") from None
+    give(to, json, lambda: pin_figures(law), lambda: [describe_pin(law)])

@@ -1,12 +1,12 @@
-"""A pair of triangular teeth as options describe it.
+"""`geartrain mesh triangular`: contact, law, collisions and losses of a pair with triangular teeth.
 
-`geartrain mesh triangular --vary`: a table over one parameter or two.
-
-`geartrain mesh triangular`: contact, law, collisions and losses of a pair, or a sweep.
+With `--vary`, a table over one parameter or two.
 """
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -29,84 +29,58 @@ from geartrain.cli.common import (
     tell,
 )
 from geartrain.cli.long_runs import progress
+from geartrain.cli.mesh.form_options import FormOptions, form_command, option_name, pair_in_mesh, read_form, two_wheels
 from geartrain.cli.option_values import at_option, quantity
-from geartrain.cli.option_values import friction as _friction
-from geartrain.cli.option_values import quantity as _quantity
-from geartrain.errors import GearTrainError, Problem
+from geartrain.cli.option_values import friction as read_friction
+from geartrain.errors import GearTrainError
+from geartrain.teeth.triangular.triangular_form import FEWEST, Triangular
 
 if TYPE_CHECKING:
-    from geartrain.teeth import Triangular
+    from geartrain.dynamics.motion.pair_impacts import PairOperation
+    from geartrain.teeth.tooth_form import ToothForm
     from geartrain.teeth.triangular.parameter_sweep import ParameterSweep
+    from geartrain.teeth.triangular.triangular_mesh import TriangularMesh
     from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
 
+VARIED = (*(name for name in Triangular.model_fields if name not in ("form", "radii")), "friction", "z1", "z2")
+"""What can be varied: what the form declares by one number, and what a pair has besides."""
+_PAIR = ("friction", "z1", "z2")
 
-VARIED = ("half_angle", "clearance", "excess", "window", "backlash", "centre_distance", "friction", "z1", "z2")
-FORM = VARIED[:-3]
 
-
+@dataclass(frozen=True)
 class TriangularOptions:
-    """The options that describe a pair; any of them can be varied."""
+    """A pair as options describe it; any of them can be varied.
 
-    def __init__(
-        self,
-        teeth: tuple[int, int],
-        half_angle: str,
-        given: dict[str, str | None],
-        radii: str,
-        module: str | None,
-        friction: str,
-        driver: int,
-        direction: int,
-    ) -> None:
-        self.teeth, self.half_angle, self.radii, self.friction = teeth, half_angle, radii, friction
-        self.given = {name: value for name, value in given.items() if value is not None}
-        self.module, self.driver, self.direction = module, driver, direction
+    own      of the form, by the names of its fields
+    module   m; None where it is not given
+    """
 
-    def law(self, **varied: str | float) -> TriangularTransmission:
-        """The law with some options replaced by what is varied."""
-        z1, z2 = (varied.pop(name, z) for name, z in zip(("z1", "z2"), self.teeth, strict=True))
-        friction = _friction(str(varied.pop("friction", self.friction)))
-        z1, z2 = round(float(z1)), round(float(z2))
-        size = None if self.module is None else quantity("--module", self.module, "length", least="above 0")
-        distance = None if size is None else size * (z1 + z2) / 2
+    teeth: tuple[int, int]
+    own: FormOptions
+    module: float | None
+    friction: str
+    driver: int
+    backwards: bool
+
+    def mesh(self, **varied: str) -> TriangularMesh:
+        """The pair in mesh, with some options replaced by what is varied."""
+        from geartrain.teeth.triangular.triangular_mesh import TriangularMesh
+
+        z1, z2 = (round(float(varied.get(name, z))) for name, z in zip(("z1", "z2"), self.teeth, strict=True))
+        wheels = two_wheels((z1, z2), read_friction(varied.get("friction", self.friction)), self.module)
+        form = self.form({name: value for name, value in varied.items() if name not in _PAIR})
         try:
-            return self.form(**varied).law(z1, z2, friction, self.driver, self.direction, distance)
+            mesh = pair_in_mesh(form, wheels, None, self.driver)
         except GearTrainError as error:
-            raise at_option(
-                error, "--teeth" if min(z1, z2) < 3 else "--" + next(iter(self.given), "clearance")
-            ) from None
+            given = next((name for name in VARIED[1:-3] if self.own[name] is not None), "clearance")
+            raise at_option(error, "--teeth" if min(z1, z2) < FEWEST else option_name(given)) from None
+        assert isinstance(mesh, TriangularMesh)
+        return replace(mesh, law=mesh.law.turned_back()) if self.backwards else mesh
 
-    def check(self, ranges: dict[str, list[float]], units: dict[str, str]) -> None:
-        """Complain of a unit or an option that no point of a sweep can have."""
-        self.form(**{name: f"{values[0]!r}{units[name]}" for name, values in ranges.items() if name in FORM})
-
-    def form(self, **varied: str | float) -> Triangular:
-        """The tooth form with some options replaced."""
-        from pydantic import ValidationError
-
-        from geartrain.teeth import Triangular
-
-        half_angle = str(varied.pop("half_angle", self.half_angle))
-        clearances = {name: str(value) for name, value in varied.items()} if varied else self.given
-        data: dict[str, Any] = {
-            "form": "triangular",
-            "half_angle": [part.strip() for part in half_angle.split(",")] if "," in half_angle else half_angle,
-            "radii": [part.strip() for part in self.radii.split(",")] if "," in self.radii else self.radii,
-            **clearances,
-        }
-        try:
-            return Triangular.model_validate(data)
-        except ValidationError as error:
-            # one half angle given for both wheels would be complained of twice
-            raise GearTrainError(dict.fromkeys(map(_problem, error.errors(include_url=False)))) from None
-
-
-def _problem(item: Any) -> Problem:
-    context = item.get("ctx") or {}
-    name = str(item["loc"][0]) if item["loc"] else item["type"] if item["type"] in VARIED else "radii"
-    what = item["msg"] if "fix" in context else f"'{item['input']}' does not fit here"
-    fix = str(context.get("fix") or "see geartrain mesh triangular --help")
-    return Problem(what, "", fix, f"--{name.replace('_', '-')}")
+    def form(self, varied: Mapping[str, str]) -> ToothForm:
+        """The tooth form with some options replaced; one clearance that is varied replaces whatever is given."""
+        fixed = ("half_angle", "radii") if set(varied) - {"half_angle"} else tuple(self.own)
+        return read_form(Triangular, {name: self.own[name] for name in fixed} | dict(varied), "--radii")
 
 
 def sweep(pair: TriangularOptions, vary: list[str], picture: Sink, json: bool, to: Sink) -> None:
@@ -117,9 +91,10 @@ def sweep(pair: TriangularOptions, vary: list[str], picture: Sink, json: bool, t
     ranges, units = _ranges(vary)
 
     def make(**values: float) -> TriangularTransmission:
-        return pair.law(**{name: f"{value!r}{units[name]}" for name, value in values.items()})
+        return pair.mesh(**{name: f"{value!r}{units[name]}" for name, value in values.items()}).law
 
-    pair.check(ranges, units)
+    # a unit or an option that no point of a sweep can have is complained of before it begins
+    pair.form({name: f"{values[0]!r}{units[name]}" for name, values in ranges.items() if name not in _PAIR})
     count = 1
     for values in ranges.values():
         count *= len(values)
@@ -189,21 +164,8 @@ def _tell_changes(make: Any, name: str, found: ParameterSweep, units: dict[str, 
         tell(f"{name} {top[0]:.8g}{units[name]}: greatest mean efficiency, {top[1]:.8f}")
 
 
-def run(
+def _run(
     teeth: Annotated[tuple[int, int], typer.Option("--teeth", help="Teeth of the first and the second wheel.")],
-    half_angle: Annotated[
-        str, typer.Option("--half-angle", help="Half the aperture of a tooth, with its unit; two with a comma.")
-    ] = "30deg",
-    clearance: Annotated[str | None, typer.Option("--clearance", help="Clearance factor, above 1.")] = None,
-    excess: Annotated[str | None, typer.Option("--excess", help="Clearance factor less 1.")] = None,
-    window: Annotated[
-        str | None, typer.Option("--window", help="Place in the pair's own window: 0 jams, 1 loses contact.")
-    ] = None,
-    backlash: Annotated[str | None, typer.Option("--backlash", help="Least play on the pitch circle.")] = None,
-    centre_distance: Annotated[str | None, typer.Option("--centre-distance", help="Distance of the axes.")] = None,
-    radii: Annotated[
-        str, typer.Option("--radii", help="equal_depth, pitch_true, or two outer radii with a comma.")
-    ] = "equal_depth",
     module: Annotated[
         str | None, typer.Option("--module", help="Pitch diameter over tooth count, which gives the wheels a size.")
     ] = None,
@@ -225,20 +187,16 @@ def run(
     json: Json = False,
     out: Out = None,
     force: Force = False,
+    **own: Any,
 ) -> None:
-    """Contact, law, collisions and losses of a pair with triangular teeth, or a sweep over its parameters as CSV."""
-    given = {
-        "clearance": clearance,
-        "excess": excess,
-        "window": window,
-        "backlash": backlash,
-        "centre_distance": centre_distance,
-    }
+    from geartrain.report.pair_page import collect_pair, describe_pair
+
     to = sink(out, force, (".csv", ".json") if vary else (".md", ".html", ".json"))
     picture = sink(plot, force, PICTURES, "--plot")
     drawing = sink(teeth_plot, force, PICTURES, "--teeth-plot")
     check_distinct_outputs(to, picture, drawing)
-    pair = TriangularOptions(teeth, half_angle, given, radii, module, friction, driver, -1 if backwards else 1)
+    size = None if module is None else quantity("--module", module, "length", least="above 0")
+    pair = TriangularOptions(teeth, own, size, friction, driver, backwards)
     if vary:
         if teeth_plot is not None:
             raise typer.BadParameter(
@@ -246,38 +204,35 @@ def run(
             )
         sweep(pair, vary, picture, json, to)
         return
-    law = pair.law()
-    _page(pair, law, (inertia, rate, load), json, to)
+    mesh = pair.mesh()
+    operation = _operation(inertia, rate, load)
+    give(to, json, lambda: collect_pair(mesh, (), operation), lambda: [describe_pair(mesh, (), operation)])
     if plot is not None:
         from geartrain.drawing import law_figure
 
-        draw(law_figure(law), picture)
+        draw(law_figure(mesh.law), picture)
     if teeth_plot is not None:
         from geartrain.drawing import teeth_figure
 
-        angle = None if at is None else _quantity("--at", at, "angle")
-        draw(teeth_figure(law, angle), drawing)
-    raise typer.Exit(GOOD if law.verdict and law.friction < law.locking_friction else VERDICT)
+        angle = None if at is None else quantity("--at", at, "angle")
+        draw(teeth_figure(mesh.law, angle), drawing)
+    raise typer.Exit(GOOD if not mesh.faults else VERDICT)
 
 
-def _page(
-    pair: TriangularOptions,
-    law: TriangularTransmission,
-    run: tuple[str | None, str | None, str | None],
-    json: bool,
-    to: Sink,
-) -> None:
+def _operation(inertia: str | None, rate: str | None, load: str | None) -> PairOperation:
     from geartrain.dynamics.motion.pair_impacts import PairOperation
     from geartrain.numerics.units import RADIANS_PER_TURN
-    from geartrain.report.gear_pairs import mesh_data
-    from geartrain.report.pair_page import mesh_document
-    from geartrain.teeth.triangular.clearance_window import find_window
 
-    inertia, rate, load = run
-    operation = PairOperation(
-        None if inertia is None else _quantity("--inertia", inertia, "inertia", least="above 0"),
-        None if rate is None else _quantity("--rate", rate, "speed", least="above 0") / RADIANS_PER_TURN,
-        None if load is None else _quantity("--load", load, "torque", least="0"),
+    return PairOperation(
+        None if inertia is None else quantity("--inertia", inertia, "inertia", least="above 0"),
+        None if rate is None else quantity("--rate", rate, "speed", least="above 0") / RADIANS_PER_TURN,
+        None if load is None else quantity("--load", load, "torque", least="0"),
     )
-    found = find_window(law.sizes) if law.sizes.has_valleys else None
-    give(to, json, lambda: mesh_data(law, found, operation), lambda: [mesh_document(law, found, operation)])
+
+
+run = form_command(
+    Triangular,
+    _run,
+    "Contact, law, collisions and losses of a pair with triangular teeth, or a sweep over its parameters as CSV.",
+    {"half_angle": "30deg", "radii": "equal_depth"},
+)

@@ -5,17 +5,19 @@ from __future__ import annotations
 from abc import abstractmethod
 from functools import lru_cache
 from math import pi
-from typing import TYPE_CHECKING, Self
+from typing import TYPE_CHECKING, ClassVar, Self
 
 from pydantic import Field, model_validator
 
 from geartrain.errors import Problem
 from geartrain.numerics.quantity import Length, Quantity
-from geartrain.teeth.conjugate.form_checks import check_order, refusal
+from geartrain.teeth.conjugate.form_checks import check_lengths, check_order, refusal, shaft_angle_of
 from geartrain.teeth.conjugate.wheel_pair import WheelPair
-from geartrain.teeth.tooth_form import IDEAL, ShaftAngle, ToothForm, bad, refused
+from geartrain.teeth.tooth_form import IDEAL, ShaftAngle, ToothForm, refused
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from geartrain.teeth.conjugate.conjugate_transmission import ConjugatePair, ConjugateTransmission
     from geartrain.teeth.conjugate.off_design import OffDesignTransmission
     from geartrain.teeth.conjugate.path_of_contact import PathOfContact
@@ -31,6 +33,10 @@ _DESIGN = 1e-9  # of a centre distance: nearer to the design is at it
 class ConjugateToothForm(ToothForm):
     """A conjugate tooth form: a path of contact for any two wheels, and the thickness of their teeth."""
 
+    conjugate: ClassVar[bool] = True
+    matched: ClassVar[str] = ""
+    """How it is matched to other forms where they are compared, beyond its arcs, in words."""
+
     backlash: Length = Field(
         "0",
         validate_default=True,
@@ -42,10 +48,7 @@ class ConjugateToothForm(ToothForm):
 
     @model_validator(mode="after")
     def _lengths_are_lengths(self) -> ConjugateToothForm:
-        if self.backlash.value < 0:
-            raise bad("backlash", f"backlash {self.backlash.text} would jam the teeth", "write 0 or more")
-        if self.centre_distance is not None and self.centre_distance.value <= 0:
-            raise bad("length", f"centre_distance {self.centre_distance.text} is no length", "write it above 0")
+        check_lengths(self.backlash, self.centre_distance)
         return self
 
     @classmethod
@@ -88,25 +91,12 @@ class ConjugateToothForm(ToothForm):
             2 if ring_first else 1,
             pitch_distance=wheels.distance,
             internal=any(wheels.internal),
-            shaft_angle=self._shaft_angle(wheels, shaft_angle),
+            shaft_angle=shaft_angle_of(self, wheels, shaft_angle),
         )
         mesh = ConjugateMesh(wheels, self, wheels.driver, law)
         if not mesh.rigid:
             _ = mesh.faults  # teeth too far apart to touch raise: here, where the pair is named
         return mesh
-
-    def _shaft_angle(self, wheels: MeshingWheels, shaft_angle: ShaftAngle) -> float | None:
-        """Of a bevel pair; None for wheels that mesh as spur wheels do."""
-        if "contrate" in wheels.kinds:
-            return None
-        angle = shaft_angle()
-        if angle is None and "bevel" in wheels.kinds:
-            raise refused(
-                f"it cannot have {self.words} teeth",
-                "nothing says how the axes of its bevels meet",
-                f"declare `axes` with the `direction` of both, or {IDEAL}",
-            )
-        return angle
 
     def own_play(self, pair: str) -> Problem | None:
         """Why a maker's play does not hold for this pair: declared play wins.
@@ -215,6 +205,26 @@ class ConjugateToothForm(ToothForm):
             Where there is none.
         """
 
+    @classmethod
+    def pair_of_arcs(cls, wheels: WheelPair, arcs: tuple[float, float], given: Mapping[str, object]) -> ConjugatePair:
+        """The pair whose arcs of contact are given; raises `GearTrainError` where there is none.
+
+        Parameters
+        ----------
+        wheels : WheelPair
+            The two wheels.
+        arcs : tuple of float
+            Of approach and recess, gear 1 driving [pitch].
+        given : mapping
+            What else the form declares; what is left out is as by default.
+
+        Returns
+        -------
+        ConjugatePair
+            Path of contact, thickness of the teeth, and what keeps them from running.
+        """
+        return conjugate_pair_of(cls.declared({"arcs": [repr(float(arc)) for arc in arcs], **given}), wheels)
+
     def path(
         self,
         z1: int,
@@ -247,7 +257,7 @@ class ConjugateToothForm(ToothForm):
         GearTrainError
             Where the form gives no such pair.
         """
-        return conjugate_pair_of(self, _wheels(z1, z2, internal, shaft_angle, pitch_distance)).path
+        return conjugate_pair_of(self, WheelPair.of(z1, z2, internal, shaft_angle, pitch_distance)).path
 
     def law(
         self,
@@ -288,7 +298,7 @@ class ConjugateToothForm(ToothForm):
         """
         from geartrain.teeth.conjugate.conjugate_transmission import ConjugateTransmission
 
-        wheels = _wheels(z1, z2, internal, shaft_angle, pitch_distance)
+        wheels = WheelPair.of(z1, z2, internal, shaft_angle, pitch_distance)
         pair, distance = conjugate_pair_of(self, wheels), self.misplaced(wheels)
         if distance is None:
             return ConjugateTransmission(pair, friction, driver, direction)
@@ -331,11 +341,6 @@ class ConjugateToothForm(ToothForm):
     def _play(self, pitch: PitchSurfaces, wheels: WheelPair) -> float:
         """The declared backlash as X: of a bevel pair a module is p / pi on the unit sphere."""
         return wheels.modules(self.backlash, "backlash") * pitch.p / pi
-
-
-def _wheels(z1: int, z2: int, internal: bool, shaft_angle: float | None, pitch_distance: float | None) -> WheelPair:
-    module = None if pitch_distance is None or z1 + z2 < 1 else 2 * pitch_distance / (z1 + z2)
-    return WheelPair(z1, z2, internal, shaft_angle, module)
 
 
 @lru_cache(maxsize=1024)

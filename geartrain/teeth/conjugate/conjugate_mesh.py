@@ -3,16 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Protocol
 
+from geartrain.errors import Problem, QuestionError
 from geartrain.teeth.conjugate.wheel_pair import WheelPair
-from geartrain.teeth.gear_mesh import GearMesh, NamedForm, PairSize
+from geartrain.teeth.gear_mesh import GearMesh
+from geartrain.teeth.meshing_wheels import NamedForm, PairSize
 
 if TYPE_CHECKING:
     from geartrain.teeth.conjugate.conjugate_transmission import ConjugateTransmission
     from geartrain.teeth.conjugate.off_design import OffDesignTransmission
+    from geartrain.teeth.conjugate.path_of_contact import PathOfContact
+    from geartrain.teeth.outlines.cut_wheel import BlankSizes, WheelOutline
     from geartrain.teeth.outlines.tooth_requirement import ToothRequirement
     from geartrain.teeth.outlines.wheel_requirement import LanternPins
     from geartrain.teeth.pair_account import PairAccount
@@ -65,6 +69,11 @@ class ConjugateMesh(GearMesh):
         return (second, first) if self.wheels.internal[0] else (first, second)
 
     @property
+    def path(self) -> PathOfContact:
+        """The path of contact at the design distance."""
+        return self.law.path
+
+    @property
     def wheel_pair(self) -> WheelPair:
         """The two wheels as the form knows them, axes taken as parallel."""
         pitch = self.law.path.pitch
@@ -86,6 +95,18 @@ class ConjugateMesh(GearMesh):
         free, pins = self.tooth_form.bottom_clearance(wheels, gear), self.tooth_form.lantern_pins(wheels)
         return ToothRequirement(self.law.pair, gear, tolerance, CLEARANCE if free is None else max(free, 0.0), pins)
 
+    def wheel_outline(self, gear: int, cut: BlankSizes) -> WheelOutline:
+        """The flank of the design over a root of the blank's sizes; by default as deep as the form says."""
+        from geartrain.teeth.outlines.wheel_outline import outline
+
+        wheels, own = self.wheel_pair, self.gears.index(self.gear.pair[gear - 1]) + 1
+        free = self.tooth_form.bottom_clearance(wheels, own)
+        if cut.clearance is None and free is not None:
+            if free < 0:
+                raise QuestionError(_shallow(own, -free))
+            cut = replace(cut, clearance=free * cut.module)
+        return outline(self.law.pair, own, cut, self.tooth_form.lantern_pins(wheels))
+
     def play_apart(self, gap: float) -> float | None:
         """As the form has it: involutes run at any distance."""
         return self.tooth_form.play_apart(self.wheel_pair, gap)
@@ -101,3 +122,13 @@ class ConjugateMesh(GearMesh):
         from geartrain.teeth.conjugate.conjugate_account import conjugate_account
 
         return conjugate_account(self)
+
+
+def _shallow(gear: int, overlap: float) -> Problem:
+    """What is said of a root that the mate's tip would run into; `overlap` in modules."""
+    return Problem(
+        f"the root of gear {gear} stands in the way of its mate's tip",
+        f"they overlap by {overlap:.4g} modules at this centre distance",
+        "give a greater --dedendum or a smaller --addendum",
+        "--dedendum",
+    )

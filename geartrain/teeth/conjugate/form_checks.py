@@ -5,11 +5,12 @@ from __future__ import annotations
 from math import tau
 from typing import TYPE_CHECKING
 
-from geartrain.numerics.quantity import Angle, Figure
-from geartrain.teeth.tooth_form import ToothForm, bad, refused
+from geartrain.numerics.quantity import Angle, Figure, Quantity
+from geartrain.teeth.tooth_form import IDEAL, ShaftAngle, ToothForm, bad, refused
 
 if TYPE_CHECKING:
     from geartrain.teeth.conjugate.pitch_surfaces import PitchSurfaces
+    from geartrain.teeth.meshing_wheels import MeshingWheels
 
 
 def arcs_of(figures: tuple[Figure, Figure], pitch: PitchSurfaces) -> tuple[float, float]:
@@ -22,6 +23,14 @@ def check_arcs(arcs: tuple[Figure, Figure]) -> None:
     if min(arc.value for arc in arcs) < 0 or sum(arc.value for arc in arcs) <= 0:
         text = ", ".join(arc.text for arc in arcs)
         raise bad("arcs", f"arcs [{text}] are none", "give those of approach and recess in pitches, a pitch in all")
+
+
+def check_lengths(backlash: Quantity, centre_distance: Quantity | None) -> None:
+    """Raises pydantic's error for lengths that are none."""
+    if backlash.value < 0:
+        raise bad("backlash", f"backlash {backlash.text} would jam the teeth", "write 0 or more")
+    if centre_distance is not None and centre_distance.value <= 0:
+        raise bad("length", f"centre_distance {centre_distance.text} is no length", "write it above 0")
 
 
 def check_angle(name: str, angle: Angle, below: float = 0.25) -> None:
@@ -60,3 +69,17 @@ def check_order(form: ToothForm, pair: tuple[str, str]) -> None:
             f"the pair names its ring '{ring}' first, and these teeth count the ring as the second wheel",
             f"name the pinion first: `pair: [{pinion}, {ring}]`",
         )
+
+
+def shaft_angle_of(form: ToothForm, wheels: MeshingWheels, shaft_angle: ShaftAngle) -> float | None:
+    """The angle of a bevel pair (rad); None for wheels that mesh as spur wheels do."""
+    if "contrate" in wheels.kinds:
+        return None
+    angle = shaft_angle()
+    if angle is None and "bevel" in wheels.kinds:
+        raise refused(
+            f"it cannot have {form.words} teeth",
+            "nothing says how the axes of its bevels meet",
+            f"declare `axes` with the `direction` of both, or {IDEAL}",
+        )
+    return angle

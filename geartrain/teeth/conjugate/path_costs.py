@@ -29,6 +29,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from geartrain.errors import GearTrainError, Problem
+from geartrain.numerics.plain_data import Key, Result, finite
 from geartrain.numerics.roots import root
 from geartrain.teeth.conjugate.path_of_contact import PathContact, PathOfContact
 from geartrain.teeth.conjugate.path_side import PathSide
@@ -46,11 +47,17 @@ _ROUNDING = 1e-12  # of a pitch: a stretch so short is none
 ONE_PAIR = "one pair of teeth bears the whole load along its whole path"
 SHARED = "pairs of teeth in contact share the load equally at every instant"
 
+LOADED = ("loss", "stress", "off_pitch", "heat", "flash")
+"""Costs that depend on how the load is shared, in the order of tables."""
+FREE = ("depth", "contact_ratio", "slowest")
+"""Measures that do not."""
+
 
 @dataclass(frozen=True, slots=True)
-class PathCosts:
+class PathCosts(Result):
     """What a path costs under one assumption on the load, friction and load taken out; lengths in modules or radians.
 
+    assumption  on how pairs of teeth share the load, in words
     loss        mean loss over friction, first order. One pair: (A + B) (J_a + J_r) / (X_a + X_r), the mean along its
                 path (Buckingham); shared: the mean over a pitch (Ohlendorf)
     stress      greatest Hertz pressure over sqrt(tangential force): sqrt(max H); infinite where psi is 0
@@ -59,6 +66,9 @@ class PathCosts:
     flash       greatest flash proxy
     """
 
+    KEYS = ("assumption", *(Key(name, to=finite) for name in LOADED))
+
+    assumption: str
     loss: float
     stress: float
     off_pitch: float
@@ -67,11 +77,11 @@ class PathCosts:
 
     def over(self, other: PathCosts) -> dict[str, float]:
         """Each of the quantities as a ratio to another path's."""
-        return {name: getattr(self, name) / getattr(other, name) for name in self.__slots__}
+        return {name: getattr(self, name) / getattr(other, name) for name in LOADED}
 
 
 @dataclass(frozen=True, slots=True)
-class PathMeasures:
+class PathMeasures(Result):
     """What one path costs, and its geometry; lengths in modules or radians.
 
     one_pair, shared   costs where one pair bears the load, and where pairs in contact share it equally
@@ -80,19 +90,33 @@ class PathMeasures:
     contact_ratio   pitches of displacement while one pair touches
     """
 
+    KEYS = ("one_pair", "shared", *(Key(name, to=finite) for name in FREE))
+
     one_pair: PathCosts
     shared: PathCosts
     depth: float
     slowest: float
     contact_ratio: float
 
-    def over(self, other: PathMeasures) -> dict[str, float | dict[str, float]]:
-        """Each of the quantities as a ratio to another path's; those of the costs by their assumption."""
-        return {
-            "one_pair": self.one_pair.over(other.one_pair),
-            "shared": self.shared.over(other.shared),
-            **{name: getattr(self, name) / getattr(other, name) for name in ("depth", "slowest", "contact_ratio")},
-        }
+    def over(self, other: PathMeasures) -> PathRatios:
+        """Each of the quantities as a ratio to another path's."""
+        free = {name: getattr(self, name) / getattr(other, name) for name in FREE}
+        return PathRatios(self.one_pair.over(other.one_pair), self.shared.over(other.shared), free)
+
+
+@dataclass(frozen=True, slots=True)
+class PathRatios(Result):
+    """Measures of one path over those of another, by their names.
+
+    one_pair, shared   of costs, by their assumption on the load
+    free               of what depends on no load
+    """
+
+    KEYS = (Key("one_pair", to=finite), Key("shared", to=finite), Key("", "free", finite))
+
+    one_pair: dict[str, float]
+    shared: dict[str, float]
+    free: dict[str, float]
 
 
 def measure(path: PathOfContact) -> PathMeasures:
@@ -102,8 +126,8 @@ def measure(path: PathOfContact) -> PathMeasures:
     if min(path.arcs) >= 0:
         slowest = min(slowest, float(path.at(0.0).sin_psi))
     return PathMeasures(
-        one_pair=_costs(path, alone),
-        shared=_costs(path, sharing(path)),
+        one_pair=_costs(path, ONE_PAIR, alone),
+        shared=_costs(path, SHARED, sharing(path)),
         depth=depth(path),
         slowest=slowest,
         contact_ratio=path.contact_ratio,
@@ -130,7 +154,7 @@ def sharing(path: PathOfContact) -> list[Stretch]:
     return found
 
 
-def _costs(path: PathOfContact, stretches: list[Stretch]) -> PathCosts:
+def _costs(path: PathOfContact, assumption: str, stretches: list[Stretch]) -> PathCosts:
     """The costs where as many pairs as the stretches say share the load."""
     pitch = path.pitch
     bound = 0.1 * pitch.p
@@ -140,6 +164,7 @@ def _costs(path: PathOfContact, stretches: list[Stretch]) -> PathCosts:
 
     rubbed = sum(_rubbed(path, low, high) / count for low, high, count in stretches)
     return PathCosts(
+        assumption=assumption,
         loss=(pitch.A + pitch.B) * rubbed / sum((high - low) / count for low, high, count in stretches),
         stress=most(lambda c: c.H, 1.0) ** 0.5,
         off_pitch=_root(most(lambda c: c.H, 1.0, bound)),
@@ -185,6 +210,13 @@ def height(pitch: PitchSurfaces, side: PathSide, start: float | None = None, end
     ends = np.array([side.start if start is None else start, side.end if end is None else end])
     low, high = pitch.S(ends) * side.sin_psi(ends)
     return float(high - low)
+
+
+def sliding(path: PathOfContact) -> tuple[float, float]:
+    """Greatest sliding over the pitch-line speed, and over the slower of the contact's speeds along the flanks."""
+    pitch = path.pitch
+    slide = greatest(path, lambda c: (pitch.A + pitch.B) * np.abs(pitch.S(c.d)))
+    return slide, greatest(path, lambda c: c.Q1.clip(c.Q2) * c.cos_psi)
 
 
 def greatest(

@@ -93,6 +93,19 @@ class PathOfContact:
         """Pitches of displacement while one pair touches; below 0 where no contact is in reach."""
         return sum(self.arcs) / self.pitch.p
 
+    def radii(self, gear: int) -> tuple[float, float]:
+        """Radii (modules; half-angles of cones, rad) between which a gear's flank works, root end first."""
+        approach, recess = self.arcs
+        ends = np.array([-approach, recess] if gear == 1 else [recess, -approach])
+        points = (self.flank1 if gear == 1 else self.flank2)(ends)
+        R = -self.pitch.R1 if gear == 1 else self.pitch.R2
+        if self.pitch.bevel:
+            axis = np.array([0.0, np.sin(R), np.cos(R)])
+            low, high = np.arctan2(np.linalg.norm(np.cross(points, axis), axis=1), points @ axis)
+        else:
+            low, high = np.hypot(points[:, 0], points[:, 1] - R)
+        return float(low), float(high)
+
     def at(self, X: ArrayLike) -> PathContact:
         """The contact at displacements X within the arcs, any shape."""
         X = np.asarray(X, dtype=float)

@@ -31,6 +31,12 @@ class WheelPair:
     shaft_angle: float | None = None
     module: float | None = None
 
+    @classmethod
+    def of(cls, z1: int, z2: int, internal: bool, shaft_angle: float | None, pitch_distance: float | None) -> WheelPair:
+        """Wheels by half the module of each times its teeth, summed (m), for a ring too; None where nothing says it."""
+        module = None if pitch_distance is None or z1 + z2 < 1 else 2 * pitch_distance / (z1 + z2)
+        return cls(z1, z2, internal, shaft_angle, module)
+
     @property
     def bevel(self) -> bool:
         """True if the axes meet."""

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from math import cos, isfinite, pi, sin
-from typing import TYPE_CHECKING, Any
+from math import cos, pi, sin
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from geartrain.errors import Problem, QuestionError
 from geartrain.teeth.outlines.contour import Contour
+from geartrain.teeth.outlines.cut_wheel import BlankSizes, WheelOutline
 from geartrain.teeth.outlines.tooth_outline import ToothOutline, repeated
 from geartrain.teeth.outlines.tooth_requirement import CLEARANCE, ToothRequirement, check_flat, cut_tooth
 from geartrain.teeth.outlines.wheel_requirement import LanternPins
@@ -19,129 +19,10 @@ if TYPE_CHECKING:
     from geartrain.teeth.gear_mesh import GearMesh
 
 
-@dataclass(frozen=True, slots=True)
-class BlankSizes:
-    """What a maker says of a wheel besides its teeth. Lengths in mm.
-
-    Attributes
-    ----------
-    module : float
-        Pitch diameter over teeth [mm], above 0.
-    clearance : float, optional
-        Between a tip and the mate's root [mm], 0 or more; default a quarter of a module.
-    fillet : float, optional
-        Radius of the round at the root [mm], 0 or more; default 0.38 modules, or what fits.
-    bore : float, optional
-        Diameter of the hole in the middle [mm]; default no hole.
-    rim : float, optional
-        What stands round the roots of a ring, or the pins of a lantern [mm]; default two modules, or a pin.
-    tolerance : float
-        How far a chord may leave a flank [mm].
-
-    Raises
-    ------
-    QuestionError
-        For what is no size.
-
-    See Also
-    --------
-    geartrain.teeth.mesh_outline : takes them.
-
-    Examples
-    --------
-    >>> BlankSizes(module=2, bore=6).clearance is None
-    True
-    """
-
-    module: float = 1.0
-    clearance: float | None = None
-    fillet: float | None = None
-    bore: float | None = None
-    rim: float | None = None
-    tolerance: float = 0.001
-
-    def __post_init__(self) -> None:
-        """Raise `QuestionError` for what is no size."""
-        above = {"module": self.module, "bore": self.bore, "rim": self.rim, "tolerance": self.tolerance}
-        least = {"fillet": self.fillet, "clearance": self.clearance}
-        problems = [
-            Problem(f"a {name} of {value:g} mm is no size", "", f"give a {name} above 0", f"--{name}")
-            for name, value in above.items()
-            if value is not None and not (isfinite(value) and value > 0)
-        ]
-        problems += [
-            Problem(f"a {name} of {value:g} mm is no size", "", f"give a {name} of 0 or more", f"--{name}")
-            for name, value in least.items()
-            if value is not None and not (isfinite(value) and value >= 0)
-        ]
-        if problems:
-            raise QuestionError(problems)
-
-
 _THIN = 0.1  # modules: least land of a wheel about its bore
 
 OutlineSizes = tuple[float, float, float, float, float]
 """Radii of pitch, tip and root circle, thickness, radius of the round; modules."""
-
-
-@dataclass(frozen=True, slots=True)
-class WheelOutline:
-    """A wheel's outline and sizes, to scale. Lengths in mm.
-
-    Attributes
-    ----------
-    gear : int
-        Which of the pair, 1 or 2.
-    z : int
-        Its teeth, or pins.
-    kind : {"external", "ring", "pins"}
-        Teeth outwards, teeth inwards, or holes for pins.
-    contours : tuple of Contour
-        The outer one first, then holes; the axle at (0, 0), a tooth, or a pin, on the x axis.
-    module, pitch_radius, tip_radius, root_radius : float
-        Of the wheel [mm].
-    thickness : float
-        Of a tooth along the pitch circle [mm].
-    fillet : float
-        Radius of the round at the root [mm]; 0 where there is none.
-    relief : float
-        How far the root is turned off the flank's tangent, so that the mate's tip passes [rad].
-    clearance, backlash, centre_distance : float
-        Of the pair [mm].
-    tolerance : float
-        How far a chord may leave a flank [mm].
-
-    See Also
-    --------
-    geartrain.teeth.mesh_outline : makes one.
-    """
-
-    gear: int
-    z: int
-    kind: str
-    contours: tuple[Contour, ...]
-    module: float
-    pitch_radius: float
-    tip_radius: float
-    root_radius: float
-    thickness: float
-    fillet: float
-    relief: float
-    clearance: float
-    backlash: float
-    centre_distance: float
-    tolerance: float
-
-    def to_dict(self) -> dict[str, Any]:
-        """The sizes as plain data; lengths in mm, angles in rad."""
-        names = ("gear", "z", "kind", "module", "thickness", "fillet", "relief", "clearance", "backlash")
-        return {name: getattr(self, name) for name in names} | {
-            "pitch_diameter": 2 * self.pitch_radius,
-            "tip_diameter": 2 * self.tip_radius,
-            "root_diameter": 2 * self.root_radius,
-            "centre_distance": self.centre_distance,
-            "tolerance": self.tolerance,
-        }
 
 
 def outline(pair: ConjugatePair, gear: int, cut: BlankSizes, pins: LanternPins | None = None) -> WheelOutline:
@@ -158,35 +39,7 @@ def outline(pair: ConjugatePair, gear: int, cut: BlankSizes, pins: LanternPins |
 
 
 def mesh_outline(mesh: GearMesh, gear: int, cut: BlankSizes) -> WheelOutline:
-    """The outline of one wheel of any gear pair, as its form wants it cut.
-
-    Parameters
-    ----------
-    mesh : GearMesh
-        The pair.
-    gear : {1, 2}
-        The first or the second wheel that it names.
-    cut : BlankSizes
-        Module, bore and tolerance.
-
-    Returns
-    -------
-    WheelOutline
-        A tooth stands on the x axis; the two mesh at `centre_distance` where a space of gear 2 faces a tooth of gear 1.
-
-    Raises
-    ------
-    GearTrainError
-        Where no such wheel can be cut.
-
-    Examples
-    --------
-    >>> import geartrain
-    >>> mesh = geartrain.load("sorge-pairs").meshes[0]
-    >>> wheel = mesh_outline(mesh, 1, BlankSizes(module=2))
-    >>> wheel.z, wheel.pitch_radius, len(wheel.contours[0].points)
-    (48, 48.0, 96)
-    """
+    """The outline of the first or the second wheel of any mesh, as its form wants it cut: `GearMesh.wheel_outline`."""
     size = mesh.size({})
     scale, tolerance = 1.0 if size is None else size.scale, cut.tolerance / cut.module
     tooth, mate = (mesh.requirement(name, scale, tolerance).cut() for name in mesh.gear.pair[:: 3 - 2 * gear])

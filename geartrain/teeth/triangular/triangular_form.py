@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Annotated, Literal
+from typing import TYPE_CHECKING, Annotated, ClassVar, Literal
 
 from pydantic import BeforeValidator, Field, WithJsonSchema, model_validator
 from pydantic_core import PydanticCustomError
@@ -50,6 +50,8 @@ class Triangular(ToothForm):
     >>> round(law.efficiency_mean(), 4)
     0.9681
     """
+
+    any_distance: ClassVar[bool] = True
 
     form: Literal["triangular"] = Field(description="The name of this form")
     half_angle: Annotated[tuple[Angle, Angle], BeforeValidator(twice), WithJsonSchema(_ONE_OR_TWO)] = Field(

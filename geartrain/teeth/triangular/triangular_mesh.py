@@ -9,7 +9,8 @@ from math import cos, pi, sin
 from typing import TYPE_CHECKING
 
 from geartrain.errors import Problem
-from geartrain.teeth.gear_mesh import GearMesh, PairSize
+from geartrain.teeth.gear_mesh import GearMesh
+from geartrain.teeth.meshing_wheels import PairSize
 from geartrain.teeth.outlines.wheel_requirement import SAME_SIZE, CutTooth, WheelRequirement
 from geartrain.teeth.triangular.triangular_explanations import explain_clearance, explain_friction_lock
 

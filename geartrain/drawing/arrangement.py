@@ -118,6 +118,7 @@ def _steps(members: Sequence[int], needs: Sequence[float]) -> list[float]:
 
 def _overlap(left: tuple[list[int], float], right: tuple[list[int], float], needs: Sequence[float]) -> bool:
     end = left[1] + _steps(left[0], needs)[-1]
+    # boxes that just touch do not overlap, whatever rounding says
     return right[1] - end < (needs[left[0][-1]] + needs[right[0][0]]) / 2 - 1e-12
 
 
@@ -133,16 +134,18 @@ def settle(items: Sequence[str], pairs: Pairs, lengths: Mapping[tuple[str, str],
     places = np.array([(cos(each), sin(each)) for each in angle]) * count**0.5
     wanted = _distances(items, pairs, lengths)
     weights = np.where(wanted > 0, 1 / np.where(wanted > 0, wanted, 1.0) ** 2, 0.0)
+    # a Laplacian is singular: moving all alike costs nothing, and the pseudoinverse leaves the mean where it is
     inverse = np.linalg.pinv(np.diag(weights.sum(1)) - weights)
     for _ in range(_STEPS):
         apart: Any = places[:, None, :] - places[None, :, :]
         distance = np.sqrt((apart**2).sum(2))
+        # two at one place have no direction to be pushed in, and do not pull: the others part them
         pull = -weights * wanted / np.where(distance > 1e-9, distance, 1.0)
         pull[distance <= 1e-9] = 0.0
         np.fill_diagonal(pull, 0.0)
         np.fill_diagonal(pull, -pull.sum(1))
         places = inverse @ (pull @ places)
-    return np.asarray(np.round(places, 4))
+    return np.asarray(np.round(places, 4))  # coarser than the rounding of the linear algebra of any machine
 
 
 def _distances(items: Sequence[str], pairs: Pairs, lengths: Mapping[tuple[str, str], float]) -> Floats:

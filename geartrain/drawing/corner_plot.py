@@ -134,6 +134,7 @@ def _two(axes: Axes, likely: CountProbabilities, pair: Pair, spans: Mapping[str,
     for (one, other), chance in likely.pairs[pair].items():
         table[other - second[0], one - first[0]] = chance
     edges = [np.arange(span[0], span[1] + 2) - 0.5 for span in (first, second)]
+    # a scale needs two ends, even where no two counts are likely together
     mesh = axes.pcolormesh(*edges, table, cmap="Blues", vmin=0.0, vmax=max(float(table.max()), 1e-300))
     mesh.set_gid(f"{a}, {b}")
     _ticks(axes.yaxis, second)

@@ -128,7 +128,7 @@ def _curve(edge: GraphEdge, at: Mapping[str, tuple[float, float]], turn: int) ->
     """Ends and middle control point (3, 2): the least bend that keeps clear of other vertices and of earlier edges."""
     start, end = (np.array(at[link]) for link in edge.ends)
     along = end - start
-    normal = np.array([-along[1], along[0]]) / max(float(hypot(*along)), 1e-9)
+    normal = np.array([-along[1], along[0]]) / max(float(hypot(*along)), 1e-9)  # ends at one place: no bend
     others = np.array([place for link, place in at.items() if link not in edge.ends]).reshape(-1, 2)
     trials = [(bend, np.array([start, (start + end) / 2 + 2 * bend * normal, end])) for bend in _BENDS[turn:]]
     costs = [abs(bend) + _CROWDED * max(_CLEAR - _clearance(curve, others), 0.0) for bend, curve in trials]
@@ -235,7 +235,8 @@ def _free_side(link: str, at: Mapping[str, tuple[float, float]], edges: Sequence
     away /= np.maximum(np.sqrt((away**2).sum(1)), 1e-9)[:, None]
     angles = np.arange(16) * np.pi / 8
     sides = np.stack([np.cos(angles), np.sin(angles)], 1)
-    nearest = np.round((sides @ away.T).max(1) + 0.08 * np.abs(sides[:, 1]), 9)  # beside reads better than above
+    # beside reads better than above; rounded, so that equal sides are told apart by their order on every machine
+    nearest = np.round((sides @ away.T).max(1) + 0.08 * np.abs(sides[:, 1]), 9)
     x, y = sides[int(nearest.argmin())]
     return float(x), float(y)
 

@@ -87,6 +87,7 @@ def _faces(standing: ProjectedScene, wheel: SceneWheel) -> Iterator[_Face]:
         strip = np.arange(start, min(start + max(len(first) // 72, 1), len(first)) + 1) % len(first)
         points = np.concatenate([first[strip], last[strip[::-1]]])
         middle = points.mean(0) - (first.mean(0) + last.mean(0)) / 2
+        # of a strip in the middle of the wheel, whose normal is no direction, any shade will do
         shade = 0.35 + 0.3 * float(middle[2]) / max(float(np.linalg.norm(middle)), 1e-9)
         if middle[2] > 0 or wheel.kind == "ring" or wheel.cone > 0:
             yield _Face(points, float(points[:, 2].mean()), shade, 0.0)

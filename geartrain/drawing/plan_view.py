@@ -51,7 +51,7 @@ def plan_figure(scene: Scene, turns: Fraction = Fraction(0), labels: bool = True
     standing = project_scene(scene, turns)
     points = np.concatenate([*(standing.seen(_extent(standing, wheel)) for wheel in scene.wheels), *_hubs(standing)])
     low, high = points.min(0), points.max(0)
-    size = np.maximum(high - low, 1e-6)
+    size = np.maximum(high - low, 1e-6)  # of points alone: the scale divides by it
     side = min(max(_LEAST, _WHEEL * len(scene.wheels) ** 0.5 * 1.7), _MOST)
     scale = side / float(size[:2].max())
     layered = standing.flat and size[2] > 1e-9 and len({wheel.layer for wheel in scene.wheels}) > 1

@@ -109,9 +109,9 @@ def _percentiles(axes: Axes, values: Floats) -> None:
 
 
 def _edges(values: Floats) -> Floats:
-    """Bins as wide as Freedman and Diaconis advise, within bounds; round a single value, some."""
+    """Bins by the rule of Freedman and Diaconis, 2 IQR / n^(1/3) wide, within bounds; around a single value, some."""
     low, high = float(values.min()), float(values.max())
-    if high - low <= 1e-12 * max(abs(low), abs(high)):
+    if high - low <= 1e-12 * max(abs(low), abs(high)):  # bins narrower than rounding would be empty or endless
         half = max(abs(low), 1e-9) * 0.1
         return np.linspace(low - half, high + half, _BINS[0] + 1)
     middle = float(np.subtract(*np.percentile(values, (75, 25))))

@@ -39,6 +39,7 @@ class ProjectedScene:
 
     def faces(self, wheel: SceneWheel) -> bool:
         """True if a wheel is seen along its axis."""
+        # the cosine is flat there: 1e-9 off 1 is 0.0026 deg, less than any declared tilt and more than rounding
         return abs(float(self.axis(wheel) @ self.screen[2])) > 1 - 1e-9
 
     def seen(self, points: object) -> Floats:
@@ -89,7 +90,7 @@ class ProjectedScene:
     def ends(self, wheel: SceneWheel) -> tuple[tuple[float, float], tuple[float, float]]:
         """Height along the axis (mm) and scale of the two ends of a wheel; of a bevel wheel the wide end first."""
         half = wheel.thickness / 2
-        if wheel.cone <= 0 or wheel.cone > np.pi / 2 - 1e-6:
+        if wheel.cone <= 0 or wheel.cone > np.pi / 2 - 1e-6:  # a crown's apex lies in its own plane: no narrow end
             return (half, 1.0), (-half, 1.0)
         apex = -wheel.facing * wheel.radius / np.tan(wheel.cone)
         return (0.0, 1.0), ((1 - _NARROW) * float(apex), _NARROW)

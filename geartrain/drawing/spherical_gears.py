@@ -76,7 +76,7 @@ def _screen(view: Floats) -> Floats:
     """Rows: right, up and towards the reader."""
     towards = view / np.linalg.norm(view)
     right = np.cross([0.0, 0.0, 1.0], towards)
-    if np.linalg.norm(right) < 1e-9:
+    if np.linalg.norm(right) < 1e-9:  # seen from a pole, where up is no direction
         right = np.array([1.0, 0.0, 0.0])
     right /= np.linalg.norm(right)
     return np.array([right, np.cross(towards, right), towards])

@@ -163,7 +163,7 @@ class _Drawing:
         if link == self.train.declaration.frame:
             self._ground(x, foot)
         known = self.feet.get(wheel)
-        if known is not None and abs(known[0] - x) > 1e-9:
+        if known is not None and abs(known[0] - x) > 1e-9:  # more than rounding beside where it stood
             level = foot + (0.09 if end > foot else -0.09)
             self._line([known[0], x], [level, level], BLUE, 2.0, zorder=3)
         if known is None and self.labels:

@@ -115,7 +115,7 @@ def _limits(ideal: Floats, real: Floats) -> tuple[float, float]:
     if not len(real):
         return 0.0, 1.0
     low, high = float(real.min()), float(real.max())
-    more = _BEYOND * max(high - low, 1e-3 * abs(high))
+    more = _BEYOND * max(high - low, 1e-3 * abs(high))  # a law without ripple has no range of its own
     bottom, top = max(low - more, min(low, float(ideal.min()))), min(high + more, max(high, float(ideal.max())))
     rim = 0.07 * (top - bottom) or 0.05
     return bottom - rim, top + rim

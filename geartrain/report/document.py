@@ -203,6 +203,7 @@ def one_to(ratio: Fraction | Real | None) -> str:
 
 def ppm(value: float | None) -> str:
     """Parts per million with sign."""
+    # less than 1e-15 of the speed is what is left of rounding
     return "-" if value is None else "0" if abs(value) < 1e-9 else f"{value:+.6g}"
 
 

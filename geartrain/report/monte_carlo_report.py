@@ -1,4 +1,4 @@
-"""Trials of wheels cut by hand as a page: how often pairs jam, how far pointers stray, and whose errors do it."""
+"""Trials of wheels cut by hand as a page: how often pairs jam, how far pointers stray, and which errors cause it."""
 
 from __future__ import annotations
 
@@ -146,7 +146,7 @@ def _shares(found: MonteCarloResult, pointer: PointerErrorStatistics) -> Section
     rows = [
         (name, f"{100 * each:.3g} %")
         for name, each in sorted(pointer.shares.items(), key=lambda item: -abs(item[1]))
-        if abs(each) > 5e-4
+        if abs(each) > 5e-4  # three digits in percent would show 0
     ]
     text = "Exact shares of the variance by pair, to first order; wheels that two pairs share may make one negative."
     return Section(f"Variance of {pointer.name}", (text,), (Table(("pair", "share"), rows),))

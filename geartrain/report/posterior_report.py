@@ -163,7 +163,7 @@ def _percent(share: Fraction | float) -> str:
 
 def _correlated(found: ToothCountPosterior) -> Section:
     strongest = list(found.correlations.items())[:_STRONGEST]
-    rows = [(" and ".join(pair), f"{value:+.3f}") for pair, value in strongest if abs(value) >= 0.0005]
+    rows = [(" and ".join(pair), f"{value:+.3f}") for pair, value in strongest if abs(value) >= 0.0005]  # shown as 0
     line = "Wheels that make up for each other in what fits: the strongest correlations of their counts."
     return Section("Correlations", [line], [Table(("wheels", "correlation"), rows)])
 

@@ -93,7 +93,7 @@ def direct(streams: Sequence[PowerStream]) -> tuple[list[PowerStream], list[Powe
 
 
 def _met(streams: Sequence[PowerStream]) -> Iterator[PowerStream]:
-    """All streams as one meets them who comes in with the power and follows the greatest first."""
+    """All streams by depth-first search from where power comes in, the greatest stream of a node first."""
     after: dict[PowerNode, list[PowerStream]] = {}
     for stream in sorted(streams, key=lambda each: (each.source.kind != "in", -each.power)):
         after.setdefault(stream.source, []).append(stream)

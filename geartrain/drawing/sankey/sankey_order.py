@@ -60,7 +60,7 @@ def _swap(table: Sequence[list[SankeySpot]], at: int) -> bool:
     for upper in range(len(column) - 1):
         for lower in range(upper + 1, len(column)):
             column[upper], column[lower] = column[lower], column[upper]
-            if (now := _tangle(table, near)) < tangle - 1e-9:
+            if (now := _tangle(table, near)) < tangle - 1e-9:  # a gain of rounding would be swapped back for ever
                 tangle, swapped = now, True
             else:
                 column[upper], column[lower] = column[lower], column[upper]

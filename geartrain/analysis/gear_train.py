@@ -100,7 +100,7 @@ class GearTrain(TrainKinematics):
 
     @cached_property
     def _teeth(self) -> tuple[GearMesh, ...]:
-        """The gear pairs with real teeth, whoever drives them."""
+        """The gear pairs with real teeth, whichever side drives."""
         from geartrain.dynamics.gear_meshes import find_meshes
         from geartrain.kinematics.circuits.shaft_angles import shaft_angle
 

@@ -4,7 +4,7 @@ In: numbers and tasks. Out: exact solutions of sparse systems, roots, piecewise 
 results of tasks in their order. Most of it is for the rooms above; a user meets quantities and figures in declarations,
 labelled arrays and long floats in answers, and runs long questions with an executor and a journal.
 
-exact, decimal_text, factored_ratios integers and Fractions of any length, and their text
+exact, decimal_text, factored_ratios  integers and Fractions of any length, and their text
 long_float, error_free               floats with an exponent of their own; sums and products with their rounding error
 rounding_bounds                      a priori bounds on the rounding of sums and quotients
 elimination                          sparse linear forms over the rationals

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from concurrent.futures import ThreadPoolExecutor
 from fractions import Fraction
+from functools import cache
 from itertools import pairwise
 from math import comb, log2, pi
 from pathlib import Path
@@ -20,6 +21,7 @@ from geartrain.teeth.triangular.triangular_transmission import TriangularTransmi
 from geartrain.uncertainty import (
     CutWheel,
     TrialPlan,
+    TrialResults,
     cut_transmission_function,
     find_sobol_indices,
     find_tolerance,
@@ -282,12 +284,18 @@ def same(one: Any, other: Any) -> bool:
     return arrays and one.first == other.first and one.sums == other.sums
 
 
+@cache
+def nine_hundred() -> tuple[TrialPlan, TrialResults]:
+    """Trials in one go, against which all ways of sharing them out are held."""
+    plan = planned(chain((12, 10), (9, 8)), "placement=2 %", "tip=2 %")
+    return plan, run_trials(plan, 900, 7)
+
+
 @pytest.mark.parametrize(
     "workers", [lambda: ThreadPoolExecutor(2), pytest.param(lambda: open_executor(2), marks=pytest.mark.slow)]
 )
 def test_cut_and_taken_up_or_by_two_workers_it_is_the_same_bit_for_bit(workers: Any, tmp_path: Path) -> None:
-    plan = planned(chain((15, 12), (14, 11)), "placement=2 %", "tip=2 %")
-    true = run_trials(plan, 900, 7)
+    plan, true = nine_hundred()
     asked = journal_key(plan, 7, 900)
     path = tmp_path / "journal"
     for stop in (1, 3):
@@ -295,11 +303,18 @@ def test_cut_and_taken_up_or_by_two_workers_it_is_the_same_bit_for_bit(workers: 
             run_trials(plan, 900, 7, Execution(None, journal, blocks_until(stop)))
     with Journal(path, asked) as journal:
         assert 0 < len(journal) < 4
-    with workers() as executor, Journal(path, asked) as journal:
-        assert same(run_trials(plan, 900, 7, Execution(executor, journal)), true)
-        assert len(journal) == 4
     with workers() as executor:
+        with Journal(path, asked) as journal:
+            assert same(run_trials(plan, 900, 7, Execution(executor, journal)), true)
+            assert len(journal) == 4
         assert same(run_trials(plan, 900, 7, Execution(executor)), true)
+    fewer = run_trials(plan, 300, 7)
+    assert (fewer.errors == true.errors[:300]).all()
+    assert not (run_trials(plan, 300, 8).errors == fewer.errors).any()
+
+
+def test_fewer_trials_are_the_first_of_many_and_another_seed_draws_others() -> None:
+    plan, true = nine_hundred()
     fewer = run_trials(plan, 300, 7)
     assert (fewer.errors == true.errors[:300]).all()
     assert not (run_trials(plan, 300, 8).errors == fewer.errors).any()

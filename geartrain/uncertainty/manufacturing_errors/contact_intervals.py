@@ -17,8 +17,8 @@ if TYPE_CHECKING:
     Cells = tuple[Ints, Floats, Floats]
 
 _PARTS = 4  # of a cell, looked at for couples that take over within it
-_WITHIN = 1e-13  # of a pitch: ends are looked at from this far inside
-_GAUSS = np.polynomial.legendre.leggauss(20)
+_WITHIN = 1e-13  # of a pitch: ends are looked at from this far inside, lest rounding pick the neighbour's couple
+_GAUSS = np.polynomial.legendre.leggauss(20)  # within a stretch all is smooth: 20 nodes reach rounding
 
 
 def label(first: FirstContact) -> Ints:

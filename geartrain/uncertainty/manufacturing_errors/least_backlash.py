@@ -66,6 +66,7 @@ def least_backlash_sum(
             slope, bend = _slopes(front, back, delta, phases, x)
             low, high = np.where(slope < 0, x, low), np.where(slope > 0, x, high)
             step = x - slope / bend
+            # a step out of the bracket, or none where the bend is 0 or NaN, is a bisection: so every element converges
             step = np.where((step >= low) & (step <= high), step, low + (high - low) / 2)
             done = not (np.abs(step - x) > np.where(least < most, near, inf)).any()
             x = step
@@ -154,4 +155,5 @@ def jamming_bound(sizes: TriangularSizes, sigma: float) -> float:
     if sigma == 0:
         return 0.0
     couples = sizes.z1 * sizes.z2 // gcd(sizes.z1, sizes.z2)
+    # Q(x) = erfc(x / sqrt 2) / 2 keeps its digits in the tail, where 1 - Phi(x) has none
     return min(1.0, 2 * couples * erfc(play / (2 * sigma) / sqrt(2)) / 2)

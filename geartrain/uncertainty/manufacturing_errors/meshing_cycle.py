@@ -185,7 +185,7 @@ class MeshingCycle:
         """Couples that can be in reach at once, and one."""
         place = self.pair.first.place
         if self.pair.widest == -inf or not np.all(np.asarray(self.front.reach) > -inf):
-            return self.pair.count - 2  # a tooth may be missing: who pushes next may be far behind
+            return self.pair.count - 2  # a tooth may be missing: the couple that pushes next may be far behind
         return max(1, int(np.ceil((2 * self.pair.widest + float(place.max() - place.min())) / self.sizes.p1)))
 
     def left_standing(self) -> Bools:

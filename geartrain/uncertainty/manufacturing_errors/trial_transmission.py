@@ -141,7 +141,7 @@ class TrialTransmissionFunction(TransmissionFunction):
 
 
 def _of(each: Floats, rows: Ints, teeth: Ints) -> Any:
-    """The value of one tooth of each trial; a plain 0 where all are."""
+    """The value of one tooth of each trial; a plain 0 where all are, which costs no array."""
     if each.ndim == 1:
         return each[teeth] if each.any() else 0.0
     return each[rows, teeth]

@@ -101,7 +101,7 @@ def jamming_map(
     seed : int
         The same seed cuts the same wheels.
     means : Execution, optional
-        Who works, what is kept; by default this process, and nothing.
+        Executor, journal of finished work, progress report; by default this process, and none of the others.
 
     Returns
     -------

@@ -1,6 +1,6 @@
-"""Errors drawn from their own streams: what one wheel draws hangs on its number, the block and the seed alone.
+"""Errors drawn from streams of their own: they depend on the wheel's number, the block and the seed alone.
 
-So a trial is the same whoever works it out and whatever else is asked; errors twice as great are the same errors
+So a trial is the same in any process and whatever else is computed; errors twice as great are the same errors
 doubled; and another clearance is met by the same wheels.
 """
 
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 
 BLOCK = 256
-"""Trials that are drawn and worked out together; results hang on it, so it never changes."""
+"""Trials that are drawn and worked out together; results depend on it, so it never changes."""
 
 PITCH_ERROR, ECCENTRICITY, TOWARDS, TIP, FLANK_ANGLE_ERROR, CENTRE_DISTANCE_ERROR, BEARING_CLEARANCE, POSITION = range(
     8

@@ -94,7 +94,7 @@ def find_sobol_indices(
     seed : int
         Of the random numbers.
     means : Execution, optional
-        Who works; by default this process. Nothing is journalled.
+        Executor and progress report; by default this process, and none. Nothing is journalled.
 
     Returns
     -------

@@ -113,7 +113,7 @@ def find_tolerance(
     event : str
         Jam, clash, stops (jam or clash), standstill or disengaged.
     means : Execution, optional
-        Who works; by default this process. Nothing is journalled.
+        Executor and progress report; by default this process, and none. Nothing is journalled.
 
     Returns
     -------

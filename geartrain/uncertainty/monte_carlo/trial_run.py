@@ -55,7 +55,7 @@ class TrialRecord:
 
 
 def journal_key(plan: TrialPlan, seed: int, trials: int, **more: Any) -> dict[str, Any]:
-    """What a journal knows a run by: everything its results hang on."""
+    """What a journal knows a run by: everything on which its results depend."""
     made = {"geartrain": version("geartrain"), "numpy": version("numpy"), "errors": VERSION}
     return {**made, "seed": seed, "trials": trials, "block": BLOCK, **plan.question(), **more}
 
@@ -93,7 +93,7 @@ def run_trials(
     seed : int
         The same seed cuts the same wheels, whatever else is asked.
     means : Execution, optional
-        Who works, where finished blocks are kept, who is told; by default this process, and nothing.
+        Executor, journal of finished blocks, progress report; by default this process, and none of the others.
     take : callable, optional
         Given each block of trials as it comes, a TrialRecord.
 

@@ -90,7 +90,7 @@ _NONE = 1e-13
 
 @dataclass(frozen=True, slots=True)
 class PosteriorSummary:
-    """Evidence, posteriors, correlations and candidates for the best, whoever found them.
+    """Evidence, posteriors, correlations and candidates for the best, by either method.
 
     effective  number of combinations that the figures rest on, where they are of a sample; infinite where they are not
     """

@@ -216,7 +216,7 @@ def sample_task(shared: bytes, task: Sequence[int]) -> dict[str, Any]:
     batch, most = _unpacked(shared)
     tally = PosteriorTally(batch, most)
     seed, block, size = task
-    # a stream for each block: what is drawn does not depend on who draws the others
+    # a stream for each block: what is drawn does not depend on how blocks are shared out
     draw = np.random.Generator(np.random.PCG64(np.random.SeedSequence([seed, block])))
     places = {}
     for wheel in batch.wheels:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from math import degrees, isnan
+from math import degrees
 from typing import TYPE_CHECKING
 
 from geartrain.numerics.plain_data import Key, Result
@@ -58,10 +58,28 @@ class TriangularPair(Result):
 def collect_pair(
     mesh: GearMesh, outlines: Sequence[WheelOutline] = (), operation: PairOperation | None = None
 ) -> PairDesign | TriangularPair | FormedPair:
-    """What there is to tell of one pair, as its form has it.
+    """What there is to tell of one pair without a train: its design, or the figures that its form has.
 
-    outlines    wheels that were cut
-    operation   how the pair is run, for the impacts of triangular teeth
+    Parameters
+    ----------
+    mesh : GearMesh
+        The pair, as it is driven.
+    outlines : sequence of WheelOutline
+        Wheels that were cut.
+    operation : PairOperation, optional
+        How the pair is run, for the impacts of triangular teeth.
+
+    Returns
+    -------
+    PairDesign, TriangularPair or FormedPair
+        Conjugate teeth at their design distance; triangular teeth; any others. `to_dict()` gives the data.
+
+    Examples
+    --------
+    >>> import geartrain
+    >>> data = collect_pair(geartrain.load("planetary-24-18-60-involute").meshes[0]).to_dict()
+    >>> data["form"], data["teeth"], round(data["contact_ratio"], 3)
+    ('involute', [24, 18], 1.566)
     """
     if isinstance(mesh, TriangularMesh):
         return _triangular_pair(mesh, operation)
@@ -72,7 +90,29 @@ def collect_pair(
 def describe_pair(
     mesh: GearMesh, outlines: Sequence[WheelOutline] = (), operation: PairOperation | None = None
 ) -> Document:
-    """A page on the same: verdict, design or figures, motion, losses, and wheels that were cut."""
+    """A page on one pair without a train: verdict, design or figures, motion, losses, and wheels that were cut.
+
+    Parameters
+    ----------
+    mesh : GearMesh
+        The pair, as it is driven.
+    outlines : sequence of WheelOutline
+        Wheels that were cut.
+    operation : PairOperation, optional
+        How the pair is run, for the impacts of triangular teeth.
+
+    Returns
+    -------
+    Document
+        What `collect_pair` gives as data, with the limits of a friction or a clearance that is out of range.
+
+    Examples
+    --------
+    >>> import geartrain
+    >>> page = describe_pair(geartrain.load("planetary-24-18-60-involute").meshes[0])
+    >>> page.title, [section.title for section in page.sections]
+    ('Involute teeth 24/18 spur', ['Wheels', 'Path of contact', 'Costs', 'Friction'])
+    """
     if isinstance(mesh, TriangularMesh):
         return _triangular_page(mesh, operation)
     design = _design(mesh, outlines)
@@ -140,27 +180,47 @@ def _outline(wheel: WheelOutline) -> Section:
 
 
 def describe_pin(law: PinTransmission) -> Document:
-    """Mean ratio, amplitude, extreme speeds and friction of one coupling."""
-    least, most = law.speed_range()
-    kind = "encloses" if law.ratio else "leaves out"
+    """A page on a pin in a slot: mean ratio, amplitude, extreme speeds and friction.
+
+    Parameters
+    ----------
+    law : PinTransmission
+        Of the pin in the slot, whichever drives.
+
+    Returns
+    -------
+    Document
+        One section; its data are those of `geartrain.teeth.pin_figures.pin_figures`.
+
+    Examples
+    --------
+    >>> from geartrain.teeth import PinToSlotTransmission
+    >>> describe_pin(PinToSlotTransmission(2, 1)).sections[0].tables[0].rows[0]
+    ('amplitude', '0.523598776 rad', '30 deg')
+    """
+    from geartrain.teeth.pin_figures import pin_figures
+
+    found = pin_figures(law)
+    ratio, rms, efficiency = found.speed_ratio, found.transmission_error.rms, found.efficiency
+    kind = "encloses" if ratio.mean else "leaves out"
     lead = [
-        f"The {law.driver} drives. The pin's circle, of radius {figure(law.r)}, {kind} the slot's axis at "
-        f"{figure(law.e)}: the mean ratio is {law.ratio}.",
+        f"The {law.driver} drives. The pin's circle, of radius {figure(found.pin_radius)}, {kind} the slot's axis at "
+        f"{figure(found.offset)}: the mean ratio is {ratio.mean}.",
     ]
     rows = [
-        ("amplitude", f"{law.amplitude:.9g} rad", f"{degrees(law.amplitude):.9g} deg"),
-        ("error, rms", f"{law.error_moments()[1]:.9g} rad", f"{degrees(law.error_moments()[1]):.9g} deg"),
-        ("speed ratio, least", figure(least), ""),
-        ("speed ratio, greatest", figure(most), ""),
+        ("amplitude", f"{found.amplitude:.9g} rad", f"{degrees(found.amplitude):.9g} deg"),
+        ("error, rms", f"{rms:.9g} rad", f"{degrees(rms):.9g} deg"),
+        ("speed ratio, least", figure(ratio.least), ""),
+        ("speed ratio, greatest", figure(ratio.greatest), ""),
     ]
-    if law.friction:
-        driver, load = law.efficiency_mean(), law.efficiency_at_constant_load()
-        rows.append((f"efficiency at friction {law.friction:g}, mean", _share(driver), "at constant driver torque"))
-        rows.append(("", _share(load), "at constant load torque"))
+    if efficiency.friction:
+        name = f"efficiency at friction {efficiency.friction:g}, mean"
+        rows.append((name, _share(efficiency.mean), "at constant driver torque"))
+        rows.append(("", _share(efficiency.at_constant_load), "at constant load torque"))
     table = Table(("quantity", "value", ""), rows)
     return Document("Pin in a slot", lead, [Section("Law of motion", (), (table,))])
 
 
-def _share(efficiency: float) -> str:
+def _share(efficiency: float | None) -> str:
     """An efficiency; `-` where friction locks, or no work is done on a constant load."""
-    return "-" if isnan(efficiency) else f"{efficiency:.9f}"
+    return "-" if efficiency is None else f"{efficiency:.9f}"

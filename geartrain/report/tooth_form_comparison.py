@@ -17,7 +17,26 @@ _HEADERS = {"off_pitch": "stress off pitch"}
 
 
 def describe_form_comparison(found: FormComparison) -> Document:
-    """Tables of ratios, and what keeps the others from running."""
+    """A page on tooth forms beside the 20 degree involute: tables of ratios, and what keeps forms from running.
+
+    Parameters
+    ----------
+    found : FormComparison
+        What `geartrain.teeth.form_comparison.compare_forms` gives; its `to_dict()` has the same as data.
+
+    Returns
+    -------
+    Document
+        Ratios where one pair of teeth bears the load, and where pairs in contact share it; the involute itself.
+
+    Examples
+    --------
+    >>> from geartrain.teeth.conjugate.wheel_pair import WheelPair
+    >>> from geartrain.teeth.form_comparison import compare_forms
+    >>> page = describe_form_comparison(compare_forms(WheelPair(24, 36), ["involute", "cycloidal"]))
+    >>> [row[:4] for row in page.sections[0].tables[0].rows]
+    [('involute', '0.5 + 0.5', '1.0000', '1.0000'), ('cycloidal', '0.5 + 0.5', '1.0021', 'inf')]
+    """
     text = (
         "Ratios to the involute of 20 deg. Loss: of the mean power lost; stress: of the greatest Hertz pressure, "
         "infinite where the pressure angle is 0 at the pitch point, and off pitch where contact is more than a tenth "

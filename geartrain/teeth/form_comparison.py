@@ -121,10 +121,35 @@ def compare_forms(
 ) -> FormComparison:
     """Loss, stress, heat, flash and depth of forms as ratios to those of the 20 degree involute.
 
-    names            of `comparable_forms`
-    arcs             of approach and recess in pitches, matched by all; together 1 or more
-    pressure_angle   of the forms that have one, below 45 deg; None: as each declares by default
-    Raises `GearTrainError` for names and parameters that are none, and where the involute itself cannot run.
+    Costs are those of docs/shapes.md, to first order in friction; the criteria are W. D. Smith's (1993).
+
+    Parameters
+    ----------
+    wheels : WheelPair
+        Tooth numbers of the two, and how their axes stand.
+    names : sequence of str
+        Of `comparable_forms`.
+    arcs : tuple of float
+        Of approach and recess, matched by all [pitch]; together 1 or more.
+    pressure_angle : Quantity, optional
+        Of the forms that have one, below 45 deg; by default as each declares it.
+
+    Returns
+    -------
+    FormComparison
+        The involute, and each form with its ratios or what keeps it from running.
+
+    Raises
+    ------
+    QuestionError
+        For names and parameters that are none, and where the involute itself cannot run.
+
+    Examples
+    --------
+    >>> from geartrain.teeth.conjugate.wheel_pair import WheelPair
+    >>> (form,) = compare_forms(WheelPair(24, 36), ["least_friction"]).forms
+    >>> form.runs, form.ratios.one_pair["loss"] < 1
+    (True, True)
     """
     known = comparable_forms()
     _check(known, names, arcs, pressure_angle)

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from geartrain.drawing.backend import Axes
+from geartrain.numerics.polylines import simplified
 from geartrain.scene import Scene, SceneWheel
 from geartrain.scene.pose import ScenePose, scene_pose
 
@@ -60,7 +61,9 @@ class ProjectedScene:
         chord   how far (mm) points that are left out may lie beside the line
         """
         profile = self.scene.profiles[wheel.profile]
-        tooth = thinned(np.array(profile.points), chord / (wheel.radius * scale))
+        tooth = np.array(profile.points)
+        flat = tooth[:, :1] * np.stack([np.cos(tooth[:, 1]), np.sin(tooth[:, 1])], axis=1)
+        tooth = tooth[simplified(flat, chord / (wheel.radius * scale))]
         if profile.hole or wheel.teeth > _FINE:
             return self.circle(wheel, wheel.tip * scale, height)
         radius = wheel.radius * scale * np.tile(tooth[:-1, 0], wheel.teeth)
@@ -94,22 +97,6 @@ class ProjectedScene:
             return (half, 1.0), (-half, 1.0)
         apex = -wheel.facing * wheel.radius / np.tan(wheel.cone)
         return (0.0, 1.0), ((1 - _NARROW) * float(apex), _NARROW)
-
-
-def thinned(tooth: Floats, chord: float) -> Floats:
-    """The fewest of a line's points (radius, angle) that keep it within `chord` of itself (Douglas and Peucker)."""
-    x, y = tooth[:, 0] * np.cos(tooth[:, 1]), tooth[:, 0] * np.sin(tooth[:, 1])
-    kept, waiting = {0, len(tooth) - 1}, [(0, len(tooth) - 1)]
-    while waiting:
-        low, high = waiting.pop()
-        u, v = x[high] - x[low], y[high] - y[low]
-        between = slice(low + 1, high)
-        off = abs((x[between] - x[low]) * v - (y[between] - y[low]) * u) / (np.hypot(u, v) or 1.0)
-        if high - low > 1 and off.max() > chord:
-            middle = low + 1 + int(off.argmax())
-            kept.add(middle)
-            waiting += [(low, middle), (middle, high)]
-    return tooth[sorted(kept)]
 
 
 def project_scene(scene: Scene, turns: Fraction) -> ProjectedScene:

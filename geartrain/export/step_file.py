@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from geartrain.errors import MissingExtraError, Problem
-from geartrain.scene.solids.triangle_solids import thinned
+from geartrain.numerics.polylines import simplified
 
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
@@ -213,8 +213,9 @@ def _smooth(line: Floats) -> Iterator[Floats]:
     turn = np.diff(np.unwrap(np.arctan2(steps[:, 1], steps[:, 0])))
     ends = [0, *(np.flatnonzero(abs(turn) > _CORNER) + 1).tolist(), len(line) - 1]
     for low, high in pairwise(ends):
-        part = thinned(line[low : high + 1], FINE)
+        whole = line[low : high + 1]
+        part = whole[simplified(whole, FINE)]
         if len(part) < _CURVED:
             yield from (part[at : at + 2] for at in range(len(part) - 1))
         else:
-            yield thinned(line[low : high + 1], FINE / 4)  # finer than chords: the curve may leave them by FINE / 2
+            yield whole[simplified(whole, FINE / 4)]  # finer than chords: the curve may leave them by FINE / 2

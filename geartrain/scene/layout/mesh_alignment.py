@@ -10,9 +10,9 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from math import atan2, pi, remainder
+from math import pi, remainder
 
-from geartrain.numerics.vectors import Vector, across, cross, dot, frame, minus, size, unit
+from geartrain.numerics.vectors import Vector, across, azimuth, cross, dot, frame, minus, size, unit
 from geartrain.scene.layout.declared_geometry import PitchContact
 from geartrain.scene.layout.parallel_groups import Arrangement
 from geartrain.scene.layout.wheel_sizes import opposite
@@ -62,13 +62,6 @@ def reference(direction: Vector) -> Vector:
     return frame(direction)[0]
 
 
-def azimuth(direction: Vector, out: Vector) -> float:
-    """Angle of a direction about an axis, from its reference (rad)."""
-    first, second = frame(direction)
-    flat = across(out, direction)
-    return atan2(dot(flat, second), dot(flat, first))
-
-
 def align_meshes(found: Arrangement) -> MeshAlignment:
     """Angles at which the wheels of a train mesh, as they stand."""
     return _aligned([_pitch_point(found, contact) for contact in found.geometry.declared.contacts])
@@ -79,7 +72,7 @@ def _pitch_point(found: Arrangement, contact: PitchContact) -> PitchPoint:
     directions = [declared.lines[axis].direction for axis in contact.axes]
     outs = _side_by_side(found, contact) if contact.parallel else _seated(found, contact)
     first, second = (
-        PitchSide(wheel, declared.count(wheel), azimuth(direction, out))
+        PitchSide(wheel, declared.count(wheel), azimuth(across(out, direction), direction, reference(direction)))
         for wheel, direction, out in zip(contact.wheels, directions, outs, strict=True)
     )
     same = dot(cross(directions[0], outs[0]), cross(directions[1], outs[1])) > 0

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from geartrain.numerics.polylines import simplified
 from geartrain.scene.solids.triangulation import fill
 from geartrain.teeth.outlines.contour import Contour
 
@@ -54,7 +55,8 @@ def wheel_solid(blank: Blank, tolerance: float = FINE) -> Solid:
         return plate_solid(contours, blank.thickness, tolerance)
     radius = float(abs(others[0].points).max()) if others else 0.0
     own = len(teeth.points) // blank.teeth + 1
-    tooth = thinned(_open(teeth, own, tolerance), tolerance)
+    line = _open(teeth, own, tolerance)
+    tooth = line[simplified(line, tolerance)]
     pitch = _pitch(tooth, radius, blank.teeth, tolerance)
     return raised(*_repeated(*fill(pitch), blank.teeth), blank.thickness)
 
@@ -63,25 +65,6 @@ def _open(contour: Contour, count: int, tolerance: float) -> Floats:
     """The first vertices of a contour, its arcs between them as chords."""
     bulges = np.append(contour.bulges[: count - 1], 0.0)
     return Contour(contour.points[:count], bulges).flattened(tolerance)
-
-
-def thinned(points: Floats, tolerance: float) -> Floats:
-    """The fewest of a line's points that stay within a tolerance of it (Douglas and Peucker), its ends among them."""
-    kept = {0, len(points) - 1}
-    todo = [(0, len(points) - 1)]
-    while todo:
-        first, last = todo.pop()
-        if last - first < 2:
-            continue
-        along = points[last] - points[first]
-        away = points[first + 1 : last] - points[first]
-        length = float(np.hypot(*along))
-        off = abs(along[0] * away[:, 1] - along[1] * away[:, 0]) / length if length else np.hypot(*away.T)
-        if off.max() > tolerance:
-            middle = first + 1 + int(off.argmax())
-            kept.add(middle)
-            todo += [(first, middle), (middle, last)]
-    return points[sorted(kept)]
 
 
 def plate_solid(contours: Sequence[Contour], thickness: float, tolerance: float = FINE) -> Solid:

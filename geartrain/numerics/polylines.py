@@ -1,0 +1,36 @@
+"""Lines of points in a plane."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from geartrain.numerics.arrays import Floats
+
+
+def simplified(points: Floats, tolerance: float) -> list[int]:
+    """Ramer-Douglas-Peucker: which of a line's points (n, 2) are kept, so that all others are near the line of those.
+
+    Both ends are kept; where they are one point, distances are counted from it. Ramer, Computer Graphics and Image
+    Processing 1 (1972) 244; Douglas and Peucker, Cartographica 10 (1973) 112.
+
+    >>> simplified(np.array([[0.0, 0.0], [1.0, 0.1], [2.0, -0.1], [3.0, 5.0], [4.0, 6.0]]), 0.5)
+    [0, 2, 3, 4]
+    """
+    kept = {0, len(points) - 1}
+    waiting = [(0, len(points) - 1)]  # no recursion: a flank may have thousands of points
+    while waiting:
+        first, last = waiting.pop()
+        if last - first < 2:
+            continue
+        along = points[last] - points[first]
+        away = points[first + 1 : last] - points[first]
+        length = float(np.hypot(*along))
+        off = abs(along[0] * away[:, 1] - along[1] * away[:, 0]) / length if length else np.hypot(*away.T)
+        if off.max() > tolerance:
+            middle = first + 1 + int(off.argmax())
+            kept.add(middle)
+            waiting += [(first, middle), (middle, last)]
+    return sorted(kept)

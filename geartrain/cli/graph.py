@@ -26,7 +26,7 @@ def run(
     """Print the graph: adjacency in letters (R(axis), G#) or numbers, edges, Graphviz, GraphML, or JSON."""
     from geartrain.analysis.loader import load
     from geartrain.kinematics import graph
-    from geartrain.report.document import Document, Section, Table
+    from geartrain.report.graph_tables import describe_adjacency, describe_edges
     from geartrain.report.text import to_markdown
 
     to = sink(out, force, _SUFFIXES)
@@ -38,13 +38,9 @@ def run(
     if form == "matrix":
         text = as_json(graph.adjacency_matrix(train.graph))
     elif form == "edges":
-        table = Table(("link", "link", "joined by", "axis or pair"), graph.edge_rows(train.graph))
-        text = to_markdown([Document(f"Edges of {train.name}", (), (Section("Edges", (), (table,)),))])
+        text = to_markdown([describe_edges(train)])
     elif form == "labels":
-        names = list(train.graph)
-        rows = [(name, *row) for name, row in zip(names, graph.adjacency_labels(train.graph), strict=True)]
-        table = Table(("", *names), rows, wide=True)
-        text = to_markdown([Document(f"Adjacency of {train.name}", (), (Section("Matrix", (), (table,)),))])
+        text = to_markdown([describe_adjacency(train)])
     else:
         text = {"dot": graph.to_dot, "graphml": graph.to_graphml, "json": graph.to_json}[form](train.graph)
     emit(text, to)

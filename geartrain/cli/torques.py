@@ -62,6 +62,7 @@ def _draw(train: GearTrain, found: Sequence[Torques], picture: Sink) -> None:
     """The flow under the declared loads; without any, that of a unit of power from the input to the output."""
     from geartrain.drawing import power_figure
     from geartrain.dynamics.torques.power_flow import watts_per_unit
+    from geartrain.report.torque_report import summary_text
 
     loaded = [each for each in found if each.verdict.kind != "unloaded"] if len(found) > 1 else list(found)
     if len(loaded) != 1:
@@ -73,18 +74,4 @@ def _draw(train: GearTrain, found: Sequence[Torques], picture: Sink) -> None:
     if torques.verdict.kind == "unloaded" and (ways := train.drive_both_ways(torques.state)):
         torques, source, load = ways[0]
         name, watts = f"{name}, while a unit of power leaves at '{load}', driven from '{source}'", None
-    draw(power_figure(train.power_flow(torques), f"{name}: {_summary(torques)}", watts), picture)
-
-
-def _summary(torques: Torques) -> str:
-    """Efficiency, or why there is none, and what is lost where."""
-    from geartrain.numerics.decimal_text import percent_text
-
-    if not torques.verdict or not torques.power_in:
-        return torques.verdict.text
-    teeth = torques.loss - torques.bearing_loss
-    lost = {"teeth": teeth, "bearings": torques.bearing_loss}
-    named = [f"{percent_text(power / torques.power_in)} is lost in {where}" for where, power in lost.items() if power]
-    out = percent_text(1 - torques.loss / torques.power_in)
-    uncounted = [f"left out: {', '.join(map(str, torques.left_out))}"] if torques.left_out else []
-    return "; ".join([f"{out} of the power that enters comes out", *named, *uncounted])
+    draw(power_figure(train.power_flow(torques), f"{name}: {summary_text(torques)}", watts), picture)

@@ -202,6 +202,18 @@ def _loss_row(flow: PowerFlow, amounts: _Amounts, lost: Fraction, blow: float | 
     return (amounts.text(lost), *parts, watts_text(blow), percent_text(Fraction(blow / whole)) if whole else "-")
 
 
+def summary_text(torques: Torques) -> str:
+    """Efficiency, or why there is none, and what is lost where."""
+    if not torques.verdict or not torques.power_in:
+        return torques.verdict.text
+    teeth = torques.loss - torques.bearing_loss
+    lost = {"teeth": teeth, "bearings": torques.bearing_loss}
+    named = [f"{percent_text(power / torques.power_in)} is lost in {where}" for where, power in lost.items() if power]
+    out = percent_text(1 - torques.loss / torques.power_in)
+    uncounted = [f"left out: {', '.join(map(str, torques.left_out))}"] if torques.left_out else []
+    return "; ".join([f"{out} of the power that enters comes out", *named, *uncounted])
+
+
 # ------------------------------------------------------------------------------------------------------ there and back
 
 

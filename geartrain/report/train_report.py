@@ -9,11 +9,13 @@ from math import degrees
 from geartrain.analysis.gear_train import GearTrain
 from geartrain.kinematics.answer import Answer
 from geartrain.kinematics.circuits import Circuit
+from geartrain.kinematics.graph import MOST_SQUARE
 from geartrain.kinematics.verdict import Loop
 from geartrain.numerics.decimal_text import abridged_text
 from geartrain.report.answers import answer_sections, doubtful_wheels, expectations_met, shift_table
 from geartrain.report.document import MOST_ROWS, Document, ExactText, Section, Table, cut, filled_table
 from geartrain.report.gear_pairs import teeth_sections
+from geartrain.report.graph_tables import adjacency_table
 from geartrain.report.motion_report import moving_sections
 from geartrain.report.torque_report import loaded_sections
 from geartrain.report.train_data import TrainReport
@@ -102,17 +104,9 @@ def _structure(train: GearTrain) -> Iterator[Section]:
     rows = [(name, _wheels(link.wheels), _joint(train, name), link.note or "") for name, link in declared.links.items()]
     table = filled_table(("link", "wheels and teeth", "turns in (axis)", "note"), rows, 3)
     yield Section("Structure", (counts,), (replace(table, rows=cut(table.rows)),))
-    from geartrain.kinematics.graph import MOST_SQUARE, adjacency_labels
-
     if len(declared.links) <= MOST_SQUARE:
-        cells = adjacency_labels(train.graph)
-        names = list(train.graph)
-        matrix = Table(("", *names), [(name, *row) for name, row in zip(names, cells, strict=True)], wide=True)
-        yield Section(
-            "Adjacency matrix",
-            ("R(axis) is a turning pair, the others are gear pairs and couplings by id.",),
-            (matrix,),
-        )
+        text = "R(axis) is a turning pair, the others are gear pairs and couplings by id."
+        yield Section("Adjacency matrix", (text,), (adjacency_table(train),))
 
 
 def _wheels(wheels: dict[str, Wheel]) -> str:

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import math
 import random
+import subprocess
+import sys
 from collections.abc import Callable, Iterator, Mapping
 from fractions import Fraction
 from itertools import product
@@ -592,3 +594,9 @@ def test_counts_of_no_weight_are_left_out() -> None:
     doubt = {"value": 20, "range": [19, 21], "weights": [1, 1, 0]}
     found = run(with_teeth(CHAIN, {"a1": doubt}))  # type: ignore[dict-item]
     assert found["a1"].doubt.counts == (19, 20)
+
+
+def test_the_room_is_imported_without_any_large_library() -> None:
+    asked = "import sys, geartrain.uncertainty; print(*{'numpy', 'scipy', 'networkx'} & set(sys.modules))"
+    done = subprocess.run([sys.executable, "-c", asked], capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == ""

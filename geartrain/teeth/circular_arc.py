@@ -56,6 +56,7 @@ def addendum_factor(z: int, ratio: float) -> float:
     for _ in range(200):
         last, t = t, pi / z + 2 * ratio * b
         b = atan2(sin(t), k - cos(t))
+        # t is below pi: a step this small is its rounding
         if abs(t - last) <= 1e-16:
             break
     return z / 4 * (sqrt(1 + k * k - 2 * k * cos(t)) - 2 * ratio)

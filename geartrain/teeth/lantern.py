@@ -174,6 +174,7 @@ class Lantern(ConjugateToothForm):
         from geartrain.teeth.pair_verdict import ToothFault
 
         left = (outside + min(inside, -start)) / pitch.p
+        # a pitch of contact but for rounding is enough where no arc on the dedendum is asked for
         if inside <= -start or (left >= 1 - 1e-12 and not inside):
             return ()
         mate, where = 3 - self.pins, start / pitch.p
@@ -238,6 +239,7 @@ class Lantern(ConjugateToothForm):
             height = float(self.addendum.value)
             return pin_arc(R, A, B, pin_reach(R, A, B, mate, abs(mate) + (height if mate > 0 else -height))), 0.0
         if self.arcs is None:
+            # a little more, lest rounding leave less than a pitch of contact
             return pitch.p + max(start, 0.0) * (1 + 1e-9), 0.0
         approach, recess = arcs_of(self.arcs, pitch)
         return (approach, recess) if self.pins == 1 else (recess, approach)

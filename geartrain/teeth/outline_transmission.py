@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
     from geartrain.numerics.arrays import Floats
-    from geartrain.teeth.contact.outline_curves import GearOutline
+    from geartrain.teeth.contact.gear_outline import GearOutline
     from geartrain.teeth.contact.piecewise_transmission import PiecewiseTransmission
 
 _GAUSS = np.polynomial.legendre.leggauss(16)
@@ -90,6 +90,7 @@ class OutlineTransmission(TransmissionFunction):
         """Whether the pair can turn: what is wrong with its teeth, or the play they lack at this distance."""
         plays = _plays(self.gears, self.driver)
         play = float(np.nanmin(plays, initial=inf))
+        # rad: the teeth of a pair without play touch on both sides but for rounding
         found = self.gears.faults if play >= -1e-12 else (*self.gears.faults, _jam(self.distance, play))
         if not np.isfinite(plays).all():
             found = (*found, _apart(self.distance, float(np.mean(~np.isfinite(plays)))))
@@ -138,6 +139,7 @@ class OutlineTransmission(TransmissionFunction):
     def speed_range(self) -> tuple[float, float]:
         """Least and greatest speed ratio, among sixteen angles of each smooth stretch and its ends."""
         ends = self.table.breaks
+        # at a corner the speed has two values, one of either side
         found = self.table.speed(np.concatenate([self._nodes[0], ends + 1e-12, ends - 1e-12]))
         return float(np.nanmin(found)), float(np.nanmax(found))
 

@@ -17,8 +17,9 @@ from geartrain.errors import GearTrainError, QuestionError, RangeError
 from geartrain.teeth.conjugate import optimal_sides as forms
 from geartrain.teeth.conjugate.path_of_contact import PathOfContact
 from geartrain.teeth.conjugate.pitch_surfaces import PitchSurfaces
+from geartrain.teeth.contact.gear_outline import GearOutline, ToothFlanks
 from geartrain.teeth.contact.outline_contact import KINDS, contact, solve
-from geartrain.teeth.contact.outline_curves import GearOutline, OutlineCurve, ToothFlanks, polyline
+from geartrain.teeth.contact.outline_curve import OutlineCurve, polyline
 from geartrain.teeth.contact.transmission_fit import tabulate
 from geartrain.teeth.triangular.pair_geometry import TriangularSizes, equal_depth
 from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission

@@ -125,6 +125,7 @@ def _azimuth(path: PathOfContact, gear: int, point: Floats) -> float:
 
 def _broken(path: PathOfContact) -> Iterator[ToothFault]:
     ratio = path.contact_ratio
+    # arcs of a pitch in all add up to 1 but for rounding
     if ratio < 1 - 1e-12:
         yield ToothFault(
             "contact ratio",

@@ -57,6 +57,7 @@ def cycloid(pitch: PitchSurfaces, X: float, rho: float) -> PathSide:
     Raises `RangeError` where the arc is longer than half the rolling circle.
     """
     longest = pi * sin(rho) if pitch.bevel else pi * rho
+    # at half the circle itself the pressure angle is a right angle, and its cosine 0
     if longest * (1 - 1e-9) <= X:
         raise RangeError(
             Problem(
@@ -214,6 +215,7 @@ def extremal(pitch: PitchSurfaces, X: float, first: float, last: float) -> PathS
         start, end = ends(D)
         return D * log(tan(end / 2) / tan(start / 2)) - X
 
+    # just short of where the arc sine of the end is not defined; at D = 0 the arc is 0
     high = (1 - 1e-12) / cos(last)
     D = root(off, 1e-9 * X, high, -inf, off(high))
     return PathSide((ExtremalPiece(pitch, D, *ends(D)),))

@@ -208,6 +208,7 @@ class ConjugateTransmission(ExactRatio):
         """Least efficiency: at an end of a stretch, or within, looked for with two hundred samples each."""
         if self._locks:
             return nan
+        # at an end itself another pair of teeth is in contact, or the other side of the pitch point
         inside = np.linspace(1e-9, 1 - 1e-9, 201)
         S = np.concatenate([low + (high - low) * inside for low, high in self._stretches])
         return float(np.nanmin(self.efficiency(S)))

@@ -23,6 +23,7 @@ def inv(angle: float) -> float:
 
 def inv_angle(value: float) -> float:
     """The angle (rad) whose involute function is `value`, 0 or more."""
+    # the tangent is infinite at a right angle
     high = pi / 2 - 1e-9
     return root(lambda x: inv(x) - value, 0.0, high, -value, inv(high) - value) if value else 0.0
 
@@ -72,6 +73,7 @@ class InvoluteWheel:
         u = self.cut - self.shift
         if self.ring or u <= self.r * sin(self.psi) ** 2:
             return 0.0
+        # at the base circle itself a square root may be of rounding below 0
         low = max(self.base, self.r - u) * (1 + 1e-12)
         at_low, at_high = self._left(low), self._left(self.r)
         return root(self._left, low, self.r, at_low, at_high) if at_low < 0 < at_high else 0.0

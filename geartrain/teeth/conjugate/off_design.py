@@ -13,7 +13,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from geartrain.teeth.conjugate.conjugate_transmission import ConjugatePair
-from geartrain.teeth.contact.outline_curves import GearOutline, OutlineCurve, ToothFlanks
+from geartrain.teeth.contact.gear_outline import GearOutline, ToothFlanks
+from geartrain.teeth.contact.outline_curve import OutlineCurve
 from geartrain.teeth.outline_transmission import OutlineGears, OutlineTransmission
 
 if TYPE_CHECKING:
@@ -90,6 +91,7 @@ def _joints(path: PathOfContact) -> list[float]:
 def _straight(flank: object, foot: float, tip: float) -> OutlineCurve:
     """The root: straight on from the foot of a flank."""
     assert callable(flank)
+    # near enough for the tangent, far enough that the difference is not rounding
     start, near = flank(np.array([foot, foot + 1e-4 * (tip - foot)]))
     way = start - near
     length = min(_STRAIGHT, float(np.hypot(*start)) / 3)

@@ -132,6 +132,7 @@ def _end(piece: PathPiece, X: float, v: ChebyshevSeries) -> float:
         if not v.start < end - step <= most:
             return piece.end - first
         end -= step
+        # at rounding, or near it and no longer shrinking: Newton then only moves among roundings
         if abs(step) <= 4e-16 * end or (abs(step) < 1e-12 * end and abs(step) >= last):
             break
         last = abs(step)
@@ -162,6 +163,7 @@ def _to_arc(made: Callable[[float], PathPiece], guess: float, X: float) -> PathP
     for _ in range(30):
         at = np.array(end)
         step = (float(piece.travel(at)) - X) * sqrt(1 - float(piece.sin_psi(at)) ** 2)
+        # at rounding, or near it and no longer shrinking: Newton then only moves among roundings
         if abs(step) <= 4e-16 * end or (abs(step) < 1e-12 * end and abs(step) >= last):
             break
         end, last = end - step, abs(step)
@@ -249,6 +251,7 @@ def least_friction(pitch: PitchSurfaces, b: float, X: float, psi: float, u: floa
     # a path below psi ends no nearer than a ray, where even the lowest, of eta = u d + b (integral of S), must be below
     if u * longest + b * float(pitch.S_integral(longest)) > float(pitch.S(longest)) * sin(psi):
         raise _too_long(pitch, X, psi, u)
+    # the bracket keeps off a ray, and a second piece, of no length
     least, most = 1e-3 * longest, longest * (1 - 1e-6)
     first = root(variation, least, most, variation(least), variation(most))
     if above(first) > 0:  # back at the greatest pressure angle before the end: a shorter ray gets there at the end
@@ -291,6 +294,7 @@ def _lifted_end(sine: Callable[[Floats], Floats], first: float, rest: float, psi
         )
         step = (travelled - rest) * sqrt(1 - float(sine(np.array(end))) ** 2)
         end -= step
+        # at rounding, or near it and no longer shrinking: Newton then only moves among roundings
         if abs(step) <= 4e-16 * end or (abs(step) < 1e-12 * end and abs(step) >= last):
             break
         last = abs(step)

@@ -255,6 +255,7 @@ def _peak(f: Callable[[Floats], Floats], first: float, last: float, scale: float
     """Greatest value of f on [first, last]; what is 0/0 at the pitch point itself is asked beside it."""
     d = np.linspace(first, last, _SCAN)
     if first == 0.0:
+        # near enough for its limit, where what is 0/0 still has half its digits
         d[0] = min(1e-7 * scale, float(d[1]))
         at_pitch = f(np.zeros(1))[0]
         if np.isposinf(at_pitch):

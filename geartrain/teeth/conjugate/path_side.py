@@ -195,6 +195,7 @@ class PathSide:
         for _ in range(40):
             step = (self.travel(d) - X) * np.sqrt(np.maximum(1 - self.sin_psi(d) ** 2, 0.0))
             d = np.clip(d - step, self.start, self.end)
+            # two roundings of the greatest distance
             if np.abs(step).max(initial=0.0) <= 4e-16 * self.end:
                 break
         return d

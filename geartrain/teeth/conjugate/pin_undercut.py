@@ -68,6 +68,7 @@ def _cusp(R: float, A: float, B: float, mate: float, far: float) -> float | None
     speeds = np.array([speed(beta) for beta in grid])
     still = np.flatnonzero(speeds <= 0)
     if still.size == 0:
+        # at 0 itself L is |A - R|, which may be 0: then the speed is not defined
         least = 1e-9 * far
         return root(speed, least, grid[0], speed(least), speeds[0]) if speed(least) < 0 else None
     at = int(still[-1])

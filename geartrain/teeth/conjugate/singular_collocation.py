@@ -91,11 +91,13 @@ class _Collocated:
             step = np.linalg.solve(self.matrix + np.diag(slope), left)
             part, size = 1.0, np.abs(left).max()
             trial, (left, slope) = v - step, self.residual(v - step)
+            # halve a step that leaves what f is defined for, or, within a thousandth, that makes the residual grow
             while not np.isfinite(left).all() or (np.abs(left).max() > size and part > 1e-3 and size > _ROUGH):
                 part /= 2
                 if part < 1e-9:
                     raise lost(float(self.d[-1]))
                 trial, (left, slope) = v - part * step, self.residual(v - part * step)
+            # at rounding, or where the residual no longer shrinks
             done = np.abs(trial - v).max() <= 4e-16 * np.abs(trial).max() or not np.abs(left).max() < size
             v = trial
             if done:

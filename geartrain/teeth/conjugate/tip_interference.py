@@ -112,6 +112,7 @@ def _undercut(pair: InvolutePair, path: PathOfContact) -> Iterator[ToothFault]:
         lowest = hypot(wheel.base, max(R * sin(pair.psi) - arc * cos(pair.psi), 0.0))
         if gone > lowest + _ROUNDING:
             least = wheel.cut - wheel.r * sin(wheel.psi) ** 2
+            # a whole number that rounding has raised a little is that number
             teeth = ceil(2 * (wheel.cut - wheel.shift) / sin(wheel.psi) ** 2 - 1e-9)
             yield ToothFault(
                 "undercut",

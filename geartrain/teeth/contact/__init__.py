@@ -5,8 +5,9 @@ it. That makes it a judge of teeth that are derived in other ways, and gives a l
 displaced.
 """
 
+from geartrain.teeth.contact.gear_outline import GearOutline, ToothFlanks
 from geartrain.teeth.contact.outline_contact import FlankContact, TwoFlankContact, contact, solve
-from geartrain.teeth.contact.outline_curves import GearOutline, OutlineCurve, ToothFlanks, polyline
+from geartrain.teeth.contact.outline_curve import OutlineCurve, polyline
 from geartrain.teeth.contact.transmission_fit import tabulate
 
 __all__ = [

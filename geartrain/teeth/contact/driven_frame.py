@@ -37,6 +37,7 @@ class AxlePlacement:
         r = np.linspace(lowest, highest, 129)[:, None]
         b = np.linspace(0, np.pi, 721)[None, :]
         seen = DrivenFrame(self, *np.broadcast_arrays(r, b)).radius
+        # what may pass between two samples, and rounding
         slack = 2 * (highest - lowest) / 128 + 1e-9 * highest
         inside = ((seen <= most + slack) & (seen >= least - slack)).any(axis=0)
         if not inside.any():

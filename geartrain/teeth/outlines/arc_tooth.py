@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
-    from geartrain.teeth.contact.outline_curves import GearOutline
+    from geartrain.teeth.contact.gear_outline import GearOutline
     from geartrain.teeth.outlines.tooth_outline import Vertex
 
 
@@ -60,6 +60,7 @@ class ArcTooth:
             return False
         x, y = self.centre
         start, lean = self.flank
+        # the centre of a round tip is on the middle of the tooth, to the three digits of printed sizes
         return x <= 1e-3 * self.radius and hypot(x, y) > self.radius and self.root < start and 0 < lean < pi / self.z
 
     @property
@@ -73,7 +74,8 @@ class ArcTooth:
         """All teeth of the wheel, for the contact of outlines."""
         import numpy as np
 
-        from geartrain.teeth.contact.outline_curves import GearOutline, OutlineCurve, ToothFlanks
+        from geartrain.teeth.contact.gear_outline import GearOutline, ToothFlanks
+        from geartrain.teeth.contact.outline_curve import OutlineCurve
 
         (start, lean), (cx, cy), radius = self.flank, self.centre, self.radius
         way = np.array([sin(lean), cos(lean)])

@@ -120,6 +120,7 @@ class ToothOutline:
             return np.asarray(edge)
         centre = complex(*self.fillet.centre)
         far = abs(centre)
+        # where the radius is 0 no quotient of 0
         cosine = (radius**2 + far**2 - self.fillet.radius**2) / (2 * np.maximum(radius, 1e-300) * far)
         round_ = np.angle(centre) - np.arccos(np.clip(cosine, -1.0, 1.0))
         return np.asarray(np.where(radius * s < r[0] * s, round_, edge))

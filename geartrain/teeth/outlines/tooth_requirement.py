@@ -228,6 +228,7 @@ def check_flat(pair: ConjugatePair) -> None:
     """Raise `QuestionError` for a pair that no flat wheels can be cut for."""
     path = pair.path
     if path.pitch.bevel:
+        # a crown wheel develops into a rack, of infinitely many teeth
         virtual = [path.pitch.z1 / cos(path.pitch.R1), path.pitch.z2 / max(cos(path.pitch.R2), 1e-9)]
         raise QuestionError(
             Problem(

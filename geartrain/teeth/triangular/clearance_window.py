@@ -152,6 +152,7 @@ class TriangularContact:
     @cached_property
     def overhang(self) -> str:
         """The path must not reach a flank that leans beyond the perpendicular, nor turn the driven wheel back."""
+        # ends of intervals are roots, found to less than this
         sizes, small = self.sizes, 1e-9 * self.sizes.p1
         for interval in self.intervals:
             if interval.held is not None:
@@ -255,6 +256,7 @@ def _least_excess(sizes: TriangularSizes) -> float:
 def _leaning_excess(sizes: TriangularSizes, jam: float) -> float:
     """The excess up to which the path reaches a leaning flank; 0 if it does not where the pair ceases to jam."""
     reach = sizes.greatest_excess
+    # at the jam itself the play is 0 but for rounding
     low = max(jam * (1 + 1e-9), reach * _NEARLY_0)
 
     def stands(excess: float) -> float:
@@ -273,6 +275,7 @@ def _stretch(margin: Callable[[float], float], low: float, reach: float) -> tupl
     if low >= reach:
         return 0.0, 0.0
     start = _first_sign_change(margin, max(low * (1 + 1e-9), reach * _NEARLY_0), reach)
+    # so near to where tips last touch the sign is that of rounding
     if start >= reach * (1 - 1e-6):
         return 0.0, 0.0
     return start, _first_sign_change(margin, start + 1e-9 * reach, reach)

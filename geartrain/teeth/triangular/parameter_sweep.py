@@ -149,6 +149,7 @@ def _locate(
 ) -> tuple[float, str]:
     for _ in range(60):
         middle = low + (high - low) / 2
+        # a hundred or so floats from each other: the verdict is no sharper
         if not low < middle < high or high - low < 1e-13 * abs(high):
             break
         verdict, phases, _row = _point(make, {name: middle})

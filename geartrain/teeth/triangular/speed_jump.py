@@ -31,4 +31,5 @@ class SpeedJump(Result):
 def matches(last: DriveInterval, new: DriveInterval, pitch: float) -> bool:
     """True if one couple goes on from flank to flank, through the position where they match."""
     faces = last.held is None and new.held is None and last.phase != new.phase
+    # both are the same root, found from either side
     return faces and abs(last.end - new.start) < 1e-9 * pitch

@@ -330,6 +330,7 @@ def _excess_of_backlash(sizes: TriangularSizes, backlash: float, text: str) -> f
         D = (1 + excess) * sizes.least_distance
         return TriangularContact(sizes.at(excess)).play * D * sizes.z2 / (sizes.z1 + sizes.z2)
 
+    # at the greatest excess itself tips do not touch, and there is no play
     low, high = 0.0, sizes.greatest_excess * (1 - 1e-9)
     least, most = play(low), play(high)
     if not least <= backlash <= most:

@@ -109,8 +109,8 @@ class ReachablePeriods:
 def reach(table: PairRatios, aims: PeriodTargets, log_period: float, asked: int) -> ReachablePeriods:
     """All second arbors with at least one of the aims asked in reach; one ratio is kept where several lead to one aim.
 
-    Floats choose with a margin; indices are checked exactly where they are used. Both lists of a search are sorted, so one
-    aim costs a walk along the table.
+    Floats choose with a margin; indices are checked exactly where they are used. Both lists of a search are sorted, so
+    one aim costs a walk along the table.
     """
     logs, size = table.logs, len(table)
     found = np.full((len(aims.periods), size), -1, dtype=np.int32)

@@ -161,7 +161,6 @@ def collect_motion(run: MotionRun, name: str, state: str | None) -> MotionFigure
     """
     motion = run.motion
     used = {source.id for source in motion.ahead.used}
-    composition = motion.ahead if run.turns >= 0 else motion.back
     outputs = {
         tally.name: OutputMotion(
             tally,
@@ -182,7 +181,7 @@ def collect_motion(run: MotionRun, name: str, state: str | None) -> MotionFigure
         positions=run.done,
         period=motion.period,
         drivers={pair: driver for pair, driver in motion.train.drivers.items() if pair in used},
-        turned_back=sorted(composition.turned_back),
+        turned_back=sorted(run.turned_back),
         rigid=[mesh.name for mesh in motion.train.rigid],
         outputs=outputs,
         phases=PhaseSets(len(run.phased), run.seed) if run.phased else None,

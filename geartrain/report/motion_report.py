@@ -119,9 +119,9 @@ def _outputs(tallies: list[RunningStatistics]) -> Table:
 
 
 def _remarks(run: MotionRun) -> Iterator[str]:
-    composition = run.motion.ahead if run.turns >= 0 else run.motion.back
-    if composition.turned_back:
-        names = ", ".join(source.id for source in composition.used if source.id in composition.turned_back)
+    if run.turned_back:
+        composition = run.motion.ahead if run.turns >= 0 else run.motion.back
+        names = ", ".join(source.id for source in composition.used if source.id in run.turned_back)
         yield (
             f"At times the driver of {names} turns back: there the other flanks take over, and the play between them "
             "is not followed."

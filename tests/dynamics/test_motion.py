@@ -571,9 +571,20 @@ def test_a_slot_points_to_its_pin_whichever_way_the_pin_goes(kind: str, radius: 
     seen = to_pin if kind == "pin_and_slot" else -to_pin
     assert np.allclose(np.exp(1j * out), seen / np.abs(seen), rtol=0, atol=1e-12)
     if kind == "pin_and_slot":
-        assert not motion.ahead.turned_back
+        assert not passage.turned_back
     else:  # its slot rocks, and the wheel on it with it
-        assert (motion.ahead if turns > 0 else motion.back).turned_back == {"x~y"}
+        assert passage.turned_back == {"x~y"}
+
+
+def test_what_a_run_tells_is_of_that_run_alone() -> None:
+    motion = load(REVERSED_PIN.replace("KIND", "pin_follower").replace("RADIUS", "4")).motion()
+    whole = MotionRun(motion, turns=1.0, samples=1001)
+    whole.go()
+    assert whole.turned_back == {"x~y"}
+    # the slot has not begun to rock back yet where this run ends
+    short = MotionRun(motion, turns=0.1, samples=101)
+    short.go()
+    assert short.turned_back == set()
 
 
 @pytest.mark.parametrize("name", ["freeth-2021-teeth", "pennestri-2002-teeth"])

@@ -7,8 +7,8 @@ hang on each other their errors are found together (5).
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass, field
+from collections.abc import Iterator
+from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 from typing import TYPE_CHECKING, NamedTuple
@@ -95,6 +95,9 @@ class ErrorSamples(NamedTuple):
         Angle of each output less its mean motion [rad].
     rate : array of float, (outputs, n)
         Speed of each output less its mean, over the input's.
+    turned_back : frozenset of str
+        Pairs whose driver turns against its mean at one of these positions: their flanks change there, and the law,
+        which is that of the flanks in front, does not follow the play.
 
     See Also
     --------
@@ -104,6 +107,7 @@ class ErrorSamples(NamedTuple):
     turns: Floats
     error: Floats
     rate: Floats
+    turned_back: frozenset[str] = frozenset()
 
 
 @dataclass
@@ -112,15 +116,12 @@ class ErrorComposition:
 
     offsets       what each output is ahead of what its teeth and pins add to it, at every position (rad): teeth that
                   keep their ratio add their play alone, and pointers are set; none by default
-    turned_back   pairs whose driver was seen turning against its mean: their flanks change there, and the law, which
-                  is that of the flanks in front, does not follow the play
     """
 
     spread: ErrorPropagation
     sources: tuple[PairErrorSource, ...]
     outputs: tuple[SeenLink, ...]
     offsets: tuple[float, ...] = ()
-    turned_back: set[str] = field(default_factory=set)
 
     @cached_property
     def steps(self) -> tuple[CompositionStep, ...]:
@@ -219,8 +220,7 @@ class ErrorComposition:
         angle = InputPhase(turns)
         error = np.empty((self._rows, len(turns)))
         rate = np.empty_like(error)
-        for step in self.steps:
-            self._take(step, angle, error, rate)
+        turned_back = frozenset(pair for step in self.steps for pair in self._take(step, angle, error, rate))
         found = [np.zeros((len(self.outputs), len(turns))) for _ in range(2)]
         for at, seen in enumerate(self.outputs):
             for link, sign in ((seen.of, 1), (seen.base, -seen.sense)):
@@ -229,9 +229,10 @@ class ErrorComposition:
                     found[1][at] += sign * rate[self._place[link]]
         for at, offset in enumerate(self.offsets):
             found[0][at] += offset
-        return ErrorSamples(turns, found[0], found[1])
+        return ErrorSamples(turns, found[0], found[1], turned_back)
 
-    def _take(self, step: CompositionStep, angle: InputPhase, error: Floats, rate: Floats) -> None:
+    def _take(self, step: CompositionStep, angle: InputPhase, error: Floats, rate: Floats) -> Iterator[str]:
+        """Fill in the links of a step; yields its pairs whose driver turns against its mean."""
         known = [self._place[link] for link in step.known]
         first = self._place[step.links[0]]
         own = slice(first, first + 1) if len(step.links) == 1 else [self._place[link] for link in step.links]
@@ -256,9 +257,9 @@ class ErrorComposition:
                     for s, (_, tau), w in zip(sources, parts, turning, strict=True)
                 ]
             )
-        self._watch(sources, turning)
         error[own] += step.from_sources @ delta
         rate[own] += step.from_sources @ slope
+        yield from (source.id for source, speed in zip(sources, turning, strict=True) if np.min(speed) < 0)
 
     def _driver_angle(self, at: int, angle: InputPhase, error: Floats, rate: Floats) -> tuple[Floats, Floats | float]:
         """Forward angle (rad) and speed of a source's driver; links of its own step count as they stand."""
@@ -289,11 +290,6 @@ class ErrorComposition:
             np.array([float(source.sense) for source in sources]),
             gain,
         )
-
-    def _watch(self, sources: Sequence[PairErrorSource], turning: Sequence[Floats | float]) -> None:
-        for source, speed in zip(sources, turning, strict=True):
-            if source.id not in self.turned_back and np.min(speed) < 0:
-                self.turned_back.add(source.id)
 
 
 class InputPhase:

@@ -257,7 +257,8 @@ class Motion:
         turns = np.asarray(turns, dtype=float)
         chunk = self.ahead.chunk
         parts = [self.ahead.at(turns[start : start + chunk]) for start in range(0, len(turns), chunk)]
-        return ErrorSamples(turns, *(np.concatenate([part[column] for part in parts], axis=1) for column in (1, 2)))
+        error, rate = (np.concatenate([part[column] for part in parts], axis=1) for column in (1, 2))
+        return ErrorSamples(turns, error, rate, frozenset().union(*(part.turned_back for part in parts)))
 
     def ripples(
         self, turns: float, samples: int, on_done: Callable[[int], None] = lambda _: None
@@ -284,7 +285,7 @@ class Motion:
         done = 0
         for passage in self.passages(turns, samples):
             part = slice(done, done + len(passage.turns))
-            angle[part], error[:, part], rate[:, part] = passage
+            angle[part], error[:, part], rate[:, part] = passage[:3]
             done = part.stop
             on_done(len(passage.turns))
         angle *= 2 * pi

@@ -57,6 +57,8 @@ class MotionRun:
         By output, the strongest lines first.
     done : int
         Positions counted so far: fewer than `samples` in a run that was interrupted.
+    turned_back : set of str
+        Pairs whose driver was seen turning against its mean; the play between their flanks is not followed there.
 
     Raises
     ------
@@ -82,6 +84,7 @@ class MotionRun:
     estimates: dict[str, ErrorEstimates] = field(default_factory=dict)
     spectra: dict[str, list[SpectrumLine]] = field(default_factory=dict)
     done: int = 0
+    turned_back: set[str] = field(default_factory=set)
 
     def __post_init__(self) -> None:
         if not abs(self.turns) <= MOST_TURNS:
@@ -115,9 +118,12 @@ class MotionRun:
             for at, tally in enumerate(self.tallies):
                 tally.add(passage.error[at], passage.rate[at])
             peaks.add(passage)
+            self.turned_back |= passage.turned_back
             self.done += len(passage.turns)
             on_done(len(passage.turns))
-        peaks.sharpen(self.motion.ahead if self.turns >= 0 else self.motion.back, self.turns, self.tallies)
+        composition = self.motion.ahead if self.turns >= 0 else self.motion.back
+        for passage in peaks.sharpen(composition, self.turns, self.tallies):
+            self.turned_back |= passage.turned_back
 
     def try_phases(self, count: int, seed: int, on_done: OnDone = _untold) -> None:
         """The same run with random phases of the pairs that declare none.

@@ -7,6 +7,7 @@ them are sampled again, twice, ever finer (docs/motion.md, section 5).
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 from math import inf, sqrt
@@ -167,8 +168,10 @@ class PeakRefinement:
         self.values = np.take_along_axis(values, best, axis=2)
         self.turns = np.take_along_axis(turns, best, axis=2)
 
-    def sharpen(self, composition: ErrorComposition, turns: float, tallies: list[RunningStatistics]) -> None:
-        """Sample again around the extremes, within the run, and tell the tallies what is found there."""
+    def sharpen(
+        self, composition: ErrorComposition, turns: float, tallies: list[RunningStatistics]
+    ) -> Iterator[ErrorSamples]:
+        """Sample again around the extremes, within the run; tallies count what is found there, samples are yielded."""
         low, high = sorted((0.0, turns))
         step = self.step
         for _ in range(_ROUNDS):
@@ -179,6 +182,7 @@ class PeakRefinement:
                     passage = composition.at(around[start : start + composition.chunk])
                     self.add(passage)
                     tally.reach(passage.error[at], passage.rate[at])
+                    yield passage
             step /= _FINER
 
 

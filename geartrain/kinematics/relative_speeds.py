@@ -1,4 +1,4 @@
-"""The speed of one link seen from another: the only place where two speeds of a train are subtracted."""
+"""The speed of one link seen from another, exact or float, about the axis of the first."""
 
 from __future__ import annotations
 

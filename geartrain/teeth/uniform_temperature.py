@@ -118,7 +118,7 @@ class UniformTemperature(ConjugateToothForm):
     def _deep(self, pitch: PitchSurfaces) -> tuple[PathSide, PathSide]:
         """The sides with the wanted working depth, which grows with gamma."""
         from geartrain.teeth.conjugate.optimal_sides import involute
-        from geartrain.teeth.conjugate.path_costs import to_depth, working_depth
+        from geartrain.teeth.conjugate.working_depth import to_depth, working_depth
 
         arcs = arcs_of(self.arcs, pitch)
         if self.depth is not None:

@@ -331,7 +331,7 @@ def test_efficiencies_there_and_back_name_the_bearings_they_leave_out() -> None:
 
 
 def test_the_captions_of_pictures_name_what_is_left_out() -> None:
-    from geartrain.cli.torques import _summary
+    from geartrain.report.torque_report import summary_text
 
     found = load(PIN.replace(", pin_radius: 10 mm, offset: 8 mm", "")).torques()
-    assert _summary(found).endswith("left out: friction of pins (P), swing within a turn (P)")
+    assert summary_text(found).endswith("left out: friction of pins (P), swing within a turn (P)")

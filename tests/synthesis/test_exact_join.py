@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 import geartrain.synthesis.join.exact_join as joining
@@ -243,8 +243,18 @@ def long_joins(draw: st.DrawFn) -> tuple[dict[str, tuple[int, ...]], list[Interv
     return domains, asked
 
 
+# 10^16 and 10^16 + 1 are one float: the windows of both intervals hold the same count
+COUNTS_BY_A_GAP = {"a": (1, 2, 10**8)}
+BESIDE_THE_GAP = IntervalConstraint(
+    "beside a gap",
+    Quotient(("a",), ((1, (2,)),), ((1, (0,)),)),
+    ((None, Fraction(10**16)), (Fraction(10**16 + 1), None)),
+)
+
+
 @settings(deadline=None, max_examples=150)
 @given(long_joins(), st.sampled_from([1.0, 1e-6]))
+@example((COUNTS_BY_A_GAP, [BESIDE_THE_GAP]), 1.0)
 def test_joins_are_exact_however_large_the_numbers_and_near_the_ends(
     question: tuple[dict[str, tuple[int, ...]], list[IntervalConstraint]], guess: float
 ) -> None:

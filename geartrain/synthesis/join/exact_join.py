@@ -16,6 +16,7 @@ from geartrain.synthesis.join.join_plan import JoinProblem, PlanNode, extents
 from geartrain.synthesis.join.partial_assignments import BLOCK, ItemMonomial, PartialAssignments
 from geartrain.synthesis.join.polynomial_constraints import PolynomialConstraint, RelaxedInequality, possible
 from geartrain.synthesis.join.product_lists import Tallies, find_item
+from geartrain.synthesis.join.solution_windows import SolutionWindow
 
 Slices = Mapping[int, tuple[int, int]]
 """Item -> the run of its values that this piece of the work looks at; all of them where it is missing."""
@@ -227,9 +228,16 @@ class ExactJoin:
             return
         guide = self.constraints[node.guide]
         if isinstance(guide, PolynomialConstraint):
+            looked_at: list[SolutionWindow] = []
             for window in guide.windows(rows, node.item):
                 window = window.clipped(first, last)
-                yield from spread_in_blocks(window.start, window.end, BLOCK)
+                for parents, indices in spread_in_blocks(window.start, window.end, BLOCK):
+                    # cases exclude each other, but where bounds are nearer than rounding their windows overlap
+                    new = np.ones(len(parents), dtype=np.bool_)
+                    for other in looked_at:
+                        new &= (indices < other.start[parents]) | (indices >= other.end[parents])
+                    yield parents[new], indices[new]
+                looked_at.append(window)
         else:
             assert isinstance(guide, CountEquation)
             yield self._solved(guide, node.item, rows, first, last)

@@ -14,23 +14,19 @@ speed of that gear's body at the contact:
 
 s = sign d where gear 1 drives and -sign d where gear 2 does. The difference is mu (A + B) |S|, friction times sliding.
 A contact line of a bevel pair has these ratios at every distance from the apex, so they are exact there as well.
-
-The heat that gives teeth of uniform temperature a wanted working depth.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from itertools import pairwise
-from math import floor, inf, nan
+from math import floor, inf
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from geartrain.errors import GearTrainError, Problem
 from geartrain.numerics.plain_data import Key, Result, finite
-from geartrain.numerics.roots import root
 from geartrain.teeth.conjugate.path_of_contact import PathContact, PathOfContact
 from geartrain.teeth.conjugate.path_side import PathSide
 
@@ -300,52 +296,3 @@ def locking_friction(path: PathOfContact, driver: int = 1) -> float:
 
     steepest = greatest(path, lean)
     return 1 / steepest if steepest > 0 else inf
-
-
-_STEP, _STEPS = 1.25, 40
-
-
-def working_depth(pitch: PitchSurfaces, sides: Sequence[PathSide]) -> float:
-    """Heights of the last contacts over the pitch line, summed (modules; rad)."""
-    return sum(height(pitch, side) for side in sides)
-
-
-def to_depth(depth: Callable[[float], float], wanted: float, start: float, most: float) -> float:
-    """The gamma = (A + B) / heat whose `depth`, which grows with it, is as wanted; looked for around `start`.
-
-    most   a depth that no heat gives, such as the arcs summed: a contact rises by less than it travels
-
-    Raises `GearTrainError` where no heat gives that depth.
-    """
-
-    def off(gamma: float) -> float:
-        try:
-            return depth(gamma) - wanted
-        except GearTrainError:
-            return nan  # too steep to be reached, or too hot for the contact to move
-
-    low = high = start
-    at_low = at_high = off(start) if wanted < most else nan
-    for _ in range(_STEPS if wanted < most else 0):
-        if at_low < 0 < at_high or at_low == 0:
-            break
-        if not at_high >= 0 and at_high == at_high:
-            low, at_low, high = high, at_high, high * _STEP
-            at_high = off(high)
-        else:
-            high, at_high, low = low, at_low, low / _STEP
-            at_low = off(low)
-    if not (at_low <= 0 <= at_high):
-        what = f"no heat gives these teeth a working depth of {wanted:.6g}"
-        if at_low > 0:
-            raise GearTrainError(
-                Problem(what, "even the hottest are deeper", "ask for more depth or shorter arcs, or give the heat")
-            )
-        raise GearTrainError(
-            Problem(
-                what,
-                "their pressure angle would reach a right angle, or their contact stand still, before",
-                "ask for another depth, shorter arcs or more teeth, or give the heat",
-            )
-        )
-    return root(off, low, high, at_low, at_high)

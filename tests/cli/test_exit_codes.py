@@ -134,7 +134,11 @@ def test_an_interrupt_is_exit_130_without_a_traceback(
 @pytest.mark.skipif(sys.platform == "win32", reason="no SIGINT to another process")
 def test_ctrl_c_in_the_middle_is_exit_130() -> None:
     command = [sys.executable, "-m", "geartrain", "motion", "moon-triangular", "--samples", "9000000", "--csv"]
-    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
+    # a shell has its background jobs ignore the signal, and those who start the tests so hand that down
+    heard = functools.partial(signal.signal, signal.SIGINT, signal.SIG_DFL)
+    with subprocess.Popen(
+        command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, preexec_fn=heard
+    ) as process:
         assert process.stdout is not None
         process.stdout.readline()
         time.sleep(0.2)

@@ -202,7 +202,7 @@ def test_what_turns_on_the_screen_is_what_is_cut(name: str) -> None:
         count = len(teeth.points) // blank.teeth
         own = np.array([(r * wheel.radius * cos(a), r * wheel.radius * sin(a)) for r, a in points])
         cut = [*teeth.points[: count + 1]] if len(teeth.points) > count else [*teeth.points]
-        off = max(beside(point, cut, teeth.bulges) for point in own[1:-1])
+        off = beside(own[1:-1], np.array(cut), teeth.bulges).max()
         assert off < 1e-12 * max(wheel.radius, 1), f"{wheel.id}: a point of the screen is off by {off}"
         apart = max(np.hypot(*(own - vertex).T).min() for vertex in cut[:count])
         assert apart < 1e-12 * max(wheel.radius, 1), f"{wheel.id}: a vertex that is cut is {apart} off the screen's"
@@ -210,22 +210,21 @@ def test_what_turns_on_the_screen_is_what_is_cut(name: str) -> None:
         assert wheel.root == pytest.approx(blank.root_radius, rel=1e-12)
 
 
-def beside(point: np.ndarray, vertices: list[np.ndarray], bulges: np.ndarray) -> float:
-    """How far a point is from a line of straight edges and arcs."""
-    best = min(hypot(*(point - vertex)) for vertex in vertices)
-    for (start, end), bulge in zip(pairwise(vertices), bulges[: len(vertices) - 1], strict=True):
+def beside(points: np.ndarray, vertices: np.ndarray, bulges: np.ndarray) -> np.ndarray:
+    """How far each point is from a line of straight edges and arcs."""
+    at, corners = points @ (1, 1j), vertices @ (1, 1j)
+    best = np.abs(at[:, None] - corners).min(axis=1)
+    for (a, b), bulge in zip(pairwise(corners), bulges[: len(corners) - 1], strict=True):
         if bulge:
-            a, b = complex(*start), complex(*end)
             centre = a + (b - a) / 2 * (1 + 1j / np.tan(2 * np.arctan(bulge)))
-            spoke, sweep = complex(*point) - centre, 4 * np.arctan(bulge)
+            spoke, sweep = at - centre, 4 * np.arctan(bulge)
             along = np.angle(spoke / (a - centre)) / sweep
-            if 0 <= along <= 1:
-                best = min(best, abs(abs(spoke) - abs(a - centre)))
+            off = np.abs(np.abs(spoke) - np.abs(a - centre))
         else:
-            way, off = end - start, point - start
-            if 0 <= off @ way <= way @ way:
-                best = min(best, abs(way[0] * off[1] - way[1] * off[0]) / hypot(*way))
-    return float(best)
+            within = (at - a) / (b - a)
+            along, off = within.real, np.abs(within.imag) * np.abs(b - a)
+        best = np.where((along >= 0) & (along <= 1), np.minimum(best, off), best)
+    return best
 
 
 def test_the_wheels_of_two_known_trains_have_one_size() -> None:

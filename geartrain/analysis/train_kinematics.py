@@ -87,7 +87,9 @@ class TrainKinematics:
 
     @cached_property
     def _speeds(self) -> SpeedProblem:
-        return SpeedProblem(self.declaration, self.circuits, self.signs, self.is_rotation)
+        # not the method of the train: the train would hold itself, and a large one would wait for the garbage collector
+        is_rotation = self._axes.is_rotation if self.bookkeeping else _always
+        return SpeedProblem(self.declaration, self.circuits, self.signs, is_rotation)
 
     @cached_property
     def mobility(self) -> Mobility:
@@ -189,3 +191,9 @@ class TrainKinematics:
         declared = self.declaration
         title = f"<p><b>{html.escape(declared.name)}</b> {html.escape(declared.title)}</p>"
         return title + "".join(answer._repr_html_() for answer in self.answers())
+
+
+def _always(of: str, base: str) -> bool:
+    """All speeds are rotations, whichever two links are seen from each other."""
+    del of, base
+    return True

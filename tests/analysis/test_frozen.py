@@ -1,10 +1,13 @@
-"""Declarations and answers cannot be changed behind the back of who holds them."""
+"""Declarations and answers cannot be changed behind the back of who holds them, and go when nobody does."""
 
 from __future__ import annotations
 
 import copy
+import gc
 import pickle
+import weakref
 from collections.abc import Iterator
+from contextlib import suppress
 from dataclasses import fields, is_dataclass
 from fractions import Fraction
 from typing import Any
@@ -114,3 +117,20 @@ def test_every_input_needs_as_many_speeds_as_the_others() -> None:
     exact = train.solve()
     for link, speed in exact.speeds.items():
         assert right.speeds[link][0] == pytest.approx(float(Fraction(speed)))
+
+
+@pytest.mark.parametrize("name", ["worm", "norton-planetary", "bevel-differential", "pennestri-2002-teeth"])
+def test_a_train_that_nobody_holds_is_gone_without_the_garbage_collector(name: str) -> None:
+    train = load(name)
+    held = weakref.ref(train)
+    running = gc.isenabled()
+    gc.disable()
+    try:
+        for question in (train.solve, train.torques, train.motion):
+            with suppress(GearTrainError):  # not every train has loads, or teeth
+                question()
+        del train, question
+        assert held() is None
+    finally:
+        if running:
+            gc.enable()

@@ -276,11 +276,6 @@ class CircularArc(ToothForm):
     def own_play(self, pair: str) -> Problem | None:
         """Why a maker's play does not hold for this pair: declared play or thickness wins.
 
-        Parameters
-        ----------
-        pair : str
-            Name of the pair, for the message.
-
         Returns
         -------
         Problem or None

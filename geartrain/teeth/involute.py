@@ -77,11 +77,6 @@ class Involute(ConjugateToothForm):
     def misplaced(self, wheels: WheelPair) -> float | None:
         """None: these teeth are at home at any distance, which `pair` takes into account.
 
-        Parameters
-        ----------
-        wheels : WheelPair
-            Tooth numbers of the two, how their axes stand, and their module if a length says it.
-
         Returns
         -------
         None
@@ -91,16 +86,6 @@ class Involute(ConjugateToothForm):
 
     def pair(self, wheels: WheelPair) -> ConjugatePair:
         """The pair at its own centre distance, declared or without play.
-
-        Parameters
-        ----------
-        wheels : WheelPair
-            Tooth numbers of the two, how their axes stand, and their module if a length says it.
-
-        Returns
-        -------
-        ConjugatePair
-            Path of contact, thickness of the teeth, and what keeps them from running.
 
         Raises
         ------
@@ -147,13 +132,6 @@ class Involute(ConjugateToothForm):
     def bottom_clearance(self, wheels: WheelPair, gear: int) -> float:
         """What the dedendum leaves under the mate's tip.
 
-        Parameters
-        ----------
-        wheels : WheelPair
-            Tooth numbers of the two, how their axes stand, and their module if a length says it.
-        gear : {1, 2}
-            Whose root.
-
         Returns
         -------
         float
@@ -168,13 +146,6 @@ class Involute(ConjugateToothForm):
 
     def play_apart(self, wheels: WheelPair, gap: float) -> float | None:
         """Play of axes that stand too far apart: involutes run there, with other play.
-
-        Parameters
-        ----------
-        wheels : WheelPair
-            Tooth numbers of the two, how their axes stand, and their module if a length says it.
-        gap : float
-            By how much [module]; below 0 they stand too near.
 
         Returns
         -------

@@ -80,11 +80,6 @@ class Lantern(ConjugateToothForm):
     def misplaced(self, wheels: WheelPair) -> float | None:
         """None: these teeth have a law at their design distance only.
 
-        Parameters
-        ----------
-        wheels : WheelPair
-            Tooth numbers of the two, how their axes stand, and their module if a length says it.
-
         Returns
         -------
         None
@@ -107,16 +102,6 @@ class Lantern(ConjugateToothForm):
 
     def pair(self, wheels: WheelPair) -> ConjugatePair:
         """The pair at its design distance.
-
-        Parameters
-        ----------
-        wheels : WheelPair
-            Tooth numbers of the two, how their axes stand, and their module if a length says it.
-
-        Returns
-        -------
-        ConjugatePair
-            Path of contact, thickness of the teeth, and what keeps them from running.
 
         Raises
         ------
@@ -159,11 +144,6 @@ class Lantern(ConjugateToothForm):
             Of approach and recess, gear 1 driving [pitch], whose sum counts.
         given : mapping
             What else the form declares.
-
-        Returns
-        -------
-        ConjugatePair
-            Path of contact, thickness of the teeth, and what keeps them from running.
         """
         usual = conjugate_pair_of(cls.declared(given), wheels)
         lost = max(-usual.arcs[0], 0.0) / usual.path.pitch.p * _BEYOND
@@ -192,11 +172,6 @@ class Lantern(ConjugateToothForm):
 
     def lantern_pins(self, wheels: WheelPair) -> LanternPins:
         """Which wheel has the pins, and how large their circle and they are.
-
-        Parameters
-        ----------
-        wheels : WheelPair
-            Tooth numbers of the two, how their axes stand, and their module if a length says it.
 
         Returns
         -------

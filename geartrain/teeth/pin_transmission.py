@@ -143,11 +143,6 @@ class PinToSlotTransmission(PinTransmission):
     def error(self, S: ArrayLike) -> Floats:
         """Slot angle less its mean motion.
 
-        Parameters
-        ----------
-        S : array_like
-            Driver angles [rad], any shape.
-
         Returns
         -------
         ndarray
@@ -161,18 +156,7 @@ class PinToSlotTransmission(PinTransmission):
         return error if self.r > self.e else -error
 
     def speed(self, S: ArrayLike) -> Floats:
-        """Speed ratio r (r - e cos S)/(r^2 + e^2 - 2 r e cos S).
-
-        Parameters
-        ----------
-        S : array_like
-            Driver angles [rad], any shape.
-
-        Returns
-        -------
-        ndarray
-            Of that shape.
-        """
+        """Speed ratio r (r - e cos S)/(r^2 + e^2 - 2 r e cos S)."""
         along, square = self._reach(S)
         return np.asarray(self.r * along / square)
 
@@ -189,11 +173,6 @@ class PinToSlotTransmission(PinTransmission):
 
     def efficiency(self, S: ArrayLike) -> Floats:
         """Power out over power in: cos d/(cos d + f sin d), by magnitude.
-
-        Parameters
-        ----------
-        S : array_like
-            Driver angles [rad], any shape.
 
         Returns
         -------
@@ -272,11 +251,6 @@ class SlotToPinTransmission(PinTransmission):
     def error(self, S: ArrayLike) -> Floats:
         """Pin angle less its mean motion.
 
-        Parameters
-        ----------
-        S : array_like
-            Driver angles [rad], any shape.
-
         Returns
         -------
         ndarray
@@ -285,18 +259,7 @@ class SlotToPinTransmission(PinTransmission):
         return np.asarray(-np.arcsin(self.e / self.r * np.sin(np.asarray(S, dtype=float))))
 
     def speed(self, S: ArrayLike) -> Floats:
-        """Speed ratio 1 - e cos S/sqrt(r^2 - e^2 sin^2 S).
-
-        Parameters
-        ----------
-        S : array_like
-            Driver angles [rad], any shape.
-
-        Returns
-        -------
-        ndarray
-            Of that shape.
-        """
+        """Speed ratio 1 - e cos S/sqrt(r^2 - e^2 sin^2 S)."""
         S = np.asarray(S, dtype=float)
         return np.asarray(1 - self.e * np.cos(S) / np.sqrt(self.r**2 - (self.e * np.sin(S)) ** 2))
 
@@ -306,11 +269,6 @@ class SlotToPinTransmission(PinTransmission):
 
     def efficiency(self, S: ArrayLike) -> Floats:
         """Power out over power in: 1 - f |tan d|, d the angle between pin radius and slot.
-
-        Parameters
-        ----------
-        S : array_like
-            Driver angles [rad], any shape.
 
         Returns
         -------

@@ -72,16 +72,6 @@ class UniformTemperature(ConjugateToothForm):
     def pair(self, wheels: WheelPair) -> ConjugatePair:
         """The pair at its design distance.
 
-        Parameters
-        ----------
-        wheels : WheelPair
-            Tooth numbers of the two, how their axes stand, and their module if a length says it.
-
-        Returns
-        -------
-        ConjugatePair
-            Path of contact, thickness of the teeth, and what keeps them from running.
-
         Raises
         ------
         GearTrainError

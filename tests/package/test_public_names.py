@@ -79,7 +79,9 @@ def gaps_of_class(where: str, kind: type) -> Iterator[str]:
             continue
         if hasattr(BaseModel, name):  # pydantic writes it into the class
             continue
-        missing = parameters(method) - described(sections(method).get("Parameters", ""))
+        # what overrides another need not say again what the other says
+        said = [sections(getattr(base, name)).get("Parameters", "") for base in kind.__mro__ if name in vars(base)]
+        missing = parameters(method) - described("\n".join(said))
         if missing:
             yield f"{where}.{name}: no word on {', '.join(sorted(missing))}"
 

@@ -61,22 +61,10 @@ class ConjugateToothForm(ToothForm):
     def mesh(self, wheels: MeshingWheels, shaft_angle: ShaftAngle) -> GearMesh:
         """The mesh of a pair, its first wheel driving; a ring is gear 2 of the form whichever the pair names first.
 
-        Parameters
-        ----------
-        wheels : MeshingWheels
-            The two wheels as declared.
-        shaft_angle : callable
-            Gives the angle of the axes [rad], None where they are parallel; called only where the form needs it.
-
         Returns
         -------
         GearMesh
             What a train asks of the pair.
-
-        Raises
-        ------
-        GearTrainError
-            Where these wheels cannot have such teeth, without naming pair or place.
         """
         from geartrain.teeth.conjugate.conjugate_mesh import ConjugateMesh
 
@@ -101,11 +89,6 @@ class ConjugateToothForm(ToothForm):
     def own_play(self, pair: str) -> Problem | None:
         """Why a maker's play does not hold for this pair: declared play wins.
 
-        Parameters
-        ----------
-        pair : str
-            Name of the pair, for the message.
-
         Returns
         -------
         Problem or None
@@ -119,11 +102,6 @@ class ConjugateToothForm(ToothForm):
 
     def thinned(self, backlash: Quantity) -> Self:
         """The same teeth with this play.
-
-        Parameters
-        ----------
-        backlash : Quantity
-            On the pitch circle, in modules or with a unit.
 
         Returns
         -------

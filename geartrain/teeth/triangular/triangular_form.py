@@ -180,11 +180,6 @@ class Triangular(ToothForm):
     def own_play(self, pair: str) -> Problem:
         """Why the play of triangular teeth is not for a maker to say.
 
-        Parameters
-        ----------
-        pair : str
-            Name of the pair, for the message.
-
         Returns
         -------
         Problem

@@ -102,7 +102,7 @@ Families: **chain** (two wheels an arbor, in a row, the ratio kept near 1), **dr
 20 to 26: the ratio drifts, to 1e36 in a thousand links), **tree** (each wheel meshes with one drawn from those before),
 **epicyclic** (coaxial shafts, each driven by a planet between two shafts drawn from those before), **cascade**
 (planetary stages), **lattice** (a square of meshing wheels, one redundant mesh for each small square), **grid** (a
-square of shafts, each the carrier of a differential between two neighbours: every speed hangs on all).
+square of shafts, each the carrier of a differential between two neighbours: every speed depends on all).
 
 ## How the steps grow
 """

@@ -284,16 +284,16 @@ TRAINS = """
 Triangular teeth have a half angle of 30 degrees and stand in the middle of each pair's own window of clearance. Every
 pair of Price's train and of Freeth's admits such teeth. Those between a contrate and a spur wheel (A~B1, A~A2, a1~b1,
 b0~ph1) take the law of two spur wheels, as everywhere in geartrain. The pin that carries the true Sun has no published
-sizes and stays ideal; no output asked for hangs on it.
+sizes and stays ideal; no output asked for depends on it.
 
 In Price's train the Sun's dial does not ripple: two equal wheels turn on one crank wheel, and what one pair takes the
-other gives back. Around its differential three pairs hang on each other, and so does the crank, which drives what the
+other gives back. Around its differential three pairs depend on each other, and so does the crank, which drives what the
 input turns: their errors are found by iteration, at the cost of some evaluations of each law.
 """
 
 COSTS = """
 The requirement of 10^6 positions times links a second for composed motion {verdict}: their slowest composition, direct
-or tabulated, goes through {least:.2g} million. Lively links are those that an error reaches and an output hangs on.
+or tabulated, goes through {least:.2g} million. Lively links are those that an error reaches and an output depends on.
 {chains}
 
 Preparing, from the text of the declaration to the first position, takes {direct} milliseconds for direct composition,

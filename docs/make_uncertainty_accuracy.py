@@ -251,8 +251,8 @@ too, this says little about a machine of your own.
 """
 
 MEMORY = """
-A batch is worked on in pieces that fit a cache, so that memory hangs on what is handed in and out: the greatest growth
-of the peak is {most} MB, of {case}, for {trials} trials.
+A batch is worked on in pieces that fit a cache, so that memory depends on what is handed in and out: the greatest
+growth of the peak is {most} MB, of {case}, for {trials} trials.
 """
 
 ALL = """## All measurements

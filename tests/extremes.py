@@ -732,7 +732,7 @@ CASES = (
     ),
     *(
         Case(
-            "pairs that hang on each other",
+            "pairs that depend on each other",
             f"four in a ring, window {window:g}, {last[0]}/{last[1]} teeth at its end, 30 turns: laws missed by",
             "rad",
             partial(hanging, window, last),

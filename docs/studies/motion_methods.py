@@ -129,7 +129,7 @@ class MotionCase:
 
     @property
     def links(self) -> int:
-        """Links that an error reaches and that an output hangs on."""
+        """Links that an error reaches and that an output depends on."""
         return sum(len(step.links) for step in self.direct.ahead.steps)
 
     def stretches(self, positions: int) -> Iterator[Floats]:

@@ -20,7 +20,7 @@ PER_POSITION = (DIRECT, *TABLES, NOMINAL, LAGGED)
 class MotionRecord:
     """A method on a train.
 
-    links        that an error reaches and an output hangs on
+    links        that an error reaches and an output depends on
     seconds      for all positions, without preparation
     megabytes    peak of memory that the positions take
     error, rms   greatest and root mean square error (deg) of the output that has the greatest, `output`; that of the

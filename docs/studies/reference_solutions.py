@@ -181,7 +181,7 @@ class MotionTruth:
         return [float(self.real.number(float(each)) - true) for each, true in zip(found, truth, strict=True)]
 
     def _deltas(self, turns: Fraction) -> list[Any]:
-        """Errors of all pairs, in the order of the train: where none hangs on itself one pass is enough."""
+        """Errors of all pairs, in the order of the train: where none depends on itself one pass is enough."""
         number = self.real.number
         stands = [self._stands(source, turns) for source in self.sources]
         deltas = [number(0)] * len(stands)

@@ -80,7 +80,7 @@ def tree(size: int, seed: int = 1) -> Data:
 def epicyclic(size: int, seed: int = 1) -> Data:
     """Coaxial shafts, each driven by a planet that an earlier shaft carries and another earlier shaft drives.
 
-    Both are drawn at random, so every speed hangs on speeds from all over the train.
+    Both are drawn at random, so every speed depends on speeds from all over the train.
     """
     draw = random.Random(seed)
     links: Data = {"frame": {"wheels": {}}, "s0": {"wheels": {}}}
@@ -129,7 +129,7 @@ def lattice(size: int, seed: int = 1) -> Data:
 def grid(size: int, seed: int = 1) -> Data:
     """A square grid of shafts, each the carrier of a differential between two neighbours; the rim is driven.
 
-    Shafts stand between left and right or between upper and lower neighbours in turn, so every speed hangs on
+    Shafts stand between left and right or between upper and lower neighbours in turn, so every speed depends on
     every other, as in a discrete Laplace equation: the shape in which sparse elimination fills in.
     """
     draw = random.Random(seed)

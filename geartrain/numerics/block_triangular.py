@@ -1,7 +1,7 @@
 """Which unknowns of a sparse system must be found together, and in which order; known is only which row holds which.
 
-Rows are matched to columns of their own as far as they can be. In a square system a column then hangs on the other
-columns of its row, and columns that hang on each other make one block of the block triangular form. In any other,
+Rows are matched to columns of their own as far as they can be. In a square system a column then depends on the other
+columns of its row, and columns that depend on each other make one block of the block triangular form. In any other,
 alternating paths from unmatched rows and columns part the system into three (Dulmage and Mendelsohn 1958): one with
 rows to spare, one that is square, one with columns to spare; each needs only what stands before it.
 
@@ -23,9 +23,9 @@ class Block(NamedTuple):
 
 
 def find_blocks(rows: Sequence[Sequence[int]], also: Sequence[Sequence[int]] = ()) -> list[Block] | None:
-    """Blocks of a system with as many columns as rows, each after all it hangs on; None where no matching exists.
+    """Blocks of a system with as many columns as rows, each after all it depends on; None where no matching exists.
 
-    rows   the columns of each row; `also`, columns that a row hangs on without holding them
+    rows   the columns of each row; `also`, columns that a row depends on without holding them
     Cost is linear in trees, and rows times entries at worst.
     """
     row_of = _maximum_matching(dict(enumerate(rows)))
@@ -36,7 +36,7 @@ def find_blocks(rows: Sequence[Sequence[int]], also: Sequence[Sequence[int]] = (
 
 
 def _strong(rows: Sequence[Sequence[int]], taken: Sequence[int]) -> list[Block]:
-    """Tarjan's strongly connected components, without recursion: each comes after those it hangs on."""
+    """Tarjan's strongly connected components, without recursion: each comes after those it depends on."""
     order: dict[int, int] = {}
     low = [0] * len(rows)
     done = [False] * len(rows)
@@ -58,7 +58,7 @@ def _strong(rows: Sequence[Sequence[int]], taken: Sequence[int]) -> list[Block]:
                     break
                 if not done[other]:
                     low[column] = min(low[column], order[other])
-            else:  # all that the column hangs on is done
+            else:  # all that the column depends on is done
                 stack.pop()
                 if stack:
                     above = stack[-1][0]

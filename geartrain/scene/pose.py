@@ -124,7 +124,7 @@ def _take(scene: Scene, step: ErrorStep, turns: Fraction, error: Floats, deltas:
             return
     raise RangeError(
         Problem(
-            f"'{scene.name}' has pairs that hang on each other and do not settle",
+            f"'{scene.name}' has pairs that depend on each other and do not settle",
             "repeated substitution runs away from a pose",
             "ask for the motion in place of the picture, or for another number of turns",
         )

@@ -77,7 +77,7 @@ class GearSphere(Result):
 
     @cached_property
     def train(self) -> GearTrain:
-        """The set as a train; where teeth are not chosen, with ten on every gear: signs do not hang on them."""
+        """The set as a train; where teeth are not chosen, with ten on every gear: signs do not depend on them."""
         whole = {kind: self.configuration.teeth.get(kind, 10) for kind in self.configuration.kinds}
         return GearTrain.declare(to_train(replace(self.configuration, teeth=whole)))
 

@@ -34,7 +34,7 @@ def _loops_first(column: list[SankeySpot]) -> list[SankeySpot]:
 
 
 def _untangle(table: Sequence[list[SankeySpot]]) -> None:
-    """Order columns by what they hang on, to and fro; then swap spots while that uncrosses bands."""
+    """Order columns by what they depend on, to and fro; then swap spots while that uncrosses bands."""
     whole = range(len(table))
     best, least = [list(column) for column in table], _tangle(table, whole)
     for sweep in range(_SWEEPS):

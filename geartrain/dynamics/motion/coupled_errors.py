@@ -1,4 +1,4 @@
-"""Pairs that hang on each other, as around a differential: their errors at one position are found together.
+"""Pairs that depend on each other, as around a differential: their errors at one position are found together.
 
 Newton's method with halved steps, equation (5) of docs/motion.md, on delta_m = sense_m error_m(S_m + gain_m delta), at
 all positions at once. Laws have corners, so a step that does not lessen the residual is halved.
@@ -137,5 +137,5 @@ def _refusal(pairs: CoupledErrors, why: str) -> GearTrainError:
         what = f"the driver of pair {names} is moved by what it drives, and cannot be followed"
         return GearTrainError(Problem(what, why, "give it ideal teeth, or say who drives it with `driver`"))
     return GearTrainError(
-        Problem(f"the pairs {names} hang on each other and cannot be followed", why, "give some of them ideal teeth")
+        Problem(f"the pairs {names} depend on each other and cannot be followed", why, "give some of them ideal teeth")
     )

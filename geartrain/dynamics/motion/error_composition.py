@@ -2,7 +2,7 @@
 
 Equations (2) to (4) of docs/motion.md. Each error depends on the angle at which its own driver stands, which the errors
 of other pairs have moved. In the solved order those come before it, and one pass composes the laws exactly; where pairs
-hang on each other their errors are found together (5).
+depend on each other their errors are found together (5).
 """
 
 from __future__ import annotations
@@ -125,7 +125,7 @@ class ErrorComposition:
 
     @cached_property
     def steps(self) -> tuple[CompositionStep, ...]:
-        """The solved order, without the links that no error reaches, and those that no output hangs on."""
+        """The solved order, without the links that no error reaches, and those that no output depends on."""
         wanted = {link for seen in self.outputs for link in (seen.of, seen.base)}
         kept = []
         for step in reversed(self._lively):
@@ -147,7 +147,7 @@ class ErrorComposition:
                 continue
             sources = tuple(of_pair[part.pairs[at]] for at in pairs)
             inside = set(part.links)
-            hangs = any(inside.intersection(self._ends(source)) for source in sources)
+            coupled = any(inside.intersection(self._ends(source)) for source in sources)
             lively.update(part.links)
             steps.append(
                 CompositionStep(
@@ -157,14 +157,14 @@ class ErrorComposition:
                     part.from_known[:, known],
                     sources,
                     part.from_pairs[:, pairs],
-                    hangs,
+                    coupled,
                 )
             )
         return tuple(steps)
 
     @cached_property
     def used(self) -> tuple[PairErrorSource, ...]:
-        """The sources that reach an output, or an angle that one hangs on."""
+        """The sources that reach an output, or an angle that one depends on."""
         return tuple(self.sources[at] for step in self.steps for at in step.sources)
 
     def driver_shift(self, source: PairErrorSource, error: Floats) -> float:

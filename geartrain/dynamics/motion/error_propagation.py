@@ -98,7 +98,7 @@ def find_error_propagation(system: WillisSystem, joints: Mapping[str, ErrorPath]
     every = list(joints.values())
     if len(rows) != len(at):
         return None
-    # the angle of a pair hangs on its driver and its carrier even where the row does not hold them
+    # the angle of a pair depends on its driver and its carrier even where the row does not hold them
     also = [(every[pair].driver, every[pair].carrier) if pair >= 0 else () for pair in own]
     blocks = find_blocks([tuple(row) for row in rows], also)
     if blocks is None:

@@ -110,7 +110,7 @@ class MotionRun:
         Raises
         ------
         GearTrainError
-            If pairs hang on each other in a way that cannot be followed.
+            If pairs depend on each other in a way that cannot be followed.
         """
         self.tallies = self.motion.tallies()
         peaks = PeakRefinement(len(self.tallies), self.turns / (self.samples - 1))

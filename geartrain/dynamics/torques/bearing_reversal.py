@@ -159,7 +159,7 @@ def _added(
         if wider == added:
             return added
         added = wider
-    # pairs that hang on each other in a circle: no bound was found
+    # pairs that depend on each other in a circle: no bound was found
     return [SpeedBounds(-inf, inf)] * len(uneven)
 
 

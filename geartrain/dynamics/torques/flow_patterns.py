@@ -229,7 +229,7 @@ class _Floats:
 
         self.block = block
         self.turns = np.array([columns[column].turn for column in block.columns])
-        # patterns hang on signs alone; loads of any size are brought within the range of floats
+        # patterns depend on signs alone; loads of any size are brought within the range of floats
         greatest = max(map(abs, known.values()))
         self.right = np.array([-float(known[row] / greatest) for row in block.rows])
         size = len(block.rows)

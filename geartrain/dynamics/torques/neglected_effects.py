@@ -36,7 +36,7 @@ def find_neglected_effects(
     shared = tuple(circuit.id for circuit in busy if circuit.id in set(neither))
     if shared:
         why = (
-            "neither torque of these pairs is constant within a turn, so that their mean efficiency hangs on the "
+            "neither torque of these pairs is constant within a turn, so that their mean efficiency depends on the "
             "others; the one at a constant load, or a constant driver's torque where loads drive, is taken"
         )
         found.append(NeglectedEffect("mean efficiency", shared, why))
@@ -51,7 +51,8 @@ def _pins(setting: LoadCase, busy: Sequence[Circuit]) -> Iterator[NeglectedEffec
         why = "a follower only swings: it passes no power on average, of which its friction could be a share"
         yield NeglectedEffect("friction of pins", swinging, why)
     if bare := tuple(circuit.id for circuit in rubbing if circuit.b and circuit.id not in setting.joints):
-        yield NeglectedEffect("friction of pins", bare, "it hangs on `pin_radius` and `offset`, which are not declared")
+        why = "it depends on `pin_radius` and `offset`, which are not declared"
+        yield NeglectedEffect("friction of pins", bare, why)
 
 
 def _teeth(
@@ -81,7 +82,7 @@ def _open(
         if means[circuit.id] != MeanEfficiencies() and setting.relative(circuit.i, circuit.carrier) is None
     )
     if found:
-        yield NeglectedEffect("losses of pairs", found, "who drives there hangs on speeds that are not determined")
+        yield NeglectedEffect("losses of pairs", found, "who drives there depends on speeds that are not determined")
 
 
 def _rubbing(setting: LoadCase) -> list[str]:

@@ -228,7 +228,7 @@ def _torques(
     for found in (solved.external, solved.brakes):
         for link, torque in found.items():
             external[link] = external.get(link, Fraction(0)) + torque
-    # friction of a bearing is no power from outside; what it takes hangs on the speeds in the joints alone
+    # friction of a bearing is no power from outside; what it takes depends on the speeds in the joints alone
     for link, torque in rubbing.items():
         external[link] -= torque
     return Torques(

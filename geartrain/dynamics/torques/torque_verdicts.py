@@ -111,7 +111,7 @@ def find_torque_verdict(
         return replace(verdict, text=verdict.text + but)
     sure = "" if complete else "; other patterns of power flow were not tried"
     source = "the loads" if question.loads else question.load
-    free = f"; {_some(question.open)} turn freely: torques do not hang on their speeds" if question.open else ""
+    free = f"; {_some(question.open)} turn freely: torques do not depend on their speeds" if question.open else ""
     return TorqueVerdict(
         "incomplete" if left_out else "determined",
         f"every torque follows from {source}{but}{_help(question, flows[0])}{free}{sure}",

@@ -240,25 +240,7 @@ class CircularArc(ToothForm):
         return OutlineTransmission(gears, friction, driver, direction)
 
     def mesh(self, wheels: MeshingWheels, shaft_angle: ShaftAngle) -> GearMesh:
-        """The mesh of a pair, its first wheel driving.
-
-        Parameters
-        ----------
-        wheels : MeshingWheels
-            The two wheels as declared.
-        shaft_angle : callable
-            Not asked: only parallel axes can have these teeth.
-
-        Returns
-        -------
-        GearMesh
-            What a train asks of the pair.
-
-        Raises
-        ------
-        GearTrainError
-            For rings and bevels, and where these sizes give no tooth.
-        """
+        """The mesh of a pair on parallel axes, its first wheel driving; rings and bevels are refused."""
         from geartrain.teeth.outline_mesh import OutlineMesh
 
         del shaft_angle

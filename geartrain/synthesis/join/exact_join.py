@@ -233,10 +233,10 @@ class ExactJoin:
                 window = window.clipped(first, last)
                 for parents, indices in spread_in_blocks(window.start, window.end, BLOCK):
                     # cases exclude each other, but where bounds are nearer than rounding their windows overlap
-                    new = np.ones(len(parents), dtype=np.bool_)
                     for other in looked_at:
-                        new &= (indices < other.start[parents]) | (indices >= other.end[parents])
-                    yield parents[new], indices[new]
+                        new = (indices < other.start[parents]) | (indices >= other.end[parents])
+                        parents, indices = parents[new], indices[new]
+                    yield parents, indices
                 looked_at.append(window)
         else:
             assert isinstance(guide, CountEquation)

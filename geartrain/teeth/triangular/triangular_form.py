@@ -150,25 +150,7 @@ class Triangular(ToothForm):
         return TriangularFigures
 
     def mesh(self, wheels: MeshingWheels, shaft_angle: ShaftAngle) -> GearMesh:
-        """The mesh of a pair, its first wheel driving.
-
-        Parameters
-        ----------
-        wheels : MeshingWheels
-            The two wheels as declared.
-        shaft_angle : callable
-            Not asked: a contrate is taken for a spur wheel.
-
-        Returns
-        -------
-        GearMesh
-            What a train asks of the pair.
-
-        Raises
-        ------
-        GearTrainError
-            For rings and bevels, and where the declaration gives no pair that can be built.
-        """
+        """The mesh of a pair, its first wheel driving: a contrate is as a spur wheel, rings and bevels are refused."""
         from geartrain.teeth.triangular.triangular_mesh import TriangularMesh
 
         del shaft_angle

@@ -112,7 +112,7 @@ def _square_blocks(rows: Mapping[int, Collection[int]], known: Collection[int]) 
 
 
 def _maximum_matching(rows: Mapping[int, Collection[int]]) -> dict[int, int]:
-    """A matching of as many rows as can be: column -> row. A round visits every column once at most."""
+    """Maximum bipartite matching by augmenting paths: column -> row. A round visits every column once at most."""
     row_of: dict[int, int] = {}
     free = _peel(rows, row_of)
     while True:
@@ -125,7 +125,10 @@ def _maximum_matching(rows: Mapping[int, Collection[int]]) -> dict[int, int]:
 
 
 def _peel(rows: Mapping[int, Collection[int]], row_of: dict[int, int]) -> list[int]:
-    """Match rows with one column left, again and again; the rows that remain. This settles trees in linear time."""
+    """Karp and Sipser's rule: match rows with one column left, again and again; the rows that remain.
+
+    This settles trees in linear time.
+    """
     users: dict[int, list[int]] = {}
     for row, held in rows.items():
         for column in held:

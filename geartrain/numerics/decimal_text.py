@@ -23,6 +23,7 @@ def decimal(value: Fraction, digits: int = 10) -> str:
         return f"{number:.{digits}g}"
     exponent = math.floor(log10(value))
     mantissa = str(_scaled(abs(value), digits - 1 - exponent, digits))
+    # rounding may carry, and the logarithm be off beside a power of ten: the digits tell
     exponent += len(mantissa) - digits
     sign = "-" if value < 0 else ""
     rest = f".{mantissa[1:digits]}" if digits > 1 else ""
@@ -34,6 +35,7 @@ def _scaled(value: Fraction, power: int, digits: int) -> int:
     with localcontext(Context(prec=digits + 30, Emax=MAX_EMAX, Emin=-MAX_EMAX)):
         near = _leading(value.numerator) / _leading(value.denominator) * Decimal(10) ** power
         off = near - near.to_integral_value()
+        # 30 digits more than are asked for: `off` is good to far less than 1e-10
         if abs(abs(off) - Decimal("0.5")) > Decimal("1e-10"):
             return int(near.to_integral_value())
     exact: Fraction = value * Fraction(10) ** power
@@ -151,12 +153,13 @@ def _integer(digits: str) -> int:
 def _digits(number: int) -> str:
     if number.bit_length() <= _PLAIN:
         return str(number)
+    # `Inexact` is trapped: a digit lost would raise, and not be printed
     with localcontext(Context(prec=MAX_PREC, Emax=MAX_EMAX, Emin=-MAX_EMAX, traps=[Inexact])):
         return ("-" if number < 0 else "") + str(_joined(abs(number), abs(number).bit_length(), {}))
 
 
 def _joined(number: int, bits: int, powers: dict[int, Decimal]) -> Decimal:
-    """An integer of so many bits as a decimal, from its halves."""
+    """Divide and conquer: an integer of so many bits as a decimal, from its halves."""
     if bits <= _PLAIN:
         return Decimal(number)
     half = bits >> 1

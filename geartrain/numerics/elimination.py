@@ -38,7 +38,7 @@ class Echelon:
         return len(self.pivots)
 
     def forms(self, budget: int | None = None) -> dict[int, LinearForm]:
-        """Every pivot column as a linear form of symbols and unknowns that stayed free.
+        """Back substitution: every pivot column as a linear form of symbols and unknowns that stayed free.
 
         Many free unknowns make long forms: past `budget` operations `TooDenseError` is raised.
         """
@@ -75,7 +75,7 @@ def add_into(row: dict[int, Any], other: Mapping[int, Any], factor: Any) -> None
 
 
 def eliminate(rows: Iterable[Mapping[int, Fraction]], budget: int | None = None, modulus: int = 0) -> Echelon:
-    """Sparse elimination over the rationals (or modulo a prime): shortest row first, rarest column in it.
+    """Sparse Gaussian elimination over the rationals (or modulo a prime): shortest row first, rarest column in it.
 
     rows      linear forms that vanish; columns < 0 are symbols
     budget    the most operations allowed, long numbers counting more; `TooDenseError` past it
@@ -145,6 +145,7 @@ def eliminate(rows: Iterable[Mapping[int, Fraction]], budget: int | None = None,
 
 def residues(row: Mapping[int, Fraction], modulus: int = PRIME) -> LinearForm:
     """A multiple of a rational row, in integers modulo a prime."""
+    # one factor for the whole row leaves the rank as it is, and no denominator is to be inverted modulo the prime
     scale = math.lcm(*(value.denominator for value in row.values()))
     return {c: residue for c, value in row.items() if (residue := int(value * scale) % modulus)}  # type: ignore[misc]
 
@@ -176,6 +177,7 @@ def feasible(forms: Sequence[Mapping[int, Fraction]], constant: int = -1) -> boo
         row[first_slack + at] = Fraction(-1)
         row[-1] = -form.get(constant, Fraction(0))
         met = row[-1] <= 0  # where all unknowns are 0
+        # right sides must be 0 or more; a row turned round has +1 at its slack, its first basic variable then
         table.append([-value for value in row] if met else row)
         basis.append(first_slack + at if met else artificial + at)
     return _reaches_zero(table, basis, artificial)
@@ -187,9 +189,11 @@ def _reaches_zero(table: list[list[Fraction]], basis: list[int], artificial: int
         lacking = [row for row, own in zip(table, basis, strict=True) if own >= artificial]
         if not any(row[-1] for row in lacking):
             return True
+        # the reduced cost of the sum of the artificial variables; the first positive one is that of Bland's rule
         enter = next((at for at in range(artificial) if sum(row[at] for row in lacking) > 0), None)
         if enter is None:
             return False
+        # the ratio test; of equal ratios `min` takes the least variable, as Bland's rule asks
         ratios = [(row[-1] / row[enter], own, at) for at, (row, own) in enumerate(zip(table, basis, strict=True))
                   if row[enter] > 0]  # fmt: skip
         _, _, leave = min(ratios)

@@ -51,7 +51,7 @@ class DisjointSets(Generic[V]):
         """The head of a thing's group: the same for all of its members until the group grows."""
         above = self._above
         while (head := above.setdefault(thing, thing)) != thing:
-            above[thing] = above[head]  # halves the way for the next to ask
+            above[thing] = above[head]  # path halving: half the way for the next to ask
             thing = above[thing]
         return thing
 

@@ -29,6 +29,7 @@ def spread_in_blocks(starts: Ints, ends: Ints, most: int) -> Iterator[tuple[Ints
     total = int(upto[-1]) if len(upto) else 0
     for begin in range(0, total, most):
         stop = min(begin + most, total)
+        # the ranges that hold `begin` and `stop` - 1; empty ranges before the first of them are stepped over
         first, last = np.searchsorted(upto, begin, side="right"), np.searchsorted(upto, stop, side="left") + 1
         low, high = starts[first:last].copy(), ends[first:last].copy()
         # the first and the last range of a block may be cut by it

@@ -12,8 +12,9 @@ Row = dict[int, int]
 def saturated_lattice(rows: Sequence[Mapping[int, int]]) -> tuple[list[Row], list[Row], int]:
     """A basis of all whole rows in the rational span of some rows, columns dual to it, and the index of the rows in it.
 
-    Whole operations on columns bring the rows to a triangle H: Y V = [H 0]. The basis is H^-1 Y, and the first columns
-    of V are dual to it. The index is det H: 1 where the rows are a basis already. Rows that depend on others drop out.
+    Whole operations on columns bring the rows to a triangle H, Y V = [H 0]: Hermite's form, its entries not reduced.
+    The basis is H^-1 Y, and the first columns of V are dual to it. The index is det H: 1 where the rows are a basis
+    already. Rows that depend on others drop out.
     """
     columns: dict[int, Row] = {}
     for at, row in enumerate(rows):

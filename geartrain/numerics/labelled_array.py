@@ -68,5 +68,5 @@ class LabelledArray(Result):
 
 
 def labelled_array(values: NDArray[Any], **axes: Sequence[str]) -> LabelledArray:
-    """A `LabelledArray` with one keyword an axis: `labelled(speeds, link=names, case=cases)`."""
+    """A `LabelledArray` with one keyword an axis: `labelled_array(speeds, link=names, case=cases)`."""
     return LabelledArray(values, tuple(axes), tuple(tuple(names) for names in axes.values()))

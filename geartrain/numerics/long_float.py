@@ -69,10 +69,11 @@ class LongFloat(Rational):
         parts = _parts(other)
         if parts is None:
             return NotImplemented
+        # the greater exponent first: the other number is shifted down, which cannot overflow
         (high, top), (low, bottom) = sorted(((self.mantissa, self.exponent), parts), key=lambda each: -each[1])
         if not high or not low:  # a zero has no exponent to go by
             return self.make(low or high, top if high else bottom)
-        return self.make(high + math.ldexp(low, max(bottom - top, -1000)), top)
+        return self.make(high + math.ldexp(low, max(bottom - top, -1000)), top)  # beyond 1000 bits all is lost
 
     __radd__ = __add__
 
@@ -202,6 +203,7 @@ def split(value: Fraction | int) -> tuple[float, int]:
     """Mantissa, 1/2 to 1, and exponent of two nearest to an exact number; (0, 0) of 0."""
     top, bottom = value.numerator, value.denominator
     power = top.bit_length() - bottom.bit_length()
+    # shifted to like length the quotient is between 1/2 and 2, and Python rounds that of two integers once
     part, shift = math.frexp((top << max(-power, 0)) / (bottom << max(power, 0)))
     return part, (power + shift if part else 0)
 

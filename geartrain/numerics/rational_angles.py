@@ -44,6 +44,7 @@ def recognised_angle(turn: float, slack: float) -> Fraction | None:
             return None
         if abs(turn - last[0] / last[1]) <= slack:
             return Fraction(last[0] % last[1], last[1])
+        # a rest of 0 ends above: the convergent is then the angle itself, to rounding
         rest = 1 / (rest - whole)
 
 

@@ -29,7 +29,7 @@ def bracketed_root(value: Function, slope: Function, low: float, high: float) ->
         else:
             high = x
         steep = slope(x)
-        step = x - here / steep if steep else low
+        step = x - here / steep if steep else low  # an end of the bracket: it is halved
         width = high - low
         if not low < step < high or abs(step - x) > width / 2:  # halving does better than such a step
             step = low + width / 2
@@ -57,7 +57,7 @@ def sign_changes(
         if crosses:
             yield low, high
         return
-    # the lowest and the highest that the function can come to between its end values with such slopes
+    # the lowest and the highest that the function can come to between its end values with such slopes (Piyavskii)
     width, spread = high - low, greatest - least
     below = at_low + least * (at_low - at_high + greatest * width) / spread
     above = at_low + greatest * (at_high - at_low - least * width) / spread

@@ -57,10 +57,12 @@ def _next(a: Floats, b: Floats, c: Floats, at_a: Floats, at_b: Floats, at_c: Flo
     """The share of the bracket to go next: by inverse quadratic interpolation where it is safe, else half."""
     with np.errstate(all="ignore"):
         xi, phi = (a - b) / (c - b), (at_a - at_b) / (at_c - at_b)
+        # Chandrupatla's condition: the inverse quadratic is monotonic between the three points
         safe = (phi * phi < xi) & ((1 - phi) ** 2 < 1 - xi)
         share = at_a / (at_b - at_a) * at_c / (at_b - at_c)
         share += (c - a) / (b - a) * at_a / (at_c - at_a) * at_b / (at_c - at_b)
     share = np.where(safe & np.isfinite(share), share, 0.5)
+    # a step that no longer moves a float would be lost; nor may the two limits cross
     return np.clip(share, np.minimum(least, 0.5), np.maximum(1 - least, 0.5))
 
 

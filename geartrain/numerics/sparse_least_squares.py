@@ -29,7 +29,7 @@ class SparseRows:
         return height * self.width <= _DENSE
 
     def least_squares(self, right: Floats) -> Floats:
-        """x with the least |A x - right|: dense if small, else by conjugate gradients on columns of like size."""
+        """x with the least |A x - right|: dense by singular values if small, else by conjugate gradients (CGLS)."""
         # columns of like size: tooth counts from 8 to 10^6 side by side would slow the gradients down and skew `rcond`
         size = np.zeros(self.width)
         np.maximum.at(size, self.columns.ravel(), np.abs(self.factors).ravel())
@@ -58,6 +58,7 @@ class SparseRows:
             if power <= least:  # of a start at rest, too
                 break
             along = self.times(way)
+            # not 0: `way` is a sum of rows, and only the zero vector among those is taken to 0
             step = power / float(along @ along)
             x += step * way
             rest -= step * along

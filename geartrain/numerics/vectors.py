@@ -98,6 +98,7 @@ def beside(axis: Vector) -> Vector:
     """A unit vector across an axis: y for z, so that a zero mark stands upwards."""
     for way in ((0.0, 1.0, 0.0), (0.0, 0.0, 1.0), (1.0, 0.0, 0.0)):
         flat = across(way, axis)
+        # across any axis y or z is left with 0.7 at least, so that nothing cancels
         if size(flat) > 0.5:
             return unit_or_z(flat)
     return (1.0, 0.0, 0.0)

@@ -61,6 +61,7 @@ class DrivenFrame:
         self.along = e * far * self.height + s * self.tilt * self.across
         if sight.bevel:
             self.up = self.tilt * self.height - s * e * far * self.across
+            # not arccos of `up`, which loses half the digits near the axle
             self.radius = np.arctan2(np.hypot(self.side, self.along), self.up)
         else:
             self.radius = np.hypot(self.side, self.along)

@@ -1,6 +1,4 @@
-"""Where teeth of two wheels can touch: the driver's sides cut so that no end of the driven sides is met within.
-
-First touch of teeth of two wheels: the driven angle that the furthest point of the driver's side asks for.
+"""First touch of the teeth of two wheels: the driven angle that the furthest point of the driver's side asks for.
 
 A point P of the driver's side, seen from the second axle at radius r and azimuth a, holds a driven tooth whose own
 azimuth at that radius is A(r) at least at the angle G(P) = a - A(r); the tooth stands at the greatest of them. The side
@@ -69,6 +67,7 @@ class FlankSegmentation:
         start, end = self.second.first[tooth], self.second.first[tooth + 1]
         found = []
         for local in range(int(np.diff(self.second.first).max())):
+            # all teeth at once: one with fewer pieces repeats its last, which `start + local < end` leaves out
             piece2 = np.minimum(start + local, end - 1)
             within = (low <= self.second.ends[1, piece2]) & (high >= self.second.ends[0, piece2])
             which = np.flatnonzero(within & (start + local < end) & ~self.second.flat[piece2])
@@ -83,6 +82,7 @@ class FlankSegmentation:
         view = self.sight.look(r, a + couples.x[:, None])
         change, swing = view.moved(dr, da)
         turning = np.sign(change[:, :-1]) * np.sign(change[:, 1:]) < 0
+        # where the distance turns inside a cell it passes both ends by less than the slopes there would take it
         slack = np.where(turning, (np.abs(change[:, :-1]) + np.abs(change[:, 1:])) * np.diff(us, axis=1), 0.0)
         least, most = (each[couples.tooth2][:, None] for each in self.second.span)
         here, there = view.radius[:, :-1], view.radius[:, 1:]
@@ -144,7 +144,7 @@ class FlankSegmentation:
 
 
 _ASIDE = 1e-5  # of a segment: where a slope is asked for if the end has none
-_FINE = 1e-14
+_FINE = 1e-14  # of u: G itself is flat where its slope is 0, and only the speed is as good as u
 _WIDE = 2.0  # bounds from tangents are doubled
 
 
@@ -172,6 +172,7 @@ class FirstTouchSearch(FlankSegmentation):
         ends, slopes = self._rough(segments)
         with np.errstate(invalid="ignore", divide="ignore"):
             width = segments.u[1] - segments.u[0]
+            # where the tangents at both ends meet: a bound on G within if it is concave, doubled for where it is not
             meets = (ends[1] - ends[0] - slopes[1] * width) / (slopes[0] - slopes[1])
             rise = np.where((slopes[0] > 0) & (slopes[1] < 0), ends[0] + slopes[0] * meets - ends.max(axis=0), 0.0)
         unknown = ~np.isfinite(slopes).all(axis=0) | self._stalled(segments).any(axis=0)
@@ -179,6 +180,7 @@ class FirstTouchSearch(FlankSegmentation):
         place = couples.place[segments.couple]
         position = couples.position[segments.couple]
         best = np.full(int(couples.position.max()) + 1 if len(couples.position) else 0, -np.inf)
+        # `maximum.at`: many segments share a position, and an assignment would keep the last
         np.maximum.at(best, position, ends.max(axis=0) - place)
         return some(segments, ends.max(axis=0) + _WIDE * rise - place >= best[position] - margin)
 
@@ -199,6 +201,7 @@ class FirstTouchSearch(FlankSegmentation):
         azimuth, turn = value(self.second.azimuth, piece, v)
         with np.errstate(invalid="ignore", divide="ignore"):
             slant = turn / rise
+            # one step of Newton's method instead of the inversion; 0 where the piece stands still and has no slope
             correction = np.nan_to_num(slant * (r - radius), nan=0.0, posinf=0.0, neginf=0.0)
             return segments.seen[1] - azimuth - correction, segments.seen[3] - slant * segments.seen[2]
 
@@ -210,9 +213,10 @@ class FirstTouchSearch(FlankSegmentation):
         low, high = self.second.ends[:, segments.piece2]
 
         def rising(u: Floats, which: Indices) -> Floats:
-            """The slope of G times a positive number."""
+            """The slope of G times d radius / dv of the driven piece: it is positive, and may be 0 at a piece's end."""
             view, dr, da = self.view(x[which], segments.piece1[which], u)
             piece = segments.piece2[which]
+            # clipped: rounding may put a radius beyond the ends of the piece
             v = self.second.inverse(piece, np.clip(view.radius, low[which], high[which]))
             change, swing = view.moved(dr, da)
             return swing * value(self.second.radius, piece, v)[1] - value(self.second.azimuth, piece, v)[1] * change
@@ -250,6 +254,7 @@ class FirstTouchSearch(FlankSegmentation):
             slant = np.where(corner, swing / change, turn / rise)  # of azimuth by radius, on the side that is smooth
             correction = np.nan_to_num(slant * (view.radius - r), nan=0.0, posinf=0.0, neginf=0.0)
             speed = ahead - slant * drift
+        # `correction` takes off what the inversion left of the radius, so that the angle is good to rounding
         angle = view.azimuth - a - correction - couples.place[segments.couple]
         radius1, _ = value(self.first.radius, piece1, u)
         return FirstTouches(angle, speed, piece1, u, piece2, v, radius1, r, segments.couple)

@@ -36,6 +36,7 @@ def table(sides: Sequence[tuple[OutlineCurve, ...]]) -> FlankTable:
     flat = np.abs(rise) < _FLAT * radius[0]
     falls = rise < 0
     corners = np.array([[begins, ends] for _, begins, ends in pieces]).T
+    # u reversed: odd powers change their sign
     for each in (radius, azimuth):
         each[1::2, falls] *= -1
     corners[:, falls] = corners[::-1, falls]
@@ -69,7 +70,9 @@ def _direction(piece: PolynomialPiece, end: int) -> Floats:
     powers = np.arange(COUNT)
     signs = np.where(powers % 2, 1.0, end)
     first = powers * signs @ piece.coefficients
+    # just inside the piece the slope is the second derivative times the way from the end, whose sign is -end
     second = -end * (powers * (powers - 1) * signs * end @ piece.coefficients)
+    # azimuth times radius is a length too
     round_ = np.array([1.0, float(piece.coefficients[0, 0])])
     chosen = first if np.hypot(*(first * round_)) > _STILL * np.hypot(*(second * round_)) else second
     found: Floats = chosen * round_ / np.hypot(*(chosen * round_))
@@ -94,6 +97,7 @@ def _rising(curve: OutlineCurve, piece: PolynomialPiece) -> list[PolynomialPiece
 def _turning(slope: Floats, low: float, high: float) -> float:
     """Where a polynomial changes its sign between low and high."""
     rising = np.polynomial.polynomial.polyval(high, slope) > 0
+    # bisection to neighbouring floats: the slope is that of a fit, and noise where the radius hardly turns
     while low < (middle := low + (high - low) / 2) < high:
         if (np.polynomial.polynomial.polyval(middle, slope) > 0) == rising:
             high = middle

@@ -14,11 +14,11 @@ if TYPE_CHECKING:
     from geartrain.numerics.arrays import Bools, Floats, Indices
 
 _CELLS = 8  # of a side, at least: the furthest point is looked for in each
-_CLOSER, _CLOSE = 0.75, 30  # steps towards an end that stands still: what happens there has no size of its own
+_CLOSER, _CLOSE = 0.75, 30  # geometric steps towards an end that stands still, where a turn may lie at any distance
 _BINS = 64  # of a piece: radius is inverted from the nearest
 _STALLED = 1e-3  # of its mean slope: where a piece stands still, as a cycloid does on its pitch circle
 _MOST = 80  # steps of an inversion
-_NEAR = 1e-10  # a step of Newton as short as this ends on the root
+_NEAR = 1e-10  # a Newton step as short as this ends on the root: the next would be about its square
 
 
 @dataclass(frozen=True)
@@ -64,6 +64,7 @@ class FlankTable:
         """Least and greatest radius, least and greatest azimuth of all teeth."""
         u = np.linspace(-1, 1, 33)
         azimuth = np.polynomial.polynomial.polyval(u, self.azimuth)
+        # what an azimuth may exceed its samples by, where it turns between two of them
         slack = float(np.ptp(azimuth)) / 64
         return (
             float(self.ends.min()),
@@ -92,6 +93,7 @@ class FlankTable:
         begins = np.append(piece[1:] == piece[:-1], False)
         start = np.searchsorted(piece, self.first)
         most = int(np.diff(start).max())
+        # teeth with fewer nodes repeat their last one, at which no cell begins
         at = np.minimum(start[:-1, None] + np.arange(most), start[1:, None] - 1)
         return piece[at], u[at], begins[at]
 
@@ -121,6 +123,7 @@ class FlankTable:
         low, high = self.ends[:, :, None]
         share = np.maximum.accumulate(np.clip((radii - low) / np.where(high > low, high - low, 1.0), 0, 1), axis=1)
         share[:, -1] = 1.0
+        # 2 apart, so that one search in one rising row serves all pieces; `accumulate` against falls by rounding
         return radii, (share + 2.0 * pieces).ravel().astype(np.float64)
 
     def guess(self, piece: Indices, r: Floats) -> tuple[Floats, Floats, Floats]:
@@ -142,6 +145,7 @@ class FlankTable:
 
     def _newton(self, piece: Indices, r: Floats, u: Floats, low: Floats, high: Floats) -> Floats:
         found = u
+        # indices only once some have ended and others not: before that nothing need be gathered
         which: Indices | None = None
         for _ in range(_MOST):
             here, slope = value(self.radius, piece, u)
@@ -149,6 +153,7 @@ class FlankTable:
             low, high = np.where(off < 0, u, low), np.where(off > 0, u, high)
             with np.errstate(invalid="ignore", divide="ignore"):
                 step = u - off / slope
+            # NaN, where the slope is 0, is not inside either: the bracket is halved
             step = np.where((step >= low) & (step <= high), step, (low + high) / 2)
             left = np.abs(step - u) > _NEAR
             u = step

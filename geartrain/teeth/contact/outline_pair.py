@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from geartrain.teeth.contact.gear_outline import GearOutline
 
 
-_BLOCK = 60_000  # nodes worked on at once
+_BLOCK = 60_000  # nodes worked on at once: bounds the memory of long arrays of angles
 _MARGIN = 1e-5  # of a driven pitch: how far rough angles may be off
 _TIE = 4e-15  # rad: of touches as near as this the later couple, and a flank before a corner, is named
 
@@ -59,6 +59,7 @@ class OutlinePair:
     def at(self, phi1: Floats, within: float) -> tuple[Any, ...]:
         """The fields of `FlankContact` at angles of shape (n,)."""
         period = self.cycle * self.first.pitch
+        # worked out within one period, and whole periods added after: their rounding stays out of the contact
         turns = np.floor(self.sign * phi1 / period)
         rest = self.sign * phi1 - turns * period
         parts = [self._block(part, within) for part in self._blocks(rest)]

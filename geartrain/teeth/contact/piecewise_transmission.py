@@ -65,6 +65,7 @@ class PiecewiseTransmission:
         phi1 = np.asarray(phi1, dtype=float)
         flat = phi1.ravel()
         rest = flat - self.breaks[0]
+        # quicker than %, and good enough: `searchsorted` is clipped where rounding leaves `rest` outside the period
         rest -= np.floor(rest / self.period) * self.period
         rest += self.breaks[0]
         which = np.clip(np.searchsorted(self.breaks, rest, side="right") - 1, 0, len(self.breaks) - 2)

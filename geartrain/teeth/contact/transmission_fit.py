@@ -26,10 +26,10 @@ _SERIES = np.linalg.inv(cheb.chebvander(_NODES, COUNT - 1))
 _PARTS = 4  # stretches of a pitch to begin with
 _OFFSET = 0.1180339887498949  # of a stretch: no corner is likely to be exactly where one begins
 _THIN = 1e-9  # of a pitch: a stretch is not cut again, as where a tip grazes a side and the speed is infinite
-_CUTS = 17  # parts of a gap that holds a corner
+_CUTS = 17  # parts of a gap that holds a corner: one call for many angles costs little more than for one
 _SAFETY = 2.0  # stated error over the greatest found
 _FLAT = 1e-7  # of the ratio: corners that change the speed by less stay where they were found
-_LEAP = 1e-9  # rad
+_LEAP = 1e-9  # rad: a greater step of the angle is a leap of the law, and no corner
 _MOST = 100_000  # stretches
 
 
@@ -168,7 +168,7 @@ class _Maker:
         ]
         nowhere = labels[1].max(axis=1) < 0
         off = [np.where(nowhere, 0.0, np.where(np.isnan(each), np.inf, each)) for each in off]
-        pair, kind = labels[:2, :, COUNT]
+        pair, kind = labels[:2, :, COUNT]  # at the middle one of 2 COUNT + 1 points
         return _Stretches(ends, fits[0], fits[1], pair, kind, off[0], off[1]), labels
 
     def _asked(self, phi1: Floats) -> tuple[Floats, Floats, Indices]:
@@ -190,7 +190,7 @@ class _Maker:
     def _narrowed(self, low: Floats, high: Floats, left: Indices) -> Floats:
         """Where the labels cease to be `left`, from low to high; the gaps shrink to rounding."""
         share = np.arange(1, _CUTS) / _CUTS
-        for _ in range(20):
+        for _ in range(20):  # 17^20 is far beyond 2^53: it ends where a gap shrinks no more
             inner = low[:, None] + (high - low)[:, None] * share
             inner = np.clip(inner, low[:, None], high[:, None])
             _, _, labels = self._asked(inner)
@@ -215,6 +215,8 @@ class _Maker:
 
     def _crossing(self, stretches: _Stretches, at: int, corner: float) -> float:
         errors, speeds = ends(stretches.errors[:, at - 1 : at + 1]), ends(stretches.speeds[:, at - 1 : at + 1])
+        # a Newton step on the difference of both fits makes the law continuous: labels place a corner no better than
+        # nearly equal angles can be told apart
         step, change = float(errors[1, 0] - errors[0, 1]), float(speeds[1, 0] - speeds[0, 1])
         if not abs(change) > _FLAT * float(self.ratio) or not abs(step) < _LEAP:
             return corner

@@ -40,7 +40,9 @@ def mean_over_the_pin(r: float, e: float, f: float) -> float:
     """
     width = sqrt((r - e) * (r + e))
     c = f * e / width
-    inner = 2 * (acos(c) / sqrt(1 - c * c) if c < 1 else 1 if c == 1 else acosh(c) / sqrt(c * c - 1))
+    # as a product: near c = 1, where the quotient is 1, the difference 1 - c^2 has lost half its digits
+    apart = sqrt(abs(1 - c) * (1 + c))
+    inner = 2 * (acos(c) / apart if c < 1 else 1 if c == 1 else acosh(c) / apart)
     return (1 - f * log_share(r, e) + f * f * r * inner / (pi * width)) / (1 + f * f)
 
 

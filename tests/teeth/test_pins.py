@@ -138,6 +138,14 @@ def test_the_protocol_is_that_of_all_laws() -> None:
     assert law.efficiency_mean() == 1
 
 
+@pytest.mark.parametrize("off", [-1.4e-8, -7e-9, 0, 3.3e-9, 1.1e-8])
+def test_the_mean_efficiency_keeps_its_digits_where_its_closed_form_is_nearly_0_over_0(off: float) -> None:
+    # for distances 5 and 4 that is at a friction of 3/4
+    law = PinToSlotTransmission(5, 4, 0.75 * (1 + off))
+    x, weights = np.polynomial.legendre.leggauss(200)
+    assert law.efficiency_mean() == pytest.approx(float(weights @ law.efficiency(pi * (x + 1) / 2)) / 2, rel=2e-14)
+
+
 @pytest.mark.parametrize("kind", [PinToSlotTransmission, SlotToPinTransmission])
 @pytest.mark.parametrize(("r", "e", "f"), [(9.6, 1.1, 0.2), (10, 5, 0.4), (3, 0, 0.3)])
 def test_the_least_efficiency_is_the_least_of_a_scan(kind: type[PinTransmission], r: float, e: float, f: float) -> None:

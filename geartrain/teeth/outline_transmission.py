@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from geartrain.teeth.contact.gear_outline import GearOutline
     from geartrain.teeth.contact.piecewise_transmission import PiecewiseTransmission
 
-_GAUSS = np.polynomial.legendre.leggauss(16)
+_GAUSS = np.polynomial.legendre.leggauss(16)  # exact to degree 31; squares of the law's polynomials have degree 30
 _FLAT = 1e-9  # slope of friction against a contact: less is rounding, and locks nothing
 _SAMPLES = 256  # angles of a pitch at which play is looked for
 
@@ -204,6 +204,7 @@ def _friction(x: Floats, y: Floats, R1: Floats, R2: Floats) -> tuple[Floats, Flo
     d = np.hypot(x, y)
     with np.errstate(divide="ignore", invalid="ignore"):
         way = np.where(x < 0, -1.0, 1.0)
+        # at the pitch point itself, 0/0, the flanks do not slide, and any normal will do
         sine, cosine = np.where(d > 0, way * y / d, 0.0), np.where(d > 0, np.abs(x) / d, 1.0)
         rub = way * np.sign(1 / R1 + 1 / R2)  # a ring that drives is slower than its pinion: it slides the other way
         return cosine, rub * (sine + way * d / R1), rub * (sine - way * d / R2)
@@ -217,6 +218,7 @@ def _leans(gears: OutlineGears, driver: int, forward: Floats) -> tuple[Floats, F
     a = gears.distance * (-1 if second.ring else 1)
     R1 = a * at.speed / (at.speed + (-1 if first.ring or second.ring else 1))
     along = (at.radius1**2 - at.radius2**2 + a * a) / (2 * a)
+    # on the line of centres rounding may put the square below 0
     side = np.sqrt(np.maximum(at.radius1**2 - along**2, 0.0))
     # the side ahead of a tooth lies within half a pitch ahead of its middle
     middle = forward + (at.pair + 0.25) * first.pitch
@@ -234,7 +236,7 @@ def _tabulated(gears: OutlineGears, driver: int) -> PiecewiseTransmission:
 
 @lru_cache(maxsize=64)
 def _plays(gears: OutlineGears, driver: int) -> Floats:
-    """Play at angles of a whole period (rad of the driven wheel); infinite where nothing touches."""
+    """Play at angles of a whole period (rad of the driven wheel); NaN where nothing touches."""
     first, second = gears.of(driver)
     S = np.linspace(0, 2 * pi / first.z, _SAMPLES, endpoint=False)
     return solve(first, second, gears.distance, S).play

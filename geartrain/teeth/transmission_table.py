@@ -45,10 +45,11 @@ class CellTable:
         nodes = np.cos(np.pi * (np.arange(degree + 1) + 0.5) / (degree + 1))
         values = function(self.middles[:, None] + halves[:, None] * nodes)
         wide = halves > _THIN * period
+        # over an infinite half width only the constant term is left: thin cells are constants
         powers = np.where(wide, halves, np.inf)[:, None] ** np.arange(degree + 1)
         monomials = np.linalg.inv(np.vander(nodes, increasing=True))
         self.coefficients = np.ascontiguousarray((values @ monomials.T / powers).T)
-        # the error is greatest between the nodes and at the ends of a cell
+        # the error is greatest between the nodes and at the ends of a cell; an end itself may be beyond a corner
         checks = np.cos(np.pi * np.arange(degree + 2) / (degree + 1)) * (1 - 1e-9)
         S = self.middles[wide, None] + halves[wide, None] * checks
         off = np.abs(self(S) - function(S))
@@ -80,6 +81,7 @@ class CellTable:
         for corner in self.corners:
             np.greater_equal(u, corner, out=passed)
             np.add(cell, passed, out=cell)
+        # clipped: rounding may lead past the last cell, NaN anywhere; in mode `raise` numpy fills `out` through a copy
         np.take(self.middles, cell, out=other, mode="clip")
         np.subtract(u, other, out=u)
         np.take(self.coefficients[-1], cell, out=found, mode="clip")

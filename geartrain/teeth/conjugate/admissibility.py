@@ -31,6 +31,7 @@ def _undercuts(path: PathOfContact) -> Iterator[ToothFault]:
     for recess in (False, True):
         if not (span := path.span(recess)):
             continue
+        # not from the pitch point itself, where U is 0 for psi = 0, as of a cycloid
         d = span[0] + (span[1] - span[0]) * np.linspace(0, 1, _SCAN)[1:]
         contact = path.along(d, recess)
         for gear, U in ((1, contact.U1), (2, contact.U2)):

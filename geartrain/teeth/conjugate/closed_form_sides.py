@@ -118,6 +118,7 @@ class PinPiece(PathPiece):
 
     def travel(self, d: Floats) -> Floats:
         """R (beta - beta at the pitch point), beta the angle of the pin's centre from the line of centres."""
+        # the half-angle form of the cosine rule; rounding may put L a little inside |A - R|, on the line of centres
         half = np.sqrt(np.maximum(self._length(d) ** 2 - (self.A - self.R) ** 2, 0) / (4 * self.A * self.R))
         found: Floats = self.sign * self.R * (2 * np.arcsin(half) - pin_angle(self.R, self.A, self.B))
         return found
@@ -136,6 +137,7 @@ def lantern(R: float, A: float, B: float, X: float, inside: bool = False) -> Pat
     first = pin_angle(R, A, B)
     beta = first - X / R if inside else first + X / R
     most = first if inside else 3.14 - first
+    # a little short of half a turn, where the arc sine in `travel` would lose half its digits
     if not 0 <= beta <= 3.14:
         side, fix = ("dedendum", "its undercut") if inside else ("addendum", "half a turn of the lantern")
         raise RangeError(
@@ -158,6 +160,7 @@ def pin_reach(R: float, A: float, B: float, mate: float, tip: float) -> float:
     def off(d: float) -> float:
         L = d + B
         sine = (L * L + (R - A) * (R + A)) / (2 * R * L)
+        # without the squares of both radii, whose difference would cancel
         return d * (d + 2 * mate * sine) - (tip - abs(mate)) * (tip + abs(mate))
 
     most = A + R - B
@@ -187,6 +190,7 @@ class ExtremalPiece(PathPiece):
     def sin_psi(self, d: Floats) -> Floats:
         """sqrt(1 - (S / D)^2)."""
         S = self.pitch.S(d) / self.D
+        # not 1 - S^2, which cancels where the pressure angle is small
         return np.sqrt((1 - S) * (1 + S))
 
     def slope(self, d: Floats) -> Floats:
@@ -217,5 +221,6 @@ def extremal(pitch: PitchSurfaces, X: float, first: float, last: float) -> PathS
 
     # just short of where the arc sine of the end is not defined; at D = 0 the arc is 0
     high = (1 - 1e-12) / cos(last)
+    # -inf stands for -X, the limit there: `root` halves while a value is not finite
     D = root(off, 1e-9 * X, high, -inf, off(high))
     return PathSide((ExtremalPiece(pitch, D, *ends(D)),))

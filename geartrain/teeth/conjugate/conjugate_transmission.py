@@ -133,8 +133,10 @@ class ConjugateTransmission(ExactRatio):
         p, (approach, recess) = self.path.pitch.p, self._arcs
         ahead = self._lead + approach + self.direction * self._reach * np.asarray(S, dtype=float)
         first = np.mod(ahead, p) - approach
+        # a contact ratio that is whole but for rounding needs no row more
         rows = int(np.ceil((approach + recess) / p * (1 - _TOUCH)))
         X = np.stack([first + k * p for k in range(max(rows, 1))])
+        # a contact that rounding puts just beyond the last one is that one
         slack = _TOUCH * p
         return np.where(recess + slack >= X, np.minimum(X, recess), nan)
 

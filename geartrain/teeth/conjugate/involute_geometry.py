@@ -138,7 +138,7 @@ class InvolutePair:
         for wheel, R in ((self.second, pitch.R2), (self.first, pitch.R1)):
             sign = -1 if wheel.ring else 1
             over = sign * (sqrt(max(wheel.tip**2 - wheel.base**2, 0.0)) - abs(R) * sin(psi))
-            found.append(0.0 if -_ROUNDING < over < 0 else over / cos(psi))
+            found.append(0.0 if -_ROUNDING < over < 0 else over / cos(psi))  # 0 but for rounding is no negative arc
         if sum(found) <= 0:
             raise _apart(self.first, self.second, self.distance)
         return found[0], found[1]
@@ -187,6 +187,7 @@ def spherical_arc(R: float, psi: float, tip: float) -> float:
     cos tip = cos d cos R - sin d sin psi sin R, with cos(base cone) = sqrt(cos^2 R + sin^2 psi sin^2 R).
     """
     base = sqrt(cos(R) ** 2 + (sin(psi) * sin(R)) ** 2)
+    # a tip cone inside the base cone is taken for the base cone: the involute begins there
     return (acos(min(cos(tip) / base, 1.0)) - atan2(sin(psi) * sin(R), cos(R))) / cos(psi)
 
 

@@ -65,7 +65,7 @@ def stress_law(pitch: PitchSurfaces, a: float, b: float, psi: float) -> ValueAnd
 
     def f(d: Floats, v: Floats) -> tuple[Floats, Floats]:
         S = pitch.S(d)
-        with np.errstate(invalid="ignore", divide="ignore"):
+        with np.errstate(invalid="ignore", divide="ignore"):  # NaN beyond |v| = 1: Newton's step is then halved
             cosine = np.sqrt(1 - v * v)
             under = np.sqrt(((a + b) * S) ** 2 + 4 * k * v / cosine)
             w = ((b - a) * S + under) / 2

@@ -145,6 +145,7 @@ def sharing(path: PathOfContact) -> list[Stretch]:
     found = []
     for low, high in pairwise(cuts):
         if high - low > _ROUNDING * p:
+            # counted in the middle of a stretch, where no rounding decides
             middle = (low + high) / 2
             found.append((low, high, floor((recess - middle) / p) + floor((approach + middle) / p) + 1))
     return found
@@ -155,6 +156,7 @@ def _costs(path: PathOfContact, assumption: str, stretches: list[Stretch]) -> Pa
     pitch = path.pitch
     bound = 0.1 * pitch.p
 
+    # H, the square of the pressure, and heat go with the force on a pair; flash with its power of 3/4
     def most(what: Callable[[PathContact], Floats], power: float, beyond: float = 0.0) -> float:
         return max(float(greatest(path, what, beyond, low, high) / count**power) for low, high, count in stretches)
 
@@ -242,6 +244,7 @@ def _reaches(
     if not (span := path.span(recess, low, high)):
         return
     for piece in (path.recess if recess else path.approach).pieces:
+        # at a joint itself a side answers with the next piece
         first, last = max(piece.start, span[0]), min(float(np.nextafter(piece.end, 0.0)), span[1])
         if last > first:
             yield first, last
@@ -290,6 +293,7 @@ def locking_friction(path: PathOfContact, driver: int = 1) -> float:
     pitch = path.pitch
 
     def lean(contact: PathContact) -> Floats:
+        # power out is linear in friction: cos psi less friction times this lean
         power = powers(pitch, contact, 1.0, driver)[1] - contact.cos_psi
         found: Floats = -power / contact.cos_psi
         return found

@@ -85,6 +85,7 @@ class PathOfContact:
         if far <= max(near, 0.0) or side.arc == 0:
             return None
         start = side.start if near <= 0 else float(side.distance(np.array(near)))
+        # a whole side ends where it says, not where an inversion puts it
         end = side.end if far >= side.arc else float(side.distance(np.array(far)))
         return (start, end) if end > start else None
 
@@ -101,6 +102,7 @@ class PathOfContact:
         R = -self.pitch.R1 if gear == 1 else self.pitch.R2
         if self.pitch.bevel:
             axis = np.array([0.0, np.sin(R), np.cos(R)])
+            # not acos, which loses half the digits of a slender cone
             low, high = np.arctan2(np.linalg.norm(np.cross(points, axis), axis=1), points @ axis)
         else:
             low, high = np.hypot(points[:, 0], points[:, 1] - R)
@@ -131,12 +133,15 @@ class PathOfContact:
         pitch = self.pitch
         A, B = pitch.A, pitch.B
         S, slope = pitch.S(d), pitch.S_slope(d)
+        # rounding may put a sine beyond 1 where the pressure angle is a right angle
         cosine = np.sqrt(np.maximum(1 - sine * sine, 0.0))
         w = slope * sine + S * q
         U1, U2 = w + A * S, w - B * S
         bend = S * sine if pitch.bevel else 0.0
+        # U is 0 at a cusp, where curvature and pressure are infinite, and below 0 beyond it, where its root is NaN
         with np.errstate(divide="ignore", invalid="ignore"):
             k1, k2 = ((q + A) * slope - bend) / U1, ((q - B) * slope - bend) / U2
+            # psi = 0 at the pitch point, as of a cycloid, makes U 0 there too: 0/0, whose limit is infinite
             kr = np.where(sine > 0, (A + B) * sine / (U1 * U2), np.inf)
             H = kr / cosine
             rub = np.abs(S) / cosine

@@ -192,6 +192,7 @@ class PathSide:
         X = np.asarray(X, dtype=float)
         arc = self.arc
         d = self.start + (np.clip(X / arc, 0.0, 1.0) * (self.end - self.start) if arc else np.zeros(X.shape))
+        # quadratic but for sharp bends; clipped, for beyond its end a series means nothing
         for _ in range(40):
             step = (self.travel(d) - X) * np.sqrt(np.maximum(1 - self.sin_psi(d) ** 2, 0.0))
             d = np.clip(d - step, self.start, self.end)

@@ -84,6 +84,7 @@ class PitchSurfaces:
     def S_integral(self, d: ArrayLike) -> Floats:
         """The integral of S from 0: d^2/2, or 1 - cos d."""
         d = np.asarray(d, dtype=float)
+        # 1 - cos d would cancel near the pitch point
         found: Floats = 2 * np.sin(d / 2) ** 2 if self.bevel else d * d / 2
         return found
 
@@ -103,7 +104,7 @@ class PitchSurfaces:
         return self._turned(points, -X / self.reach2, self.R2)
 
     def _turned(self, points: Floats, angle: Floats, R: float) -> Floats:
-        """Turned about the axis at height `R` over the pitch point (spur), or at the polar angle R from it."""
+        """Rodrigues' rotation about the axis at the polar angle `R` from the pitch point; spur: at height R over it."""
         cosine, sine = np.cos(angle), np.sin(angle)
         if not self.bevel:
             x, y = points[..., 0], points[..., 1] - R

@@ -1,4 +1,4 @@
-"""The regular solution of S v' + f(d, v) = 0 from the pitch point, where the equation is singular.
+"""Chebyshev collocation: the regular solution of S v' + f(d, v) = 0 from the pitch point, where S is 0.
 
 Of all solutions only one is bounded at d = 0 (for pressure angles below 45 deg), and a polynomial can be no other: so
 the point needs no special care, where marching must start beside it on a series.
@@ -66,6 +66,7 @@ def fitted(
     """As `solved`, with so many nodes and no more."""
     x, _ = points(nodes)
     d = start + (end - start) * (x + 1) / 2
+    # held at its last value beyond its end, where a series soon grows without bound
     guess = near(np.minimum(d, near.end)) if near else np.full(nodes, first)
     return ChebyshevSeries.through(_Collocated(pitch, f, first, d).newton(guess), start, end)
 
@@ -76,6 +77,7 @@ class _Collocated:
     def __init__(self, pitch: PitchSurfaces, f: ValueAndSlope, first: float, d: Floats) -> None:
         self.f, self.first, self.d = f, first, d
         self.matrix = pitch.S(d)[:, None] * differentiation(len(d)) * (2 / (d[-1] - d[0]))
+        # the first row gives way to the condition v = first: at the pitch point S is 0, and the equation says no more
         self.matrix[0] = 0.0
 
     def residual(self, v: Floats) -> tuple[Floats, Floats]:

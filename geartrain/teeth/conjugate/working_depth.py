@@ -41,6 +41,7 @@ def to_depth(depth: Callable[[float], float], wanted: float, start: float, most:
     for _ in range(_STEPS if wanted < most else 0):
         if at_low < 0 < at_high or at_low == 0:
             break
+        # upwards while even the hottest is too low; NaN, which cannot be reached, and too deep both lead downwards
         if not at_high >= 0 and at_high == at_high:
             low, at_low, high = high, at_high, high * _STEP
             at_high = off(high)

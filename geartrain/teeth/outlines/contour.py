@@ -60,6 +60,7 @@ class Contour:
 def _arc(start: Floats, end: Floats, bulge: float, tolerance: float) -> Floats:
     """Points of an arc, its end left out."""
     radius, sweep = arc_radius(start, end, bulge), 4 * atan(bulge)
+    # the chord whose sagitta is the tolerance; 0 where that is lost beside 1: tenths of a degree then
     step = 2 * acos(max(1 - tolerance / radius, -1.0)) or pi / 1800
     count = max(1, ceil(abs(sweep) / step))
     chord = end - start

@@ -83,6 +83,7 @@ def _spaced(path: PathOfContact, gear: int, X: Floats, tolerance: float) -> Floa
     length = np.hypot(steps[:, 0], steps[:, 1])
     heading = np.unwrap(np.arctan2(steps[:, 1], steps[:, 0]))
     turned = np.abs(np.gradient(heading))
+    # a chord of length ds leaves an arc by ds^2 curvature / 8
     cost = np.concatenate(([0.0], np.cumsum(np.sqrt(turned * length / (8 * tolerance)))))
     # a share by length alone keeps straight stretches from having no points
     cost += np.linspace(0, 0.02 * cost[-1] + 1e-9, len(cost))

@@ -105,7 +105,7 @@ _FILLET = 0.38  # modules
 _BITES = (1e-9, 1e-6)  # modules: deeper is interference; flanks found by numbers are not nearer to their true ones
 _RELIEFS = (0.0, 0.5, 1.0, 2.0, 3.0, 5.0, 8.0, 12.0, 18.0)  # deg; a root so much steeper than the flank it goes on from
 _LEAST_FILLET = 1e-3
-_HALVINGS = 18
+_HALVINGS = 18  # of less than 0.4 modules: to 2e-6
 _ALIKE = 1e-5  # modules: flanks that differ by less are one
 
 
@@ -319,7 +319,7 @@ def _maker(
 
 
 def _largest(made: Callable[[float], ToothOutline | None], wanted: float) -> ToothOutline | None:
-    """The tooth with the largest fillet below `wanted`; None where not even a small one fits."""
+    """By bisection, the tooth with the largest fillet below `wanted`; None where not even a small one fits."""
     found = made(_LEAST_FILLET)
     low, high = _LEAST_FILLET, wanted
     if found is None or wanted <= low:

@@ -98,7 +98,7 @@ class TriangularContact:
         ends = min(play(0.0), play(2 * half))
         if not slope(0.0) < 0 < slope(2 * half):
             return ends
-        step = bracketed_root(slope, lambda _: 0.0, 0.0, 2 * half)
+        step = bracketed_root(slope, lambda _: 0.0, 0.0, 2 * half)  # a slope of 0 makes it halve
         return min(ends, play(step))
 
     @cached_property
@@ -260,7 +260,7 @@ def _leaning_excess(sizes: TriangularSizes, jam: float) -> float:
     low = max(jam * (1 + 1e-9), reach * _NEARLY_0)
 
     def stands(excess: float) -> float:
-        return -1.0 if TriangularContact(sizes.at(excess)).overhang else 1.0
+        return -1.0 if TriangularContact(sizes.at(excess)).overhang else 1.0  # a step: `root` halves
 
     if low >= reach or not any(sizes.at(low).lean) or stands(low) > 0:
         return 0.0
@@ -295,9 +295,11 @@ def _exit(path: RealPath) -> float:
 
 def _first_sign_change(value: Callable[[float], float], low: float, reach: float) -> float:
     """The least excess from `low` at which `value` changes its sign; `reach` if it never does."""
+    # looked at in 16 steps before `root`: a stretch shorter than one of them may be passed over
     steps, start = 16, low
     at_low = value(low)
     for step in range(1, steps + 1):
+        # short of the reach, where tips barely touch and the path has no length
         high = start + (reach * (1 - _NEARLY_0) - start) * step / steps
         at_high = value(high)
         if (at_high > 0) != (at_low > 0):

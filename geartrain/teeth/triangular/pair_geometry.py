@@ -28,7 +28,9 @@ def flank(z: int, beta: float) -> float:
 
 def contact_half_angle(R1: float, R2: float, D: float, delta: float) -> float:
     """Largest |alpha_1| at which tips can touch, Eq. (4), from the overlap delta = R1 + R2 - D of the tip circles."""
+    # the half-angle form of the cosine rule: the cosine itself, near 1, would lose half the digits
     square = delta * (2 * R2 - delta) / (4 * D * R1)
+    # 0 where tips do not overlap; above 1 they would go past the far side
     return 2 * asin(sqrt(min(1.0, max(0.0, square))))
 
 
@@ -102,6 +104,7 @@ class TriangularSizes:
     @cached_property
     def delta(self) -> float:
         """Overlap of the tip circles; 0 or less where no tooth can touch."""
+        # not R1 + R2 - D, which cancels at large tooth numbers
         return min(self.depths) - self.excess * self.least_distance
 
     @cached_property

@@ -179,6 +179,7 @@ def best(make: TransmissionFactory, name: str, found: ParameterSweep) -> tuple[f
 
     low, high = values[max(at - 1, 0)], values[min(at + 1, len(values) - 1)]
     golden = (5**0.5 - 1) / 2
+    # by 0.618^40 = 4e-9: a maximum is so flat that values tell half the digits only
     for _ in range(40):
         a, b = high - golden * (high - low), low + golden * (high - low)
         low, high = (low, b) if value(a) >= value(b) else (a, high)

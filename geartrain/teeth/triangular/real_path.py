@@ -100,6 +100,7 @@ class RealPath:
         if first == last:
             return [MonotonePiece(phase, low, high, first)]
         a, b = low, high
+        # bisection to neighbouring floats: only the sign of the curvature's formula is needed, and no derivative of it
         while a < (middle := a + (b - a) / 2) < b:
             a, b = (middle, b) if (slope(middle) > 0) == first else (a, middle)
         return [MonotonePiece(phase, low, a, first), MonotonePiece(phase, a, high, last)]
@@ -155,6 +156,7 @@ class RealPath:
     def _candidates(self, piece: MonotonePiece, t: float, first: int, last: int) -> set[int]:
         if last - first < 4 or not piece.convex:
             return {k for k in (first, first + 1, last - 1, last) if first <= k <= last}
+        # two couples on either side of the bottom, where one would do: rounding may shift it
         bottom = round((self._bottom(piece) - t) / self.pitch)
         return {k for k in range(bottom - 2, bottom + 3) if first <= k <= last} | {first, last}
 
@@ -227,7 +229,7 @@ class RealPath:
 
     @cached_property
     def _noise(self) -> float:
-        """The rounding of g."""
+        """The rounding of g, whose two terms are no larger than these."""
         return 4 * ulp(self.sizes.reach2 + self.ratio * self.sizes.reach1)
 
     def _crossings(

@@ -73,6 +73,7 @@ class _Walk:
             self.held = last
             self.lost += max(leap, 0.0)
         if self.held is not None and leap > self.small:
+            # an interval that ends above the driven wheel never comes down to it
             if self.path.couple.angle(interval.phase, interval.end) >= y:
                 return
             start = bracketed_root(

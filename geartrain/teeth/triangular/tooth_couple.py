@@ -37,6 +37,7 @@ class ToothCouple:
 
     def _line(self, x: Any, m: ModuleType) -> tuple[Any, Any, Any, Any, Any, Any]:
         """u, sin psi, cos psi, c, s, q: psi = x + beta1 the driver's flank, s and q sine and cosine of psi + y."""
+        # half angles: 1 - cos x would cancel near the line of centres
         u, w = m.sin(x / 2), m.cos(x / 2)
         sine, cosine = 2 * u * w, 1 - 2 * u * u
         sin_psi = self.sin1 * cosine + self.cos1 * sine
@@ -49,6 +50,7 @@ class ToothCouple:
     def approach_angle(self, x: Any, m: ModuleType = math) -> Any:
         """alpha_2 in approach, Eq. (7)."""
         _, sin_psi, cos_psi, c, s, q = self._line(x, m)
+        # sin(alpha_2) = s cos psi - q sin psi as a product with c = s - sin psi: the difference cancels at large z
         return m.asin(c * (cos_psi + sin_psi * (sin_psi + s) / (cos_psi + q)))
 
     def _driver_arm(self, u: Any, cos_psi: Any, q: Any) -> Any:
@@ -87,6 +89,7 @@ class ToothCouple:
         W = 4 * self.D * self.R1 * (self.entry - u) * (self.entry + u)
         foot = self.R2 * self.cos2
         arm = m.sqrt(foot * foot - W)
+        # the lesser root foot - arm as a quotient: the difference would cancel
         v = W / (foot + arm)
         across, along = self.R1 * sine, self.R2 - self.delta + 2 * self.R1 * u * u
         inner, outer = self.R2 - v * self.cos2, v * self.sin2

@@ -238,6 +238,7 @@ class TriangularTransmission(TransmissionFunction):
         """Mean and rms of the transmission error (rad of the driven wheel)."""
         lags = [(self._lag(interval, x), weights) for interval, x, weights in self.nodes]
         mean = sum(float(weights @ lag) for lag, weights in lags)
+        # about the mean found first: the mean of squares less the square of the mean would cancel
         square = sum(float(weights @ (lag - mean) ** 2) for lag, weights in lags)
         return (-mean if self.direction > 0 else self.sizes.p2 + mean), sqrt(square)
 
@@ -280,6 +281,7 @@ class TriangularTransmission(TransmissionFunction):
             if interval.held is None:
                 x = np.linspace(high, low, 101)
                 side, tan2, tan1 = self.contact.path.couple.friction(interval.phase, x, np)
+                # the middle one of 101: stretches end at the line of centres, so that one sample tells the side
                 inner = side[50] > 0
                 steepest = max(steepest, float(np.maximum(tan2, tan1).max()) if inner else 0.0)
         return 1 / steepest if steepest else inf

@@ -75,7 +75,7 @@ def loops(configuration: Configuration) -> list[list[int]]:
 
 
 def regions(configuration: Configuration) -> list[list[int]]:
-    """The walks round the regions that the arcs of the meshes cut the sphere into, each counterclockwise."""
+    """Face tracing: the walks round the regions into which the arcs of the meshes cut the sphere, counterclockwise."""
     beside: dict[int, list[int]] = {}
     for i, j in configuration.meshes:
         beside.setdefault(i, []).append(j)

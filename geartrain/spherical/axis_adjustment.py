@@ -39,6 +39,7 @@ def tangency(axes: Floats, meshes: Meshes, teeth: Floats, pitch: float) -> tuple
 
     S, slopes = angle_rows(axes, meshes)
     i, j = np.array(meshes).T
+    # short of a crown gear, where the slope of the arc sine is infinite
     sine = np.minimum(pitch * teeth, 1 - 1e-9)
     widen = -teeth / np.sqrt(1 - sine**2)
     cones = np.arcsin(sine)
@@ -82,6 +83,7 @@ def least_step(J: csr_array, error: Floats, damping: float) -> Floats:
     from scipy.sparse.linalg import splu
 
     m, n = J.shape
+    # bordered, not J J^T + damping: that would be squared in condition, and full
     system = block_array([[eye_array(n), J.T], [J, -damping * eye_array(m)]], format="csc")
     # the column of the pitch is full: an ordering for symmetric matrices puts it last
     factor = splu(system, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.01, options={"SymmetricMode": True})
@@ -127,7 +129,7 @@ class AxisAdjustment:
 
 
 def fit_pitch(axes: Floats, meshes: Meshes, teeth: Ints, pitch: float, seed: int = 0) -> AxisAdjustment:
-    """Axes near the given ones at which all meshes have one pitch, by Levenberg's steps of least norm.
+    """Levenberg's method with steps of least norm: axes near the given ones at which all meshes have one pitch.
 
     Solutions are not unique: these are near ones. Where the tangencies depend on each other (symmetric solids) and
     that finds none, the axes are first moved at random, by a few degrees; a fit that is not `exact` found none near.
@@ -167,6 +169,7 @@ def _levenberg(axes: Floats, meshes: Meshes, z: Floats, pitch: float, residuals:
         step = least_step(J, error, damping)
         step *= min(1.0, _LONGEST / max(float(np.abs(step[:-1]).max()), 1e-300))
         tried = moved(axes, step[:-1].reshape(-1, 2))
+        # a step may halve the pitch at most, and make no gear larger than a crown gear
         width = min(max(pitch + float(step[-1]), pitch / 2), (1 - 1e-9) / float(z.max()))
         there, slopes = tangency(tried, meshes, z, width)
         new = float(np.abs(there).max())
@@ -232,7 +235,10 @@ def _phase_steps(
 
 
 def phase_step(J: csr_array, error: Floats, A: csr_array, logs: Floats, damping: float) -> Floats:
-    """The step x with J x = -error and the least |logs + A x - s|^2 + damping |x|^2, over all x and s."""
+    """Least squares under equality constraints, their multipliers in one sparse system (Karush, Kuhn and Tucker).
+
+    The step x with J x = -error and the least |logs + A x - s|^2 + damping |x|^2, over all x and s.
+    """
     from scipy.sparse import block_array, csc_array, eye_array
     from scipy.sparse.linalg import splu
 
@@ -242,7 +248,7 @@ def phase_step(J: csr_array, error: Floats, A: csr_array, logs: Floats, damping:
         [
             [A.T @ A + damping * eye_array(n), -A.T @ ones, J.T],
             [-ones.T @ A, ones.T @ ones, None],
-            [J, None, -1e-14 * eye_array(loops)],
+            [J, None, -1e-14 * eye_array(loops)],  # loops may depend on each other: not quite 0 keeps it regular
         ]
     ).tocsc()
     right = np.concatenate([-(A.T @ logs), [float(logs.sum())], -error])

@@ -67,6 +67,7 @@ def _vectors(axes: Floats, cones: Floats) -> Floats:
 def _circles(vectors: Floats) -> tuple[Floats, Floats]:
     """Axes and half-angles of circles given as vectors."""
     length = np.linalg.norm(vectors[:, :3], axis=1)
+    # the last entry is the cotangent: right for small and for large circles alike
     return vectors[:, :3] / length[:, None], np.arctan2(1.0, vectors[:, 3])
 
 

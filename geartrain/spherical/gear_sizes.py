@@ -137,6 +137,7 @@ def size_gears(configuration: Configuration, mean_pressure: float = MEAN_PRESSUR
     S = mesh_angles(configuration.axes, configuration.meshes)
     pitches = operating_pitch(S, z[i], z[j])
     if len(mesh_kinds(configuration)) == 1:
+        # meshes of one kind have one pitch, whatever the rounding of their axes says
         pitches[:] = pitches[0]
     cones = np.stack([pitch_cone(S, z[i], z[j]), pitch_cone(S, z[j], z[i])], axis=1)
     c = base_pitch(pitches, mean_pressure)

@@ -45,6 +45,7 @@ def rounded_teeth(cones: Floats, least: int, upto: int | None = None) -> list[In
     """
     sine = np.sin(cones)
     last = least if upto is None else max(upto, least)
+    # teeth change where a scaled sine passes a half: 200 scales a tooth of the smallest gear meet most
     scales = np.linspace(least - 0.5, last + 0.5, 200 * (last - least + 1) + 1) / sine.min()
     found = {tuple(np.round(sine * scale).astype(int).tolist()) for scale in scales}
     fitting = [teeth for teeth in found if least <= min(teeth) <= last]
@@ -55,6 +56,7 @@ def rounded_teeth(cones: Floats, least: int, upto: int | None = None) -> list[In
 def kabsch_aligned(axes: Floats, onto: Floats) -> Floats:
     """The axes after the rotation that brings them nearest to others (W. Kabsch, Acta Cryst. A32 (1976) 922)."""
     U, _, V = np.linalg.svd(axes.T @ onto)
+    # the nearest orthogonal matrix may be a reflection: its least singular direction is then turned round
     flip = np.diag([1.0, 1.0, float(np.sign(np.linalg.det(U @ V)))])
     return np.asarray(axes @ U @ flip @ V, dtype=float)
 

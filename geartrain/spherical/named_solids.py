@@ -180,8 +180,9 @@ def _group(p: int) -> Floats:
     reflections = [np.eye(3) - 2 * np.outer(m, m) / (m @ m) for m in mirrors]
     found, fresh = {}, [np.eye(3)]
     while fresh:
+        # products gather rounding, but the possible entries are known; + 0.0 makes 0.0 of -0.0, for bytes to agree
         near = np.abs(fresh.pop()[..., None] - entries).argmin(axis=-1)
-        matrix = entries[near] + 0.0  # products would gather rounding errors; the possible entries are known
+        matrix = entries[near] + 0.0
         if matrix.tobytes() not in found:
             found[matrix.tobytes()] = matrix
             fresh += [mirror @ matrix for mirror in reflections]

@@ -55,6 +55,7 @@ def pressure_angle(c: float, pitch: ArrayLike) -> Floats:
     nan where the operating pitch is less than the base pitch: there the base cones overlap, and no involute meshes.
     """
     share = c / np.asarray(pitch, dtype=float)
+    # `where` works out both sides: without the minimum numpy would warn
     return np.asarray(np.where(share <= 1, np.arccos(np.minimum(share, 1)), np.nan), dtype=float)
 
 
@@ -74,6 +75,7 @@ def virtual_teeth(z: ArrayLike, rho: ArrayLike) -> Floats:
     inf for crown and internal gears.
     """
     share = np.cos(rho)
+    # the cosine of pi/2 in floats is 6e-17
     flat = share < 1e-15
     return np.asarray(np.where(flat, np.inf, np.divide(z, np.where(flat, 1, share))), dtype=float)
 
@@ -113,6 +115,7 @@ def mesh_angles(axes: Floats, meshes: Sequence[tuple[int, int]]) -> Floats:
 
 def frames(axes: Floats) -> Floats:
     """Two directions across each axis that make a right-handed frame with it, (gears, 2, 3)."""
+    # crossed with the coordinate axis farthest from it, of which 0.8 at least is left
     least = np.eye(3)[np.argmin(np.abs(axes), axis=1)]
     first = np.cross(axes, least)
     first /= np.linalg.norm(first, axis=1)[:, None]
@@ -130,6 +133,7 @@ def moved(axes: Floats, steps: Floats) -> Floats:
     """Axes after steps along the great circles of their `frames`; steps in rad, (gears, 2)."""
     along = np.einsum("gk,gkx->gx", steps, frames(axes))
     length = np.linalg.norm(along, axis=1)[:, None]
+    # sin(length) / length, right at 0 too
     turned = np.cos(length) * axes + np.sinc(length / np.pi) * along
     return np.asarray(turned / np.linalg.norm(turned, axis=1)[:, None], dtype=float)
 

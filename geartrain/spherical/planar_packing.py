@@ -128,11 +128,13 @@ class PlanarPacking:
             # one radius is free: the packing of the plane has no scale
             step = np.zeros(n)
             step[1:] = splu(matrix[1:, 1:].tocsc()).solve(excess[1:])
+            # Newton's step may be far too long where an angle hardly depends on the radii yet
             step *= min(1.0, _LONGEST / max(float(np.abs(step).max()), 1e-300))
             u = u + step
             excess = angle_excess(u, i, j, target)
             residuals.append(float(np.abs(excess).max()))
             on_step()
+            # or where the residual, the rounding of many angles, no longer falls
             if np.abs(step).max() < 1e-13 or (residuals[-1] < 1e-11 and _stalls(residuals)):
                 break
         else:
@@ -154,6 +156,7 @@ class PlanarPacking:
                 if np.isinf(r[other]):
                     lines[other] = (direction, centre[node])
                 elif other not in centre:
+                    # orthogonal circles: the radii to a crossing make a right angle
                     centre[other] = centre[node] + direction * np.hypot(r[node], r[other])
                     queue.append((other, node, -direction))
         return self._on_sphere(r, centre, lines)

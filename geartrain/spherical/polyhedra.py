@@ -263,6 +263,7 @@ def _face(vertices: Floats, members: frozenset[int], scale: float) -> tuple[tupl
     index = np.array(sorted(members))
     centre = vertices[index].mean(axis=0)
     arms = vertices[index] - centre
+    # the plane of least squares: the right singular vector of the least singular value is its normal
     first, second, normal = np.linalg.svd(arms)[2]
     if normal @ (centre - vertices.mean(axis=0)) < 0:
         normal = -normal

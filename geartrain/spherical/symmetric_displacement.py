@@ -51,6 +51,7 @@ class SymmetricFreedom:
         """
         kept = self.matrices[self.images[:, gear] == gear].mean(axis=0) - np.outer(axis, axis)
         values, vectors = np.linalg.eigh((kept + kept.T) / 2)
+        # the mean over a group of matrices is a projection: eigenvalues 0 and 1, but for rounding
         free: Floats = vectors[:, values > 0.5].T
         return free
 
@@ -121,6 +122,7 @@ def _newton(wrong: Callable[[Floats], Floats], unknown: Floats) -> tuple[Floats,
     """Least-norm Newton steps, each short and never uphill; the unknowns and the largest residual left."""
     residual = wrong(unknown)
     for _ in range(_MOST_STEPS):
+        # singular values below 1e-9 are noise of the differences that the slopes are taken from
         step = -np.linalg.lstsq(_slopes(wrong, unknown), residual, rcond=1e-9)[0]
         step *= min(1.0, _LONGEST / max(float(np.abs(step[:-1]).max(initial=0.0)), 1e-300))
         while np.abs(step).max() > 1e-16 and not np.linalg.norm(wrong(unknown + step)) < np.linalg.norm(residual):

@@ -125,6 +125,7 @@ def _ranges(
 
 def _blocks(ranges: Sequence[NDArray[np.int64]]) -> Iterator[list[NDArray[np.int64]]]:
     """All combinations, as flat columns: the last two kinds in full, the others one combination at a time."""
+    # two kinds at a time bound the memory: all sets at once may be 2e8
     tail = [column.ravel() for column in np.meshgrid(*ranges[-2:], indexing="ij")]
     if not tail[0].size:
         return
@@ -278,6 +279,7 @@ class _Search:
         for rule in self.rules:
             good = closes(block, rule, self.tolerance)
             block = [column[good] for column in block]
+        # rounding must not remove sets whose tips just clear
         clear = self.room(block) >= TIP_ROOM - 1e-9
         self.tips_removed += int((~clear).sum())
         block = [column[clear] for column in block]

@@ -173,7 +173,7 @@ _PRIMES = [n for n in range(2, _SMALL) if all(n % k for k in range(2, int(n**0.5
 
 
 def _parted(powers: dict[int, int]) -> dict[int, int]:
-    """Factor refinement: powers of large numbers as those of numbers that share no factor; too many stay as they are."""
+    """Factor refinement: large numbers' powers as those of numbers that share no factor; too many stay as they are."""
     if len(powers) > _MOST_ROUGH:
         return powers
     base: list[int] = []

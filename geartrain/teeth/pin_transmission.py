@@ -6,7 +6,7 @@ The driver's angle S is counted from the direction that points from the pin's ax
 from __future__ import annotations
 
 from fractions import Fraction
-from math import acos, acosh, asin, inf, log, nan, pi, sqrt
+from math import acos, acosh, atan2, inf, log, nan, pi, sqrt
 from typing import TYPE_CHECKING, ClassVar, Literal
 
 import numpy as np
@@ -60,7 +60,8 @@ class PinTransmission(TransmissionFunction):
     @property
     def amplitude(self) -> float:
         """Greatest transmission error (rad), the same on both sides: asin of the lesser over the greater distance."""
-        return asin(min(self.r, self.e) / max(self.r, self.e))
+        less, more = min(self.r, self.e), max(self.r, self.e)
+        return atan2(less, sqrt((more - less) * (more + less)))  # not asin, which loses half the digits near r = e
 
     @property
     def _steepest(self) -> float:
@@ -258,12 +259,20 @@ class SlotToPinTransmission(PinTransmission):
         ndarray
             Of that shape [rad of the pin].
         """
-        return np.asarray(-np.arcsin(self.e / self.r * np.sin(np.asarray(S, dtype=float))))
+        across, along = self._sides(S)
+        return np.asarray(-np.arctan2(across, along))
 
     def speed(self, S: ArrayLike) -> Floats:
         """Speed ratio 1 - e cos S/sqrt(r^2 - e^2 sin^2 S)."""
+        _, along = self._sides(S)
+        return np.asarray(1 - self.e * np.cos(np.asarray(S, dtype=float)) / along)
+
+    def _sides(self, S: ArrayLike) -> tuple[Floats, Floats]:
+        """r sin d and r cos d, d the angle between pin radius and slot, sin d = (e/r) sin S."""
         S = np.asarray(S, dtype=float)
-        return np.asarray(1 - self.e * np.cos(S) / np.sqrt(self.r**2 - (self.e * np.sin(S)) ** 2))
+        # sqrt(r^2 - e^2 sin^2 S), as a sum: near r = e the difference would cancel
+        along = np.sqrt((self.r - self.e) * (self.r + self.e) + (self.e * np.cos(S)) ** 2)
+        return self.e * np.sin(S), along
 
     def speed_range(self) -> tuple[float, float]:
         """1 - e/r and 1 + e/r."""
@@ -277,8 +286,8 @@ class SlotToPinTransmission(PinTransmission):
         ndarray
             Of that shape; 0 where friction locks.
         """
-        d = np.arcsin(self.e / self.r * np.sin(np.asarray(S, dtype=float)))
-        return np.asarray(np.maximum(1 - self.friction * np.abs(np.tan(d)), 0.0))
+        across, along = self._sides(S)
+        return np.asarray(np.maximum(1 - self.friction * np.abs(across) / along, 0.0))
 
     def efficiency_mean(self) -> float:
         """1 - (f/pi) ln((r + e)/(r - e)), over a turn of the slot at constant torque on it; NaN where it locks."""

@@ -7,6 +7,7 @@ from fractions import Fraction
 from math import asin, degrees, pi
 from typing import Any
 
+import mpmath
 import numpy as np
 import pytest
 from hypothesis import given
@@ -144,6 +145,21 @@ def test_the_mean_efficiency_keeps_its_digits_where_its_closed_form_is_nearly_0_
     law = PinToSlotTransmission(5, 4, 0.75 * (1 + off))
     x, weights = np.polynomial.legendre.leggauss(200)
     assert law.efficiency_mean() == pytest.approx(float(weights @ law.efficiency(pi * (x + 1) / 2)) / 2, rel=2e-14)
+
+
+@pytest.mark.parametrize("r", [2.0, 1 + 1e-6, 1 + 1e-9])
+def test_the_law_of_a_slot_that_drives_is_good_to_rounding_however_near_the_pin_passes_its_axis(r: float) -> None:
+    law = SlotToPinTransmission(r, 1, 1e-6)
+    angles = np.concatenate([np.linspace(0, 3, 31), pi / 2 + np.logspace(-8, -1, 15)])
+    with mpmath.workdps(40):
+        exact = []
+        for angle in map(mpmath.mpf, angles.tolist()):
+            sine = mpmath.sin(angle) / mpmath.mpf(r)
+            cosine = mpmath.sqrt(1 - sine**2)
+            speed = 1 - mpmath.cos(angle) / (mpmath.mpf(r) * cosine)
+            exact.append([float(each) for each in (-mpmath.asin(sine), speed, 1 - law.friction * sine / cosine)])
+    found = np.stack([law.error(angles), law.speed(angles), law.efficiency(angles)], axis=1)
+    assert np.abs(found - np.array(exact)).max() < 1e-15
 
 
 @pytest.mark.parametrize("kind", [PinToSlotTransmission, SlotToPinTransmission])

@@ -26,7 +26,7 @@ _KEPT = 1 << 29
 """Bits of long numbers that are remembered, for the next ones to be read are likely to be near: 64 MB."""
 
 _SMALL = 1000  # primes up to here are divided out; what is left of a tooth count below the square is prime
-_MOST_ROUGH = 1000
+_MOST_ROUGH = 1000  # numbers without small primes: to part them from each other takes the square of how many they are
 
 
 class FactoredRatios:

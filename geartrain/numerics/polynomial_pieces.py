@@ -20,9 +20,10 @@ if TYPE_CHECKING:
 COUNT = 16  # coefficients of a piece
 FINE = 2e-15  # of the size: as good as given
 _NOISE = 1e-10  # of the size: less may be the rounding of what is given, if halving does not lessen it
-_DEEPEST = 40
+_DEEPEST = 40  # halvings: a piece is 1e-12 of the curve then
 _TAIL = 3  # coefficients that tell whether a piece is short enough
 _NODES, _SERIES = points(COUNT)
+# between the nodes, where a piece is off most
 _BETWEEN = -np.cos(np.pi * (np.arange(COUNT - 1) + 0.5) / (COUNT - 1))
 # Chebyshev coefficients as powers, for Horner's rule: the sums of T_k's factors grow by 2.4 a degree, and coefficients
 # that reach `FINE` fall by some 10, so that nothing cancels

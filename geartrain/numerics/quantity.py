@@ -15,7 +15,7 @@ from geartrain.numerics.units import IRRATIONAL, RADIANS_PER_TURN, SPELT, UNITS,
 _MOST_DIGITS = 400  # longer numbers are slips or attacks, and squaring them would take minutes
 _NUMBER = r"[+-]?(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][+-]?\d{1,3})?"
 _MOST = Fraction("1e300")  # what a float holds, with room for units
-_LEAST_MEASURE = Fraction(1, 10**30)
+_LEAST_MEASURE = Fraction(1, 10**30)  # of base units: up to the tenth power such a measure is a float
 _IN_FLOATS = ("length", "angle", "inertia")
 _FIGURE = re.compile(rf"^\s*({_NUMBER})\s*(?:([/:])\s*({_NUMBER}))?\s*$")
 _QUANTITY = re.compile(rf"^\s*({_NUMBER}(?:\s*[/:]\s*\d+)?)\s*([^\d\s].*?)?\s*$")

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
     Value = Callable[[NDArray[np.int64], Floats], Floats]
 
-_MOST_STEPS = 100
+_MOST_STEPS = 100  # halving alone needs some 55 where the root is not near 0
 _PATIENCE = 4  # steps without half the bracket: halve it
 
 

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 Meshes = Sequence[tuple[int, int]]
-_MOST_STEPS = 80
+_MOST_STEPS = 80  # of either method
 _EXACT = 1e-11
 """Residual (rad, or pitches) under which a fit counts as exact: rounding leaves about 1e-15."""
 _TRIES = (0.0, 0.01, 0.02, 0.04, 0.08)

@@ -20,8 +20,8 @@ if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
 
 
-_MOST_STEPS = 100
-_MOST_POLISH = 12
+_MOST_STEPS = 100  # four or five on usual graphs
+_MOST_POLISH = 12  # two or three on usual graphs: the layout is nearly right
 _LONGEST = 2.0
 """Largest rapidity of one boost."""
 

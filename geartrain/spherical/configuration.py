@@ -166,7 +166,7 @@ _NOTE = (
     "seen from outside. Two wheels in mesh turn against each other."
 )
 
-_SHORT = 1 << 20
+_SHORT = 1 << 20  # denominators of coordinates such as 3/4, which floats hold as they are meant
 
 
 def to_train(configuration: Configuration, name: str = "") -> dict[str, Any]:

@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 
 
 Aim = Literal["pitch", "phases"]
-_EXACT = 1e-11
+_EXACT = 1e-11  # pitches: rounding leaves far less
 _MOST_CHOICES = 24
 """Roundings of the teeth that are compared by how far their loops are from closing."""
 

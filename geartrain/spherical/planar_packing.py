@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats, Ints
 
 
-_MOST_STEPS = 100
+_MOST_STEPS = 100  # six or seven on usual graphs
 _LONGEST = 2.0
 """Largest change of a log radius in one step."""
 

@@ -34,7 +34,7 @@ if TYPE_CHECKING:
 
 
 _EQUAL = 1e-12  # turns: contacts of a gear that stand at equal angles
-_MOST_PARTS = 60
+_MOST_PARTS = 60  # of a turn: so few that no angle is within 1e-12 of a multiple of one by accident
 
 
 def from_polyhedron(

@@ -28,7 +28,7 @@ REFERENCE_ANGLE = "20 deg"
 """Pressure angle of the involute with which forms are compared."""
 USUAL = ("involute", "uniform_stress", "uniform_temperature_b", "least_friction", "cycloidal", "lantern")
 """Forms that are compared where none are named: one reading of each."""
-_MOST_PITCHES = 100.0
+_MOST_PITCHES = 100.0  # of an arc
 _EIGHTH = 0.125  # turn: from 45 deg on teeth of uniform stress are no longer determined by their pressure angle
 
 

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 Halves = tuple[float, float]
 """Half the thickness of a tooth of each gear on its pitch surface, as X; infinite for pins, which have no point."""
 
-_SCAN = 257
+_SCAN = 257  # contacts of a side: a speed that is below 0 between two of them only is not seen
 
 
 def faults(path: PathOfContact, halves: Halves | None = None) -> tuple[ToothFault, ...]:

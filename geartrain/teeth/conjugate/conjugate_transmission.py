@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from geartrain.teeth.conjugate.admissibility import Halves
     from geartrain.teeth.conjugate.path_of_contact import PathOfContact
 
+# 8 nodes leave 1e-11 on usual teeth and 16 rounding: twice that for steep ones
 _GAUSS = np.polynomial.legendre.leggauss(32)
 _NARROW = 1e-13  # of a period: a stretch that is none
 _TOUCH = 1e-12  # of a pitch: a gap between two contacts that is rounding

@@ -36,8 +36,9 @@ if TYPE_CHECKING:
     Made = Callable[[PitchSurfaces, ValueAndSlope, ChebyshevSeries, float], PathPiece]
 
 _NEAR = 0.05  # of a side: nearer to the pitch point slopes are those of the series
+# 16 nodes leave rounding on usual sides: far more for those near a right angle
 _GAUSS = np.polynomial.legendre.leggauss(64)
-_TRIES, _CUTS = 20, 4
+_TRIES, _CUTS = 20, 4  # how many ends a series is solved up to, and how many one series is cut at
 _BEYOND = 1e-7  # of a series' length: so far past its end it is as good as inside
 _SETTLED = 1e-9  # of the end: so near, one more Newton step on the piece's own series is exact
 _FARTHER, _REACH = 0.1, 8.0  # so far past its end a series still tells where to solve next: this, or (8 / nodes)^2

@@ -35,6 +35,7 @@ if TYPE_CHECKING:
     from geartrain.teeth.conjugate.pitch_surfaces import PitchSurfaces
 
 
+# 12 nodes leave 1e-12 on usual paths and 24 rounding: twice that for steep ones
 _GAUSS = np.polynomial.legendre.leggauss(48)
 _SCAN = 257  # points of one piece among which an extreme is looked for
 _NARROWED, _ACROSS = 5, 33  # times the bracket around it is scanned again, and by how many points

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
     Points = NDArray[np.complex128]
 
-_SCAN, _NARROWED = 129, 6
+_SCAN, _NARROWED = 129, 6  # positions in a bracket, and how often it is narrowed, by 64 each time
 _FARTHEST = 0.6  # of the way to the far side of the lantern
 
 

@@ -20,10 +20,10 @@ if TYPE_CHECKING:
 
 ValueAndSlope = Callable[["Floats", "Floats"], "tuple[Floats, Floats]"]
 
-_NODES = (24, 48, 96, 192)
-FALLEN = 1e-14
+_NODES = (24, 48, 96, 192)  # doubled until the last coefficients have fallen
+FALLEN = 1e-14  # of the greatest coefficient: less is rounding
 _UNFINISHED = 1e-5  # coefficients that have not fallen so far with the most nodes: beyond 84 deg or so
-_STEPS = 25
+_STEPS = 25  # of Newton's method
 _ROUGH = 1e-9  # residuals below this are left to rounding
 
 

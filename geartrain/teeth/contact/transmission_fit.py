@@ -20,8 +20,10 @@ if TYPE_CHECKING:
     from geartrain.teeth.contact.gear_outline import GearOutline
 
 _NODES = -np.cos(np.pi * (np.arange(COUNT) + 0.5) / COUNT)  # inside, so that a stretch never asks beyond its corners
+# between the nodes, where fits are off most, and short of the ends, beyond which something else may touch
 _CHECKS = np.concatenate([[-0.999], -np.cos(np.pi * np.arange(1, COUNT) / COUNT), [0.999]])
 _ALL = np.sort(np.concatenate([_NODES, _CHECKS]))
+# from values to coefficients; at these nodes as well conditioned as a cosine transform
 _SERIES = np.linalg.inv(cheb.chebvander(_NODES, COUNT - 1))
 _PARTS = 4  # stretches of a pitch to begin with
 _OFFSET = 0.1180339887498949  # of a stretch: no corner is likely to be exactly where one begins

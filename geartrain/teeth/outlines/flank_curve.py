@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from geartrain.teeth.conjugate.path_of_contact import PathOfContact
 
 _DENSE = 801  # points from which the spacing of the others follows
-_FEWEST = 8
+_FEWEST = 8  # pieces, however straight a flank is
 _FINE = 4e-6  # modules: finer than this turning is lost in rounding
 _NEAR = 1e-3  # of a flank: points as near as that are one
 _STRAIGHT = 1e-9  # modules, or rad: what bends by less is straight

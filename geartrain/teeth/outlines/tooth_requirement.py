@@ -104,7 +104,7 @@ CLEARANCE = 0.25  # modules
 _FILLET = 0.38  # modules
 _BITES = (1e-9, 1e-6)  # modules: deeper is interference; flanks found by numbers are not nearer to their true ones
 _RELIEFS = (0.0, 0.5, 1.0, 2.0, 3.0, 5.0, 8.0, 12.0, 18.0)  # deg; a root so much steeper than the flank it goes on from
-_LEAST_FILLET = 1e-3
+_LEAST_FILLET = 1e-3  # modules
 _HALVINGS = 18  # of less than 0.4 modules: to 2e-6
 _ALIKE = 1e-5  # modules: flanks that differ by less are one
 

@@ -303,6 +303,7 @@ def relevant_circuits(circuits: Sequence[Circuit], keep: Iterable[str]) -> list[
     users: dict[str, set[int]] = {}
     members: list[tuple[str, ...]] = []
     for at, circuit in enumerate(circuits):
+        # only links whose coefficient is not 0: such a link alone can always meet its row
         links = tuple(link for link, _ in circuit.terms)
         members.append(links)
         for link in links:

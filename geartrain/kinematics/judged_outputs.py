@@ -14,7 +14,7 @@ from geartrain.numerics.plain_data import Key, Result
 from geartrain.train import Output, Published, StateCase, Target, Train
 from geartrain.train.periods import period_table
 
-DAYS_PER_CENTURY = 36525
+DAYS_PER_CENTURY = 36525  # Julian century
 SpeedValue = Fraction | float | LongFloat
 Relative = Callable[[str, str], SpeedValue | None]
 """Speed of a link seen from another, about the first one's axis; None where it is not determined."""
@@ -332,6 +332,7 @@ def _against(train: Train, target: Target, speed: SpeedValue) -> TargetResult:
         goal,
         error,
         as_plain_product(error, DAYS_PER_CENTURY) if train.unit_days is not None and goal.speed else None,
+        # of a goal that turns backwards, more speed is a smaller number: a gain is positive in both senses
         as_plain_product(-ahead if goal.speed < 0 else ahead, 360),
         None if tolerance is None else magnitude(error) <= tolerance,
     )

@@ -82,6 +82,7 @@ def find_levers(train: Train, tree: Tree, circuits: Sequence[Circuit]) -> list[L
         axis = tree.axis(name)
         coaxial = {link: x for link, x in relative.items() if link == train.frame or tree.axis(link) == axis}
         members = coaxial if len(coaxial) > 1 else relative
+        # exact, so that of two members at the same distance the first always counts as 1
         scale = max(members.values(), key=abs)
         found.append(Lever(name, {name: Fraction(0)} | {link: x / scale for link, x in members.items()}))
     return found

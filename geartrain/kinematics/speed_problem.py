@@ -115,6 +115,7 @@ class SpeedProblem:
 
     def _part(self, circuits: Sequence[Circuit], links: tuple[str, ...]) -> SolvedPart:
         declared = self.declaration
+        # inputs of all states: components are walked once, and serve every state
         first = (*declared.inputs, *(link for state in declared.states.values() for link in state.inputs or ()))
         return SolvedPart(links, declared.frame, circuits, first)
 

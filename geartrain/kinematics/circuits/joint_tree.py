@@ -68,6 +68,7 @@ def find_tree(train: Train) -> Tree:
     while queue:
         link = queue.popleft()
         for other, axis, at in joints[link]:
+            # by pair, not by link: two pairs that join the same two links close a cycle
             if at in used:
                 continue
             used.add(at)

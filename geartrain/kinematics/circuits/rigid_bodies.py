@@ -106,6 +106,7 @@ class _Lines:
 
     def rigid(self, labels: Sequence[str]) -> bool:
         """Whether a chain of these axes that is closed into a ring cannot move."""
+        # up to three different lines have independent screws in every pose; of more only the rank in this pose tells
         if len(labels) <= 3 and not any(self._alike(one, other) for one, other in combinations(labels, 2)):
             return True
         screws = [screw for label in labels if (screw := self._axes.screw(label)) is not None]

@@ -62,6 +62,7 @@ class _Search:
         if self.budget < 0:
             raise OverBudgetError
         loops = disjoint_loops(self.network, gone, kept)
+        # each of these loops costs a mesh of its own, so nothing below this branch is smaller than the best
         if loops is None or len(gone) + len(loops) >= self.most:
             return
         if not loops:
@@ -72,6 +73,7 @@ class _Search:
             if mesh in kept or mesh in self.network.firm:
                 continue
             self._branch([*gone, mesh], kept)
+            # all sets with this mesh are tried: in what follows it stays, so that no set is tried twice
             kept.add(mesh)
             passed.append(mesh)
         kept.difference_update(passed)
@@ -115,6 +117,7 @@ def _suspects(network: GainGraph, found: GainWalk, most: int = 64) -> tuple[dict
             seen.add(meshes)
             for step in meshes:
                 times[step] = times.get(step, 0) + 1
+    # short loops first, for more of them fit beside each other; then by number, the same on every run
     for meshes_of in sorted(seen, key=lambda some: (len(some), sorted(some))):
         if taken.isdisjoint(meshes_of - network.firm):
             taken |= meshes_of - network.firm
@@ -162,7 +165,7 @@ def _in_order(network: GainGraph, meshes: Collection[int]) -> GainLoop:
 
 
 def _refused(network: GainGraph, order: Sequence[int]) -> list[int]:
-    """The meshes that contradict those before them, as a forest of gains grows; firm ones come first."""
+    """Kruskal's forest with gains: the meshes that contradict those before them; firm ones come first."""
     up = list(range(network.size))
     gain: list[Gain] = [1] * network.size  # speed over that of the node above
     refused = []
@@ -178,7 +181,7 @@ def _refused(network: GainGraph, order: Sequence[int]) -> list[int]:
 
 
 def _top(up: list[int], gain: list[Gain], node: int) -> tuple[int, Gain]:
-    """The root above a node, and the node's speed over the root's; the way there is shortened."""
+    """Union-find with path compression: the root above a node, and the node's speed over the root's."""
     chain = []
     while up[node] != node:
         chain.append(node)
@@ -198,9 +201,11 @@ def _improved(network: GainGraph, refused: Sequence[int]) -> list[int]:
         asked: dict[Gain, int] = {}
         for mesh in network.at[here]:
             there = network.other(mesh, here)
+            # a firm mesh outvotes all others together
             value = speed[there] * network.gain(mesh, there)
             asked[value] = asked.get(value, 0) + (len(network.ends) if mesh in network.firm else 1)
         best = max(asked, key=lambda value: asked[value])
+        # only strictly more votes move a node: the sum of votes that are met grows each time, and the loop ends
         if asked[best] > asked.get(speed[here], 0):
             speed[here] = best
             queue += [network.other(mesh, here) for mesh in network.at[here]]

@@ -183,6 +183,7 @@ def _anchors(found: GainWalk, path: Sequence[int]) -> list[int]:
     anchors = [-1] * len(found.order)
     for at, node in enumerate(path):
         anchors[node] = at
+    # the node of the path nearest the root: what hangs on no node of the path comes over this one
     top = next(at for at, node in enumerate(path) if found.parent[node] not in path[max(0, at - 1) : at + 2])
     for node in found.order:
         if anchors[node] < 0:
@@ -246,7 +247,7 @@ def shortest_loop(
 
 
 def _loop_through(network: GainGraph, without: Collection[int], start: int, below: int) -> GainLoop | None:
-    """The first loop shorter than `below` that contradicts a walk from `start`."""
+    """Breadth-first search for a loop shorter than `below` that contradicts the walk from `start`."""
     speed: dict[int, Gain] = {start: 1}
     came: dict[int, tuple[int, int]] = {}
     depth = {start: 0}
@@ -256,6 +257,7 @@ def _loop_through(network: GainGraph, without: Collection[int], start: int, belo
         if 2 * depth[here] + 1 >= below:  # what closes from here on is as long as the best at least
             break
         for mesh in network.at[here]:
+            # by mesh, not by node: two meshes between the same nodes make a loop
             if mesh in without or (here in came and mesh == came[here][1]):
                 continue
             there = network.other(mesh, here)

@@ -163,6 +163,7 @@ def _varied(part: SolvedPart) -> SolvedPart:
     """The train with another ratio for every link about every carrier; loops keep their products."""
 
     def factor(link: str, carrier: str) -> int:
+        # long and random: that a link then stands still by accident is next to impossible (Schwartz-Zippel)
         return Random(f"{link} {carrier}").randrange(10**6, 10**7)  # by name, so that it stays when meshes go
 
     circuits = [
@@ -197,6 +198,7 @@ def _coupled(part: SolvedPart, gone: Collection[str], at_least: int) -> MeshRemo
     if singles:
         return MeshRemoval((singles[0],), "one", 1, tuple(singles))
     needed = _needed(part, sorted(gears, key=lambda name: name not in gone))
+    # each mesh was tried alone, and none of them frees the train
     least = max(least, 2) if len(gears) <= _ONE_BY_ONE else least
     if sum(comb(len(gears), size) for size in range(least, len(needed))) > _TRIALS:
         return MeshRemoval(tuple(needed), "greedy", least)

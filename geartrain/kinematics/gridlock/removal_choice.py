@@ -111,6 +111,7 @@ def _choose_in_block(block: GainGraph) -> RemovalChoice:
     if bound.at_least == len(meshes) or len(block.ends) > _SEARCHED:
         return _greedy(meshes, bound)
     try:
+        # a small block has at most 2**SMALL sets of meshes, far within 10**9: its search always ends
         better = minimal_removal(plain, len(meshes), 10**9 if small else _BRANCHES // len(block.ends))
     except OverBudgetError:
         return _greedy(meshes, bound)

@@ -143,6 +143,7 @@ def _contacts(configuration: SphericalGears, circuits: tuple[Circuit, ...]) -> P
         part.append((found[0], found[1]))
         keys.append((key[0], key[1]))
     family, _ = contact_families(keys)
+    # the smaller the angle between the axes, the more of a direction across one is rounding
     slack = 16 * EPS / sine[:, None] * np.ones(2)
     return PitchPoints(circuits, azimuth, slack, family, part)
 

@@ -131,6 +131,7 @@ def cycle_weights(
     weights: list[Fraction | int] = [1]
     for node, before, mesh in zip(nodes[1:], meshes, meshes[1:], strict=False):
         came, goes = mesh_coefficient(circuits, ends, before, node), mesh_coefficient(circuits, ends, mesh, node)
+        # one wheel in both meshes, by far the most: no Fraction is made
         if abs(came) == abs(goes):
             weights.append(-weights[-1] if came == goes else weights[-1])
         else:

@@ -153,6 +153,7 @@ class PhaseSystem:
         for mesh, weight in row.items():
             slack += abs(weight) * self._doubt[mesh]
         if families is None:
+            # fsum rounds once: the order of the meshes changes no digit
             total = math.fsum(self._times(weight, self._constant[mesh]) for mesh, weight in row.items())
             # above -1/2, up to 1/2, as `centred_residue` has it: `round` would take halves to even numbers
             return PhaseCondition(cycle, row, total - math.ceil(total - 0.5), slack, False)
@@ -276,6 +277,7 @@ class PhaseSystem:
         return self._errors(self._by_links, np.asarray(angles))
 
     def _errors(self, rows: SparseRows, angles: Floats) -> Floats:
+        # whole pitches go before the sum, where they would eat the digits of the fraction
         off: Floats = self.contacts.constant - np.mod(rows.factors * angles[rows.columns], 1.0).sum(axis=1)
         off -= np.ceil(off - 0.5)
         off[list(self.parts.breaking)] = 0.0

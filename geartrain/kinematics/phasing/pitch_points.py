@@ -58,6 +58,7 @@ class PitchPoints:
     @cached_property
     def constant(self) -> Floats:
         """c of equation (1) of the page on closure, in pitches from 0 to 1: a theta_i + b theta_j = c (mod 1)."""
+        # whole pitches go before the sum, where they would eat digits; 1/2, for a tooth meets a gap
         whole: Floats = np.mod(np.mod(self.teeth * self.azimuth, 1.0).sum(axis=1) + 0.5, 1.0)
         return whole
 

@@ -211,6 +211,7 @@ class _ReadOff(Mapping[str, Fraction]):
         node = parts.nodes_of[link][0]
         carrier = parts.node_carrier[node]
         unknown = self._known[parts.node_group[node]] or zero
+        # mostly 1 or 0, and fractions may be long: no product is made that changes nothing
         speed = parts.relative(node) if unknown == 1 else parts.relative(node) * unknown if unknown else zero
         carried = zero if carrier == parts.frame else self._known[self._reduced.own[carrier]]
         return speed + carried if carried else speed

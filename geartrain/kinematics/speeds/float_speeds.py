@@ -199,6 +199,7 @@ def _solve_far(
     x, estimate, condition = _solve(near, rows, moved, way)
     powers = exponents[:, None]
     held = _held(x, powers) & _held(estimate, powers)
+    # numpy's ldexp takes C ints: powers that float64 cannot hold stay beside the number
     folded = np.where(held, powers, 0).astype(np.intc)
     return np.ldexp(x, folded), np.ldexp(estimate, folded), np.where(held, 0, powers), condition
 
@@ -225,6 +226,7 @@ def _reach(lu: Any, error: Floats) -> Floats:
             units[columns, np.arange(len(columns))] = 1.0
             found += np.abs(lu.solve(units)) @ error[columns]
         return found
+    # seeded by the size: the same train has the same estimate on every run
     draw = np.random.default_rng(size)
     for case in range(cases):
         signs = draw.choice([-1.0, 1.0], (size, _DRAWN)) * draw.uniform(0.5, 1.5, (size, _DRAWN))
@@ -320,9 +322,11 @@ def _check_range(matrix: PaddedRows, x: Floats, rest: Floats, rows: Sequence[Wil
         size = matrix.size(x)
         # rows near the end of float64 whose terms do not cancel: subnormal numbers have lost their digits
         lost = (size < 1e-250) & (np.abs(rest) > 1e-8 * size)
+        # an overflow, or factors that broke down; not `>`, so that nan counts as wrong
         wrong = ~(
             np.abs(rest) <= 1e-6 * np.maximum(size, np.abs(matrix.coefficients).sum(axis=1)[:, None] * np.abs(x).max())
         )
+    # what sank to 0 was below 5e-324, and what it meshes with below 5e-312: such a neighbour gives it away
     sunk = ((x != 0) & (np.abs(x) < 1e-280))[matrix.columns].any(axis=1) & (matrix.coefficients != 0).any(axis=1)[
         :, None
     ]

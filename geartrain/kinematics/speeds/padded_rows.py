@@ -40,6 +40,7 @@ class PaddedRows:
         """
         sizes = np.frexp(self.coefficients)[1] + exponents[self.columns]
         shifts = np.where(self.coefficients != 0, sizes, np.iinfo(np.int64).min).max(axis=1) - 1
+        # 2**-2000 is 0 in float64 whatever it multiplies; clipped so that it fits a C int
         moved = np.clip(exponents[self.columns] - shifts[:, None], -2000, 2000).astype(np.intc)
         near = copy(self)
         near.coefficients = np.ldexp(self.coefficients, moved)
@@ -65,7 +66,7 @@ class PaddedRows:
         return solver.splu(self.matrix(), permc_spec=ordering)
 
     def residual(self, x: Floats, right: Floats, remainder: Floats) -> Floats:
-        """right - A x, accumulated to twice the working precision."""
+        """right - A x by compensated dot products (Ogita, Rump and Oishi 2005, Dot2): twice the working precision."""
         total, low = right.copy(), remainder.copy()
         for position in range(self.columns.shape[1]):
             product, error = two_product(-self.coefficients[:, position, None], x[self.columns[:, position]])

@@ -69,6 +69,7 @@ def find_exponents(rows: Sequence[WillisEquation], given: Sequence[Fraction], li
     for column, form in solved.items():
         speed: Any = form.get(_GIVEN)
         if speed and len(form) == 1:
+            # in logarithms: the speed itself may be beyond float64
             found[column] = log2(abs(speed.mantissa)) + speed.exponent
     for line, right in zip(lines, given, strict=True):
         if len(line) == 1 and not right:  # held still

@@ -167,6 +167,7 @@ def measure_laws(train: GearTrain, state: str | None, positions: int) -> Iterato
 
     from geartrain.teeth.transmission_table import TabulatedTransmission
 
+    # equal steps could fall on the nodes of the tables, and miss their error; seeded, so that it is the same each time
     random = np.random.default_rng(1)
     S = {name: random.uniform(0, 10 * law.period, positions) for name, law in laws.items()}
 
@@ -258,6 +259,7 @@ def _of_outputs(
     import numpy as np
 
     greatest, ripple = np.degrees(np.abs(off).max(axis=1)), np.degrees(np.ptp(direct, axis=1))
+    # of outputs equally far off the one with the largest ripple
     at = int(np.lexsort((ripple, greatest))[-1])
     reference = f"composed, of {list(motion.outputs)[at]}: {ripple[at]:.3g} deg peak to peak"
     return MethodAccuracy(MOTION, method, seconds, float(greatest[at]), "deg", reference, prepared)

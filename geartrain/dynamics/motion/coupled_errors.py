@@ -81,6 +81,7 @@ def _newton(pairs: CoupledErrors, base: Floats) -> tuple[Floats, Floats]:
     length, size, step = np.ones(len(active)), np.full(len(active), np.inf), np.zeros_like(now)
     for _ in range(_MOST_STEPS):
         trial = now - length * step
+        # at first the step is 0 and the size infinite: the first trial is the start itself
         error, slope = pairs.laws_at(base[:, active] + pairs.gain @ trial, active)
         residual = trial - error
         found = np.max(np.abs(residual), axis=0)
@@ -119,6 +120,7 @@ def _solve(matrices: Floats, right: Floats) -> Floats:
     if matrices.shape[1] == 1:
         return np.asarray(right / matrices[:, 0, 0])
     if matrices.shape[1] == 2:
+        # all positions in a few array operations, where LAPACK would be called once a position
         (a, b), (c, d) = matrices[:, 0].T, matrices[:, 1].T
         whole = a * d - b * c
         return np.stack([(right[0] * d - b * right[1]) / whole, (a * right[1] - c * right[0]) / whole])

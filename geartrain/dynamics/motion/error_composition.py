@@ -212,6 +212,7 @@ class ErrorComposition:
     @cached_property
     def chunk(self) -> int:
         """Positions worked on at once: memory is bounded however long the train."""
+        # errors and rates of the links, and of coupled pairs a Jacobian at each position
         widest = max((len(step.sources) ** 2 for step in self.steps if step.coupled), default=0)
         return max(64, min(_CHUNK, _NUMBERS // (2 * (self._rows + widest) + 1)))
 
@@ -315,12 +316,14 @@ class InputPhase:
         # Dekker's product: what rounding took from it is found exactly
         high, low = split(factor)
         left, right = self._halves
+        # largest first: in this order no sum rounds
         lost = left * high - product
         lost += left * low
         lost += right * high
         lost += right * low
         if rest := float(ratio - Fraction(factor)):
             lost += self.turns * rest
+        # exact; before the remainder is added, which many periods would swallow
         product -= np.floor(product)
         product += lost
         return product

@@ -63,7 +63,7 @@ class ErrorPropagation:
         return found
 
     def sensitivity(self, link: int, base: int, sense: int = 1) -> Floats:
-        """Radians of a link, seen from another, per radian of each pair's driven error: one walk back, all pairs.
+        """Radians of a link, seen from another, per radian of each pair's driven error, by the adjoint: one walk back.
 
         sense   -1 where the axes of the two point against each other
 
@@ -143,5 +143,6 @@ def _matrix(forms: Sequence[LinearForm], first: int, count: int) -> Floats:
     found = np.zeros((len(forms), count))
     for at, form in enumerate(forms):
         for number in range(count):
+            # exact up to here, and rounded once
             found[at, number] = float(form.get(-1 - first - number, 0))
     return found

@@ -198,6 +198,7 @@ class Motion:
         cycles = [source.cycles for source in self.ahead.used if source.cycles]
         if not cycles:
             return None
+        # the least common multiple of the periods 1 / cycles, which are in lowest terms
         return Fraction(lcm(*(each.denominator for each in cycles)), gcd(*(each.numerator for each in cycles)))
 
     @cached_property
@@ -239,6 +240,7 @@ class Motion:
         chunk = composition.chunk
         for start in range(first, samples, chunk):
             at = np.arange(start, min(start + chunk, samples))
+            # divided first: the last position is `turns` to the last bit, wherever stretches begin
             yield composition.at(turns * (at / (samples - 1)))
 
     def at(self, turns: Floats) -> ErrorSamples:

@@ -207,6 +207,7 @@ class MotionRun:
         GearTrainError
             If this run has other turns there, or fewer positions.
         """
+        # the operations of `passages` in their order: the same float, and so the same text
         turns = self.turns * ((rows - 1) / (self.samples - 1))
         if rows > self.samples or row.split(",")[0] != repr(turns):
             what = f"its row {rows} stands at {row.split(',')[0]} turns, and this run has {turns!r} there"

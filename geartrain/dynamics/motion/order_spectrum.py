@@ -101,6 +101,7 @@ def _harmonics(superposed: Superposition, at: int) -> Complex:
     u = np.arange(_SAMPLES) / _SAMPLES
     shift = source.start + superposed.lags[at]
     error = source.sense * source.law.error(u * source.law.period + shift)
+    # twice, for half of a real wave stands at the negative frequency
     return np.asarray(2 * np.fft.rfft(error)[1 : _HARMONICS + 1] / _SAMPLES)
 
 

@@ -153,6 +153,7 @@ def _added(
     """Bounds of what each pair adds, its driver's speed being bounded by what the others add."""
     swings = [each.swing for each in uneven]
     added = [SpeedBounds(0.0, 0.0)] * len(uneven)
+    # where no pairs depend on each other in a circle each round settles one more, and the last sees no change
     for _ in range(len(uneven) + 1):
         turning = [_bounds(setting, gains, added, each.driver, each.carrier) for each in uneven]
         wider = [swing.times(speed) for swing, speed in zip(swings, turning, strict=True)]
@@ -183,7 +184,7 @@ def _with_mean(
     speed = setting.relative(pair.driver, pair.carrier)
     if pair.law is None or speed is None or _between(gains, pair.driver, pair.carrier):
         return bounds
-    # an angle in the middle of each of many equal steps
+    # midpoint rule: for a periodic function with kinks as good as any
     S = (np.arange(_SAMPLES) + 0.5) * (pair.law.period / _SAMPLES)
     found = np.abs(_number(mean) + gain * (pair.law.speed(S) - float(pair.mean)) * _number(speed))
     return SpeedBounds(bounds.low, bounds.high, float(found.mean()), max(-bounds.low, bounds.high))

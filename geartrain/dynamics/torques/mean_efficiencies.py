@@ -80,7 +80,7 @@ def _mean(efficiency: float | None) -> Fraction:
     """A mean over teeth, to 15 digits; 0 where friction locks."""
     if efficiency is None:
         return Fraction(0)
-    # rounding of a quadrature may pass 1 by a little
+    # rounding of a quadrature may pass 1 by a little; digits in decimal, so that 0.98 stays 49/50
     return _ONE if 1 < efficiency < 1 + _ROUNDING else Fraction(f"{efficiency:.15g}")
 
 

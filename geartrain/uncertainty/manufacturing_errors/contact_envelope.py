@@ -90,6 +90,7 @@ class ContactEnvelope:
         couple, x_best, state = np.zeros(len(u), np.int64), np.zeros(len(u)), np.zeros(len(u), np.int64)
         for m in self._window:
             k = n + m
+            # from n on, not from the start of the cycle: numbers stay small and keep their digits
             x = m * self.pair.sizes.p1 - u + self.pair.first.place[k % self.pair.sizes.z1]
             reach = self.reaches[k % self.pair.count]
             near = (x <= reach) & ((x >= -reach) | self.dragged)
@@ -126,6 +127,7 @@ class ContactEnvelope:
         """The lag of the driven wheel whose tooth of couple k is at y while the driver's is at x."""
         driver, driven = self.pair.places(k)
         ratio = self.pair.sizes.ratio
+        # two small differences, each taken first: large terms cancel within them
         found: Floats = (y - ratio * x) + (ratio * driver - driven)
         return found
 

@@ -100,6 +100,7 @@ def cells_of(envelope: ContactEnvelope, *marks: tuple[Ints, Floats]) -> Cells:
     n, u = n[order], u[order]
     last = np.append(n[1:] != n[:-1], True)
     end = np.where(last, pitch, np.append(u[1:], pitch))
+    # marks that fall together leave cells of rounding between them, with no room inside to look from
     wide = end - u > 4 * _WITHIN * pitch
     return n[wide], u[wide], end[wide]
 

@@ -199,6 +199,7 @@ class CutTransmissionFunction(TransmissionFunction):
             part = flat[start : start + _BLOCK]
             u = np.empty_like(part)
             behind(part, self.pitch, u, np.empty_like(part))
+            # a whole number of pitches but for rounding: rounded to the nearest, not down
             n = np.rint((part - u) / self.pitch).astype(np.int64)
             parts.append(what((envelope or self._envelope).first(n, u)))
         found: Floats = np.concatenate(parts, axis=-1)

@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 
 
 PHASES = ((RECESS, RECESS), (RECESS, APPROACH), (APPROACH, RECESS), (APPROACH, APPROACH))
-_MOST_STEPS = 30
+_MOST_STEPS = 30  # bisections alone would leave 1e-9 of the reach
 _NEAR = 1e-6  # of the common reach: a step this short leaves nothing but rounding in the value
 
 

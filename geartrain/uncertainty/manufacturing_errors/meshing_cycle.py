@@ -144,6 +144,7 @@ class MeshingCycle:
         """More than the places of teeth can take from the play of a couple and the one n before it (rad)."""
         driver = float(np.abs(self.ahead(n) - n * self.sizes.p1).max())
         driven = float(np.abs(self._stop(n) - (1 - n) * self.sizes.p2).max())
+        # 1.2 here and 3 below give room: too wide a bound costs time only, too narrow a one a jam
         return 1.2 * max(steepest(even_tooth_pair(self.sizes)), self.sizes.ratio) * driver + driven
 
     def _radial(self) -> float:

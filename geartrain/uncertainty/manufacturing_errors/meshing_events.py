@@ -155,6 +155,7 @@ class _Finder:
         n, low, high = split(self.front, cells)
         m, late, early = split(self.back, (*self._behind(n, high), self.pitch - low))
         (n, low), high = self._behind(m, early), self.pitch - late
+        # looked at from a little inside, lest rounding pick the neighbour's couple
         edge = np.minimum(1e-12 * self.pitch, (high - low) / 4)
         turns = (self.falls(n, low + edge) > 0) & (self.falls(n, high - edge) < 0)
         at = n[turns]
@@ -176,6 +177,7 @@ class _Finder:
             for side, turn in ((self.front, lambda *at: at), (self.back, self._behind))
             for at in (turn(n, low + edge), turn(n, high - edge))
         ]
+        # half as much again: within a cell speeds may pass those at its ends
         steepest = 1.5 * float(np.ptp(np.concatenate(speeds)))
         near = least - steepest * (high - low) / 2 < max(float(least.min()), 0.0)
         return n[near], low[near], high[near]

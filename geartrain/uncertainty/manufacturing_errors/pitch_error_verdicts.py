@@ -96,6 +96,7 @@ def _met(driver: Any, driven: Any, least: Any) -> Any:
 
 def _rounded(spread: float) -> float:
     """A power of 2 no less than the spread, so that few tables serve many batches."""
+    # without errors of place any width serves: the table is read at its middle
     return float(2.0 ** np.ceil(np.log2(spread))) if spread > 0 else 1e-9
 
 

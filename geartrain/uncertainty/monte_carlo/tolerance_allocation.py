@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from geartrain.uncertainty.monte_carlo.trial_plan import TrialPlan
 
 _STEPS = 12  # halvings: the scale to 0.02 % of the widest
-_WIDEST = 64.0
+_WIDEST = 64.0  # times the declared errors: what passes there is sought no farther
 
 
 class FailedScale(NamedTuple):
@@ -214,6 +214,7 @@ def _bound(plan: TrialPlan, kind: str, chance: float) -> float | None:
     low, high = 0.0, 1.0
     while sum(jamming_bounds(plan.scaled(high)).values()) < chance and high < _WIDEST:
         high *= 2
+    # 40 halvings: to 1e-10
     for _ in range(40):
         middle = (low + high) / 2
         low, high = (middle, high) if sum(jamming_bounds(plan.scaled(middle)).values()) < chance else (low, middle)

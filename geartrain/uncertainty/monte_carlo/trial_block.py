@@ -58,6 +58,7 @@ class TrialWheels:
             return 0.0
         shift = np.zeros(self.trials)
         for kind, off in pair.fitting.items():
+            # always a whole block, then cut: a trial is the same however many are wanted
             drawn = self.streams.errors(len(self.plan.wheels) + at, kind, off, (BLOCK,))[: self.trials]
             # a bearing moves from tooth to tooth: where it matters most is where it counts
             shift = shift + (widest * np.abs(drawn) if kind == "bearing" and widest else drawn)
@@ -118,6 +119,7 @@ def _verdicts(pair: CutGearPair) -> MeshingVerdicts:
 
 def input_positions(plan: TrialPlan, streams: RandomStreams, trials: int = BLOCK) -> Floats:
     """Where the input stands in each trial (turns)."""
+    # a whole block, then cut, as all errors are
     return streams.rng(plan.position, POSITION).uniform(0.0, plan.span, BLOCK)[:trials]
 
 

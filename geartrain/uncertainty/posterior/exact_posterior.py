@@ -31,7 +31,7 @@ from geartrain.uncertainty.posterior.posterior_summary import (
 from geartrain.uncertainty.posterior.priors import ToothCountPrior
 from geartrain.uncertainty.posterior.sampled_posterior import plain_number
 
-_LONG = 1 << 62
+_LONG = 1 << 62  # products of total weights below this: every sum of weights is exact in int64
 
 
 def find_exact_posterior(question: InferenceProblem, most: int, limit: float) -> PosteriorSummary:

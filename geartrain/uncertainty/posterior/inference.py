@@ -228,6 +228,7 @@ def _sampled(
     question: InferenceProblem, most: int, samples: int, seed: int, means: Execution
 ) -> tuple[PosteriorSummary, bool]:
     """A sample; True if it was interrupted."""
+    # at most 1000 tasks; from the samples alone, so that any number of workers draws the same
     size = max(1 << 14, -(-samples // 1000))
     tasks = [[seed, at, min(size, samples - at * size)] for at in range(-(-samples // size))]
     tally, cut = PosteriorTally(LikelihoodBatch(question), most), False

@@ -96,6 +96,7 @@ class WheelPosterior(Result):
     def bits(self) -> float:
         """What the outputs tell of it: the relative entropy of posterior and prior [bit]; 0 for nothing."""
         pairs = zip(map(float, self.chances), self.doubt.priors, strict=False)
+        # never negative but for rounding
         return max(0.0, sum(chance * log2(chance / prior) for chance, prior in pairs if chance))
 
     def chance(self, count: int) -> CountProbability:

@@ -48,6 +48,7 @@ class LikelihoodBatch:
         self.wheels = tuple(wheel for wheel in question.doubts if wheel in moved)
         self.domains = {wheel: question.doubts[wheel].counts for wheel in self.wheels}
         self.monomials = find_monomials(functions, self.domains)
+        # formulas of few wheels first: they cost least, and what they refuse the others need not judge
         ordered = sorted(question.witnesses, key=lambda one: len(one.formula.wheels))
         outputs = question.outputs.items() if every else ()
         self._values = {name: FormulaValues.of(f, self.monomials, self.domains) for name, f in outputs}

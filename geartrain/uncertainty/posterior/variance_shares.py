@@ -20,8 +20,8 @@ from geartrain.synthesis.formulas import Formula
 from geartrain.uncertainty.posterior.posterior_result import VarianceShares
 from geartrain.uncertainty.posterior.priors import ToothCountPrior
 
-_LISTED = 200_000
-_DRAWN = 1 << 14
+_LISTED = 200_000  # combinations up to which all are taken
+_DRAWN = 1 << 14  # in each of two samples otherwise
 
 Monomials = Sequence[tuple[Fraction, tuple[int, ...]]]
 """Coefficients and powers (of either sign), in parallel to the wheels of a formula."""
@@ -102,8 +102,10 @@ def _listed(name: str, formula: Formula, doubts: Sequence[ToothCountPrior]) -> V
         return None
     priors = [np.array([float(prior) for prior in doubt.priors]) for doubt in doubts]
     mean = float(_averaged(values, priors, range(len(shape))).ravel()[0])
+    # about the mean: a mean of squares less its square would lose a small variance
     values = values - mean
     variance = float(_averaged(values**2, priors, range(len(shape))).ravel()[0])
+    # rounding of a speed that is the same for all counts
     if variance <= (1e-13 * mean) ** 2:
         return None
     own, whole = {}, {}
@@ -151,6 +153,7 @@ def _sampled(name: str, formula: Formula, doubts: Sequence[ToothCountPrior], see
     own, whole = {}, {}
     for doubt in doubts:
         mixed = formula.values(first | {doubt.wheel: second[doubt.wheel]})
+        # estimators (b) and (f) of the table; less the mean, which adds nothing but scatter
         own[doubt.wheel] = float(((b - mean) * (mixed - a)).mean()) / variance
         whole[doubt.wheel] = float(((a - mixed) ** 2).mean()) / 2 / variance
     return VarianceShares(name, mean, sqrt(variance), own, whole, False, _DRAWN)

@@ -20,10 +20,10 @@ from geartrain.synthesis.stern_brocot import nearest_first
 from geartrain.synthesis.target_ratio import TargetRatio
 from geartrain.synthesis.tooth_count_ranges import CountRuns, Counts
 
-_MOST_PAIRS = 10**6
-_MOST_SCANNED = 10**6
-_MOST_BOXES = 400
-_FAR = 10**12
+_MOST_PAIRS = 10**6  # listed
+_MOST_SCANNED = 10**6  # counts taken one by one where a list has gaps
+_MOST_BOXES = 400  # pairs of runs, where lists with gaps are longer
+_FAR = 10**12  # times beyond all ratios of the counts
 _Pair = tuple[int, int]
 
 

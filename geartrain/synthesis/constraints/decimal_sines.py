@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from geartrain.numerics.arrays import Bools, Ints
 
 
-_DIGITS = 70
+_DIGITS = 70  # fifty are meant: the others take up the rounding of sums and powers
 _PI = Decimal("3.14159265358979323846264338327950288419716939937510582097494459230781640628620899862803")
 _NEAR = 1e-7  # of the terms: floats, with a root of a difference among the terms, are nearer than this
 _EQUAL = Decimal("1e-25")  # of the terms: what agrees in so many digits is equal

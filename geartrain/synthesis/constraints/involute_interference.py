@@ -31,6 +31,7 @@ def least_teeth(pressure: Fraction, addendum: Fraction) -> int:
     """
     with localcontext(prec=50):
         limit = decimal(2 * addendum) / sine(pressure) ** 2
+        # what agrees with a whole number in 25 digits is that number, and is not rounded up past it
         return int((limit - decimal(Fraction(1, 10**25))).to_integral_value(ROUND_CEILING))
 
 

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 TIPS = 2.0
 """Twice the addendum, in modules: what a wheel's tips stand out over its pitch diameter."""
-_BEVEL = 1e-9
+_BEVEL = 1e-9  # modules; what floats may be off where room and clearance are equal
 _NEAR = 1e-6  # modules; what floats say of the room is nearer than this
 
 

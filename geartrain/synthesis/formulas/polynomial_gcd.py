@@ -66,6 +66,7 @@ def common_divisor(p: Laurent, q: Laurent) -> Laurent:
     for whole, other in ((p, q), (q, p)):
         if len(whole) <= len(other) and divide(other, whole) is not None:
             return whole
+    # in the variable of least degree Euclid's algorithm takes the fewest steps
     return _remainders(p, q, min(shared, key=lambda at: min(_degree(p, at), _degree(q, at))))
 
 

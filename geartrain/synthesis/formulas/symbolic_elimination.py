@@ -75,6 +75,7 @@ def solve_rows(rows: Sequence[Row], width: int, preferred: Sequence[int] | None 
 
     Raises `TooLongError` where so many unknowns depend on each other that their functions are of no use.
     """
+    # always the same point, so that a question has one answer
     draw = random.Random(width)
     # a polynomial that is not 0 vanishes at a random point with a chance below its degree over the prime, 2^61 - 1
     # (Schwartz and Zippel)

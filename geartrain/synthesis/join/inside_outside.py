@@ -79,6 +79,7 @@ class AssignmentSums:
         steps, found = {}, {}
         for wheel in wheels:
             sizes = np.array(counts[wheel], dtype=np.float64)
+            # about the mean: E[xy] - E[x] E[y] would lose the digits of a small covariance
             steps[wheel] = sizes - float((marginals[wheel] * sizes).sum()) / total
         for at, first in enumerate(wheels):
             tilted = self.marginals({**weights, first: weights[first] * steps[first]})

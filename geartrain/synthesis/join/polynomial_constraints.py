@@ -29,7 +29,7 @@ from geartrain.synthesis.join.solution_windows import PolynomialInequality, Solu
 Corners = Mapping[int, tuple[float, float]]
 """Open item -> its least and greatest value."""
 
-_MOST_CORNERS = 64
+_MOST_CORNERS = 64  # of a box; beyond, each term is bounded by itself
 _SHORT = 4096
 """Rows up to which a product of matrices is faster than one term after the other."""
 

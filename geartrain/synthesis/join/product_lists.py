@@ -24,9 +24,9 @@ Domains = Mapping[str, tuple[int, ...]]
 Weights = Mapping[str, tuple[int, ...]]
 """Wheel -> a whole weight for each of its counts; 1 for all of a wheel that is missing: counting is weight 1."""
 
-_LONGEST = 1 << 23
-_TRIED = 4_000_000
-_REMEMBERED = 20_000_000
+_LONGEST = 1 << 23  # products in a table made at once: 64 MB of int64
+_TRIED = 4_000_000  # products made for a forecast; beyond, it is a guess
+_REMEMBERED = 20_000_000  # values in all lists that are kept
 
 
 @dataclass(frozen=True, slots=True)

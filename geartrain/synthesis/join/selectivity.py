@@ -16,8 +16,8 @@ from geartrain.synthesis.constraints.count_conditions import CountConstraint, Co
 from geartrain.synthesis.join.product_lists import Domains
 from geartrain.synthesis.join.wheel_monomials import Function, Interval, IntervalConstraint
 
-_DRAWN = 4096
-_NEIGHBOURS = 40
+_DRAWN = 4096  # assignments
+_NEIGHBOURS = 40  # values; a share of fewer hits than these is too rough to steer by
 _EXACT = 1e-7  # the width, in logarithms, that one exact value stands for
 
 
@@ -77,5 +77,6 @@ def _part(speeds: Floats, interval: Interval) -> float:
         return within
     ends = sorted((log(abs(low)), log(abs(high))))
     near = np.sort(np.abs(side - sum(ends) / 2))[_NEIGHBOURS - 1]
+    # of many equal values the nearest few may be no distance away
     density = _NEIGHBOURS / _DRAWN / (2 * max(near, 1e-12))
     return float(min(density * max(ends[1] - ends[0], _EXACT), 1.0))

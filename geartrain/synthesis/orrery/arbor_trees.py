@@ -28,7 +28,7 @@ Edge = tuple[int, int, int, int]
 Meshes = tuple[tuple[int, int], ...]
 """Teeth (driver, driven) of each edge."""
 
-_MOST_STEPS = 4000
+_MOST_STEPS = 4000  # of one tree; a first complete choice is always found
 
 
 def fewest_wheels(table: PairRatios, edges: Sequence[Edge]) -> tuple[int, Meshes, bool]:

@@ -18,9 +18,9 @@ if TYPE_CHECKING:
     from geartrain.numerics.arrays import Ints
 
 
-_KEPT_ENTRIES = 3 * 10**7
-_TRIED = 20
-_ALIKE = 3
+_KEPT_ENTRIES = 3 * 10**7  # of remembered reaches: 240 MB of int64
+_TRIED = 20  # moves of each gain that are worked out exactly
+_ALIKE = 3  # trees that show the same, before others have their turn
 _Key = frozenset[tuple[int, int, int]]
 
 

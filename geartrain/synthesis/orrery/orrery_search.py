@@ -14,7 +14,7 @@ from geartrain.synthesis.orrery.orrery_result import Orrery, OrreryArbor, Orrery
 from geartrain.synthesis.orrery.pair_ratio_table import PairRatios, pair_ratios
 from geartrain.synthesis.orrery.period_targets import PeriodTargets, read_period_targets
 
-_WALKABLE = 2 * 10**5
+_WALKABLE = 2 * 10**5  # steps of a walk that is made unasked
 _SEEDS_A_PART = 4
 
 Tell = Callable[[int, int], None]

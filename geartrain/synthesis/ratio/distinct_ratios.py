@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     Ints = NDArray[Any]
     Span = tuple[Ints, Ints]
 
-_MANY = 1 << 20
+_MANY = 1 << 20  # pairs of products looked at together
 _CLOSE = Fraction(1, 10**40)  # so near, only pairs of one and the same ratio are left
 
 
@@ -138,4 +138,5 @@ def _least_sums(over: Ints, under: Ints, size: int) -> Floats:
     """A lower bound of the sum of all counts: no sum is less than with equal counts."""
     root = 1.0 / size
     sums = size * (over.astype(np.float64) ** root + under.astype(np.float64) ** root)
+    # less what roots are rounded by: a lower bound must not be too great
     return np.asarray(sums * (1 - 1e-12))

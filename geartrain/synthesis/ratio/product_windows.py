@@ -22,8 +22,8 @@ if TYPE_CHECKING:
 MOST_STAGES = 5
 PLAIN = 1 << 52
 """Products below this are int64 and exact in float64; longer ones are Python integers in arrays of objects."""
-_MOST_OBJECTS = 2 * 10**6
-_MOST_ROWS = 12 * 10**6
+_MOST_OBJECTS = 2 * 10**6  # products as Python integers, which are held one by one
+_MOST_ROWS = 12 * 10**6  # of the tables
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -35,6 +35,7 @@ def cuts(products: Ints, factors: Ints, low: Fraction, high: Fraction) -> tuple[
     longest = int(factors.max()) if len(factors) else 1
     cap = int(products[-1]) + 8
     first, whole = _floors(factors, farey_neighbours(low, longest)[1], cap)
+    # the ceiling: one more where the product is not whole
     first = first + ~whole
     last, _ = _floors(factors, farey_neighbours(high, longest)[0], cap)
     return np.searchsorted(products, first), np.searchsorted(products, last, side="right")
@@ -66,6 +67,7 @@ def _wrapped(number: int) -> np.int64:
 
 def errors(tops: Ints, beneaths: Ints, value: Fraction) -> Floats:
     """top / (beneath value) - 1 of each pair, to about 1e-30: in twice float64's digits (Dekker's products)."""
+    # the value and all products of its halves then stay within float64
     short = abs(value.numerator.bit_length() - value.denominator.bit_length()) < 300
     if tops.dtype == object or beneaths.dtype == object or not short:
         n, d = value.numerator, value.denominator
@@ -77,6 +79,7 @@ def errors(tops: Ints, beneaths: Ints, value: Fraction) -> Floats:
     product = q * head
     q_high, q_low = split(q)
     head_high, head_low = split(np.float64(head))
+    # largest first: in this order no sum rounds
     lost = ((q_high * head_high - product) + q_high * head_low + q_low * head_high) + q_low * head_low
     return np.asarray(((tops - product) - (lost + q * tail)) / product)
 

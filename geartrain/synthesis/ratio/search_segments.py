@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
 
 
-_BINS = 256
+_BINS = 256  # of the logarithms of counts
 
 
 @dataclass(frozen=True, slots=True)
@@ -70,6 +70,7 @@ def lay_out(question: StageProblem) -> SegmentPlan:
     both = under * beside
     peak = ceil(exp(start + (int(both.argmax()) + 0.5) * width))
     densest = int(np.searchsorted(np.array(bounds[1:-1], dtype=np.float64), float(peak), side="right"))
+    # twice, for an |error| has a side above the ratio and one below
     return SegmentPlan(bounds, densest, float(2 * both.sum() / width))
 
 

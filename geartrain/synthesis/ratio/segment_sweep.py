@@ -18,12 +18,12 @@ from geartrain.synthesis.ratio.solution_order import Key, key_of, merged
 from geartrain.synthesis.ratio.stage_problem import StageProblem
 
 Bound = tuple[int, Fraction, int]
-_WIDER = 16
+_WIDER = 16  # times, from one tolerance to the next: all before the last cost little beside it
 _ENOUGH = 2 * 10**9
 """Pairs of sets looked at one by one, after which a search without a tolerance is not widened any more."""
 _MOST = 1e11
 """Pairs of sets that may have to be looked at one by one."""
-_PILOT = Fraction(1, 100)
+_PILOT = Fraction(1, 100)  # |error| past which a first piece is not widened
 
 
 @dataclass(frozen=True, slots=True)

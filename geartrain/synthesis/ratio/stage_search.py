@@ -129,7 +129,7 @@ class StageFindings(Result):
         return self.solutions[at]
 
 
-_FAR = 10**12
+_FAR = 10**12  # times beyond all ratios of the counts
 _LONG = 100_000  # counts of a wheel beyond which single pairs come from the tree of fractions, not from tables
 DEFAULT_TOLERANCE = Fraction(1, 10**6)
 

@@ -40,6 +40,7 @@ def cut(question: JoinProblem, limit: float) -> tuple[list[Task], float]:
     wanted = question.steps * _SAMPLED / limit if sampled else question.steps / _SMALL
     chain = _chain(question, min(wanted, _MOST_TASKS))
     number = prod(of for _, of in chain)
+    # twice its share, for tasks are uneven
     budget = 2 * limit / _SAMPLED if sampled else limit
     chosen: Sequence[int] = range(number)
     if sampled and number > _SAMPLED:

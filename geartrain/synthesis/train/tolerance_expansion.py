@@ -12,8 +12,8 @@ from geartrain.synthesis.train.train_findings import Assignment
 
 _LISTED = 100_000
 """Assignments that are brought out to find the best few by error; more are narrowed down first."""
-_TRIES = 40
-_LEAST = Fraction(1, 10**40)
+_TRIES = 40  # passes with one tolerance after the other
+_LEAST = Fraction(1, 10**40)  # tolerances past these hold nothing, or all there is
 _WIDEST = Fraction(10**6)
 
 
@@ -82,6 +82,7 @@ def _first(search: PartSearch) -> Fraction:
     trial = Fraction(1, 1000)
     # hits grow as the tolerance to the power of the outputs that have an error
     hits = size_of(search.domains) * prod(search.chances(search.asked(trial)).values())
+    # 1e-300: a forecast may be so small that it is 0 in float64
     guess = float(trial) * (3 * search.order.best / max(hits, 1e-300)) ** (1 / max(_powers(search), 1))
     return Fraction(min(max(guess, 1e-12), 1.0))
 

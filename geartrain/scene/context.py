@@ -95,6 +95,7 @@ class SceneContext:
         own = self.along(axis)
         for label in (None, *self.train.declaration.axes):
             first = self.along(label)
+            # directions are floats by now: their cosine is 1 but for rounding
             if abs(dot(first, own)) > 1 - 1e-9:
                 return own if dot(first, own) > 0 else (-own[0], -own[1], -own[2])
         return own

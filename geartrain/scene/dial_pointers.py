@@ -66,6 +66,7 @@ def facing(stage: SceneContext, name: str) -> Vector:
     output = stage.case.outputs[name]
     along = stage.along(stage.train.tree.axis(output.of or name))
     side = dot(along, stage.near)
+    # an axis across the view looks neither way but for rounding: it keeps its own
     normal = along if side > 0 or abs(side) < 1e-9 else scaled(along, -1.0)
     dial = declared.dials.get(output.dial or "")
     looks = dial.face if dial is not None else None

@@ -41,6 +41,7 @@ def bevel(z: int, cone: float) -> ToothProfile:
 
     The radius counts heights over the pitch cone along the back cone; cone is the half angle of the pitch cone (rad).
     """
+    # the back cone of a crown wheel never closes: its teeth are nearly those of a rack
     narrow = max(cos(cone), 1e-3)
     virtual = z / narrow
     points = _tooth(virtual)

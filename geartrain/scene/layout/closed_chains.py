@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from heapq import heappop, heappush
 
-_ROUNDS = 12
+_ROUNDS = 12  # over all distances; each changes what the others need
 _MOST = 300  # distances on closed chains up to which modules are balanced: time grows with their square
 _TIGHT = 0.97  # of the way round: a distance that is longer leaves wheels no room
 _LOOSE = 0.85  # what it is made then

@@ -24,9 +24,9 @@ if TYPE_CHECKING:
 
 
 _TOUCH = 1e-10  # of a distance: nearer than this it is kept
-_STEPS = 60
+_STEPS = 60  # of Gauss-Newton
 _MOST = 400  # points up to which a dense matrix is solved
-_DIRECTIONS = 48
+_DIRECTIONS = 48  # in which an axis on one circle is tried
 _BEAM = ((60, 12), (200, 4))  # axes up to which that many plans are kept
 _MISS = 1e4  # cost of a distance that is missed (mm over mm)
 _FAR = 0.15  # of the way from the middle of all that stands

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 _PIERCED = 1.0  # cost of an arbor that goes through a wheel
 _LONG = 0.02  # of a level that an arbor spans
 _LEVEL = 0.005  # of a level used
-_PASSES = 8
+_PASSES = 8  # over all stacks
 _RUNS = (1, 2, 3, 4, 6, 8, 12, 16)  # lengths of runs of levels that are moved together
 _AT_ONCE = 500  # orders of which costs are worked out together: more would not stay in the cache
 _SEARCHED = 80  # stacks up to which every place is tried

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 Point = tuple[float, float]
 
 _LAND = 3.0  # mm of plate round a hole
-_PARALLEL = 1e-9
+_PARALLEL = 1e-9  # of a cosine, or mm: less is rounding
 _PIN = 0.25  # of the pin's distance from its axis: its diameter, 2 mm at most
 
 
@@ -138,6 +138,7 @@ def around(points: Sequence[Point], radius: float) -> Contour:
 
 def _hull(points: Sequence[Point]) -> list[Point]:
     """Corners of the convex hull, counter-clockwise (Andrew's monotone chain)."""
+    # rounded, so that axes at one place are one point
     ordered = sorted({(round(x, 9), round(y, 9)) for x, y in points})
     if len(ordered) < 3:
         return ordered

@@ -81,7 +81,7 @@ class Keyframes:
             if at is not None and bodies[at].parent is not None:
                 own = bodies[at]
                 whole = read_fraction(own.speed or "0") * self.turns
-                # turns exactly, so that a body that comes home is there
+                # turns exactly, so that a body that comes home is there; one with a longer fraction does not
                 parts = [
                     float((whole * k / count) % 1) if whole.denominator < 10**9 else float(whole) * k / count % 1
                     for k in range(count + 1)

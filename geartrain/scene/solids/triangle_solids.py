@@ -107,6 +107,7 @@ def _pitch(tooth: Floats, radius: float, teeth: int, tolerance: float) -> Floats
     if not radius:
         return np.concatenate([tooth, [[0.0, 0.0]]])
     sweep = 2 * pi / teeth
+    # -1: a tolerance beyond the diameter asks for no more than one chord
     steps = max(1, ceil(sweep / (2 * np.arccos(max(1 - tolerance / radius, -1.0)))))
     turn = last - sweep * np.arange(steps + 1) / steps
     assert abs((last - first - sweep + pi) % (2 * pi) - pi) < 1e-6

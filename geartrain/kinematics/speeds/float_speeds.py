@@ -226,8 +226,7 @@ def _reach(lu: Any, error: Floats) -> Floats:
             units[columns, np.arange(len(columns))] = 1.0
             found += np.abs(lu.solve(units)) @ error[columns]
         return found
-    # seeded by the size: the same train has the same estimate on every run
-    draw = np.random.default_rng(size)
+    draw = np.random.default_rng(size)  # seeded: the same train has the same estimate on every run
     for case in range(cases):
         signs = draw.choice([-1.0, 1.0], (size, _DRAWN)) * draw.uniform(0.5, 1.5, (size, _DRAWN))
         found[:, case] = 4 * np.sqrt((lu.solve(signs * error[:, case, None]) ** 2).mean(axis=1))

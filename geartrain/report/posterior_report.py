@@ -7,6 +7,7 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 from geartrain.numerics.exact import as_float
+from geartrain.numerics.long_float import rounded
 from geartrain.report.document import Document, Section, Table, cut, figure
 from geartrain.report.tooth_numbers import error_text
 
@@ -149,7 +150,8 @@ def _deciding(shares: Sequence[VarianceShares]) -> Section:
         strongest = sorted(one.whole, key=lambda wheel: -float(one.whole[wheel]))[:_DECIDING]
         told = ", ".join(f"{wheel} {_percent(one.whole[wheel])}" for wheel in strongest if one.whole[wheel])
         told = told if one.exact else f"about {told}"
-        rows.append((one.output, figure(float(one.mean)), figure(one.spread, 4), told))
+        mean = rounded(one.mean) if isinstance(one.mean, Fraction) else one.mean
+        rows.append((one.output, figure(mean), figure(one.spread, 4), told))
     line = (
         "Shares of the variance of each speed that stay if all other counts are known, over the counts as they are "
         "before anything is known of the outputs."

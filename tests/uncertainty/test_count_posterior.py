@@ -20,6 +20,7 @@ from geartrain import load
 from geartrain.analysis.gear_train import GearTrain
 from geartrain.errors import GearTrainError, QuestionError, RangeError
 from geartrain.numerics.work import Journal, open_executor
+from geartrain.report import describe_posterior
 from geartrain.synthesis.formulas import with_counts
 from geartrain.uncertainty import ToothCountPosterior, infer_counts
 from geartrain.uncertainty.posterior.inference_problem import InferenceProblem, build_inference_problem
@@ -365,6 +366,38 @@ def test_shares_of_variance_are_those_of_conditional_means() -> None:
             else:
                 assert float(shares.own[wheel]) == pytest.approx(float(own), abs=1e-10)
                 assert float(shares.whole[wheel]) == pytest.approx(float(whole), abs=1e-10)
+
+
+@pytest.mark.parametrize("step", [Fraction(10**8), Fraction(1, 10**8)])
+def test_speeds_beyond_float64_have_shares_and_a_standard_deviation(step: Fraction) -> None:
+    """44 pairs of 10^8 teeth and of 1 make 10^352, or its inverse; one wheel of a single tooth may have two."""
+    up, last = step > 1, 44
+    driver, driven = (10**8, 1) if up else (1, 10**8)
+    links: dict[str, Any] = {f"l{at}": {"wheels": {f"p{at}": driver, f"w{at}": driven}} for at in range(last + 1)}
+    links["l1"]["wheels"]["w1" if up else "p1"] = {"teeth": {"value": 1, "range": [1, 2]}}
+    data = {
+        "name": "far",
+        "links": {"frame": {}, **links},
+        "revolutes": [{"pair": ["frame", link], "axis": link} for link in links],
+        "gears": [{"pair": [f"p{at}", f"w{at + 1}"]} for at in range(last)],
+        "inputs": {"l0": 1},
+        "outputs": {"far": {"of": f"l{last}"}, "near": {"of": "l2", "targets": [{"speed": 1, "tolerance": "1e40"}]}},
+    }
+    found = run(data)
+    shares = found.shares["far"]
+    far = step**last
+    ends = (far, far / 2) if up else (far, 2 * far)
+    assert shares.mean == sum(ends) / 2
+    assert abs(Fraction(shares.spread) / (abs(ends[0] - ends[1]) / 2) - 1) < Fraction(1, 10**15)
+    assert list(shares.whole.values()) == [1]
+    assert shares.to_dict()["mean"] is shares.to_dict()["spread"] is None
+    assert f"e{'+' if up else '-'}35" in repr(describe_posterior(found))
+
+
+def test_a_target_beyond_float64_is_refused_in_words() -> None:
+    outputs = {"c": {"targets": [{"speed": "1e-400", "tolerance": "50 %"}]}}
+    with pytest.raises(RangeError, match="beyond the range of float64"):
+        run({**CHAIN, "outputs": outputs})
 
 
 def test_sampled_shares_come_near_the_exact_ones(monkeypatch: pytest.MonkeyPatch) -> None:

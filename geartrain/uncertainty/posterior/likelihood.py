@@ -8,9 +8,10 @@ from fractions import Fraction
 
 import numpy as np
 
+from geartrain.errors import Problem, RangeError
 from geartrain.numerics.arrays import Bools, Floats
 from geartrain.numerics.bounded_polynomials import BoundedPolynomial, BoundedQuotient, in_range
-from geartrain.numerics.exact import log10
+from geartrain.numerics.exact import as_float, log10
 from geartrain.numerics.rounding_bounds import UNIT_ROUNDOFF
 from geartrain.synthesis.formulas import Formula
 from geartrain.synthesis.formulas.laurent import Term
@@ -185,8 +186,13 @@ class _Scale:
 
     @classmethod
     def of(cls, claim: Observation) -> _Scale:
-        below, above = (claim.half(side) for side in (False, True))
-        return cls(float(claim.wanted), claim.signed, *(1 / float(half) if half else 0.0 for half in (below, above)))
+        halves = (claim.half(side) for side in (False, True))
+        wanted, below, above = (as_float(each or Fraction(0)) for each in (claim.wanted, *halves))
+        if wanted is None or below is None or above is None:
+            what = f"'{claim.label}' asks for a speed beyond the range of float64"
+            why = "how far counts are off is weighed in floats, which hold 1e-308 to 1e308"
+            raise RangeError(Problem(what, why, "leave this output out, or give it an exact `expect`"))
+        return cls(wanted, claim.signed, *(1 / half if half else 0.0 for half in (below, above)))
 
     def misfit(self, value: Floats) -> Floats:
         off = (value if self.signed else np.abs(value)) - self.wanted

@@ -10,6 +10,7 @@ from typing import Literal, NotRequired, TypedDict
 
 from geartrain.numerics.decimal_text import decimal
 from geartrain.numerics.exact import as_float
+from geartrain.numerics.long_float import Real, as_plain
 from geartrain.numerics.plain_data import Key, Result
 from geartrain.uncertainty.posterior.observations import ObservedOutput
 from geartrain.uncertainty.posterior.priors import ToothCountPrior
@@ -171,8 +172,8 @@ class VarianceShares(Result):
         Its name.
     mean : Fraction or float
         Of its speed [unit of the train].
-    spread : float
-        Standard deviation of its speed [unit of the train].
+    spread : float or LongFloat
+        Standard deviation of its speed [unit of the train]; `LongFloat` past 1e308.
     own : mapping of str to Fraction or float
         Wheel -> first-order index, 0 to 1: the share of the variance that goes if the wheel's count is known.
     whole : mapping of str to Fraction or float
@@ -191,11 +192,14 @@ class VarianceShares(Result):
     Sobol, I. M. 2001. Global sensitivity indices for nonlinear mathematical models. Math. Comput. Simul. 55.
     """
 
-    KEYS = ("output", Key("mean", to=float), "spread", Key("own", to=float), Key("whole", to=float), "exact", "samples")
+    KEYS = (
+        *("output", Key("mean", to=as_float), Key("spread", to=as_plain), Key("own", to=float), Key("whole", to=float)),
+        *("exact", "samples"),
+    )
 
     output: str
     mean: Fraction | float
-    spread: float
+    spread: Real
     own: Mapping[str, Fraction | float]
     whole: Mapping[str, Fraction | float]
     exact: bool

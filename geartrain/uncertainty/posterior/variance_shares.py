@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from geartrain.numerics.arrays import Floats
+from geartrain.numerics.long_float import Real, rounded
 from geartrain.synthesis.formulas import Formula
 from geartrain.uncertainty.posterior.posterior_result import VarianceShares
 from geartrain.uncertainty.posterior.priors import ToothCountPrior
@@ -83,10 +84,12 @@ def _exactly(
     return VarianceShares(name, mean, _root(variance), own, whole, True)
 
 
-def _root(value: Fraction) -> float:
-    """A square root of a Fraction of any size."""
-    shift = 1 << 128
-    return float(Fraction(isqrt(int(value * shift * shift)), shift)) if value > Fraction(1, shift) else sqrt(value)
+def _root(value: Fraction) -> Real:
+    """The square root of a positive Fraction of any size, to 53 bits."""
+    # an even power of two brings the value near 2^128, so that its whole root has 63 bits and more
+    shift = (128 - value.numerator.bit_length() + value.denominator.bit_length()) // 2
+    power = Fraction(2) ** shift
+    return rounded(Fraction(isqrt(int(value * power * power))) / power)
 
 
 def _listed(name: str, formula: Formula, doubts: Sequence[ToothCountPrior]) -> VarianceShares | None:

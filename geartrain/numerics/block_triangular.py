@@ -23,7 +23,7 @@ class Block(NamedTuple):
 
 
 def find_blocks(rows: Sequence[Sequence[int]], also: Sequence[Sequence[int]] = ()) -> list[Block] | None:
-    """Blocks of a system with as many columns as rows, each after all it depends on; None where no matching exists.
+    """Block triangular form of a square system: each block after all it depends on; None where no matching exists.
 
     rows   the columns of each row; `also`, columns that a row depends on without holding them
     Cost is linear in trees, and rows times entries at worst.
@@ -80,7 +80,7 @@ def _close(open_: list[int], root: int, done: list[bool]) -> tuple[int, ...]:
 
 
 def dulmage_mendelsohn_blocks(rows: Mapping[int, Collection[int]], columns: int) -> list[Block]:
-    """Parts in the order in which they can be solved; `rows` gives the columns that each row may hold.
+    """Dulmage-Mendelsohn decomposition: parts in the order in which they can be solved, from the columns of each row.
 
     Only the first can have more rows than columns, and only the last more columns than rows.
     """
@@ -150,7 +150,7 @@ def _peel(rows: Mapping[int, Collection[int]], row_of: dict[int, int]) -> list[i
 
 
 def _augment_from(rows: Mapping[int, Collection[int]], root: int, row_of: dict[int, int], seen: set[int]) -> bool:
-    """Match one more row by moving others along a shortest alternating path; False if there is none."""
+    """Breadth-first search for an alternating path that lets one more row be matched; False if there is none."""
     came: dict[int, tuple[int, int | None]] = {}  # column -> the row that reached it, and that row's own column
     queue: list[tuple[int, int | None]] = [(root, None)]
     for row, own in queue:

@@ -49,7 +49,7 @@ class FrozenFields:
 
 @contextmanager
 def collector_paused() -> Iterator[None]:
-    """Without this, every pass of the collector walks all objects made so far, and linear work turns quadratic."""
+    """Pause the garbage collector: its passes walk all objects made so far, and linear work turns quadratic."""
     running = gc.isenabled()
     gc.disable()
     try:

@@ -156,7 +156,7 @@ def rank_modulo(rows: Iterable[Mapping[int, Fraction]], modulus: int = PRIME) ->
 
 
 def feasible(forms: Sequence[Mapping[int, Fraction]], constant: int = -1) -> bool:
-    """True if some numbers for the unknowns make every linear form 0 or more: the simplex method, its first phase.
+    """Simplex method, first phase: True if some numbers for the unknowns make every linear form 0 or more.
 
     forms      columns >= 0 are unknowns of either sign, `constant` is the column of what is added
 

@@ -45,7 +45,7 @@ def log10(value: Fraction) -> float:
 
 
 def as_float(value: Fraction) -> float | None:
-    """The nearest float64, or None where float64 has none: a silent 0 or infinity would be a lie."""
+    """The nearest float64, or None where float64 has none: 0 or infinity would be silently wrong."""
     try:
         number = float(value)
     except OverflowError:

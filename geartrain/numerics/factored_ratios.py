@@ -197,7 +197,7 @@ def _parted(powers: dict[int, int]) -> dict[int, int]:
 
 
 def _balanced(factors: list[int]) -> int:
-    """The product of long numbers, the shortest first."""
+    """Product tree: the product of long numbers, the shortest first."""
     if not factors:
         return 1
     heapify(factors)

@@ -1,4 +1,4 @@
-"""Whole-number rows: all whole rows in their span, and whole columns that answer each of them with 1."""
+"""Lattices of integer rows: a basis of all integer rows in a rational span, and integer columns dual to it."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ Row = dict[int, int]
 
 
 def saturated_lattice(rows: Sequence[Mapping[int, int]]) -> tuple[list[Row], list[Row], int]:
-    """A basis of all whole rows in the rational span of some rows, columns dual to it, and the index of the rows in it.
+    """Saturation: a basis of all integer rows in the span of some, columns dual to it, and the index of the rows in it.
 
     Whole operations on columns bring the rows to a triangle H, Y V = [H 0]: Hermite's form, its entries not reduced.
     The basis is H^-1 Y, and the first columns of V are dual to it. The index is det H: 1 where the rows are a basis

@@ -24,7 +24,7 @@ class Key:
     name   in the data; "" puts the keys of a part in among those of the whole
     of     the attribute, `part.attribute` for one of a part, "." the object itself; by default that called `name`
     to     what is made of each number or object in it, at any depth; the kind of that is in its return annotation
-    keys   what is told of each object in it, where that is not what its class says
+    keys   the keys of each object in it, where they are not those of its class
     """
 
     name: str

@@ -92,7 +92,7 @@ def value(coefficients: Floats, piece: Indices, u: Floats) -> tuple[Floats, Floa
 
 
 def moments(coefficients: Floats, halves: Floats) -> tuple[float, float]:
-    """Mean over all pieces, and the root mean square about it; pieces have half lengths `halves`."""
+    """By Gauss's rule the mean over all pieces, and the root mean square about it; `halves` are their half lengths."""
     nodes, weights = _GAUSS
     values = np.polynomial.polynomial.polyval(nodes, coefficients)
     share = halves / halves.sum() / 2

@@ -11,7 +11,7 @@ _DEEPEST = 40  # halvings of a bracket in which the slope keeps changing its sig
 
 
 def bracketed_root(value: Function, slope: Function, low: float, high: float) -> float:
-    """The root of `value` between `low` and `high`, where it changes sign: Newton's steps kept inside the bracket.
+    """Newton's method kept inside a bracket: the root of `value` between `low` and `high`, where it changes sign.
 
     Ends when the bracket is two neighbouring floats, or a step no longer moves either end.
     """
@@ -45,7 +45,7 @@ def bracketed_root(value: Function, slope: Function, low: float, high: float) ->
 def sign_changes(
     value: Function, bounds: Callable[[float, float], tuple[float, float]], low: float, high: float, depth: int = 0
 ) -> Iterator[tuple[float, float]]:
-    """Brackets that hold exactly one root each; `bounds(a, b)` are the least and greatest slope between a and b.
+    """Bisection by bounds on the slope: brackets of one root each; `bounds(a, b)` are the least and greatest slope.
 
     A bracket whose slope has one sign holds one root or none; others are halved. Where function and slope vanish
     together (a touch, no change of sign) halving ends without a bracket.
@@ -73,7 +73,7 @@ def sign_changes(
 
 
 def root(value: Function, low: float, high: float, at_low: float, at_high: float) -> float:
-    """The root of a continuous `value` between `low` and `high`, without slopes: Chandrupatla's method.
+    """Chandrupatla's method: the root of a continuous `value` between `low` and `high`, without slopes.
 
     Inverse quadratic steps where three points allow it, else halving. T. R. Chandrupatla, Advances in Engineering
     Software 28 (1997) 145-149.

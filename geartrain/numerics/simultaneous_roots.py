@@ -23,7 +23,7 @@ _PATIENCE = 4  # steps without half the bracket: halve it
 
 
 def roots_by_chandrupatla(value: Value, low: Floats, high: Floats) -> Floats:
-    """Where each of m functions changes its sign between `low` and `high`, (m,) each: Chandrupatla's method.
+    """Chandrupatla's method: where each of m functions changes its sign between `low` and `high`, (m,) each.
 
     value   of functions (indices) at arguments: value(which, x), of one shape
 
@@ -74,11 +74,11 @@ def roots_by_false_position(
     at_high: Floats,
     fine: float = 1e-15,
 ) -> Floats:
-    """Where each function changes its sign between low and high, from the values there; steps end below `fine`.
+    """False position: where each function changes its sign between low and high; steps end below `fine`.
 
     value(x, which)   the functions numbered `which` at x
-    The method is Anderson's and Bjorck's false position; where an end is stuck, halving. A bracket without a change of
-    sign gives its end with the lesser value.
+    Anderson's and Bjorck's variant, from the values at both ends; where one is stuck, halving. A bracket without a
+    change of sign gives its end with the lesser value.
     """
     found = np.where(np.abs(at_low) < np.abs(at_high), low, high)
     which = np.flatnonzero(np.sign(at_low) * np.sign(at_high) < 0)

@@ -46,7 +46,7 @@ class SparseRows:
         matrix = np.zeros((len(right), self.width))
         # a row may hold a column twice: `add.at` counts both, where an assignment would keep one
         np.add.at(matrix, (np.arange(len(right))[:, None], self.columns), self.factors)
-        # motions that stay free make the matrix singular up to rounding: 1e-11 of the greatest singular value is none
+        # free motions make the matrix singular up to rounding: 1e-11 of the greatest singular value counts as 0
         return np.asarray(np.linalg.lstsq(matrix, right, rcond=1e-11)[0], float)
 
     def _gradients(self, right: Floats) -> Floats:

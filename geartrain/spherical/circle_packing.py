@@ -72,7 +72,7 @@ def _circles(vectors: Floats) -> tuple[Floats, Floats]:
 
 
 def _centred(vectors: Floats, meshes: Sequence[tuple[int, int]]) -> Floats:
-    """The same packing in the frame where the pitch points sum to 0: Newton, each boost capped."""
+    """Damped Newton's method: the same packing in the frame where the pitch points sum to 0."""
     i, j = np.array(meshes).T
     for _ in range(_MOST_STEPS):
         touch = vectors[i] + vectors[j]
@@ -110,7 +110,7 @@ def _shorter(points: Floats, v: Floats) -> float:
 
 
 def _polished(vectors: Floats, gears: int, plane: PlanarPacking, residuals: tuple[float, ...]) -> SpherePacking:
-    """Newton on all tangencies and right angles at once, until rounding is all that is left."""
+    """Newton's method on all tangencies and right angles at once, until rounding is all that is left."""
     axes, cones = _circles(vectors)
     tangent = [*plane.meshes, *((gears + plane.left[m], gears + plane.left[m[::-1]]) for m in plane.meshes)]
     square = [(gear, region) for gear in range(gears) for region in plane.around[gear]]

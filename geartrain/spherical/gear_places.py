@@ -198,7 +198,7 @@ def _meant(word: str, kinds: Iterable[str]) -> list[str]:
 
 
 def letter_of(kind: str) -> str:
-    """A kind without the letter that tells it from its like: 4 of 4b, e of ea."""
+    """A kind without the letter that tells it from others of its sort: 4 of 4b, e of ea."""
     return kind.rstrip(ascii_lowercase) or kind[0]
 
 

@@ -44,7 +44,7 @@ def separating_pair(regions: Sequence[Sequence[int]]) -> tuple[int, int] | None:
 
 
 def checked_graph(graph: nx.Graph[Any] | Edges) -> nx.Graph[Any]:
-    """A simple, bipartite, 2-connected graph, or the reason why it is none."""
+    """The graph, if it is simple, bipartite and 2-connected. Raises `QuestionError` with the reason where it is not."""
     import networkx as nx
 
     given = graph if isinstance(graph, nx.Graph) else None

@@ -142,7 +142,7 @@ def compare_forms(
     Raises
     ------
     QuestionError
-        For names and parameters that are none, and where the involute itself cannot run.
+        For unknown names and wrong parameters, and where the involute itself cannot run.
 
     Examples
     --------

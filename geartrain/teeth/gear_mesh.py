@@ -233,8 +233,8 @@ class GearMesh(ABC):
         Returns
         -------
         float or None
-            On the pitch circle [module], below 0 where the teeth jam; None for teeth that do not run there as they do
-            at home.
+            On the pitch circle [module], below 0 where the teeth jam; None for teeth that run as designed at their
+            own distance only.
         """
         del gap
         return None

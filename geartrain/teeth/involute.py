@@ -75,7 +75,7 @@ class Involute(ConjugateToothForm):
         return self
 
     def misplaced(self, wheels: WheelPair) -> float | None:
-        """None: these teeth are at home at any distance, which `pair` takes into account.
+        """None: these teeth run at any distance, which `pair` takes into account.
 
         Returns
         -------

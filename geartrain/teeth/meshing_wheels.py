@@ -88,7 +88,7 @@ class MeshingWheels:
 
     @property
     def driver(self) -> MeshDriver:
-        """The first wheel, until who drives is known."""
+        """The first wheel, until the driver is known."""
         return MeshDriver(self.gear.pair[0], "", False)
 
     @property

@@ -82,7 +82,7 @@ class PinTransmission(TransmissionFunction):
 
 
 def _check(pin_radius: float, offset: float, friction: float) -> None:
-    """Raises `RangeError` for distances that are none, and where the pin passes through the slot's axis."""
+    """Raises `RangeError` for distances out of range, and where the pin passes through the slot's axis."""
     if not (_LEAST < pin_radius < 1 / _LEAST and (offset == 0 or _LEAST < offset < 1 / _LEAST)):
         raise RangeError(
             Problem(
@@ -121,7 +121,7 @@ class PinToSlotTransmission(PinTransmission):
     Raises
     ------
     RangeError
-        For distances that are none, and where the pin passes through the slot's axis.
+        For distances out of range, and where the pin passes through the slot's axis.
 
     See Also
     --------
@@ -223,7 +223,7 @@ class SlotToPinTransmission(PinTransmission):
     Raises
     ------
     RangeError
-        For distances that are none, and for a follower, which cannot drive its pin.
+        For distances out of range, and for a follower, which cannot drive its pin.
 
     See Also
     --------

@@ -111,7 +111,7 @@ def _runs(first: UndeclaredWheel, second: UndeclaredWheel, angle: int, *addenda:
 
 
 def lone_mate(gear: UndeclaredWheel) -> UndeclaredWheel:
-    """A wheel for one that meshes with none: its like, or a pinion half as large as a ring."""
+    """A mate for a wheel that meshes with none: an equal one, or a pinion half as large as a ring."""
     return UndeclaredWheel(max(gear.z // 2, 1)) if gear.internal else gear
 
 

@@ -51,7 +51,7 @@ class ToothForm(BaseModel, ABC):
     model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
 
     any_distance: ClassVar[bool] = False
-    """True for teeth that are told of at any centre distance, not at that of their design only."""
+    """True for teeth that run at any centre distance, not at that of their design only."""
 
     conjugate: ClassVar[bool] = False
     """True for teeth designed by a path of contact: for rings and cones too, their roots left to who cuts them."""
@@ -71,7 +71,7 @@ class ToothForm(BaseModel, ABC):
         Raises
         ------
         GearTrainError
-            For what is none, its place the parameter's name where one alone is at fault.
+            For parameters that make no form, its place the name of the one at fault where it is one alone.
         """
         (form,) = get_args(cls.model_fields["form"].annotation)
         try:

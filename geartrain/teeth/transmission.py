@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 
 def check_friction(friction: float) -> float:
-    """A coefficient of friction. Raises `RangeError` for what is none."""
+    """A coefficient of friction. Raises `RangeError` below 0 and for infinity and NaN."""
     if not 0 <= friction < inf:
         raise RangeError(Problem(f"a friction of {friction:g}", "it would push", "give 0 or more, such as 0.1"))
     return friction

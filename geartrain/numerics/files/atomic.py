@@ -106,7 +106,7 @@ def _look(path: Path) -> tuple[Path, int | None]:
     except FileNotFoundError:
         mode = None  # or a link to a file that is still to be made
     except NotADirectoryError:
-        mode = None  # told by what is said of the folder
+        mode = None  # the check of the folder says so
     return Path(os.path.realpath(path)), mode
 
 

@@ -155,7 +155,7 @@ class DaskPool(WorkerPool):
         self._undo.close()
 
     def dismiss(self) -> None:
-        """Cancel what has not begun, and let go of the cluster. A task that runs there runs to its end, unheard."""
+        """Cancel what has not begun, and let go of the cluster. Results of tasks that run there are dropped."""
         self.shutdown(cancel_futures=True)
 
 

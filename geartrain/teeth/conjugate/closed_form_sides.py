@@ -182,7 +182,7 @@ def pin_arc(R: float, A: float, B: float, d: float) -> float:
 
 
 class ExtremalPiece(PathPiece):
-    """S = D cos psi; X = D ln d, or D ln tan(d/2), from the first contact."""
+    """Docs/shapes.md (10): S = D cos psi; X = D ln d, or D ln tan(d/2), from the first contact."""
 
     def __init__(self, pitch: PitchSurfaces, D: float, start: float, end: float) -> None:
         self.pitch, self.D, self.start, self.end = pitch, D, start, end

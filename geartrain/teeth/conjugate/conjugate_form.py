@@ -141,8 +141,8 @@ class ConjugateToothForm(ToothForm):
         Returns
         -------
         float or None
-            On the pitch circle [module], below 0 where the teeth jam; None for forms that do not run there as they do
-            at home.
+            On the pitch circle [module], below 0 where the teeth jam; None for forms that run as designed at their
+            own distance only.
         """
         del wheels, gap
         return None
@@ -180,7 +180,7 @@ class ConjugateToothForm(ToothForm):
         Raises
         ------
         GearTrainError
-            Where there is none.
+            Where there is no such pair.
         """
 
     @classmethod

@@ -19,14 +19,14 @@ def arcs_of(figures: tuple[Figure, Figure], pitch: PitchSurfaces) -> tuple[float
 
 
 def check_arcs(arcs: tuple[Figure, Figure]) -> None:
-    """Raises pydantic's error for arcs that are none."""
+    """Raises pydantic's error for arcs below 0, or both 0."""
     if min(arc.value for arc in arcs) < 0 or sum(arc.value for arc in arcs) <= 0:
         text = ", ".join(arc.text for arc in arcs)
         raise bad("arcs", f"arcs [{text}] are none", "give those of approach and recess in pitches, a pitch in all")
 
 
 def check_lengths(backlash: Quantity, centre_distance: Quantity | None) -> None:
-    """Raises pydantic's error for lengths that are none."""
+    """Raises pydantic's error for a backlash below 0, or a distance not above 0."""
     if backlash.value < 0:
         raise bad("backlash", f"backlash {backlash.text} would jam the teeth", "write 0 or more")
     if centre_distance is not None and centre_distance.value <= 0:

@@ -61,7 +61,7 @@ def uniform_stress(pitch: PitchSurfaces, a: float, b: float, X: float, psi: floa
 
 
 def stress_law(pitch: PitchSurfaces, a: float, b: float, psi: float) -> ValueAndSlope:
-    """The equation of uniform stress for v = sin psi: S v' + f(d, v) = 0, `psi` the pressure angle at the pitch."""
+    """Uniform stress, docs/shapes.md (8), for v = sin psi: S v' + f(d, v) = 0, `psi` that angle at the pitch point."""
     k = sin(psi) * cos(psi)
 
     def f(d: Floats, v: Floats) -> tuple[Floats, Floats]:
@@ -179,7 +179,7 @@ def uniform_heat(pitch: PitchSurfaces, beta: float, gamma: float, X: float) -> P
 
 
 def heat_law(pitch: PitchSurfaces, beta: float, gamma: float) -> ValueAndSlope:
-    """The equation of uniform heat for g = sin psi / S: S g' + f(d, g) = 0."""
+    """Uniform heat, docs/shapes.md (9), for g = sin psi / S: S g' + f(d, g) = 0."""
 
     def f(d: Floats, g: Floats) -> tuple[Floats, Floats]:
         S = pitch.S(d)
@@ -232,7 +232,7 @@ def bounded_heat(pitch: PitchSurfaces, b: float, gamma: float, X: float, psi: fl
 def least_friction(pitch: PitchSurfaces, b: float, X: float, psi: float, u: float) -> PathSide:
     """A ray of the greatest pressure angle, then the least speed `u` along the dedendum, so that the loss is least.
 
-    The length of the ray makes the pooled first variation vanish; see the theory page, "Least friction". Raises
+    The length of the ray makes the pooled first variation vanish: docs/shapes.md (12) and (13). Raises
     `RangeError` where the arc is longer than teeth within both bounds reach.
     """
     longest = ray_end(psi, X)
@@ -303,7 +303,7 @@ def _lifted_end(sine: Callable[[Floats], Floats], first: float, rest: float, psi
 
 
 def _variation(pitch: PitchSurfaces, sine_of: Callable[[Floats], Floats], first: float, end: float) -> float:
-    """The integral of eta / (S^2 cos psi) (2 S / cos^3 psi - lambda / cos^2 psi) over the lifted piece."""
+    """Docs/shapes.md (13): the integral of eta / (S^2 cos psi) (2 S / cos^3 psi - lambda / cos^2 psi)."""
     x, weights = _GAUSS
     d = first + (end - first) * (x + 1) / 2
     S, sine = pitch.S(d), sine_of(d)

@@ -4,7 +4,7 @@ A force is known only with an assumption on how pairs of teeth that touch at onc
 one pair bears all of it along its whole path, as if it were alone, and those in contact bear equal parts at every
 instant. They are the same where the contact ratio is 1.
 
-Friction of one contact, exact in its coefficient, spur and bevel, rings too.
+Friction of one contact, exact in its coefficient, spur and bevel, rings too: docs/shapes.md (6) for spur pairs.
 
 The contact pushes with N along the normal n and rubs with mu N across it, against the sliding, whose sense turns at the
 pitch point. Over N and the pitch-line speed, the power that enters at gear i, or leaves there, is the force times the
@@ -187,7 +187,7 @@ def _rubbed(path: PathOfContact, low: float, high: float) -> float:
 
 
 def sliding_integral(pitch: PitchSurfaces, side: PathSide, start: float = 0.0, end: float = inf) -> float:
-    """J of one side: the integral of S / cos^2 psi over d, from `start` to `end`."""
+    """J of one side, docs/shapes.md (7): the integral of S / cos^2 psi over d, from `start` to `end`."""
     x, weights = _GAUSS
     total = 0.0
     for piece in side.pieces:

@@ -129,7 +129,7 @@ class PathOfContact:
         return self._contact(sign * side.travel(d), sign * d, side.sin_psi(d), sign * side.slope(d))
 
     def _contact(self, X: Floats, d: Floats, sine: Floats, q: Floats) -> PathContact:
-        """Eqs. U1 = w + A S, U2 = w - B S; k_i = T_i / U_i; kr = (A + B) sin psi / (U1 U2)."""
+        """Docs/shapes.md (2) to (5): U1 = w + A S, U2 = w - B S; k_i = T_i / U_i; kr = (A + B) sin psi / (U1 U2)."""
         pitch = self.pitch
         A, B = pitch.A, pitch.B
         S, slope = pitch.S(d), pitch.S_slope(d)

@@ -37,7 +37,7 @@ class PathPiece(ABC):
 
     @abstractmethod
     def travel(self, d: Floats) -> Floats:
-        """Pitch-line displacement X since `start`: the integral of 1/cos psi."""
+        """Pitch-line displacement X since `start`: the integral of 1/cos psi, docs/shapes.md (1)."""
 
 
 class RayPiece(PathPiece):
@@ -111,8 +111,8 @@ class SampledPiece(PathPiece):
 class SteadySpeedPiece(SampledPiece):
     """A constant speed of contact along the dedendum: w - b S = u, so that sin psi = eta / S follows in closed form.
 
-    eta = S(start) sin psi(start) + u (d - start) + b (integral of S), b being the coefficient of the gear
-    whose dedendum it is.
+    Docs/shapes.md (12): eta = S(start) sin psi(start) + u (d - start) + b (integral of S), b being the coefficient of
+    the gear whose dedendum it is.
     """
 
     def __init__(self, pitch: PitchSurfaces, b: float, u: float, start: float, sin_start: float, end: float) -> None:

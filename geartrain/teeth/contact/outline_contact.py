@@ -121,7 +121,7 @@ def solve(
     QuestionError
         Where the wheels do not go together.
     RangeError
-        For a distance or an angle that is none.
+        For a distance out of range, or an angle that is not finite.
 
     Examples
     --------

@@ -39,7 +39,7 @@ _MOST = 100_000  # stretches
 
 
 class _Stretches(NamedTuple):
-    """Fitted stretches: ends (2, n), coefficients (COUNT, n), who touches, worst differences."""
+    """Fitted stretches: ends (2, n), coefficients (COUNT, n), what touches, greatest differences."""
 
     ends: Floats
     errors: Floats

@@ -266,8 +266,8 @@ def cut_tooth(demands: Sequence[ToothRequirement], wanted: float | None = None) 
     """The tooth for all pairs of a wheel, and by how much (rad) its root is turned off the flank's tangent.
 
     Its flank reaches as deep as any mate's tips work, its root circle clears them all, and its fillet, `wanted` or the
-    largest up to 0.38 modules, lets each of them pass. All lengths in modules; flanks that are not alike are not for
-    here. Raises `QuestionError` where there is no such tooth.
+    largest up to 0.38 modules, lets each of them pass. All lengths in modules; all flanks
+    must be alike. Raises `QuestionError` where there is no such tooth.
     """
     s = demands[0].flank.outward
     deepest = min(demands, key=lambda each: float(each.flank.r[0]) * s)

@@ -57,7 +57,7 @@ class TriangularContact:
 
     @cached_property
     def _bounds(self) -> list[DriveInterval]:
-        """Who bounds the driven wheel, pushing or not; where nobody does there is a gap."""
+        """What bounds the driven wheel, pushing or not; a gap where nothing does."""
         sizes = self.sizes
         return RealPath(sizes, slips=True).envelope if any(sizes.lean) else self.path.envelope
 

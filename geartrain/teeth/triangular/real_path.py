@@ -1,9 +1,9 @@
 """The real path of contact: which couple of teeth drives where, and whether it can.
 
 Every couple k of teeth forbids the driven wheel to lag behind f(t + k p1) - k p2 (`contact`), so that it follows
-U(t) = min over k, and, dragged, y <- min(y, U(t)) as t decreases. Less the mean motion this is the least of
-g(x) = f(x) - (z1/z2) x over the lattice x = t + k p1. Between matching and the ends of reach g is convex, or concave
-and then convex (few teeth), so that on each such piece only its ends, or the two couples about its minimum, can
+U(t) = min over k, docs/teeth.md (10), and, dragged, y <- min(y, U(t)) as t decreases. Less the mean motion this is the
+least of g(x) = f(x) - (z1/z2) x over the lattice x = t + k p1. Between matching and the ends of reach g is convex, or
+concave and then convex (few teeth), so that on each such piece only its ends, or the two couples about its minimum, can
 drive: the cost does not grow with the number of couples in reach.
 """
 
@@ -175,7 +175,7 @@ class RealPath:
 
     @cached_property
     def envelope(self) -> list[DriveInterval]:
-        """Who drives over one pitch as t decreases, before the driven wheel is let stand; gaps are left out."""
+        """What drives over one pitch as t decreases, standstills not yet put in; gaps are left out."""
         base = max((branch.high for branch in self.branches), default=0.0)
         cuts = {0.0, self.pitch}
         for branch in self.branches:

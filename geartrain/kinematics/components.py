@@ -86,7 +86,7 @@ class Components:
         )
 
     def closing_product(self, circuit: int) -> Fraction:
-        """The product of the ratios round the loop that a circuit completes: 1 where it closes.
+        """The product of the ratios round the loop that a circuit completes, (20): 1 where it closes.
 
         It is by how much the circuit contradicts the walk through its component, from its first link to its second.
         """
@@ -112,7 +112,7 @@ class Components:
 def find_components(
     links: Sequence[str], frame: str, circuits: Sequence[Circuit], first: Iterable[str] = ()
 ) -> Components:
-    """Walk every carrier's ordinary train once, breadth first, in short ratios.
+    """Walk every carrier's ordinary train once, breadth first, in short ratios: (18), (19) of docs/theory.md.
 
     first   links to start from where possible (the inputs): their component's unknown is then their own speed,
             and no long number is ever multiplied by another
@@ -249,7 +249,7 @@ class ReducedSystem:
 
 @collector_paused()
 def reduce_components(parts: Components) -> ReducedSystem:
-    """Collapse every component to its one unknown and write what remains to be solved."""
+    """Collapse every component to its one unknown and write what remains to be solved: docs/theory.md, 8."""
     groups = len(parts.group_carrier)
     carriers = dict.fromkeys(carrier for carrier in parts.group_carrier if carrier != parts.frame)
     idle = (link for link in range(len(parts.links)) if link not in parts.nodes_of and link != parts.frame)
@@ -294,7 +294,7 @@ class SolvedPart:
 
 
 def relevant_circuits(circuits: Sequence[Circuit], keep: Iterable[str]) -> list[Circuit]:
-    """The circuits that can matter to the links in `keep`.
+    """The circuits that can matter to the links in `keep`: loose ends come off one by one (docs/theory.md, 10).
 
     A circuit with a link that is in no other circuit and not wanted only serves to move that link: it goes,
     and so on until none is left. Loops have no such end, so a locked train stays locked.

@@ -142,7 +142,7 @@ class RunningStatistics(Result):
 _BIN = 1024  # positions of which the greatest is kept
 _KEPT = 10  # of them, for each output and each extreme
 _FINER = 16  # parts of a step, on either side
-_ROUNDS = 2
+_ROUNDS = 2  # each around the best of the one before
 
 
 class PeakRefinement:

@@ -124,7 +124,7 @@ def find_circulation(
 
 
 def _widest(streams: Sequence[PowerStream], left: Sequence[Fraction]) -> list[int]:
-    """The closed way whose narrowest stream is widest, by bisection over widths, as places of its streams; or none."""
+    """Bottleneck cycle: the closed way whose narrowest stream is widest, by bisection over widths; or none."""
     best = _closed(streams, [at for at, power in enumerate(left) if power])
     if not best:
         return []

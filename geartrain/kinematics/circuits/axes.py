@@ -68,7 +68,7 @@ class Axes:
         return self.plain or all(parallel(directions[0], other) for other in directions[1:])
 
     def are_one_line(self, one: str, other: str) -> bool:
-        """True if both axes have positions, and lie on one line; two labels are else two lines."""
+        """True if both axes have positions, and lie on one line; else two labels are two lines."""
         here, there = self.positions.get(one), self.positions.get(other)
         if here is None or there is None or not self.are_parallel((one, other)):
             return False

@@ -181,6 +181,7 @@ class MeshPhasing(Result):
         errors = self.errors
         if any(abs(error) > self.plays[name] / 2 for name, error in errors.items() if name in self.plays):
             return False
+        # less than 1e-9 pitch is rounding, and needs no play
         off = [name for name, error in errors.items() if abs(error) > 1e-9]
         return True if all(name in self.plays for name in off) else None
 

@@ -31,7 +31,7 @@ ResidueKnowledge = Literal["exact", "recognised", "numeric"]
 _UNCLEAR = 0.05  # pitch: a residue known no better than this, and within it, tells nothing
 _MOST = 20_000  # entries of loops with unequal weights that are still looked at together
 _ROUNDS = 20  # of choosing teeth anew, where a round is cheap
-_FEW = 3
+_FEW = 3  # where it is not
 _SAME = 1e-6  # pitch: errors that are alike, so that every tooth stays in its gap
 
 
@@ -79,7 +79,7 @@ def judge_residue(residue: Fraction | float, slack: float) -> PhaseKind:
 
 @dataclass(frozen=True)
 class PhaseSystem:
-    """a theta_i + b theta_j - (a + b) theta_k = c (mod 1) for every mesh; angles in turns, c in pitches."""
+    """a theta_i + b theta_j - (a + b) theta_k = c (mod 1), (1) of docs/closure.md; angles in turns, c in pitches."""
 
     parts: Components
     contacts: PitchPoints

@@ -116,7 +116,7 @@ def _still(reduced: ReducedSystem, forms: Mapping[int, LinearForm]) -> list[str]
 
 @collector_paused()
 def find_mobility(reduced: ReducedSystem, turning_pairs: int, budget: int | None = EXACT_BUDGET) -> Mobility:
-    """Mobility of the train itself, nothing prescribed, decided exactly."""
+    """Mobility of the train itself by exact rank, nothing prescribed: (16), (17) of docs/theory.md."""
     parts = reduced.components
     gears = sum(circuit.kind == "gear" for circuit in parts.circuits)
     shared: list[str] = []

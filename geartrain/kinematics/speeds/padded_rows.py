@@ -91,7 +91,7 @@ class PaddedRows:
         return total
 
     def condition(self, lu: Any, link: str, x: Floats) -> float:
-        """cond(A, x) of one link: one transposed solve, (|y|, |A||x|) / |x_link|."""
+        """cond(A, x) of one link, (25) of docs/theory.md: one transposed solve, (|y|, |A||x|) / |x_link|."""
         column = self.at[link]
         unit = np.zeros(len(x))
         unit[column] = 1.0

@@ -75,6 +75,7 @@ def find_exponents(rows: Sequence[WillisEquation], given: Sequence[Fraction], li
         if len(line) == 1 and not right:  # held still
             found[next(iter(line))] = 0.0
     _spread(lines, found)
+    # whole powers, so that scaling by them rounds nothing
     return [round(found.get(column, 0.0)) for column in range(len(links))]
 
 

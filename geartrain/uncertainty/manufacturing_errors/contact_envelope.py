@@ -1,4 +1,4 @@
-"""Who touches first: the least of all couples, and the driven wheel dragged along under it.
+"""First contact: the lower envelope of all couples of teeth, and the driven wheel dragged along under it.
 
 Couple k forbids the driven wheel to lag behind f(t + theta_k) - phi_k, so that it follows U(t) = min over k. Pushed and
 dragged it stands at y(t), the least U so far. As every f rises with t, y is the least over all couples that have come

@@ -95,6 +95,7 @@ def cells_of(envelope: ContactEnvelope, *marks: tuple[Ints, Floats]) -> Cells:
     count, pitch = envelope.pair.count, envelope.pair.sizes.p1
     n = np.concatenate([np.arange(count), *(at % count for at, _ in marks)])
     u = np.concatenate([np.zeros(count), *(each for _, each in marks)])
+    # a position may leave its pitch by rounding
     u = np.clip(u, 0.0, pitch)
     order = np.lexsort((u, n))
     n, u = n[order], u[order]
@@ -133,6 +134,7 @@ def _takes_over(envelope: ContactEnvelope, n: Ints, low: Floats, high: Floats, o
 
     def lead(at: Ints, u: Floats) -> Floats:
         with np.errstate(invalid="ignore"):
+            # inf - inf where neither is in reach: nan, which no comparison below takes for a crossing
             return envelope.lag_at(one[at], n[at], u) - envelope.lag_at(other[at], n[at], u)
 
     every = np.arange(len(n))

@@ -55,12 +55,13 @@ def least_backlash_sum(
 ) -> tuple[Any, Any]:
     """Least sum of the two contacts, each in one phase, within the common reach, and where; inf where there is none.
 
-    Newton's steps from half way, kept between slopes of unlike sign; the last one is taken in the value, by a parabola.
+    Newton's method safeguarded by bisection, from half way; the last step is taken in the value, by a parabola.
     """
     low, high = common(front, back, delta)
     least, most = low, high
     near = _NEAR * (most - least)
     with np.errstate(all="ignore"):
+        # nan and inf of couples that are never in reach together are set aside at the end
         x = np.clip(delta / 2, low, high)
         for _ in range(_MOST_STEPS):
             slope, bend = _slopes(front, back, delta, phases, x)

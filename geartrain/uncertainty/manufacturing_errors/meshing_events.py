@@ -220,6 +220,7 @@ class _Finder:
     def _merged(self, events: list[MeshingEvent]) -> list[MeshingEvent]:
         """Events that follow each other without a gap as one, that of the greatest amount; round the cycle too."""
         found: list[MeshingEvent] = []
+        # pieces of one event may be parted by rounding
         close = 1e-9 * self.pitch
         for event in events:
             if found and event.start - found[-1].end <= close:

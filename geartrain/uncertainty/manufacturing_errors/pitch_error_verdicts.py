@@ -162,6 +162,7 @@ class _Passing:
     @property
     def doubtful(self) -> Bools:
         """Trials in which the next couple alone is not in time for all (trials,)."""
+        # far above rounding: what comes as near is looked at couple by couple
         near = 1e-9 * self.sizes.p2
         clash = _met(*self._coming(1), np.maximum) > self.tip - near
         stands = _met(*self._leaving(1), np.maximum) > -self.tip - near

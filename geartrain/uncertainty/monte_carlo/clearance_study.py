@@ -21,7 +21,7 @@ from geartrain.uncertainty.monte_carlo.trial_run import block_tasks, check_trial
 if TYPE_CHECKING:
     from geartrain.uncertainty.monte_carlo.trial_plan import TrialPlan
 
-_MOST = 1000
+_MOST = 1000  # clearances
 
 
 @dataclass(frozen=True, slots=True)

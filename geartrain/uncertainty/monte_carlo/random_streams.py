@@ -56,6 +56,7 @@ class RandomStreams:
     def rng(self, item: int, kind: int) -> np.random.Generator:
         """The stream of one kind of error of one wheel, pair or position."""
         key = (self.block, item, kind, int(self.other(item, kind)))
+        # PCG64 by name: what numpy takes by default may change, and trials must not
         return np.random.Generator(np.random.PCG64(np.random.SeedSequence(self.seed, spawn_key=key)))
 
     def errors(self, item: int, kind: str, off: ErrorSpecification, shape: tuple[int, ...]) -> Floats:

@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 
 By = Literal["wheel", "kind"]
 _STREAMS = 1 << 21  # blocks of these studies: streams of their own
-_RESAMPLES = 200
+_RESAMPLES = 200  # for the intervals
 
 
 @dataclass(frozen=True, slots=True)

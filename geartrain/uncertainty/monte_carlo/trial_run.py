@@ -183,6 +183,7 @@ def work_block(plan: TrialPlan, seed: int, task: Sequence[int]) -> dict[str, Any
 
 def _off(first: Floats, exact: Floats) -> tuple[float, float, int]:
     with np.errstate(invalid="ignore"):
+        # inf - inf in trials where nothing touches
         good = np.isfinite(first - exact)
     first, exact = first[good], exact[good]
     return float(np.sum((first - exact) ** 2)), float(np.sum(exact**2)), len(first)

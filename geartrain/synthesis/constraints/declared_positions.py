@@ -150,7 +150,7 @@ class DeclaredPositions:
         name = "phase closure: teeth of all loops meet at the declared positions"
         if rule is None:
             train = self.fitting.train.model_copy()
-            train._marks = None  # a door to a file, which other processes do not need
+            train._marks = None  # it leads to a file, which other processes do not need
             yield Condition(name, wheels, LoopPhasing(train, self.fitting.tree, self.fitting.circuits, wheels))
             return
         sums = [(modulus, self._sum(terms)) for modulus, terms in rule.conditions]

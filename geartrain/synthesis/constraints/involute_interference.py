@@ -74,6 +74,7 @@ def tip_room(z1: Any, z2: Any, pressure: float, h1: float, h2: float) -> Floats:
     C = cos(pressure)
     with np.errstate(divide="ignore", invalid="ignore"):
         out = (r2 * r2 - r1 * r1 - a * a) / (2 * a * r1)
+        # clipped: sets whose tip circles do not cross are set aside at the end
         theta1 = np.arccos(np.clip(out, -1, 1))
         theta2 = np.arccos(np.clip((a * a + r2 * r2 - r1 * r1) / (2 * a * r2), -1, 1))
         tip1 = np.arccos(z1 * C / (2 * r1))

@@ -92,6 +92,7 @@ class EpicyclicSet(CountSizes, Result):
     @property
     def clears(self) -> bool:
         """True if neighbouring planets do not touch."""
+        # wheels that just touch clear each other, whatever rounding says
         return self.room >= -1e-9
 
     def to_train(self) -> dict[str, Any]:

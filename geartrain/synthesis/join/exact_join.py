@@ -44,7 +44,7 @@ class RefusalCounts:
 
 
 class ExactJoin:
-    """A question with its lists made.
+    """The exact join, by bucket elimination (Dechter 1999): a question with its lists made.
 
     slices   what part of the work to do
     budget   steps after which `BudgetSpentError` is raised

@@ -14,7 +14,7 @@ from geartrain.synthesis.join.partial_assignments import ItemMonomial
 from geartrain.synthesis.join.polynomial_constraints import PolynomialConstraint
 from geartrain.synthesis.join.product_lists import Item
 
-_LARGEST = 1 << 62
+_LARGEST = 1 << 62  # products below this are exact in int64
 
 
 def find_item_monomials(

@@ -22,8 +22,8 @@ from geartrain.synthesis.join.partial_assignments import PartialAssignments
 
 Signs = NDArray[np.int8]
 
-ROUNDING = 2 * UNIT_ROUNDOFF
-_WRAP = (1 << 64) - 1
+ROUNDING = 2 * UNIT_ROUNDOFF  # twice, so that squares of it need no bound of their own
+_WRAP = (1 << 64) - 1  # the lowest 64 bits
 
 
 @dataclass(frozen=True)
@@ -114,6 +114,7 @@ class SignPolynomial:
                 for _ in range(self.degree(item)):
                     least = least * bottom
         found: Signs = np.zeros(rows.size, dtype=np.int8)
+        # a factor of two below what int64 holds, for the bound itself is rounded
         short = least < 2.0**62
         found[short] = np.sign(self._wrapped(rows.pick(short))).astype(np.int8)
         for at in np.flatnonzero(~short):

@@ -25,7 +25,7 @@ _MOST_VALUES = 10**7
 """Values of one item: half a gigabyte with all that belongs to them."""
 _MOST_QUOTIENTS = 1 << 22  # of an item with counts above and below
 _MOST_WORK = 2 * 10**8  # products made to list one item
-_LARGEST = 1 << 62
+_LARGEST = 1 << 62  # products below this are exact in int64
 _NOTHING = Fraction(1), Fraction(0)
 
 

@@ -63,6 +63,7 @@ class BeamSearch:
         plain = np.log(table.driven.astype(float)) + np.log(table.driver.astype(float))
         self._bulk = plain
         self._windows = np.array(aims.logs).T
+        # stable: of ratios as plain as each other the least first, on every machine
         self._plainest = np.argsort(plain, kind="stable")
 
     def run(self, width: int, seeds: int) -> Iterator[PartialTree]:

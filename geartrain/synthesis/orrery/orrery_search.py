@@ -15,7 +15,7 @@ from geartrain.synthesis.orrery.pair_ratio_table import PairRatios, pair_ratios
 from geartrain.synthesis.orrery.period_targets import PeriodTargets, read_period_targets
 
 _WALKABLE = 2 * 10**5  # steps of a walk that is made unasked
-_SEEDS_A_PART = 4
+_SEEDS_A_PART = 4  # first extra arbors for each tree that a beam keeps
 
 Tell = Callable[[int, int], None]
 

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats, Ints
 
 
-_MOST_PAIRS = 2 * 10**7
+_MOST_PAIRS = 2 * 10**7  # of counts
 
 
 @dataclass(frozen=True)
@@ -69,6 +69,7 @@ def pair_ratios(counts: Sequence[int]) -> PairRatios:
                 "no admissible tooth counts", "a wheel has a positive number of teeth", "give counts such as 12:400"
             )
         )
+    # terms below 2^31, for both of a ratio are put into one integer below
     if len(admissible) ** 2 > _MOST_PAIRS or admissible[-1] >= 2**31:
         raise RangeError(
             Problem(

@@ -94,6 +94,7 @@ class ValueFinder:
         least = _least_sums(over, under, size)
         misses, place = error_places(over, under, value)
         fresh: list[Key] = []
+        # nearest first, then by the least sum that is possible: from the first that is too late on, all are
         for at in np.lexsort((least, place)).tolist():
             miss, total = misses[place[at]], float(least[at])
             if self._too_late(miss, total):

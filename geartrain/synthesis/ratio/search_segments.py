@@ -45,6 +45,7 @@ class SegmentPlan:
 
     def tolerance_for(self, number: float) -> Fraction:
         """An |error| within which about so many pairs of sets lie."""
+        # without a density to go by a search begins narrow, and is widened
         return Fraction(number / self.density) if self.density * 1e18 > number else Fraction(1, 10**18)
 
 
@@ -52,6 +53,7 @@ def lay_out(question: StageProblem) -> SegmentPlan:
     """Segments of about two blocks of products each, those beneath and those on top that go with them."""
     size, value = question.stages, question.value
     spans = [log(counts[-1] / counts[0]) for counts in (question.top, question.beneath)]
+    # a single count spans nothing
     width = max(*spans, 1e-6) / _BINS
     over, under = (_spread(counts, size, width) for counts in (question.top, question.beneath))
     start = size * log(question.beneath[0])

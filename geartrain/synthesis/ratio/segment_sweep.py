@@ -178,6 +178,7 @@ class _BySums:
         """All pieces."""
         del bound
         question = replace(self.question, tolerance=tolerance)
+        # four stages and more take long: in pieces of eight sums; fewer in one piece
         sums, step = sums_of(question), 8 if question.stages > 3 else 1 << 40
         plain = question.plain()
         tasks = [

@@ -89,6 +89,7 @@ def _first(search: PartSearch) -> Fraction:
 
 def _growth(search: PartSearch, count: int, some: int) -> Fraction:
     """By how much to widen when only `count` were found."""
+    # nothing found: as wide a step as is taken
     missing = some / count if count else 1e9
     return Fraction(min(10.0, max(1.5, missing ** (1 / max(_powers(search), 1)))))
 

@@ -82,6 +82,7 @@ def _width(stage: SceneContext) -> float:
         return 1.0
     low = min(place.centre[at] - place.radius for place in places for at in (0, 1))
     high = max(place.centre[at] + place.radius for place in places for at in (0, 1))
+    # not 0, for dials are parts of it
     return max(high - low, 1e-6)
 
 
@@ -117,7 +118,7 @@ def _fitted(faces: dict[Key, DialFace], gap: float) -> dict[Key, DialFace]:
 
 
 def _rounded(u: Vector) -> Vector:
-    return round(u[0], 6), round(u[1], 6), round(u[2], 6)
+    return round(u[0], 6), round(u[1], 6), round(u[2], 6)  # equal but for rounding is equal
 
 
 def find_pointers(stage: SceneContext, dials: Sequence[Key]) -> tuple[Pointer, ...]:

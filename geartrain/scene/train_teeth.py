@@ -90,6 +90,7 @@ class WheelTeeth:
             return tuple((hypot(x, y) / R, atan2(y, x)) for x, y in round_)
         points = Contour.of((*self.tooth[:-1], (*self.tooth[-1][:2], 0.0))).flattened(_CHORD).tolist()
         half = pi / self.z
+        # without the points on the borders of the pitch, which stand at both ends below
         inside = [(hypot(x, y) / R, atan2(y, x)) for x, y in points if abs(atan2(y, x)) < half - _SAME]
         return ((self.root / R, -half), *inside, (self.root / R, half))
 

@@ -89,6 +89,7 @@ class PlanOrder:
         for at, joined in enumerate(self._joined):
             if len(joined) == 1 and self._pivot.get(at) in joined and at not in fixed:
                 (pivot, length), *_ = joined.items()
+                # rounded: lengths that are equal but for rounding are alike
                 alike.setdefault((pivot, round(length, 9), round(float(self.radius[at]), 9)), []).append(at)
         return {at: tuple(group) for group in alike.values() for at in group}
 

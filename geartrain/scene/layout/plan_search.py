@@ -76,6 +76,7 @@ def fit_distances(points: Floats, bars: Sequence[Bar], fixed: Iterable[int]) -> 
     bars = [bar for bar in bars if not {bar.first, bar.second} <= fixed]
     if not bars or not free or len(points) > _MOST:
         return points
+    # a distance of 0 gives no scale of its own
     kept = _TOUCH * np.array([max(bar.length, 1e-9) for bar in bars])
     if np.all(np.abs(_distance_misses(points, bars)[0]) <= kept):
         return points

@@ -149,6 +149,7 @@ class _OrderSearch:
         tries = (np.nonzero(free)[0] - 1) / 2
         every = np.repeat(keys[None, :], len(tries), axis=0)
         every[:, at] = tries
+        # rounded as in `_shifted`: of equal costs the first
         keys[at] = tries[int(np.argmin(np.round(self._costs(every), 9)))]
 
     def _costs(self, every: Floats) -> Floats:

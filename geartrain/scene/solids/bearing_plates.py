@@ -148,6 +148,7 @@ def _hull(points: Sequence[Point]) -> list[Point]:
         for x, y in row:
             while len(kept) > 1:
                 (ax, ay), (bx, by) = kept[-2:]
+                # mm2: a corner that lies on the edge but for rounding is none
                 if (bx - ax) * (y - ay) - (by - ay) * (x - ax) > 1e-9:
                     break
                 kept.pop()

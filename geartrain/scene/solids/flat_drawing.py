@@ -18,7 +18,7 @@ LAYERS = (CUT, PITCH, ENGRAVE)
 """Names of the layers: what a laser follows, circles that only guide, and letters."""
 
 MARGIN = 2.0  # mm of white round the part
-_MANY = 64
+_MANY = 64  # vertices, which then bound a contour well enough
 TOLERANCE = 0.001  # mm, how far a chord may leave a curve
 
 

@@ -90,6 +90,7 @@ def scale_of(layout: Layout, making: ManufacturingSizes) -> float:
         why = f"it gives {named}, and what is declared wins"
         fix = "leave --module out, or take the sizes out of the file"
         raise QuestionError(Problem("the declaration has sizes of its own", why, fix, "--module"))
+    # rounded: modules that are equal but for rounding count as one
     usual, _ = Counter(round(place.module, 9) for place in layout.wheels.values()).most_common(1)[0]
     return making.module / usual
 

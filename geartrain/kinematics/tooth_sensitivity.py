@@ -82,4 +82,5 @@ def _shift(result: OutputResult, relative: Relative) -> float | None:
         return None
     if speed == result.speed:
         return 0.0
+    # in Fractions where the answer is exact: of floats so near to each other few digits would be left
     return as_plain_product(speed / result.speed - 1, 10**6) if result.speed else None

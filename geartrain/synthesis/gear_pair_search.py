@@ -196,6 +196,7 @@ def _by_scan(value: Fraction, box: _Box, number: int) -> list[_Pair]:
     """The `number` best pairs: the tolerance is widened until it holds that many, so all better ones are inside."""
     farthest = [box.top.least / Fraction(box.beneath.most), box.top.most / Fraction(box.beneath.least)]
     tolerance = max(farthest[0] / value - 1, 1 - farthest[1] / value, Fraction(0))
+    # narrower than evenly spread pairs would need, then four times as wide each time: the last count costs most
     step = Fraction(number, len(box.top) * len(box.beneath)) / 64
     while box.number(*_limits(value, tolerance)) < number:
         tolerance += step

@@ -124,6 +124,7 @@ def deviation_of(values: Floats) -> IntervalEstimate:
     variance = float(off @ off) / (n - 1)
     if not variance:
         return IntervalEstimate(0.0, 0.0, 0.0)
+    # the variance has n - 1 below: in small samples the difference may fall below 0
     spread = sqrt(max(float(np.mean(off**4)) - variance**2, 0.0) / n)
     low, high = (max(variance + sign * deviations() * spread, 0.0) for sign in (-1, 1))
     return IntervalEstimate(sqrt(variance), sqrt(low), sqrt(high))
@@ -138,6 +139,7 @@ def percentile_of(ordered: Floats, percent: float) -> IntervalEstimate:
     if not n:
         return IntervalEstimate(nan, -inf, inf)
     half = deviations() * sqrt(n * p * (1 - p))
+    # places from 0, rounded outwards: whole places shall not make the interval narrower
     low, high = floor(n * p - half) - 1, ceil(n * p + half)
     ends = (float(ordered[low]) if low >= 0 else -inf, float(ordered[high]) if high < n else inf)
     return IntervalEstimate(float(np.quantile(ordered, p)), *ends)

@@ -122,6 +122,7 @@ def _expected(superposed: Superposition, harmonics: list[Complex], output: int, 
         )
         for order, parts in phasors.items()
     ]
+    # of equal amplitudes the lower order first, so that the list is the same each time
     lines.sort(key=lambda line: (-line.expected, line.order))
     strongest = lines[0].expected if lines else 0.0
     return [line for line in lines[:most] if line.expected > _FAINT * strongest]

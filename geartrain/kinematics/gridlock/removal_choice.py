@@ -83,6 +83,7 @@ def open_loop(network: GainGraph, found: GainWalk) -> GainLoop:
         starts: Sequence[int] = range(network.size)
         best = None
     else:
+        # the loop shown is an example: of very many chords the first are enough to find a short one
         chords = list(found.breaking)[:200]
         best = min((found.loop(chord, network.ends[chord]) for chord in chords), key=len)
         starts = [node for node, _ in best[: 1 + 5000 // len(best)]]  # a way round each of them costs its length

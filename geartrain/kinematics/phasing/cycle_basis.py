@@ -51,6 +51,7 @@ def find_cycle_basis(
         if mesh >= 0 and parts.node_group[node] in groups:
             _join(edges, mesh, node, parts.node_parent[node])
     depth = node_depths(parts)
+    # those near the root first: their loops are short, and shorten those of others
     waiting = sorted(parts.closing, key=lambda at: depth[ends[at][0]] + depth[ends[at][1]])
     found: list[PhaseCycle] = []
     for most in _LENGTHS:

@@ -83,6 +83,7 @@ def _join(found: list[tuple[int, Row]], modulus: int, terms: Row) -> None:
 def _prime_powers(number: int) -> Iterable[int]:
     prime = 2
     while number > 1:
+        # trial division: what has no divisor up to its root is prime
         if prime * prime > number:
             prime = number
         power = 1

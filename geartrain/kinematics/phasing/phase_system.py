@@ -208,6 +208,7 @@ class PhaseSystem:
         for row, column in zip(basis, dual, strict=True):
             total = sum((weight * Fraction(self._constant[mesh]) for mesh, weight in row.items()), Fraction(0))
             residue = self._condition(None, row).residue
+            # whole but for the rounding of the constants
             whole = round(total - Fraction(residue))
             for mesh, factor in column.items():
                 found[mesh] = found.get(mesh, 0) - whole * factor

@@ -114,6 +114,7 @@ def bezout(a: Ints, b: Ints) -> tuple[Ints, Ints, Ints]:
     r, s, t, r2, s2, t2 = (np.array(one, dtype=np.int64) for one in np.broadcast_arrays(a, 1, 0, b, 0, 1))
     while np.any(r2):
         done = r2 == 0
+        # numpy divides in all rows: by 1 in those that have ended
         q = np.where(done, 0, r // np.maximum(r2, 1))
         # rows that have ended keep their values while others go on
         r, r2 = np.where(done, r, r2), np.where(done, r2, r - q * r2)

@@ -153,6 +153,7 @@ class BestFirst:
                 below = zip(self._below[number], node.children, strict=True)
                 then = (*((child, int(to[at])) for child, (_, to) in below), *later)
                 ahead = so_far + sum(float(self._ahead[one][its]) for one, its in then)
+                # depth falls: of equal bounds the one farthest on comes first, and assignments are whole soon
                 # rounding must not let a child come before its parent
                 heappush(heap, (max(ahead, bound), depth - 1, so_far, then, (*taken, (number, int(node.places[at])))))
 

@@ -157,6 +157,7 @@ def expand(product: int, counts: tuple[int, ...], size: int) -> list[tuple[int, 
     [(36, 100), (40, 90), (45, 80), (48, 75), (50, 72), (60, 60)]
     """
     numbers = _array(counts)
+    # longer products do not fit int64: then no count is ruled out beforehand
     here = [int(count) for count in numbers[product % numbers == 0]] if product < PLAIN else list(counts)
     found: list[tuple[int, ...]] = []
     _factor(product, here, 0, size, (), found)

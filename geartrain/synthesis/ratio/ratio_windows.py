@@ -33,6 +33,7 @@ def cuts(products: Ints, factors: Ints, low: Fraction, high: Fraction) -> tuple[
     """
     # no ratio of these products has a longer denominator than the largest factor
     longest = int(factors.max()) if len(factors) else 1
+    # past all products, with room for the guess in `_floors`: what lies beyond needs no exact floor
     cap = int(products[-1]) + 8
     first, whole = _floors(factors, farey_neighbours(low, longest)[1], cap)
     # the ceiling: one more where the product is not whole

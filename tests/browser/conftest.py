@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import shutil
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -19,7 +19,7 @@ from viewing import DESK, Opening, html_of, wait
 
 from geartrain.viewer import page
 
-NAMES = ("chromium", "chromium-browser", "google-chrome")
+NAMES = ("chromium-headless-shell", "chromium", "chromium-browser", "google-chrome")
 SWITCHES = (
     "--no-sandbox",
     "--use-gl=angle",
@@ -29,6 +29,8 @@ SWITCHES = (
     "--disable-component-update",
     "--disable-sync",
     "--no-first-run",
+    "--disable-gpu-compositing",  # only what a page draws in 3D needs the software GPU
+    "--disable-extensions",
 )
 PATIENCE = 90_000  # ms: software draws slowly on a busy machine
 
@@ -50,10 +52,13 @@ class Shown:
         """The value of an expression, or of a function of `argument`, in the page."""
         return self.page.evaluate(script, argument)
 
-    def at(self, turns: str | float, output: str, scene: int = 0) -> float:
-        """The angle (rad) of an output after some turns of the lead."""
-        script = "([t, scene, name]) => { geartrain.setTurns(t); return geartrain.pointer(scene, name).angle; }"
-        return float(self.run(script, [turns, scene, output]))
+    def angles(self, turns: Sequence[str | float], outputs: Sequence[str]) -> list[list[float]]:
+        """The angles (rad) of outputs, a list for each number of turns of the lead; asked at once, so drawn once."""
+        script = """([turns, outputs]) => turns.map((each) => {
+          geartrain.setTurns(each);
+          return outputs.map((name) => geartrain.pointer(0, name).angle);
+        })"""
+        return [[float(angle) for angle in row] for row in self.run(script, [list(turns), list(outputs)])]
 
 
 OpenPage = Callable[..., Shown]

@@ -64,10 +64,12 @@ class Space:
         if lead is None:
             self.consistent = self.consistent and not left[-1]
             return
-        fresh = [value / left[lead] for value in left]
+        fresh = [value / left[lead] if value else value for value in left]
         for column, known in self.rows.items():
             if factor := known[lead]:
-                self.rows[column] = [value - factor * other for value, other in zip(known, fresh, strict=True)]
+                self.rows[column] = [
+                    value - factor * other if other else value for value, other in zip(known, fresh, strict=True)
+                ]
         self.rows[lead] = fresh
 
     @property
@@ -242,7 +244,7 @@ def _spin_value(space: Space, skeleton: Skeleton, link: str) -> Fraction | None:
 def circuits(data: Data, skeleton: Skeleton) -> Iterable[Row]:
     """One row for each gear pair and coupling."""
     for _, (one, other) in sides(data, skeleton):
-        yield [a - b for a, b in zip(one, other, strict=True)]
+        yield [a - b if b else a for a, b in zip(one, other, strict=True)]
 
 
 def sides(data: Data, skeleton: Skeleton) -> Iterable[tuple[tuple[str, str], tuple[Row, Row]]]:
@@ -292,7 +294,7 @@ def _pitch_point(
         of_i, of_j = cross(u, arm_i), cross(v, arm_j)
     at = next(at for at in range(3) if of_i[at] or of_j[at])
     assert all(of_i[at] * of_j[b] == of_i[b] * of_j[at] for b in range(3)), "both velocities lie along one line"
-    return [a * of_i[at] for a in spin_i], [b * of_j[at] for b in spin_j]
+    return [a * of_i[at] if a else a for a in spin_i], [b * of_j[at] if b else b for b in spin_j]
 
 
 def rigid(train: RandomTrain, skeleton: Skeleton, bodies: Sequence[tuple[str, str]]) -> Iterable[Row]:

@@ -97,11 +97,13 @@ def echelon(matrix: Matrix, columns: int) -> list[int]:
         top = len(pivots)
         matrix[top], matrix[lead] = matrix[lead], matrix[top]
         scale = matrix[top][column]
-        matrix[top] = [value / scale for value in matrix[top]]
+        matrix[top] = [value / scale if value else value for value in matrix[top]]
         for r, row in enumerate(matrix):
             if r != top and row[column]:
                 factor = row[column]
-                matrix[r] = [value - factor * above for value, above in zip(row, matrix[top], strict=True)]
+                matrix[r] = [
+                    value - factor * above if above else value for value, above in zip(row, matrix[top], strict=True)
+                ]
         pivots.append(column)
     return pivots
 
@@ -109,7 +111,8 @@ def echelon(matrix: Matrix, columns: int) -> list[int]:
 def _dense(
     rows: Sequence[tuple[Mapping[str, Fraction], Fraction]], links: Sequence[str]
 ) -> tuple[Matrix, list[int], bool]:
-    matrix = [[row.get(link, Fraction(0)) for link in links] + [right] for row, right in rows]
+    zero = Fraction(0)
+    matrix = [[row.get(link, zero) for link in links] + [right] for row, right in rows]
     pivots = echelon(matrix, len(links))
     consistent = not any(row[-1] for row in matrix[len(pivots) :])
     return matrix, pivots, consistent

@@ -267,9 +267,10 @@ def sets_between_shafts(seed: int) -> dict[str, Any]:
 
 
 @pytest.fixture(scope="module")
-def determined_sets() -> list[tuple[int, GearTrain, dict[str, Fraction]]]:
-    """Those of 700 seeds whose speeds are determined, with the exact speeds."""
-    drawn = ((seed, GearTrain.declare(sets_between_shafts(seed))) for seed in range(700))
+def determined_sets(request: pytest.FixtureRequest) -> list[tuple[int, GearTrain, dict[str, Fraction]]]:
+    """Those of 250 seeds (700 with `--slow`) whose speeds are determined, with the exact speeds."""
+    seeds = range(700 if request.config.getoption("--slow") else 250)
+    drawn = ((seed, GearTrain.declare(sets_between_shafts(seed))) for seed in seeds)
     solved = ((seed, train, train.solve()) for seed, train in drawn)
     return [(seed, train, dict(answer.speeds)) for seed, train, answer in solved if answer.verdict]
 
@@ -292,8 +293,8 @@ def test_no_speed_is_farther_off_than_its_estimate(
                 f"seed {seed}: {link} is {speed}, off by {float(off)}"
             )
             still += not truth[link] and bool(speed)
-    assert judged > 300
-    assert still > 10, "zeros that floats do not hit are what is tried here"
+    assert judged > 100
+    assert still > 3, "zeros that floats do not hit are what is tried here"
 
 
 # Beyond the range of float64 ------------------------------------------------------------------------------------------
@@ -358,10 +359,14 @@ def pair_of(floats: FloatSpeeds, link: str, case: int = 0) -> tuple[Fraction, Fr
 CHAINS = {
     "up": row(*[(11, 10)] * 2000),
     "further up": row(*[(11, 10)] * 8000),
-    "down": row(*[(10, 11)] * 8000),
-    "up and back": row(*[(11, 10)] * 8000, *[(10, 11)] * 8000),
+    "down": row(*[(5, 6)] * 4400),
+    "up and back": row(*[(6, 5)] * 4400, *[(5, 6)] * 4400),
     "two thousand steep ones": row(*[(50, 10)] * 2000),
     "five thousand steep ones": row(*[(10, 50)] * 5000),
+}
+GENTLE_CHAINS = {
+    "gently down": row(*[(10, 11)] * 8000),
+    "gently up and back": row(*[(11, 10)] * 8000, *[(10, 11)] * 8000),
     "drifting": drift(12_000),
 }
 
@@ -369,13 +374,13 @@ CHAINS = {
 @cache
 def chain(name: str) -> tuple[GearTrain, FloatSpeeds]:
     """A chain with its speeds, which several tests look at."""
-    train = GearTrain.declare(CHAINS[name])
+    train = GearTrain.declare((CHAINS | GENTLE_CHAINS)[name])
     return train, train.floats()
 
 
-@pytest.mark.parametrize("name", CHAINS)
+@pytest.mark.parametrize("name", [*CHAINS, *(pytest.param(name, marks=pytest.mark.slow) for name in GENTLE_CHAINS)])
 def test_chains_of_any_ratio_are_solved_within_their_estimates(name: str, recwarn: pytest.WarningsRecorder) -> None:
-    (_, floats), truth = chain(name), by_hand(CHAINS[name])
+    (_, floats), truth = chain(name), by_hand((CHAINS | GENTLE_CHAINS)[name])
     for at in {*range(0, len(truth), max(1, len(truth) // 40)), len(truth) - 1}:
         speed, estimate = pair_of(floats, f"g{at}")
         assert abs(speed - truth[at]) <= estimate <= abs(truth[at]) / 10**12
@@ -407,10 +412,10 @@ def test_the_cascade_of_ten_thousand_is_solved_upwards_too() -> None:
     assert abs(speed - 10**400) <= estimate <= Fraction(10) ** 388
 
 
-def test_no_speed_beyond_the_range_is_farther_off_than_its_estimate() -> None:
+def test_no_speed_beyond_the_range_is_farther_off_than_its_estimate(request: pytest.FixtureRequest) -> None:
     """Also where shafts stand still by cancellation of speeds that float64 does not hold."""
     judged = 0
-    for seed in range(40):
+    for seed in range(40 if request.config.getoption("--slow") else 16):
         train = GearTrain.declare(before_shafts(seed))
         answer = train.solve()
         if not answer.verdict:
@@ -420,7 +425,7 @@ def test_no_speed_beyond_the_range_is_farther_off_than_its_estimate() -> None:
             speed, estimate = pair_of(floats, link)
             assert abs(speed - truth) <= estimate, f"seed {seed}: {link}"
             assert not truth or estimate <= abs(truth) / 10**9, f"seed {seed}: {link}"
-    assert judged > 15
+    assert judged > 5
 
 
 def test_a_train_whose_sizes_take_too_long_to_find_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -458,22 +463,22 @@ def test_every_case_has_exponents_of_its_own() -> None:
 
 
 def test_an_answer_in_floats_tells_speeds_of_any_size_and_never_as_exact() -> None:
-    data = row(*[(11, 10)] * 8000)
-    data["outputs"] = {"last": {"of": "g8000", "expect": "1/3"}}
-    data["outputs"]["slip"] = {"of": "g8000", "relative_to": "g7999"}
+    data = row(*[(50, 10)] * 2000)
+    data["outputs"] = {"last": {"of": "g2000", "expect": "1/3"}}
+    data["outputs"]["slip"] = {"of": "g2000", "relative_to": "g1999"}
     answer = GearTrain.declare(data).solve(method="floats")
     assert isinstance(answer["last"], LongFloat)
     assert not answer.outputs["last"].holds
-    assert abs(Fraction(answer["slip"]) / (Fraction(11, 10) ** 8000 + Fraction(11, 10) ** 7999) - 1) < 1e-15
+    assert abs(Fraction(answer["slip"]) / (5**2000 + 5**1999) - 1) < 1e-15
     plain = json.loads(json.dumps(answer.to_dict(), allow_nan=False))
-    assert plain["speeds"]["g8000"] == {
+    assert plain["speeds"]["g2000"] == {
         "exact": None,
         "value": None,
-        "decimal": decimal(Fraction(11, 10) ** 8000, 12),
+        "decimal": decimal(Fraction(5**2000), 12),
         "estimate": None,
-        "true_error": plain["speeds"]["g8000"]["true_error"],
+        "true_error": plain["speeds"]["g2000"]["true_error"],
     }
-    assert plain["outputs"]["last"]["decimal"] == decimal(Fraction(11, 10) ** 8000, 12)
+    assert plain["outputs"]["last"]["decimal"] == decimal(Fraction(5**2000), 12)
     assert plain["outputs"]["last"]["output/input"] is None
 
 

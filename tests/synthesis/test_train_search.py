@@ -460,7 +460,7 @@ def test_a_train_that_no_counts_let_turn_is_refused() -> None:
 )
 @pytest.mark.parametrize("tolerance", [None, Fraction(1, 100)])
 def test_every_kind_of_demand_means_what_the_solver_means(output: Data, tolerance: Fraction | None) -> None:
-    data = train([("A", "a", "B", "b")], {"a": free(8, 18), "b": free(24, 48)}, {"B": output})
+    data = train([("A", "a", "B", "b")], {"a": free(8, 13), "b": free(24, 40)}, {"B": output})
     truth = by_solving(data, tolerance)
     found = find(data, tolerance=tolerance, best=1000)
     assert found.count == len(truth)

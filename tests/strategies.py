@@ -31,7 +31,7 @@ turning = st.sampled_from(SPEEDS[1:])
 
 
 def choose(draw: st.DrawFn, items: Sequence[Item]) -> Item:
-    """One of some items, by its place: Hypothesis keeps strategies of places, and checks one of items anew each time."""
+    """One of some items, by its place: Hypothesis keeps strategies of places, and makes one of items anew."""
     return items[draw(st.integers(0, len(items) - 1))]
 
 

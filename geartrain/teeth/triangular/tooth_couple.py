@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import math
 from types import ModuleType
-from typing import Any
+from typing import Any, TypeAlias
 
 from geartrain.teeth.triangular.pair_geometry import TriangularSizes
 
@@ -20,6 +20,12 @@ SLIP, RETURN = "slip", "return"
 """Contact that cannot push: the driver's apex on a driven flank that leans, an apex on the far side of a leaning flank.
 
 They occur with leaning flanks only, and bound the play; the driven wheel would turn back, so it stands instead."""
+
+FlankLine: TypeAlias = tuple[Any, Any, Any, Any, Any, Any]
+"""u, sin psi, cos psi, c, s, q: psi = x + beta1 the driver's flank, s and q sine and cosine of psi + y."""
+
+DrivenApex: TypeAlias = tuple[Any, Any, Any, Any, Any]
+"""sin x, cos x, arm R2 cos(beta2) - v with v of Eq. (16, lesser root), and sine and cosine of alpha_2."""
 
 
 class ToothCouple:
@@ -35,8 +41,8 @@ class ToothCouple:
 
     # ------------------------------------------------------------------------------------------------------- approach
 
-    def _line(self, x: Any, m: ModuleType) -> tuple[Any, Any, Any, Any, Any, Any]:
-        """u, sin psi, cos psi, c, s, q: psi = x + beta1 the driver's flank, s and q sine and cosine of psi + y."""
+    def _line(self, x: Any, m: ModuleType) -> FlankLine:
+        """Of an approach at x."""
         # half angles: 1 - cos x would cancel near the line of centres
         u, w = m.sin(x / 2), m.cos(x / 2)
         sine, cosine = 2 * u * w, 1 - 2 * u * u
@@ -49,7 +55,10 @@ class ToothCouple:
 
     def approach_angle(self, x: Any, m: ModuleType = math) -> Any:
         """alpha_2 in approach, Eq. (7)."""
-        _, sin_psi, cos_psi, c, s, q = self._line(x, m)
+        return self._angle_on_flank(self._line(x, m), m)
+
+    def _angle_on_flank(self, line: FlankLine, m: ModuleType) -> Any:
+        _, sin_psi, cos_psi, c, s, q = line
         # sin(alpha_2) = s cos psi - q sin psi as a product with c = s - sin psi: the difference cancels at large z
         return m.asin(c * (cos_psi + sin_psi * (sin_psi + s) / (cos_psi + q)))
 
@@ -62,7 +71,10 @@ class ToothCouple:
 
     def approach_speed(self, x: Any, m: ModuleType = math) -> Any:
         """tau in approach, Eq. (12)."""
-        u, _, cos_psi, _, _, q = self._line(x, m)
+        return self._speed_on_flank(self._line(x, m))
+
+    def _speed_on_flank(self, line: FlankLine) -> Any:
+        u, _, cos_psi, _, _, q = line
         return self._driver_arm(u, cos_psi, q) / (self.R2 * q)
 
     def approach_slope(self, x: Any, m: ModuleType = math) -> Any:
@@ -82,8 +94,8 @@ class ToothCouple:
 
     # --------------------------------------------------------------------------------------------------------- recess
 
-    def _apex(self, x: Any, m: ModuleType) -> tuple[Any, Any, Any, Any, Any]:
-        """sin x, cos x, arm R2 cos(beta2) - v with v of Eq. (16, lesser root), and sine and cosine of alpha_2."""
+    def _apex(self, x: Any, m: ModuleType) -> DrivenApex:
+        """Of a recess at x."""
         u = m.sin(x / 2)
         sine, cosine = 2 * u * m.cos(x / 2), 1 - 2 * u * u
         W = 4 * self.D * self.R1 * (self.entry - u) * (self.entry + u)
@@ -101,15 +113,18 @@ class ToothCouple:
         *_, sin_y, cos_y = self._apex(x, m)
         return m.atan2(sin_y, cos_y)
 
-    def _turned(self, x: Any, m: ModuleType) -> tuple[Any, Any, Any, Any, Any, Any]:
+    def _turned(self, apex: DrivenApex) -> tuple[Any, Any, Any, Any, Any, Any]:
         """arm, cosine and sine of beta2 - x - y, sine and cosine of psi2 = beta2 - y, sine of x."""
-        sine, cosine, arm, sin_y, cos_y = self._apex(x, m)
+        sine, cosine, arm, sin_y, cos_y = apex
         sin_psi, cos_psi = self.sin2 * cos_y - self.cos2 * sin_y, self.cos2 * cos_y + self.sin2 * sin_y
         return arm, cos_psi * cosine + sin_psi * sine, sin_psi * cosine - cos_psi * sine, sin_psi, cos_psi, sine
 
     def recess_speed(self, x: Any, m: ModuleType = math) -> Any:
         """tau in recess, Eq. (19)."""
-        arm, q, *_ = self._turned(x, m)
+        return self._speed_at_apex(self._apex(x, m))
+
+    def _speed_at_apex(self, apex: DrivenApex) -> Any:
+        arm, q, *_ = self._turned(apex)
         return self.R1 * q / arm
 
     def recess_slope(self, x: Any, m: ModuleType = math) -> Any:
@@ -117,13 +132,13 @@ class ToothCouple:
 
         Turned back, the driven wheel meets the driver in approach at the ratio 1/tau: that slope, times tau cubed.
         """
-        arm, q, s, sin_psi, cos_psi, _ = self._turned(x, m)
+        arm, q, s, sin_psi, cos_psi, _ = self._turned(self._apex(x, m))
         tau = self.R1 * q / arm
         return tau * (1 + tau) * ((1 + tau) * s / q - tau * sin_psi / cos_psi)
 
     def recess_friction(self, x: Any, m: ModuleType = math) -> tuple[Any, Any, Any]:
         """Side of the line of centres (sign of alpha_1), and the tangents tan2, tan1 of Eq. (33)."""
-        arm, q, s, _, _, sine = self._turned(x, m)
+        arm, q, s, _, _, sine = self._turned(self._apex(x, m))
         return m.copysign(1.0, sine), self.R2 * self.sin2 / arm, s / q
 
     # ------------------------------------------------------------------------------------------------------- returning
@@ -157,6 +172,17 @@ class ToothCouple:
         if phase == RETURN:
             return self.return_speed(x, m)
         return self.approach_speed(x, m) if phase == APPROACH else self.recess_speed(x, m)
+
+    def angle_and_speed(self, phase: str, x: Any, m: ModuleType = math) -> tuple[Any, Any]:
+        """alpha_2 and tau; what both need of the contact is worked out once."""
+        if phase == RETURN:
+            return self.return_angle(x, m), self.return_speed(x, m)
+        if phase == APPROACH:
+            line = self._line(x, m)
+            return self._angle_on_flank(line, m), self._speed_on_flank(line)
+        apex = self._apex(x, m)
+        *_, sin_y, cos_y = apex
+        return m.atan2(sin_y, cos_y), self._speed_at_apex(apex)
 
     def slope(self, phase: str, x: Any, m: ModuleType = math) -> Any:
         """d tau / d alpha_1 (1/rad)."""

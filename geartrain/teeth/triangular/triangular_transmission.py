@@ -79,7 +79,7 @@ class TriangularTransmission(TransmissionFunction):
 
     def error_and_speed(self, S: ArrayLike) -> tuple[Floats, Floats]:
         """Transmission error (rad of the driven wheel) and tau; where in the path an angle falls is found once."""
-        lag, tau = self._map_all(S, (self._lag, self._tau))
+        lag, tau = self._map_all(S, self._lag_and_tau, 2)
         return (-lag if self.direction > 0 else self.sizes.p2 + lag), tau
 
     def turned_back(self) -> TriangularTransmission:
@@ -91,34 +91,38 @@ class TriangularTransmission(TransmissionFunction):
         return self._map(S, lambda interval, x: x)
 
     def _map(self, S: ArrayLike, what: Callable[[DriveInterval, Floats], Any]) -> Floats:
-        return self._map_all(S, (what,))[0]
+        return self._map_all(S, lambda interval, x: (what(interval, x),), 1)[0]
 
-    def _map_all(self, S: ArrayLike, what: Sequence[Callable[[DriveInterval, Floats], Any]]) -> list[Floats]:
+    def _map_all(
+        self, S: ArrayLike, what: Callable[[DriveInterval, Floats], tuple[Any, ...]], count: int
+    ) -> list[Floats]:
+        """Some values of an interval at each driver angle, `count` of them."""
         S = np.asarray(S, dtype=float)
         flat = S.ravel()
-        found = [np.empty_like(flat) for _ in what]
+        found = [np.empty_like(flat) for _ in range(count)]
         for start in range(0, len(flat), _BLOCK):
             part = slice(start, start + _BLOCK)
             self._block(flat[part], what, [each[part] for each in found])
         return [each.reshape(S.shape) for each in found]
 
     def _block(
-        self, S: Floats, what: Sequence[Callable[[DriveInterval, Floats], Any]], found: Sequence[Floats]
+        self, S: Floats, what: Callable[[DriveInterval, Floats], tuple[Any, ...]], found: Sequence[Floats]
     ) -> None:
         edges, gone = self._edges, np.empty_like(S)
         behind(S if self.direction > 0 else -S, self.period, gone, np.empty_like(S))
         gone += self._start
         gone -= np.where(gone < self.period, 0.0, self.period)
         if len(self.intervals) == 1:
-            for each, function in zip(found, what, strict=True):
-                each[:] = function(self.intervals[0], self.intervals[0].start - gone)
+            values = what(self.intervals[0], self.intervals[0].start - gone)
+            for each, value in zip(found, values, strict=True):
+                each[:] = value
             return
         which = np.searchsorted(edges[1:-1], gone, side="right")
         for at, interval in enumerate(self.intervals):
             chosen = np.flatnonzero(which == at)
             x = interval.start - (gone[chosen] - edges[at])
-            for each, function in zip(found, what, strict=True):
-                each[chosen] = function(interval, x)
+            for each, value in zip(found, what(interval, x), strict=True):
+                each[chosen] = value
 
     @cached_property
     def _driven(self) -> tuple[DriveInterval, ...]:
@@ -152,6 +156,12 @@ class TriangularTransmission(TransmissionFunction):
 
     def _tau(self, interval: DriveInterval, x: Any) -> Any:
         return 0.0 if interval.held is not None else self.contact.path.couple.speed(interval.phase, x, np)
+
+    def _lag_and_tau(self, interval: DriveInterval, x: Any) -> tuple[Any, Any]:
+        if interval.held is not None:
+            return self._lag(interval, x), 0.0
+        alpha2, tau = self.contact.path.couple.angle_and_speed(interval.phase, x, np)
+        return alpha2 - self.sizes.ratio * x, tau
 
     def _eta(self, interval: DriveInterval, x: Any) -> Any:
         if interval.held is not None:

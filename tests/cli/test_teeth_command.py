@@ -216,7 +216,7 @@ LONG = (
     "--stages",
     "4",
     "--range",
-    "12:150",
+    "12:120",
     "--tolerance",
     "1e-9",
     "--best",
@@ -232,9 +232,9 @@ def start(folder: Path, *more: str) -> subprocess.Popen[str]:
 
 
 def wait_for_work(running: subprocess.Popen[str], folder: Path) -> None:
-    """Until some tasks are in the journal, however long that takes, or all is done."""
+    """Until a task is in the journal below its head, however long that takes, or all is done."""
     while running.poll() is None:
-        if any(path.read_bytes().count(b"\n") > 3 for path in folder.glob("*.partial.jsonl")):
+        if any(path.read_bytes().count(b"\n") > 1 for path in folder.glob("*.partial.jsonl")):
             return
         time.sleep(0.05)
 

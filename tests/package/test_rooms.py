@@ -9,6 +9,7 @@ from collections import defaultdict
 from collections.abc import Iterator
 from functools import cache
 from pathlib import Path
+from typing import NamedTuple
 
 import networkx
 from places import ROOT, TESTS
@@ -33,8 +34,33 @@ def modules() -> dict[str, Path]:
     return {".".join(path.with_suffix("").parts).removesuffix(".__init__"): path for path in found}
 
 
-def syntax(path: Path) -> ast.Module:
-    return ast.parse((ROOT / path).read_text(encoding="utf-8"))
+def imported(body: list[ast.stmt]) -> Iterator[str]:
+    """What a module imports when it is itself imported; not what its functions import when they are called."""
+    for part in body:
+        match part:
+            case ast.Import(names=names):
+                yield from (each.name for each in names)
+            case ast.ImportFrom(module=str(source), names=names):
+                for each in names:
+                    inner = f"{source}.{each.name}"
+                    yield inner if inner in modules() else source
+            case ast.Try(body=inner_body) | ast.If(body=inner_body):  # what only a checker of types reads counts too
+                yield from imported(inner_body)
+
+
+class Syntax(NamedTuple):
+    """What the tests ask of a module's source."""
+
+    docstring: str | None
+    public_classes: list[str]
+    imports: list[str]
+
+
+@cache
+def syntax(path: Path) -> Syntax:
+    tree = ast.parse((ROOT / path).read_text(encoding="utf-8"))
+    classes = [part.name for part in tree.body if isinstance(part, ast.ClassDef) and not part.name.startswith("_")]
+    return Syntax(ast.get_docstring(tree), classes, list(imported(tree.body)))
 
 
 def test_every_entry_of_the_package_is_a_room_of_the_house() -> None:
@@ -44,7 +70,7 @@ def test_every_entry_of_the_package_is_a_room_of_the_house() -> None:
 
 def test_every_room_says_what_it_is() -> None:
     rooms = [name for name, path in modules().items() if path.name == "__init__.py"]
-    silent = [name for name in rooms if not ast.get_docstring(syntax(modules()[name]))]
+    silent = [name for name in rooms if not syntax(modules()[name]).docstring]
     assert silent == []
 
 
@@ -57,9 +83,8 @@ def test_a_folder_holds_two_modules_or_more_and_none_lies_deeper_than_the_second
 def test_no_two_public_classes_share_a_name() -> None:
     homes: dict[str, list[str]] = defaultdict(list)
     for name, path in modules().items():
-        for part in syntax(path).body:
-            if isinstance(part, ast.ClassDef) and not part.name.startswith("_"):
-                homes[part.name].append(name)
+        for public_class in syntax(path).public_classes:
+            homes[public_class].append(name)
     assert {name: where for name, where in homes.items() if len(where) > 1} == {}
 
 
@@ -81,23 +106,9 @@ def test_no_module_is_too_long_to_read_in_one_go() -> None:
     assert long == set()
 
 
-def imported(body: list[ast.stmt]) -> Iterator[str]:
-    """What a module imports when it is itself imported; not what its functions import when they are called."""
-    for part in body:
-        match part:
-            case ast.Import(names=names):
-                yield from (each.name for each in names)
-            case ast.ImportFrom(module=str(source), names=names):
-                for each in names:
-                    inner = f"{source}.{each.name}"
-                    yield inner if inner in modules() else source
-            case ast.Try(body=inner_body) | ast.If(body=inner_body):  # what only a checker of types reads counts too
-                yield from imported(inner_body)
-
-
 def test_no_circle_of_imports_not_even_inside_a_room() -> None:
     graph = networkx.DiGraph(
-        (name, other) for name, path in modules().items() for other in imported(syntax(path).body) if other in modules()
+        (name, other) for name, path in modules().items() for other in syntax(path).imports if other in modules()
     )
     circles = [sorted(each) for each in networkx.strongly_connected_components(graph) if len(each) > 1]
     assert circles == []

@@ -10,8 +10,10 @@ import re
 import stat
 from collections.abc import Iterator
 from fractions import Fraction
+from functools import lru_cache
 from html import unescape
 from html.parser import HTMLParser
+from itertools import pairwise
 from pathlib import Path
 
 import pytest
@@ -19,6 +21,7 @@ import shipped
 from answer_schemas import holds
 from commands import TWENTY, UNUSABLE, call
 from markdown_it import MarkdownIt
+from markdown_it.token import Token
 from pennestri import TABLES_1_TO_3, TURNING_PAIRS
 from places import ROOT
 from rich.console import Console
@@ -94,11 +97,16 @@ class Page(HTMLParser):
             self.outside += re.findall(r"url\([^)]*\)|@import[^;]*|https?:[^\s;]*", data)
 
 
+@lru_cache(maxsize=1)
+def tokens(text: str) -> tuple[Token, ...]:
+    """A Markdown text as another program reads it: once for its tables and its headings."""
+    return tuple(MarkdownIt("commonmark").enable("table").parse(text))
+
+
 def markdown_tables(text: str) -> list[Rows]:
-    """The tables of a Markdown text as another program reads them."""
     tables: list[Rows] = []
     within = False
-    for token in MarkdownIt("commonmark").enable("table").parse(text):
+    for token in tokens(text):
         if token.type == "table_open":
             tables.append([])
         elif token.type == "tr_open":
@@ -113,8 +121,7 @@ def markdown_tables(text: str) -> list[Rows]:
 
 
 def headings(text: str) -> list[str]:
-    tokens = MarkdownIt("commonmark").enable("table").parse(text)
-    return [tokens[at + 1].content for at, token in enumerate(tokens) if token.type == "heading_open"]
+    return [after.content for token, after in pairwise(tokens(text)) if token.type == "heading_open"]
 
 
 def section(text: str, title: str) -> list[Rows]:
@@ -193,7 +200,12 @@ def test_the_mobility_of_the_report_is_nineteen_less_eighteen(paper: str) -> Non
 # ------------------------------------------------------------------------------------------------- three forms, one say
 
 
-@pytest.mark.parametrize("name", shipped.trains())
+# a report tells nothing of how teeth are cut, by which alone it differs from freeth-2021-teeth, the dearest of all
+TWIN = "freeth-2021-cut"
+REPORTED = [pytest.param(name, marks=[pytest.mark.slow] if name == TWIN else []) for name in shipped.trains()]
+
+
+@pytest.mark.parametrize("name", REPORTED)
 def test_html_and_markdown_of_a_report_hold_the_same_tables(name: str) -> None:
     document = describe_train(shipped.report(name))
     page, text = Page(to_html([document])), to_markdown([document])
@@ -204,7 +216,7 @@ def test_html_and_markdown_of_a_report_hold_the_same_tables(name: str) -> None:
     assert (page.open, page.astray, page.outside) == ([], [], [])
 
 
-@pytest.mark.parametrize("name", shipped.trains())
+@pytest.mark.parametrize("name", REPORTED)
 def test_json_of_every_shipped_train_has_the_shapes_of_the_schema(name: str) -> None:
     train, report = shipped.train(name), json.loads(as_json([shipped.report(name)]))
     holds("report", report)

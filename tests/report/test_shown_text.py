@@ -6,15 +6,13 @@ import csv
 import io
 import json
 import re
-import subprocess
-import sys
 import xml.etree.ElementTree as ET
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import pytest
-from commands import call
+from commands import call, ended
 from hypothesis import given
 from hypothesis import strategies as st
 from markdown_it import MarkdownIt
@@ -206,8 +204,7 @@ def test_nothing_that_is_shown_steers_a_terminal(
 def test_no_error_steers_one(tmp_path: Path, wrong: dict[str, Any]) -> None:
     path = tmp_path / "t.yaml"
     path.write_text(json.dumps(wrong), encoding="utf-8")
-    command = [sys.executable, "-m", "geartrain", "check", str(path)]
-    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    done = ended("check", path)
     assert done.returncode == 2
     assert "\\x1b" in done.stderr, done.stderr
     assert not STEERING.search(done.stderr)
@@ -217,12 +214,10 @@ def test_no_error_steers_one(tmp_path: Path, wrong: dict[str, Any]) -> None:
     "words", [(EVIL,), (f"--{EVIL}",), ("solve", "worm", f"--x{EVIL}"), ("draw", "worm", "-k", EVIL), ("bench", EVIL)]
 )
 def test_no_complaint_of_a_wrong_command_line_steers_one(words: tuple[str, ...]) -> None:
-    command = [sys.executable, "-m", "geartrain", *words]
-    done = subprocess.run(command, capture_output=True, check=False)
-    said = done.stderr.decode("utf-8", "replace")
+    done = ended(*words)
     assert done.returncode == 2
-    assert "owned" in said
-    assert not STEERING.search(re.sub(r"\x1b\[\d*(;\d+)*m", "", said))
+    assert "owned" in done.stderr
+    assert not STEERING.search(re.sub(r"\x1b\[\d*(;\d+)*m", "", done.stderr))
 
 
 def test_a_terminal_shows_a_hostile_report_as_text(hostile: Path) -> None:

@@ -46,11 +46,14 @@ def test_a_cold_report_imports_networkx_alone_of_the_large_libraries() -> None:
 
 
 @pytest.mark.parametrize("verb", ["report", "compare"])
-def test_a_page_without_jinja2_is_refused_with_the_extra_to_install(verb: str, tmp_path: Path) -> None:
+def test_a_page_without_jinja2_is_refused_with_the_extra_to_install(
+    verb: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setitem(sys.modules, "jinja2", None)
     new, old = tmp_path / "new.html", tmp_path / "old.html"
     old.write_text("before", encoding="utf-8")
     for out in (new, old):
-        done = without("jinja2", arguments=[verb, "worm", "planetary", "-o", out, "--force"])
+        done = ended(verb, "worm", "planetary", "-o", out, "--force")
         assert (done.returncode, done.stdout) == (2, "")
         assert "jinja2" in done.stderr
         assert "pip install 'geartrain[report]'" in done.stderr

@@ -1,4 +1,4 @@
-"""Shipped trains, their reports and their scenes, made once for all tests that only read them."""
+"""Shipped trains, their reports, layouts and scenes, made once for all tests that only read them."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ import geartrain
 from geartrain import GearTrain
 from geartrain.report.train_data import TrainReport, collect_report
 from geartrain.scene import Scene, make_scene
+from geartrain.scene.layout import Layout, lay_out
 
 
 def trains() -> list[str]:
@@ -28,6 +29,12 @@ def report(name: str) -> TrainReport:
 
 
 @cache
+def layout(name: str) -> Layout:
+    """Where its axes and wheels stand."""
+    return lay_out(train(name))
+
+
+@cache
 def scene(name: str, state: str | None = None) -> Scene:
     """Its scene."""
-    return make_scene(train(name), state)
+    return make_scene(train(name), state, layout(name))

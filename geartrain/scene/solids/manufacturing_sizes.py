@@ -113,7 +113,10 @@ def _with_modules(declared: Train, modules: Mapping[str, Fraction]) -> Train:
 def _with_backlash(declared: Train, modules: Mapping[str, Fraction], backlash: Fraction) -> Train:
     if problems := list(_own_play(declared)):
         raise QuestionError(problems)
-    return declared.changed(gears=tuple(_thinned(declared, gear, modules, backlash) for gear in declared.gears))
+    gears = tuple(_thinned(declared, gear, modules, backlash) for gear in declared.gears)
+    if all(new is old for new, old in zip(gears, declared.gears, strict=True)):
+        return declared  # no pair declares a form: standard teeth are thinned as they are cut, and nothing moves
+    return declared.changed(gears=gears)
 
 
 def _thinned(declared: Train, gear: GearPair, modules: Mapping[str, Fraction], backlash: Fraction) -> GearPair:

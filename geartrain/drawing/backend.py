@@ -6,6 +6,7 @@ Importing this module without matplotlib names the extra.
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
 from io import BytesIO
 from threading import Lock
 
@@ -13,7 +14,9 @@ from geartrain.errors import GearTrainError, MissingExtraError, Problem, printab
 
 try:
     from matplotlib import rc_context
+    from matplotlib.artist import Artist
     from matplotlib.axes import Axes
+    from matplotlib.axis import Axis
     from matplotlib.collections import PolyCollection
     from matplotlib.figure import Figure
     from matplotlib.lines import Line2D
@@ -90,7 +93,7 @@ def render(figure: Figure, suffix: str, dots: float = 100.0) -> bytes:
         raise GearTrainError(
             Problem(f"no plot can be written as {suffix or 'a file without suffix'}", fix=f"use {', '.join(SUFFIXES)}")
         )
-    for text in figure.findobj(Text):
+    for text in _texts(figure):
         if (shown := printable(text.get_text())) != text.get_text():
             text.set_text(shown)
     buffer = BytesIO()
@@ -101,3 +104,12 @@ def render(figure: Figure, suffix: str, dots: float = 100.0) -> bytes:
         return data
     data = printable(data.decode("utf-8")).encode("utf-8")  # ids too: XML has no control characters at all
     return _PATH.sub(lambda path: _LONG.sub(rb"\1", path[0]), data)
+
+
+def _texts(artist: Artist) -> Iterator[Text]:
+    """All words in it, but for axes that are not shown: their ticks would be made only to be asked for words."""
+    for child in artist.get_children():
+        if isinstance(child, Text):
+            yield child
+        elif not (isinstance(child, Axis) and not child.axes.axison):
+            yield from _texts(child)

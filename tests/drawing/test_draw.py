@@ -54,6 +54,7 @@ FEW = [
 ]
 ALL = sorted(path.stem for path in TRAINS.glob("*/*.yaml"))
 Points = np.ndarray[tuple[int, ...], np.dtype[np.float64]]
+SafeLoader = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 SVG = "{http://www.w3.org/2000/svg}"
 
 
@@ -140,9 +141,7 @@ def test_the_pitch_circles_of_every_pair_touch_on_paper(name: str) -> None:
 
 def load_apart(name: str) -> set[str]:
     """Pairs that the layout says it could not bring together."""
-    from geartrain.scene.layout import lay_out
-
-    return set(lay_out(load(name)).apart)
+    return set(shipped.layout(name).apart)
 
 
 @pytest.mark.parametrize("name", ["planetary-24-18-60", "longcase-clock", "moon-triangular"])
@@ -193,7 +192,7 @@ def test_the_planet_goes_round_as_fractions_say() -> None:
         sx, sy, size = circle_of(root, "pitch s")
         centres.append(complex((px - sx) / size, (py - sy) / size))
     start, quarter, half, whole = centres
-    front = make_scene(load(name)).front
+    front = shipped.scene(name).front
     assert quarter / start == pytest.approx(1j * front, abs=1e-3)
     assert half / start == pytest.approx(-1, abs=1e-3)
     assert whole / start == pytest.approx(1, abs=1e-3)
@@ -204,14 +203,14 @@ def test_the_planet_goes_round_as_fractions_say() -> None:
 def test_a_pose_is_that_of_the_motion(name: str, turns: Fraction) -> None:
     train = load(name)
     motion = train.motion(None, tuple(train.declaration.links))
-    found = body_errors(make_scene(train), turns)
+    found = body_errors(shipped.scene(name), turns)
     assert found == pytest.approx(motion.at(np.array([float(turns)])).error[:, 0], abs=1e-9)
 
 
 @pytest.mark.parametrize("name", ["planetary-24-18-60", "humpage", "bevel-differential"])
 def test_meshing_wheels_have_one_velocity_where_their_pitch_surfaces_touch(name: str) -> None:
     train = load(name)
-    scene = make_scene(train, train.states[1] if train.states else None)
+    scene = shipped.scene(name, train.states[1] if train.states else None)
     turns, step = Fraction(3, 7), Fraction(1, 10**6)
     before, here, after = (scene_pose(scene, turns + way * step) for way in (-1, 0, 1))
     scale = max(wheel.radius for wheel in scene.wheels)
@@ -284,15 +283,28 @@ def test_the_two_wheels_of_every_pair_end_at_each_other(name: str) -> None:
 # --------------------------------------------------------------------------------------------------------------- graph
 
 
+def gids(figure: Figure) -> list[str]:
+    """Names of all that is drawn and has one."""
+    return [str(artist.get_gid()) for artist in figure.findobj() if artist.get_gid()]
+
+
+def test_what_has_a_name_in_a_graph_has_it_in_the_file() -> None:
+    root = svg("prius-power-split", "graph")
+    named = sorted(gids(drawn("prius-power-split", "graph")))
+    assert len(named) > 10
+    assert sorted(g.get("id") for g in root.iter(f"{SVG}g") if g.get("id") in named) == named
+
+
 @pytest.mark.parametrize("name", [*FEW, "freeth-2008"])
 def test_a_graph_has_an_edge_for_every_pair_in_the_file(name: str) -> None:
-    root = svg(name, "graph")
-    kinds = [re.match(r"(revolute|gear|coupling|link) ", str(g.get("id"))) for g in root.iter(f"{SVG}g")]
+    kinds = [re.match(r"(revolute|gear|coupling|link) ", gid) for gid in gids(drawn(name, "graph"))]
     counted = {kind: sum(m is not None and m[1] == kind for m in kinds) for kind in ("revolute", "gear", "coupling")}
     declared = load(name).declaration
     wanted = {"revolute": len(declared.revolutes), "gear": len(declared.gears), "coupling": len(declared.couplings)}
     assert counted == wanted
-    if "extends" not in (data := yaml.safe_load(next(TRAINS.glob(f"*/{name}.yaml")).read_text(encoding="utf-8"))):
+    if "extends" not in (
+        data := yaml.load(next(TRAINS.glob(f"*/{name}.yaml")).read_text(encoding="utf-8"), SafeLoader)
+    ):
         assert wanted["gear"] == len(data["gears"])
     assert sum(m is not None and m[1] == "link" for m in kinds) == len(declared.links)
 
@@ -465,6 +477,11 @@ def test_a_train_that_locks_is_drawn_and_told(here: Path) -> None:
     assert (here / "t.svg").exists()
 
 
+@cache
+def of_drawing(module: str) -> bool:
+    return Path(module).parent.name == "drawing"
+
+
 def test_a_row_twice_as_long_takes_twice_the_steps_to_draw() -> None:
     """Steps are entries into functions of the plan's modules, among them one for each comparison of a spot."""
     counts: list[int] = []
@@ -481,7 +498,7 @@ def test_a_row_twice_as_long_takes_twice_the_steps_to_draw() -> None:
         scene, steps = make_scene(train), [0]
 
         def entered(frame: FrameType, event: str, _: object, steps: list[int] = steps) -> None:
-            steps[0] += event == "call" and Path(frame.f_code.co_filename).parent.name == "drawing"
+            steps[0] += event == "call" and of_drawing(frame.f_code.co_filename)
 
         sys.setprofile(entered)
         try:

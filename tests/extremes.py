@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import cached_property, partial
+from functools import cache, cached_property, partial
 from itertools import product
 from math import pi, radians
 from time import perf_counter
@@ -65,11 +65,17 @@ def contact(couple: Couple, S: Any) -> tuple[Segment, Any]:
     raise AssertionError("the path has a hole")
 
 
+@cache
+def couple_of(sizes: TriangularSizes) -> Couple:
+    """Of some sizes, with its path, made once."""
+    return Couple.of(sizes)
+
+
 class Toothed:
     """The law of triangular teeth."""
 
-    def __init__(self, sizes: Any) -> None:
-        self.couple = Couple.of(sizes)
+    def __init__(self, sizes: TriangularSizes) -> None:
+        self.couple = couple_of(sizes)
         self.mean = mp.mpf(sizes.z1) / sizes.z2
 
     def angle(self, S: Any) -> Any:
@@ -474,7 +480,7 @@ def almost_apart(share: float) -> Measured:
     """48 and 96 teeth at nearly the clearance where tips cease to touch: the error of the law, in driven pitches."""
     sizes = thirty(48, 96, 0.01)
     sizes = sizes.at(sizes.greatest_excess * share)
-    law, couple = TriangularTransmission(sizes), Couple.of(sizes)
+    law, couple = TriangularTransmission(sizes), couple_of(sizes)
     S = np.array(DRAWN) * sizes.p1
     errors, seconds = timed(lambda: law.error(S))
     pairs = zip(S.tolist(), errors.tolist(), strict=True)
@@ -487,14 +493,14 @@ def near_friction_locking(teeth: tuple[int, int], digits: int, at_load: bool) ->
     friction = TriangularTransmission(sizes).locking_friction * (1 - 10.0**-digits)
     law = TriangularTransmission(sizes, friction)
     mine, seconds = timed(law.efficiency_at_constant_load if at_load else law.efficiency_mean)
-    true = Couple.of(sizes).mean_efficiency(mp.mpf(friction))[int(at_load)]
+    true = couple_of(sizes).mean_efficiency(mp.mpf(friction))[int(at_load)]
     return Measured(float(abs(mine / true - 1)), seconds)
 
 
 def locking(teeth: tuple[int, int]) -> Measured:
     """The friction that locks: flank and friction before the line of centres, relative."""
     sizes = thirty(*teeth, 0.01)
-    couple = Couple.of(sizes)
+    couple = couple_of(sizes)
     mine, seconds = timed(lambda: TriangularTransmission(sizes).locking_friction)
     starts = [segment.start for segment in couple.path if segment.phase == APPROACH]
     most = max(mp.tan(couple.lean(x, APPROACH)) for x in starts if couple.angle(x, APPROACH) > 0)
@@ -547,7 +553,7 @@ def lost_in_circulation(friction: float) -> Measured:
     """Efficiency from the arm to the slow sun, of teeth that rub: relative."""
     train = circulating(f"{triangular()}, friction: {friction}")
     torques, seconds = timed(lambda: train.driven("right", ARM))
-    means = [Couple.of(sizes).mean_efficiency(mp.mpf(friction)) for sizes in _sizes(train)]
+    means = [couple_of(sizes).mean_efficiency(mp.mpf(friction)) for sizes in _sizes(train)]
     # the moment on the right sun is given, then that on the planet: on what is driven (1), or on the driver (-1)
     (true,) = balanced(CIRCULATING, [{1: Fraction(str(load)), -1: Fraction(str(drive))} for drive, load in means])
     return Measured(float(abs(torques.efficiency / true - 1)), seconds)

@@ -11,7 +11,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cache, cached_property, partial
 from itertools import pairwise
 from random import Random
 from typing import Any, NamedTuple
@@ -333,9 +333,12 @@ class Pair:
             if s.held is not None:
                 continue
             marks = [s.end, *self._centre(s), s.start]
-            eta += mp.quad(lambda x, s=s: self.efficiency(x, friction, s.phase), marks)
-            tau += mp.quad(lambda x, s=s: self.speed(x, s.phase), marks)
-            inverse += mp.quad(lambda x, s=s: self.speed(x, s.phase) / self.efficiency(x, friction, s.phase), marks)
+            # all three are asked at the same places
+            speed = cache(partial(self.speed, phase=s.phase))
+            efficiency = cache(partial(self.efficiency, friction=friction, phase=s.phase))
+            eta += mp.quad(efficiency, marks)
+            tau += mp.quad(speed, marks)
+            inverse += mp.quad(lambda x, tau=speed, eta=efficiency: tau(x) / eta(x), marks)
             width += s.start - s.end
         return eta / width, tau / inverse
 

@@ -7,7 +7,6 @@ import math
 import random
 import sys
 from collections.abc import Iterator
-from functools import cache
 
 import numpy as np
 import pytest
@@ -23,10 +22,8 @@ NAMES = sorted(path.stem for path in TRAINS.glob("*/*.yaml"))
 Z = np.array([0.0, 0.0, 1.0])
 
 
-@cache
 def load(name: str) -> tuple[geartrain.GearTrain, Layout]:
-    train = shipped.train(name)
-    return train, lay_out(train)
+    return shipped.train(name), shipped.layout(name)
 
 
 def named(layout: Layout, *names: str) -> bool:

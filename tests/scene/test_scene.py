@@ -18,9 +18,11 @@ from reference_solver import _dense as solve_rows
 from reference_solver import solve_naively, turning_graph, willis_rows
 from strategies import asked_trains, driven_trains, rerooted
 
-import geartrain
 from geartrain import GearTrain, load
 from geartrain.scene import Scene, make_scene
+from geartrain.scene.bodies import find_bodies
+from geartrain.scene.context import SceneContext
+from geartrain.scene.layout import lay_out
 from geartrain.scene.pose import scene_pose
 
 SHIPPED = [
@@ -90,13 +92,13 @@ def test_a_body_hangs_on_the_link_that_bears_its_axis_however_coaxial_joints_are
     both: tuple[dict[str, Any], dict[str, Any]],
 ) -> None:
     for data in both:
-        graph = turning_graph(data)
-        scene = make_scene(GearTrain.declare(data))
-        for body in scene.bodies:
+        graph, train = turning_graph(data), GearTrain.declare(data)
+        bodies = find_bodies(SceneContext(train, train.solve(method="exact"), lay_out(train)))
+        for body in bodies:
             if body.parent is None:
                 assert body.id == "frame"
                 continue
-            parent = scene.bodies[body.parent]
+            parent = bodies[body.parent]
             # a parent turns about another axis, or is the frame; all joints between lie on the body's own axis
             assert parent.id == "frame" or parent.axis != body.axis
             labels = _labels(graph, body.id, parent.id)
@@ -152,7 +154,7 @@ def _speeds(data: Mapping[str, Any], rows: list[dict[str, Fraction]], wrong: int
 
 
 def test_pairs_of_a_path_come_in_order_from_the_input() -> None:
-    scene = make_scene(geartrain.load("longcase-clock"))
+    scene = shipped.scene("longcase-clock")
     for pointer in scene.pointers:
         wheels = {each.id: each.wheels for each in scene.pairs}
         known = {scene.bodies[scene.lead or 0].id}
@@ -163,7 +165,7 @@ def test_pairs_of_a_path_come_in_order_from_the_input() -> None:
 
 
 def test_all_planets_in_parallel_are_on_the_path() -> None:
-    scene = make_scene(geartrain.load("three-planets"))
+    scene = shipped.scene("three-planets")
     assert all(set(pointer.pairs) == {each.id for each in scene.pairs} for pointer in scene.pointers)
 
 
@@ -264,16 +266,15 @@ def test_sizes_stay_small_enough_for_a_page() -> None:
 
 
 def test_what_is_lost_at_wheels_sums_to_what_is_lost_between_teeth() -> None:
-    train = geartrain.load("lantern-mill")
-    torques = train.torques()
-    scene = make_scene(train)
+    torques = shipped.train("lantern-mill").torques()
+    scene = shipped.scene("lantern-mill")
     lost = sum(float(each.loss) for each in torques.pairs.values()) / float(torques.power_in)
     assert lost > 0.01
     assert isclose(sum(wheel.loss or 0.0 for wheel in scene.wheels), lost, rel_tol=1e-12)
 
 
 def test_a_follower_hangs_on_what_turns_its_pin() -> None:
-    scene = make_scene(load("freeth-2021"))
+    scene = shipped.scene("freeth-2021")
     paths = {pointer.output: set(pointer.pairs) for pointer in scene.pointers}
     assert paths["venus"] == {"x51~spC44", "spC34~ve26", "ve26~r1", "venus"}
     assert paths["mercury"] == {"x51~spA72", "spA89~me40", "me40~me20", "mercury"}
@@ -281,7 +282,7 @@ def test_a_follower_hangs_on_what_turns_its_pin() -> None:
 
 def test_bodies_carried_by_thousands_of_others_are_posed_in_any_order() -> None:
     """A tower of arms, the last declared first: each turns a degree more than the one below it."""
-    scene = make_scene(load("planetary-24-18-60"))
+    scene = shipped.scene("planetary-24-18-60")
     carried = next(body for body in scene.bodies if body.parent is not None)
     count = 3000
     bodies = [

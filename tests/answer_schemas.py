@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from functools import cache
 from typing import Any
 
 from jsonschema import Draft202012Validator
@@ -24,9 +25,15 @@ def closed(schema: Any) -> Any:
     return found
 
 
+@cache
+def validators(question: str) -> list[Draft202012Validator]:
+    shipped = answers()[question]
+    return [Draft202012Validator(each) for each in (shipped, *([] if question in OPEN else [closed(shipped)]))]
+
+
 def holds(question: str, data: Any) -> None:
-    for schema in (answers()[question], closed(answers()[question]) if question not in OPEN else {}):
-        faults = sorted(Draft202012Validator(schema).iter_errors(data), key=lambda fault: list(map(str, fault.path)))
+    for validator in validators(question):
+        faults = sorted(validator.iter_errors(data), key=lambda fault: list(map(str, fault.path)))
         assert not faults, [(list(fault.path), fault.message[:300]) for fault in faults[:5]]
 
 

@@ -89,11 +89,10 @@ def distinct(cones: Floats) -> list[float]:
 
 def overlaps(axes: Floats, cones: Floats) -> int:
     """How many pairs of circles overlap: each pair measured on its own."""
-    count = 0
-    for i in range(len(axes)):
-        for j in range(i):
-            count += angle(axes[i], axes[j]) < cones[i] + cones[j] - 1e-9
-    return count
+    i, j = np.tril_indices(len(axes), -1)
+    across = np.linalg.norm(np.cross(axes[i], axes[j]), axis=1)
+    apart = np.arctan2(across, (axes[i] * axes[j]).sum(axis=1))
+    return int((apart < cones[i] + cones[j] - 1e-9).sum())
 
 
 def check_in_space(packing: SpherePacking, digits: float = 1e-14) -> None:

@@ -25,6 +25,7 @@ from geartrain.scene.context import SceneContext
 from geartrain.scene.layout import lay_out
 from geartrain.scene.pose import scene_pose
 
+SAMPLE = 20 if settings().derandomize else 40  # `--slow` draws new trains, and twice as many
 SHIPPED = [
     ("freeth-2021", None),
     ("freeth-2021-teeth", None),
@@ -72,7 +73,7 @@ def _check_numbers(scene: Scene) -> None:
         assert pointer.dial is None or pointer.dial in range(len(scene.dials))
 
 
-@settings(max_examples=30)
+@settings(max_examples=SAMPLE)
 @given(asked_trains())
 def test_every_train_has_a_scene_whatever_its_verdict(data: dict[str, Any]) -> None:
     scene = make_scene(GearTrain.declare(data))
@@ -86,7 +87,7 @@ def test_every_train_has_a_scene_whatever_its_verdict(data: dict[str, Any]) -> N
     json.dumps(scene.to_dict(), allow_nan=False)
 
 
-@settings(max_examples=30)
+@settings(max_examples=SAMPLE)
 @given(driven_trains(couplings=False).flatmap(lambda data: rerooted(data).map(lambda other: (data, other))))
 def test_a_body_hangs_on_the_link_that_bears_its_axis_however_coaxial_joints_are_declared(
     both: tuple[dict[str, Any], dict[str, Any]],
@@ -112,7 +113,7 @@ def _labels(graph: Any, a: str, b: str) -> list[str]:
     return [graph.edges[step]["axis"] for step in pairwise(path)]
 
 
-@settings(max_examples=30)
+@settings(max_examples=SAMPLE)
 @given(driven_trains())
 def test_an_output_hangs_on_the_pairs_whose_error_moves_it(data: dict[str, Any]) -> None:
     scene = make_scene(GearTrain.declare({**data, "outputs": dict.fromkeys(data["links"])}))

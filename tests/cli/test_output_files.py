@@ -71,11 +71,10 @@ CASES = [(command, option, suffix) for (command, option), (_, suffixes) in ASKED
 FIRST = [(command, option, suffixes[0]) for (command, option), (_, suffixes) in ASKED.items()]
 # one that makes each result: commands of tooth forms are one function, and most forms of it wait for --slow
 OTHER_FORMS = {f"mesh {form.replace('-', '_')}" for form in FORMS} - {"mesh involute", "mesh uniform_stress"}
-WRITTEN = [
-    pytest.param(*case, marks=[pytest.mark.slow] if case[0] in OTHER_FORMS else [])
-    for case in CASES
-    if case[:2] != ("view", "-o")
-]
+
+
+def few_forms(cases: list[tuple[str, str, str]]) -> list[Any]:
+    return [pytest.param(*case, marks=[pytest.mark.slow] if case[0] in OTHER_FORMS else []) for case in cases]
 
 
 def writing() -> Iterator[tuple[str, str]]:
@@ -111,6 +110,8 @@ def test_every_option_that_names_a_file_is_tried_here() -> None:
 @pytest.fixture
 def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr("geartrain.analysis.method_accuracy._ENOUGH", 0.0)  # `bench` need not time well what it writes
+    monkeypatch.setattr("geartrain.analysis.method_accuracy._LONG", 0.0)
     return tmp_path
 
 
@@ -172,7 +173,9 @@ def test_a_read_only_file_is_refused_even_to_root_and_by_force(
     assert stat.S_IMODE(out.stat().st_mode) == 0o444
 
 
-@pytest.mark.parametrize(("command", "option", "suffix"), WRITTEN)
+@pytest.mark.parametrize(
+    ("command", "option", "suffix"), few_forms([case for case in CASES if case[:2] != ("view", "-o")])
+)
 def test_by_force_the_file_behind_a_link_is_replaced_and_link_and_rights_are_kept(
     here: Path, command: str, option: str, suffix: str
 ) -> None:
@@ -192,7 +195,7 @@ def test_by_force_the_file_behind_a_link_is_replaced_and_link_and_rights_are_kep
     assert sorted(path.name for path in here.rglob("*")) == sorted(["away", link.name, real.name])
 
 
-@pytest.mark.parametrize(("command", "option", "suffix"), [case for case in FIRST if case[1] == "-o"])
+@pytest.mark.parametrize(("command", "option", "suffix"), few_forms([case for case in FIRST if case[1] == "-o"]))
 def test_a_dash_is_standard_output_and_no_file(here: Path, command: str, option: str, suffix: str) -> None:
     done = ask(command, option, "-")
     if command == "export":

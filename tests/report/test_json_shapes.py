@@ -44,6 +44,8 @@ def shape(data: Any) -> Any:
 @pytest.fixture
 def files(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr("geartrain.analysis.method_accuracy._ENOUGH", 0.0)  # no shape depends on how well it is timed
+    monkeypatch.setattr("geartrain.analysis.method_accuracy._LONG", 0.0)
     for name, text in KINDS.items():
         (tmp_path / f"{name}.yaml").write_text(text, encoding="utf-8")
     (tmp_path / "cube.txt").write_text("a b\nb c\nc d\nd a\ne f\nf g\ng h\nh e\na e\nb f\nc g\nd h\n", encoding="utf-8")

@@ -256,12 +256,13 @@ def test_radians_change_nothing_but_the_last_digits(both: tuple[Data, Data], dat
 @pytest.mark.parametrize("name", list(geartrain.shipped()))
 def test_no_shipped_train_hangs_on_the_units_or_the_order_of_its_inputs(name: str) -> None:
     """A plain train is read in rpm, one with a unit of time in that; lengths go with no speed in time."""
-    declared = geartrain.load(name).declaration
+    train = geartrain.load(name)
+    declared = train.declaration
     if declared.unit is not None and declared.unit_days is None:
         pytest.skip("its unit is a length")
     one = SCALES["rpm"] if declared.unit_days is None else 1 / (declared.unit_days * 24 * 3600)
     for case in declared.cases:
-        known = geartrain.load(name).solve(case.state)
+        known = train.solve(case.state)
         named = {
             link: f"{speed * one / SCALES[unit]} {unit}" if speed else "0"
             for (link, speed), unit in zip(reversed(list(case.inputs.items())), [*SCALES, *SCALES], strict=False)

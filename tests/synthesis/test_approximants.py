@@ -23,6 +23,8 @@ from geartrain.synthesis.stern_brocot import (
 from geartrain.synthesis.target_ratio import TargetRatio, read_ratio
 from geartrain.synthesis.tooth_count_ranges import read_counts
 
+SLOW = not settings().derandomize  # `--slow` draws new examples (conftest.py), and more
+
 PI = Fraction("3.14159265358979323846264338327950288419716939937510")
 ROOT = Fraction(math.isqrt(2 * 10**400), 10**200)  # the square root of two, to 200 decimals
 
@@ -200,7 +202,7 @@ counts = st.lists(st.integers(1, 60), min_size=1, max_size=12, unique=True).map(
 tolerances = st.none() | st.builds(Fraction, st.integers(0, 300), st.integers(1, 300))
 
 
-@settings(max_examples=150)
+@settings(max_examples=150 if SLOW else 70)
 @given(positive, counts, counts, tolerances, st.none() | st.integers(1, 40))
 def test_pairs_are_those_of_brute_force(
     value: Fraction, wheels: Sequence[int], pinions: Sequence[int], tolerance: Fraction | None, best: int | None

@@ -28,6 +28,8 @@ from geartrain.synthesis.formulas.output_formulas import Formulas, find_formulas
 from geartrain.synthesis.formulas.rational_functions import Formula, make_formula
 from geartrain.train import Train, declare
 
+SLOW = not settings().derandomize  # `--slow` draws new examples (conftest.py), and more
+
 ANY = (1,)
 """Allowed counts where only the formula is asked for."""
 
@@ -399,7 +401,7 @@ def asked_for_all(data: Data, draw: random.Random) -> tuple[Data, dict[str, tupl
     return data, {wheel: tuple(range(least, most + 1)) for wheel in wheels if draw.random() < share}
 
 
-@settings(max_examples=80)
+@settings(max_examples=80 if SLOW else 40)
 @given(st.one_of(asked_trains(), driven_trains(), overdriven_trains()), st.integers(0, 10**6))
 def test_formulas_of_any_train_agree_with_naive_elimination_and_say_when_it_turns(data: Data, seed: int) -> None:
     draw = random.Random(seed)
@@ -437,7 +439,7 @@ def inside(box: Mapping[str, tuple[int, int]]) -> Iterator[dict[str, int]]:
         yield dict(zip(box, counts, strict=True))
 
 
-@settings(max_examples=80)
+@settings(max_examples=80 if SLOW else 40)
 @given(random_formulas(), boxes())
 def test_fast_values_lie_within_their_accuracy(formula: Formula, box: dict[str, tuple[int, int]]) -> None:
     every = list(inside(box))

@@ -69,11 +69,11 @@ TRAINS: dict[str, Path] = {}
 
 CASES = [(command, option, suffix) for (command, option), (_, suffixes) in ASKED.items() for suffix in suffixes]
 FIRST = [(command, option, suffixes[0]) for (command, option), (_, suffixes) in ASKED.items()]
-# one that makes each result: commands of tooth forms are one function, and most forms of it wait for --slow
 OTHER_FORMS = {f"mesh {form.replace('-', '_')}" for form in FORMS} - {"mesh involute", "mesh uniform_stress"}
 
 
 def few_forms(cases: list[tuple[str, str, str]]) -> list[Any]:
+    """Cases that make a result: commands of tooth forms are one function, and most forms of it wait for --slow."""
     return [pytest.param(*case, marks=[pytest.mark.slow] if case[0] in OTHER_FORMS else []) for case in cases]
 
 

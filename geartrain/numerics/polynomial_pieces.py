@@ -91,6 +91,16 @@ def value(coefficients: Floats, piece: Indices, u: Floats) -> tuple[Floats, Floa
     return found, slope
 
 
+def value_alone(coefficients: Floats, piece: Indices, u: Floats) -> Floats:
+    """The value of `value`, bit for bit, without the work of the derivative."""
+    single = coefficients.shape[1] == 1
+    found = np.zeros(u.shape)
+    for row in coefficients[::-1]:
+        found *= u
+        found += row[0] if single else row.take(piece)
+    return found
+
+
 def moments(coefficients: Floats, halves: Floats) -> tuple[float, float]:
     """By Gauss's rule the mean over all pieces, and the root mean square about it; `halves` are their half lengths."""
     nodes, weights = _GAUSS

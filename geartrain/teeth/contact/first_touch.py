@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from geartrain.numerics.named_arrays import joined, some
-from geartrain.numerics.polynomial_pieces import value
+from geartrain.numerics.polynomial_pieces import value, value_alone
 from geartrain.numerics.simultaneous_roots import roots_by_false_position
 from geartrain.teeth.contact.driven_frame import DrivenFrame
 
@@ -71,8 +71,8 @@ class FlankSegmentation:
             piece2 = np.minimum(start + local, end - 1)
             within = (low <= self.second.ends[1, piece2]) & (high >= self.second.ends[0, piece2])
             which = np.flatnonzero(within & (start + local < end) & ~self.second.flat[piece2])
-            found.append(self._clipped(couples, some(cells, which)._replace(piece2=piece2[which])))
-        return joined(found)
+            found.append(some(cells, which)._replace(piece2=piece2[which]))
+        return self._clipped(couples, joined(found))
 
     def _cells(self, couples: CandidatePairs) -> FlankSegments:
         """Stretches between nodes that may be seen at radii of the driven side, which piece of it being open."""
@@ -112,7 +112,7 @@ class FlankSegmentation:
         return joined([cells, turning])
 
     def _clipped(self, couples: CandidatePairs, cells: FlankSegments) -> FlankSegments:
-        """Cells cut to the radii of their driven piece."""
+        """Cells cut to the radii of their driven piece: all at once, each root being found for itself."""
         low, high = self.second.ends[:, cells.piece2]
         u, seen = cells.u.copy(), cells.seen.copy()
         for side in (0, 1):
@@ -122,8 +122,7 @@ class FlankSegmentation:
             x, piece = couples.x[cells.couple[which]], cells.piece1[which]
 
             def off(at: Floats, these: Indices, x: Floats = x, piece: Indices = piece, goal: Floats = goal) -> Floats:
-                r, _ = value(self.first.radius, piece[these], at)
-                a, _ = value(self.first.azimuth, piece[these], at)
+                r, a = (value_alone(each, piece[these], at) for each in (self.first.radius, self.first.azimuth))
                 return self.sight.look(r, a + x[these]).radius - goal[these]
 
             u[side, which] = roots_by_false_position(off, *cells.u[:, which], *(cells.seen[0][:, which] - goal))
@@ -256,5 +255,5 @@ class FirstTouchSearch(FlankSegmentation):
             speed = ahead - slant * drift
         # `correction` takes off what the inversion left of the radius, so that the angle is good to rounding
         angle = view.azimuth - a - correction - couples.place[segments.couple]
-        radius1, _ = value(self.first.radius, piece1, u)
+        radius1 = value_alone(self.first.radius, piece1, u)
         return FirstTouches(angle, speed, piece1, u, piece2, v, radius1, r, segments.couple)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from geartrain.numerics.polynomial_pieces import COUNT, ends, value
+from geartrain.numerics.polynomial_pieces import COUNT, ends, value, value_alone
 
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Bools, Floats, Indices
@@ -119,7 +119,7 @@ class FlankTable:
     def _bins(self) -> tuple[Floats, Floats]:
         """Radii at even u, (pieces, bins + 1), and the same as one rising row to look up in."""
         pieces = np.broadcast_to(np.arange(self.radius.shape[1])[:, None], (self.radius.shape[1], _BINS + 1))
-        radii, _ = value(self.radius, pieces, np.broadcast_to(np.linspace(-1, 1, _BINS + 1), pieces.shape))
+        radii = value_alone(self.radius, pieces, np.broadcast_to(np.linspace(-1, 1, _BINS + 1), pieces.shape))
         low, high = self.ends[:, :, None]
         share = np.maximum.accumulate(np.clip((radii - low) / np.where(high > low, high - low, 1.0), 0, 1), axis=1)
         share[:, -1] = 1.0

@@ -46,12 +46,13 @@ class Pair:
         self.z1, self.z2 = z1, z2
         self.R1, self.R2, self.b1, self.b2, self.excess = (number(x) for x in (R1, R2, beta1, beta2, excess))
         if m is mp:
-            self.asin, self.acos, self.atan2 = mp.asin, mp.acos, mp.atan2
+            self.asin, self.acos, self.atan2, self.cos_sin = mp.asin, mp.acos, mp.atan2, mp.cos_sin
         else:
-            self.asin, self.acos, self.atan2 = np.arcsin, np.arccos, np.arctan2
+            self.asin, self.acos, self.atan2, self.cos_sin = np.arcsin, np.arccos, np.arctan2, _cos_sin
+        (self.cos_b1, self.sin_b1), (self.cos_b2, self.sin_b2) = self.cos_sin(self.b1), self.cos_sin(self.b2)
         pi = m.pi
-        h1 = self.R1 * (1 - m.sin(self.b1) / m.sin(self.b1 + pi / z1))
-        h2 = self.R2 * (1 - m.sin(self.b2) / m.sin(self.b2 + pi / z2))
+        h1 = self.R1 * (1 - self.sin_b1 / m.sin(self.b1 + pi / z1))
+        h2 = self.R2 * (1 - self.sin_b2 / m.sin(self.b2 + pi / z2))
         self.h = min(h1, h2)
         self.least = self.R1 + self.R2 - self.h
         self.D = self.least + self.excess * self.least
@@ -99,24 +100,23 @@ class Pair:
         """Where a couple first touches: at the tips, or before, where a leaning flank grazes the driven tip circle."""
         if self.b1 + self.tips <= self.m.pi / 2:
             return self.amax
-        return max(self.amax, self.asin(min(1, (self.R2 + self.R1 * self.m.sin(self.b1)) / self.D)) - self.b1)
+        return max(self.amax, self.asin(min(1, (self.R2 + self.R1 * self.sin_b1) / self.D)) - self.b1)
 
     @cached_property
     def exit(self) -> Any:
         """Where a couple ceases to push: at the tips, or before, where the driven flank leans so far that tau is 0."""
         if self.b2 + self.tips <= self.m.pi / 2:
             return -self.amax
-        low, high = -mp.mpf(self.amax), mp.mpf(0)
         precise = self if self.m is mp else Pair.of(self)
-        while high - low > mp.mpf(10) ** -45:
-            x = (low + high) / 2
-            low, high = (low, x) if precise.lean(x, RECESS) < mp.pi / 2 else (x, high)
-        return high if self.m is mp else float(high)
+        found = root(
+            lambda x: precise.lean(x, RECESS) - mp.pi / 2, lambda x: -1 - precise.speed(x, RECESS), -precise.amax, 0
+        )
+        return found if self.m is mp else float(found)
 
     @cached_property
     def matching(self) -> Any:
         """alpha_1m, Eq. (10): both flanks on one line, alpha_1 + beta_1 = beta_2 - alpha_2; infinite where never."""
-        sine = (self.R1 * self.m.sin(self.b1) + self.R2 * self.m.sin(self.b2)) / self.D
+        sine = (self.R1 * self.sin_b1 + self.R2 * self.sin_b2) / self.D
         return self.asin(sine) - self.b1 if sine < 1 else self.m.inf
 
     def phase(self, x: Any) -> str:
@@ -125,30 +125,31 @@ class Pair:
 
     def approach(self, x: Any) -> tuple[Any, Any]:
         """alpha_2 and v, Eqs. (7) and (9)."""
-        m = self.m
-        sine = (self.D * m.sin(x + self.b1) - self.R1 * m.sin(self.b1)) / self.R2
+        cos, sin = self.cos_sin(x + self.b1)
+        sine = (self.D * sin - self.R1 * self.sin_b1) / self.R2
         y = self.asin(sine) - x - self.b1
-        return y, self.R1 * m.cos(self.b1) - self.D * m.cos(x + self.b1) + self.R2 * m.sqrt(1 - sine**2)
+        return y, self.R1 * self.cos_b1 - self.D * cos + self.R2 * self.m.sqrt(1 - sine**2)
 
     def recess(self, x: Any) -> tuple[Any, Any]:
         """alpha_2 and v, Eqs. (17) and (16)."""
-        m = self.m
-        square = self.D**2 + self.R1**2 - 2 * self.D * self.R1 * m.cos(x)
-        v = self.R2 * m.cos(self.b2) - m.sqrt(square - (self.R2 * m.sin(self.b2)) ** 2)
-        seen = self.atan2(self.R1 * m.sin(x), self.D - self.R1 * m.cos(x))
-        return seen - self.atan2(v * m.sin(self.b2), self.R2 - v * m.cos(self.b2)), v
+        cos, sin = self.cos_sin(x)
+        square = self.D**2 + self.R1**2 - 2 * self.D * self.R1 * cos
+        v = self.R2 * self.cos_b2 - self.m.sqrt(square - (self.R2 * self.sin_b2) ** 2)
+        seen = self.atan2(self.R1 * sin, self.D - self.R1 * cos)
+        return seen - self.atan2(v * self.sin_b2, self.R2 - v * self.cos_b2), v
 
     def angle(self, x: Any, phase: str | None = None) -> Any:
         """alpha_2 at x."""
         return (self.approach if (phase or self.phase(x)) == APPROACH else self.recess)(x)[0]
 
-    def speed(self, x: Any, phase: str | None = None) -> Any:
-        """tau at x, Eqs. (12) and (19)."""
+    def speed(self, x: Any, phase: str | None = None, y: Any = None) -> Any:
+        """tau at x, Eqs. (12) and (19); from alpha_2 there if it is known."""
         m = self.m
         if (phase or self.phase(x)) == APPROACH:
-            root = m.sqrt(self.R2**2 - (self.D * m.sin(x + self.b1) - self.R1 * m.sin(self.b1)) ** 2)
-            return self.D * m.cos(x + self.b1) / root - 1
-        y = self.recess(x)[0]
+            cos, sin = self.cos_sin(x + self.b1)
+            root = m.sqrt(self.R2**2 - (self.D * sin - self.R1 * self.sin_b1) ** 2)
+            return self.D * cos / root - 1
+        y = self.recess(x)[0] if y is None else y
         arm = self.R1 * m.cos(self.b2 - x - y)
         return arm / (self.D * m.cos(self.b2 - y) - arm)
 
@@ -160,25 +161,29 @@ class Pair:
 
     def arms(self, x: Any, friction: Any, phase: str | None = None) -> tuple[Any, Any]:
         """Arms b1 and b2 of the force between the teeth, Eqs. (28) to (31)."""
+        return self._forced(x, friction, phase or self.phase(x))[1:]
+
+    def _forced(self, x: Any, friction: Any, phase: str) -> tuple[Any, Any, Any]:
+        """tau and both arms."""
         m = self.m
-        phase = phase or self.phase(x)
-        y, tau = self.angle(x, phase), self.speed(x, phase)
+        y = self.angle(x, phase)
+        tau = self.speed(x, phase, y)
         if phase == APPROACH:
             phi = m.atan(friction) * m.sign(y)
             cc = m.cos(self.b1 + x + y) * m.cos(self.b1 + x + phi)
             ss = m.sin(y) * m.sin(phi)
             scale = self.R2 / m.cos(self.b1 + x)
-            return scale * (tau * cc + ss), scale * (cc - ss)
+            return tau, scale * (tau * cc + ss), scale * (cc - ss)
         phi = m.atan(friction) * m.sign(x)
         cc = m.cos(self.b2 - x - y) * m.cos(self.b2 - y + phi)
         ss = m.sin(x) * m.sin(phi)
         scale = self.R1 / m.cos(self.b2 - y)
-        return scale * (cc + ss), scale * (cc / tau - ss)
+        return tau, scale * (cc + ss), scale * (cc / tau - ss)
 
     def efficiency(self, x: Any, friction: Any, phase: str | None = None) -> Any:
         """tau b2 / b1, Eqs. (32) and (33)."""
-        b1, b2 = self.arms(x, friction, phase)
-        return self.speed(x, phase) * b2 / b1
+        tau, b1, b2 = self._forced(x, friction, phase or self.phase(x))
+        return tau * b2 / b1
 
     # -------------------------------------------------------------------------------------------------- every couple
 
@@ -314,20 +319,24 @@ class Pair:
 
     def _mean_speeds(self, s: Segment) -> list[Any]:
         """Where tau is z1/z2 within a segment, by signs on a grid."""
+        step = TINY * (s.start - s.end)
 
         def value(x: Any) -> Any:
             return self.speed(x, s.phase) - self.ratio
 
+        def slope(x: Any) -> Any:
+            return (value(x) - value(x - step)) / step
+
         grid = [s.end + (s.start - s.end) * n / 16 for n in range(17)]
         signs = [value(x) > 0 for x in grid]
         return [
-            root(value, lambda x: mp.diff(value, x), low, high)
+            root(value, slope, low, high)
             for low, high, a, b in zip(grid, grid[1:], signs, signs[1:], strict=False)
             if a != b
         ]
 
     def mean_efficiency(self, friction: Any) -> tuple[Any, Any]:
-        """Means over the driver's angle in contact: of eta (Eq. 34), and tau over the mean of tau/eta."""
+        """Means over the driver's angle in contact: of eta (Eq. 34), and tau over the mean of tau/eta; 25 digits."""
         eta = tau = inverse = width = mp.mpf(0)
         for s in self.path:
             if s.held is not None:
@@ -336,9 +345,9 @@ class Pair:
             # all three are asked at the same places
             speed = cache(partial(self.speed, phase=s.phase))
             efficiency = cache(partial(self.efficiency, friction=friction, phase=s.phase))
-            eta += mp.quad(efficiency, marks)
-            tau += mp.quad(speed, marks)
-            inverse += mp.quad(lambda x, tau=speed, eta=efficiency: tau(x) / eta(x), marks)
+            eta += integral(efficiency, marks)
+            tau += integral(speed, marks)
+            inverse += integral(lambda x, tau=speed, eta=efficiency: tau(x) / eta(x), marks)
             width += s.start - s.end
         return eta / width, tau / inverse
 
@@ -351,15 +360,21 @@ class Pair:
         return [root(lambda x: self.angle(x, APPROACH), lambda x: self.speed(x, APPROACH), s.end, s.start)]
 
 
+def integral(value: Callable[[Any], Any], marks: list[Any]) -> Any:
+    """The integral over the marks, to 25 digits: more than any float it is held against has."""
+    with mp.workdps(25):
+        return mp.quad(value, marks)
+
+
 def root(value: Callable[[Any], Any], slope: Callable[[Any], Any], low: Any, high: Any) -> Any:
-    """The root where `value` changes sign between low and high: Newton's steps, every third one a halving."""
+    """The root where `value` changes sign between low and high: Newton's steps, halving where they are too slow."""
     low, high = mp.mpf(low), mp.mpf(high)
     at_low = value(low)
     if at_low == 0:
         return low
     finest = (high - low) * mp.mpf(10) ** -42
-    x = (low + high) / 2
-    for count in range(500):
+    x, last = (low + high) / 2, high - low
+    for _ in range(500):
         here = value(x)
         if here == 0:
             return x
@@ -368,8 +383,15 @@ def root(value: Callable[[Any], Any], slope: Callable[[Any], Any], low: Any, hig
         step = x - here / steep if steep else low
         if abs(step - x) < finest or high - low < finest:
             return step
-        x = step if low < step < high and count % 3 else (low + high) / 2
+        # a step that leaves the bracket, or is more than half the one before, is no quick way to the root
+        quick = low < step < high and 2 * abs(step - x) < last
+        last, x = (abs(step - x), step) if quick else (high - low, (low + high) / 2)
     raise AssertionError("no root")
+
+
+def _cos_sin(x: Any) -> tuple[Any, Any]:
+    """As mpmath's, for floats."""
+    return np.cos(x), np.sin(x)
 
 
 def _near(one: Segment, other: Segment) -> bool:
@@ -398,15 +420,14 @@ def _joined(found: list[Segment], pitch: Any) -> list[Segment]:
 
 def first_of_all(pair: Pair, t: np.ndarray) -> np.ndarray:
     """U at many positions t: every couple within the reach, in double precision (`pair` built with numpy)."""
-    least = np.full(np.shape(t), np.inf)
     low = int(np.floor((pair.exit - t.max()) / pair.p1))
     high = int(np.ceil((pair.entry - t.min()) / pair.p1))
-    for k in range(low, high + 1):
-        x = t + k * pair.p1
-        inside = (pair.exit <= x) & (x <= pair.entry)
-        if inside.any():
-            least[inside] = np.minimum(least[inside], angles(pair, x[inside]) - k * pair.p2)
-    return least
+    k = np.arange(low, high + 1).reshape(-1, *[1] * np.ndim(t))
+    x = t + k * pair.p1
+    inside = (pair.exit <= x) & (x <= pair.entry)
+    y = np.full(x.shape, np.inf)
+    y[inside] = angles(pair, x[inside]) - np.broadcast_to(k, x.shape)[inside] * pair.p2
+    return y.min(axis=0, initial=np.inf)
 
 
 def angles(pair: Pair, x: np.ndarray) -> np.ndarray:
@@ -443,14 +464,13 @@ def least_play(pair: Pair) -> float:
     step = pair.p1 / 400
     grid = (np.arange(401) + 0.001) * step
     found = play(grid)
+    centres, width = grid[np.argsort(found)[:4]], step
     best = np.inf
-    for at in np.argsort(found)[:4]:
-        centre, width = grid[at], step
-        for _ in range(8):
-            t = np.linspace(centre - width, centre + width, 41)
-            here = play(t)
-            centre, width = t[here.argmin()], width / 10
-            best = min(best, here.min())
+    for _ in range(8):
+        t = np.linspace(centres - width, centres + width, 41)
+        here = play(t)
+        centres, width = t[here.argmin(axis=0), np.arange(4)], width / 10
+        best = min(best, here.min())
     return float(best)
 
 

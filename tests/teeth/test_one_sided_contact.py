@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from dataclasses import dataclass
+from functools import cached_property
 from math import cos, hypot, pi, sin, sqrt, tan
 from pathlib import Path
 
@@ -55,7 +56,7 @@ class Drawn:
     def sign(self) -> int:
         return -1 if self.ring else 1
 
-    @property
+    @cached_property
     def angle(self) -> float:
         teeth, shifts = self.z2 + self.sign * self.z1, self.x2 + self.sign * self.x1
         return inverse(inv(ALPHA) + 2 * tan(ALPHA) * shifts / teeth)
@@ -80,7 +81,7 @@ class Drawn:
     def pitch_radius(self, at: int) -> float:
         return self.base(at) / cos(self.angle)
 
-    @property
+    @cached_property
     def ends(self) -> tuple[float, float]:
         """Along the line of action from the pitch point: where contact begins, and where it ends."""
         over = [sqrt(self.tip(at) ** 2 - self.base(at) ** 2) - self.pitch_radius(at) * sin(self.angle) for at in (0, 1)]
@@ -113,6 +114,7 @@ class Drawn:
         flank = [curve(low, base), curve(base, high)] if low < base < high else [curve(low, high)]
         return GearOutline((ToothFlanks.symmetric(flank),), (self.z1, self.z2)[at], ring=bool(at and self.ring))
 
+    @cached_property
     def runs(self) -> bool:
         """True if drawn teeth keep the ratio to rounding all through a pitch, with play left behind."""
         S = np.linspace(0, 2 * pi / self.z1, 160, endpoint=False)
@@ -190,7 +192,7 @@ def test_a_pair_runs_where_its_drawn_flanks_keep_the_ratio_and_nowhere_else(pair
             pair.form().law(pair.z1, pair.z2, internal=pair.ring)
         return
     law = pair.form().law(pair.z1, pair.z2, 1e-7, internal=pair.ring)
-    assert bool(law.verdict) == pair.runs(), law.verdict.text
+    assert bool(law.verdict) == pair.runs, law.verdict.text
     if not law.verdict:
         return
     first, last = (end / cos(pair.angle) for end in pair.ends)
@@ -210,7 +212,7 @@ def test_both_sides_of_the_pitch_point_are_met_by_the_examples() -> None:
     assert ISSUE.ends[0] > 0
     assert AFTER.ends[0] > 0
     assert BEFORE.ends[1] < 0
-    assert all(pair.runs() and pair.whole() for pair in (ISSUE, AFTER, BEFORE))
+    assert all(pair.runs and pair.whole() for pair in (ISSUE, AFTER, BEFORE))
     assert ISSUE.ratio == pytest.approx(1.546, abs=5e-4)
 
 

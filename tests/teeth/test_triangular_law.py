@@ -9,7 +9,7 @@ from random import Random
 
 import numpy as np
 import pytest
-from sorge import RECESS, Pair, drawn, first_of_all, mp
+from sorge import RECESS, Pair, drawn, first_of_all, integral, mp
 
 from geartrain.dynamics.motion.pair_impacts import collision_energies
 from geartrain.teeth.triangular.pair_geometry import TriangularSizes, equal_depth
@@ -133,7 +133,7 @@ def moments(pair: Pair) -> tuple[float, float]:
 
     def over_the_path(what):
         return sum(
-            mp.quad(lambda x, s=s: what(pair.angle(x, s.phase) - pair.ratio * x), [s.end, s.start]) for s in pair.path
+            integral(lambda x, s=s: what(pair.angle(x, s.phase) - pair.ratio * x), [s.end, s.start]) for s in pair.path
         )
 
     mean = over_the_path(lambda lag: lag) / pair.p1

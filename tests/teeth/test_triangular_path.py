@@ -340,7 +340,7 @@ def bisected(margin: Any, sizes: TriangularSizes, low: float, high: float) -> fl
         low += step
         assert low < high
     high = low + step
-    for _ in range(45):
+    for _ in range(28):  # 1e-9 of the first step and less
         middle = (low + high) / 2
         low, high = (middle, high) if positive(middle) == at_low else (low, middle)
     return (low + high) / 2

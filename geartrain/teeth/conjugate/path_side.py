@@ -7,6 +7,7 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from math import cos, sin
 from typing import TYPE_CHECKING
 
@@ -159,7 +160,7 @@ class PathSide:
         """Distance of the last contact from the pitch point."""
         return self.pieces[-1].end
 
-    @property
+    @cached_property
     def arc(self) -> float:
         """Pitch-line displacement over the whole side."""
         return float(self.travel(np.array(self.end)))
@@ -179,13 +180,16 @@ class PathSide:
 
     def travel(self, d: Floats) -> Floats:
         """X at d, from the pitch point."""
-        total = 0.0
-        starts = []
+        return self._by_piece(d, lambda piece, at: self._offsets[id(piece)] + piece.travel(at))
+
+    @cached_property
+    def _offsets(self) -> dict[int, float]:
+        """X at the start of each piece, by the piece's identity."""
+        total, starts = 0.0, {}
         for piece in self.pieces:
-            starts.append(total)
+            starts[id(piece)] = total
             total += float(piece.travel(np.array(piece.end)))
-        offsets = dict(zip(map(id, self.pieces), starts, strict=True))
-        return self._by_piece(d, lambda piece, at: offsets[id(piece)] + piece.travel(at))
+        return starts
 
     def distance(self, X: Floats) -> Floats:
         """d at X, by Newton's method on dd/dX = cos psi."""

@@ -168,16 +168,24 @@ class Train:
 
     def solved(self, ratios: Sequence[float], ahead: Sequence[float], turning: float) -> np.ndarray:
         """Speeds of all links, each driven side so much ahead of its ratio to the driver, as seen from the carrier."""
-        size = len(self.at)
-        matrix, right = np.zeros((size, size)), np.zeros(size)
-        for row, (pair, ratio) in enumerate(zip(self.pairs, ratios, strict=True)):
-            matrix[row, self.at[pair.driven]] += 1.0
-            matrix[row, self.at[pair.driver]] -= ratio
-            matrix[row, self.at[pair.carrier]] += ratio - 1.0
-            right[row] = ahead[row]
-        for row, (link, speed) in enumerate((self.inputs | {"frame": 0.0}).items(), start=len(self.pairs)):
-            matrix[row, self.at[link]], right[row] = 1.0, speed * turning
+        still, turned, given = self._rows
+        right = np.array([*ahead, *(turning * given)])
+        matrix = still + turned * np.array([*ratios, *[0.0] * len(given)])[:, None]
         return np.linalg.solve(matrix, right)
+
+    @cached_property
+    def _rows(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """The rows of the pairs, then of what is given: what stands in them, what is times the ratio; given speeds."""
+        size, given = len(self.at), self.inputs | {"frame": 0.0}
+        still, turned = np.zeros((size, size)), np.zeros((size, size))
+        for row, pair in enumerate(self.pairs):
+            still[row, self.at[pair.driven]] += 1.0
+            still[row, self.at[pair.carrier]] -= 1.0
+            turned[row, self.at[pair.driver]] -= 1.0
+            turned[row, self.at[pair.carrier]] += 1.0
+        for row, link in enumerate(given, start=len(self.pairs)):
+            still[row, self.at[link]] = 1.0
+        return still, turned, np.array(list(given.values()))
 
     def speeds(self, ratios: Sequence[float]) -> np.ndarray:
         """Speeds of all links where each pair has this ratio, driven over driver, signed."""

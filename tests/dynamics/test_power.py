@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+import shipped as catalogue
 from commands import call
 from hypothesis import given
 from hypothesis import strategies as st
@@ -86,8 +87,13 @@ def states(train: GearTrain) -> tuple[str | None, ...]:
     return train.states or (None,)
 
 
-def flows(train: GearTrain) -> Iterator[tuple[Torques, PowerFlow]]:
+@cache
+def flows(train: GearTrain) -> list[tuple[Torques, PowerFlow]]:
     """Under the declared loads, and driven from each end to the other."""
+    return list(_flows(train))
+
+
+def _flows(train: GearTrain) -> Iterator[tuple[Torques, PowerFlow]]:
     for state in states(train):
         for found in (train.torques(state), *(way for way, _, _ in train.drive_both_ways(state))):
             if found.verdict and not any(pair.loose for pair in found.pairs.values()):
@@ -127,7 +133,7 @@ def require_no_loop(edges: list[tuple[PowerNode, PowerNode]]) -> None:
 @cache
 def lossy(name: str) -> GearTrain:
     """A shipped train, every pair of which loses and every link of which rubs, with a load on its output."""
-    train = load(name)
+    train = catalogue.train(name)
     declared = train.declaration
     data: dict[str, Any] = {"extends": name, "name": name}
     data["gears"] = [
@@ -151,7 +157,7 @@ def load_of(train: GearTrain, state: str | None) -> dict[str, str]:
 
 @pytest.mark.parametrize("name", shipped())
 def test_every_shaft_and_pair_of_a_shipped_train_gives_on_what_it_takes_in(name: str) -> None:
-    for train in (load(name), lossy(name)):
+    for train in (catalogue.train(name), lossy(name)):
         for found, flow in flows(train):
             require_balance(found, flow)
 
@@ -165,7 +171,7 @@ def test_shipped_trains_put_the_balance_to_the_test() -> None:
 
 @pytest.mark.parametrize("name", TRAINS)
 def test_every_shaft_and_pair_of_a_loaded_train_gives_on_what_it_takes_in(name: str) -> None:
-    found = list(flows(load(TRAINS[name])))
+    found = flows(load(TRAINS[name]))
     assert any(flow.streams for _, flow in found)
     for torques, flow in found:
         require_balance(torques, flow)
@@ -501,6 +507,7 @@ def test_every_key_is_documented() -> None:
 # ------------------------------------------------------------------------------------------------------------- pictures
 
 
+@cache
 def drawn(name: str, state: str | None) -> tuple[PowerFlow, Any]:
     pytest.importorskip("matplotlib")
     from geartrain.drawing import power_figure

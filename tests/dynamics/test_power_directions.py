@@ -34,11 +34,13 @@ def eliminated(matrix: list[list[Fraction]]) -> tuple[list[Fraction] | None, boo
             continue
         matrix[at], matrix[best] = matrix[best], matrix[at]
         lead = matrix[at][column]
-        matrix[at] = [value / lead for value in matrix[at]]
+        matrix[at] = [value / lead if value else value for value in matrix[at]]
         for row, other in enumerate(matrix):
             if row != at and other[column]:
                 factor = other[column]
-                matrix[row] = [value - factor * own for value, own in zip(other, matrix[at], strict=True)]
+                matrix[row] = [
+                    value - factor * own if own else value for value, own in zip(other, matrix[at], strict=True)
+                ]
         pivots.append(column)
         at += 1
     if any(row[-1] for row in matrix[at:]):

@@ -43,10 +43,15 @@ OPTIONS: dict[str, tuple[object, ...]] = {
 
 def written(form: str, wheel: int, to: File, *more: object) -> list[Points]:
     """The contours of the file that the command writes."""
+    return told(form, wheel, to, *more)[0]
+
+
+def told(form: str, wheel: int, to: File, *more: object) -> tuple[list[Points], str]:
+    """The same, and what the command says."""
     pair = () if "--teeth" in more else PAIR
     done = call("mesh", form, *pair, *OPTIONS.get(form, ()), "--profile", to, "--wheel", wheel, "--force", *more)
     assert done.exit_code == 0, done.output
-    return {".svg": from_svg, ".dxf": from_dxf, ".csv": from_csv}[to.suffix](to)
+    return {".svg": from_svg, ".dxf": from_dxf, ".csv": from_csv}[to.suffix](to), done.output
 
 
 def from_csv(file: File) -> list[Points]:
@@ -216,10 +221,10 @@ def test_two_wheels_turn_through_a_pitch_untouched_with_the_backlash_between_the
     z1, z2 = int(str(options[1])), int(str(options[2]))
     internal = "--internal" in options
     more = (*options, *PAIR[3:])
-    contours = [written(form, gear, tmp_path / f"{gear}.csv", *more) for gear in (1, 2)]
+    one, title = told(form, 1, tmp_path / "1.csv", *more, "--json")
+    contours = [one, written(form, 2, tmp_path / "2.csv", *more)]
     pins = 0 if form != "lantern" else 1 if "--pins" in options else 2
     first, second = (solid(contours[gear - 1], "pins" if gear == pins else "teeth") for gear in (1, 2))
-    title = call("mesh", form, *options, *PAIR[3:], "--profile", tmp_path / "x.svg", "--json").output
     distance = float(re.search(r'"centre_distance": ([\d.]+)', title)[1])  # type: ignore[index]
     # more than three pitches either side of the pitch point are enough, and quick
     R2 = distance * z2 / (z2 - z1 if internal else z1 + z2)

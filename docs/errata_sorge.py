@@ -6,6 +6,8 @@ from collections.abc import Callable, Iterator
 from math import atan2, cos, degrees, hypot, pi, radians, sin, sqrt
 
 import numpy as np
+from sources.sorge import eq_31
+from sources.sorge_contacts import contacts
 
 import geartrain
 from geartrain.dynamics.motion.pair_impacts import collision_energies
@@ -45,6 +47,8 @@ def sorge() -> Iterator[str]:
     yield ""
     yield from equation_16()
     yield from equation_33()
+    yield from equation_31()
+    yield from line_of_action()
     yield from equation_26()
     yield from jumps()
     yield from windows()
@@ -89,6 +93,32 @@ def equation_33() -> Iterator[str]:
         f"most {np.abs(right - ours).max():.0e}."
     )
     yield ""
+
+
+def equation_31() -> Iterator[str]:
+    """The driven arm in recess against the moment of a force, at every contact of Figs. 3 to 5."""
+    printed, mended = eq_31()
+    yield (
+        f"**Eq. (31)**: the moment about O2 of a force through the contact, turned by friction, differs from the "
+        f"printed arm by up to {100 * printed:.1f} %; with tau below the first product both are equal to "
+        f"{'rounding' if mended < 1e-12 else f'{mended:.0e}'}."
+    )
+    yield ""
+
+
+def line_of_action() -> Iterator[str]:
+    """Which way friction turns the force on the driven wheel, in degrees about the contact, towards O2 positive."""
+    body = []
+    for phase in ("approach", "recess"):
+        for c in contacts(phase):
+            turn = np.degrees(np.arctan2((c.force * c.along).sum(axis=0), (c.force * c.normal).sum(axis=0)))
+            near, far = ((c.y > 0), (c.y < 0)) if phase == "approach" else ((c.x > 0), (c.x < 0))
+            cells = (f"{turn[part].mean():+.2f}" if part.any() else "-" for part in (near, far))
+            body.append((f"{c.z1}/{c.z2}, D = {c.D:.4f}", phase, *cells))
+    yield "**IV**, line of action: friction turns it by 11.31 deg, towards O2 before the line of centres, away from it"
+    yield "after; the note has it towards O2 in approach and in recess. Plane vectors at the contacts of Figs. 3 to 5:"
+    yield ""
+    yield from table(("pair", "phase", "before the line of centres", "after"), body)
 
 
 def equation_26() -> Iterator[str]:

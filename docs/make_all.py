@@ -18,6 +18,7 @@ import make_missing
 import make_motion_accuracy
 import make_outputs
 import make_shapes_accuracy
+import make_sources
 import make_sphere_accuracy
 import make_teeth_accuracy
 import make_uncertainty_accuracy
@@ -49,6 +50,7 @@ def main() -> None:
         make_images,
         make_missing,
         make_outputs,
+        make_sources,
     )
     for maker in (*accuracy, *facts):
         maker.main()

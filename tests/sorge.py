@@ -1,7 +1,7 @@
 """An independent reference for triangular teeth: the closure equations of the source, at 50 digits, couple by couple.
 
 Written from F. Sorge, "A note on the mechanics of ancient gear systems", Eqs. (1)-(19) and (28)-(33), as they stand but
-for its errata: the lesser root in Eq. (16), quadrants in Eq. (17), signs and brackets in Eqs. (31) and (33). Unequal
+for its errata: the lesser root in Eq. (16), signs and brackets in Eqs. (31) and (33). Unequal
 half apertures: the flank in contact is the driver's in approach and the driven wheel's in recess. What floats are given
 is taken as exact. Nothing here is fast, stable at low precision, or clever.
 """

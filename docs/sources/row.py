@@ -1,0 +1,198 @@
+"""One statement of a source: where, what, the value printed, the way to ours, and the verdict."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from dataclasses import dataclass, field
+from decimal import Decimal
+from fractions import Fraction
+from functools import cached_property
+from typing import Any
+
+from sources.ways import Way
+
+REPRODUCED, ERRATUM, OUTSIDE = "reproduced", "erratum", "out of scope"
+VERDICTS = (REPRODUCED, ERRATUM, OUTSIDE)
+
+
+@dataclass(frozen=True)
+class Finding:
+    """Whether a statement holds, and what was found."""
+
+    holds: bool
+    text: str
+
+    def __bool__(self) -> bool:
+        return bool(self.holds)
+
+
+class Judge(ABC):
+    """Whether a value bears out what is printed, and how the value is shown."""
+
+    @abstractmethod
+    def accepts(self, printed: str, value: Any) -> bool:
+        """True if it does."""
+
+    @abstractmethod
+    def shows(self, printed: str, value: Any) -> str:
+        """The value for the page."""
+
+    def mends(self, value: Any) -> bool:
+        """Of an erratum: whether what is put in its place is right, where the value tells."""
+        return True
+
+
+@dataclass(frozen=True)
+class Digits(Judge):
+    """A printed number: right within half a unit of its last digit."""
+
+    more: int = 2
+
+    def accepts(self, printed: str, value: Any) -> bool:
+        """Compared as fractions; what is printed has no more digits than it shows."""
+        return abs(_exact(value) - Fraction(printed)) <= Fraction(1, 2 * 10 ** _decimals(printed))
+
+    def shows(self, printed: str, value: Any) -> str:
+        """A few digits more than are printed, after the fraction where there is one."""
+        exact = _exact(value)
+        if exact.denominator == 1:
+            return str(exact)
+        decimal = f"{float(exact):.{_decimals(printed) + self.more}f}"
+        return f"{exact} = {decimal}" if isinstance(value, Fraction) and exact.denominator < 10**6 else decimal
+
+
+@dataclass(frozen=True)
+class Exactly(Judge):
+    """A text, or a number without error: the same, letter by letter."""
+
+    def accepts(self, printed: str, value: Any) -> bool:
+        """Compared as text."""
+        return str(value) == printed
+
+    def shows(self, printed: str, value: Any) -> str:
+        """As it is."""
+        return str(value)
+
+
+@dataclass(frozen=True)
+class Equal(Judge):
+    """An equation: its two sides differ, in parts of their size, by no more than `bound`, at many places."""
+
+    bound: float = 1e-12
+
+    def accepts(self, printed: str, value: Any) -> bool:
+        """The greatest difference is within the bound."""
+        return float(value) <= self.bound
+
+    def shows(self, printed: str, value: Any) -> str:
+        """The bound if it is kept: rounding is not for a page."""
+        if self.accepts(printed, value):
+            return f"both sides equal to {self.bound:.0e}"
+        return f"differs by up to {float(value):.2g}"
+
+
+@dataclass(frozen=True)
+class Mended(Judge):
+    """An equation with an erratum: two values as of `Equal`, as printed and as mended."""
+
+    bound: float = 1e-12
+
+    def accepts(self, printed: str, value: Any) -> bool:
+        """Whether it is right as printed."""
+        return float(value[0]) <= self.bound
+
+    def mends(self, value: Any) -> bool:
+        """Whether it is right as mended."""
+        return float(value[1]) <= self.bound
+
+    def shows(self, printed: str, value: Any) -> str:
+        """Both."""
+        return f"as printed off by up to {float(value[0]):.2g}, mended equal to {self.bound:.0e}"
+
+
+@dataclass(frozen=True)
+class Holds(Judge):
+    """A statement in words: a `Finding`."""
+
+    def accepts(self, printed: str, value: Any) -> bool:
+        """What the finding says."""
+        return bool(value)
+
+    def shows(self, printed: str, value: Any) -> str:
+        """Its text."""
+        return str(value.text)
+
+
+def _exact(value: Any) -> Fraction:
+    return value if isinstance(value, Fraction) else Fraction(str(value))
+
+
+def _decimals(printed: str) -> int:
+    exponent = Decimal(printed).as_tuple().exponent
+    assert isinstance(exponent, int)
+    return max(0, -exponent)
+
+
+@dataclass(frozen=True)
+class Row:
+    """A statement of a source.
+
+    place     where it stands, once in its source
+    claim     what is said
+    printed   the value as printed; empty for words and equations
+    way       how ours is had; None out of scope
+    judge     how the two are compared
+    erratum   words of docs/errata.md that show what is wrong; empty where nothing is
+    why       out of scope: why; else a remark
+    section   the heading of docs/errata.md with the proof, where it is not that of the source
+    """
+
+    place: str
+    claim: str
+    printed: str = ""
+    way: Way | None = None
+    judge: Judge = field(default_factory=Digits)
+    erratum: str = ""
+    why: str = ""
+    section: str = ""
+
+    @cached_property
+    def value(self) -> Any:
+        """Ours."""
+        return None if self.way is None else self.way.value()
+
+    @property
+    def verdict(self) -> str:
+        """One of `VERDICTS`, as declared; `stands` says whether the value bears it out."""
+        if self.way is None:
+            return OUTSIDE
+        return ERRATUM if self.erratum else REPRODUCED
+
+    @property
+    def stands(self) -> bool:
+        """Reproduced: the value agrees; erratum: it does not; out of scope: there is a reason."""
+        if self.way is None:
+            return bool(self.why)
+        agrees = self.judge.accepts(self.printed, self.value)
+        return not agrees and self.judge.mends(self.value) if self.erratum else agrees
+
+    @property
+    def ours(self) -> str:
+        """The value for the page."""
+        return "" if self.way is None else self.judge.shows(self.printed, self.value)
+
+
+def outside(place: str, claim: str, why: str, printed: str = "") -> Row:
+    """A statement that geartrain does not answer, and why."""
+    return Row(place, claim, printed, why=why)
+
+
+@dataclass(frozen=True)
+class Source:
+    """A text and its rows. `section` is the heading of docs/errata.md that proves its errata, as in a link."""
+
+    name: str
+    cite: str
+    text: str
+    section: str
+    rows: tuple[Row, ...]

@@ -1,0 +1,68 @@
+"""docs/sources.md: every row is worked out and stands, none is without a reason, and the page is what the rows say."""
+
+from __future__ import annotations
+
+from collections import Counter
+from fractions import Fraction
+
+import make_sources
+import pytest
+from places import DOCS
+from sources.row import Digits, Equal, Exactly, Finding, Holds, Mended, Row, Source
+from sources.ways import Call
+
+ROWS = [pytest.param(source, row, id=f"{source.name} {row.place}") for source in make_sources.SOURCES
+        for row in source.rows]  # fmt: skip
+PROOFS = (DOCS / "errata.md").read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize(("source", "row"), ROWS)
+def test_the_row_stands(source: Source, row: Row) -> None:
+    assert row.stands, f"{row.verdict}: printed {row.printed!r}, ours {row.ours}"
+
+
+def test_the_page_is_what_its_script_writes() -> None:
+    assert (DOCS / "sources.md").read_text(encoding="utf-8") == make_sources.page(), "run python docs/make_sources.py"
+
+
+def test_every_place_is_named_once_in_its_source() -> None:
+    for source in make_sources.SOURCES:
+        places = Counter(row.place for row in source.rows)
+        assert [place for place, times in places.items() if times > 1] == [], source.name
+
+
+@pytest.mark.parametrize("source", make_sources.SOURCES, ids=lambda source: source.name)
+def test_every_erratum_has_its_proof_on_the_page_of_errata(source: Source) -> None:
+    headings = {line[3:] for line in PROOFS.splitlines() if line.startswith("## ")}
+    slugs = {"".join(c for c in head.lower() if c.isalnum() or c in " -").replace(" ", "-") for head in headings}
+    for row in source.rows:
+        if row.erratum:
+            assert (row.section or source.section) in slugs, row.place
+            assert row.erratum in PROOFS, f"{row.place}: errata.md does not say {row.erratum!r}"
+
+
+def value(thing: object) -> Call:
+    return Call("thing", {"thing": thing})
+
+
+@pytest.mark.parametrize(
+    ("row", "stands"),
+    [
+        (Row("p", "c", "1.25", value(1.2549), Digits()), True),
+        (Row("p", "c", "1.25", value(1.2551), Digits()), False),
+        (Row("p", "c", "1.25", value(Fraction(5, 4)), Digits()), True),
+        (Row("p", "c", "1.25", value(1.3), Digits(), "named"), True),
+        (Row("p", "c", "1.25", value(1.25), Digits(), "named"), False),
+        (Row("p", "c", "a", value("a"), Exactly()), True),
+        (Row("p", "c", "a", value("b"), Exactly()), False),
+        (Row("p", "c", "", value(1e-11), Equal()), False),
+        (Row("p", "c", "", value((0.1, 1e-13)), Mended(), "named"), True),
+        (Row("p", "c", "", value((0.1, 0.1)), Mended(), "named"), False),
+        (Row("p", "c", "", value((0.0, 0.0)), Mended(), "named"), False),
+        (Row("p", "c", "", value(Finding(False, "no")), Holds()), False),
+        (Row("p", "c"), False),
+        (Row("p", "c", why="a photograph"), True),
+    ],
+)
+def test_a_row_stands_only_where_its_value_bears_it_out(row: Row, stands: bool) -> None:
+    assert row.stands is stands

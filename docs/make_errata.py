@@ -124,8 +124,21 @@ def months() -> Iterator[str]:
              f"link 17: {solved['17']} = {number(solved['17'])}"),
             ("wheel 9 counts lunar years", f"{solved['9']} = {number(solved['9'])}",
              f"link 19: {solved['19']} = {number(solved['19'])}"),
+            ("wheel 8 is engaged with no other", f"{solved['8']} = {number(solved['8'])}",
+             f"its wheel meshes with those of links {' and '.join(mates('8'))}"),
         ),
     )  # fmt: skip
+    table = period_table()
+    year, month = (table[name].value for name in ("year_hipparchus_tropical", "month_synodic_hipparchus_4267"))
+    yield f"Hipparchus' year, given as 365.242 d, is 365 + 1/4 - 1/300 = {number(year, 8)} d (Almagest III 1);"
+    yield f"Hipparchus' month, given as 29.53058 d, is {number(month, 8)} d (Almagest IV 2)."
+    yield ""
+
+
+def mates(link: str) -> list[str]:
+    """The links that mesh with one, each with the gear pair."""
+    pairs = [each for each in paper().circuits if link in (each.i, each.j)]
+    return [f"{each.j if each.i == link else each.i} ({each.id})" for each in pairs]
 
 
 def table_4() -> Iterator[str]:

@@ -58,7 +58,7 @@ class Digits(Judge):
         if exact.denominator == 1:
             return str(exact)
         decimal = f"{float(exact):.{_decimals(printed) + self.more}f}"
-        return f"{exact} = {decimal}" if isinstance(value, Fraction) and exact.denominator < 10**6 else decimal
+        return f"{exact} = {decimal}" if not isinstance(value, float) and exact.denominator < 10**4 else decimal
 
 
 @dataclass(frozen=True)

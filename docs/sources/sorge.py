@@ -106,9 +106,12 @@ def matched() -> Finding:
 def geometry() -> Iterator[Row]:
     """Sections I and II."""
     yield outside("I, Fig. 1", "find, fragments, x-rays, Olbia, Cicero, Archimedes", HISTORY)
-    yield outside("II, Fig. 2", "a drawing of approach, matching and recess, z2/z1 = 2, beta = 30 deg",
-                  "the copy has no pictures; `geartrain mesh triangular --teeth 48 96 --clearance 1.01 --at -3deg "
-                  "--teeth-plot contact.svg` draws any position")  # fmt: skip
+    yield outside(
+        "II, Fig. 2",
+        "a drawing of approach, matching and recess, z2/z1 = 2, beta = 30 deg",
+        "the copy has no pictures; `geartrain mesh triangular --teeth 48 96 --clearance 1.01 --at -3deg "
+        "--teeth-plot contact.svg` draws any position",
+    )
     yield words("Fig. 2 b", "profiles match where -alpha_2 = alpha_1; tau changes suddenly there", "matched()")
     yield equation("Eq. (1)", "h = R [1 - sin b / sin(b + pi/z)]", "depths()")
     yield equation("Eq. (2)", "e = R sin(pi/z) / sin(b + pi/z)", "flanks()")
@@ -152,8 +155,10 @@ def signs_8() -> Finding:
     """What is said of the terms of Eq. (8)."""
     linear = [c.D * np.cos(c.x + c.beta) - c.R1 * np.cos(c.beta) for c in contacts(A)]
     last = [note.square(c) - c.R2**2 for c in contacts(A)]
-    return Finding(min(each.min() for each in linear) > 0 > max(each.max() for each in last),
-                   "positive and negative at every contact")  # fmt: skip
+    return Finding(
+        min(each.min() for each in linear) > 0 > max(each.max() for each in last),
+        "positive and negative at every contact",
+    )
 
 
 def eq_10() -> float:
@@ -222,11 +227,15 @@ def kinematics() -> Iterator[Row]:
     yield words("Eq. (8), signs", "linear coefficient positive, third term negative", "signs_8()")
     yield equation("Eq. (9)", "v in approach", "off(A, note.eq_9, lambda c: c.apart)")
     yield equation("Eq. (10)", "alpha_1m", "eq_10()")
-    yield equation("Eq. (11)", "O2Ca, by the normal through the contact",
-                   "off(A, lambda c: note.root(c) / np.cos(c.x + c.beta), lambda c: c.D - c.centre)")  # fmt: skip
+    yield equation(
+        "Eq. (11)",
+        "O2Ca, by the normal through the contact",
+        "off(A, lambda c: note.root(c) / np.cos(c.x + c.beta), lambda c: c.D - c.centre)",
+    )
     yield equation("Eq. (12)", "tau in approach", "off(A, note.eq_12, lambda c: c.tau)")
-    yield equation("III A, tau", "tau = O1Ca/O2Ca = D/O2Ca - 1",
-                   "off(A, lambda c: c.centre / (c.D - c.centre), lambda c: c.tau)")  # fmt: skip
+    yield equation(
+        "III A, tau", "tau = O1Ca/O2Ca = D/O2Ca - 1", "off(A, lambda c: c.centre / (c.D - c.centre), lambda c: c.tau)"
+    )
     yield equation("Eq. (13)", "closure along the line of centres, recess", "closure(R, 0)")
     yield equation("Eq. (14)", "closure across it, recess", "closure(R, 1)")
     yield equation("Eq. (15)", "the quadratic equation of v in recess", "eq_15()")
@@ -234,8 +243,11 @@ def kinematics() -> Iterator[Row]:
     yield equation("Eq. (16)", "v in recess, plus before the root", "eq_16()", Mended(), "**Eq. (16)**")
     yield equation("Eq. (17)", "alpha_2 as an arctangent of a quotient", "eq_17()", Equal(1e-9))
     yield words("Eq. (17), text", "abs(alpha_2) is a sum of two angles at O2", "sum_of_angles()")
-    yield equation("Eq. (18)", "O1Cr, by the normal through the contact",
-                   "off(R, lambda c: c.R1 * note.turned(c) / np.cos(c.lean), lambda c: c.centre)")  # fmt: skip
+    yield equation(
+        "Eq. (18)",
+        "O1Cr, by the normal through the contact",
+        "off(R, lambda c: c.R1 * note.turned(c) / np.cos(c.lean), lambda c: c.centre)",
+    )
     yield equation("Eq. (19)", "tau in recess", "off(R, note.eq_19, lambda c: c.tau)")
 
 
@@ -284,10 +296,20 @@ def real_meshing() -> Iterator[Row]:
     """Section III C."""
     yield words("III C, concavity", "alpha_2(alpha_1) is slightly concave upward but at matching", "concave_upward()")
     yield words("III C, admissible", "points where no other couple would overlap: below the chord", "admissible()")
-    yield words("III C, one couple", "one couple at a time, joined by the next without a break", "shared_bounds()",
-                "**III C.** One couple at a time", "true inside a window of clearance")  # fmt: skip
-    yield words("III C, back profiles", "the back profiles are quite far from interference", "back_profiles()",
-                "III C | back profiles quite far", "not for unequal wheels with small clearance")  # fmt: skip
+    yield words(
+        "III C, one couple",
+        "one couple at a time, joined by the next without a break",
+        "shared_bounds()",
+        "**III C.** One couple at a time",
+        "true inside a window of clearance",
+    )
+    yield words(
+        "III C, back profiles",
+        "the back profiles are quite far from interference",
+        "back_profiles()",
+        "III C | back profiles quite far",
+        "not for unequal wheels with small clearance",
+    )
     yield words("III C, chord", "the active part is one pitch of alpha_1 wide: 360/z1", "widths()")
 
 
@@ -380,10 +402,10 @@ def collisions() -> Iterator[Row]:
     yield words("III D, z1/z2 > 1", "the meshing is entirely in approach", "entered(96, 72, '1.01', [A])")
     yield words("III D, z1/z2 < 1", "the meshing is entirely in recess", "entered(48, 96, '1.01', [R])")
     yield words("III D, z1/z2 = 1", "two sub-phases, approach and recess", "entered(96, 96, '1.01', [A, R])")
-    yield words("III D, z1/z2 = 1, backlash", "they join into one as it grows",
-                "entered(96, 96, '1.025', ['astride'])")  # fmt: skip
-    yield words("III D, straddling", "with more backlash the path tends to straddle both regions",
-                "towards_straddling()")  # fmt: skip
+    yield words("III D, z1/z2 = 1, backlash", "they join into one as it grows", "entered(96, 96, '1.025', ['astride'])")
+    yield words(
+        "III D, straddling", "with more backlash the path tends to straddle both regions", "towards_straddling()"
+    )
     yield equation("Eq. (20)", "v1 normal, approach", "normal_speeds(A, 1)")
     yield equation("Eq. (21)", "v2 normal, approach", "normal_speeds(A, 2)")
     yield equation("Eqs. (20), (21), first forms", "by O1Ca and R2", "first_forms(A)")
@@ -391,16 +413,26 @@ def collisions() -> Iterator[Row]:
     yield equation("Eq. (23)", "v1 normal, recess", "normal_speeds(R, 1)")
     yield equation("Eq. (24)", "v2 normal, recess", "normal_speeds(R, 2)")
     yield equation("Eq. (24), first form", "by O2Cr", "first_forms(R)")
-    yield equation("Eq. (25)", "jump of a meshing in recess, Fig. 3a; alpha_2 without an index",
-                   "[abs(note.eq_25(mended) - note.jump('3a', R)) for mended in (False, True)]", Mended(),
-                   "**Eq. (25)**")  # fmt: skip
-    yield equation("Eq. (26)", "jump from recess into approach, Fig. 5a; -1 outside the fraction",
-                   "[abs(note.eq_26(mended) - note.jump('5a', A)) for mended in (False, True)]", Mended(),
-                   "**Eq. (26)**")  # fmt: skip
-    yield equation("Eq. (27)", "jump from approach into recess, Fig. 5a",
-                   "abs(note.eq_27('5a') - note.jump('5a', R))")  # fmt: skip
-    yield equation("Eq. (27) at matching", "the same at alpha_1m, Figs. 4b and 5b",
-                   "max(abs(note.eq_27(name) - note.jump(name, 'matching')) for name in ('4b', '5b'))")  # fmt: skip
+    yield equation(
+        "Eq. (25)",
+        "jump of a meshing in recess, Fig. 3a; alpha_2 without an index",
+        "[abs(note.eq_25(mended) - note.jump('3a', R)) for mended in (False, True)]",
+        Mended(),
+        "**Eq. (25)**",
+    )
+    yield equation(
+        "Eq. (26)",
+        "jump from recess into approach, Fig. 5a; -1 outside the fraction",
+        "[abs(note.eq_26(mended) - note.jump('5a', A)) for mended in (False, True)]",
+        Mended(),
+        "**Eq. (26)**",
+    )
+    yield equation("Eq. (27)", "jump from approach into recess, Fig. 5a", "abs(note.eq_27('5a') - note.jump('5a', R))")
+    yield equation(
+        "Eq. (27) at matching",
+        "the same at alpha_1m, Figs. 4b and 5b",
+        "max(abs(note.eq_27(name) - note.jump(name, 'matching')) for name in ('4b', '5b'))",
+    )
     yield words("III D, size", "relative jumps up to the order of 10 %", "greatest_jumps()")
 
 
@@ -483,17 +515,25 @@ def lost_in_blows() -> tuple[float, float]:
 def power_loss() -> Iterator[Row]:
     """Section IV."""
     yield outside("IV, other losses", "supports, air drag and others are left aside", "so they are here")
-    yield words("IV, pressure angle", "beta + alpha_1, beta - alpha_2: quite larger than in modern gears",
-                "pressure_angles()")  # fmt: skip
-    yield words("IV, line of action", "turned by the friction angle towards the driven wheel's centre in both phases",
-                "turned_force()", "**IV**, line of action")  # fmt: skip
+    yield words(
+        "IV, pressure angle", "beta + alpha_1, beta - alpha_2: quite larger than in modern gears", "pressure_angles()"
+    )
+    yield words(
+        "IV, line of action",
+        "turned by the friction angle towards the driven wheel's centre in both phases",
+        "turned_force()",
+        "**IV**, line of action",
+    )
     yield equation("IV, V2Ca, V1Cr", "distances from the contact to the instant centre", "distances_to_centre()")
     yield equation("Eq. (28)", "b1, approach", "arm(A, 1)")
     yield equation("Eq. (29)", "b2, approach", "arm(A, 2)")
     yield equation("Eq. (30)", "b1, recess", "arm(R, 1)")
     yield equation("Eq. (31)", "b2, recess; tau divides the whole bracket", "eq_31()", Mended(), "**Eq. (31)**")
-    yield equation("IV, efficiency", "eta = tau b2/b1",
-                   "max(off(p, lambda c: c.tau * c.arms[1] / c.arms[0], lambda c: c.eta) for p in (A, R))")  # fmt: skip
+    yield equation(
+        "IV, efficiency",
+        "eta = tau b2/b1",
+        "max(off(p, lambda c: c.tau * c.arms[1] / c.arms[0], lambda c: c.eta) for p in (A, R))",
+    )
     yield equation("Eq. (32)", "efficiency in approach", "off(A, note.eq_32, lambda c: c.eta)")
     yield equation("Eq. (33)", "efficiency in recess", "eq_33()", Mended(), "**Eq. (33)**")
     yield equation("Eq. (34)", "loss of one meshing, at constant driver torque", "eq_34()")
@@ -533,8 +573,10 @@ def backlash() -> Finding:
     (one,), (two,) = a.intervals, b.intervals
     less = b.sizes.reach1 / a.sizes.reach1
     moved = abs(one.start - two.start) / a.sizes.p1
-    text = (f"ideal {2 * degrees(a.sizes.reach1):.2f} to {2 * degrees(b.sizes.reach1):.2f} deg; the real path moves by "
-            f"{moved:.3f} pitch")  # fmt: skip
+    text = (
+        f"ideal {2 * degrees(a.sizes.reach1):.2f} to {2 * degrees(b.sizes.reach1):.2f} deg; the real path moves by "
+        f"{moved:.3f} pitch"
+    )
     return Finding(less < 0.75 and moved < 0.15 and one.phase == two.phase == R, text)
 
 
@@ -596,37 +638,68 @@ def standstill() -> Finding:
 def results() -> Iterator[Row]:
     """Section V."""
     for name, (z1, z2, a) in note.FIGURES.items():
-        yield outside(f"Fig. {name}, curves", "alpha_2, tau and eta over alpha_1",
-                      "the copy has no pictures, and no values are printed; `geartrain mesh triangular "
-                      f"--teeth {z1} {z2} --clearance {a} --friction 0.2 --plot law.svg` draws them")  # fmt: skip
+        yield outside(
+            f"Fig. {name}, curves",
+            "alpha_2, tau and eta over alpha_1",
+            "the copy has no pictures, and no values are printed; `geartrain mesh triangular "
+            f"--teeth {z1} {z2} --clearance {a} --friction 0.2 --plot law.svg` draws them",
+        )
         yield Row(f"Fig. {name}, tau_mean", "mean speed ratio", MEANS[name[0]], mesh(z1, z2, a, "speed_ratio.mean"))
         for figure, kind, printed in JUMPS:
             if figure == name:
                 at = [each.kind for each in figures()[name].jumps].index(kind)
                 wrong = "4b | matching 0.03157" if printed == "0.0314" else ""
-                yield Row(f"Fig. {name}, {kind}", "relative jump of normal velocity", printed,
-                          mesh(z1, z2, a, f"jumps.{at}.value"), erratum=wrong)  # fmt: skip
+                yield Row(
+                    f"Fig. {name}, {kind}",
+                    "relative jump of normal velocity",
+                    printed,
+                    mesh(z1, z2, a, f"jumps.{at}.value"),
+                    erratum=wrong,
+                )
     yield words("Fig. 3", "active part in recess only", "entered(48, 96, '1.025', [R])")
     yield words("V, Fig. 3, speeds", "the speed ratio decreases as meshing goes on", "falling()")
-    yield words("V, Fig. 3, sliding", "near matching the contact is near C, and sliding efficiency high",
-                "efficiencies()")  # fmt: skip
-    yield words("V, Fig. 3 a and b", "more backlash: much less ideal width, no remarkable change of the real mesh",
-                "backlash()")  # fmt: skip
+    yield words(
+        "V, Fig. 3, sliding", "near matching the contact is near C, and sliding efficiency high", "efficiencies()"
+    )
+    yield words(
+        "V, Fig. 3 a and b", "more backlash: much less ideal width, no remarkable change of the real mesh", "backlash()"
+    )
     yield words("Fig. 4 a", "in approach only", "entered(96, 72, '1.01', [A])")
     yield words("Fig. 4 b", "astride the matching position", "entered(96, 72, '1.025', ['astride'])")
-    yield words("Fig. 5 a, sub-phases", "widths sum to 360/z1, as far apart, outer ends 2 x 360/z1 apart",
-                "two_pitches()")  # fmt: skip
-    yield words("V, sub-phases", "two sub-phases, one pitch apart, until one is left", "sub_phases()",
-                "V | two sub-phases one pitch apart", "one, two or three intervals")  # fmt: skip
-    yield words("V, left sub-region", "its width decreases until it vanishes", "narrowing()",
-                "**V**, 96/96: neither sub-region narrows")  # fmt: skip
+    yield words(
+        "Fig. 5 a, sub-phases", "widths sum to 360/z1, as far apart, outer ends 2 x 360/z1 apart", "two_pitches()"
+    )
+    yield words(
+        "V, sub-phases",
+        "two sub-phases, one pitch apart, until one is left",
+        "sub_phases()",
+        "V | two sub-phases one pitch apart",
+        "one, two or three intervals",
+    )
+    yield words(
+        "V, left sub-region",
+        "its width decreases until it vanishes",
+        "narrowing()",
+        "**V**, 96/96: neither sub-region narrows",
+    )
     yield words("Fig. 5 b", "astride the matching position", "entered(96, 96, '1.025', ['astride'])")
-    yield words("V, Fig. 5 b, efficiency", "sliding efficiency has its highest average here, of the figures",
-                "best_of_figures()")  # fmt: skip
-    yield words("V, best conditions", "1:1 at 1.025 has the least energy losses", "best_of_all()",
-                "**V**, 96/96: a = 1.025 is not best")  # fmt: skip
-    yield words("V, standstill", "where the ideal region is smaller than 360/z1 the driven wheel stands",
-                "standstill()", why="of equal wheels; unequal ones stand earlier")  # fmt: skip
+    yield words(
+        "V, Fig. 5 b, efficiency",
+        "sliding efficiency has its highest average here, of the figures",
+        "best_of_figures()",
+    )
+    yield words(
+        "V, best conditions",
+        "1:1 at 1.025 has the least energy losses",
+        "best_of_all()",
+        "**V**, 96/96: a = 1.025 is not best",
+    )
+    yield words(
+        "V, standstill",
+        "where the ideal region is smaller than 360/z1 the driven wheel stands",
+        "standstill()",
+        why="of equal wheels; unequal ones stand earlier",
+    )
 
 
 # --------------------------------------------------------------------------------------------- abstract and conclusion
@@ -652,10 +725,18 @@ def conclusions() -> Iterator[Row]:
     """Abstract and section VI."""
     yield words("Abstract, speed", "oscillation within 10 % of the mean", "oscillation()")
     yield words("Abstract, efficiency", "rather high values", "best_of_figures()")
-    yield outside("VI, rattling", "a sensible rattling noise, lubrication of the ancients",
-                  "a guess at history; blows themselves are in `--inertia --rate`")  # fmt: skip
-    yield words("VI, losses", "energy losses of the order of 10 % or less", "whole_train()", "**VI**: losses",
-                "true of a pair, not of a mechanism")  # fmt: skip
+    yield outside(
+        "VI, rattling",
+        "a sensible rattling noise, lubrication of the ancients",
+        "a guess at history; blows themselves are in `--inertia --rate`",
+    )
+    yield words(
+        "VI, losses",
+        "energy losses of the order of 10 % or less",
+        "whole_train()",
+        "**VI**: losses",
+        "true of a pair, not of a mechanism",
+    )
 
 
 def rows() -> tuple[Row, ...]:

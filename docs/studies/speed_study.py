@@ -14,11 +14,12 @@ import numpy as np
 from geartrain.analysis.gear_train import GearTrain
 from geartrain.analysis.loader import load
 from geartrain.kinematics.circuits import find_circuits, find_tree
-from geartrain.kinematics.components import Components, SolvedPart, find_components
+from geartrain.kinematics.components import SolvedPart
 from geartrain.kinematics.speeds import solve
 from geartrain.kinematics.speeds.float_speeds import prepare, solve_floats
 from geartrain.kinematics.speeds.padded_rows import PaddedRows
-from geartrain.kinematics.willis_system import WillisEquation, WillisSystem
+from geartrain.kinematics.willis_equation import WillisEquation
+from geartrain.kinematics.willis_system import WillisSystem
 from geartrain.numerics.arrays import Floats
 from studies.measurement import Task, measure
 from studies.records import StudyRecords, distinct, error_text, number_text, ratio_text, seconds_text, table
@@ -107,7 +108,7 @@ def _measure_all(family: str, train: GearTrain, data: Data | None, advance: Adva
     if data is not None:
         take("(declare: checked models from plain data)", lambda: GearTrain.declare(data))
         take("(find the circuits)", lambda: find_circuits(declared, find_tree(declared)))
-    system, redundant = train.equations(), [train.circuits[at].id for at in _components(train).closing]
+    system = train.equations()
     coupled = family == "grid" and links > _GRID_EXACT
     drifted = family == "drift" and links > _DRIFTED
     exact = None if coupled else _exact(train)
@@ -129,9 +130,9 @@ def _measure_all(family: str, train: GearTrain, data: Data | None, advance: Adva
             lambda: _walk(train),
             lambda found: _error([found[link] for link in train.declaration.links], truth),
         )
-    frame, matrix, equations = prepare(system, redundant)
+    matrix, equations = prepare(system)
     shuffled = _Shuffled(matrix, links)
-    moving = [at for at, link in enumerate(train.declaration.links) if link != frame]
+    moving = [at for at, link in enumerate(train.declaration.links) if link in matrix.at]
     right = np.array([float(row.right) for row in equations])
 
     def error_of(x: Floats) -> float | None:
@@ -148,13 +149,8 @@ def _measure_all(family: str, train: GearTrain, data: Data | None, advance: Adva
         take("scipy spsolve", lambda: shuffled.spsolve(right), error_of)
     for ordering in ORDERINGS if links <= _ALL_LINKS else ORDERINGS[:1]:
         take(f"sparse LU, {ordering}", lambda ordering=ordering: shuffled.splu(right, ordering), error_of)  # type: ignore[misc]
-    take("sparse LU, COLAMD, refined, with estimate", lambda: _refined(system, redundant), lambda x: _error(x, truth))
+    take("sparse LU, COLAMD, refined, with estimate", lambda: _refined(system), lambda x: _error(x, truth))
     return rows
-
-
-def _components(train: GearTrain) -> Components:
-    declared = train.declaration
-    return find_components(tuple(declared.links), declared.frame, train.circuits, declared.inputs)
 
 
 def _exact(train: GearTrain) -> Mapping[str, Fraction]:
@@ -219,8 +215,8 @@ def _compiled(matrix: PaddedRows, equations: Sequence[WillisEquation]) -> tuple[
     return flint.fmpz_mat(lines), flint.fmpz_mat([[int(row.right)] for row in equations])
 
 
-def _refined(system: WillisSystem, redundant: list[str]) -> Floats:
-    values: Floats = solve_floats(system, redundant).speeds.values[:, 0]
+def _refined(system: WillisSystem) -> Floats:
+    values: Floats = solve_floats(system).speeds.values[:, 0]
     return values
 
 

@@ -17,14 +17,14 @@ def run(
     state: StateName = None,
     json: Json = False,
     out: Out = None,
-    method: Annotated[str, typer.Option("--method", help="auto, exact or floats.")] = "auto",
+    method: Annotated[str, typer.Option("--method", help="auto, exact or sparse (also called floats).")] = "auto",
     force: Force = False,
 ) -> None:
     """Solve a train and print its speeds as fractions and decimals."""
     from geartrain.analysis.loader import load
 
-    if method not in ("auto", "exact", "floats"):
-        raise typer.BadParameter(f"'{method}' is not a method; use auto, exact or floats", param_hint="--method")
+    if method not in ("auto", "exact", "sparse", "floats"):
+        raise typer.BadParameter(f"'{method}' is not a method; use auto, exact or sparse", param_hint="--method")
     to = sink(out, force)
     train = load(file)
     states = [state] if state is not None or not train.states else list(train.states)

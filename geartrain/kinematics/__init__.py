@@ -7,7 +7,8 @@ a (w_i - w_k) + b (w_j - w_k) = 0, one for each gear pair (docs/theory.md, 3 to 
 
 graph                 the declared links, turning pairs and gear pairs as a networkx graph
 circuits              joint tree, axes, rigid bodies, fundamental circuits
-willis_system         the rows of the system, for all that solve it
+willis_equation, willis_system   the rows of the system, for all that solve it
+willis_matrix         the same rows as a sparse matrix
 components            ordinary trains of one carrier, and the reduced system between them
 speeds                propagation, exact elimination, floats
 relative_speeds       the speed of one link seen from another
@@ -41,7 +42,8 @@ if TYPE_CHECKING:
     from geartrain.kinematics.tooth_sensitivity import Sensitivity as Sensitivity
     from geartrain.kinematics.verdict import Loop as Loop
     from geartrain.kinematics.verdict import Verdict as Verdict
-    from geartrain.kinematics.willis_system import WillisEquation as WillisEquation
+    from geartrain.kinematics.willis_equation import WillisEquation as WillisEquation
+    from geartrain.kinematics.willis_matrix import WillisMatrix as WillisMatrix
     from geartrain.kinematics.willis_system import WillisSystem as WillisSystem
 
 __all__ = [
@@ -61,6 +63,7 @@ __all__ = [
     "TargetResult",
     "Verdict",
     "WillisEquation",
+    "WillisMatrix",
     "WillisSystem",
     "adjacency_matrix",
     "find_levers",
@@ -85,7 +88,8 @@ __getattr__ = lazy_names(
         "Sensitivity": "tooth_sensitivity",
         "TargetResult": "judged_outputs",
         "Verdict": "verdict",
-        "WillisEquation": "willis_system",
+        "WillisEquation": "willis_equation",
+        "WillisMatrix": "willis_matrix",
         "WillisSystem": "willis_system",
         "adjacency_matrix": "graph",
         "find_levers": "levers",

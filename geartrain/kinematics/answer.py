@@ -4,23 +4,34 @@ from __future__ import annotations
 
 import html
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from fractions import Fraction
+from typing import TypedDict
 
 from geartrain.kinematics.judged_outputs import OutputResult, SpeedFigures, SpeedValue, speed_figures
 from geartrain.kinematics.verdict import Verdict
 from geartrain.numerics.containers import FrozenFields
 from geartrain.numerics.decimal_text import abridged_text, decimal
 from geartrain.numerics.long_float import Real, as_plain
-from geartrain.numerics.plain_data import Key, Result
+from geartrain.numerics.plain_data import Key, Result, finite
 
 
 @dataclass(frozen=True, slots=True)
 class SpeedAccuracy:
-    """How far floats are from the truth: the estimate that came with them, and the true error where it was had."""
+    """How far floats are from the truth: the estimate that came with them, and the true error where it was had.
+
+    condition   component-wise, (25) of docs/theory.md, infinite of a link at rest; None where it was not asked for
+    """
 
     estimate: Real
     true_error: Real | None
+    condition: float | None = None
+
+
+class RowResiduals(TypedDict, total=False):
+    """What JSON has of floats only: by row of the Willis system, the part of its terms that it is off."""
+
+    residual: Mapping[str, float]
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,11 +60,13 @@ class Answer(FrozenFields, Result):
     ratios : mapping of str to mapping of str to Fraction
         Link -> input -> speed over that input, the others at rest; made when read, empty for floats.
     method : {"exact", "floats"}
-        How the speeds were found.
+        How the speeds were found; floats by the sparse LU of the Willis system's matrix, or as exact ones rounded.
     accuracy : mapping of str to SpeedAccuracy
-        Absolute error of each link's speed [`unit`]; empty for exact speeds.
+        Absolute error of each link's speed [`unit`] and its condition number; empty for exact speeds.
     work : int
         Circuits that were solved.
+    residual : mapping of str to float
+        By row of `WillisSystem.matrix`, |b - A w| over |A| |w| [1]; empty for speeds not found by it.
 
     Examples
     --------
@@ -67,7 +80,7 @@ class Answer(FrozenFields, Result):
     Fraction(2, 7)
     """
 
-    KEYS = ("state", "verdict", "method", Key("speeds", "speed_figures"), "outputs")
+    KEYS = ("state", "verdict", "method", Key("speeds", "speed_figures"), "outputs", Key("", "row_residuals"))
 
     train: str
     state: str | None
@@ -80,6 +93,7 @@ class Answer(FrozenFields, Result):
     method: str
     accuracy: Mapping[str, SpeedAccuracy]
     work: int
+    residual: Mapping[str, float] = field(default_factory=dict)
 
     def __getitem__(self, name: str) -> SpeedValue:
         """The speed of an output, or of a link."""
@@ -105,7 +119,14 @@ class Answer(FrozenFields, Result):
         for link, accuracy in self.accuracy.items():
             found[link]["estimate"] = as_plain(accuracy.estimate)
             found[link]["true_error"] = as_plain(accuracy.true_error)
+            if accuracy.condition is not None:
+                found[link]["condition"] = finite(accuracy.condition)
         return found
+
+    @property
+    def row_residuals(self) -> RowResiduals:
+        """The residuals, as JSON has them; nothing where there are none."""
+        return {"residual": self.residual} if self.residual else {}
 
     def _repr_html_(self) -> str:
         shown = {name: result.speed for name, result in self.outputs.items()} or self.speeds

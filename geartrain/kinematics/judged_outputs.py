@@ -124,6 +124,7 @@ class SpeedFigures(TypedDict, total=False):
     decimal: str
     estimate: float | None
     true_error: float | None
+    condition: float | None
 
 
 class JudgedExpectation(NamedTuple):

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, Literal, get_args
 from geartrain.errors import Problem, QuestionError, RangeError, check_choice, suggest
 from geartrain.kinematics.answer import Answer, SpeedAccuracy
 from geartrain.kinematics.circuits import Circuit
-from geartrain.kinematics.components import ReducedSystem, SolvedPart, relevant_circuits
+from geartrain.kinematics.components import SolvedPart, relevant_circuits
 from geartrain.kinematics.judged_outputs import Relative, SpeedValue, judge_outputs
 from geartrain.kinematics.relative_speeds import relative_speed
 from geartrain.kinematics.speeds import EXACT_BUDGET, Solution, exact_verdict, solve
@@ -28,7 +28,10 @@ from geartrain.train import StateCase, Train
 if TYPE_CHECKING:
     from geartrain.kinematics.speeds import FloatSpeeds
 
-Method = Literal["auto", "exact", "floats"]
+Method = Literal["auto", "exact", "sparse", "floats"]
+"""How to solve; "floats" is an older name of "sparse"."""
+
+_CONDITIONED = 400  # links up to which each has its condition number; beyond, those of the outputs
 
 
 @dataclass(frozen=True)
@@ -64,7 +67,7 @@ class SpeedProblem:
             case, wanted = self.single_output(case, output)
             part = self._pruned(case, wanted)
         check_choice("method", method, get_args(Method))
-        if method == "floats":
+        if method in ("sparse", "floats"):
             return self._answer_in_floats(part, case, wanted)
         try:
             solution = solve(part, case, self.signs, None if method == "exact" else EXACT_BUDGET)
@@ -94,7 +97,7 @@ class SpeedProblem:
             _check_inputs(inputs, tuple(case.inputs))
         for link in condition_of:
             check_choice("link", link, system.links)
-        return solve_floats(system, _redundant(self.whole.reduced), inputs, condition_of)
+        return solve_floats(system, inputs, condition_of)
 
     def single_output(self, case: StateCase, output: str) -> tuple[StateCase, tuple[str, str]]:
         """The case with one output, and the links that output is made of: what turns, and from where it is seen."""
@@ -128,7 +131,9 @@ class SpeedProblem:
         return self._part(circuits, tuple(link for link in self.declaration.links if link in kept))
 
     def _system(self, part: SolvedPart, case: StateCase) -> WillisSystem:
-        return assemble_willis_system(part.links, part.frame, part.circuits, case, self.signs)
+        components = part.reduced.components
+        redundant = [components.circuits[circuit].id for circuit in components.closing]
+        return assemble_willis_system(part.links, part.frame, part.circuits, case, self.signs, redundant)
 
     # --------------------------------------------------------------------------------------------------- three methods
 
@@ -147,19 +152,33 @@ class SpeedProblem:
             truth = solution.speeds
         if not solution.verdict:  # no square system to factorise
             return self._rounded(part, case, wanted, solution)
-        found = solve_floats(self._system(part, case), _redundant(part.reduced))
+        found = solve_floats(self._system(part, case), condition_of=self._conditioned(part, case, wanted))
         powers = found.exponents.values[:, 0].tolist()
         speeds = dict(zip(part.links, map(scaled, found.speeds.values[:, 0].tolist(), powers), strict=True))
         estimates = dict(zip(part.links, map(scaled, found.estimate.values[:, 0].tolist(), powers), strict=True))
         accuracy = {
-            link: SpeedAccuracy(estimates[link], rounded(abs(Fraction(speed) - truth[link])) if link in truth else None)
+            link: SpeedAccuracy(
+                estimates[link],
+                rounded(abs(Fraction(speed) - truth[link])) if link in truth else None,
+                found.condition.get(link),
+            )
             for link, speed in speeds.items()
         }
+        residual = dict(zip(found.residual.labels[0], found.residual.values[:, 0].tolist(), strict=True))
 
         def relative(of: str, base: str) -> SpeedValue | None:
             return relative_speed(of, base, speeds.get, self.signs)
 
-        return self._judged(case, solution.verdict, speeds, relative, wanted, len(part.circuits), None, accuracy)
+        answer = self._judged(case, solution.verdict, speeds, relative, wanted, len(part.circuits), None, accuracy)
+        return replace(answer, residual=residual)
+
+    def _conditioned(self, part: SolvedPart, case: StateCase, wanted: tuple[str, str] | None) -> Sequence[str]:
+        """Links whose condition number is told: each costs a solve, so of long trains those of the outputs."""
+        if wanted is None and len(part.links) <= _CONDITIONED:
+            return part.links
+        frame = self.declaration.frame
+        outputs = (wanted,) if wanted else (each.links(name, frame) for name, each in case.outputs.items())
+        return tuple(dict.fromkeys(link for pair in outputs for link in pair))
 
     def _rounded(self, part: SolvedPart, case: StateCase, wanted: tuple[str, str] | None, solution: Solution) -> Answer:
         """Exact speeds as floats."""
@@ -226,11 +245,6 @@ class SpeedProblem:
             return solve(self.whole, case, self.signs).verdict
         except TooDenseError:
             return exact_verdict(self.whole.reduced, case, self.signs)
-
-
-def _redundant(reduced: ReducedSystem) -> list[str]:
-    """The circuits that add nothing: they close loops."""
-    return [reduced.components.circuits[circuit].id for circuit in reduced.components.closing]
 
 
 def _nearest(speed: Fraction) -> float:

@@ -5,36 +5,15 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import NamedTuple
+from typing import TYPE_CHECKING
 
 from geartrain.kinematics.circuits import Circuit
+from geartrain.kinematics.willis_equation import WillisEquation
 from geartrain.numerics.decimal_text import decimal, fraction_text
 from geartrain.train import StateCase
 
-
-class WillisEquation(NamedTuple):
-    """One row of a Willis system: the sum of coefficient times speed over `terms` equals `right`.
-
-    Attributes
-    ----------
-    label : str
-        The pair's id, or what is prescribed: `input sun`.
-    kind : str
-        frame, input, fixed or lock, or the circuit's: gear, pin_and_slot, pin_follower.
-    terms : tuple of (str, int)
-        Links with their coefficients, none of them 0.
-    right : Fraction
-        The right-hand side [the train's unit].
-
-    See Also
-    --------
-    WillisSystem : holds all rows of a train
-    """
-
-    label: str
-    kind: str
-    terms: tuple[tuple[str, int], ...]
-    right: Fraction = Fraction(0)
+if TYPE_CHECKING:
+    from geartrain.kinematics.willis_matrix import WillisMatrix
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,6 +31,8 @@ class WillisSystem:
         The rows.
     exact : bool
         False where inputs are in radians beside others in turns, so that their numbers are shown in decimal.
+    redundant : tuple of str
+        Labels of pairs that add nothing, for they close loops of product 1; where that was not looked for, none.
 
     Examples
     --------
@@ -66,6 +47,25 @@ class WillisSystem:
     links: tuple[str, ...]
     equations: tuple[WillisEquation, ...]
     exact: bool = True
+    redundant: tuple[str, ...] = ()
+
+    def matrix(self, whole: bool = False) -> WillisMatrix:
+        """The system as a sparse matrix and a right-hand side, for a solver of one's own.
+
+        Parameters
+        ----------
+        whole : bool
+            With the column and row of the frame, and rows that follow from others: all that `text` shows. Otherwise the
+            matrix is square and regular where the train is determined.
+
+        Returns
+        -------
+        WillisMatrix
+            Made anew at each call.
+        """
+        from geartrain.kinematics.willis_matrix import build_matrix
+
+        return build_matrix(self.links, self.equations, self.redundant, whole)
 
     def text(self) -> str:
         """One line an equation, as a reader would write it."""
@@ -85,11 +85,17 @@ class WillisSystem:
 
 
 def assemble_willis_system(
-    links: Sequence[str], frame: str, circuits: Sequence[Circuit], case: StateCase | None, signs: Mapping[str, int]
+    links: Sequence[str],
+    frame: str,
+    circuits: Sequence[Circuit],
+    case: StateCase | None,
+    signs: Mapping[str, int],
+    redundant: Sequence[str] = (),
 ) -> WillisSystem:
     """The rows of all circuits, the frame, and what `case` prescribes (None: nothing).
 
-    signs   -1 for links whose axis points against the reference direction of its parallels
+    signs       -1 for links whose axis points against the reference direction of its parallels
+    redundant   ids of circuits known to follow from others
     """
     rows = [WillisEquation("frame", "frame", ((frame, 1),))]
     rows += [
@@ -104,7 +110,7 @@ def assemble_willis_system(
             if a != b
         ]
         rows += [WillisEquation(f"input {link}", "input", ((link, 1),), speed) for link, speed in case.inputs.items()]
-    return WillisSystem(tuple(links), tuple(rows), case is None or case.exact)
+    return WillisSystem(tuple(links), tuple(rows), case is None or case.exact, tuple(redundant))
 
 
 def _sum(terms: Sequence[tuple[str, int]], symbol: str, escape: bool = False) -> str:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from math import isfinite
 from typing import TYPE_CHECKING
 
 from geartrain.report.document import exact, figure
@@ -28,6 +29,9 @@ def speeds_text(answer: Answer, output: str | None, oblique: frozenset[str]) -> 
     width = max((len(name) for name, _, _ in rows), default=0)
     for name, speed, mark in rows:
         lines.append(f"  {name:<{width}}  {exact(speed):>20}  {figure(speed, 12)}{mark}")
+    if answer.residual:
+        row, most = max(answer.residual.items(), key=lambda each: each[1])
+        lines.append(f"  residual: at most {most:.1e} of the terms of a row" + (f", in {row}" if most else ""))
     return "\n".join(lines)
 
 
@@ -36,9 +40,11 @@ def _marks(answer: Answer, link: str, oblique: frozenset[str]) -> str:
 
 
 def _errors(answer: Answer, link: str) -> str:
-    """Estimate and true error of a float, where there is one."""
+    """Condition, estimate and true error of a float, where there is one."""
     accuracy = answer.accuracy.get(link)
     if accuracy is None:
         return ""
     true = "" if accuracy.true_error is None else f", true error {accuracy.true_error:.1e}"
-    return f"  estimate {accuracy.estimate:.1e}{true}"
+    known = accuracy.condition is not None and isfinite(accuracy.condition)  # it is infinite of a link at rest
+    condition = f"condition {accuracy.condition:.3g}, " if known else ""
+    return f"  {condition}estimate {accuracy.estimate:.1e}{true}"

@@ -328,7 +328,7 @@ def test_printed_floats_come_with_an_estimate_and_a_true_error_that_is_true(run:
         (["solve", "planetary", "--state", "ring fixt"], ["no state 'ring fixt'", "did you mean 'ring fixed'?"]),
         (["equations", "zf-8hp70", "--state", "9"], ["no state '9'", "1, 2, 3, 4, 5, 6, 7, 8, R"]),
         (["solve", "worm", "--state", "1"], ["no state '1'", "leave the state out"]),
-        (["solve", "worm", "--method", "exakt"], ["'exakt'", "auto, exact or floats"]),
+        (["solve", "worm", "--method", "exakt"], ["'exakt'", "auto, exact or sparse"]),
         (["graph", "worm", "--as", "dott"], ["'dott'", "labels, edges, matrix, dot, graphml, json"]),
         (["graph", "worm", "-o", "g.png"], ["'.png'", ".md, .dot, .gv, .graphml, .json"]),
         (["report", "worm", "-o", "r.pdf"], ["'.pdf'", ".md, .html, .json"]),

@@ -477,6 +477,7 @@ def test_an_answer_in_floats_tells_speeds_of_any_size_and_never_as_exact() -> No
         "decimal": decimal(Fraction(5**2000), 12),
         "estimate": None,
         "true_error": plain["speeds"]["g2000"]["true_error"],
+        "condition": pytest.approx(4001),  # each of 2000 pairs adds 2
     }
     assert plain["outputs"]["last"]["decimal"] == decimal(Fraction(5**2000), 12)
     assert plain["outputs"]["last"]["output/input"] is None

@@ -18,9 +18,10 @@ from numpy.typing import NDArray
 from geartrain.errors import Problem, RangeError
 from geartrain.kinematics.speeds.padded_rows import PaddedRows
 from geartrain.kinematics.speeds.scaling import find_exponents
-from geartrain.kinematics.willis_system import WillisEquation, WillisSystem
+from geartrain.kinematics.willis_equation import WillisEquation
+from geartrain.kinematics.willis_matrix import independent_rows
+from geartrain.kinematics.willis_system import WillisSystem
 from geartrain.numerics.containers import FrozenFields
-from geartrain.numerics.elimination import PRIME, eliminate, residues
 from geartrain.numerics.exact import as_float
 from geartrain.numerics.labelled_array import LabelledArray, labelled_array
 from geartrain.numerics.long_float import HIGHEST, LOWEST, Real, scaled
@@ -29,7 +30,6 @@ from geartrain.numerics.rounding_bounds import UNIT_ROUNDOFF
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
 
-_GIVEN = -1  # the column of what is prescribed
 _INVERTED, _ABREAST = 400, 64  # links up to which the inverse is made, and columns of it at a time
 _DRAWN = 12  # sets of signs beyond
 _ORDINARY = 400  # powers of two up to which speeds are solved as they are
@@ -47,16 +47,20 @@ class FloatSpeeds(FrozenFields):
         Axes (link, case) [the train's unit], to be multiplied by 2**exponents.
     estimate : LabelledArray
         Absolute error to expect of each speed, axes and unit as those of `speeds`.
+    residual : LabelledArray
+        Axes (row, case): by what part of its terms each row of the matrix is off, |b - A x| over |A| |x|, in twice the
+        precision [1].
     condition : mapping of str to float
         Component-wise condition number cond(A, x) of the first case, equation (25), of each link it was asked for; 1 or
-        more.
+        more, infinite of a link at rest.
     exponents : LabelledArray
         Axes (link, case): powers of two, 0 wherever float64 holds the speed and its estimate.
 
     Notes
     -----
     The step is equation (23), its residual in twice the precision; the estimate is (24). Every speed comes within a
-    rounding or two (docs/accuracy.md). Higham, Accuracy and Stability of Numerical Algorithms, chapter 7.
+    rounding or two (docs/accuracy.md). The relative error of a speed is at most its condition times the greatest
+    residual (Oettli and Prager 1964). Higham, Accuracy and Stability of Numerical Algorithms, chapter 7.
 
     Examples
     --------
@@ -68,6 +72,7 @@ class FloatSpeeds(FrozenFields):
 
     speeds: LabelledArray
     estimate: LabelledArray
+    residual: LabelledArray
     condition: Mapping[str, float]
     exponents: LabelledArray
 
@@ -109,15 +114,13 @@ class FloatSpeeds(FrozenFields):
 @np.errstate(over="ignore", invalid="ignore", divide="ignore")  # what leaves the range is scaled, or refused below
 def solve_floats(
     system: WillisSystem,
-    redundant: Sequence[str] = (),
     inputs: Mapping[str, Sequence[float]] | None = None,
     condition_of: Sequence[str] = (),
     ordering: str = "COLAMD",
     refine: bool = True,
 ) -> FloatSpeeds:
-    """Solve a determined Willis system in float64.
+    """Solve a determined Willis system in float64: its `matrix()` is factorised.
 
-    redundant     labels of circuits known to add nothing (loops that close); they are left out
     inputs        link -> speeds, one a case, for every input of the system: one factorisation serves all
     condition_of  links whose component-wise condition is wanted, one transposed solve each
     ordering      column ordering of the factorisation; COLAMD is the one that never turns quadratic
@@ -127,15 +130,25 @@ def solve_floats(
     Raises `RangeError` where the system is not square and regular, or where that does not bring it within the range
     either: a silent 0 is never returned.
     """
-    frame, matrix, rows = prepare(system, redundant)
-    given = _given(rows, inputs)
-    x, estimate, exponents, condition = _solve_any(matrix, rows, given, _Way(ordering, refine, condition_of))
+    matrix, rows = prepare(system)
+    found, exponents = _solve_any(matrix, rows, _given(rows, inputs), _Way(ordering, refine, condition_of))
+    cases = [str(case) for case in range(found.x.shape[1])]
     return FloatSpeeds(
-        _with_frame(system, frame, x),
-        _with_frame(system, frame, estimate),
-        condition,
-        _with_frame(system, frame, exponents),
+        _with_frame(system, matrix, found.x),
+        _with_frame(system, matrix, found.estimate),
+        labelled_array(found.residual, row=[row.label for row in rows], case=cases),
+        found.condition,
+        _with_frame(system, matrix, exponents),
     )
+
+
+class _Solved(NamedTuple):
+    """Speeds and their estimates (link, case), residuals (row, case), conditions by link."""
+
+    x: Floats
+    estimate: Floats
+    residual: Floats
+    condition: dict[str, float]
 
 
 class _Way(NamedTuple):
@@ -148,16 +161,17 @@ class _Way(NamedTuple):
 
 def _solve_any(
     matrix: PaddedRows, rows: Sequence[WillisEquation], given: Sequence[Sequence[Fraction]], way: _Way
-) -> tuple[Floats, Floats, NDArray[np.int64], dict[str, float]]:
-    """Speeds and estimates over powers of two, those powers, and conditions; ordinary trains need no powers."""
+) -> tuple[_Solved, NDArray[np.int64]]:
+    """What is found, speeds and estimates over powers of two, and those powers; ordinary trains need none."""
     near = None
     with suppress(RangeError):
         near = _solve(matrix, rows, given, way)
-    if near is not None and _is_ordinary(near[0]):
-        return near[0], near[1], np.zeros(near[0].shape, dtype=np.int64), near[2]
+    if near is not None and _is_ordinary(near.x):
+        return near, np.zeros(near.x.shape, dtype=np.int64)
     cases = [_solve_far(matrix, rows, [line[at : at + 1] for line in given], way) for at in range(len(given[0]))]
-    x, estimate, exponents, conditions = zip(*cases, strict=True)
-    return np.hstack(x), np.hstack(estimate), np.hstack(exponents), conditions[0]
+    found, exponents = zip(*cases, strict=True)
+    x, estimate, residual, conditions = zip(*found, strict=True)
+    return _Solved(np.hstack(x), np.hstack(estimate), np.hstack(residual), conditions[0]), np.hstack(exponents)
 
 
 def _is_ordinary(x: Floats) -> bool:
@@ -168,8 +182,8 @@ def _is_ordinary(x: Floats) -> bool:
 
 def _solve(
     matrix: PaddedRows, rows: Sequence[WillisEquation], given: Sequence[Sequence[Fraction]], way: _Way
-) -> tuple[Floats, Floats, dict[str, float]]:
-    """Speeds, estimates and conditions; `RangeError` where float64 does not hold them."""
+) -> _Solved:
+    """What is found; `RangeError` where float64 does not hold it."""
     right, remainder = _right_sides(rows, given)
     try:
         lu = matrix.factorise(way.ordering)
@@ -186,22 +200,25 @@ def _solve(
     # what is left, the rounding of x itself, and what residuals in twice the precision and the last solution may hide
     hidden = 16 * UNIT_ROUNDOFF**2 * matrix.size(x) + 16 * UNIT_ROUNDOFF * matrix.size(more) + matrix.sunk(x)
     estimate = 2 * (np.abs(left) + np.abs(more)) + UNIT_ROUNDOFF * np.abs(x) + _reach(lu, hidden)
-    return x, estimate, {link: matrix.condition(lu, link, x[:, 0]) for link in way.condition_of}
+    terms = matrix.size(x)
+    residual = np.divide(np.abs(rest), terms, out=np.zeros_like(rest), where=terms > 0)
+    return _Solved(x, estimate, residual, matrix.condition(lu, way.condition_of, x[:, 0]))
 
 
 def _solve_far(
     matrix: PaddedRows, rows: Sequence[WillisEquation], given: Sequence[Sequence[Fraction]], way: _Way
-) -> tuple[Floats, Floats, NDArray[np.int64], dict[str, float]]:
+) -> tuple[_Solved, NDArray[np.int64]]:
     """One case, in speeds over powers of two: scaling by them rounds nothing, so all is as good as near 1."""
     exponents = np.array(find_exponents(rows, [right for (right,) in given], list(matrix.at)), dtype=np.int64)
     near, shifts = matrix.scaled(exponents)
     moved = [[right * Fraction(2) ** -shift] for (right,), shift in zip(given, shifts.tolist(), strict=True)]
-    x, estimate, condition = _solve(near, rows, moved, way)
+    found = _solve(near, rows, moved, way)
     powers = exponents[:, None]
-    held = _held(x, powers) & _held(estimate, powers)
+    held = _held(found.x, powers) & _held(found.estimate, powers)
     # numpy's ldexp takes C ints: powers that float64 cannot hold stay beside the number
     folded = np.where(held, powers, 0).astype(np.intc)
-    return np.ldexp(x, folded), np.ldexp(estimate, folded), np.where(held, 0, powers), condition
+    there = found._replace(x=np.ldexp(found.x, folded), estimate=np.ldexp(found.estimate, folded))
+    return there, np.where(held, 0, powers)
 
 
 def _held(values: Floats, powers: NDArray[np.int64]) -> NDArray[np.bool_]:
@@ -233,57 +250,27 @@ def _reach(lu: Any, error: Floats) -> Floats:
     return found
 
 
-def prepare(system: WillisSystem, redundant: Sequence[str] = ()) -> tuple[str, PaddedRows, list[WillisEquation]]:
-    """The frame, and as many independent rows as there are moving links, ready to be factorised."""
-    frame = next(row.terms[0][0] for row in system.equations if row.kind == "frame")
-    links = [link for link in system.links if link != frame]
-    rows = _independent(system, links, set(redundant))
-    return frame, PaddedRows(links, rows), rows
+def prepare(system: WillisSystem) -> tuple[PaddedRows, list[WillisEquation]]:
+    """As many independent rows as there are moving links, ready to be factorised, or a `RangeError`."""
+    links, rows = independent_rows(system.links, system.equations, system.redundant)
+    if len(rows) > len(links):
+        what = "the prescribed speeds contradict each other"
+        raise RangeError(Problem(what, "no speeds satisfy all equations", "ask for the verdict"))
+    if len(rows) < len(links):
+        what = f"{len(rows)} independent equations for {len(links)} moving links"
+        why = "a train that is free, locked or contradictory has no float solution"
+        raise RangeError(Problem(what, why, "ask for the exact verdict first"))
+    return PaddedRows(links, rows), rows
 
 
-def _with_frame(system: WillisSystem, frame: str, values: NDArray[Any]) -> LabelledArray:
+def _with_frame(system: WillisSystem, matrix: PaddedRows, values: NDArray[Any]) -> LabelledArray:
     """One row a link in the order declared, the frame's being 0."""
-    at = system.links.index(frame)
+    at = next(at for at, link in enumerate(system.links) if link not in matrix.at)
     return labelled_array(
         np.insert(values, at, 0, axis=0),
         link=system.links,
         case=[str(case) for case in range(values.shape[1])],
     )
-
-
-def _independent(system: WillisSystem, links: Sequence[str], redundant: set[str]) -> list[WillisEquation]:
-    """The rows without the frame's and those that add nothing; as many as there are moving links, or a `RangeError`."""
-    rows = [
-        row
-        for row in system.equations
-        if row.kind in ("input", "fixed", "lock") or (row.kind != "frame" and row.label not in redundant)
-    ]
-    if len(rows) > len(links):
-        at = {link: column for column, link in enumerate(links)}
-        forms = [
-            residues({at[link]: Fraction(c) for link, c in row.terms if link in at} | {_GIVEN: -row.right})
-            for row in rows
-        ]
-        echelon = eliminate(forms, modulus=PRIME)
-        if echelon.conditions:
-            raise RangeError(
-                Problem(
-                    "the prescribed speeds contradict each other",
-                    "no speeds satisfy all equations",
-                    "ask for the verdict",
-                )
-            )
-        idle = set(echelon.redundant)
-        rows = [row for position, row in enumerate(rows) if position not in idle]
-    if len(rows) != len(links):
-        raise RangeError(
-            Problem(
-                f"{len(rows)} independent equations for {len(links)} moving links",
-                "a train that is free, locked or contradictory has no float solution",
-                "ask for the exact verdict first",
-            )
-        )
-    return rows
 
 
 def _given(rows: Sequence[WillisEquation], inputs: Mapping[str, Sequence[float]] | None) -> list[list[Fraction]]:

@@ -9,12 +9,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from geartrain.kinematics.willis_system import WillisEquation
+from geartrain.kinematics.willis_equation import WillisEquation
 from geartrain.numerics.error_free import two_product, two_sum
 
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
 
+_ABREAST = 64  # right-hand sides that are solved at a time
 _LOW = 1e-200  # entries of a scaled row below this are dropped
 
 
@@ -23,7 +24,7 @@ class PaddedRows:
 
     def __init__(self, links: Sequence[str], rows: Sequence[WillisEquation]) -> None:
         self.at = {link: column for column, link in enumerate(links)}
-        width = max(len(row.terms) for row in rows)
+        width = max((len(row.terms) for row in rows), default=0)
         self.columns = np.zeros((len(rows), width), dtype=np.intc)
         self.coefficients = np.zeros((len(rows), width))
         for at, row in enumerate(rows):
@@ -49,14 +50,14 @@ class PaddedRows:
         return near, shifts
 
     def matrix(self) -> Any:
-        """The rows as a sparse matrix, column compressed."""
+        """The rows as a sparse matrix, column compressed: what is factorised, and what a user is given."""
         from scipy.sparse import csc_array
 
         size, width = self.columns.shape
         lines = np.repeat(np.arange(size, dtype=np.intc), width)
         used = self.coefficients.ravel() != 0
         entries = (self.coefficients.ravel()[used], (lines[used], self.columns.ravel()[used]))
-        return csc_array(entries, shape=(size, size))
+        return csc_array(entries, shape=(size, len(self.at)))
 
     def factorise(self, ordering: str) -> Any:
         """The sparse LU factors."""
@@ -90,11 +91,19 @@ class PaddedRows:
         total: Floats = np.einsum("rt,rtc->rc", _LOW * self.low, np.abs(x[self.columns]))
         return total
 
-    def condition(self, lu: Any, link: str, x: Floats) -> float:
-        """cond(A, x) of one link, (25) of docs/theory.md: one transposed solve, (|y|, |A||x|) / |x_link|."""
-        column = self.at[link]
-        unit = np.zeros(len(x))
-        unit[column] = 1.0
-        y = lu.solve(unit, trans="T")
-        total = float(np.abs(y) @ self.size(x[:, None])[:, 0])
-        return total / abs(float(x[column])) if x[column] else float("inf")
+    def condition(self, lu: Any, links: Sequence[str], x: Floats) -> dict[str, float]:
+        """cond(A, x) of some links, (25) of docs/theory.md: (|y|, |A||x|) / |x_link|, one transposed solve a link.
+
+        Infinite of a link at rest: what is 0 has no relative error.
+        """
+        size = self.size(x[:, None])[:, 0]
+        found = dict.fromkeys(links, float("inf"))
+        turning = [link for link in links if link in self.at and x[self.at[link]]]  # the frame has no column
+        for start in range(0, len(turning), _ABREAST):
+            some = turning[start : start + _ABREAST]
+            columns = [self.at[link] for link in some]
+            units = np.zeros((len(x), len(some)))
+            units[columns, np.arange(len(some))] = 1.0
+            totals = size @ np.abs(lu.solve(units, trans="T")) / np.abs(x[columns])
+            found |= dict(zip(some, totals.tolist(), strict=True))
+        return found

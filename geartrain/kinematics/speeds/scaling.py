@@ -14,7 +14,7 @@ from math import frexp, log2
 from typing import Any
 
 from geartrain.errors import Problem, RangeError
-from geartrain.kinematics.willis_system import WillisEquation
+from geartrain.kinematics.willis_equation import WillisEquation
 from geartrain.numerics.elimination import TooDenseError, eliminate
 from geartrain.numerics.long_float import LongFloat, split
 

@@ -7,8 +7,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from geartrain.analysis.train_kinematics import TrainKinematics
-from geartrain.errors import Problem, QuestionError, check_choice, suggest
-from geartrain.kinematics.circuits import Circuit
+from geartrain.errors import Problem, QuestionError, check_choice
 from geartrain.train import StateCase, Train, declare
 
 if TYPE_CHECKING:
@@ -17,6 +16,7 @@ if TYPE_CHECKING:
     from geartrain.dynamics.gear_meshes import PinMesh
     from geartrain.dynamics.motion.motion_problem import MotionProblem
     from geartrain.dynamics.torques.load_case import LoadCase
+    from geartrain.kinematics.graph import Graph
     from geartrain.kinematics.phasing import MeshPhasing
     from geartrain.teeth.gear_mesh import GearMesh
     from geartrain.teeth.meshing_wheels import MeshDriver
@@ -86,9 +86,25 @@ class GearTrain(TrainKinematics):
         return cls(declare(data))
 
     @cached_property
-    def is_placed(self) -> bool:
-        """True if it can be asked whether teeth meet: axes have positions or directions, and pairs close loops."""
-        return self.declaration.has_placed_axes and bool(self.mobility.redundant or self.mobility.locked)
+    def graph(self) -> Graph:
+        """The networkx graph in the first state; `graph_in` says what its nodes and edges carry."""
+        return self.graph_in(self.states[0] if self.states else None)
+
+    def graph_in(self, state: str | None = None) -> Graph:
+        """The train as a networkx MultiGraph: links are nodes; turning pairs, gear pairs and couplings edges.
+
+        Nodes carry `declared`, `frame` (True of the one at rest), `wheels`, `reference` (the link that holds its axis)
+        and `speed`; edges `kind`, `label`, `declared`, `axis`, and pairs also `circuit`, `carrier`, `ratio`, `form`,
+        `mesh` and `efficiency` (docs/library.md, 2). All but what is declared is worked out when it is read.
+
+        Parameters
+        ----------
+        state : str, optional
+            A declared state; None only of a train that has none.
+        """
+        from geartrain.analysis.train_graph import build_train_graph
+
+        return build_train_graph(self, self._case(state).state)
 
     @cached_property
     def closure(self) -> MeshPhasing:
@@ -309,13 +325,6 @@ class GearTrain(TrainKinematics):
         return build_motion_problem(
             self.declaration, case, circuits, self.signs, solution.speeds, self._teeth, self.pins, drivers
         )
-
-    def _circuits_without(self, names: Sequence[str]) -> tuple[Circuit, ...]:
-        known = [circuit.id for circuit in self.circuits]
-        for name in (name for name in names if name not in known):
-            what = f"'{self.name}' has no pair '{name}'"
-            raise QuestionError(Problem(what, "it is not declared", suggest(name, known)))
-        return tuple(circuit for circuit in self.circuits if circuit.id not in names)
 
     def _setting(self, state: str | None) -> LoadCase | None:
         """What torques need to know of one state, solved once; None where its speeds are neither known nor free."""

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from functools import cached_property
 from typing import TYPE_CHECKING
 
-from geartrain.errors import Problem
+from geartrain.errors import Problem, QuestionError, suggest
 from geartrain.kinematics.answer import Answer
 from geartrain.kinematics.circuits import Axes, Circuit, Tree, close_joints, find_circuits, find_tree
 from geartrain.kinematics.speed_problem import Method, SpeedProblem
@@ -17,7 +17,6 @@ from geartrain.kinematics.willis_system import WillisSystem
 from geartrain.train import StateCase, Train
 
 if TYPE_CHECKING:
-    from geartrain.kinematics.graph import Graph
     from geartrain.kinematics.gridlock import Gridlock
     from geartrain.kinematics.speeds import FloatSpeeds
 
@@ -37,13 +36,6 @@ class TrainKinematics:
     def states(self) -> tuple[str, ...]:
         """Names of the declared states; empty for a train that has only one way to run."""
         return tuple(self.declaration.states)
-
-    @cached_property
-    def graph(self) -> Graph:
-        """The networkx graph; edges carry the declared objects."""
-        from geartrain.kinematics.graph import build_graph
-
-        return build_graph(self.declaration)
 
     @cached_property
     def tree(self) -> Tree:
@@ -97,6 +89,11 @@ class TrainKinematics:
         return find_mobility(self._speeds.whole.reduced, len(self.declaration.revolutes))
 
     @cached_property
+    def is_placed(self) -> bool:
+        """True if it can be asked whether teeth meet: axes have positions or directions, and pairs close loops."""
+        return self.declaration.has_placed_axes and bool(self.mobility.redundant or self.mobility.locked)
+
+    @cached_property
     def gridlock(self) -> Gridlock:
         """Why meshes lock the train or a part of it, and the least set of them to disengage; cheap where none does."""
         from geartrain.kinematics.gridlock import find_gridlock
@@ -129,9 +126,10 @@ class TrainKinematics:
             A declared state; None only of a train that has none.
         output : str, optional
             An output or a link: only the circuits that drive it are solved.
-        method : {"auto", "exact", "floats"}
-            "auto" is exact unless the coupled system is too dense for it. Speeds in radians beside others in turns are
-            rounded to floats in any case.
+        method : {"auto", "exact", "sparse"}
+            "auto" is exact unless the coupled system is too dense for it. "sparse" factorises `equations().matrix()` in
+            float64 and tells residuals, condition numbers and errors; "floats" is its older name. Speeds in radians
+            beside others in turns are rounded to floats in any case.
 
         Returns
         -------
@@ -183,6 +181,13 @@ class TrainKinematics:
             Speeds and error estimates, arrays (link, case).
         """
         return self._speeds.floats(self._case(state), inputs, condition_of)
+
+    def _circuits_without(self, names: Sequence[str]) -> tuple[Circuit, ...]:
+        known = [circuit.id for circuit in self.circuits]
+        for name in (name for name in names if name not in known):
+            what = f"'{self.name}' has no pair '{name}'"
+            raise QuestionError(Problem(what, "it is not declared", suggest(name, known)))
+        return tuple(circuit for circuit in self.circuits if circuit.id not in names)
 
     def _case(self, state: str | None) -> StateCase:
         return self.cases[self.declaration.single_state(state)]

@@ -52,7 +52,7 @@ def find_meshes(train: Train, shaft_angle: ShaftAngle = lambda _: None) -> tuple
     meshes: list[GearMesh | None] = []
     problems: list[Problem] = []
     for at, gear in enumerate(train.gears):
-        form = gear.tooth_form or train.tooth_form
+        form = train.form_of(gear)
         if form is None:
             continue
         wheels = _meshing_wheels(train, gear, train.place("gears", at))

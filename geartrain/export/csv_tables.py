@@ -73,7 +73,7 @@ def _pairs(work: SolidModel) -> tuple[str, Rows]:
     rows = []
     for gear in declared.gears:
         first, second = gear.pair
-        form = gear.tooth_form or declared.tooth_form
+        form = declared.form_of(gear)
         counts = [declared.wheels[wheel][1].count for wheel in gear.pair]
         distance = work.layout.axis_distance(first, second)
         shown = "" if distance is None else f"{distance:.9g}"

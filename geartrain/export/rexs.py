@@ -104,7 +104,7 @@ class _Unit:
 
     def angle(self, name: str) -> float:
         """Pressure angle (deg) of a wheel's first pair with involutes; 20 of others."""
-        forms = (gear.tooth_form or self.declared.tooth_form for gear in self.declared.gears if name in gear.pair)
+        forms = (self.declared.form_of(gear) for gear in self.declared.gears if name in gear.pair)
         angles = (form.rack_angle for form in forms if form is not None)
         return next((degrees(angle) for angle in angles if angle is not None), _ANGLE)
 

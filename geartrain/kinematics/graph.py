@@ -24,11 +24,12 @@ def build_graph(train: Train) -> Graph:
     """Links as vertices; turning pairs, gear pairs and couplings as edges.
 
     Edge data: `kind` (revolute, gear, pin_and_slot, pin_follower), `label` (the axis or the pair's id) and
-    `declared`, the model object as it stands in the declaration. The edge key is `(kind, label, position)`.
+    `declared`, the model object as it stands in the declaration. The edge key is the id of a pair or coupling, and
+    `revolute 0` and so on for turning pairs in the order declared.
     """
-    import networkx as nx
+    from geartrain.numerics.lazy_graph import LazyGraph
 
-    graph: Graph = nx.MultiGraph(name=train.name)
+    graph: Graph = LazyGraph(name=train.name)
     for name, link in train.links.items():
         graph.add_node(name, declared=link, frame=name == train.frame)
     for at, joint in enumerate(train.revolutes):

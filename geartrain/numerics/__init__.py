@@ -12,6 +12,7 @@ sparse_least_squares                 least squares with a few entries a row
 integer_lattice, rational_angles     integer rows in a rational span; angles as parts of a turn
 vectors                              three numbers as a vector in space, exact where they are
 graphs                               paths in a rooted forest, groups of what is joined
+lazy_graph                           a networkx graph whose attributes are made when they are read
 block_triangular                     matching, then strongly connected components (Dulmage and Mendelsohn)
 roots, simultaneous_roots            bracketed roots, one by one and many at once
 chebyshev, polynomial_pieces         functions as series and as pieces of polynomials

@@ -252,7 +252,7 @@ class _Toothing:
             raise GearTrainError(Problem(f"a {kind} has no flat outline", why, "take the solid for a likeness"))
         for each in (name, *(self._mate(gear, name) for gear in self.pairs[name])):
             check_size(self._wheel(each).count or 1)
-        if self.unbuilt and any(gear.tooth_form or self.declared.tooth_form for gear in self.pairs[name]):
+        if self.unbuilt and any(self.declared.form_of(gear) for gear in self.pairs[name]):
             raise GearTrainError(self.unbuilt)
         return list(self._declared_asked(name) if name in self.shaped else self._standard_asked(name))
 

@@ -107,6 +107,16 @@ class Train(Declared):
         """Every wheel by id, with its link."""
         return {name: (link, wheel) for link, part in self.links.items() for name, wheel in part.wheels.items()}
 
+    def form_of(self, gear: GearPair) -> DeclaredToothForm | None:
+        """The tooth form in force at a gear pair: its own, else the train's; None where neither is declared.
+
+        Parameters
+        ----------
+        gear : GearPair
+            A pair of this train.
+        """
+        return gear.tooth_form or self.tooth_form
+
     @property
     def cases(self) -> tuple[StateCase, ...]:
         """What is prescribed in each state, or once for a train without states."""

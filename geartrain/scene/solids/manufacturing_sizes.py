@@ -120,7 +120,7 @@ def _with_backlash(declared: Train, modules: Mapping[str, Fraction], backlash: F
 
 
 def _thinned(declared: Train, gear: GearPair, modules: Mapping[str, Fraction], backlash: Fraction) -> GearPair:
-    form = gear.tooth_form or declared.tooth_form
+    form = declared.form_of(gear)
     if form is None:
         return gear
     play = backlash / modules[gear.pair[0]]
@@ -130,7 +130,7 @@ def _thinned(declared: Train, gear: GearPair, modules: Mapping[str, Fraction], b
 def _own_play(declared: Train) -> Iterator[Problem]:
     """Pairs whose play is not for a maker to say."""
     for at, gear in enumerate(declared.gears):
-        form = gear.tooth_form or declared.tooth_form
+        form = declared.form_of(gear)
         if form is not None and (problem := form.own_play(gear.name)) is not None:
             yield replace(problem, place=declared.place("gears", at))
 

@@ -1,0 +1,114 @@
+"""The graph of a train with all that is known of its links and pairs, each thing worked out when it is first read."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from fractions import Fraction
+from functools import cached_property, partial
+from typing import TYPE_CHECKING, Any
+
+from geartrain.kinematics.graph import build_graph
+from geartrain.numerics.lazy_graph import Lazy
+
+if TYPE_CHECKING:
+    from geartrain.analysis.gear_train import GearTrain
+    from geartrain.dynamics.gear_meshes import PinMesh
+    from geartrain.dynamics.torques.load_case import LoadCase
+    from geartrain.kinematics.answer import Answer
+    from geartrain.kinematics.circuits import Circuit
+    from geartrain.kinematics.graph import Graph
+    from geartrain.kinematics.judged_outputs import SpeedValue
+    from geartrain.teeth.gear_mesh import GearMesh
+
+_OF_PAIRS = ("circuit", "carrier", "ratio", "form", "mesh", "efficiency")
+
+
+def build_train_graph(train: GearTrain, state: str | None) -> Graph:
+    """The declared graph, and on its nodes and edges what `GearTrain.graph_in` says.
+
+    Neither circuits, speeds nor teeth are made before they are read: a train that cannot be solved has a graph too.
+    """
+    graph = build_graph(train.declaration)
+    graph.graph["state"] = state
+    found = _GraphFacts(train, state)
+    for link, data in graph.nodes(data=True):
+        data["wheels"] = data["declared"].wheels
+        data["reference"] = Lazy(partial(found.reference, link))
+        data["speed"] = Lazy(partial(found.speed, link))
+    for _, _, data in graph.edges(data=True):
+        if data["kind"] == "revolute":
+            data.update(dict.fromkeys(_OF_PAIRS), axis=data["label"])
+            continue
+        name = data["label"]
+        data["form"] = train.declaration.form_of(data["declared"]) if data["kind"] == "gear" else None
+        data["axis"] = Lazy(partial(found.axes, name))
+        data["circuit"] = Lazy(partial(found.circuit, name))
+        data["carrier"] = Lazy(partial(found.carrier, name))
+        data["ratio"] = Lazy(partial(found.ratio, name))
+        data["mesh"] = Lazy(partial(found.mesh, name))
+        data["efficiency"] = Lazy(partial(found.efficiency, name))
+    return graph
+
+
+class _GraphFacts:
+    """What nodes and edges ask of a train in one state; each kind of it is found once for all of them."""
+
+    def __init__(self, train: GearTrain, state: str | None) -> None:
+        self._train, self._state = train, state
+
+    def reference(self, link: str) -> str | None:
+        """The link that holds the axis of another, in whose frame it turns; None of the frame."""
+        return self._train.tree.top.get(link)
+
+    def speed(self, link: str) -> SpeedValue | None:
+        """The speed of a link in the state; None where it is not determined."""
+        return self._answer.speeds.get(link)
+
+    def circuit(self, name: str) -> Circuit:
+        """The circuit that a pair closes."""
+        return self._circuits[name]
+
+    def carrier(self, name: str) -> str:
+        """The link that holds both axes of a pair."""
+        return self._circuits[name].carrier
+
+    def ratio(self, name: str) -> Fraction:
+        """Speed of the circuit's first link over that of its second, both as seen from the carrier."""
+        return self._circuits[name].ratio
+
+    def axes(self, name: str) -> tuple[str, str]:
+        """The axes of a circuit's first and second link, as its carrier holds them."""
+        circuit, tree = self._circuits[name], self._train.tree
+        return tree.axis_seen_from(circuit.carrier, circuit.i), tree.axis_seen_from(circuit.carrier, circuit.j)
+
+    def mesh(self, name: str) -> GearMesh | PinMesh | None:
+        """A pair with real teeth as it is driven in the state, or a pin with dimensions."""
+        return self._meshes.get(name)
+
+    def efficiency(self, name: str) -> tuple[Fraction, Fraction]:
+        """Basic efficiencies of a pair with the first link of its circuit driving, and with the second."""
+        from geartrain.dynamics.torques.mean_efficiencies import find_mean_efficiencies
+
+        return find_mean_efficiencies(self._losses, self._circuits[name]).driver
+
+    @cached_property
+    def _answer(self) -> Answer:
+        return self._train.solve(self._state)
+
+    @cached_property
+    def _circuits(self) -> Mapping[str, Circuit]:
+        return {circuit.id: circuit for circuit in self._train.circuits}
+
+    @cached_property
+    def _meshes(self) -> Mapping[str, Any]:
+        pins = {pin.coupling.name: pin for pin in self._train.pins}
+        return {mesh.name: mesh for mesh in self._train.meshes_in(self._state)} | pins
+
+    @cached_property
+    def _losses(self) -> LoadCase:
+        """The train as losses of a pair see it: with the carrier held, so that no speed has a part in them."""
+        from geartrain.dynamics.torques.load_case import LoadCase
+
+        train = self._train
+        case = train.cases[self._state]
+        return LoadCase(train.declaration, train.tree, train.circuits, train.signs, case, {}, train.meshes, train.pins)

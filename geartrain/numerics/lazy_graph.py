@@ -1,0 +1,114 @@
+"""A networkx multigraph some of whose attributes are made when they are first read.
+
+What an edge knows may cost more than the graph: it is put in as `Lazy(make)`, and whoever reads the attribute, in any
+of networkx's ways, finds what `make` gave.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from typing import TYPE_CHECKING, Any
+
+import networkx as nx
+
+
+class Lazy:
+    """A value that is made once, when first asked for."""
+
+    __slots__ = ("_make", "_value")
+
+    def __init__(self, make: Callable[[], Any]) -> None:
+        self._make: Callable[[], Any] | None = make
+        self._value: Any = None
+
+    def __call__(self) -> Any:
+        """The value."""
+        if self._make is not None:
+            self._value = self._make()
+            self._make = None  # what it held may go
+        return self._value
+
+
+class LazyDict(dict[str, Any]):
+    """A dictionary that makes its `Lazy` values when they are read; others see plain values only.
+
+    >>> asked = []
+    >>> data = LazyDict(id="a", cost=Lazy(lambda: asked.append("cost") or 7))
+    >>> list(data), asked
+    (['id', 'cost'], [])
+    >>> data["cost"], data.get("cost"), dict(data), asked
+    (7, 7, {'id': 'a', 'cost': 7}, ['cost'])
+    """
+
+    __slots__ = ()
+
+    def __getitem__(self, key: str) -> Any:
+        value = super().__getitem__(key)
+        return value() if isinstance(value, Lazy) else value
+
+    def __iter__(self) -> Iterator[str]:
+        # its own, for dict(...) and update(...) copy what is stored, unread, from a dictionary that keeps dict's
+        return super().__iter__()
+
+    def get(self, key: str, default: Any = None) -> Any:
+        """The value, or `default` where there is none."""
+        if key not in self:
+            return default
+        return self[key]
+
+    def pop(self, key: str, *default: Any) -> Any:
+        """Take a value out."""
+        value = super().pop(key, *default)
+        return value() if isinstance(value, Lazy) else value
+
+    def setdefault(self, key: str, default: Any = None) -> Any:
+        """The value, put in first where there is none."""
+        super().setdefault(key, default)
+        return self[key]
+
+    def values(self) -> Any:
+        """All values, made."""
+        return self._made().values()
+
+    def items(self) -> Any:
+        """All items, their values made."""
+        return self._made().items()
+
+    def copy(self) -> dict[str, Any]:
+        """A plain dictionary of the same values, made."""
+        return self._made()
+
+    def __eq__(self, other: object) -> bool:
+        return self._made() == other
+
+    def __ne__(self, other: object) -> bool:
+        return not self == other
+
+    __hash__ = None
+
+    def __or__(self, other: Mapping[str, Any]) -> Any:  # type: ignore[override]
+        return self._made() | dict(other)
+
+    def __repr__(self) -> str:
+        stored = {key: super(LazyDict, self).__getitem__(key) for key in self}
+        shown = (f"{key!r}: {'...' if isinstance(value, Lazy) else repr(value)}" for key, value in stored.items())
+        return "{" + ", ".join(shown) + "}"
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return LazyDict, (self._made(),)
+
+    def _made(self) -> dict[str, Any]:
+        return {key: self[key] for key in self}
+
+
+if TYPE_CHECKING:
+    _MultiGraph = nx.MultiGraph[str]
+else:
+    _MultiGraph = nx.MultiGraph
+
+
+class LazyGraph(_MultiGraph):
+    """A multigraph whose nodes and edges carry `LazyDict`s."""
+
+    node_attr_dict_factory = LazyDict
+    edge_attr_dict_factory = LazyDict

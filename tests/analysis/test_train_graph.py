@@ -1,0 +1,269 @@
+"""What nodes and edges of `train.graph` carry, against the declaration; and that nothing is made before it is read."""
+
+from __future__ import annotations
+
+import copy
+import pickle
+from fractions import Fraction
+from typing import Any
+
+import networkx as nx
+import pytest
+import shipped
+from commands import imported_by
+from reference_solver import find_carrier
+
+import geartrain
+from geartrain import GearTrain, load
+from geartrain.errors import DeclarationError, QuestionError
+from geartrain.kinematics.graph import to_dot, to_graphml, to_json
+from geartrain.numerics.lazy_graph import Lazy, LazyDict
+
+OF_LINKS = {"declared", "frame", "wheels", "reference", "speed"}
+OF_EDGES = {
+    *("kind", "label", "declared", "axis"),
+    *("circuit", "carrier", "ratio", "form", "mesh", "efficiency"),
+}
+SLOW_LOSSES = {"longcase-clock-bs978"}  # whose efficiencies come from the contact of outlines: seconds
+
+
+def turning_graph(train: GearTrain) -> nx.Graph:
+    graph = nx.Graph()
+    for joint in train.declaration.revolutes:
+        graph.add_edge(*joint.pair, axis=joint.axis)
+    return graph
+
+
+@pytest.mark.parametrize("name", shipped.trains())
+def test_every_link_and_pair_of_a_shipped_train_carries_what_is_declared(name: str) -> None:
+    train = shipped.train(name)
+    declared, turning = train.declaration, turning_graph(train)
+    graph = train.graph
+    assert isinstance(graph, nx.MultiGraph)
+    assert train.graph is graph
+    assert graph.graph["state"] == next(iter(declared.states), None)
+    assert list(graph) == list(declared.links)
+    for link, data in graph.nodes(data=True):
+        assert set(data) == OF_LINKS
+        assert data["declared"] is declared.links[link]
+        assert data["wheels"] == declared.links[link].wheels
+        assert data["frame"] == (link == declared.frame)
+        assert data["reference"] == holder(turning, link, declared.frame)
+    gears = {gear.name: gear for gear in declared.gears}
+    couplings = {each.name: each for each in declared.couplings}
+    seen = []
+    for first, second, data in graph.edges(data=True):
+        assert set(data) == OF_EDGES
+        if data["kind"] == "revolute":
+            assert {first, second} == set(data["declared"].pair)
+            assert data["axis"] == data["label"] == data["declared"].axis
+            assert not {data[key] for key in ("circuit", "carrier", "ratio", "form", "mesh", "efficiency")} - {None}
+            continue
+        seen.append(data["label"])
+        circuit = data["circuit"]
+        assert circuit.id == data["label"]
+        assert {first, second} == {circuit.i, circuit.j}
+        assert data["carrier"] == find_carrier(turning, first, second)
+        path = nx.shortest_path(turning, circuit.i, circuit.j)
+        assert data["axis"] == (turning.edges[path[:2]]["axis"], turning.edges[path[-2:]]["axis"])
+        if data["kind"] == "gear":
+            gear = gears[data["label"]]
+            (i, wheel_i), (j, wheel_j) = (declared.wheels[wheel] for wheel in gear.pair)
+            assert data["declared"] is gear
+            assert (circuit.i, circuit.j) == (i, j)
+            assert abs(data["ratio"]) == Fraction(wheel_j.count or 0, wheel_i.count or 0)
+            if not declared.axes:
+                assert (data["ratio"] > 0) == (wheel_i.internal or wheel_j.internal)
+            assert data["form"] is (declared.tooth_form if gear.tooth_form is None else gear.tooth_form)
+        else:
+            coupling = couplings[data["label"]]
+            assert data["declared"] is coupling
+            assert (circuit.i, circuit.j) == (coupling.slot, coupling.pin)
+            assert data["ratio"] == (1 if data["kind"] == "pin_and_slot" else 0)
+            assert data["form"] is None
+    assert sorted(seen) == sorted([*gears, *couplings])
+
+
+def holder(turning: nx.Graph, link: str, frame: str) -> str | None:
+    """The link that holds an axis: past all joints of that axis, on the way to the frame."""
+    if link == frame:
+        return None
+    path = nx.shortest_path(turning, link, frame)
+    axis, at = turning.edges[path[:2]]["axis"], 1
+    while at + 1 < len(path) and turning.edges[path[at : at + 2]]["axis"] == axis:
+        at += 1
+    return str(path[at])
+
+
+@pytest.mark.parametrize("name", shipped.trains())
+def test_speeds_of_a_graph_are_those_of_its_state(name: str) -> None:
+    train = shipped.train(name)
+    for state in train.states or (None,):
+        answer, graph = train.solve(state), train.graph_in(state)
+        assert dict(graph.nodes(data="speed")) == {link: answer.speeds.get(link) for link in graph}
+        if answer.method != "exact" or train.declaration.axes:
+            continue
+        for *_, data in graph.edges(data=True):
+            circuit = data["circuit"]
+            speeds = circuit and [graph.nodes[link]["speed"] for link in (circuit.i, circuit.j, circuit.carrier)]
+            if speeds and None not in speeds:
+                assert speeds[0] - speeds[2] == data["ratio"] * (speeds[1] - speeds[2])
+
+
+@pytest.mark.parametrize("name", [name for name in shipped.trains() if name not in SLOW_LOSSES])
+def test_meshes_and_efficiencies_are_those_in_force(name: str) -> None:
+    train = shipped.train(name)
+    if train.declaration.tooth_form is None and not any(gear.tooth_form for gear in train.declaration.gears):
+        assert not train.meshes
+    friction = train.declaration.friction is not None
+    for *_, data in train.graph.edges(data=True):
+        if data["kind"] != "gear":
+            continue
+        gear, mesh = data["declared"], data["mesh"]
+        assert (mesh is None) == (data["form"] is None)
+        if mesh is not None:
+            assert mesh.gear is gear
+            assert mesh.tooth_form is data["form"]
+            assert data["mesh"] is mesh
+        ahead, back = data["efficiency"]
+        if gear.efficiency is not None:
+            assert (ahead, back) == (gear.efficiency.forward.base, gear.efficiency.backward.base)
+        elif mesh is None or not (gear.friction or friction):
+            assert (ahead, back) == (1, 1)
+        else:
+            for found, wheel in zip((ahead, back), gear.pair, strict=True):
+                mean = mesh.efficiency(wheel).mean
+                assert float(found) == pytest.approx(0 if mean is None else mean, abs=1e-12)
+
+
+def test_a_pin_with_dimensions_is_its_mesh() -> None:
+    graph = load("freeth-2006").graph
+    pins = [data for *_, data in graph.edges(data=True) if data["kind"] == "pin_and_slot"]
+    assert pins
+    for data in pins:
+        assert data["mesh"].coupling is data["declared"]
+        assert data["mesh"].law.e > 0
+
+
+# ------------------------------------------------------------------------------------------------- made when it is read
+
+
+def test_nothing_is_made_before_it_is_read(monkeypatch: pytest.MonkeyPatch) -> None:
+    def never(*_: object, **__: object) -> Any:
+        raise AssertionError("made unasked")
+
+    train = GearTrain(load("pennestri-2002-teeth").declaration)
+    monkeypatch.setattr("geartrain.analysis.train_kinematics.find_circuits", never)
+    monkeypatch.setattr("geartrain.dynamics.gear_meshes.find_meshes", never)
+    monkeypatch.setattr(GearTrain, "solve", never)
+    graph = train.graph
+    assert {data["kind"] for *_, data in graph.edges(data=True)} == {"revolute", "gear"}
+    assert {data["form"].form for *_, data in graph.edges(data=True) if data["form"]} == {"triangular"}
+    for write in (to_dot, to_graphml, to_json):
+        assert "G18" in write(graph)
+    assert nx.is_connected(graph)
+    assert nx.shortest_path(graph, "2", "3") == ["2", "3"]
+    with pytest.raises(AssertionError, match="made unasked"):
+        graph.edges["2", "3", "G1"]["ratio"]
+    with pytest.raises(AssertionError, match="made unasked"):
+        graph.nodes["2"]["speed"]
+
+
+def test_a_graph_whose_ratios_are_read_brings_neither_teeth_nor_scipy() -> None:
+    code = "import geartrain; g = geartrain.load('pennestri-2002-teeth').graph; list(g.edges(data='ratio'))"
+    used = imported_by(code)
+    assert "networkx" in used
+    assert "scipy" not in used
+
+
+def test_a_train_without_circuits_has_a_graph_still() -> None:
+    """No carrier can be found for this pair: that is said by what needs one."""
+    train = GearTrain.declare(
+        {
+            "links": {"frame": {}, "a": {"wheels": {"p": 20}}, "b": {"wheels": {"q": 30}}},
+            "revolutes": [{"pair": ["frame", "a"], "axis": "A"}, {"pair": ["frame", "b"], "axis": "A"}],
+            "gears": [{"id": "G", "pair": ["p", "q"]}],
+            "inputs": {"a": 1},
+        }
+    )
+    edge = train.graph.edges["a", "b", "G"]
+    assert (edge["kind"], edge["form"], edge["declared"].pair) == ("gear", None, ("p", "q"))
+    assert "G" in to_json(train.graph)
+    with pytest.raises(DeclarationError, match="coaxial"):
+        edge["carrier"]
+
+
+def test_a_state_that_there_is_not_is_refused() -> None:
+    with pytest.raises(QuestionError, match="no state '9'"):
+        load("zf-8hp70").graph_in("9")
+    with pytest.raises(QuestionError):
+        load("zf-8hp70").graph_in()
+    assert load("zf-8hp70").graph.graph["state"] == "1"
+
+
+def test_every_way_of_networkx_to_read_an_attribute_finds_its_value() -> None:
+    graph = load("planetary-24-18-60").graph
+    ratios = {"s~p": Fraction(-18, 24), "p~ring": Fraction(60, 18)}
+    wanted = {(u, v, key): ratios.get(key) for u, v, key in graph.edges(keys=True)}
+    assert nx.get_edge_attributes(graph, "ratio") == wanted
+    assert {key: ratio for *_, key, ratio in graph.edges(keys=True, data="ratio") if ratio} == ratios
+    assert nx.get_node_attributes(graph, "speed")["carrier"] == Fraction(2, 7)
+    for other in (graph.copy(), nx.Graph(graph), nx.MultiGraph(graph), copy.deepcopy(graph), graph.to_directed()):
+        assert other.nodes["carrier"]["speed"] == Fraction(2, 7)
+        assert not [value for _, data in other.nodes(data=True) for value in data.values() if isinstance(value, Lazy)]
+        assert not [value for *_, data in other.edges(data=True) for value in data.values() if isinstance(value, Lazy)]
+    kept = pickle.loads(pickle.dumps(graph))
+    assert nx.get_edge_attributes(kept, "ratio") == wanted
+    part = graph.edge_subgraph([edge for edge in graph.edges(keys=True) if edge[2] in ratios])
+    assert {data["ratio"] for *_, data in part.edges(data=True)} == set(ratios.values())
+    with pytest.raises(KeyError):
+        graph.edges["frame", "planet", "p~ring"]["colour"]
+
+
+def test_a_user_may_write_on_a_graph() -> None:
+    graph = geartrain.load("worm").graph
+    graph.nodes["wheel"]["colour"] = "red"
+    graph.edges["screw", "wheel", next(iter(graph["screw"]["wheel"]))]["ratio"] = 7
+    assert [ratio for *_, ratio in graph.edges(data="ratio") if ratio] == [7]
+    assert geartrain.load("worm").graph.nodes["wheel"].get("colour", "none") == "none"
+
+
+def test_a_lazy_dictionary_makes_each_value_once_however_it_is_read() -> None:
+    def data() -> tuple[LazyDict, list[int]]:
+        asked: list[int] = []
+
+        def make() -> int:
+            asked.append(1)
+            return 7
+
+        return LazyDict(a=1, b=Lazy(make)), asked
+
+    ways = {
+        "[]": lambda d: d["b"],
+        "get": lambda d: d.get("b"),
+        "pop": lambda d: d.pop("b"),
+        "setdefault": lambda d: d.setdefault("b", 0),
+        "values": lambda d: list(d.values())[1],
+        "items": lambda d: dict(d.items())["b"],
+        "dict": lambda d: dict(d)["b"],
+        "update": lambda d: ({}, x := {}, x.update(d), x["b"])[-1],
+        "copy": lambda d: d.copy()["b"],
+        "**": lambda d: dict(**d)["b"],
+        "|": lambda d: (d | {})["b"],
+        "| on the right": lambda d: ({} | d)["b"],
+        "copy.copy": lambda d: copy.copy(d)["b"],
+        "pickle": lambda d: pickle.loads(pickle.dumps(LazyDict(d)))["b"],
+        "==": lambda d: 7 if d == {"a": 1, "b": 7} else 0,
+        "!=": lambda d: 0 if d != {"a": 1, "b": 7} else 7,
+    }
+    for way, read in ways.items():
+        found, asked = data()
+        assert list(found) == ["a", "b"]
+        assert len(found) == 2
+        assert "b" in found
+        assert repr(found) == "{'a': 1, 'b': ...}"
+        assert not asked, way
+        assert read(found) == 7, way
+        assert asked == [1], way
+    found, asked = data()
+    assert (found["b"], found["b"], asked) == (7, 7, [1])

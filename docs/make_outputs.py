@@ -25,6 +25,7 @@ NAMES = (
     "for-makers",
     "for-engineers",
     "api",
+    "library",
     "how-to",
     "json",
     "theory",

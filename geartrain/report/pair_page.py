@@ -47,12 +47,16 @@ class FormedPair(Result):
 
 @dataclass(frozen=True)
 class TriangularPair(Result):
-    """A pair with triangular teeth in no train, and what its collisions cost, where a run of it is given."""
+    """A pair with triangular teeth in no train, and what its collisions cost, where a run of it is given.
 
-    KEYS = (Key("", "figures"), "impacts")
+    outlines   wheels that were cut
+    """
+
+    KEYS = (Key("", "figures"), "impacts", "outlines")
 
     figures: TriangularFigures
     impacts: PairImpacts | None
+    outlines: tuple[WheelOutline, ...] = ()
 
 
 def collect_pair(
@@ -82,7 +86,7 @@ def collect_pair(
     ('involute', [24, 18], 1.566)
     """
     if isinstance(mesh, TriangularMesh):
-        return _triangular_pair(mesh, operation)
+        return _triangular_pair(mesh, outlines, operation)
     design = _design(mesh, outlines)
     return FormedPair(mesh, tuple(outlines)) if design is None else design
 
@@ -114,25 +118,30 @@ def describe_pair(
     ('Involute teeth 24/18 spur', ['Wheels', 'Path of contact', 'Costs', 'Friction'])
     """
     if isinstance(mesh, TriangularMesh):
-        return _triangular_page(mesh, operation)
+        return _triangular_page(mesh, outlines, operation)
     design = _design(mesh, outlines)
     return _formed_page(mesh, outlines) if design is None else _design_page(design)
 
 
-def _triangular_pair(mesh: TriangularMesh, operation: PairOperation | None) -> TriangularPair:
+def _triangular_pair(
+    mesh: TriangularMesh, outlines: Sequence[WheelOutline], operation: PairOperation | None
+) -> TriangularPair:
     from geartrain.dynamics.motion.pair_impacts import find_pair_impacts
     from geartrain.teeth.triangular.triangular_account import triangular_figures
 
     impacts = None if operation is None or not mesh.law.intervals else find_pair_impacts(mesh.law, operation)
-    return TriangularPair(triangular_figures(mesh.law, mesh.window), impacts)
+    return TriangularPair(triangular_figures(mesh.law, mesh.window), impacts, tuple(outlines))
 
 
-def _triangular_page(mesh: TriangularMesh, operation: PairOperation | None) -> Document:
+def _triangular_page(
+    mesh: TriangularMesh, outlines: Sequence[WheelOutline], operation: PairOperation | None
+) -> Document:
     from geartrain.report.triangular_pair_page import triangular_sections, triangular_verdict
 
     z1, z2 = mesh.counts
     lead = [f"The wheel of {z1} drives the wheel of {z2}.", triangular_verdict(mesh)]
-    return Document(f"Triangular teeth {z1}/{z2}", lead, list(triangular_sections(mesh, operation)))
+    sections = [*triangular_sections(mesh, operation), *map(_outline, outlines)]
+    return Document(f"Triangular teeth {z1}/{z2}", lead, sections)
 
 
 def _design(mesh: GearMesh, outlines: Sequence[WheelOutline]) -> PairDesign | None:

@@ -146,6 +146,11 @@ class GearMesh(ABC):
         """
 
     @property
+    def own_size(self) -> PairSize | None:
+        """How large the pair is by itself, with no wheel of another pair to follow; None for axes that meet."""
+        return self.size({})
+
+    @property
     def unit_tips(self) -> Mapping[str, float]:
         """Tip radii in the unit of the law, of wheels that have a size only up to a scale; none by default."""
         return {}

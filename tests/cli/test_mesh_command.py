@@ -7,15 +7,17 @@ import io
 import json
 import subprocess
 import sys
-from math import degrees
+from math import degrees, pi
 from pathlib import Path
 
 import pytest
+import shapely
 from commands import call, ended
+from shapely.affinity import rotate, translate
 
 PAIR = ("mesh", "triangular", "--teeth", 48, 96, "--half-angle", "30deg", "--friction", 0.2)
 KEYS = {"teeth", "verdict", "clearance", "window", "sizes", "play", "speed_ratio", "transmission_error"}
-KEYS |= {"efficiency", "intervals", "jumps", "impacts"}
+KEYS |= {"efficiency", "intervals", "jumps", "impacts", "outlines"}
 
 
 # printed under Figs. 3 to 5 of F. Sorge's note: relative jumps, and the phases of the text
@@ -102,6 +104,9 @@ REFUSED = [
     (["--teeth", 48, 96, "--vary", "clearence=1:2:3"], "cannot be varied"),
     (["--teeth", 48, 96, "--vary", "clearance=1:2"], "FIRST:LAST:COUNT"),
     (["--teeth", 48, 96, "--clearance", 1.01, "--plot", "x.bmp"], "'.bmp'"),
+    (["--teeth", 48, 96, "--clearance", 1.01, "--profile", "w.svg"], "there is no module"),
+    (["--teeth", 48, 96, "--module", "1mm", "--clearance", 1.01, "--profile", "w.stl"], "no form of outline"),
+    (["--teeth", 48, 96, "--profile", "w.svg", "--vary", "clearance=1.01:1.02:3"], "leave --vary out"),
 ]
 
 
@@ -223,3 +228,33 @@ def test_a_pin_has_a_page_and_its_limits() -> None:
         done = ended("mesh", "pin", *arguments)
         assert done.returncode == 2
         assert said in done.stderr
+
+
+def test_wheels_cut_from_their_profiles_touch_wherever_the_path_says_that_they_do(tmp_path: Path) -> None:
+    from geartrain.teeth import Triangular
+
+    asked = ("mesh", "triangular", "--teeth", 15, 24, "--window", 0.5, "--module", "2mm", "--bore", "3mm")
+    cut = []
+    for wheel in (1, 2):
+        file = tmp_path / f"w{wheel}.csv"
+        done = call(*asked, "--wheel", wheel, "--profile", file, "--json")
+        rows = list(csv.DictReader(io.StringIO(file.read_text(encoding="utf-8"))))
+        assert {row["contour"] for row in rows} == {"0", "1"}  # teeth, bore
+        cut.append(shapely.Polygon([(float(row["x_mm"]), float(row["y_mm"])) for row in rows if row["contour"] == "0"]))
+    data = json.loads(done.stdout)
+    (outline,) = data["outlines"]
+    distance = 1000 * data["sizes"]["centre_distance"]
+    assert outline["centre_distance"] == pytest.approx(distance, rel=1e-12)
+    assert outline["tip_diameter"] == pytest.approx(2000 * data["sizes"]["radii"][1], rel=1e-12)
+    law = Triangular.declared({"half_angle": "30 deg", "window": "0.5"}).law(15, 24)
+    for interval in law.intervals:
+        for share in (0.01, 0.5, 0.99):
+            x = interval.start - share * interval.width
+            y = law.contact.path.couple.angle(interval.phase, x)
+            driver = rotate(cut[0], x, origin=(0, 0), use_radians=True)
+            driven = translate(rotate(cut[1], pi - y, origin=(0, 0), use_radians=True), distance)
+            assert driver.distance(driven) < 2e-6  # mm: the file has six places
+            assert driver.intersection(driven).area < 1e-4
+            off = translate(rotate(cut[1], pi - y - 1e-4, origin=(0, 0), use_radians=True), distance)
+            on = translate(rotate(cut[1], pi - y + 1e-4, origin=(0, 0), use_radians=True), distance)
+            assert (driver.distance(off) > 1e-4) != (driver.distance(on) > 1e-4)

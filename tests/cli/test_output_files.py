@@ -56,6 +56,7 @@ ASKED: dict[tuple[str, str], tuple[tuple[str, ...], tuple[str, ...]]] = {
     ("mesh triangular", "-o"): (("mesh", "triangular", *PAIR, "--window", "0.5"), (".md", ".json")),
     ("mesh triangular", "--plot"): (("mesh", "triangular", *PAIR, "--window", "0.5"), (".svg",)),
     ("mesh triangular", "--teeth-plot"): (("mesh", "triangular", *PAIR, "--window", "0.5"), (".svg",)),
+    ("mesh triangular", "--profile"): (("mesh", "triangular", *SIZED, "--window", "0.5"), (".svg",)),
     ("mesh pin", "-o"): (("mesh", "pin", "--pin-radius", "10", "--offset", "5"), (".md", ".json")),
     ("mesh compare", "-o"): (("mesh", "compare", *PAIR, "--forms", "cycloidal"), (".md", ".json")),
     ("mesh compare", "--plot"): (("mesh", "compare", *PAIR, "--forms", "cycloidal"), (".svg",)),

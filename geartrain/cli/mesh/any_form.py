@@ -19,7 +19,6 @@ from geartrain.cli.common import (
     Sink,
     check_distinct_outputs,
     draw,
-    emit,
     give,
     sink,
 )
@@ -31,16 +30,24 @@ from geartrain.cli.mesh.form_options import (
     read_shaft_angle,
     two_wheels,
 )
-from geartrain.cli.option_values import at_option, quantity
+from geartrain.cli.mesh.wheel_profile import (
+    FINE,
+    Bore,
+    Profile,
+    Tolerance,
+    WheelNumber,
+    profile_sink,
+    write_profile,
+)
+from geartrain.cli.option_values import at_option
 from geartrain.cli.option_values import friction as read_friction
-from geartrain.errors import GearTrainError, Problem
+from geartrain.errors import GearTrainError
 from geartrain.teeth.tooth_form import ToothForm
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from geartrain.teeth.gear_mesh import GearMesh
-    from geartrain.teeth.outlines.cut_wheel import BlankSizes, WheelOutline
 
 _CONJUGATE = ("internal", "bevel", "clearance", "fillet", "rim")
 """Options of conjugate forms: for a ring, for cones, and for the root that their path of contact leaves open."""
@@ -64,23 +71,19 @@ def _run(
         str | None, typer.Option("--backlash", help="Play on the pitch circle, in modules or with a unit.")
     ] = None,
     module: Annotated[str | None, typer.Option("--module", help="Pitch diameter over teeth, such as 2mm.")] = None,
-    profile: Annotated[
-        Path | None, typer.Option("--profile", help="Write the outline of a whole wheel, to scale: .svg, .dxf, .csv.")
-    ] = None,
-    wheel: Annotated[int, typer.Option("--wheel", min=1, max=2, help="With --profile: which wheel, 1 or 2.")] = 1,
+    profile: Profile = None,
+    wheel: WheelNumber = 1,
     clearance: Annotated[
         str | None, typer.Option("--clearance", help="With --profile: root to mate's tip; default module/4.")
     ] = None,
     fillet: Annotated[
         str | None, typer.Option("--fillet", help="With --profile: radius at the root; default 0.38 module, or less.")
     ] = None,
-    bore: Annotated[str | None, typer.Option("--bore", help="With --profile: diameter of the hole.")] = None,
+    bore: Bore = None,
     rim: Annotated[
         str | None, typer.Option("--rim", help="With --profile: what stands round a ring or a lantern.")
     ] = None,
-    tolerance: Annotated[
-        str, typer.Option("--tolerance", help="With --profile: how far chords may leave a flank.")
-    ] = "0.001mm",
+    tolerance: Tolerance = FINE,
     plot: Annotated[
         Path | None,
         typer.Option(
@@ -104,7 +107,7 @@ def _run(
     except GearTrainError as error:
         raise at_option(error, "--teeth") from None
     blank = {"clearance": clearance, "fillet": fillet, "bore": bore, "rim": rim, "tolerance": tolerance}
-    outlines = [] if profile is None else [_cut(mesh, wheel, blank, outlined)]
+    outlines = write_profile(mesh, wheel, blank, outlined)
     give(to, json, lambda: collect_pair(mesh, outlines), lambda: [describe_pair(mesh, outlines)])
     if plot is not None:
         draw(_figure(mesh), picture)
@@ -122,32 +125,7 @@ def _figure(mesh: GearMesh) -> Figure:
 
 def _sinks(out: Path | None, plot: Path | None, profile: Path | None, force: bool) -> tuple[Sink, Sink, Sink]:
     """Where the page, the picture and the outline of a pair go; what cannot be written is refused before the work."""
-    from geartrain.export.flat_files import OUTLINES
-
     to, picture = sink(out, force, (".md", ".html", ".json")), sink(plot, force, PICTURES, "--plot")
-    outlined = sink(profile, force, option="--profile")
-    if outlined.path is not None and outlined.suffix not in OUTLINES:
-        what = f"'{outlined.suffix}' is no form of outline"
-        raise GearTrainError(Problem(what, "", f"use {', '.join(OUTLINES)}", "--profile"))
+    outlined = profile_sink(profile, force)
     check_distinct_outputs(to, outlined, picture)
     return to, picture, outlined
-
-
-def _cut(mesh: GearMesh, wheel: int, blank: dict[str, str | None], to: Sink) -> WheelOutline:
-    """The outline of a wheel, written."""
-    from geartrain.export import outline_text
-
-    made = mesh.wheel_outline(wheel, _blank(mesh.wheels.module, blank))
-    emit(outline_text(made, to.suffix), to)
-    return made
-
-
-def _blank(module: float | None, sizes: dict[str, str | None]) -> BlankSizes:
-    """Sizes in mm."""
-    from geartrain.teeth.outlines.cut_wheel import BlankSizes
-
-    if module is None:
-        why = "an outline is to scale, and nothing gives these wheels a size"
-        raise GearTrainError(Problem("there is no module", why, "give for example --module 2mm", "--module"))
-    given = {name: 1000 * quantity(f"--{name}", text, "length") for name, text in sizes.items() if text is not None}
-    return BlankSizes(1000 * module, **given)

@@ -30,6 +30,15 @@ from geartrain.cli.common import (
 )
 from geartrain.cli.long_runs import progress
 from geartrain.cli.mesh.form_options import FormOptions, form_command, option_name, pair_in_mesh, read_form, two_wheels
+from geartrain.cli.mesh.wheel_profile import (
+    FINE,
+    Bore,
+    Profile,
+    Tolerance,
+    WheelNumber,
+    profile_sink,
+    write_profile,
+)
 from geartrain.cli.option_values import at_option, quantity
 from geartrain.cli.option_values import friction as read_friction
 from geartrain.errors import GearTrainError
@@ -184,6 +193,10 @@ def _run(
     plot: Annotated[Path | None, typer.Option("--plot", help="Draw the law, or the sweep, to this file.")] = None,
     teeth_plot: Annotated[Path | None, typer.Option("--teeth-plot", help="Draw the wheels in contact.")] = None,
     at: Annotated[str | None, typer.Option("--at", help="alpha_1 at which the wheels are drawn.")] = None,
+    profile: Profile = None,
+    wheel: WheelNumber = 1,
+    bore: Bore = None,
+    tolerance: Tolerance = FINE,
     json: Json = False,
     out: Out = None,
     force: Force = False,
@@ -194,19 +207,18 @@ def _run(
     to = sink(out, force, (".csv", ".json") if vary else (".md", ".html", ".json"))
     picture = sink(plot, force, PICTURES, "--plot")
     drawing = sink(teeth_plot, force, PICTURES, "--teeth-plot")
-    check_distinct_outputs(to, picture, drawing)
+    outlined = profile_sink(profile, force)
+    check_distinct_outputs(to, outlined, picture, drawing)
     size = None if module is None else quantity("--module", module, "length", least="above 0")
     pair = TriangularOptions(teeth, own, size, friction, driver, backwards)
     if vary:
-        if teeth_plot is not None:
-            raise typer.BadParameter(
-                "one pair is drawn, and a sweep has many: leave --vary out", param_hint="--teeth-plot"
-            )
+        _check_one_pair({"--teeth-plot": teeth_plot, "--profile": profile})
         sweep(pair, vary, picture, json, to)
         return
     mesh = pair.mesh()
     operation = _operation(inertia, rate, load)
-    give(to, json, lambda: collect_pair(mesh, (), operation), lambda: [describe_pair(mesh, (), operation)])
+    outlines = write_profile(mesh, wheel, {"bore": bore, "tolerance": tolerance}, outlined)
+    give(to, json, lambda: collect_pair(mesh, outlines, operation), lambda: [describe_pair(mesh, outlines, operation)])
     if plot is not None:
         from geartrain.drawing import law_figure
 
@@ -217,6 +229,12 @@ def _run(
         angle = None if at is None else quantity("--at", at, "angle")
         draw(teeth_figure(mesh.law, angle), drawing)
     raise typer.Exit(GOOD if not mesh.faults else VERDICT)
+
+
+def _check_one_pair(files: Mapping[str, Path | None]) -> None:
+    for option, path in files.items():
+        if path is not None:
+            raise typer.BadParameter("one pair is drawn, and a sweep has many: leave --vary out", param_hint=option)
 
 
 def _operation(inertia: str | None, rate: str | None, load: str | None) -> PairOperation:

@@ -40,7 +40,7 @@ def outline(pair: ConjugatePair, gear: int, cut: BlankSizes, pins: LanternPins |
 
 def mesh_outline(mesh: GearMesh, gear: int, cut: BlankSizes) -> WheelOutline:
     """The outline of the first or the second wheel of any mesh, as its form wants it cut: `GearMesh.wheel_outline`."""
-    size = mesh.size({})
+    size = mesh.own_size
     scale, tolerance = 1.0 if size is None else size.scale, cut.tolerance / cut.module
     tooth, mate = (mesh.requirement(name, scale, tolerance).cut() for name in mesh.gear.pair[:: 3 - 2 * gear])
     z, other = mesh.wheels.counts[:: 3 - 2 * gear]

@@ -140,6 +140,21 @@ class Triangular(ToothForm):
         radii = () if isinstance(self.radii, str) else self.radii
         return any(length is not None and length.unit for length in (self.centre_distance, self.backlash, *radii))
 
+    def in_metres(self, module: float | None) -> bool:
+        """Whether the lengths of `sizes` are in m.
+
+        Parameters
+        ----------
+        module : float or None
+            Of both wheels [m].
+
+        Returns
+        -------
+        bool
+            True where lengths with a unit are declared, or radii follow from a module.
+        """
+        return self.has_lengths or (module is not None and isinstance(self.radii, str))
+
     # ------------------------------------------------------------------------------------------------------- a pair
 
     @classmethod

@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from geartrain.teeth.pair_verdict import PairVerdict
     from geartrain.teeth.triangular.clearance_window import ClearanceWindow
     from geartrain.teeth.triangular.pair_geometry import TriangularSizes
+    from geartrain.teeth.triangular.triangular_form import Triangular
     from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
 
 
@@ -57,6 +58,7 @@ class TriangularTooth(WheelRequirement):
 class TriangularMesh(GearMesh):
     """A gear pair with triangular teeth."""
 
+    tooth_form: Triangular
     law: TriangularTransmission
 
     @cached_property
@@ -93,6 +95,14 @@ class TriangularMesh(GearMesh):
             scale = 1 / module
         scale = next((tips[wheel] / R for wheel, R in self.unit_tips.items() if wheel in tips), scale)
         return PairSize(scale, D * scale, D * scale / touching)
+
+    @property
+    def own_size(self) -> PairSize:
+        """As large as its law says where that is in m; else so that pitch circles touch."""
+        module = self.wheels.module
+        if module is None or not self.tooth_form.in_metres(module):
+            return self.size({})
+        return self.size({wheel: tip / module for wheel, tip in self.unit_tips.items()})
 
     def requirement(self, wheel: str, scale: float, tolerance: float) -> TriangularTooth:
         """A point at the tip radius; straight flanks need no tolerance."""

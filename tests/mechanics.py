@@ -6,7 +6,7 @@ centres, both positive to the same side, and both angles decrease as the driver 
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from sorge import APPROACH, Pair
@@ -38,12 +38,39 @@ def _turned(ring: np.ndarray, by: np.ndarray) -> np.ndarray:
     return np.stack([ring[:, 0] * cosine - ring[:, 1] * sine, ring[:, 0] * sine + ring[:, 1] * cosine], axis=-1)
 
 
-def power_ratio(pair: Pair, x: Any, phase: str, friction: Any) -> tuple[Any, Any, Any]:
-    """Power out over power in of one contact, how far the apex is off the flank's line, and tau.
+class Contact(NamedTuple):
+    """One contact of a couple: in which point, along which normal, and the force of the driver on the driven wheel.
+
+    off   how far the apex is off the flank's line
+    tau   driven speed over the driver's
+    """
+
+    D: Any
+    point: tuple[Any, Any]
+    normal: tuple[Any, Any]
+    force: tuple[Any, Any]
+    off: Any
+    tau: Any
+
+    @property
+    def moments(self) -> tuple[Any, Any]:
+        """Of the force about the driver's axis and about the driven wheel's, as each puts in or takes out power."""
+        first = self.point[0] * self.force[1] - self.point[1] * self.force[0]
+        second = (self.point[0] - self.D) * self.force[1] - self.point[1] * self.force[0]
+        return -first, second
+
+    @property
+    def centre(self) -> Any:
+        """Where the normal meets the line of centres, from the driver's axis."""
+        return self.point[0] - self.point[1] * self.normal[0] / self.normal[1]
+
+
+def contact(pair: Pair, x: Any, phase: str, friction: Any) -> Contact:
+    """The balance of one contact.
 
     The driver turns at one radian a second, the driven wheel at tau, which follows from no penetration: the points in
     contact have one velocity along the normal of the flank. The force of the driver on the driven wheel is the normal
-    force and friction against the driven point's sliding; each wheel's power is the force's moment times its speed.
+    force and friction against the driven point's sliding.
     """
     m = pair.m
     y = pair.angle(x, phase)
@@ -66,9 +93,14 @@ def power_ratio(pair: Pair, x: Any, phase: str, friction: Any) -> tuple[Any, Any
     sliding = tau * _dot(along, second) - _dot(along, first)
     rub = -friction * m.sign(sliding)
     force = (normal[0] + rub * along[0], normal[1] + rub * along[1])
-    moment1 = point[0] * force[1] - point[1] * force[0]
-    moment2 = (point[0] - pair.D) * force[1] - point[1] * force[0]
-    return moment2 * tau / -moment1, off, tau
+    return Contact(pair.D, point, normal, force, off, tau)
+
+
+def power_ratio(pair: Pair, x: Any, phase: str, friction: Any) -> tuple[Any, Any, Any]:
+    """Power out over power in of one contact, how far the apex is off the flank's line, and tau."""
+    found = contact(pair, x, phase, friction)
+    into, out = found.moments
+    return out * found.tau / into, found.off, found.tau
 
 
 def _dot(a: tuple[Any, Any], b: tuple[Any, Any]) -> Any:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from math import degrees
 from textwrap import fill
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -20,15 +20,22 @@ if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
 
 _SAMPLES = 401  # of each phase, and of each interval
-_LABELS = ("driven angle\n$\\alpha_2$ (deg)", "speed ratio\n$\\tau$", "sliding efficiency\n$\\eta$")
+_LABELS = (
+    "driven angle\n$\\alpha_2$ (deg)",
+    "speed ratio\n$\\tau$",
+    "sliding efficiency\n$\\eta$",
+    "arms of the force\n$b_i$ over pitch radius",
+)
+_CURVES: tuple[tuple[str, Any], ...] = (("", "-"), ("driven ", (0, (1.5, 0.7))))  # the driven wheel's curve: dashed
 _BEYOND = 4.0  # of the real range: how far an axis follows the ideal path beyond it
 
 
 def law_figure(law: TriangularTransmission) -> Figure:
-    """The law of triangular teeth: driven angle, speed ratio and sliding efficiency over the driver's angle.
+    """The law of triangular teeth over the driver's angle: driven angle, speed ratio, sliding efficiency, moment arms.
 
-    Thin lines are the ideal path of one couple of teeth (docs/teeth.md, equations 2 to 9), thick lines the real path of
-    all of them. The driver's angle falls with time.
+    Thin lines are the ideal path of one couple of teeth (docs/teeth.md, equations 2 to 11), thick lines the real path
+    of all of them. The driver's angle falls with time. The instant centre is read beside the speed ratio, which tells
+    it; arms are over the radii at which the mean ratio would roll, dashed for the driven wheel.
 
     Parameters
     ----------
@@ -38,7 +45,7 @@ def law_figure(law: TriangularTransmission) -> Figure:
     Returns
     -------
     matplotlib.figure.Figure
-        Three panels; angles in degrees.
+        Four panels; angles in degrees.
 
     Raises
     ------
@@ -50,16 +57,17 @@ def law_figure(law: TriangularTransmission) -> Figure:
     >>> import geartrain
     >>> law = geartrain.load("moon-triangular").meshes[0].law
     >>> [axes.get_ylabel().splitlines()[0] for axes in law_figure(law).axes]
-    ['driven angle', 'speed ratio', 'sliding efficiency']
+    ['driven angle', 'speed ratio', 'sliding efficiency', 'arms of the force']
     """
     require_contact(law)
-    figure = Figure(figsize=(WIDTH, 9.0), layout="constrained")
-    panels = figure.subplots(3, 1, sharex=True)
+    figure = Figure(figsize=(WIDTH, 11.5), layout="constrained")
+    panels = figure.subplots(4, 1, sharex=True)
     for row, axes in enumerate(panels):
         _panel(axes, law, row)
     _matching(panels, law)
     _jumps(panels[1], law)
-    _time(panels[2])
+    _instant_centre(panels[1])
+    _time(panels[-1])
     panels[0].set_title(_title(law), fontsize=TEXT, loc="left", color=BLACK)
     figure.legend(handles=list(_legend(law)), loc="outside lower center", ncols=4, fontsize=SMALL, frameon=False)
     return figure
@@ -74,16 +82,18 @@ def _panel(axes: Axes, law: TriangularTransmission, row: int) -> None:
     ideal, real = [], []
     for phase, low, high in _phases(law):
         x = np.linspace(low, high, _SAMPLES)
-        y = _values(law, phase, x)[row]
-        axes.plot(np.degrees(x), y, color=PHASES[phase], linewidth=1.2, gid=f"ideal {phase}")
-        ideal.append(y)
+        for y, (whose, style) in zip(_values(law, phase, x)[row], _CURVES, strict=False):
+            line = {"linestyle": style, "gid": f"{whose}ideal {phase}"}
+            axes.plot(np.degrees(x), y, color=PHASES[phase], linewidth=1.2, **line)
+            ideal.append(y)
     for interval in law.intervals:
         x = np.linspace(interval.start, interval.end, _SAMPLES)
-        y = _values(law, interval.phase, x, interval.held)[row]
         color = PHASES[interval.phase]
-        axes.plot(np.degrees(x), y, color=color, linewidth=4.0, solid_capstyle="butt", gid=f"real {interval.phase}")
+        for y, (whose, style) in zip(_values(law, interval.phase, x, interval.held)[row], _CURVES, strict=False):
+            line = {"linestyle": style, "solid_capstyle": "butt", "gid": f"{whose}real {interval.phase}"}
+            axes.plot(np.degrees(x), y, color=color, linewidth=4.0, **line)
+            real.append(y)
         axes.axvspan(degrees(interval.end), degrees(interval.start), color=color, alpha=0.08, linewidth=0)
-        real.append(y)
     if row:
         axes.set_ylim(*_limits(np.concatenate(ideal), np.concatenate(real)))
 
@@ -98,15 +108,22 @@ def _phases(law: TriangularTransmission) -> Iterator[tuple[str, float, float]]:
 
 def _values(
     law: TriangularTransmission, phase: str, x: Floats, held: float | None = None
-) -> tuple[Floats, Floats, Floats]:
-    """alpha_2 (deg), tau and efficiency at alpha_1 = x (rad); NaN where friction locks, and of a standstill."""
+) -> tuple[tuple[Floats, ...], ...]:
+    """The curves of each panel at alpha_1 = x (rad): alpha_2 (deg), tau, efficiency, the arms of driver and driven.
+
+    NaN where friction locks, and of a standstill.
+    """
     if held is not None:
-        return np.full_like(x, degrees(held)), np.zeros_like(x), np.full_like(x, np.nan)
-    couple = law.contact.path.couple
+        none = np.full_like(x, np.nan)
+        return (np.full_like(x, degrees(held)),), (np.zeros_like(x),), (none,), (none, none)
+    couple, sizes = law.contact.path.couple, law.sizes
     with np.errstate(all="ignore"):  # beyond the real path a flank may lean past the perpendicular
         eta = couple.efficiency(phase, x, law.friction, np)
         eta = np.where((eta >= 0) & (eta <= 1), eta, np.nan)
-        return np.degrees(couple.angle(phase, x, np)), couple.speed(phase, x, np), eta
+        arms = couple.moment_arms(phase, x, law.friction, np)
+        rolling = (sizes.D * z / (sizes.z1 + sizes.z2) for z in (sizes.z1, sizes.z2))
+        relative = tuple(arm / radius for arm, radius in zip(arms, rolling, strict=True))
+        return (np.degrees(couple.angle(phase, x, np)),), (couple.speed(phase, x, np),), (eta,), relative
 
 
 def _limits(ideal: Floats, real: Floats) -> tuple[float, float]:
@@ -170,6 +187,23 @@ def _jump_label(axes: Axes, jump: SpeedJump) -> None:
     )
 
 
+def _centre_at(tau: Any) -> Any:
+    """O1C / D; an axis may show tau down to -1 beyond the real path, where there is none."""
+    return tau / np.maximum(1 + tau, 0.1)
+
+
+def _ratio_at(centre: Any) -> Any:
+    """tau of O1C / D."""
+    return centre / np.maximum(1 - centre, 0.1)
+
+
+def _instant_centre(axes: Axes) -> None:
+    """Where the instant centre is on the line of centres, as a share of it: tau/(1 + tau)."""
+    beside = axes.secondary_yaxis("right", functions=(_centre_at, _ratio_at))
+    beside.set_ylabel("instant centre\n$O_1C / D$", fontsize=TEXT)
+    beside.tick_params(labelsize=SMALL)
+
+
 def _time(axes: Axes) -> None:
     """The driver's angle falls as time goes on."""
     axes.set_xlabel(r"driver angle $\alpha_1$ (deg)", fontsize=TEXT)
@@ -200,6 +234,8 @@ def _title(law: TriangularTransmission) -> str:
 
 def _legend(law: TriangularTransmission) -> Iterator[Line2D]:
     driving = {interval.phase for interval in law.intervals}
+    yield Line2D([], [], color=GREY, linewidth=1.2, label="$b_1$, driver")
+    yield Line2D([], [], color=GREY, linewidth=1.2, linestyle=_CURVES[1][1], label="$b_2$, driven")
     for phase, _, _ in _phases(law):
         if phase in driving:
             yield Line2D([], [], color=PHASES[phase], linewidth=4.0, label=f"{phase}, real path")

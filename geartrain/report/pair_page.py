@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from geartrain.teeth.outlines.cut_wheel import WheelOutline
     from geartrain.teeth.pair_account import PairFigures
     from geartrain.teeth.pin_transmission import PinTransmission
+    from geartrain.teeth.triangular.contact_course import ContactCourse
     from geartrain.teeth.triangular.triangular_account import TriangularFigures
 
 
@@ -49,12 +50,14 @@ class FormedPair(Result):
 class TriangularPair(Result):
     """A pair with triangular teeth in no train, and what its collisions cost, where a run of it is given.
 
+    course     speed ratio, instant centre and moment arms over the pitch
     outlines   wheels that were cut
     """
 
-    KEYS = (Key("", "figures"), "impacts", "outlines")
+    KEYS = (Key("", "figures"), "course", "impacts", "outlines")
 
     figures: TriangularFigures
+    course: ContactCourse
     impacts: PairImpacts | None
     outlines: tuple[WheelOutline, ...] = ()
 
@@ -127,10 +130,12 @@ def _triangular_pair(
     mesh: TriangularMesh, outlines: Sequence[WheelOutline], operation: PairOperation | None
 ) -> TriangularPair:
     from geartrain.dynamics.motion.pair_impacts import find_pair_impacts
+    from geartrain.teeth.triangular.contact_course import contact_course
     from geartrain.teeth.triangular.triangular_account import triangular_figures
 
     impacts = None if operation is None or not mesh.law.intervals else find_pair_impacts(mesh.law, operation)
-    return TriangularPair(triangular_figures(mesh.law, mesh.window), impacts, tuple(outlines))
+    figures = triangular_figures(mesh.law, mesh.window)
+    return TriangularPair(figures, contact_course(mesh.law), impacts, tuple(outlines))
 
 
 def _triangular_page(

@@ -7,6 +7,7 @@ from math import degrees, isfinite, pi
 from typing import TYPE_CHECKING
 
 from geartrain.report.document import Section, Table, figure
+from geartrain.teeth.triangular.contact_course import contact_course
 from geartrain.teeth.triangular.triangular_explanations import explain_clearance, explain_friction_lock
 
 if TYPE_CHECKING:
@@ -23,7 +24,7 @@ def triangular_sections(mesh: TriangularMesh, operation: PairOperation | None) -
     if window is not None:
         yield _clearance(law, window)
     if law.intervals:
-        yield from (_path(law), _law(law), _collisions(law), _losses(law), *_impacts(law, operation))
+        yield from (_path(law), _course(law), _law(law), _collisions(law), _losses(law), *_impacts(law, operation))
 
 
 def triangular_verdict(mesh: TriangularMesh) -> str:
@@ -89,6 +90,29 @@ def _path(law: TriangularTransmission) -> Section:
         )
     header = ("phase", "from alpha_1", "to alpha_1", "pitches", "tau at first", "tau at last")
     return Section("Path of contact", (ideal,), (Table(header, rows),))
+
+
+def _course(law: TriangularTransmission) -> Section:
+    """Speed ratio, instant centre and moment arms at the ends of every interval and between them."""
+    found = contact_course(law)
+    columns = (found.speed_ratio, found.instant_centre, found.driver_arm, found.driven_arm, found.efficiency)
+    rows = [
+        (phase, _deg(x), _deg(y), *(figure(value) if isfinite(value) else "-" for value in values))
+        for phase, x, y, *values in zip(
+            found.phases,
+            found.alpha1.tolist(),
+            found.alpha2.tolist(),
+            *(each.tolist() for each in columns),
+            strict=True,
+        )
+    ]
+    header = ("phase", "alpha_1", "alpha_2", "tau", "O1C", "b1", "b2", "efficiency")
+    text = (
+        "O1C: the instant centre of the relative motion, on the line of centres, from the driver's axis (Eqs. 11, 18). "
+        "b1, b2: arms of the force about the driver's and the driven axis (Eqs. 28 to 31); efficiency is tau b2/b1. "
+        "Lengths as under Sizes, angles in deg."
+    )
+    return Section("Over the pitch", (text,), (Table(header, rows),))
 
 
 def _law(law: TriangularTransmission) -> Section:

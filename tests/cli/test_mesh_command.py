@@ -17,7 +17,7 @@ from shapely.affinity import rotate, translate
 
 PAIR = ("mesh", "triangular", "--teeth", 48, 96, "--half-angle", "30deg", "--friction", 0.2)
 KEYS = {"teeth", "verdict", "clearance", "window", "sizes", "play", "speed_ratio", "transmission_error"}
-KEYS |= {"efficiency", "intervals", "jumps", "impacts", "outlines"}
+KEYS |= {"efficiency", "intervals", "jumps", "course", "impacts", "outlines"}
 
 
 # printed under Figs. 3 to 5 of F. Sorge's note: relative jumps, and the phases of the text

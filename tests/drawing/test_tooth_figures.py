@@ -161,7 +161,7 @@ def drawn_law(pair: tuple[int, int, float]) -> Figure:
 
 
 def panels(figure: Figure) -> list[Axes]:
-    assert len(figure.axes) == 3
+    assert len(figure.axes) == 4
     return figure.axes
 
 
@@ -191,22 +191,32 @@ def test_the_thin_lines_cover_the_reach(pair: tuple[int, int, float]) -> None:
 
 def test_the_curves_are_the_law() -> None:
     pair_law = law(48, 96, 0.01)
-    angle, speed, efficiency = drawn(drawn_law((48, 96, 0.01)), "real recess")
+    figure = drawn_law((48, 96, 0.01))
+    angle, speed, efficiency, first = drawn(figure, "real recess")
+    (second,) = drawn(figure, "driven real recess")
     S = -np.radians(angle[:, 0])[1:-1]
     assert pair_law.alpha1(S) == pytest.approx(-S, abs=1e-12)
     assert angle[1:-1, 1] == pytest.approx(-np.degrees(pair_law.angle(S)), abs=1e-11)
     assert speed[1:-1, 1] == pytest.approx(pair_law.speed(S), abs=1e-12)
     assert efficiency[1:-1, 1] == pytest.approx(pair_law.efficiency(S), abs=1e-12)
+    # power out over power in: arms are over radii in the mean ratio
+    assert efficiency[:, 1] == pytest.approx(speed[:, 1] * second[:, 1] / first[:, 1] * 2, abs=1e-12)
+    (beside,) = figure.axes[1].child_axes
+    figure.draw_without_rendering()
+    centre = np.array(beside.get_ylim()) * pair_law.sizes.D
+    tau = np.array(figure.axes[1].get_ylim())
+    assert centre == pytest.approx(tau * (pair_law.sizes.D - centre), rel=1e-9)
 
 
 def test_a_standstill_is_level_and_at_rest() -> None:
     pair_law = law(*STANDS)
     (still,) = [each for each in pair_law.intervals if each.held is not None]
     assert still.held is not None
-    angle, speed, efficiency = drawn(drawn_law(STANDS), "real standstill")
+    angle, speed, efficiency, arm = drawn(drawn_law(STANDS), "real standstill")
     assert angle[:, 1] == pytest.approx(degrees(still.held), abs=1e-12)
     assert (speed[:, 1] == 0).all()
     assert np.isnan(efficiency[:, 1]).all()
+    assert np.isnan(arm[:, 1]).all()
 
 
 def test_every_jump_is_annotated() -> None:

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from mechanics import power_ratio
+from mechanics import contact, power_ratio
 from sorge import APPROACH, RECESS, Pair, drawn, mp
 
 from geartrain.teeth.triangular.pair_geometry import TriangularSizes, equal_depth, pitch_true
@@ -208,3 +208,47 @@ def test_efficiency_is_the_balance_of_forces(phase: str, wheel: int) -> None:
             sides.add((phase == RECESS and x > 0) or (phase == APPROACH and pair.angle(x, phase) > 0))
     assert sides == {True, False}
     assert worst.within(1e-12), worst
+
+
+@pytest.mark.parametrize("phase", [APPROACH, RECESS])
+def test_moment_arms_are_distances_of_the_force_and_the_instant_centre_is_on_the_normal(phase: str) -> None:
+    """Moments of the vectors over the force; the normal through the contact, where it meets the line of centres."""
+    arms, centres, ratios, powers = Worst(), Worst(), Worst(), Worst()
+    for sizes, pair, random in pairs(10, 40, 1e3):
+        couple = ToothCouple(sizes)
+        for _ in range(4):
+            x, f = near_the_pitch_point(pair, phase, random), random.uniform(0, 0.6)
+            inside = abs(x) < pair.amax and (phase == APPROACH) == (x > pair.matching)
+            if not inside or 1 - f * tan(pair.lean(x, phase)) < 0.1:
+                continue
+            found = contact(pair, mp.mpf(x), phase, mp.mpf(f))
+            force = mp.hypot(*found.force)
+            got = couple.moment_arms(phase, x, f)
+            for arm, moment in zip(got, found.moments, strict=True):
+                arms.see(relative(arm, moment / force), sizes, x, f)
+            centre = couple.instant_centre(phase, x)
+            centres.see(relative(centre, found.centre), sizes, x)
+            # no sliding there: both wheels carry it along at one speed
+            ratios.see(relative(centre / (sizes.D - centre), found.tau), sizes, x)
+            powers.see(abs(couple.speed(phase, x) * got[1] / got[0] / couple.efficiency(phase, x, f) - 1), sizes, x)
+    assert arms.error <= 1e-12, arms
+    assert centres.error <= 1e-12, centres
+    assert ratios.error <= 2e-12, ratios
+    assert powers.error <= 1e-14, powers
+
+
+def test_a_course_tells_both_ends_of_every_interval_and_none_of_a_standstill() -> None:
+    from geartrain.teeth import Triangular
+    from geartrain.teeth.triangular.contact_course import contact_course
+
+    law = Triangular.declared({"half_angle": "30 deg", "clearance": "1.032"}).law(15, 60, 0.2)
+    course = contact_course(law, 3)
+    assert course.phases == ("recess",) * 3 + ("standstill",) * 3
+    assert list(course.alpha1[[0, 2, 3, 5]]) == [end for each in law.intervals for end in (each.start, each.end)]
+    turning = slice(0, 3)
+    power = course.speed_ratio * course.driven_arm / course.driver_arm
+    assert power[turning] == pytest.approx(course.efficiency[turning], rel=1e-14)
+    assert np.isnan([course.instant_centre[3:], course.driver_arm[3:], course.efficiency[3:]]).all()
+    assert (course.speed_ratio[3:] == 0).all()
+    assert course.to_dict()["driver_arm"][3:] == [None] * 3
+    assert contact_course(Triangular.declared({"half_angle": "30 deg", "clearance": "1.2"}).law(15, 60)).phases == ()

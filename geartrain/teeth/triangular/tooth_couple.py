@@ -69,13 +69,21 @@ class ToothCouple:
         W = 4 * self.D * self.R1 * (self.entry - u) * (self.entry + u)
         return self.R1 * self.cos1 - W / (self.D * cos_psi - self.R1 * self.cos1 + self.R2 * q)
 
+    def approach_normal_arms(self, x: Any, m: ModuleType = math) -> tuple[Any, Any]:
+        """Distances of both centres from the common normal in approach; the second is O2C cos(psi) of Eq. (11)."""
+        return self._arms_on_flank(self._line(x, m))
+
+    def _arms_on_flank(self, line: FlankLine) -> tuple[Any, Any]:
+        u, _, cos_psi, _, _, q = line
+        return self._driver_arm(u, cos_psi, q), self.R2 * q
+
     def approach_speed(self, x: Any, m: ModuleType = math) -> Any:
         """tau in approach, Eq. (12)."""
         return self._speed_on_flank(self._line(x, m))
 
     def _speed_on_flank(self, line: FlankLine) -> Any:
-        u, _, cos_psi, _, _, q = line
-        return self._driver_arm(u, cos_psi, q) / (self.R2 * q)
+        first, second = self._arms_on_flank(line)
+        return first / second
 
     def approach_slope(self, x: Any, m: ModuleType = math) -> Any:
         """d tau / d alpha_1 in approach: (1 + tau) [(1 + tau) tan(psi + alpha_2) - tan psi]."""
@@ -119,13 +127,21 @@ class ToothCouple:
         sin_psi, cos_psi = self.sin2 * cos_y - self.cos2 * sin_y, self.cos2 * cos_y + self.sin2 * sin_y
         return arm, cos_psi * cosine + sin_psi * sine, sin_psi * cosine - cos_psi * sine, sin_psi, cos_psi, sine
 
+    def recess_normal_arms(self, x: Any, m: ModuleType = math) -> tuple[Any, Any]:
+        """Distances of both centres from the common normal in recess; the first is O1C cos(psi2) of Eq. (18)."""
+        return self._arms_at_apex(self._apex(x, m))
+
+    def _arms_at_apex(self, apex: DrivenApex) -> tuple[Any, Any]:
+        arm, q, *_ = self._turned(apex)
+        return self.R1 * q, arm
+
     def recess_speed(self, x: Any, m: ModuleType = math) -> Any:
         """tau in recess, Eq. (19)."""
         return self._speed_at_apex(self._apex(x, m))
 
     def _speed_at_apex(self, apex: DrivenApex) -> Any:
-        arm, q, *_ = self._turned(apex)
-        return self.R1 * q / arm
+        first, second = self._arms_at_apex(apex)
+        return first / second
 
     def recess_slope(self, x: Any, m: ModuleType = math) -> Any:
         """d tau / d alpha_1 in recess: tau (1 + tau) [(1 + tau) tan(beta2 - x - y) - tau tan(beta2 - y)].
@@ -198,6 +214,26 @@ class ToothCouple:
         """Sliding efficiency at friction f, Eqs. (32) and (33) corrected."""
         side, tan2, tan1 = self.friction(phase, x, m)
         return (1 - f * side * tan2) / (1 - f * side * tan1)
+
+    def normal_arms(self, phase: str, x: Any, m: ModuleType = math) -> tuple[Any, Any]:
+        """Distances n1, n2 of both centres from the common normal: tau = n1/n2."""
+        return self.approach_normal_arms(x, m) if phase == APPROACH else self.recess_normal_arms(x, m)
+
+    def moment_arms(self, phase: str, x: Any, f: float, m: ModuleType = math) -> tuple[Any, Any]:
+        """Distances b1, b2 of both centres from the line of the force at friction f, Eqs. (28) to (31) corrected.
+
+        That line is the normal, turned about the contact by the angle of friction: with h1, h2 the distances of the
+        centres from the flank's line, b = (n - f side h) / sqrt(1 + f^2), docs/teeth.md (11a).
+        """
+        n1, n2 = self.normal_arms(phase, x, m)
+        side, tan2, tan1 = self.friction(phase, x, m)
+        length = math.hypot(1.0, f)
+        return n1 * (1 - f * side * tan1) / length, n2 * (1 - f * side * tan2) / length
+
+    def instant_centre(self, phase: str, x: Any, m: ModuleType = math) -> Any:
+        """O1C: where the common normal meets the line of centres, from the driver's axis, docs/teeth.md (11b)."""
+        n1, n2 = self.normal_arms(phase, x, m)
+        return self.D * n1 / (n1 + n2)
 
     def contact(self, x: float) -> float:
         """f(x) = min(approach, recess) for |x| up to alpha_1max: alpha_2 at first contact, whatever the phase."""

@@ -28,6 +28,7 @@ if TYPE_CHECKING:
     from geartrain.drawing.power_sankey import power_figure as power_figure
     from geartrain.drawing.spherical_gears import sphere_figure as sphere_figure
     from geartrain.drawing.tooth_contact import teeth_figure as teeth_figure
+    from geartrain.drawing.tooth_sizes_plot import tooth_sizes_figure as tooth_sizes_figure
     from geartrain.drawing.train_pictures import picture as picture
     from geartrain.drawing.transmission_curves import law_figure as law_figure
 
@@ -43,6 +44,7 @@ _PLACES = {
     "sphere_figure": "spherical_gears",
     "sweep_figure": "parameter_sweep_plot",
     "teeth_figure": "tooth_contact",
+    "tooth_sizes_figure": "tooth_sizes_plot",
     "transmission_figure": "pair_transmission",
 }
 
@@ -58,6 +60,7 @@ __all__ = [
     "sphere_figure",
     "sweep_figure",
     "teeth_figure",
+    "tooth_sizes_figure",
     "transmission_figure",
 ]
 

@@ -108,12 +108,14 @@ def _of_any_form(kind: type) -> Schema:
 
 def _of_pairs() -> dict[str, Schema]:
     from geartrain.report.pair_page import FormedPair, TriangularPair
+    from geartrain.synthesis.tooth_sizes.size_search import BestToothSizes
     from geartrain.teeth.conjugate.pair_design import PairDesign
     from geartrain.teeth.form_comparison import FormComparison
     from geartrain.teeth.pin_figures import PinFigures
 
     return {
         "mesh triangular": shape_of(TriangularPair),
+        "mesh triangular --best": shape_of(BestToothSizes),
         "mesh triangular --vary": shape_of(list[dict[str, float | str | None]]),
         "mesh pin": shape_of(PinFigures),
         "mesh FORM": {"anyOf": [shape_of(PairDesign), *_of_any_form(FormedPair)["anyOf"]]},

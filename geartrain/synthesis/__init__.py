@@ -7,6 +7,7 @@ Out: the tooth counts that fit, ranked, with proof that the search was complete,
 `search_train`  the free wheels of a declared train: an exact weighted join, which the posterior of counts uses too
 `find_sets`     sets of sun, planets and ring: Willis' equation (theory (4), (5)) over all coaxial sets
 `find_orrery`   many periods that share wheels: branch and bound, beam search
+`find_tooth_sizes` the radii, clearance and half angle of triangular teeth: DIRECT, polished by Brent or Nelder and Mead
 `approximants`  fractions near a number: the Stern-Brocot tree
 
 `read_ratio` and `read_counts` read what is wanted from text. Counts are decided in integers, ratios in Fractions.
@@ -36,6 +37,11 @@ if TYPE_CHECKING:
     from geartrain.synthesis.target_ratio import read_ratio as read_ratio
     from geartrain.synthesis.tooth_count_ranges import CountRuns as CountRuns
     from geartrain.synthesis.tooth_count_ranges import read_counts as read_counts
+    from geartrain.synthesis.tooth_sizes.outline_agreement import OutlineAgreement as OutlineAgreement
+    from geartrain.synthesis.tooth_sizes.size_design import SizeLimit as SizeLimit
+    from geartrain.synthesis.tooth_sizes.size_design import ToothSizes as ToothSizes
+    from geartrain.synthesis.tooth_sizes.size_search import BestToothSizes as BestToothSizes
+    from geartrain.synthesis.tooth_sizes.size_search import find_tooth_sizes as find_tooth_sizes
     from geartrain.synthesis.train.train_findings import Assignment as Assignment
     from geartrain.synthesis.train.train_findings import TrainFindings as TrainFindings
     from geartrain.synthesis.train.train_search import search_train as search_train
@@ -43,21 +49,26 @@ if TYPE_CHECKING:
 __all__ = [
     "Approximant",
     "Assignment",
+    "BestToothSizes",
     "ConstraintOptions",
     "CountRuns",
     "EpicyclicSet",
     "GearStages",
     "Orrery",
+    "OutlineAgreement",
     "SetFindings",
     "Shortfall",
+    "SizeLimit",
     "StageConstraints",
     "StageFindings",
     "TargetRatio",
+    "ToothSizes",
     "TrainFindings",
     "approximants",
     "find_orrery",
     "find_sets",
     "find_stages",
+    "find_tooth_sizes",
     "read_counts",
     "read_ratio",
     "search_train",
@@ -66,21 +77,26 @@ __all__ = [
 _PLACES = {
     "Approximant": "stern_brocot",
     "Assignment": "train.train_findings",
+    "BestToothSizes": "tooth_sizes.size_search",
     "ConstraintOptions": "constraints.constraint_options",
     "CountRuns": "tooth_count_ranges",
     "EpicyclicSet": "epicyclic.epicyclic_sets",
     "GearStages": "search_outcome",
     "Orrery": "orrery.orrery_result",
+    "OutlineAgreement": "tooth_sizes.outline_agreement",
     "SetFindings": "epicyclic.epicyclic_sets",
     "Shortfall": "search_outcome",
+    "SizeLimit": "tooth_sizes.size_design",
     "StageConstraints": "ratio.stage_problem",
     "StageFindings": "ratio.stage_search",
     "TargetRatio": "target_ratio",
+    "ToothSizes": "tooth_sizes.size_design",
     "TrainFindings": "train.train_findings",
     "approximants": "stern_brocot",
     "find_orrery": "orrery.orrery_search",
     "find_sets": "epicyclic.set_search",
     "find_stages": "ratio.stage_search",
+    "find_tooth_sizes": "tooth_sizes.size_search",
     "read_counts": "tooth_count_ranges",
     "read_ratio": "target_ratio",
     "search_train": "train.train_search",

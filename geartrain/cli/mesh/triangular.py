@@ -29,6 +29,7 @@ from geartrain.cli.common import (
     tell,
 )
 from geartrain.cli.long_runs import progress
+from geartrain.cli.mesh.best_sizes import SizeQuestion, read_start
 from geartrain.cli.mesh.form_options import FormOptions, form_command, option_name, pair_in_mesh, read_form, two_wheels
 from geartrain.cli.mesh.wheel_profile import (
     FINE,
@@ -51,8 +52,10 @@ if TYPE_CHECKING:
     from geartrain.teeth.triangular.triangular_mesh import TriangularMesh
     from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
 
-VARIED = (*(name for name in Triangular.model_fields if name not in ("form", "radii")), "friction", "z1", "z2")
+VARIED = (*(name for name in Triangular.model_fields if name != "form"), "friction", "z1", "z2")
 """What can be varied: what the form declares by one number, and what a pair has besides."""
+_KEPT = ("half_angle", "radii")
+"""Of the form, what stays as it is where a clearance is varied."""
 _PAIR = ("friction", "z1", "z2")
 
 
@@ -81,14 +84,15 @@ class TriangularOptions:
         try:
             mesh = pair_in_mesh(form, wheels, None, self.driver)
         except GearTrainError as error:
-            given = next((name for name in VARIED[1:-3] if self.own[name] is not None), "clearance")
+            clearances = (name for name in self.own if name not in _KEPT and self.own[name] is not None)
+            given = next(clearances, "clearance")
             raise at_option(error, "--teeth" if min(z1, z2) < FEWEST else option_name(given)) from None
         assert isinstance(mesh, TriangularMesh)
         return replace(mesh, law=mesh.law.turned_back()) if self.backwards else mesh
 
     def form(self, varied: Mapping[str, str]) -> ToothForm:
         """The tooth form with some options replaced; one clearance that is varied replaces whatever is given."""
-        fixed = ("half_angle", "radii") if set(varied) - {"half_angle"} else tuple(self.own)
+        fixed = _KEPT if set(varied) - {*_KEPT} else tuple(self.own)
         return read_form(Triangular, {name: self.own[name] for name in fixed} | dict(varied), "--radii")
 
 
@@ -190,7 +194,21 @@ def _run(
         list[str] | None,
         typer.Option("--vary", help=f"NAME=FIRST:LAST:COUNT, once or twice; NAME is one of {', '.join(VARIED)}."),
     ] = None,
-    plot: Annotated[Path | None, typer.Option("--plot", help="Draw the law, or the sweep, to this file.")] = None,
+    best: Annotated[
+        str | None,
+        typer.Option("--best", help="Find the sizes with least loss, error or impact, or widest margin before a jam."),
+    ] = None,
+    free: Annotated[
+        list[str] | None,
+        typer.Option("--free", help="With --best: NAME or NAME=LOW:HIGH of radii, window, half_angle; default radii."),
+    ] = None,
+    within: Annotated[
+        list[str] | None,
+        typer.Option("--within", help="With --best: NAME=LIMIT of loss, error, impact, jam, window_width, play."),
+    ] = None,
+    plot: Annotated[
+        Path | None, typer.Option("--plot", help="Draw the law, the sweep, or the designs of --best to this file.")
+    ] = None,
     teeth_plot: Annotated[Path | None, typer.Option("--teeth-plot", help="Draw the wheels in contact.")] = None,
     at: Annotated[str | None, typer.Option("--at", help="alpha_1 at which the wheels are drawn.")] = None,
     profile: Profile = None,
@@ -210,6 +228,9 @@ def _run(
     outlined = profile_sink(profile, force)
     check_distinct_outputs(to, outlined, picture, drawing)
     size = None if module is None else quantity("--module", module, "length", least="above 0")
+    asked = SizeQuestion(best, tuple(free or ()), tuple(within or ()))
+    if asked.is_one({"--vary": vary, "--teeth-plot": teeth_plot}):
+        asked.answer(read_start(teeth, own, read_friction(friction), driver), to, picture, json)
     pair = TriangularOptions(teeth, own, size, friction, driver, backwards)
     if vary:
         _check_one_pair({"--teeth-plot": teeth_plot, "--profile": profile})

@@ -25,6 +25,7 @@ _ONE_OR_TWO = {
     "anyOf": [{"type": "string"}, {"type": "array", "items": {"type": "string"}, "minItems": 2, "maxItems": 2}]
 }
 FEWEST = 3
+_UNLIKE = 10  # how far radii may be from the ratio of their teeth
 _THINNEST = 0.001 / 360  # turn: thinner teeth are lines, whose valleys are lost in rounding
 TRIANGULAR_SCOPE = (
     "the model covers external pairs of spur wheels, no rings, racks or bevels; a contrate is taken for a spur wheel"
@@ -68,9 +69,10 @@ class Triangular(ToothForm):
     window: Figure | None = Field(
         None, description="Where between jamming (0) and losing contact (1) the clearance lies"
     )
-    radii: Literal["equal_depth", "pitch_true"] | tuple[Length, Length] = Field(
+    radii: Literal["equal_depth", "pitch_true"] | tuple[Length, Length] | Figure = Field(
         "equal_depth",
-        description="How the outer radii follow from the tooth numbers, or the two radii themselves",
+        description="How the outer radii follow from the tooth numbers, or the two radii themselves, or one number: "
+        "the second over the first, in the ratio of their teeth (1 is pitch_true)",
     )
 
     @model_validator(mode="after")
@@ -116,9 +118,17 @@ class Triangular(ToothForm):
                 )
 
     def _check_lengths(self) -> None:
+        if isinstance(self.radii, Figure) and not 1 / _UNLIKE <= self.radii.value <= _UNLIKE:
+            raise PydanticCustomError(
+                "radii",
+                "a ratio of radii of {text} is out of range",
+                {
+                    "text": self.radii.text,
+                    "fix": "write the second radius over the first in the ratio of teeth, near 1",
+                },
+            )
         lengths = {"backlash": self.backlash, "centre_distance": self.centre_distance}
-        if not isinstance(self.radii, str):
-            lengths |= {"first radius": self.radii[0], "second radius": self.radii[1]}
+        lengths |= dict(zip(("first radius", "second radius"), self._given_radii, strict=False))
         given = {name: length for name, length in lengths.items() if length is not None}
         for name, length in given.items():
             if length.value < 0 or (name != "backlash" and length.value == 0):
@@ -137,8 +147,13 @@ class Triangular(ToothForm):
     @property
     def has_lengths(self) -> bool:
         """True for teeth declared in units of length."""
-        radii = () if isinstance(self.radii, str) else self.radii
-        return any(length is not None and length.unit for length in (self.centre_distance, self.backlash, *radii))
+        lengths = (self.centre_distance, self.backlash, *self._given_radii)
+        return any(length is not None and length.unit for length in lengths)
+
+    @property
+    def _given_radii(self) -> tuple[Length, ...]:
+        """The two radii, where they are given as lengths."""
+        return self.radii if isinstance(self.radii, tuple) else ()
 
     def in_metres(self, module: float | None) -> bool:
         """Whether the lengths of `sizes` are in m.
@@ -219,12 +234,14 @@ class Triangular(ToothForm):
             R1, R2 = pitch_true(z1, z2)
         elif self.radii == "equal_depth":
             R1, R2 = equal_depth(z1, z2, beta1, beta2)
+        elif isinstance(self.radii, Figure):
+            R1, R2 = 1.0, float(self.radii.value) * z2 / z1
         else:
             R1, R2 = (radius.si for radius in self.radii)
         sizes = TriangularSizes(z1, z2, R1, R2, beta1, beta2, 0.0)
         if not sizes.has_valleys:
             return sizes.at(self._factor())
-        if isinstance(self.radii, str) and pitch_distance is not None:
+        if not self._given_radii and pitch_distance is not None:
             scale = pitch_distance / sizes.least_distance
             sizes = TriangularSizes(z1, z2, R1 * scale, R2 * scale, beta1, beta2, 0.0)
         if self.clearance is not None or self.excess is not None:
@@ -234,7 +251,7 @@ class Triangular(ToothForm):
             return sizes.at(window.at(float(self.window.value)))
         length = self.centre_distance or self.backlash
         assert length is not None
-        if isinstance(self.radii, str) and (pitch_distance is None or length.unit is None):
+        if not self._given_radii and (pitch_distance is None or length.unit is None):
             raise refused(
                 f"the length {length.text} has nothing to be compared with",
                 "neither radii nor modules with a unit give these wheels a size",

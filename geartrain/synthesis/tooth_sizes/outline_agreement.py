@@ -1,0 +1,80 @@
+"""A design of triangular teeth judged by the contact of its drawn outlines, which knows nothing of their law."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import cos, sin
+from typing import TYPE_CHECKING
+
+from geartrain.numerics.plain_data import Result
+from geartrain.synthesis.tooth_sizes.size_design import ToothSizes, impact_of
+from geartrain.teeth.outline_transmission import OutlineGears, OutlineTransmission
+
+if TYPE_CHECKING:
+    from geartrain.numerics.arrays import Floats
+    from geartrain.teeth.contact import GearOutline
+    from geartrain.teeth.triangular.pair_geometry import TriangularSizes
+
+
+@dataclass(frozen=True)
+class OutlineAgreement(Result):
+    """What the contact of two drawn outlines says of a design, beside what its law says.
+
+    Attributes
+    ----------
+    loss, error, impact, play : tuple of float
+        By the law, and by the outlines; in the units of `ToothSizes`.
+    turns : bool
+        The outlines turn without a jam and without losing contact.
+
+    See Also
+    --------
+    find_tooth_sizes : confirms its answer so.
+    """
+
+    KEYS = ("turns", "loss", "error", "impact", "play", "difference")
+
+    loss: tuple[float, float]
+    error: tuple[float, float]
+    impact: tuple[float, float]
+    play: tuple[float, float]
+    turns: bool
+
+    @property
+    def difference(self) -> float:
+        """The greatest difference of the two, over the greater of them."""
+        pairs = (self.loss, self.error, self.impact, self.play)
+        return max(abs(a - b) / max(abs(a), abs(b), 1e-12) for a, b in pairs)
+
+
+def outline_law(sizes: TriangularSizes, friction: float) -> OutlineTransmission:
+    """The law of the drawn outlines of a pair, its first wheel driving."""
+    first = _outline(sizes.z1, sizes.R1, sizes.beta1, sizes.flanks[0])
+    second = _outline(sizes.z2, sizes.R2, sizes.beta2, sizes.flanks[1])
+    # teeth drawn about their middles: the driven angle is counted from there, and nothing is added to the play
+    return OutlineTransmission(OutlineGears(first, second, sizes.D, 0.0, 0.0), friction)
+
+
+def confirm_by_outlines(design: ToothSizes) -> OutlineAgreement:
+    """Whether the outlines of a design that turns do what its law says."""
+    law = outline_law(design.sizes, design.friction)
+    low, high = law.error_range()
+    return OutlineAgreement(
+        (design.loss, 1 - law.efficiency_mean()),
+        (design.error, high - low),
+        (design.impact, impact_of(law)),
+        (design.play, law.verdict.play),
+        bool(law.verdict),
+    )
+
+
+def _outline(z: int, R: float, beta: float, length: float) -> GearOutline:
+    """A wheel of teeth with straight flanks from tips at R."""
+    import numpy as np
+
+    from geartrain.teeth.contact import GearOutline, OutlineCurve, ToothFlanks
+
+    def points(s: Floats) -> Floats:
+        return np.stack([s * sin(beta), R - s * cos(beta)], axis=1)
+
+    return GearOutline((ToothFlanks.symmetric((OutlineCurve(points, 0.0, length),)),), z)

@@ -1,0 +1,246 @@
+"""A design of a pair with triangular teeth, and what is asked of it: loss, error, impact, margin before a jam."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from functools import cached_property
+from math import inf, isnan
+from typing import TYPE_CHECKING
+
+from geartrain.errors import GearTrainError
+from geartrain.numerics.plain_data import Key, Result
+from geartrain.teeth.triangular.clearance_window import ClearanceWindow, find_window
+from geartrain.teeth.triangular.pair_geometry import TriangularSizes, equal_depth
+from geartrain.teeth.triangular.parameter_sweep import phases_of
+from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
+
+if TYPE_CHECKING:
+    from geartrain.teeth.transmission import TransmissionFunction
+
+PARAMETERS = ("radii", "window", "half_angle")
+"""What of a design can be free; `half_angle` is that of both wheels."""
+AIMS = ("loss", "error", "impact", "jam")
+"""What a design can be best in; of `jam` the margin before it is wanted large, of the others the figure small."""
+
+
+def equal_depth_radii(z1: int, z2: int, half_angles: tuple[float, float]) -> float:
+    """R2/R1 over z2/z1 of teeth of equal depth, Eq. (3) of Sorge."""
+    R1, R2 = equal_depth(z1, z2, *half_angles)
+    return R2 / R1 * z1 / z2
+
+
+def impact_of(law: TransmissionFunction) -> float:
+    """The sum of (tau+ - tau-)^2 over the collisions of a pitch, over the square of the mean of tau.
+
+    What the inelastic collisions of one pitch dissipate, docs/motion.md (7), over the energy of the driven side.
+    """
+    leaps = [leap.after - leap.before for leap in law.speed_leaps() or ()]
+    return float(sum(leap * leap for leap in leaps)) / float(law.ratio) ** 2
+
+
+@dataclass(frozen=True)
+class ToothSizes(Result):
+    """A pair with triangular teeth whose radii, clearance and half angles are chosen, and its figures.
+
+    Attributes
+    ----------
+    teeth : tuple of int
+        Teeth of the first and the second wheel.
+    radii : float
+        Outer radius of the second wheel over that of the first, over the ratio of their teeth; 1 is pitch-true.
+    window : float
+        Where the clearance lies between jamming (0) and losing contact (1).
+    half_angles : tuple of float
+        Of both wheels [rad].
+    friction : float
+        Coefficient of friction.
+    driver : {1, 2}
+        Which wheel drives.
+
+    See Also
+    --------
+    find_tooth_sizes : the best of them.
+
+    Examples
+    --------
+    >>> from math import pi
+    >>> chosen = ToothSizes((48, 96), 0.98, 0.5, (pi / 6, pi / 6), 0.2)
+    >>> round(chosen.loss, 5), round(chosen.loss_at_constant_load, 5), chosen.phases
+    (0.00944, 0.00945, 'astride')
+    """
+
+    KEYS = (
+        *("radii", "window", "half_angles", Key("clearance", "clearance_factor")),
+        *("loss", "loss_at_constant_load", "error", "impact", "jam", "play", "window_width", "phases"),
+    )
+
+    teeth: tuple[int, int]
+    radii: float
+    window: float
+    half_angles: tuple[float, float]
+    friction: float
+    driver: int = 1
+
+    def at(self, parameters: Mapping[str, float]) -> ToothSizes:
+        """The design with some parameters of `PARAMETERS` replaced.
+
+        Parameters
+        ----------
+        parameters : mapping of str to float
+            Their values by name; angles in rad.
+        """
+        angle = parameters.get("half_angle")
+        return replace(
+            self,
+            radii=parameters.get("radii", self.radii),
+            window=parameters.get("window", self.window),
+            half_angles=self.half_angles if angle is None else (angle, angle),
+        )
+
+    def parameter(self, name: str) -> float:
+        """One of `PARAMETERS`; of two half angles the first.
+
+        Parameters
+        ----------
+        name : str
+            Which of them.
+        """
+        return self.half_angles[0] if name == "half_angle" else float(getattr(self, name))
+
+    @cached_property
+    def _unplaced(self) -> TriangularSizes:
+        z1, z2 = self.teeth
+        return TriangularSizes(z1, z2, 1.0, self.radii * z2 / z1, *self.half_angles, 0.0)
+
+    @cached_property
+    def limits(self) -> ClearanceWindow | None:
+        """The window of clearance; None where there are no such teeth."""
+        try:
+            return find_window(self._unplaced) if self._unplaced.has_valleys else None
+        except GearTrainError:
+            return None
+
+    @cached_property
+    def law(self) -> TriangularTransmission | None:
+        """The transmission function; None where no clearance lets the pair turn."""
+        if self.limits is None or not self.limits:
+            return None
+        sizes = self._unplaced.at(self.limits.at(self.window))
+        return TriangularTransmission(sizes if self.driver == 1 else sizes.swapped(), self.friction)
+
+    @property
+    def runs(self) -> bool:
+        """True for a pair that turns, and that friction does not lock."""
+        return self.law is not None and bool(self.law.verdict) and self.law.friction < self.law.locking_friction
+
+    @property
+    def sizes(self) -> TriangularSizes:
+        """Radii and centre distance of a pair that turns, the driver first."""
+        assert self.law is not None
+        return self.law.sizes
+
+    @property
+    def clearance_factor(self) -> float:
+        """Centre distance over its least."""
+        return 1 + self.sizes.excess
+
+    @cached_property
+    def loss(self) -> float:
+        """1 less the mean efficiency at constant driver torque, Eq. (34) of Sorge."""
+        assert self.law is not None
+        return 1 - self.law.efficiency_mean()
+
+    @cached_property
+    def loss_at_constant_load(self) -> float:
+        """1 less the mean efficiency at constant load torque."""
+        assert self.law is not None
+        return 1 - self.law.efficiency_at_constant_load()
+
+    @cached_property
+    def error(self) -> float:
+        """Transmission error, peak to peak [rad of the driven wheel]."""
+        assert self.law is not None
+        low, high = self.law.error_range()
+        return high - low
+
+    @cached_property
+    def impact(self) -> float:
+        """What collisions dissipate in a pitch, over the kinetic energy of the driven side."""
+        assert self.law is not None
+        return impact_of(self.law)
+
+    @cached_property
+    def jam(self) -> float:
+        """The margin before a jam or a loss of contact [module]: by so much the axes may come nearer or part."""
+        assert self.limits is not None
+        sizes, nearest = self.sizes, min(self.window, 1 - self.window)
+        module = 2 * sizes.D / (sizes.z1 + sizes.z2)
+        return nearest * (self.limits.run - self.limits.jam) * sizes.least_distance / module
+
+    @property
+    def window_width(self) -> float:
+        """Greatest less least clearance factor at which the pair turns."""
+        assert self.limits is not None
+        return self.limits.run - self.limits.jam
+
+    @property
+    def play(self) -> float:
+        """Least play of the back flanks [rad of the driven wheel]."""
+        assert self.law is not None
+        return self.law.verdict.play
+
+    @property
+    def phases(self) -> str:
+        """The phases of the real path."""
+        assert self.law is not None
+        return phases_of(self.law)
+
+    def merit(self, aim: str) -> float:
+        """The figure of an aim, small where the design is good; infinite for a pair that does not turn.
+
+        Parameters
+        ----------
+        aim : str
+            One of `AIMS`.
+        """
+        if aim == "jam":
+            return inf if self.law is None else -self.jam
+        if not self.runs:
+            return inf
+        found = float(getattr(self, aim))
+        return inf if isnan(found) else found
+
+
+@dataclass(frozen=True)
+class SizeLimit(Result):
+    """What a design has to keep: `loss`, `error`, `impact` at most, `jam`, `window_width`, `play` at least.
+
+    Attributes
+    ----------
+    figure : str
+        Which figure of `ToothSizes`.
+    bound : float
+        Its limit, in the unit of the figure.
+
+    See Also
+    --------
+    find_tooth_sizes : takes them.
+    """
+
+    figure: str
+    bound: float
+
+    LEAST = ("jam", "window_width", "play")
+    FIGURES = ("loss", "error", "impact", *LEAST)
+
+    def excess(self, sizes: ToothSizes) -> float:
+        """By how much a design that turns misses it; 0 or less where it is kept.
+
+        Parameters
+        ----------
+        sizes : ToothSizes
+            The design.
+        """
+        found = float(getattr(sizes, self.figure))
+        return self.bound - found if self.figure in self.LEAST else found - self.bound

@@ -93,8 +93,8 @@ class ToothSizes(Result):
         angle = parameters.get("half_angle")
         return replace(
             self,
-            radii=parameters.get("radii", self.radii),
-            window=parameters.get("window", self.window),
+            radii=float(parameters.get("radii", self.radii)),
+            window=float(parameters.get("window", self.window)),
             half_angles=self.half_angles if angle is None else (angle, angle),
         )
 

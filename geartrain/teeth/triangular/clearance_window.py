@@ -11,6 +11,7 @@ from typing import Literal
 
 from geartrain.numerics.roots import bracketed_root, root
 from geartrain.teeth.pair_verdict import PairVerdict
+from geartrain.teeth.tooth_form import refused
 from geartrain.teeth.triangular.pair_geometry import TriangularSizes
 from geartrain.teeth.triangular.real_path import STANDSTILL, DriveInterval, RealPath
 from geartrain.teeth.triangular.standstill import DraggedPath, drag
@@ -306,3 +307,22 @@ def _first_sign_change(value: Callable[[float], float], low: float, reach: float
             return root(value, low, high, at_low, at_high)
         low, at_low = high, at_high
     return reach
+
+
+def excess_of_backlash(sizes: TriangularSizes, backlash: float, text: str) -> float:
+    """The excess whose least play, on the second wheel's pitch circle, is `backlash`; play only grows with excess."""
+
+    def play(excess: float) -> float:
+        D = (1 + excess) * sizes.least_distance
+        return TriangularContact(sizes.at(excess)).play * D * sizes.z2 / (sizes.z1 + sizes.z2)
+
+    # at the greatest excess itself tips do not touch, and there is no play
+    low, high = 0.0, sizes.greatest_excess * (1 - 1e-9)
+    least, most = play(low), play(high)
+    if not least <= backlash <= most:
+        raise refused(
+            f"no clearance gives a backlash of {text}",
+            f"these teeth have from {max(least, 0):.6g} to {most:.6g} (in m, or the plain unit)",
+            "give a backlash between the two",
+        )
+    return root(lambda excess: play(excess) - backlash, low, high, least - backlash, most - backlash)

@@ -223,6 +223,7 @@ class Triangular(ToothForm):
         GearTrainError
             Where the declaration gives no pair that can be built.
         """
+        from geartrain.teeth.triangular.clearance_window import excess_of_backlash
         from geartrain.teeth.triangular.pair_geometry import TriangularSizes, equal_depth, pitch_true
 
         for z in (z1, z2):
@@ -259,7 +260,7 @@ class Triangular(ToothForm):
             )
         if self.centre_distance is not None:
             return sizes.at(self.centre_distance.si / sizes.least_distance - 1)
-        return sizes.at(_excess_of_backlash(sizes, length.si, length.text))
+        return sizes.at(excess_of_backlash(sizes, length.si, length.text))
 
     def _factor(self) -> float:
         """The declared excess, taken exactly before it is rounded."""
@@ -328,24 +329,3 @@ def sizes_window(sizes: TriangularSizes) -> ClearanceWindow:
             "use more teeth, a ratio nearer to 1, or another half_angle",
         )
     return window
-
-
-def _excess_of_backlash(sizes: TriangularSizes, backlash: float, text: str) -> float:
-    """The excess whose least play, on the second wheel's pitch circle, is `backlash`; play only grows with excess."""
-    from geartrain.numerics.roots import root
-    from geartrain.teeth.triangular.clearance_window import TriangularContact
-
-    def play(excess: float) -> float:
-        D = (1 + excess) * sizes.least_distance
-        return TriangularContact(sizes.at(excess)).play * D * sizes.z2 / (sizes.z1 + sizes.z2)
-
-    # at the greatest excess itself tips do not touch, and there is no play
-    low, high = 0.0, sizes.greatest_excess * (1 - 1e-9)
-    least, most = play(low), play(high)
-    if not least <= backlash <= most:
-        raise refused(
-            f"no clearance gives a backlash of {text}",
-            f"these teeth have from {max(least, 0):.6g} to {most:.6g} (in m, or the plain unit)",
-            "give a backlash between the two",
-        )
-    return root(lambda excess: play(excess) - backlash, low, high, least - backlash, most - backlash)

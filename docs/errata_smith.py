@@ -7,6 +7,7 @@ from math import cos, pi, radians, sin
 from typing import Any
 
 import numpy as np
+from sources import smith as note
 
 from geartrain.teeth.conjugate import optimal_sides as forms
 from geartrain.teeth.conjugate.path_of_contact import PathContact, PathOfContact
@@ -61,6 +62,17 @@ def smith() -> Iterator[str]:
             ("(63)", "a square over a sum of twelve terms", "linear in r''; its sign is turned, too"),
             ("(64)", "a differential equation of the fourth order", "of the second, with a closed solution"),
             ("footnote 6", "45 deg makes involutes most efficient", "at one height of tooth; at one arc all are equal"),
+            ("section 6", "cycloids supposedly have less friction than involutes", "at the same arcs they have more"),
+            (
+                "section 15",
+                "n contacts that share the force leave W as it is",
+                "each place of a tooth bears less",
+            ),
+            (
+                "section 21",
+                "uniform stress and temperature plausibly have the least greatest stress and temperature",
+                "not without a bound on the pressure angle",
+            ),
         ],
     )
     yield "What shows them, on 24 and 36 teeth with 20 degree involutes, so many pitches after the pitch point:"
@@ -69,6 +81,8 @@ def smith() -> Iterator[str]:
     yield from long_ones()
     yield from losses()
     yield from racks()
+    yield from profiles()
+    yield from claims()
 
 
 def places() -> Iterator[str]:
@@ -161,3 +175,40 @@ def racks() -> Iterator[str]:
     yield "**Footnote 6**, J of a rack, height or arc being 1 module:"
     yield ""
     yield from table(("pressure angle (deg)", "at one height", "at one arc"), body)
+
+
+def profiles() -> Iterator[str]:
+    """Equations with an erratum, on finished profiles: as printed, and mended."""
+    rows: tuple[tuple[str, tuple[float, float]], ...] = (
+        ("(8), first, bevel", (note.eq_8(1.0), note.eq_8(-1.0))),
+        ("(11), first", (note.eq_11(-1.0), note.eq_11(1.0))),
+        ("(22), bevel", (note.eq_22(1.0), note.eq_22(-1.0))),
+        ("(23)", (note.eq_23(1.0), note.eq_23(-1.0))),
+        ("(33)", note.cosine_of_phi("spur")),
+        ("(35), bevel", (note.spherical_centres(1, -1.0), note.spherical_centres(1))),
+        ("(38), bevel", note.cosine_of_phi("bevel")),
+        ("(42), bevel", note.speed_of_contact("bevel")),
+        ("(44), (45)", note.speed_of_contact("spur")),
+        ("(51), spread of the form factor", note.losses("spur")),
+        ("(52), the same, bevel", note.losses("bevel")),
+        ("(56)", note.long_one(56)),
+        ("(63)", note.long_one(63)),
+        ("(64), by how much the third and fourth derivative of r change it", note.order_of_64()),
+    )
+    yield "**On finished profiles** of 24 and 36 teeth, spur and bevel, from points of the two teeth alone: the"
+    yield "greatest difference of both sides of an equation, in parts of its size, as printed and mended:"
+    yield ""
+    mended = ["below 1e-6" if value[1] < 1e-6 else f"{value[1]:.0e}" for _, value in rows]
+    body = [(name, f"{value[0]:.2g}", last) for (name, value), last in zip(rows, mended, strict=True)]
+    yield from table(("equation", "as printed", "mended"), body)
+
+
+def claims() -> Iterator[str]:
+    """Sections 6, 15 and 21."""
+    yield f"**Section 6**, cycloids of 24 and 36 teeth: {note.cycloids_rub().text} as involutes."
+    yield ""
+    yield f"**Section 15**, work of one engagement of involutes of 24 and 36 teeth, {note.shared_work().text}."
+    yield ""
+    yield "**Section 21**, 24 and 36 teeth, half a pitch to either side. Stress: "
+    yield f"{note.least_height('stress').text}. Heat: {note.least_height('temperature').text}."
+    yield ""

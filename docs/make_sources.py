@@ -10,11 +10,11 @@ from collections import Counter
 from collections.abc import Iterator
 from pathlib import Path
 
-from sources import pennestri, sorge, sphere
+from sources import pennestri, smith_rows, sorge, sphere
 from sources.row import ERRATUM, VERDICTS, Row, Source
 
 PAGE = Path(__file__).resolve().parent / "sources.md"
-SOURCES: tuple[Source, ...] = (sorge.SOURCE, pennestri.SOURCE, sphere.SOURCE)
+SOURCES: tuple[Source, ...] = (sorge.SOURCE, pennestri.SOURCE, smith_rows.SOURCE, sphere.SOURCE)
 
 
 def page() -> str:

@@ -1,6 +1,7 @@
 """The equations of W. D. Smith, Optimal shapes for gears (1993): those that hold hold, those that fail fail as told.
 
-Everything is read off points of finished profiles (tests/smith.py), or taken at random arguments in 40 digits.
+Everything is read off points of finished profiles (docs/sources/smith_profiles.py), or taken at random arguments in 40
+digits.
 """
 
 from __future__ import annotations
@@ -14,7 +15,7 @@ import numpy as np
 import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
-from smith import (
+from sources.smith_profiles import (
     Seen,
     big_M,
     corrected_56,

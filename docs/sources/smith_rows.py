@@ -1,0 +1,373 @@
+"""The rows of W. D. Smith's note, in the order of its text; what they ask is worked out in `sources.smith`."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from sources import smith
+from sources.row import Digits, Equal, Holds, Judge, Mended, Row, Source, outside
+from sources.smith import BOTH, ONCE, TWICE
+from sources.ways import Call
+
+HISTORY = "history: nothing to compute"
+DATUM = "a measurement that the note quotes, not computed"
+
+
+def call(expression: str) -> Call:
+    """An expression with the names of `sources.smith`."""
+    return Call(expression, vars(smith))
+
+
+def words(place: str, claim: str, expression: str, erratum: str = "", why: str = "") -> Row:
+    """A claim in words."""
+    return Row(place, claim, "", call(expression), Holds(), erratum, why)
+
+
+def equation(place: str, claim: str, expression: str, judge: Judge, erratum: str = "", why: str = "") -> Row:
+    """An equation, both sides worked out."""
+    return Row(place, claim, "", call(expression), judge, erratum, why)
+
+
+def digits(place: str, claim: str, printed: str, expression: str, why: str = "") -> Row:
+    """A number right at its digits."""
+    return Row(place, claim, printed, call(expression), Digits(), why=why)
+
+
+def introduction() -> Iterator[Row]:
+    """Sections 1 to 7."""
+    yield outside("Eq. (1)", "friction is mu times the normal force", "an assumption; `friction` of a train is this mu")
+    yield outside(
+        "Theorem 1",
+        "only cones with one apex and parallel cylinders roll without sliding along a curve",
+        "a proof on surfaces; trains here have parallel or meeting axes, and worms apart",
+    )
+    yield outside(
+        "Section 2, efficiencies",
+        "97-99.7 % for bevel and spur wheels, 50-95 % for others",
+        DATUM + "; of teeth alone, without bearings and oil: `geartrain mesh involute --teeth 24 36 --friction 0.05`",
+    )
+    yield outside("Section 2, hyperboloids", "the general case, with its generatrix", "crossed axes are not built here")
+    yield outside("Section 3", "terms", "definitions; the [glossary](glossary.md) has ours")
+    for kind, number in (("spur", 2), ("bevel", 3)):
+        yield equation(
+            f"Eq. ({number})",
+            f"angle between radius and tooth, {kind}",
+            f"off('{kind}', cosine_of_psi, lambda v: v.slope[0] / v.along(1))",
+            Equal(ONCE),
+        )
+    yield outside("Section 4", "gears of 280 B.C., Archimedes, Desargues, La Hire, Euler, Savary, Sang", HISTORY)
+    yield outside("Section 4, wreck", "65 +- 15 B.C., more than 20 bronze gears", HISTORY)
+    yield outside("Footnote 2", "harmonic drives of 50-320 to 1, 80-90 %", DATUM)
+    yield words("Section 5", "teeth keep their ratio if the normal goes through the pitch point", "law_of_gearing()")
+    yield equation(
+        "Eq. (4)",
+        "the curve of constant torque ratio: modified normals at one distance from the centre",
+        "eq_4()",
+        Equal(ONCE),
+    )
+    yield equation("Section 6, involute", "theta = sqrt((r/r0)^2 - 1) - arccos(r0/r)", "strings('spur')", Equal(ONCE))
+    yield equation("Eq. (5)", "involute on the sphere", "strings('bevel')", Equal(ONCE))
+    yield equation(
+        "Section 6, cycloid",
+        "contact runs on the generating circle, its normal turns half as fast as it",
+        "cycloid_normal()",
+        Equal(ONCE),
+    )
+    yield equation(
+        "Section 6, line",
+        "the contact of involutes runs on a straight line at constant speed",
+        "involute_line()",
+        Equal(ONCE),
+    )
+    yield words(
+        "Section 6, clocks", "cycloids supposedly have less friction than involutes", "cycloids_rub()", "| section 6 |"
+    )
+    for form in ("involute", "cycloid"):
+        yield words(f"Section 6, {form}s", "need no matched pair: any size mates with any", f"same_flank('{form}')")
+    yield words("Section 7, force", "involutes alone transmit a constant force", "steady_force()")
+    yield words("Section 7, spacing", "involutes alone run well at other distances", "spacing()")
+    yield words("Section 7, contacts", "more than 1.4 contacts on the mean have been made", "contact_number()")
+    yield outside(
+        "Section 7, few teeth",
+        "cycloids work with one or two teeth",
+        "geartrain wants three teeth a wheel at least, and says so",
+    )
+
+
+def conjugates() -> Iterator[Row]:
+    """Sections 8 to 11."""
+    yield equation(
+        "Eq. (6)",
+        "where a given bevel gear touches",
+        "off('bevel', eq_6, lambda v: np.sin(v.r[1]) / tan(v.R2))",
+        Equal(ONCE),
+    )
+    yield equation(
+        "Eq. (7), s",
+        "sin s",
+        "off('bevel', lambda v: np.sin(gamma(v)) / np.cos(v.psi(2)) * sin(v.R2), lambda v: -np.sin(v.s))",
+        Equal(ONCE),
+    )
+    yield equation(
+        "Eq. (7), phi",
+        "sin phi",
+        "off('bevel', lambda v: np.sin(v.r[1]) / sin(v.R2) * np.cos(v.psi(2)), lambda v: v.sin_phi)",
+        Equal(ONCE),
+    )
+    yield equation("Eq. (8), first", "cos r1 of the mate", "(eq_8(1.0), eq_8(-1.0))", Mended(), "| (8), first |")
+    yield equation(
+        "Eq. (8), second",
+        "tan(w1 t + theta1)",
+        "off('bevel', lambda v: v.sin_phi / (np.sin(v.R1) / np.tan(v.s) + np.cos(v.R1) * v.cos_phi), "
+        "lambda v: np.tan(v.turned[0]))",
+        Equal(),
+    )
+    yield equation(
+        "Eq. (9)",
+        "where a given spur gear touches",
+        "off('spur', lambda v: np.cos(gamma(v)) + np.sin(gamma(v)) * np.tan(v.psi(2)), lambda v: v.r[1] / v.R2)",
+        Equal(ONCE),
+    )
+    yield equation(
+        "Eq. (10), s",
+        "s",
+        "off('spur', lambda v: np.sin(gamma(v)) / np.cos(v.psi(2)) * v.R2, lambda v: -v.s)",
+        Equal(ONCE),
+    )
+    yield equation(
+        "Eq. (10), phi",
+        "sin phi",
+        "off('spur', lambda v: v.r[1] / v.R2 * np.cos(v.psi(2)), lambda v: v.sin_phi)",
+        Equal(ONCE),
+    )
+    yield equation("Eq. (11), first", "the square of r1", "(eq_11(-1.0), eq_11(1.0))", Mended(), "| (11), first |")
+    yield equation(
+        "Eq. (11), second",
+        "tan(w1 t + theta1)",
+        "off('spur', lambda v: v.s * v.sin_phi / (v.R1 + v.s * v.cos_phi), lambda v: np.tan(v.turned[0]))",
+        Equal(),
+    )
+    for number, what in (
+        (12, "C(t) of a pin gear"),
+        (13, "the contact"),
+        (14, "the mate's r and theta"),
+        (15, "its r, in full"),
+        (16, "its theta, in full"),
+    ):
+        yield equation(f"Eq. ({number})", what, "pins()", Equal())
+    yield outside(
+        "Theorems 2, 3",
+        "gears of one symmetric rack mate with each other",
+        "a local proof; what follows from it is seen on the flanks in section 6 above",
+    )
+    for theorem, shape in (("10", "friction"), ("11", "temperature")):
+        yield words(
+            f"Section 9, Don Juan, {shape}",
+            f"the gear of theorem {theorem} is the same for every mate",
+            f"same_flank('{shape}')",
+        )
+    yield words("Section 9, not Don Juan", "the gear of theorem 8 is not", "not_one_flank()")
+    yield outside(
+        "Section 9, steady heat",
+        "a gear whose rate of heat is constant could be had",
+        "the note gives it no use; no such form is offered",
+    )
+    yield equation("Eq. (17)", "sliding by r and psi, spur", "sliding('spur')", Equal(ONCE))
+    yield equation("Eq. (18)", "sliding by r and psi, bevel", "sliding('bevel')", Equal(ONCE))
+    yield equation(
+        "Eq. (19)",
+        "sliding by s, bevel",
+        "of_path('bevel', lambda v: rate(v) * np.sin(v.s), lambda c: c.U1 - c.U2)",
+        Equal(ONCE),
+    )
+    yield equation(
+        "Eq. (20)", "sliding by s, spur", "of_path('spur', lambda v: rate(v) * v.s, lambda c: c.U1 - c.U2)", Equal(ONCE)
+    )
+    yield equation("Eq. (21)", "cos R1 by r1, s and psi1", "eq_21()", Equal(ONCE))
+    yield equation("Eq. (22)", "sin s, upper sign", "(eq_22(1.0), eq_22(-1.0))", Mended(ONCE), "| (22), (23) |")
+    yield equation("Eq. (23)", "s, upper sign", "(eq_23(1.0), eq_23(-1.0))", Mended(ONCE), "| (22), (23) |")
+    yield words(
+        "Theorem 4", "sliding is unavoidable, 0 at the pitch point only, where it turns round", "sliding_turns()"
+    )
+    yield outside("Section 10, bearings", "pins with ball bearings, belts", "not teeth")
+    for place, what, printed in (
+        ("Dokos, slow", "mu of dry steel", "0.53"),
+        ("Dokos, fast", "mu at 10^7 times the speed", "0.18"),
+        ("teflon", "mu of teflon on teflon", "0.04"),
+        ("soap", "mu of metals with stearic acid", "0.05"),
+        ("Buckingham, 150 ft/min", "mu of cast iron in oil", "0.0112"),
+        ("Buckingham, 2100 ft/min", "the same", "0.0385"),
+        ("Buckingham, stationary", "the same", "0.0517"),
+        ("Dudley, least", "mu over oils and speeds", "0.017"),
+        ("Dudley, greatest", "the same", "0.061"),
+    ):
+        yield outside(f"Section 11, {place}", what, DATUM, printed)
+    yield outside(
+        "Section 11, formulas",
+        "mu = c2 exp(-c1 sqrt V) + c3 sqrt V; V^p, p 0.51-0.60; worms V^-p, p 0.5-1",
+        "fits to measurements, without their constants",
+    )
+    yield outside("Section 11, oil", "what fails at high power", "oil is not computed")
+
+
+def curvatures() -> Iterator[Row]:
+    """Sections 12 to 14."""
+    yield equation("Eq. (24)", "ds of y(x): an eighth of a circle", "eq_24()", Equal())
+    yield equation(
+        "Eq. (25)", "ds of r(theta), from points", "off('spur', arc_rate, lambda v: v.along(1))", Equal(ONCE)
+    )
+    yield equation("Eq. (26)", "the same on the sphere", "off('bevel', arc_rate, lambda v: v.along(1))", Equal(ONCE))
+    yield equation(
+        "Eq. (27), y(x)", "radius of curvature, against circles through three points", "eq_27_first()", Equal(TWICE)
+    )
+    yield equation("Eq. (27), r(theta)", "radius of curvature of both teeth", "curvature('spur')", Equal(TWICE))
+    yield equation("Eq. (28)", "by psi and its slope", "eq_28('spur')", Equal(TWICE))
+    yield equation("Eq. (29)", "on the sphere, by r and its slopes", "curvature('bevel')", Equal(TWICE))
+    yield equation("Eq. (29), middle", "on the sphere, by psi and its slope", "eq_28('bevel')", Equal(TWICE))
+    yield equation("Eq. (30)", "both centres of curvature", "eq_30()", Equal(TWICE))
+    yield equation("Eq. (31)", "their ratio z", "eq_31()", Equal(TWICE))
+    yield equation("Eq. (32), theorem 5", "Euler and Savary's equation", "savary('spur')", Equal(TWICE))
+    yield equation("Eq. (33)", "cos phi = (r1/R1) cos psi1", "cosine_of_phi('spur')", Mended(ONCE), "| (33), (38) |")
+    yield equation("Eq. (34)", "cos A2", "spherical_centres(2)", Equal())
+    yield equation(
+        "Eq. (35)", "cos A1, with a minus", "(spherical_centres(1, -1.0), spherical_centres(1))", Mended(), "| (35) |"
+    )
+    yield equation("Eq. (36)", "both cotangents", "eq_36()", Equal(TWICE))
+    yield equation("Eq. (37), theorem 6", "Euler and Savary's equation on the sphere", "savary('bevel')", Equal(TWICE))
+    yield equation(
+        "Eq. (38)", "cos phi = (sin r1/sin R1) cos psi1", "cosine_of_phi('bevel')", Mended(ONCE), "| (33), (38) |"
+    )
+    yield equation(
+        "Eq. (39)", "four parts of the triangle of pitch point, axis, centre of curvature", "triangle(39)", Equal()
+    )
+    yield outside("Eq. (40)", "speed of the contact is sin c times the rate of alpha", "a definition; (42) follows")
+    yield equation("Eq. (41)", "the cosine law in it", "triangle(41)", Equal())
+    yield equation(
+        "Eq. (42)",
+        "speed of the contact, bevel, with c + s",
+        "speed_of_contact('bevel')",
+        Mended(TWICE),
+        "| (42), (44), (45) |",
+    )
+    yield equation("Eq. (43)", "cos A", "eq_43()", Equal(ONCE))
+    yield equation(
+        "Eq. (44)",
+        "speed of the contact, spur, with c + s",
+        "speed_of_contact('spur')",
+        Mended(TWICE),
+        "| (42), (44), (45) |",
+    )
+    yield equation(
+        "Eq. (45), theorem 7",
+        "the same with the law of cosines",
+        "speed_of_contact('spur')",
+        Mended(TWICE),
+        "| (42), (44), (45) |",
+    )
+
+
+def optima() -> Iterator[Row]:
+    """Sections 15 to 21, the six problems."""
+    yield outside("Section 15, (Wrong)", "work as an integral of force over the tooth", "given by the note as wrong")
+    yield equation(
+        "Section 15, spirals",
+        "it would give loxodromes 2 arctan(exp(theta)/2), at 45 deg to radii",
+        "spirals()",
+        Equal(TWICE),
+    )
+    yield equation("Eq. (46)", "work of friction, spur: what stands under the integral", "work('spur')", Equal(ONCE))
+    yield words(
+        "Section 15, n contacts", "n contacts that share the force leave W as it is", "shared_work()", "| section 15 |"
+    )
+    yield words("Footnote 6", "45 deg makes involutes most efficient", "heights()", "| footnote 6 |")
+    yield equation("Eq. (47)", "normal force of a torque, spur", "forces('spur')", Equal(ONCE))
+    yield equation("Eq. (48)", "normal force of a rack", "rack_force()", Equal())
+    yield equation("Eq. (49)", "normal force of a torque, bevel", "forces('bevel')", Equal(ONCE))
+    yield equation("Eq. (50)", "work of friction between two angles, bevel", "work('bevel')", Equal(ONCE))
+    yield equation(
+        "Eq. (51)",
+        "lost part: its form factor is one over pairs of spur wheels",
+        "losses('spur')",
+        Mended(ONCE),
+        "| (51), (52) |",
+    )
+    yield equation(
+        "Eq. (52)",
+        "the same of bevel wheels",
+        "losses('bevel')",
+        Mended(ONCE),
+        "| (51), (52) |",
+        "only for axes at a right angle is it the same",
+    )
+    for place, printed, key in (
+        ("saving", "33", "33"),
+        ("X", "1.932", "X"),
+        ("X^3", "7.21", "cube"),
+        ("X^2", "5.27", "two"),
+    ):
+        yield digits(
+            f"Section 16, {place}",
+            "arithmetic from (51) as printed",
+            printed,
+            f"arithmetic('{key}')",
+            "the arithmetic; what is concluded from it is the erratum below",
+        )
+    yield words("Section 16, trains", "trains lose less than one pair of large ratio", "trains()", "| section 16 |")
+    yield equation("Eqs. (53), (54)", "stress by force and curvatures, plane and sphere", "stress()", Equal(TWICE))
+    yield equation("Eq. (55)", "what is uniform, spur", "stress()", Equal(TWICE))
+    yield equation(
+        "Eq. (56), theorem 8", "the equation of uniform stress in r, r', r''", "long_one(56)", Mended(TWICE), "| (56) |"
+    )
+    yield equation("Eq. (57)", "Q", "eq_57()", Equal(ONCE))
+    yield equation("Eq. (58), theorem 9", "what is uniform, bevel", "stress()", Equal(TWICE))
+    yield equation("Eq. (59)", "tan c1", "curvature('bevel')", Equal(TWICE))
+    yield words(
+        "Section 17, involutes", "c falls with sqrt(r - r0), stress grows with (r - r0)^(-1/4)", "involute_root()"
+    )
+    yield outside("Footnote 8", "stress of two balls", "teeth touch along lines here")
+    yield equation("Eqs. (60), (61)", "rate of heat and how long it lasts: their product", "heat()", Equal(TWICE))
+    yield equation("Eq. (62)", "heat of an area", "heat()", Equal(TWICE))
+    yield equation("Eq. (63)", "Z in r, r', r''", "long_one(63)", Mended(TWICE), "| (63) |")
+    yield equation(
+        "Eq. (64)", "of the fourth order: how much r''' and r'''' change it", "order_of_64()", Mended(1e-20), "| (64) |"
+    )
+    yield words(
+        "Theorem 10",
+        "least friction between given ends",
+        "extremal_is_least()",
+        why="in closed form: (10) of [Tooth shapes](shapes.md)",
+    )
+    names = (("friction", "least friction"), ("stress", "uniform stress"), ("temperature", "uniform temperature"))
+    for kind in BOTH:
+        for number, (form, name) in enumerate(names, 1):
+            yield words(
+                f"Problem {number}, {kind}", f"{name}, {kind}: the gear is found", f"uniform('{form}', '{kind}')"
+            )
+    yield outside("Theorem 10, existence", "that a best shape exists", "an argument; the closed form answers it")
+    yield outside("Section 20", "n contacts: other constants in other pieces", "the shapes are for one pair in contact")
+    for shape, tilt in (("stress", 45), ("temperature", 80)):
+        yield words(
+            f"Section 21, {shape}",
+            f"uniform {shape} plausibly has the least greatest {shape}",
+            f"least_height('{shape}')",
+            "| section 21 |",
+            f"not without a bound on the pressure angle, here {tilt} deg",
+        )
+    yield outside("Section 21, pieces", "where pieces join, collisions", "left open by the note; here every form says")
+    yield outside(
+        "Figs. 1 to 5",
+        "drawings for the derivations",
+        "no values; `geartrain mesh compare --teeth 24 36 --plot forms.svg` draws shapes",
+    )
+
+
+SOURCE = Source(
+    "Smith",
+    "W. D. Smith, Optimal shapes for gears, NEC Research Institute, 22 December 1993 (19 pages)",
+    "The text at hand is the abstract with the contexts of its references; equations are numbered as in the whole "
+    "note, whose PostScript its author kept on his pages. They are worked out on finished profiles of 24 and 36 "
+    "teeth, spur and bevel: involute, uniform stress, uniform temperature; points of the two teeth alone are turned to where they "
+    "touch, and differentiated as they lie.",
+    "smiths-note-on-optimal-gears-1993",
+    tuple(row for part in (introduction, conjugates, curvatures, optima) for row in part()),
+)

@@ -366,8 +366,8 @@ SOURCE = Source(
     "W. D. Smith, Optimal shapes for gears, NEC Research Institute, 22 December 1993 (19 pages)",
     "The text at hand is the abstract with the contexts of its references; equations are numbered as in the whole "
     "note, whose PostScript its author kept on his pages. They are worked out on finished profiles of 24 and 36 "
-    "teeth, spur and bevel: involute, uniform stress, uniform temperature; points of the two teeth alone are turned to where they "
-    "touch, and differentiated as they lie.",
+    "teeth, spur and bevel: involute, uniform stress, uniform temperature; points of the two teeth alone are "
+    "turned to where they touch, and differentiated as they lie.",
     "smiths-note-on-optimal-gears-1993",
     tuple(row for part in (introduction, conjugates, curvatures, optima) for row in part()),
 )

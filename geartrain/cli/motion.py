@@ -41,6 +41,7 @@ def run(
     samples: Annotated[int, typer.Option("--samples", min=2, max=MOST_COUNT, help="Positions of the input.")] = 200_000,
     output: Annotated[Names, typer.Option("--output", help="Output or link; may be repeated.")] = None,
     links: Annotated[bool, typer.Option("--links", help="Every link, not only the outputs.")] = False,
+    wide: Annotated[bool, typer.Option("--wide", help="What each pair gives to every output.")] = False,
     state: StateName = None,
     without: Annotated[Names, typer.Option("--without", help="Leave out a pair, to open a loop of real teeth.")] = None,
     phases: Annotated[
@@ -81,7 +82,7 @@ def run(
         for rows in _rows(asked, 0):
             emit("\n".join(rows))
     else:
-        _report(asked, json, (to, cut), (train.name, state), phases, seed, estimates, spectrum)
+        _report(asked, json, (to, cut), (train.name, state), phases, seed, estimates, spectrum, bool(wide or outputs))
     if plot is not None:
         from geartrain.drawing import motion_figure
 
@@ -115,6 +116,7 @@ def _report(
     seed: int,
     estimates: bool,
     spectrum: bool,
+    every_output: bool,
 ) -> None:
     """The figures, into the second place where they are cut short."""
     from geartrain.report.motion_figures import collect_motion
@@ -136,7 +138,7 @@ def _report(
             stopped = True
     to = into[stopped]
     found = collect_motion(asked, *of)
-    give(to, json, lambda: found, lambda: [describe_motion(found)])
+    give(to, json, lambda: found, lambda: [describe_motion(found, every_output)])
     if stopped:
         tell(f"stopped after {asked.done} of {asked.samples} positions; the figures are of those")
         raise typer.Exit(INTERRUPTED)

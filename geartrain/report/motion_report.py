@@ -12,20 +12,23 @@ from geartrain.report.motion_figures import MotionFigures, UnfollowedMotion, rip
 
 if TYPE_CHECKING:
     from geartrain.analysis.gear_train import GearTrain
-    from geartrain.dynamics import ErrorEstimates, MotionRun, RunningStatistics, SpectrumLine
+    from geartrain.dynamics import ErrorEstimates, Motion, MotionRun, RunningStatistics, SpectrumLine
     from geartrain.teeth.gear_mesh import GearMesh
 
 
 _ABREAST = 8  # outputs side by side
 
 
-def describe_motion(found: MotionFigures) -> Document:
+def describe_motion(found: MotionFigures, every_output: bool = False) -> Document:
     """Transmission error and speed of each output of a run, and whatever else was asked of it.
 
     Parameters
     ----------
     found : MotionFigures
         From `collect_motion`.
+    every_output : bool
+        What each pair gives to every output, in as many tables as that takes; else to the first eight that it moves,
+        and the names of the others.
 
     Returns
     -------
@@ -53,14 +56,14 @@ def describe_motion(found: MotionFigures) -> Document:
         lead.append(f"PARTIAL: stopped after {run.done} of {run.samples} positions.")
     if period is not None:
         lead.append(f"Everything repeats after {abridged_text(period)} turns of '{train.lead}'.")
-    return Document("Motion with real teeth and pins", lead, list(motion_sections(run)))
+    return Document("Motion with real teeth and pins", lead, list(motion_sections(run, every_output)))
 
 
-def motion_sections(run: MotionRun) -> Iterator[Section]:
+def motion_sections(run: MotionRun, every_output: bool = False) -> Iterator[Section]:
     """Outputs, the pairs that make their errors, and whatever else was asked for."""
     yield Section("Outputs", tuple(_remarks(run)), (_outputs(run.tallies),))
     if run.motion.ahead.used:
-        yield _pairs(run)
+        yield _pairs(run, every_output)
     if rigid := _rigid(run.motion.train.rigid):
         yield Section("Pairs that keep their ratio", (rigid,))
     if run.phased:
@@ -128,18 +131,29 @@ def _remarks(run: MotionRun) -> Iterator[str]:
         )
 
 
-def _pairs(run: MotionRun) -> Section:
+def _pairs(run: MotionRun, every_output: bool) -> Section:
     motion = run.motion
-    outputs = list(motion.outputs)[:_ABREAST]
+    moved = [name for name in motion.outputs if any(motion.sensitivity[name][each.id] for each in motion.ahead.used)]
+    shown = moved if every_output else moved[:_ABREAST]
+    text = ["What each pair gives to an output: the range of its own error times the output's sensitivity to it."]
+    if still := [name for name in motion.outputs if name not in moved]:
+        text.append(f"No error reaches {', '.join(still)}.")
+    if left_out := moved[len(shown) :]:
+        text.append(f"Left out here: {', '.join(left_out)}; `--wide` or `--output` shows them.")
+    blocks = [shown[at : at + _ABREAST] for at in range(0, len(shown), _ABREAST)]
+    return Section("Pairs", tuple(text), tuple(_shares(motion, outputs) for outputs in blocks or [[]]))
+
+
+def _shares(motion: Motion, outputs: Sequence[str]) -> Table:
+    """What each pair gives to these outputs (deg, peak to peak)."""
     rows = []
     for source in motion.ahead.used:
         driver = motion.train.drivers[source.id]
         low, high = source.law.error_range()
-        shares = [f"{degrees(abs(motion.sensitivity[name][source.id]) * (high - low)):.4g}" for name in outputs]
-        rows.append((source.id, driver.wheel, driver.why, str(source.cycles), *shares))
+        given = [f"{degrees(abs(motion.sensitivity[name][source.id]) * (high - low)):.4g}" for name in outputs]
+        rows.append((source.id, driver.wheel, driver.why, str(source.cycles), *given))
     header = ("pair", "driver", "how that is known", "periods a turn", *(f"{name} (deg)" for name in outputs))
-    text = "What each pair gives to an output: the range of its own error times the output's sensitivity to it."
-    return Section("Pairs", (text,), (Table(header, rows, wide=True),))
+    return Table(header, rows, wide=True)
 
 
 def _phased(run: MotionRun) -> Section:

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import json
 import warnings
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from fractions import Fraction
 from math import degrees
+from pathlib import Path
 from random import Random
 from typing import Any
 
@@ -317,8 +318,11 @@ def test_what_is_set_away_is_the_lag_of_the_teeth() -> None:
 # ----------------------------------------------------------------------------------------------------- what is told
 
 
-def test_where_power_leaves_it_open_both_ways_are_given() -> None:
-    found = json.loads(call("report", "pennestri-2002-teeth", "--json").stdout)
+UNLOADED = "extends: pennestri-2002-teeth\nname: unloaded\nloads: null\n"
+
+
+def test_where_power_leaves_it_open_both_ways_are_given(train_file: Callable[[str], Path]) -> None:
+    found = json.loads(call("report", str(train_file(UNLOADED)), "--json").stdout)
     (found,) = found if isinstance(found, list) else (found,)
     ways = [each for each in found["teeth"] if each["pair"] == "G5"]
     assert {each["driver"] for each in ways} == {"Zb4", "Z15"}

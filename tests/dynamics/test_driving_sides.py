@@ -135,9 +135,12 @@ def asked(seed: int) -> tuple[RandomTrain, list[str]]:
     return train, random.sample(able, min(len(able), random.randint(1, 5)))
 
 
+FAILED = (575,)  # the frame was taken for a planet like an idle wheel
+
+
 def test_the_driver_is_he_whose_power_overcomes_what_resists(seeds: range) -> None:
     counted = {"one way": 0, "both": 0}
-    for seed in seeds[:: max(1, len(seeds) // (5 * SAMPLE))]:
+    for seed in (*FAILED, *seeds[:: max(1, len(seeds) // (5 * SAMPLE))]):
         train, outputs = asked(seed)
         if not outputs:
             continue

@@ -246,6 +246,22 @@ def test_shares_said_twice_must_agree() -> None:
     assert found.pairs["s30~p3"].torques[0] == 2 * found.pairs["s30~p1"].torques[0]
 
 
+def test_a_wheel_of_the_frame_is_no_planet_though_an_idle_wheel_is_like_it() -> None:
+    """The sun turns the arm five times as fast, (w_sun - w_arm) 25 = -w_arm 20; the idle wheel hands on nothing."""
+    found = load("""
+    links: {frame: {wheels: {f: 20}}, arm: {}, planet: {wheels: {p: 38}}, sun: {wheels: {s: 25}}, idle: {wheels: {i: 20}}}
+    revolutes: [{pair: [frame, arm], axis: A}, {pair: [frame, sun], axis: A}, {pair: [frame, idle], axis: A},
+      {pair: [arm, planet], axis: P}]
+    gears: [{pair: [p, f]}, {pair: [p, s]}, {pair: [p, i]}]
+    inputs: {sun: 1}
+    outputs: {arm: {}}
+    loads: {arm: -1}
+    """).torques()
+    assert found.verdict.kind == "determined"
+    assert found.external["sun"] == 5
+    assert found.pairs["p~i"].torques == (0, 0, 0)
+
+
 def test_a_share_of_two_leaves_the_third_open() -> None:
     found = load(three(", share: 3", ", share: 1")).torques()
     assert found.verdict.kind == "indeterminate"

@@ -43,7 +43,7 @@ def find_ties(
 ) -> tuple[tuple[str, ...], ...]:
     """Pairs of equal planets share alike: one carrier, the same mates, counts, efficiencies and own torque.
 
-    singled   links that are not like others: held, locked, asked for, or with declared shares
+    singled   links that are not like others: the frame, held, locked, asked for, or with declared shares
     """
     apart = {*singled, *(circuit.carrier for circuit in circuits)}
     apart |= {link for circuit in circuits if circuit.kind != "gear" for link in (circuit.i, circuit.j)}

@@ -180,7 +180,7 @@ def build_balance(
         asked,
         _brakes(setting),
         tuple(((a, setting.sense(a)), (b, setting.sense(b))) for a, b in locks),
-        find_ties(setting.circuits, meshes, known, held | planets),
+        find_ties(setting.circuits, meshes, known, {train.frame} | held | planets),
         shares,
     )
 

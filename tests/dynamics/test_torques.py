@@ -249,7 +249,8 @@ def test_shares_said_twice_must_agree() -> None:
 def test_a_wheel_of_the_frame_is_no_planet_though_an_idle_wheel_is_like_it() -> None:
     """The sun turns the arm five times as fast, (w_sun - w_arm) 25 = -w_arm 20; the idle wheel hands on nothing."""
     found = load("""
-    links: {frame: {wheels: {f: 20}}, arm: {}, planet: {wheels: {p: 38}}, sun: {wheels: {s: 25}}, idle: {wheels: {i: 20}}}
+    links: {frame: {wheels: {f: 20}}, arm: {}, planet: {wheels: {p: 38}}, sun: {wheels: {s: 25}},
+      idle: {wheels: {i: 20}}}
     revolutes: [{pair: [frame, arm], axis: A}, {pair: [frame, sun], axis: A}, {pair: [frame, idle], axis: A},
       {pair: [arm, planet], axis: P}]
     gears: [{pair: [p, f]}, {pair: [p, s]}, {pair: [p, i]}]

@@ -143,7 +143,7 @@ class GearTrain(TrainKinematics):
     @cached_property
     def faults(self) -> tuple[Problem, ...]:
         """Everything that keeps real teeth from turning, whichever of its wheels drives a pair in some state."""
-        from geartrain.teeth.gear_mesh import find_faults
+        from geartrain.teeth.mesh_faults import find_faults
 
         return tuple(fault for ways in self.driven_ways.values() for fault in find_faults([way for way, _ in ways]))
 
@@ -158,7 +158,12 @@ class GearTrain(TrainKinematics):
         if not self._teeth:
             return ()
         drivers = self.drivers(state)
-        return tuple(mesh.driven_by(drivers[mesh.name]) for mesh in self._teeth)
+        driven = tuple(mesh.driven_by(drivers[mesh.name]) for mesh in self._teeth)
+        if all(mesh.wheels.friction_law is None for mesh in driven):
+            return driven
+        from geartrain.dynamics.pair_speeds import at_own_speeds
+
+        return at_own_speeds(driven, self._setting(self._case(state).state))
 
     def drivers(self, state: str | None = None, without: Sequence[str] = ()) -> Mapping[str, MeshDriver]:
         """Who drives each pair and coupling in one state: declared, or by the flow of power in its carrier's frame.

@@ -16,7 +16,7 @@ _MOST_DIGITS = 400  # longer numbers are slips or attacks, and squaring them wou
 _NUMBER = r"[+-]?(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][+-]?\d{1,3})?"
 _MOST = Fraction("1e300")  # what a float holds, with room for units
 _LEAST_MEASURE = Fraction(1, 10**30)  # of base units: up to the tenth power such a measure is a float
-_IN_FLOATS = ("length", "angle", "inertia")
+_IN_FLOATS = ("length", "angle", "velocity", "inertia")
 _FIGURE = re.compile(rf"^\s*({_NUMBER})\s*(?:([/:])\s*({_NUMBER}))?\s*$")
 _QUANTITY = re.compile(rf"^\s*({_NUMBER}(?:\s*[/:]\s*\d+)?)\s*([^\d\s].*?)?\s*$")
 
@@ -184,17 +184,17 @@ class Quantity:
 
     @property
     def dimension(self) -> str | None:
-        """length, angle, time, speed, torque, inertia, fraction, or None for a plain number."""
+        """length, angle, time, speed, velocity, torque, inertia, fraction, or None for a plain number."""
         return None if self.unit is None else scale(self.unit)[0]
 
     @property
     def base(self) -> Fraction:
-        """Value in m, turn, s, turn/s, N m or kg m2; a plain number as it is."""
+        """Value in m, turn, s, turn/s, m/s, N m or kg m2; a plain number as it is."""
         return self.value if self.unit is None else self.value * scale(self.unit)[1]
 
     @property
     def si(self) -> float:
-        """Value in m, rad, s, rad/s, N m or kg m2."""
+        """Value in m, rad, s, rad/s, m/s, N m or kg m2."""
         if self.unit in IRRATIONAL:
             return float(self.value)
         scale = RADIANS_PER_TURN if self.dimension in ("angle", "speed") else 1.0
@@ -209,7 +209,7 @@ class Quantity:
         raw : str, int, float, Fraction or Quantity
             Such as "9.6 mm", "30 deg", "1400 rpm", 0.98.
         dimension : str
-            length, angle, time, speed, torque, inertia or fraction; "time or length" allows two.
+            length, angle, time, speed, velocity, torque, inertia or fraction; "time or length" allows two.
         plain : bool
             Whether a plain number will do. 0 always does.
 
@@ -305,6 +305,7 @@ Length = Annotated[Quantity, Dimension("length", plain=True)]
 Angle = Annotated[Quantity, Dimension("angle")]
 Span = Annotated[Quantity, Dimension("time or length")]
 Speed = Annotated[Quantity, Dimension("speed", plain=True)]
+Velocity = Annotated[Quantity, Dimension("velocity")]
 Torque = Annotated[Quantity, Dimension("torque", plain=True)]
 Inertia = Annotated[Quantity, Dimension("inertia")]
 Share = Annotated[Quantity, Dimension("fraction", plain=True)]

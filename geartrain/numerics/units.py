@@ -1,6 +1,6 @@
 """Units of measure: what dimension each has, and how many base units it is, exactly.
 
-Base units are m, turn, s, turn/s, N m, kg m2 and 1. A radian is no rational part of a turn: its scale holds to 50
+Base units are m, turn, s, turn/s, m/s, N m, kg m2 and 1. A radian is no rational part of a turn: its scale holds to 50
 digits.
 """
 
@@ -37,6 +37,10 @@ UNITS: dict[str, tuple[str, Fraction]] = {
     "turn/h": ("speed", Fraction(1, 3600)),
     "turn/d": ("speed", Fraction(1, 86400)),
     "deg/s": ("speed", Fraction(1, 360)),
+    "m/s": ("velocity", Fraction(1)),
+    "mm/s": ("velocity", Fraction(1, 1000)),
+    "ft/min": ("velocity", Fraction(3048, 10**4) / 60),
+    "in/s": ("velocity", Fraction(254, 10**4)),
     "N m": ("torque", Fraction(1)),
     "N mm": ("torque", Fraction(1, 1000)),
     "kN m": ("torque", Fraction(1000)),

@@ -7,6 +7,7 @@ from math import degrees, isfinite
 from typing import TYPE_CHECKING
 
 from geartrain.report.document import Section, Table, figure
+from geartrain.teeth.rubbed_transmission import friction_words
 
 if TYPE_CHECKING:
     from geartrain.teeth.conjugate.pair_design import DesignCosts, PairDesign
@@ -106,17 +107,20 @@ def _costs(found: DesignCosts) -> Section:
 
 
 def _friction(design: PairDesign) -> Section:
-    law = design.mesh.law
-    if not law.friction:
+    law = design.mesh.losses
+    if not design.mesh.rubs:
         return Section("Friction", ("No friction is given: nothing is lost by sliding.",))
+    if not design.mesh.tells_losses:
+        return Section("Friction", (f"{friction_words(design.mesh)}.",))
     if design.locks:
         return Section(
-            "Friction", (f"A friction of {law.friction:g} locks these teeth, as any from {law.locking_friction:.6g}.",)
+            "Friction",
+            (f"A friction of {law.friction:.6g} locks these teeth, as any from {law.locking_friction:.6g}.",),
         )
     return Section(
         "Friction",
         (
-            f"Coefficient of friction {law.friction:g}. Efficiency, exact in friction, teeth in contact sharing the "
+            f"{friction_words(design.mesh)}. Efficiency, exact in friction, teeth in contact sharing the "
             f"load equally: mean {law.efficiency_mean():.9f} at constant driver torque, "
             f"{law.efficiency_at_constant_load():.9f} at constant load torque, least {law.efficiency_least():.9f}.",
         ),

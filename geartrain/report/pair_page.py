@@ -134,7 +134,7 @@ def _triangular_pair(
     from geartrain.teeth.triangular.triangular_account import triangular_figures
 
     impacts = None if operation is None or not mesh.law.intervals else find_pair_impacts(mesh.law, operation)
-    figures = triangular_figures(mesh.law, mesh.window)
+    figures = triangular_figures(mesh.law, mesh.window, losses=mesh.efficiency(mesh.driver))
     return TriangularPair(figures, contact_course(mesh.law), impacts, tuple(outlines))
 
 

@@ -7,6 +7,8 @@ from math import degrees, isfinite, pi
 from typing import TYPE_CHECKING
 
 from geartrain.report.document import Section, Table, figure
+from geartrain.teeth.pair_verdict import friction_lock_at_speed
+from geartrain.teeth.rubbed_transmission import friction_words
 from geartrain.teeth.triangular.contact_course import contact_course
 from geartrain.teeth.triangular.triangular_explanations import explain_clearance, explain_friction_lock
 
@@ -24,7 +26,7 @@ def triangular_sections(mesh: TriangularMesh, operation: PairOperation | None) -
     if window is not None:
         yield _clearance(law, window)
     if law.intervals:
-        yield from (_path(law), _course(law), _law(law), _collisions(law), _losses(law), *_impacts(law, operation))
+        yield from (_path(law), _course(law), _law(law), _collisions(law), _losses(mesh), *_impacts(law, operation))
 
 
 def triangular_verdict(mesh: TriangularMesh) -> str:
@@ -34,8 +36,8 @@ def triangular_verdict(mesh: TriangularMesh) -> str:
     if not found:
         why, fix = explain_clearance(law, mesh.window)
         words += [f"Why: {why}." if why else "", f"What to do: {fix}."]
-    elif law.friction >= law.locking_friction:
-        what, why, fix = explain_friction_lock(law)
+    elif mesh.losses.locks:
+        what, why, fix = _lock(mesh)
         words = [f"Verdict: friction locks: {what}.", f"Why: {why}.", f"What to do: {fix}."]
     return " ".join(word for word in words if word)
 
@@ -145,14 +147,26 @@ def _collisions(law: TriangularTransmission) -> Section:
     return Section("Collisions", (text,), (Table(header, rows),))
 
 
-def _losses(law: TriangularTransmission) -> Section:
-    if not law.friction:
+def _lock(mesh: TriangularMesh) -> tuple[str, str, str]:
+    """What is said of friction that locks."""
+    declared = mesh.wheels.friction_law
+    if declared is None:
+        return explain_friction_lock(mesh.law)
+    fault = friction_lock_at_speed(declared.law, mesh.law.locking_friction)
+    return fault.what, fault.why, fault.fix
+
+
+def _losses(mesh: TriangularMesh) -> Section:
+    law = mesh.losses
+    if not mesh.rubs:
         return Section("Friction", ("No friction is given: nothing is lost by sliding.",))
-    if law.friction >= law.locking_friction:
-        what, why, _ = explain_friction_lock(law)
+    if not mesh.tells_losses:
+        return Section("Friction", (f"{friction_words(mesh)}.",))
+    if law.locks:
+        what, why, _ = _lock(mesh)
         return Section("Friction", (f"{what}: {why}.",))
     lines = [
-        f"Coefficient of friction {law.friction:g}. Sliding efficiency: mean {law.efficiency_mean():.9f} at constant "
+        f"{friction_words(mesh)}. Sliding efficiency: mean {law.efficiency_mean():.9f} at constant "
         f"driver torque (Eq. 34), {law.efficiency_at_constant_load():.9f} at constant load torque, least "
         f"{law.efficiency_least():.6f}.",
     ]

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, Self
 
 from geartrain.errors import Problem, RangeError
 from geartrain.teeth.meshing_wheels import DeclaredPair, MeshDriver, MeshingWheels, NamedForm, PairSize
-from geartrain.teeth.pair_verdict import friction_lock
 from geartrain.teeth.transmission import ExactRatio
 
 if TYPE_CHECKING:
@@ -79,8 +78,27 @@ class GearMesh(ABC):
 
     @property
     def friction(self) -> float | None:
-        """Coefficient of friction; None where none is declared."""
+        """Coefficient of friction; None where none is declared, or a law of speed is."""
         return self.wheels.friction
+
+    @property
+    def losses(self) -> TransmissionFunction:
+        """The law with what its teeth lose; of friction that depends on a speed that is not known, nothing."""
+        return self._rubbed(self.law)
+
+    def _rubbed(self, law: TransmissionFunction) -> TransmissionFunction:
+        if self.wheels.friction_law is None:
+            return law
+        from geartrain.teeth.rubbed_transmission import rubbed
+
+        return rubbed(law, self.wheels)
+
+    @property
+    def pitch_radius(self) -> float | None:
+        """Radius [m] at which the first wheel named rolls on the second; None where nothing gives the pair a size."""
+        module, size = self.wheels.module, self.own_size
+        stretch = 1.0 if size is None else size.stretch
+        return None if module is None else module * self.wheels.counts[0] / 2 * stretch
 
     @property
     def note(self) -> str:
@@ -124,11 +142,12 @@ class GearMesh(ABC):
     def verdict(self) -> PairVerdict:
         """Whether these teeth can turn."""
 
-    def _faults(self) -> Iterator[Problem]:
+    def own_faults(self) -> Iterator[Problem]:
         """Everything that is wrong with these teeth, without pair and place."""
         yield from (fault.problem for fault in self.verdict.faults)
-        if self.law.friction >= self.law.locking_friction:
-            yield friction_lock(self.law.friction, self.law.locking_friction)
+        from geartrain.teeth.mesh_faults import friction_faults
+
+        yield from friction_faults(self)
 
     @abstractmethod
     def size(self, tips: Mapping[str, float]) -> PairSize | None:
@@ -252,7 +271,7 @@ class GearMesh(ABC):
     @cached_property
     def faults(self) -> tuple[Problem, ...]:
         """Everything that keeps these teeth from turning, with what would let them; empty if they turn."""
-        return tuple(replace(each, what=f"{self.label}: {each.what}", place=self.place) for each in self._faults())
+        return tuple(replace(each, what=f"{self.label}: {each.what}", place=self.place) for each in self.own_faults())
 
     @property
     def fault(self) -> Problem | None:
@@ -277,7 +296,7 @@ class GearMesh(ABC):
     @property
     def rubs(self) -> bool:
         """True if something is lost between these teeth."""
-        return bool(self.friction)
+        return bool(self.friction) or self.wheels.friction_law is not None
 
     def efficiency(self, driver: str) -> SlidingEfficiency:
         """What arrives of the power that one wheel puts in, over a turn.
@@ -294,12 +313,17 @@ class GearMesh(ABC):
         """
         from geartrain.teeth.transmission_figures import SlidingEfficiency
 
-        return SlidingEfficiency(self.law if driver == self.driver else self.reversed)
+        return SlidingEfficiency(self._rubbed(self.law if driver == self.driver else self.reversed))
+
+    @property
+    def tells_losses(self) -> bool:
+        """True where something says what these teeth lose: a coefficient, or a law and the speed it asks for."""
+        return self.friction is not None or (self.rubs and self.wheels.pitch_line is not None)
 
     @property
     def efficiency_texts(self) -> tuple[str, str]:
         """Mean efficiency as the pair is driven, and driven back; dashes where no friction is declared, or it jams."""
-        if self.friction is None or not self.verdict:
+        if not self.tells_losses or not self.verdict:
             return "-", "-"
         return self.efficiency(self.driver).text, self.efficiency(self.driven).text
 
@@ -323,16 +347,3 @@ class GearMesh(ABC):
     def ways(self) -> tuple[Self, ...]:
         """The mesh as it is driven; where that is not determined, both ways."""
         return (self,) if self.who.known else (self, self.driven_by(replace(self.who, wheel=self.driven)))
-
-
-def find_faults(ways: Sequence[GearMesh]) -> tuple[Problem, ...]:
-    """Everything wrong with one pair in the ways it is driven; what is wrong in some ways only says in which."""
-    said = [list(way._faults()) for way in ways]
-    found: list[Problem] = []
-    for way, faults in zip(ways, said, strict=True):
-        for fault in faults:
-            always = all(fault in other for other in said)
-            label = way.label if always else f"{way.label}, '{way.driver}' driving"
-            placed = replace(fault, what=f"{label}: {fault.what}", place=way.place)
-            found += [] if placed in found else [placed]
-    return tuple(found)

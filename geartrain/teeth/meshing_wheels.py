@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, Protocol
+from typing import TYPE_CHECKING, Any, Protocol
 
 from geartrain.numerics.plain_data import Key, Result
+
+if TYPE_CHECKING:
+    from geartrain.teeth.friction_law import FrictionLaw
 
 
 class DeclaredPair(Protocol):
@@ -64,6 +67,8 @@ class MeshingWheels:
     place      where the pair is declared
     counts     tooth numbers; `kinds` of the wheels, and which of them are rings
     friction   None where none is declared
+    friction_law   in place of a coefficient; then `friction` is None
+    pitch_line   speed of the pitch line (m/s), which a law of friction needs; None where it is not known
     distance   half the modules times the teeth, summed (m); None unless both wheels declare a module with a unit
     """
 
@@ -74,6 +79,8 @@ class MeshingWheels:
     internal: tuple[bool, bool] = (False, False)
     friction: float | None = None
     distance: float | None = None
+    friction_law: FrictionLaw | None = None
+    pitch_line: float | None = None
 
     @property
     def module(self) -> float | None:

@@ -64,10 +64,9 @@ class OutlineMesh(GearMesh):
     def account(self) -> PairAccount:
         """Speed, error, play and efficiency, as the pair is driven and driven back."""
         from geartrain.teeth.pair_account import AccountTable, PairAccount, PairFigures, motion_figures
-        from geartrain.teeth.transmission_figures import SlidingEfficiency
 
         runs = bool(self.verdict)
-        motion, own = motion_figures(self.law, runs), SlidingEfficiency(self.law)
+        motion, own = motion_figures(self.law, runs), self.efficiency(self.driver)
         figures = PairFigures(self.counts, self.verdict, *motion, own if runs else None)
         speed = figures.speed_ratio
         row = (

@@ -18,7 +18,7 @@ import numpy as np
 from geartrain.teeth.contact.outline_contact import contact, solve
 from geartrain.teeth.contact.transmission_fit import tabulate
 from geartrain.teeth.pair_verdict import PairVerdict, ToothFault, verdict_of_faults
-from geartrain.teeth.transmission import SpeedLeap, TransmissionFunction, check_friction
+from geartrain.teeth.transmission import ContactRubbing, SpeedLeap, TransmissionFunction, check_friction
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -159,6 +159,27 @@ class OutlineTransmission(TransmissionFunction):
         point for the pitch point the contact obeys the same formulas as one of the design.
         """
         return self._passed(_leans(self.gears, self.driver, self._forward(S)))
+
+    def rubbing(self, S: ArrayLike) -> ContactRubbing:
+        """Of the one contact."""
+        forward = self._forward(S)
+        return self._rubbing(_leans(self.gears, self.driver, forward), self.table.speed(forward))
+
+    def rubbing_nodes(self) -> tuple[Floats, Floats, ContactRubbing]:
+        """At the nodes of `efficiency_mean`."""
+        S, weights = self._nodes
+        rubbing = self._rubbing(_leans_at_nodes(self.gears, self.driver), self.table.speed(S))
+        return self.direction * S, weights, rubbing
+
+    def _rubbing(self, leans: tuple[Floats, Floats, Floats], speed: Floats) -> ContactRubbing:
+        cosine, into, out = leans
+        # the pitch point of the instant parts the distance as the speeds do, that of the pitch line as the teeth do
+        first, second = self._wheels
+        mean, same = float(self.ratio), -1 if first.ring or second.ring else 1
+        share = np.abs(speed / (speed + same) * (mean + same) / mean)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            found = np.abs(into - out) * share, into / cosine, out / cosine
+        return ContactRubbing(*(each[None] for each in found))
 
     def _passed(self, leans: tuple[Floats, Floats, Floats]) -> Floats:
         cosine, into, out = leans

@@ -113,3 +113,13 @@ def friction_lock(friction: float, locking: float) -> Problem:
         f"from {locking:.6g} on the driver pushes somewhere against more sliding than it can overcome",
         f"give a friction below {locking:.4g}, or let the other wheel drive",
     )
+
+
+def friction_lock_at_speed(law: str, locking: float) -> Problem:
+    """The fault of teeth that lock somewhere at the speed at which they run under a law of friction."""
+    return Problem(
+        f"friction by the law '{law}' locks these teeth",
+        f"somewhere the driver pushes against more sliding than it can overcome: a constant friction of {locking:.6g} "
+        "would",
+        "give less friction, another speed, or let the other wheel drive",
+    )

@@ -40,6 +40,19 @@ class SpeedLeap(NamedTuple):
         return self.after - self.before
 
 
+class ContactRubbing(NamedTuple):
+    """How the teeth of a pair rub at some driver angles: arrays of one row for each contact; NaN where none is.
+
+    sliding     speed of sliding over that of the pitch line, 0 or more
+    into, out   what a unit of friction adds to the power that enters at a contact, and to that which leaves it, over
+                both without friction: the efficiency of a contact is (1 + f out) / (1 + f into)
+    """
+
+    sliding: Floats
+    into: Floats
+    out: Floats
+
+
 class TransmissionFunction(ABC):
     """Driven angle, speed ratio and efficiency of one pair as functions of the driver's forward angle S.
 
@@ -149,6 +162,36 @@ class TransmissionFunction(ABC):
     def locking_friction(self) -> float:
         """The least friction that locks at some driver angle; infinite where none does."""
         return inf
+
+    @property
+    def locks(self) -> bool:
+        """True if friction locks the pair at some driver angle."""
+        return self.friction >= self.locking_friction
+
+    def rubbing(self, S: ArrayLike) -> ContactRubbing:
+        """How the teeth rub, whatever their friction.
+
+        Parameters
+        ----------
+        S : array_like
+            Driver angles [rad], any shape.
+
+        Returns
+        -------
+        ContactRubbing
+            Speed of sliding and shares of power, of S's shape behind the contacts.
+
+        Raises
+        ------
+        RangeError
+            For laws without an account of it.
+        """
+        what = "the sliding of this pair is not known"
+        raise RangeError(Problem(what, "it is no pair of teeth", "give a coefficient of friction as a plain number"))
+
+    def rubbing_nodes(self) -> tuple[Floats, Floats, ContactRubbing] | None:
+        """Driver angles of a period, weights, and `rubbing` there, for laws that would be slow to ask at any others."""
+        return None
 
     def corners(self) -> list[float]:
         """Driver angles (rad) where the law or a slope of it is not smooth; none by default."""
@@ -288,28 +331,3 @@ class ExactRatio(TransmissionFunction):
         import numpy as np
 
         return np.full(np.shape(S), value)
-
-
-class ConstantLag(ExactRatio):
-    """A law that keeps its ratio, its driven side always by `mean` (rad) ahead of uniform motion."""
-
-    def __init__(self, ratio: Fraction, period: float, mean: float) -> None:
-        super().__init__(ratio, period)
-        self.mean = mean
-
-    @classmethod
-    def at(cls, law: TransmissionFunction, S: float) -> ConstantLag:
-        """What another law does where its driver stands at S (rad), whatever S is."""
-        return cls(law.ratio, law.period, float(law.error(S)))
-
-    def error(self, S: ArrayLike) -> Floats:
-        """The same everywhere."""
-        return self._constant(S, self.mean)
-
-    def error_range(self) -> tuple[float, float]:
-        """The same twice."""
-        return self.mean, self.mean
-
-    def error_moments(self) -> tuple[float, float]:
-        """The mean, and 0."""
-        return self.mean, 0.0

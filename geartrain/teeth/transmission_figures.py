@@ -154,13 +154,13 @@ class SlidingEfficiency(Result):
 
     @property
     def friction(self) -> float:
-        """Coefficient of friction."""
+        """Coefficient of friction; its mean over the driver's angle where it depends on speed."""
         return self.law.friction
 
     @property
     def locks(self) -> bool:
         """True if friction locks the pair somewhere."""
-        return self.friction >= self.law.locking_friction
+        return self.law.locks
 
     @property
     def mean(self) -> float | None:

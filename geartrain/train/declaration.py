@@ -10,10 +10,10 @@ from typing import Annotated
 from pydantic import BeforeValidator, Field, PrivateAttr
 
 from geartrain.errors import Loc, Marks, Problem, QuestionError, dotted, suggest
-from geartrain.numerics.quantity import Friction, Quantity, Speed, Torque, in_unit
+from geartrain.numerics.quantity import Quantity, Speed, Torque, in_unit
 from geartrain.numerics.units import same_kind
 from geartrain.teeth.pin_coupling import Coupling
-from geartrain.train.fields import ByName, Declared, DeclaredToothForm, Id, Nothing
+from geartrain.train.fields import ByName, Declared, DeclaredFriction, DeclaredToothForm, Id, Nothing
 from geartrain.train.manufacturing import PairMounting, WheelManufacture
 from geartrain.train.mechanism import Axis, GearPair, Link, Revolute, Source, Wheel
 from geartrain.train.outputs import Dial, Output, SpeedUnit, View
@@ -59,7 +59,9 @@ class Train(Declared):
     tooth_form: DeclaredToothForm | None = Field(
         None, description="Form of the teeth of every pair that has none of its own"
     )
-    friction: Friction | None = Field(None, description="Friction of the teeth of every pair that has none of its own")
+    friction: DeclaredFriction | None = Field(
+        None, description="Friction of the teeth of every pair that has none of its own, or a law of speed"
+    )
     cutting: WheelManufacture | None = Field(
         None, description="How far the teeth of every wheel are off that says nothing of its own"
     )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from functools import cache
 from typing import TYPE_CHECKING, Annotated, Any, Literal, Self, TypeVar
 
@@ -17,6 +18,7 @@ from pydantic import (
 from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
 from geartrain.numerics.containers import FrozenDict
+from geartrain.numerics.quantity import Friction
 
 MOST_TEETH = 10**12
 
@@ -115,11 +117,49 @@ def tooth_forms() -> TypeAdapter[Any]:
     return TypeAdapter(AnyToothForm)
 
 
+@cache
+def friction_laws() -> TypeAdapter[Any]:
+    """The reader of all laws of friction; most trains have numbers, and import none."""
+    from geartrain.teeth.friction_law import AnyFrictionLaw
+
+    return TypeAdapter(AnyFrictionLaw)
+
+
+def read_friction(raw: object) -> Any:
+    """A coefficient, or a law of speed where there are keys."""
+    return friction_laws().validate_python(raw) if isinstance(raw, Mapping) else _coefficient().validate_python(raw)
+
+
+def _tell_friction(friction: Any) -> Any:
+    """As it was declared."""
+    return friction.model_dump(mode="json") if isinstance(friction, BaseModel) else str(friction)
+
+
+@cache
+def _coefficient() -> TypeAdapter[Any]:
+    return TypeAdapter(Friction)
+
+
 if TYPE_CHECKING:
+    from geartrain.numerics.quantity import Figure
     from geartrain.teeth.any_tooth_form import AnyToothForm
+    from geartrain.teeth.friction_law import FrictionLaw
 
     DeclaredToothForm = AnyToothForm
+    DeclaredFriction = Figure | FrictionLaw
 else:
+
+    class DeclaredFriction:
+        """Friction as a field of a model: a coefficient, or a law of speed, imported when the first is read."""
+
+        @classmethod
+        def __get_pydantic_core_schema__(cls, source: Any, handler: Any) -> CoreSchema:
+            told = core_schema.plain_serializer_function_ser_schema(_tell_friction)
+            return core_schema.no_info_plain_validator_function(read_friction, serialization=told)
+
+        @classmethod
+        def __get_pydantic_json_schema__(cls, schema: CoreSchema, handler: GetJsonSchemaHandler) -> dict[str, Any]:
+            return {"anyOf": [handler(_coefficient().core_schema), handler(friction_laws().core_schema)]}
 
     class DeclaredToothForm:
         """A tooth form as a field of a model: the forms are imported when the first is read."""

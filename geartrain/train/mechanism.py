@@ -15,12 +15,13 @@ from pydantic import (
 )
 from pydantic_core import PydanticCustomError
 
-from geartrain.numerics.quantity import Angle, Figure, Friction, Inertia, Length, Quantity, Share, Torque
+from geartrain.numerics.quantity import Angle, Figure, Inertia, Length, Quantity, Share, Torque
 from geartrain.train.fields import (
     Boolean,
     ByName,
     Count,
     Declared,
+    DeclaredFriction,
     DeclaredToothForm,
     Id,
     Status,
@@ -285,7 +286,9 @@ class GearPair(Declared):
     id: str = Field("", description="Name of the pair; default first~second")
     pair: tuple[Id, Id] = Field(description="The two wheels")
     tooth_form: DeclaredToothForm | None = Field(None, description="Form of the teeth; default the train's")
-    friction: Friction | None = Field(None, description="Coefficient of friction between teeth")
+    friction: DeclaredFriction | None = Field(
+        None, description="Coefficient of friction between teeth, or a law of speed"
+    )
     efficiency: Annotated[Efficiencies, BeforeValidator(_efficiency)] | None = Field(
         None,
         description="Basic efficiency with the carrier held, at most 1: a number, a percentage, or {forward, backward}",

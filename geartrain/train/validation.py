@@ -23,7 +23,7 @@ from geartrain.errors import (
 )
 from geartrain.numerics.containers import collector_paused
 from geartrain.train.declaration import Train
-from geartrain.train.fields import DeclaredToothForm
+from geartrain.train.fields import DeclaredFriction, DeclaredToothForm
 from geartrain.train.references import find_problems
 
 
@@ -129,8 +129,8 @@ def _explained(error: ValidationError, place: Marks) -> Iterator[Problem]:
 
 
 def _name(kind: Any) -> tuple[Any, ...]:
-    """The name by which a union chooses a tooth form, alone in a tuple; nothing for other models."""
-    field = kind.model_fields.get("form")
+    """The name by which a union chooses a tooth form or a law, alone in a tuple; nothing for other models."""
+    field = kind.model_fields.get("form") or kind.model_fields.get("law")
     return get_args(field.annotation) if field else ()
 
 
@@ -140,6 +140,14 @@ def _forms() -> dict[str, type[BaseModel]]:
     from geartrain.teeth.any_tooth_form import AnyToothForm
 
     return {name: form for form in get_args(get_args(AnyToothForm)[0]) for name in _name(form)}
+
+
+@cache
+def _laws() -> dict[str, type[BaseModel]]:
+    """Every law of friction by the name that chooses it."""
+    from geartrain.teeth.friction_law import AnyFrictionLaw
+
+    return {name: law for law in get_args(get_args(AnyFrictionLaw)[0]) for name in _name(law)}
 
 
 _SHAPES = {
@@ -195,12 +203,12 @@ def _where(loc: Loc) -> str:
 
 def _real_steps(loc: Loc) -> Loc:
     """`loc` without the tags pydantic adds for unions, which are not in the file."""
-    tags = {"count", "doubt", "pin_and_slot", "pin_follower", *_forms()}
+    tags = {"count", "doubt", "pin_and_slot", "pin_follower", *_forms(), *_laws()}
     return tuple(
         step
         for at, step in enumerate(loc)
         if not (
-            (step in tags and at > 0 and loc[at - 1] in ("teeth", "tooth_form"))
+            (step in tags and at > 0 and loc[at - 1] in ("teeth", "tooth_form", "friction"))
             or (step in tags and at > 1 and loc[at - 2] == "couplings")
         )
     )
@@ -228,6 +236,8 @@ def _step(kind: Any, step: str | int) -> Iterator[Any]:
 def _models_in(annotation: Any) -> Iterator[Any]:
     if annotation is DeclaredToothForm:
         yield from _forms().values()
+    elif annotation is DeclaredFriction:
+        yield from _laws().values()
     elif isinstance(annotation, type) and issubclass(annotation, BaseModel):
         yield annotation
     elif get_origin(annotation) is Annotated:

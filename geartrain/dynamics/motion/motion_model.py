@@ -18,7 +18,7 @@ from geartrain.dynamics.motion.pair_errors import PairErrors
 from geartrain.dynamics.motion.run_statistics import RunningStatistics
 from geartrain.errors import GearTrainError, Problem, QuestionError
 from geartrain.kinematics.relative_speeds import axis_sense
-from geartrain.teeth.transmission import ConstantLag
+from geartrain.teeth.constant_lag import ConstantLag
 
 if TYPE_CHECKING:
     from numpy.random import Generator

@@ -11,6 +11,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from fractions import Fraction
 
+from geartrain.dynamics.pair_speeds import at_speed, pitch_line_speed
 from geartrain.dynamics.torques.load_case import LoadCase
 from geartrain.dynamics.torques.torque_balance import LoadedPair, TorqueBalance
 from geartrain.kinematics.circuits import Circuit
@@ -59,6 +60,11 @@ def find_mean_efficiencies(setting: LoadCase, circuit: Circuit) -> MeanEfficienc
     tooth = setting.meshes.get(circuit.id)
     if tooth is None or not tooth.rubs:
         return MeanEfficiencies()
+    if tooth.wheels.friction_law is not None:
+        speed = pitch_line_speed(setting, circuit, tooth)
+        if speed.value is None and speed.problem is None:
+            return MeanEfficiencies()
+        tooth = at_speed(tooth, speed.known())
     return _of_both(*(tooth.efficiency(wheel) for wheel in gear.pair))
 
 

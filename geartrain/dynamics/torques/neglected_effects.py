@@ -150,4 +150,5 @@ def _inertia(setting: LoadCase) -> Iterator[NeglectedEffect]:
 
 
 def _rubs(friction: object) -> bool:
-    return bool(getattr(friction, "value", 0))
+    """True for a coefficient above 0, and for a law of speed."""
+    return bool(getattr(friction, "value", friction))

@@ -12,12 +12,12 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from itertools import chain
 
+from geartrain.dynamics.pair_speeds import radians_per_second
 from geartrain.dynamics.torques.power_circulation import PowerNode, PowerStream, RecirculatingPower, find_circulation
 from geartrain.dynamics.torques.torque_results import Torques
 from geartrain.numerics.exact import as_float
 from geartrain.numerics.graphs import joined_groups
 from geartrain.numerics.plain_data import Key, Result
-from geartrain.numerics.units import RADIANS_PER_TURN
 from geartrain.train import StateCase, Train
 
 
@@ -191,9 +191,4 @@ def watts_per_unit(train: Train, case: StateCase) -> float | None:
     """
     if not has_torque_units(train, case.state):
         return None
-    lead = next((speed for speed in case.inputs.values() if speed), None)
-    if train.rate is not None and train.rate.unit is not None and lead is not None:
-        return abs(train.rate.si / float(lead))
-    if not train.input_unit or train.unit_speed is None:
-        return None
-    return float(train.unit_speed * RADIANS_PER_TURN)
+    return radians_per_second(train, case)

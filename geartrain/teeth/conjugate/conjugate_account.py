@@ -7,7 +7,6 @@ from math import degrees
 from typing import TYPE_CHECKING
 
 from geartrain.teeth.pair_account import AccountTable, PairAccount, PairFigures, motion_figures
-from geartrain.teeth.transmission_figures import SlidingEfficiency
 
 if TYPE_CHECKING:
     from geartrain.teeth.conjugate.conjugate_mesh import ConjugateMesh
@@ -59,7 +58,7 @@ def conjugate_figures(mesh: ConjugateMesh) -> ConjugateFigures:
         mesh.counts,
         mesh.verdict,
         *motion_figures(law, mesh.rigid or runs),
-        SlidingEfficiency(law) if runs else None,
+        mesh.efficiency(mesh.driver) if runs else None,
         arcs=(approach / pitch.p, recess / pitch.p),
         contact_ratio=path.contact_ratio,
         pressure_angle=float(path.at(0.0).psi),

@@ -12,10 +12,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from geartrain.teeth.conjugate.admissibility import faults
-from geartrain.teeth.conjugate.path_costs import efficiency, locking_friction
+from geartrain.teeth.conjugate.path_costs import efficiency, locking_friction, powers
 from geartrain.teeth.conjugate.tip_interference import ring_tips
 from geartrain.teeth.pair_verdict import PairVerdict, ToothFault, verdict_of_faults
-from geartrain.teeth.transmission import ExactRatio, check_friction
+from geartrain.teeth.transmission import ContactRubbing, ExactRatio, check_friction
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -166,6 +166,19 @@ class ConjugateTransmission(ExactRatio):
         with np.errstate(invalid="ignore"):
             found: Floats = np.where(count > 0, each.sum(axis=0) / np.maximum(count, 1), nan)
         return found
+
+    def rubbing(self, S: ArrayLike) -> ContactRubbing:
+        """Of all pairs of teeth in contact, which take equal shares of the driver's torque."""
+        pitch, X = self.path.pitch, self.contacts(S)
+        touching = ~np.isnan(X)
+        found = [np.full(X.shape, nan) for _ in range(3)]
+        if touching.any():
+            contact = self.path.at(X[touching] if self.driver == 1 else -X[touching])
+            shares = (power / contact.cos_psi - 1 for power in powers(pitch, contact, 1.0, self.driver))
+            values = ((pitch.A + pitch.B) * np.abs(pitch.S(contact.d)), *shares)
+            for each, value in zip(found, values, strict=True):
+                each[touching] = value
+        return ContactRubbing(*found)
 
     @cached_property
     def locking_friction(self) -> float:

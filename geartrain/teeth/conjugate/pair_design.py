@@ -125,9 +125,9 @@ class PairDesign(Result):
     @property
     def efficiency(self) -> SharedEfficiency | None:
         """Exact in friction; None for teeth that cannot run."""
-        return SharedEfficiency(SlidingEfficiency(self.mesh.law)) if self.runs else None
+        return SharedEfficiency(self.mesh.efficiency(self.mesh.driver)) if self.runs else None
 
     @property
     def locks(self) -> bool:
         """True if friction locks the teeth."""
-        return self.mesh.law.friction >= self.mesh.law.locking_friction
+        return self.mesh.losses.locks

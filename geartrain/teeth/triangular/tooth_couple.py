@@ -100,6 +100,12 @@ class ToothCouple:
         side = m.copysign(1.0, c * (cos_psi + sin_psi * (sin_psi + s) / (cos_psi + q)))
         return side, s / q, self.R1 * self.sin1 / self._driver_arm(u, cos_psi, q)
 
+    def approach_sliding(self, x: Any, m: ModuleType = math) -> Any:
+        """Speed of sliding in approach over the driver's: R2 |sin y| / cos psi, the distance from C, times 1 + tau."""
+        _, sin_psi, cos_psi, c, s, q = self._line(x, m)
+        # (1 + tau) / cos psi is D over the driven wheel's distance from the normal
+        return self.D * abs(c * (cos_psi + sin_psi * (sin_psi + s) / (cos_psi + q))) / q
+
     # --------------------------------------------------------------------------------------------------------- recess
 
     def _apex(self, x: Any, m: ModuleType) -> DrivenApex:
@@ -156,6 +162,11 @@ class ToothCouple:
         """Side of the line of centres (sign of alpha_1), and the tangents tan2, tan1 of Eq. (33)."""
         arm, q, s, _, _, sine = self._turned(self._apex(x, m))
         return m.copysign(1.0, sine), self.R2 * self.sin2 / arm, s / q
+
+    def recess_sliding(self, x: Any, m: ModuleType = math) -> Any:
+        """Speed of sliding in recess over the driver's: R1 |sin x| / cos psi2 times 1 + tau."""
+        sine, _, arm, _, _ = self._apex(x, m)
+        return self.D * self.R1 * abs(sine) / arm
 
     # ------------------------------------------------------------------------------------------------------- returning
 
@@ -218,6 +229,10 @@ class ToothCouple:
     def normal_arms(self, phase: str, x: Any, m: ModuleType = math) -> tuple[Any, Any]:
         """Distances n1, n2 of both centres from the common normal: tau = n1/n2."""
         return self.approach_normal_arms(x, m) if phase == APPROACH else self.recess_normal_arms(x, m)
+
+    def sliding(self, phase: str, x: Any, m: ModuleType = math) -> Any:
+        """Speed of sliding over the driver's angular speed, docs/shapes.md (14)."""
+        return self.approach_sliding(x, m) if phase == APPROACH else self.recess_sliding(x, m)
 
     def moment_arms(self, phase: str, x: Any, f: float, m: ModuleType = math) -> tuple[Any, Any]:
         """Distances b1, b2 of both centres from the line of the force at friction f, Eqs. (28) to (31) corrected.

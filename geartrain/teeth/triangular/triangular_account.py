@@ -67,7 +67,7 @@ class TriangularFigures(PairFigures):
 
 def triangular_account(mesh: TriangularMesh) -> PairAccount:
     """A row on its clearance and one on its law, and the figures."""
-    figures = triangular_figures(mesh.law, mesh.window)
+    figures = triangular_figures(mesh.law, mesh.window, losses=mesh.efficiency(mesh.driver))
     tables = AccountTable(_PLACE, _place_row(mesh)), AccountTable(_LAW, _law_row(mesh, figures))
     return PairAccount(_WORDS, tables, figures)
 
@@ -85,21 +85,24 @@ def _law_row(mesh: TriangularMesh, figures: TriangularFigures) -> tuple[str, ...
     if speed is None or efficiency is None:
         return (mesh.name, "-", "-", "-", "-")
     least, most = speed.relative
-    lost = "-" if mesh.friction is None else efficiency.text
+    lost = efficiency.text if mesh.tells_losses else "-"
     jumps = ", ".join(f"{jump.value:.4f}" for jump in figures.jumps)
     return (mesh.name, f"{least:.5f}..{most:.5f}", figures.error_text, lost, jumps)
 
 
 def triangular_figures(
-    law: TriangularTransmission, window: ClearanceWindow | None, impacts: Result | None = None
+    law: TriangularTransmission,
+    window: ClearanceWindow | None,
+    impacts: Result | None = None,
+    losses: SlidingEfficiency | None = None,
 ) -> TriangularFigures:
-    """Of a pair, whatever train it is in."""
+    """Of a pair, whatever train it is in; `losses` where they are not those of the law alone."""
     found, moves = law.verdict, bool(law.intervals)
     return TriangularFigures(
         (law.sizes.z1, law.sizes.z2),
         found if found else found.explained(*explain_clearance(law, window)),
         *motion_figures(law, moves),
-        SlidingEfficiency(law) if moves else None,
+        (losses or SlidingEfficiency(law)) if moves else None,
         sizes=law.sizes,
         window=window,
         intervals=law.intervals,

@@ -104,6 +104,14 @@ class TriangularMesh(GearMesh):
             return self.size({})
         return self.size({wheel: tip / module for wheel, tip in self.unit_tips.items()})
 
+    @property
+    def pitch_radius(self) -> float | None:
+        """Of the centre distance that the law has, where that is in m."""
+        if not self.tooth_form.in_metres(self.wheels.module):
+            return None
+        z1, z2 = self.wheels.counts
+        return self.law.sizes.D * z1 / (z1 + z2)
+
     def requirement(self, wheel: str, scale: float, tolerance: float) -> TriangularTooth:
         """A point at the tip radius; straight flanks need no tolerance."""
         del tolerance
@@ -127,7 +135,12 @@ class TriangularMesh(GearMesh):
 
         return triangular_account(self)
 
-    def _faults(self) -> Iterator[Problem]:
+    def own_faults(self) -> Iterator[Problem]:
+        """Everything that is wrong, with what would mend it."""
         yield from (fault.problem for fault in self.verdict.faults)
-        if self.verdict and self.law.friction >= self.law.locking_friction:
+        if self.wheels.friction_law is not None:
+            from geartrain.teeth.mesh_faults import friction_faults
+
+            yield from friction_faults(self)
+        elif self.verdict and self.law.locks:
             yield Problem(*explain_friction_lock(self.law))

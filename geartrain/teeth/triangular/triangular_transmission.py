@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from fractions import Fraction
-from functools import cached_property, lru_cache
+from functools import cached_property, lru_cache, partial
 from itertools import pairwise
 from math import inf, nan, sqrt
 from typing import TYPE_CHECKING, Any
@@ -13,7 +13,7 @@ import numpy as np
 
 from geartrain.errors import Problem, RangeError
 from geartrain.numerics.roots import bracketed_root
-from geartrain.teeth.transmission import SpeedLeap, TransmissionFunction, behind, check_friction
+from geartrain.teeth.transmission import ContactRubbing, SpeedLeap, TransmissionFunction, behind, check_friction
 from geartrain.teeth.triangular.clearance_window import TriangularContact
 from geartrain.teeth.triangular.pair_geometry import TriangularSizes
 from geartrain.teeth.triangular.real_path import DriveInterval
@@ -76,6 +76,21 @@ class TriangularTransmission(TransmissionFunction):
     def efficiency(self, S: ArrayLike) -> Floats:
         """Sliding efficiency at driver angles S (rad); NaN in a standstill."""
         return self._map(S, self._eta)
+
+    def rubbing(self, S: ArrayLike) -> ContactRubbing:
+        """Of the one couple in contact; NaN in a standstill."""
+        found = (self._map(S, partial(self._rubs, at)) for at in range(3))
+        return ContactRubbing(*(each[None] for each in found))
+
+    def _rubs(self, at: int, interval: DriveInterval, x: Any) -> Any:
+        """Sliding over the pitch line's speed, and what friction adds to the power that enters and leaves."""
+        if interval.held is not None:
+            return nan
+        couple, sizes = self.contact.path.couple, self.sizes
+        if at == 0:
+            return couple.sliding(interval.phase, x, np) * (sizes.z1 + sizes.z2) / (sizes.D * sizes.z1)
+        side, tan2, tan1 = couple.friction(interval.phase, x, np)
+        return -side * (tan1 if at == 1 else tan2)
 
     def error_and_speed(self, S: ArrayLike) -> tuple[Floats, Floats]:
         """Transmission error (rad of the driven wheel) and tau; where in the path an angle falls is found once."""

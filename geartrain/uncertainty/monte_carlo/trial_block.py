@@ -11,7 +11,7 @@ import numpy as np
 
 from geartrain.dynamics.motion.error_composition import ErrorComposition
 from geartrain.dynamics.motion.superposition import Superposition
-from geartrain.teeth.transmission import ConstantLag
+from geartrain.teeth.constant_lag import ConstantLag
 from geartrain.uncertainty.manufacturing_errors.cut_pair import CutGearPair
 from geartrain.uncertainty.manufacturing_errors.cut_wheel import CutWheel
 from geartrain.uncertainty.manufacturing_errors.meshing_cycle import MeshingVerdicts

@@ -1,0 +1,87 @@
+"""At what speed the teeth of a pair meet: what friction that depends on speed asks of a train.
+
+In the frame of its carrier the pitch line of a pair runs at V = |w_i - w_k| r_i, docs/torques.md (17a); w comes from
+the `rate` of the train, or from inputs with units, and r from the modules of both wheels.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+from geartrain.errors import GearTrainError, Problem
+from geartrain.numerics.units import RADIANS_PER_TURN
+
+if TYPE_CHECKING:
+    from geartrain.dynamics.torques.load_case import LoadCase
+    from geartrain.kinematics.circuits import Circuit
+    from geartrain.teeth.gear_mesh import GearMesh
+    from geartrain.train import StateCase, Train
+
+
+def radians_per_second(train: Train, case: StateCase) -> float | None:
+    """rad/s in the train's unit of speed; None where its speeds are plain numbers.
+
+    Speeds are real where the train has a `rate`, that of the first input that turns, or its inputs have units.
+    """
+    lead = next((speed for speed in case.inputs.values() if speed), None)
+    if train.rate is not None and train.rate.unit is not None and lead is not None:
+        return abs(train.rate.si / float(lead))
+    if not train.input_unit or train.unit_speed is None:
+        return None
+    return float(train.unit_speed * RADIANS_PER_TURN)
+
+
+@dataclass(frozen=True)
+class PairSpeed:
+    """The speed (m/s) of a pair's pitch line, or why it is not known."""
+
+    value: float | None
+    problem: Problem | None = None
+
+    def known(self) -> float:
+        """The speed. Raises `GearTrainError` that says what is missing."""
+        if self.problem is not None:
+            raise GearTrainError(self.problem)
+        return self.value or 0.0
+
+
+def pitch_line_speed(setting: LoadCase, circuit: Circuit, mesh: GearMesh) -> PairSpeed:
+    """Of one pair in one state; None without a problem where the way it rolls is not determined."""
+    turning = setting.relative(circuit.i, circuit.carrier)
+    if turning is None:
+        return PairSpeed(None)
+    unit, radius = radians_per_second(setting.train, setting.case), mesh.pitch_radius
+    missing = []
+    if unit is None:
+        missing.append(("how fast the train turns", "`rate`, such as `rate: 1 turn/s`"))
+    if radius is None:
+        missing.append(("how large its wheels are", "the `module` of both wheels with a unit, such as `module: 1 mm`"))
+    if missing:
+        what = f"{mesh.label}: its friction depends on speed, and none is known"
+        why = f"nothing says {' or '.join(words for words, _ in missing)}"
+        fix = f"give {', and '.join(keys for _, keys in missing)}; or friction as a number"
+        return PairSpeed(None, Problem(what, why, fix, mesh.place))
+    assert unit is not None
+    assert radius is not None
+    first = mesh.gear.pair[0] in setting.train.links[circuit.i].wheels
+    other = setting.relative(circuit.j, circuit.carrier)
+    if not first and other is not None:
+        turning = other
+    return PairSpeed(abs(float(turning)) * unit * radius)
+
+
+def at_speed(mesh: GearMesh, speed: float | None) -> GearMesh:
+    """The same teeth with their pitch line running at a speed (m/s), where their friction depends on it."""
+    if mesh.wheels.friction_law is None:
+        return mesh
+    return replace(mesh, wheels=replace(mesh.wheels, pitch_line=speed))
+
+
+def at_own_speeds(meshes: Sequence[GearMesh], setting: LoadCase | None) -> tuple[GearMesh, ...]:
+    """Meshes at the speeds of one state, as far as they are known."""
+    if setting is None:
+        return tuple(meshes)
+    circuits = {circuit.id: circuit for circuit in setting.circuits}
+    return tuple(at_speed(mesh, pitch_line_speed(setting, circuits[mesh.name], mesh).value) for mesh in meshes)

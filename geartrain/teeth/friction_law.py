@@ -1,0 +1,212 @@
+"""Friction that depends on speed: laws that may stand in place of a coefficient, and a pair that runs under one.
+
+The measured values are those that W. D. Smith prints in "Optimal shapes for gears" (1993): Buckingham's for lubricated
+cast iron, Dokos's for dry steel. Smith gives their ends, not their tables; what is put between them is said below.
+"""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from dataclasses import dataclass
+from itertools import pairwise
+from math import log, sqrt
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
+
+from pydantic import AfterValidator, BaseModel, ConfigDict, Field, model_validator
+from pydantic_core import PydanticCustomError
+
+from geartrain.numerics.quantity import Figure, Quantity, Velocity
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
+
+    from geartrain.numerics.arrays import Floats
+
+FOOT_A_MINUTE = 0.3048 / 60
+"""m/s."""
+BUCKINGHAM = ((0.0, 0.0517), (150.0, 0.0112), (2100.0, 0.0385))
+"""Pitch-line speed (ft/min) and coefficient of lubricated cast-iron spur gears: Buckingham, p. 404, as Smith cites."""
+DOKOS = (0.53, 0.18, 1e7)
+"""Coefficient of dry steel on dry steel, slowest and fastest, and the factor between the speeds: Dokos, likewise."""
+SLOWEST_OF_DOKOS = Quantity.parse("0.0001 in/s", "velocity", False)
+
+
+def stribeck(v: Floats, static: float, kinetic: float, speed: float, exponent: float, viscous: float) -> Floats:
+    """mu = kinetic + (static - kinetic) exp(-(v/speed)^exponent) + viscous v, docs/shapes.md (16).
+
+    Stribeck's fall from rest to full sliding with the viscous rise after it; v, speed in m/s, viscous in s/m.
+    """
+    import numpy as np
+
+    found: Floats = kinetic + (static - kinetic) * np.exp(-((v / speed) ** exponent)) + viscous * v
+    return found
+
+
+def buckingham(V: Floats) -> Floats:
+    """mu = c2 exp(-c1 V) + c3 sqrt(V) at the pitch-line speed V (m/s), docs/shapes.md (17).
+
+    The three constants are those at which it has Buckingham's three printed values: c2 is that of the stationary pair,
+    c3 that of the fastest, where the first term has gone, and c1 follows from the middle one.
+    """
+    import numpy as np
+
+    (_, rest), (slow, low), (fast, high) = BUCKINGHAM
+    rise = high / sqrt(fast)
+    fall = log(rest / (low - rise * sqrt(slow))) / slow
+    feet = np.asarray(V) / FOOT_A_MINUTE
+    found: Floats = rest * np.exp(-fall * feet) + rise * np.sqrt(feet)
+    return found
+
+
+def dokos(v: Floats, slowest: float) -> Floats:
+    """mu falls from 0.53 at `slowest` to 0.18 at 10^7 times that speed, evenly in log v, docs/shapes.md (18).
+
+    Level beyond both. Smith prints no more than both ends and the factor ("gradually"), and no speed.
+    """
+    import numpy as np
+
+    first, last, factor = DOKOS
+    with np.errstate(divide="ignore"):
+        decades = np.log(np.asarray(v) / slowest) / log(factor)
+    found: Floats = first + (last - first) * np.clip(decades, 0.0, 1.0)
+    return found
+
+
+def _bad(what: str, fix: str) -> PydanticCustomError:
+    return PydanticCustomError("friction", "{what}", {"what": what, "fix": fix})
+
+
+def _positive(value: Any) -> Any:
+    if value.value <= 0:
+        raise _bad(f"{value.text} is not above 0", "give a number above 0")
+    return value
+
+
+def _not_negative(value: Any) -> Any:
+    if value.value < 0:
+        raise _bad(f"{value.text} is below 0", "give 0 or more")
+    return value
+
+
+Coefficient = Annotated[Figure, AfterValidator(_not_negative)]
+PositiveFigure = Annotated[Figure, AfterValidator(_positive)]
+PositiveVelocity = Annotated[Velocity, AfterValidator(_positive)]
+Speeds = Literal["sliding", "pitch_line"]
+
+
+class FrictionLaw(BaseModel, ABC):
+    """Friction between teeth as a function of a speed: of sliding, at each contact, or of the pitch line."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
+
+    pitch_line: ClassVar[bool] = False
+    """True for laws of the pitch-line speed, whose coefficient is the same at every contact."""
+
+    if TYPE_CHECKING:
+        law: str
+
+    @abstractmethod
+    def coefficient(self, speed: Floats) -> Floats:
+        """The coefficient of friction at speeds of 0 or more (m/s)."""
+
+    @property
+    def of_pitch_line(self) -> bool:
+        """True if the speed is that of the pitch line."""
+        return self.pitch_line
+
+
+class StribeckFriction(FrictionLaw):
+    """Friction that falls from rest to full sliding, and may rise again with the speed."""
+
+    law: Literal["stribeck"] = Field(description="Falls from rest to full sliding: Stribeck")
+    static: Coefficient = Field(description="Coefficient at rest")
+    kinetic: Coefficient = Field(description="Coefficient that it falls to")
+    speed: PositiveVelocity = Field(description="Speed of sliding at which 1/e of the fall is left")
+    exponent: PositiveFigure = Field(Figure.parse("2"), description="Of the speed, 2 by default; 1/2 to 2 are usual")
+    viscous: Coefficient = Field(Figure.parse("0"), description="What a speed of 1 m/s adds")
+
+    def coefficient(self, speed: Floats) -> Floats:
+        """`stribeck`."""
+        exponent, viscous = float(self.exponent.value), float(self.viscous.value)
+        return stribeck(speed, float(self.static.value), float(self.kinetic.value), self.speed.si, exponent, viscous)
+
+
+class BuckinghamFriction(FrictionLaw):
+    """Lubricated cast-iron spur gears, by the speed of the pitch line."""
+
+    pitch_line: ClassVar[bool] = True
+
+    law: Literal["buckingham"] = Field(description="Lubricated cast iron, by pitch-line speed: Buckingham")
+
+    def coefficient(self, speed: Floats) -> Floats:
+        """`buckingham`."""
+        return buckingham(speed)
+
+
+class DokosFriction(FrictionLaw):
+    """Dry steel on dry steel."""
+
+    law: Literal["dokos"] = Field(description="Dry steel on dry steel, by speed of sliding: Dokos")
+    slowest: PositiveVelocity = Field(
+        SLOWEST_OF_DOKOS,
+        description="Speed at which the coefficient is 0.53; default 0.0001 in/s, which is no source's",
+    )
+
+    def coefficient(self, speed: Floats) -> Floats:
+        """`dokos`."""
+        return dokos(speed, self.slowest.si)
+
+
+class TabulatedFriction(FrictionLaw):
+    """Coefficients at some speeds, straight lines between them."""
+
+    law: Literal["table"] = Field(description="Coefficients at speeds of your own")
+    speeds: tuple[Velocity, ...] = Field(description="Speeds, each above the last; level before the first and beyond")
+    coefficients: tuple[Coefficient, ...] = Field(description="The coefficient at each")
+    of: Speeds = Field("sliding", description="Of which speed: sliding, at each contact, or pitch_line")
+
+    @model_validator(mode="after")
+    def _is_a_table(self) -> TabulatedFriction:
+        speeds = [speed.base for speed in self.speeds]
+        if len(speeds) != len(self.coefficients) or len(speeds) < 2:
+            raise _bad("speeds and coefficients are no two columns", "give as many of both, two at least")
+        if speeds[0] < 0 or any(low >= high for low, high in pairwise(speeds)):
+            raise _bad("these speeds do not rise from 0 or more", "write them in rising order")
+        return self
+
+    @property
+    def of_pitch_line(self) -> bool:
+        """As declared."""
+        return self.of == "pitch_line"
+
+    def coefficient(self, speed: Floats) -> Floats:
+        """By linear interpolation."""
+        import numpy as np
+
+        found: Floats = np.interp(
+            speed, [each.si for each in self.speeds], [float(each.value) for each in self.coefficients]
+        )
+        return found
+
+
+AnyFrictionLaw = Annotated[
+    StribeckFriction | BuckinghamFriction | DokosFriction | TabulatedFriction, Field(discriminator="law")
+]
+"""What a declaration may say of friction besides a number."""
+
+
+@dataclass(frozen=True, slots=True)
+class PairFriction:
+    """A law of friction in a pair whose pitch line runs at a speed (m/s)."""
+
+    law: FrictionLaw
+    pitch_line: float
+
+    def __call__(self, sliding: ArrayLike) -> Floats:
+        """The coefficient where teeth slide at these speeds, over that of the pitch line."""
+        import numpy as np
+
+        speed = np.asarray(sliding, dtype=float) * self.pitch_line
+        if self.law.of_pitch_line:
+            speed = np.where(np.isnan(speed), np.nan, self.pitch_line)
+        return self.law.coefficient(speed)

@@ -1,0 +1,195 @@
+"""The losses of a pair whose friction depends on the speed at which its teeth slide, whatever their form."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import cached_property
+from itertools import pairwise
+from math import inf, nan
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from geartrain.teeth.friction_law import PairFriction
+from geartrain.teeth.transmission import ContactRubbing, TransmissionFunction
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
+
+    from geartrain.numerics.arrays import Floats
+    from geartrain.teeth.gear_mesh import GearMesh
+    from geartrain.teeth.meshing_wheels import MeshingWheels
+
+_GAUSS = np.polynomial.legendre.leggauss(16)
+_ROUNDING = 1e-12  # of a period: what the integral over a stretch may be off by
+_DEEPEST = 40  # halvings: a coefficient may fall within a speed that is a small part of what the teeth slide at
+_END = 1e-9  # of a stretch: how near to its ends the least efficiency is looked for
+_NARROW = 1e-13  # of a period: a stretch that is none
+
+
+class _Nodes(NamedTuple):
+    """Driver angles, their weights in an integral, and at each efficiency and mean coefficient of friction."""
+
+    S: Floats
+    weights: Floats
+    efficiency: Floats
+    coefficient: Floats
+
+
+class RubbedTransmission(TransmissionFunction):
+    """A law with friction that depends on speed: its motion is the law's own, its losses those of each contact.
+
+    At a driver angle where teeth slide at v the coefficient is mu(v), and a contact passes (1 + mu out) / (1 + mu into)
+    of its power (docs/shapes.md, section 15); contacts at once take equal shares of the driver's torque.
+    """
+
+    def __init__(self, law: TransmissionFunction, by: PairFriction) -> None:
+        self.law, self.by, self.ratio, self.period = law, by, law.ratio, law.period
+
+    # ---------------------------------------------------------------------------------------------------- kinematics
+
+    def error(self, S: ArrayLike) -> Floats:
+        """The law's own."""
+        return self.law.error(S)
+
+    def speed(self, S: ArrayLike) -> Floats:
+        """The law's own."""
+        return self.law.speed(S)
+
+    def speed_range(self) -> tuple[float, float]:
+        """The law's own."""
+        return self.law.speed_range()
+
+    def error_range(self) -> tuple[float, float]:
+        """The law's own."""
+        return self.law.error_range()
+
+    def error_moments(self) -> tuple[float, float]:
+        """The law's own."""
+        return self.law.error_moments()
+
+    def corners(self) -> list[float]:
+        """The law's own."""
+        return self.law.corners()
+
+    def turned_back(self) -> RubbedTransmission:
+        """The law of the other flanks, rubbed by the same friction."""
+        return RubbedTransmission(self.law.turned_back(), self.by)
+
+    # ------------------------------------------------------------------------------------------------------- friction
+
+    def rubbing(self, S: ArrayLike) -> ContactRubbing:
+        """The law's own."""
+        return self.law.rubbing(S)
+
+    def coefficient(self, S: ArrayLike) -> Floats:
+        """Coefficient of friction at each contact, at driver angles S (rad); NaN where there is none."""
+        return self.by(self.rubbing(S).sliding)
+
+    def efficiency(self, S: ArrayLike) -> Floats:
+        """Power out over power in at driver angles S (rad); NaN where nothing touches or friction locks."""
+        return self._passed(self.rubbing(S))[0]
+
+    def _passed(self, rubbing: ContactRubbing) -> tuple[Floats, Floats]:
+        """Mean efficiency and coefficient of contacts at once; NaN where there is none, the first where one locks."""
+        sliding, into, out = rubbing
+        mu = self.by(sliding)
+        touching = ~np.isnan(out)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            into, out = 1 + mu * into, 1 + mu * out
+            each = np.where(touching, np.where((out > 0) & (into > 0), out / into, nan), 0.0)
+            count = touching.sum(axis=0)
+            return each.sum(axis=0) / count, np.where(touching, mu, 0.0).sum(axis=0) / count
+
+    @property
+    def friction(self) -> float:  # type: ignore[override]
+        """Mean coefficient over the driver's angle and the contacts."""
+        return float(self._sampled.weights @ self._sampled.coefficient)
+
+    @property
+    def locking_friction(self) -> float:
+        """The least constant friction that locks; infinite where none does."""
+        return self.law.locking_friction
+
+    @property
+    def locks(self) -> bool:
+        """True if the coefficient of the moment locks the pair at some driver angle."""
+        return self.law.locking_friction < inf and bool(np.isnan(self._sampled.efficiency).any())
+
+    @cached_property
+    def _stretches(self) -> list[tuple[float, float]]:
+        """The smooth stretches of one period, in driver angle."""
+        cuts = sorted({float(np.mod(corner, self.period)) for corner in self.corners()} or {0.0})
+        edges = pairwise([*cuts, cuts[0] + self.period])
+        return [(low, high) for low, high in edges if high - low > _NARROW * self.period]
+
+    @cached_property
+    def _sampled(self) -> _Nodes:
+        """Nodes of a whole period where teeth touch, with weights whose sum is 1."""
+        if (given := self.law.rubbing_nodes()) is not None:
+            S, weights, rubbing = given
+            parts = [_Nodes(S, weights, *self._passed(rubbing))]
+        else:
+            parts = [part for low, high in self._stretches for part in self._graded(self._nodes(low, high), low, high)]
+        S, weights, efficiency, coefficient = (np.concatenate(column) for column in zip(*parts, strict=True))
+        touching = ~np.isnan(coefficient)
+        weights = weights[touching]
+        return _Nodes(S[touching], weights / weights.sum(), efficiency[touching], coefficient[touching])
+
+    def _graded(self, whole: _Nodes, low: float, high: float, depth: int = 0) -> Iterator[_Nodes]:
+        """Nodes on one stretch, halved until the power put in for a constant load is integrated to rounding."""
+        middle = (low + high) / 2
+        ends = ((low, middle), (middle, high))
+        halves = [self._nodes(*each) for each in ends]
+        off = sum(half.weights @ (1 / half.efficiency) for half in halves) - whole.weights @ (1 / whole.efficiency)
+        # NaN where it stands or locks: no finer nodes would tell more
+        if not abs(off) > _ROUNDING * self.period or depth == _DEEPEST:
+            yield from halves
+            return
+        for half, each in zip(halves, ends, strict=True):
+            yield from self._graded(half, *each, depth + 1)
+
+    def _nodes(self, low: float, high: float) -> _Nodes:
+        x, w = _GAUSS
+        S = (low + high) / 2 + (high - low) / 2 * x
+        return _Nodes(S, (high - low) / 2 * w, *self._passed(self.rubbing(S)))
+
+    def efficiency_mean(self) -> float:
+        """Mean over the driver's angle in contact at constant driver torque; NaN where friction locks."""
+        return nan if self.locks else float(self._sampled.weights @ self._sampled.efficiency)
+
+    def efficiency_at_constant_load(self) -> float:
+        """Work done on a constant load torque over the work put in, per pitch; NaN where friction locks."""
+        if self.locks:
+            return nan
+        speed, at = self.speed(self._sampled.S), self._sampled
+        return float((at.weights @ speed) / (at.weights @ (speed / at.efficiency)))
+
+    def efficiency_least(self) -> float:
+        """Least efficiency among the nodes of all stretches and at their ends; NaN where friction locks."""
+        if self.locks:
+            return nan
+        if self.law.rubbing_nodes() is not None:
+            return float(self._sampled.efficiency.min())
+        # at an end itself another pair of teeth may be in contact, or the other side of the pitch point
+        ends = np.array([low + share * (high - low) for low, high in self._stretches for share in (_END, 1 - _END)])
+        return float(min(np.nanmin(self.efficiency(ends)), self._sampled.efficiency.min()))
+
+
+def rubbed(law: TransmissionFunction, wheels: MeshingWheels) -> TransmissionFunction:
+    """The law of a pair with the friction that its wheels declare, where that depends on speed; else as it is."""
+    declared, at = wheels.friction_law, wheels.pitch_line
+    return law if declared is None or at is None else RubbedTransmission(law, PairFriction(declared, at))
+
+
+def friction_words(mesh: GearMesh) -> str:
+    """The friction of a pair in words, at the speed at which it runs."""
+    declared, at = mesh.wheels.friction_law, mesh.wheels.pitch_line
+    if declared is None:
+        return f"Coefficient of friction {mesh.law.friction:g}"
+    if at is None:
+        return f"Friction by the law '{declared.law}' of speed, and no speed is known"
+    return (
+        f"Friction by the law '{declared.law}' at a pitch-line speed of {at:.6g} m/s, with a mean coefficient of "
+        f"{mesh.losses.friction:.6g}"
+    )

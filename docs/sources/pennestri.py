@@ -344,6 +344,7 @@ def results() -> Iterator[Row]:
         "Hipparchus' month",
         MONTHS,
     )
+    yield outside("Results, definitions", "what a sidereal and a synodic month are", "definitions, and right")
     yield words("Results, its name", "that month is the sidereal one", "sidereal()", "is called the sidereal month")
     yield words("Footnote 1", "the Julian year is more than 11 minutes too long; 10 days in all", "calendar()")
     yield outside(

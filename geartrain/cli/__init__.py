@@ -21,7 +21,19 @@ class VerbGroup(EndingGroup, LazyGroup):
         "geartrain.cli",
         (
             *("report", "view", "draw", "export", "compare", "check", "solve", "equations", "graph", "torques"),
-            *("motion", "montecarlo", "sphere", "teeth", "posterior", "schema", "list", "periods", "mesh", "bench"),
+            *(
+                "motion",
+                "montecarlo",
+                "sphere",
+                "teeth",
+                "posterior",
+                "optimise",
+                "schema",
+                "list",
+                "periods",
+                "mesh",
+                "bench",
+            ),
         ),
         renamed={"errors": "montecarlo", "sweep": "posterior"},
     )

@@ -40,6 +40,7 @@ def _of_trains() -> dict[str, Schema]:
     from geartrain.report.motion_figures import MotionFigures
     from geartrain.report.torque_figures import TorqueReport
     from geartrain.report.train_data import TrainAnswers, TrainReport
+    from geartrain.synthesis.tooth_sizes.train_sizes import BestTrainSizes
 
     report = shape_of(TrainReport)
     report = report | {"properties": report["properties"] | {"teeth": _list(_of_any_form(DrivenPair))}}
@@ -50,6 +51,7 @@ def _of_trains() -> dict[str, Schema]:
         "compare": _list(report),
         "torques": shape_of(TorqueReport),
         "motion": shape_of(MotionFigures),
+        "optimise": shape_of(BestTrainSizes),
         "bench": shape_of(AccuracyReport),
         "graph --as matrix": shape_of(LabelledArray),
         "graph --as json": _has({"directed": FLAG, "multigraph": FLAG, "graph": OBJECT, **edges}),

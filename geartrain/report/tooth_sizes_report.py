@@ -1,4 +1,4 @@
-"""Pages on the best sizes of triangular teeth: of one pair."""
+"""Pages on the best sizes of triangular teeth: of one pair, and of a train."""
 
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ if TYPE_CHECKING:
     from geartrain.synthesis.tooth_sizes.outline_agreement import OutlineAgreement
     from geartrain.synthesis.tooth_sizes.size_design import SizeLimit, ToothSizes
     from geartrain.synthesis.tooth_sizes.size_search import BestToothSizes
+    from geartrain.synthesis.tooth_sizes.train_sizes import BestTrainSizes, PairSizes
 
 AIM_WORDS: Mapping[str, str] = {
     "loss": "least loss",
@@ -61,6 +62,91 @@ def describe_tooth_sizes(found: BestToothSizes) -> Document:
     if found.front:
         sections.append(_front(found))
     return Document(f"Triangular teeth {z1}/{z2}: {aims}", lead, sections)
+
+
+def describe_train_sizes(found: BestTrainSizes) -> Document:
+    """A page on the best sizes of the triangular teeth of a train.
+
+    Parameters
+    ----------
+    found : BestTrainSizes
+        What `geartrain.synthesis.find_train_sizes` gives.
+
+    Returns
+    -------
+    Document
+        What was gained, pair by pair and together; the sizes of each pair before and after.
+
+    Examples
+    --------
+    >>> import geartrain
+    >>> from geartrain.synthesis import find_train_sizes
+    >>> page = describe_train_sizes(find_train_sizes(geartrain.load("moon-triangular"), "moon", "jam"))
+    >>> page.title, [section.title for section in page.sections]
+    ('moon-triangular: widest margin before a jam at moon', ['What is gained', 'Pairs'])
+    """
+    aim = found.aim
+    rows = [
+        (name, "does not run" if each is None else told(aim, each), *_efficiency(aim, each))
+        for name, each in (
+            ("as declared", found.before),
+            ("pair by pair", found.apart),
+            ("together", found.together),
+        )
+    ]
+    header = ("sizes", _TRAIN_FIGURES[aim], *(("efficiency",) if aim == "loss" else ()))
+    sections = [Section("What is gained", (), (Table(header, rows),)), _pairs(found)]
+    if found.untouched:
+        reasons: dict[str, list[str]] = {}
+        for name, reason in found.untouched.items():
+            reasons.setdefault(reason, []).append(name)
+        rows = [(reason, ", ".join(names)) for reason, names in reasons.items()]
+        sections.append(Section("Left as they are", (), (Table(("why", "pairs"), rows),)))
+    lead = [
+        f"Power enters at '{found.source}'. Free: {free_text(found.free)}.{_limits_text(found.limits)} Each pair is "
+        "sized by itself, then all together by the figure of the train.",
+    ]
+    return Document(f"{found.train}: {AIM_WORDS[aim]} at {found.output}", lead, sections)
+
+
+_TRAIN_FIGURES = {
+    "loss": "loss of the train",
+    "error": "error of the output, p-p",
+    "impact": "sum of impacts",
+    "jam": "least margin",
+}
+
+
+def _efficiency(aim: str, loss: float | None) -> tuple[str, ...]:
+    if aim != "loss":
+        return ()
+    return ("-",) if loss is None else (f"{1 - loss:.6f}",)
+
+
+def _pairs(found: BestTrainSizes) -> Section:
+    """Each pair before and after; windows and half angles where they are free."""
+    sizes = [("radii", "radii"), *((name, name.replace("_", " ")) for name in found.free if name != "radii")]
+    header = ["pair", "drives", "teeth"]
+    for _, words in sizes:
+        header += [f"{words} as declared", "by itself", "together"]
+    header += [f"{found.aim} as declared", "by itself", "together", "by outlines"]
+    rows = [_pair_row(pair, [name for name, _ in sizes], found.aim) for pair in found.pairs]
+    text = f"{_WORDS} The last column: how far the contact of the drawn outlines differs from the law, relatively."
+    return Section("Pairs", (text,), (Table(header, rows, True),))
+
+
+def _pair_row(pair: PairSizes, sizes: Sequence[str], aim: str) -> tuple[str, ...]:
+    designs = (pair.declared, pair.apart, pair.together)
+    cells: list[str] = []
+    for name in sizes:
+        cells += ["-" if each is None else _size(name, each.parameter(name)) for each in designs]
+    cells += ["-" if each is None else told(aim, getattr(each, aim)) for each in designs]
+    agreed = f"{pair.outlines.difference:.1g}" if pair.outlines.turns else "does not turn"
+    return (pair.name, pair.driver, f"{pair.teeth[0]}/{pair.teeth[1]}", *cells, agreed)
+
+
+def _size(name: str, value: float) -> str:
+    return told(name, value) if name == "half_angle" else f"{value:.5f}"
 
 
 def told(figure: str, value: float) -> str:

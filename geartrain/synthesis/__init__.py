@@ -8,6 +8,7 @@ Out: the tooth counts that fit, ranked, with proof that the search was complete,
 `find_sets`     sets of sun, planets and ring: Willis' equation (theory (4), (5)) over all coaxial sets
 `find_orrery`   many periods that share wheels: branch and bound, beam search
 `find_tooth_sizes` the radii, clearance and half angle of triangular teeth: DIRECT, polished by Brent or Nelder and Mead
+`find_train_sizes` the same for all pairs on the way to an output of a train, by its own loss or error
 `approximants`  fractions near a number: the Stern-Brocot tree
 
 `read_ratio` and `read_counts` read what is wanted from text. Counts are decided in integers, ratios in Fractions.
@@ -42,6 +43,9 @@ if TYPE_CHECKING:
     from geartrain.synthesis.tooth_sizes.size_design import ToothSizes as ToothSizes
     from geartrain.synthesis.tooth_sizes.size_search import BestToothSizes as BestToothSizes
     from geartrain.synthesis.tooth_sizes.size_search import find_tooth_sizes as find_tooth_sizes
+    from geartrain.synthesis.tooth_sizes.train_sizes import BestTrainSizes as BestTrainSizes
+    from geartrain.synthesis.tooth_sizes.train_sizes import PairSizes as PairSizes
+    from geartrain.synthesis.tooth_sizes.train_sizes import find_train_sizes as find_train_sizes
     from geartrain.synthesis.train.train_findings import Assignment as Assignment
     from geartrain.synthesis.train.train_findings import TrainFindings as TrainFindings
     from geartrain.synthesis.train.train_search import search_train as search_train
@@ -50,12 +54,14 @@ __all__ = [
     "Approximant",
     "Assignment",
     "BestToothSizes",
+    "BestTrainSizes",
     "ConstraintOptions",
     "CountRuns",
     "EpicyclicSet",
     "GearStages",
     "Orrery",
     "OutlineAgreement",
+    "PairSizes",
     "SetFindings",
     "Shortfall",
     "SizeLimit",
@@ -69,6 +75,7 @@ __all__ = [
     "find_sets",
     "find_stages",
     "find_tooth_sizes",
+    "find_train_sizes",
     "read_counts",
     "read_ratio",
     "search_train",
@@ -78,12 +85,14 @@ _PLACES = {
     "Approximant": "stern_brocot",
     "Assignment": "train.train_findings",
     "BestToothSizes": "tooth_sizes.size_search",
+    "BestTrainSizes": "tooth_sizes.train_sizes",
     "ConstraintOptions": "constraints.constraint_options",
     "CountRuns": "tooth_count_ranges",
     "EpicyclicSet": "epicyclic.epicyclic_sets",
     "GearStages": "search_outcome",
     "Orrery": "orrery.orrery_result",
     "OutlineAgreement": "tooth_sizes.outline_agreement",
+    "PairSizes": "tooth_sizes.train_sizes",
     "SetFindings": "epicyclic.epicyclic_sets",
     "Shortfall": "search_outcome",
     "SizeLimit": "tooth_sizes.size_design",
@@ -97,6 +106,7 @@ _PLACES = {
     "find_sets": "epicyclic.set_search",
     "find_stages": "ratio.stage_search",
     "find_tooth_sizes": "tooth_sizes.size_search",
+    "find_train_sizes": "tooth_sizes.train_sizes",
     "read_counts": "tooth_count_ranges",
     "read_ratio": "target_ratio",
     "search_train": "train.train_search",

@@ -23,6 +23,7 @@ PAIR = ("--teeth", "20", "30")
 SIZED = (*PAIR, "--module", "1mm")
 FORMS = ("involute", "cycloidal", "lantern", "circular-arc", "uniform-stress", "uniform-temperature", "least-friction")
 MOTION = ("motion", "moon-triangular", "--turns", "1", "--samples", "64", "--output", "moon")
+SIZED_TRAIN = ("optimise", "moon-triangular", "--output", "moon", "--best", "jam", "--free", "window")
 DOUBT = ("posterior", "{doubt}", "--free", "x=18:22", "--free", "z=38:42")
 ERRORS = ("montecarlo", "moon-triangular", "--trials", "2", "--output", "moon", "--set", "placement=2 %")
 
@@ -51,6 +52,7 @@ ASKED: dict[tuple[str, str], tuple[tuple[str, ...], tuple[str, ...]]] = {
     ("teeth orrery", "-o"): (("teeth", "orrery", "a=3", "b=5/2", "--range", "12:40"), (".md", ".json", ".yaml")),
     ("posterior", "-o"): (DOUBT, (".md", ".json", ".csv", ".parquet")),
     ("posterior", "--plot"): (DOUBT, (".svg",)),
+    ("optimise", "-o"): (SIZED_TRAIN, (".md", ".html", ".json", ".yaml")),
     ("bench", "-o"): (("bench", "worm"), (".md", ".html", ".json")),
     ("schema", "-o"): (("schema",), (".json",)),
     ("mesh triangular", "-o"): (("mesh", "triangular", *PAIR, "--window", "0.5"), (".md", ".json")),

@@ -142,6 +142,7 @@ ASKED: dict[str, list[tuple[str, ...]]] = {
     "teeth set --kind list": [("teeth", "set", "--kind", "list")],
     "teeth train": [("teeth", "train", "pennestri-2002-missing", "--best", "1", "--workers", "1")],
     "teeth orrery": [("teeth", "orrery", "a=3", "b=5/2", "--range", "12:40")],
+    "optimise": [("optimise", "moon-triangular", "--output", "moon", "--best", "jam", "--free", "window")],
     "mesh triangular": [
         (*TRIANGULAR, "--window", "0.5", "--friction", "0.2"),
         (*TRIANGULAR, "--window", "0.5", "--friction", "0.9"),
@@ -152,7 +153,7 @@ ASKED: dict[str, list[tuple[str, ...]]] = {
     ],
     "mesh triangular --best": [
         (*TRIANGULAR, "--best", "loss", "--friction", "0.2", "--free", "radii=0.97:0.99"),
-        (*TRIANGULAR, "--best", "jam,error", "--free", "radii=0.6:0.99", "--within", "impact=0.5"),
+        (*TRIANGULAR, "--best", "jam,error", "--free", "radii=0.97:0.99", "--within", "impact=0.5"),
     ],
     "mesh triangular --vary": [(*TRIANGULAR, "--vary", "window=0.1:0.9:3")],
     "mesh pin": [

@@ -264,6 +264,11 @@ def _checked(start: ToothSizes, aims: tuple[str, ...], free: Mapping[str, Range 
     if "loss" in aims and not start.friction:
         what = "without friction every tooth loses nothing"
         raise QuestionError(Problem(what, "", "give a friction above 0, or another aim"))
+    return checked_ranges(free)
+
+
+def checked_ranges(free: Mapping[str, Range | None]) -> dict[str, Range]:
+    """Bounds of what is free, the usual ones where none are given. Raises `QuestionError` for what cannot be."""
     found = {}
     for name, given in free.items():
         if name not in PARAMETERS:

@@ -46,7 +46,7 @@ def describe_tooth_sizes(found: BestToothSizes) -> Document:
     >>> from math import pi
     >>> from geartrain.synthesis import ToothSizes, find_tooth_sizes
     >>> start = ToothSizes((48, 96), 1.0, 0.5, (pi / 6, pi / 6), 0.2)
-    >>> page = describe_tooth_sizes(find_tooth_sizes(start, free={"radii": (0.97, 0.99)}))
+    >>> page = describe_tooth_sizes(find_tooth_sizes(start, free={"window": (0.4, 0.6)}))
     >>> page.title, [section.title for section in page.sections]
     ('Triangular teeth 48/96: least loss', ['Sizes', 'By the outlines'])
     """
@@ -81,7 +81,8 @@ def describe_train_sizes(found: BestTrainSizes) -> Document:
     --------
     >>> import geartrain
     >>> from geartrain.synthesis import find_train_sizes
-    >>> page = describe_train_sizes(find_train_sizes(geartrain.load("moon-triangular"), "moon", "jam"))
+    >>> train = geartrain.load("moon-triangular")
+    >>> page = describe_train_sizes(find_train_sizes(train, "moon", "jam", {"window": (0.3, 0.7)}))
     >>> page.title, [section.title for section in page.sections]
     ('moon-triangular: widest margin before a jam at moon', ['What is gained', 'Pairs'])
     """

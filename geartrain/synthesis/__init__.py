@@ -43,9 +43,9 @@ if TYPE_CHECKING:
     from geartrain.synthesis.tooth_sizes.size_design import ToothSizes as ToothSizes
     from geartrain.synthesis.tooth_sizes.size_search import BestToothSizes as BestToothSizes
     from geartrain.synthesis.tooth_sizes.size_search import find_tooth_sizes as find_tooth_sizes
+    from geartrain.synthesis.tooth_sizes.train_size_search import find_train_sizes as find_train_sizes
     from geartrain.synthesis.tooth_sizes.train_sizes import BestTrainSizes as BestTrainSizes
     from geartrain.synthesis.tooth_sizes.train_sizes import PairSizes as PairSizes
-    from geartrain.synthesis.tooth_sizes.train_sizes import find_train_sizes as find_train_sizes
     from geartrain.synthesis.train.train_findings import Assignment as Assignment
     from geartrain.synthesis.train.train_findings import TrainFindings as TrainFindings
     from geartrain.synthesis.train.train_search import search_train as search_train
@@ -106,7 +106,7 @@ _PLACES = {
     "find_sets": "epicyclic.set_search",
     "find_stages": "ratio.stage_search",
     "find_tooth_sizes": "tooth_sizes.size_search",
-    "find_train_sizes": "tooth_sizes.train_sizes",
+    "find_train_sizes": "tooth_sizes.train_size_search",
     "read_counts": "tooth_count_ranges",
     "read_ratio": "target_ratio",
     "search_train": "train.train_search",

@@ -152,8 +152,8 @@ ASKED: dict[str, list[tuple[str, ...]]] = {
         (*TRIANGULAR, "--window", "0.5", "--inertia", "3 g cm2", "--rate", "1 turn/s", "--load", "1 N mm"),
     ],
     "mesh triangular --best": [
-        (*TRIANGULAR, "--best", "loss", "--friction", "0.2", "--free", "radii=0.97:0.99"),
-        (*TRIANGULAR, "--best", "jam,error", "--free", "radii=0.97:0.99", "--within", "impact=0.5"),
+        (*TRIANGULAR, "--best", "loss", "--friction", "0.2", "--free", "window=0.4:0.6"),
+        (*TRIANGULAR, "--best", "jam,error", "--free", "window=0.4:0.6", "--within", "impact=0.5"),
     ],
     "mesh triangular --vary": [(*TRIANGULAR, "--vary", "window=0.1:0.9:3")],
     "mesh pin": [

@@ -1,0 +1,327 @@
+"""The best sizes of the triangular teeth of a whole train: pair by pair, then together where pairs act on each other.
+
+Power to an output, and the error that reaches it, pass through some pairs only, and these are given the sizes that are
+best for each by itself. What counts is the train's own figure, its loss from input to output or the error of a pointer:
+from the better of the declared sizes and those of the pairs by themselves, coordinate descent changes one size of one
+pair after the other until the figure gains nothing more, so that it is never worse than pair by pair.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from functools import cached_property
+from math import inf
+from typing import Any
+
+from scipy.optimize import minimize_scalar
+
+from geartrain.analysis.gear_train import GearTrain
+from geartrain.dynamics import MotionRun
+from geartrain.errors import GearTrainError, Problem, QuestionError, check_choice
+from geartrain.synthesis.tooth_sizes.outline_agreement import confirm_by_outlines
+from geartrain.synthesis.tooth_sizes.size_design import AIMS, SizeLimit, ToothSizes
+from geartrain.synthesis.tooth_sizes.size_search import Range, SizeSearch, checked_ranges
+from geartrain.synthesis.tooth_sizes.train_sizes import DIGITS, BestTrainSizes, PairSizes, form_data
+from geartrain.teeth.triangular.triangular_form import Triangular
+from geartrain.teeth.triangular.triangular_mesh import TriangularMesh
+
+OnStep = Callable[[], None]
+_TURNS, _SAMPLES = 20.0, 20_000
+"""Of the input, over which the error of a pointer is followed; peaks between the positions are sharpened."""
+_REACH = 0.03  # of a range: how far one step of the descent looks
+_TRIES = 8  # figures of the train in one step of the descent
+_SWEEPS = 4
+_GAIN = 1e-3  # of the figure: a sweep that gains less is the last
+
+
+def find_train_sizes(
+    train: GearTrain,
+    output: str,
+    aim: str = "loss",
+    free: Mapping[str, Range | None] | None = None,
+    limits: Sequence[SizeLimit] = (),
+    state: str | None = None,
+    on_step: OnStep = lambda: None,
+) -> BestTrainSizes:
+    """The sizes of triangular teeth with which a train loses least on the way to an output, or errs least there.
+
+    Parameters
+    ----------
+    train : GearTrain
+        With triangular teeth on some pairs.
+    output : str
+        An output or a link.
+    aim : str
+        `loss` or `error` of the train at the output; `impact`, the sum over the pairs on the way, or `jam`, their least
+        margin.
+    free : mapping of str to (float, float), optional
+        As in `find_tooth_sizes`; a half angle is free only of pairs that share no wheel with another.
+    limits : sequence of SizeLimit
+        What each pair has to keep.
+    state : str, optional
+        A declared state, by default the first.
+    on_step : callable
+        Called at each figure of the train, and at each pair that is done by itself.
+
+    Returns
+    -------
+    BestTrainSizes
+        With a declaration that extends the train.
+
+    Raises
+    ------
+    QuestionError
+        Where no pair with triangular teeth acts on the output, or no sizes turn.
+
+    Notes
+    -----
+    Each pair by `find_tooth_sizes`, then coordinate descent on the train's own figure; docs/teeth.md, section 12.
+
+    Examples
+    --------
+    >>> import geartrain
+    >>> found = find_train_sizes(geartrain.load("moon-triangular"), "moon", "jam", {"window": (0.3, 0.7)})
+    >>> found.together > found.before, [round(pair.together.window, 3) for pair in found.pairs]
+    (True, [0.5, 0.5, 0.5, 0.5])
+    """
+    if aim not in AIMS:
+        raise QuestionError(Problem(f"'{aim}' is nothing to be best in", "", f"ask for one of {', '.join(AIMS)}"))
+    return TrainSizeSearch(train, output, aim, free, limits, state, on_step).found()
+
+
+class TrainSizeSearch:
+    """The sizes of the pairs of one train that act on one output."""
+
+    def __init__(
+        self,
+        train: GearTrain,
+        output: str,
+        aim: str,
+        free: Mapping[str, Range | None] | None,
+        limits: Sequence[SizeLimit],
+        state: str | None,
+        on_step: OnStep,
+    ) -> None:
+        self.train, self.aim, self.limits, self._on_step = train, aim, tuple(limits), on_step
+        self.output = output
+        self.state = state if state is not None or not train.states else train.states[0]
+        self.free = checked_ranges({"radii": None} if free is None else free)
+        case = train.declaration.case(self.state)
+        self.source = train.declaration.crank or next(iter(case.inputs), "")
+        declared = case.outputs.get(output)
+        self.link = output if declared is None else declared.of or output
+        check_choice("link", self.link, tuple(train.declaration.links))
+
+    @property
+    def _acting(self) -> bool:
+        """Whether pairs act on each other in what is asked for: what passes through one passes through the next."""
+        return self.aim in ("loss", "error")
+
+    # -------------------------------------------------------------------------------------------------- which pairs
+
+    @cached_property
+    def _drivers(self) -> Mapping[str, str]:
+        """The pairs that act on the output, and the wheel that drives each on the way there."""
+        meshes = {mesh.name: mesh for mesh in self.train.meshes_in(self.state)}
+        if self.aim == "loss":
+            # without losses: teeth that do not turn as they are declared still tell where the power goes
+            pairs = self._ideal.driven(self.link, self.source, self.state).pairs
+            return {name: pair.driver for name, pair in pairs.items() if name in meshes and pair.driver}
+        moved = self._ideal.motion(self.state, (self.output,)).sensitivity[self.output]
+        return {name: mesh.driver for name, mesh in meshes.items() if moved.get(name)}
+
+    @cached_property
+    def _ideal(self) -> GearTrain:
+        """The train with every pair at the middle of its window, where it has one."""
+        return self._with({name: each for name, each in self._starts.items() if each.runs})
+
+    @cached_property
+    def _meshes(self) -> Mapping[str, TriangularMesh]:
+        found = (mesh for mesh in self.train.meshes_in(self.state) if isinstance(mesh, TriangularMesh))
+        return {mesh.name: mesh for mesh in found if not mesh.tooth_form.has_lengths}
+
+    @cached_property
+    def _starts(self) -> Mapping[str, ToothSizes]:
+        return {name: _declared(mesh) for name, mesh in self._meshes.items()}
+
+    @cached_property
+    def _asked(self) -> tuple[str, ...]:
+        """The pairs whose sizes are looked for."""
+        found = tuple(name for name in self._meshes if name in self._drivers)
+        if not found:
+            what = f"no pair with triangular teeth acts on '{self.output}'"
+            raise QuestionError(
+                Problem(what, "", "ask for another output, or declare `tooth_form: {form: triangular}`")
+            )
+        return found
+
+    def _untouched(self) -> Iterator[tuple[str, str]]:
+        for mesh in self.train.meshes_in(self.state):
+            if mesh.name not in self._drivers:
+                yield mesh.name, f"not on the way to '{self.output}'"
+            elif not isinstance(mesh, TriangularMesh):
+                yield mesh.name, f"{mesh.tooth_form.words} teeth"
+            elif mesh.name not in self._meshes:
+                yield mesh.name, "declared in lengths"
+
+    def _free_of(self, name: str) -> dict[str, Range]:
+        """What is free of one pair: not the half angle of a wheel that has another mate."""
+        mates = [
+            mesh for mesh in self.train.meshes_in(self.state) if {*mesh.gear.pair} & {*self._meshes[name].gear.pair}
+        ]
+        return {size: each for size, each in self.free.items() if size != "half_angle" or len(mates) == 1}
+
+    # ----------------------------------------------------------------------------------------------- what is compared
+
+    def _with(self, sizes: Mapping[str, ToothSizes]) -> GearTrain:
+        """The train with other sizes of some pairs."""
+        declared = self.train.declaration
+        gears = tuple(
+            gear.model_copy(update={"tooth_form": _form(sizes[gear.name])}) if gear.name in sizes else gear
+            for gear in declared.gears
+        )
+        return GearTrain(declared.model_copy(update={"gears": gears}))
+
+    def figure(self, sizes: Mapping[str, ToothSizes]) -> float:
+        """What the train is judged by, small where it is good; infinite where it does not run."""
+        self._on_step()
+        if not self._acting:
+            each = [sizes[name].merit(self.aim) for name in self._asked]
+            return max(each) if self.aim == "jam" else sum(each)
+        try:
+            return self._loss(self._with(sizes)) if self.aim == "loss" else self._error(self._with(sizes))
+        except GearTrainError:
+            return inf
+
+    def _loss(self, train: GearTrain) -> float:
+        found = train.driven(self.link, self.source, self.state)
+        efficiency = found.efficiency if found.verdict else None
+        return inf if efficiency is None or efficiency <= 0 else 1 - float(efficiency)
+
+    def _error(self, train: GearTrain) -> float:
+        run = MotionRun(train.motion(self.state, (self.output,)), _TURNS, _SAMPLES)
+        run.go()
+        return run.tallies[0].peak_to_peak
+
+    # ------------------------------------------------------------------------------------------------------ the search
+
+    def found(self) -> BestTrainSizes:
+        """Pair by pair, then together."""
+        before = {name: self._starts[name] for name in self._asked}
+        runs = {name: self._meshes[name].verdict.kind == "runs" for name in self._asked}
+        first = self.figure({}) if all(runs.values()) and self._acting else self.figure(before)
+        apart = {name: self._alone(name) for name in self._asked}
+        alone = self.figure(apart)
+        best, together = (first, before) if first < alone and self._acting else (alone, apart)
+        if best == inf:
+            what = f"'{self.train.name}' passes nothing on to '{self.output}', whatever its teeth"
+            raise QuestionError(Problem(what, "no sizes of its pairs let it run", "see `geartrain torques` of it"))
+        if self._acting:
+            best, together = self._descend(best, dict(together))
+        outlines = {name: confirm_by_outlines(each) for name, each in together.items()}
+        pairs = tuple(
+            PairSizes(name, self._drivers[name], before[name], apart[name], together[name], runs[name], outlines[name])
+            for name in self._asked
+        )
+        sign = -1 if self.aim == "jam" else 1
+        return BestTrainSizes(
+            self.train.name,
+            self.aim,
+            self.output,
+            self.source,
+            self.free,
+            self.limits,
+            sign * first if first < inf else None,
+            sign * alone,
+            sign * best,
+            pairs,
+            dict(self._untouched()),
+            self._declaration(together),
+        )
+
+    def _alone(self, name: str) -> ToothSizes:
+        """The best sizes of one pair by itself, with the digits of a declaration."""
+        start, free = self._starts[name], self._free_of(name)
+        driver = 1 + self._meshes[name].gear.pair.index(self._drivers[name])
+        start = ToothSizes(start.teeth, start.radii, start.window, start.half_angles, start.friction, driver)
+        key = start, tuple(free.items())
+        if key not in self._done:
+            search = SizeSearch(start, free, self.limits)
+            self._done[key] = _rounded(search.least(self.aim, [start])) if free else start
+        self._on_step()
+        return self._done[key]
+
+    @cached_property
+    def _done(self) -> dict[Any, ToothSizes]:
+        return {}
+
+    def _descend(self, best: float, sizes: dict[str, ToothSizes]) -> tuple[float, dict[str, ToothSizes]]:
+        """Coordinate descent on the figure of the train."""
+        reach = _REACH
+        for _ in range(_SWEEPS):
+            before = best
+            for name in self._asked:
+                for size, (low, high) in self._free_of(name).items():
+                    best, sizes[name] = self._step(best, sizes, name, size, (low, high), reach)
+            if before - best <= _GAIN * before:
+                break
+            reach /= 2
+        return best, sizes
+
+    def _step(
+        self, best: float, sizes: Mapping[str, ToothSizes], name: str, size: str, bounds: Range, reach: float
+    ) -> tuple[float, ToothSizes]:
+        """The best value of one size of one pair near where it is: by Brent's bounded method."""
+        here, width = sizes[name].parameter(size), reach * (bounds[1] - bounds[0])
+        keeps = SizeSearch(sizes[name], {size: bounds}, self.limits).keeps
+        found = (best, sizes[name])
+
+        def value(x: float) -> float:
+            nonlocal found
+            design = _rounded(sizes[name].at({size: x}))
+            figure = self.figure({**sizes, name: design}) if keeps(design) else inf
+            found = min(found, (figure, design), key=lambda each: each[0])
+            return min(figure, 1e6)
+
+        low, high = max(bounds[0], here - width), min(bounds[1], here + width)
+        if high > low:
+            minimize_scalar(value, bounds=(low, high), method="bounded", options={"maxiter": _TRIES, "xatol": 1e-6})
+        return found
+
+    # -------------------------------------------------------------------------------------------------- the declaration
+
+    def _declaration(self, sizes: Mapping[str, ToothSizes]) -> dict[str, Any]:
+        """A train that extends the one given."""
+        gears = []
+        for gear in self.train.declaration.gears:
+            if gear.name in sizes:
+                known: dict[str, Any] = {"id": gear.id} if gear.id else {}
+                gears.append(known | {"pair": list(gear.pair), "tooth_form": form_data(sizes[gear.name])})
+        return {
+            "extends": self.train.name,
+            "name": f"{self.train.name}-best-{self.aim}",
+            "title": f"{self.train.declaration.title or self.train.name}: teeth sized for {self.aim} at {self.output}",
+            "gears": gears,
+        }
+
+
+def _form(sizes: ToothSizes) -> Triangular:
+    return Triangular.declared(form_data(sizes))
+
+
+def _rounded(sizes: ToothSizes) -> ToothSizes:
+    """With the digits that a declaration has."""
+    return sizes.at({"radii": round(sizes.radii, DIGITS), "window": round(sizes.window, DIGITS)})
+
+
+def _declared(mesh: TriangularMesh) -> ToothSizes:
+    """The sizes of a pair as declared: the first wheel of the pair first; in mid window where it does not turn."""
+    sizes, window = mesh.law.sizes, mesh.window
+    driver = 1 + mesh.gear.pair.index(mesh.driver)
+    if driver == 2:
+        sizes = sizes.swapped()
+    place = 0.5
+    if window and mesh.verdict.kind == "runs":
+        place = min(max((sizes.excess - window.jam) / (window.run - window.jam), 0.0), 1.0)
+    radii = sizes.R2 / sizes.R1 * sizes.z1 / sizes.z2
+    return ToothSizes((sizes.z1, sizes.z2), radii, place, sizes.half_angles, mesh.law.friction, driver)

@@ -13,6 +13,7 @@ from errata_sphere import sphere
 
 import geartrain
 from geartrain import GearTrain
+from geartrain.kinematics.graph import adjacency_labels
 from geartrain.train.periods import period_table
 
 PAGE = Path(__file__).resolve().parent / "errata.md"
@@ -152,6 +153,16 @@ def table_4() -> Iterator[str]:
         printed = str(published.value)
         body.append((link, solved[link], printed, "; ".join(cut_off(printed, solved[link]))))
     yield from rows(("link", "exact", "printed", "remark"), body)
+
+
+def table_7() -> Iterator[str]:
+    """Row 18 of the adjacency matrix."""
+    cells = adjacency_labels(paper().graph)[17]
+    found = ", ".join(f"{cell} at column {column}" for column, cell in enumerate(cells, 1) if cell)
+    yield from ("## Table 7", "")
+    yield f"Row 18 of the matrix holds {found}; the paper prints G19 at column 19, and has"
+    yield f"{len(paper().declaration.gears)} gear pairs. `geartrain graph pennestri-2002` prints the whole matrix."
+    yield ""
 
 
 def table_6() -> Iterator[str]:
@@ -368,8 +379,8 @@ def lead() -> Iterator[str]:
 def main() -> None:
     """Write the page."""
     parts = (
-        lead, table_3, teeth_of_18, months, table_4, table_6, freeth_2006, freeth_jones, freeth_2021, voulgaris, price,
-        huygens, sorge, smith, sphere,
+        lead, table_3, teeth_of_18, months, table_4, table_6, table_7, freeth_2006, freeth_jones, freeth_2021, voulgaris,
+        price, huygens, sorge, smith, sphere,
     )  # fmt: skip
     lines = [line for part in parts for line in part()]
     PAGE.write_text("\n".join(lines).rstrip() + "\n", encoding="utf-8")

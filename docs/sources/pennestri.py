@@ -173,11 +173,13 @@ def structure() -> Iterator[Row]:
     for table, columns in CIRCUITS.items():
         for name, entries in columns.items():
             yield exact(f"Table {table}, {name}", "bodies i, j, k, wheels", entries, f"circuit('{name}')")
-    yield exact("Table 3, caption", "fundamental circuits", "8-18", "caption()", "## Table 3", "table-3")
+    yield exact(
+        "Table 3, caption", "fundamental circuits", "8-18", "caption()", "Its columns are G13 to G18", "table-3"
+    )
     yield words("Eq. (2)", "w_i - tau w_j + (tau - 1) w_k = 0, tau = -z_j/z_i, for each circuit", "willis()")
     for entry in TEETH.split():
         name, _, teeth = entry.partition("=")
-        wrong = ("## z18: 15 or 60", "z18-15-or-60") if entry == "z18=15" else ("", "")
+        wrong = ("Only 60 gives the speeds", "z18-15-or-60") if entry == "z18=15" else ("", "")
         yield exact(f"Tooth list, {name}", "teeth", teeth, f"count('{name.capitalize()}')", *wrong)
     for link, entries in enumerate(TABLE_7, 1):
         yield exact(
@@ -185,7 +187,7 @@ def structure() -> Iterator[Row]:
             "what stands in the row, in order",
             entries,
             f"cells({link})",
-            "Table 7, row 18" if link == 18 else "",
+            *(("Row 18 of the matrix holds", "table-7") if link == 18 else ()),
         )
 
 
@@ -252,7 +254,8 @@ def speeds() -> Iterator[Row]:
             printed,
             Command(SOLVE, f"states.0.speeds.{link}.exact"),
             Digits(),
-            "Table 4, w6" if link == 6 else "",
+            "| 6 | 16/9 | 1.7777 |" if link == 6 else "",
+            section="table-4-digit-by-digit" if link == 6 else "",
         )
     for entry in LETTERS.split():
         name, _, teeth = entry.partition("=")
@@ -345,7 +348,9 @@ def results() -> Iterator[Row]:
         MONTHS,
     )
     yield outside("Results, definitions", "what a sidereal and a synodic month are", "definitions, and right")
-    yield words("Results, its name", "that month is the sidereal one", "sidereal()", "is called the sidereal month")
+    yield words(
+        "Results, its name", "that month is the sidereal one", "sidereal()", "a sidereal month; it is synodic", MONTHS
+    )
     yield words("Footnote 1", "the Julian year is more than 11 minutes too long; 10 days in all", "calendar()")
     yield outside(
         "Table 5, year",

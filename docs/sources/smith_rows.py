@@ -80,7 +80,7 @@ def introduction() -> Iterator[Row]:
         Equal(ONCE),
     )
     yield words(
-        "Section 6, clocks", "cycloids supposedly have less friction than involutes", "cycloids_rub()", "| section 6 |"
+        "Section 6, clocks", "cycloids supposedly have less friction than involutes", "cycloids_rub()", "**Section 6**"
     )
     for form in ("involute", "cycloid"):
         yield words(f"Section 6, {form}s", "need no matched pair: any size mates with any", f"same_flank('{form}')")
@@ -114,7 +114,7 @@ def conjugates() -> Iterator[Row]:
         "off('bevel', lambda v: np.sin(v.r[1]) / sin(v.R2) * np.cos(v.psi(2)), lambda v: v.sin_phi)",
         Equal(ONCE),
     )
-    yield equation("Eq. (8), first", "cos r1 of the mate", "(eq_8(1.0), eq_8(-1.0))", Mended(), "| (8), first |")
+    yield equation("Eq. (8), first", "cos r1 of the mate", "(eq_8(1.0), eq_8(-1.0))", Mended(), "| (8), first, bevel |")
     yield equation(
         "Eq. (8), second",
         "tan(w1 t + theta1)",
@@ -140,7 +140,7 @@ def conjugates() -> Iterator[Row]:
         "off('spur', lambda v: v.r[1] / v.R2 * np.cos(v.psi(2)), lambda v: v.sin_phi)",
         Equal(ONCE),
     )
-    yield equation("Eq. (11), first", "the square of r1", "(eq_11(-1.0), eq_11(1.0))", Mended(), "| (11), first |")
+    yield equation("Eq. (11), first", "the square of r1", "(eq_11(-1.0), eq_11(1.0))", Mended(), "| (11), first | 0.1")
     yield equation(
         "Eq. (11), second",
         "tan(w1 t + theta1)",
@@ -184,8 +184,8 @@ def conjugates() -> Iterator[Row]:
         "Eq. (20)", "sliding by s, spur", "of_path('spur', lambda v: rate(v) * v.s, lambda c: c.U1 - c.U2)", Equal(ONCE)
     )
     yield equation("Eq. (21)", "cos R1 by r1, s and psi1", "eq_21()", Equal(ONCE))
-    yield equation("Eq. (22)", "sin s, upper sign", "(eq_22(1.0), eq_22(-1.0))", Mended(ONCE), "| (22), (23) |")
-    yield equation("Eq. (23)", "s, upper sign", "(eq_23(1.0), eq_23(-1.0))", Mended(ONCE), "| (22), (23) |")
+    yield equation("Eq. (22)", "sin s, upper sign", "(eq_22(1.0), eq_22(-1.0))", Mended(ONCE), "| (22), bevel |")
+    yield equation("Eq. (23)", "s, upper sign", "(eq_23(1.0), eq_23(-1.0))", Mended(ONCE), "| (23) | 6")
     yield words(
         "Theorem 4", "sliding is unavoidable, 0 at the pitch point only, where it turns round", "sliding_turns()"
     )
@@ -227,15 +227,19 @@ def curvatures() -> Iterator[Row]:
     yield equation("Eq. (30)", "both centres of curvature", "eq_30()", Equal(TWICE))
     yield equation("Eq. (31)", "their ratio z", "eq_31()", Equal(TWICE))
     yield equation("Eq. (32), theorem 5", "Euler and Savary's equation", "savary('spur')", Equal(TWICE))
-    yield equation("Eq. (33)", "cos phi = (r1/R1) cos psi1", "cosine_of_phi('spur')", Mended(ONCE), "| (33), (38) |")
+    yield equation("Eq. (33)", "cos phi = (r1/R1) cos psi1", "cosine_of_phi('spur')", Mended(ONCE), "| (33) | 3")
     yield equation("Eq. (34)", "cos A2", "spherical_centres(2)", Equal())
     yield equation(
-        "Eq. (35)", "cos A1, with a minus", "(spherical_centres(1, -1.0), spherical_centres(1))", Mended(), "| (35) |"
+        "Eq. (35)",
+        "cos A1, with a minus",
+        "(spherical_centres(1, -1.0), spherical_centres(1))",
+        Mended(),
+        "| (35), bevel |",
     )
     yield equation("Eq. (36)", "both cotangents", "eq_36()", Equal(TWICE))
     yield equation("Eq. (37), theorem 6", "Euler and Savary's equation on the sphere", "savary('bevel')", Equal(TWICE))
     yield equation(
-        "Eq. (38)", "cos phi = (sin r1/sin R1) cos psi1", "cosine_of_phi('bevel')", Mended(ONCE), "| (33), (38) |"
+        "Eq. (38)", "cos phi = (sin r1/sin R1) cos psi1", "cosine_of_phi('bevel')", Mended(ONCE), "| (38), bevel |"
     )
     yield equation(
         "Eq. (39)", "four parts of the triangle of pitch point, axis, centre of curvature", "triangle(39)", Equal()
@@ -247,7 +251,7 @@ def curvatures() -> Iterator[Row]:
         "speed of the contact, bevel, with c + s",
         "speed_of_contact('bevel')",
         Mended(TWICE),
-        "| (42), (44), (45) |",
+        "| (42), bevel |",
     )
     yield equation("Eq. (43)", "cos A", "eq_43()", Equal(ONCE))
     yield equation(
@@ -255,14 +259,14 @@ def curvatures() -> Iterator[Row]:
         "speed of the contact, spur, with c + s",
         "speed_of_contact('spur')",
         Mended(TWICE),
-        "| (42), (44), (45) |",
+        "| (44), (45) | 3",
     )
     yield equation(
         "Eq. (45), theorem 7",
         "the same with the law of cosines",
         "speed_of_contact('spur')",
         Mended(TWICE),
-        "| (42), (44), (45) |",
+        "| (44), (45) | 3",
     )
 
 
@@ -277,9 +281,9 @@ def optima() -> Iterator[Row]:
     )
     yield equation("Eq. (46)", "work of friction, spur: what stands under the integral", "work('spur')", Equal(ONCE))
     yield words(
-        "Section 15, n contacts", "n contacts that share the force leave W as it is", "shared_work()", "| section 15 |"
+        "Section 15, n contacts", "n contacts that share the force leave W as it is", "shared_work()", "**Section 15**"
     )
-    yield words("Footnote 6", "45 deg makes involutes most efficient", "heights()", "| footnote 6 |")
+    yield words("Footnote 6", "45 deg makes involutes most efficient", "heights()", "**Footnote 6**")
     yield equation("Eq. (47)", "normal force of a torque, spur", "forces('spur')", Equal(ONCE))
     yield equation("Eq. (48)", "normal force of a rack", "rack_force()", Equal())
     yield equation("Eq. (49)", "normal force of a torque, bevel", "forces('bevel')", Equal(ONCE))
@@ -289,14 +293,14 @@ def optima() -> Iterator[Row]:
         "lost part: its form factor is one over pairs of spur wheels",
         "losses('spur')",
         Mended(ONCE),
-        "| (51), (52) |",
+        "| (51), spread",
     )
     yield equation(
         "Eq. (52)",
         "the same of bevel wheels",
         "losses('bevel')",
         Mended(ONCE),
-        "| (51), (52) |",
+        "| (52), the same, bevel |",
         "only for axes at a right angle is it the same",
     )
     for place, printed, key in (
@@ -312,11 +316,15 @@ def optima() -> Iterator[Row]:
             f"arithmetic('{key}')",
             "the arithmetic; what is concluded from it is the erratum below",
         )
-    yield words("Section 16, trains", "trains lose less than one pair of large ratio", "trains()", "| section 16 |")
+    yield words("Section 16, trains", "trains lose less than one pair of large ratio", "trains()", "**Section 16**")
     yield equation("Eqs. (53), (54)", "stress by force and curvatures, plane and sphere", "stress()", Equal(TWICE))
     yield equation("Eq. (55)", "what is uniform, spur", "stress()", Equal(TWICE))
     yield equation(
-        "Eq. (56), theorem 8", "the equation of uniform stress in r, r', r''", "long_one(56)", Mended(TWICE), "| (56) |"
+        "Eq. (56), theorem 8",
+        "the equation of uniform stress in r, r', r''",
+        "long_one(56)",
+        Mended(TWICE),
+        "| (56) | 1",
     )
     yield equation("Eq. (57)", "Q", "eq_57()", Equal(ONCE))
     yield equation("Eq. (58), theorem 9", "what is uniform, bevel", "stress()", Equal(TWICE))
@@ -327,9 +335,13 @@ def optima() -> Iterator[Row]:
     yield outside("Footnote 8", "stress of two balls", "teeth touch along lines here")
     yield equation("Eqs. (60), (61)", "rate of heat and how long it lasts: their product", "heat()", Equal(TWICE))
     yield equation("Eq. (62)", "heat of an area", "heat()", Equal(TWICE))
-    yield equation("Eq. (63)", "Z in r, r', r''", "long_one(63)", Mended(TWICE), "| (63) |")
+    yield equation("Eq. (63)", "Z in r, r', r''", "long_one(63)", Mended(TWICE), "| (63) | 2")
     yield equation(
-        "Eq. (64)", "of the fourth order: how much r''' and r'''' change it", "order_of_64()", Mended(1e-20), "| (64) |"
+        "Eq. (64)",
+        "of the fourth order: how much r''' and r'''' change it",
+        "order_of_64()",
+        Mended(1e-20),
+        "| (64), by how much",
     )
     yield words(
         "Theorem 10",
@@ -350,7 +362,7 @@ def optima() -> Iterator[Row]:
             f"Section 21, {shape}",
             f"uniform {shape} plausibly has the least greatest {shape}",
             f"least_height('{shape}')",
-            "| section 21 |",
+            "**Section 21**",
             f"not without a bound on the pressure angle, here {tilt} deg",
         )
     yield outside("Section 21, pieces", "where pieces join, collisions", "left open by the note; here every form says")

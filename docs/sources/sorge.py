@@ -320,7 +320,7 @@ def real_meshing() -> Iterator[Row]:
         "III C, back profiles",
         "the back profiles are quite far from interference",
         "back_profiles()",
-        "III C | back profiles quite far",
+        "| 15/60 | 1.01475 |",
         "not for unequal wheels with small clearance",
     )
     yield words("III C, chord", "the active part is one pitch of alpha_1 wide: 360/z1", "widths()")
@@ -729,7 +729,7 @@ def results() -> Iterator[Row]:
         "V, sub-phases",
         "two sub-phases, one pitch apart, until one is left",
         "sub_phases()",
-        "V | two sub-phases one pitch apart",
+        "| 1.0113 | 0.430 | 0.130 | 0.439 |",
         "one, two or three intervals",
     )
     yield words(

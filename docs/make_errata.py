@@ -379,8 +379,8 @@ def lead() -> Iterator[str]:
 def main() -> None:
     """Write the page."""
     parts = (
-        lead, table_3, teeth_of_18, months, table_4, table_6, table_7, freeth_2006, freeth_jones, freeth_2021, voulgaris,
-        price, huygens, sorge, smith, sphere,
+        lead, table_3, teeth_of_18, months, table_4, table_6, table_7, freeth_2006, freeth_jones, freeth_2021,
+        voulgaris, price, huygens, sorge, smith, sphere,
     )  # fmt: skip
     lines = [line for part in parts for line in part()]
     PAGE.write_text("\n".join(lines).rstrip() + "\n", encoding="utf-8")

@@ -34,8 +34,8 @@ def lead() -> Iterator[str]:
     yield "- **out of scope**: nothing that geartrain computes, with the reason."
     yield ""
     yield "A command is given with the place of the value in its JSON. A call is an expression of Python, with the"
-    yield "names of the source's module in `docs/sources/`; `python docs/make_sources.py 'Sorge Eq. (12)'` works out one"
-    yield "row."
+    yield "names of the source's module in `docs/sources/`; `python docs/make_sources.py 'Sorge Eq. (12)'` works out"
+    yield "one row."
     yield ""
     yield from table(
         ("source", "rows", *VERDICTS),

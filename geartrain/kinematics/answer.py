@@ -62,11 +62,11 @@ class Answer(FrozenFields, Result):
     method : {"exact", "floats"}
         How the speeds were found; floats by the sparse LU of the Willis system's matrix, or as exact ones rounded.
     accuracy : mapping of str to SpeedAccuracy
-        Absolute error of each link's speed [`unit`] and its condition number; empty for exact speeds.
+        Absolute error of each link's speed [`unit`] and its condition number; made when read, empty for exact speeds.
     work : int
         Circuits that were solved.
     residual : mapping of str to float
-        By row of `WillisSystem.matrix`, |b - A w| over |A| |w| [1]; empty for speeds not found by it.
+        By row of `WillisSystem.matrix`, |b - A w| over |A| |w| [1]; made when read, empty for speeds not found by it.
 
     Examples
     --------

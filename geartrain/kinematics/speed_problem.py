@@ -19,6 +19,7 @@ from geartrain.kinematics.speeds import EXACT_BUDGET, Solution, exact_verdict, s
 from geartrain.kinematics.tooth_sensitivity import Sensitivity, sensitivity
 from geartrain.kinematics.verdict import Verdict
 from geartrain.kinematics.willis_system import WillisSystem, assemble_willis_system
+from geartrain.numerics.containers import LazyMapping
 from geartrain.numerics.elimination import TooDenseError
 from geartrain.numerics.exact import as_float
 from geartrain.numerics.long_float import rounded, scaled
@@ -155,22 +156,27 @@ class SpeedProblem:
         found = solve_floats(self._system(part, case), condition_of=self._conditioned(part, case, wanted))
         powers = found.exponents.values[:, 0].tolist()
         speeds = dict(zip(part.links, map(scaled, found.speeds.values[:, 0].tolist(), powers), strict=True))
-        estimates = dict(zip(part.links, map(scaled, found.estimate.values[:, 0].tolist(), powers), strict=True))
-        accuracy = {
-            link: SpeedAccuracy(
-                estimates[link],
-                rounded(abs(Fraction(speed) - truth[link])) if link in truth else None,
-                found.condition.get(link),
-            )
-            for link, speed in speeds.items()
-        }
-        residual = dict(zip(found.residual.labels[0], found.residual.values[:, 0].tolist(), strict=True))
+
+        def accuracy() -> dict[str, SpeedAccuracy]:
+            estimates = map(scaled, found.estimate.values[:, 0].tolist(), powers)
+            return {
+                link: SpeedAccuracy(
+                    estimate,
+                    rounded(abs(Fraction(speed) - truth[link])) if link in truth else None,
+                    found.condition.get(link),
+                )
+                for (link, speed), estimate in zip(speeds.items(), estimates, strict=True)
+            }
+
+        def residual() -> dict[str, float]:
+            return dict(zip(found.residual.labels[0], found.residual.values[:, 0].tolist(), strict=True))
 
         def relative(of: str, base: str) -> SpeedValue | None:
             return relative_speed(of, base, speeds.get, self.signs)
 
-        answer = self._judged(case, solution.verdict, speeds, relative, wanted, len(part.circuits), None, accuracy)
-        return replace(answer, residual=residual)
+        told, work = LazyMapping(accuracy), len(part.circuits)
+        answer = self._judged(case, solution.verdict, speeds, relative, wanted, work, None, told)
+        return replace(answer, residual=LazyMapping(residual))
 
     def _conditioned(self, part: SolvedPart, case: StateCase, wanted: tuple[str, str] | None) -> Sequence[str]:
         """Links whose condition number is told: each costs a solve, so of long trains those of the outputs."""
@@ -208,7 +214,7 @@ class SpeedProblem:
             verdict = self._narrowed(case, verdict, relative(*wanted) is not None, wanted)
             shown = wanted if case.outputs else wanted[:1]
             speeds = {link: speeds[link] for link in shown if link in speeds}
-            accuracy = {link: accuracy[link] for link in shown if link in accuracy} if accuracy else None
+            accuracy = None if accuracy is None else _restricted(accuracy, shown)
         results = judge_outputs(declared, case, relative, self.is_rotation)
         return Answer(
             declared.name,
@@ -220,7 +226,7 @@ class SpeedProblem:
             {result.name: result for result in results},
             ratios or {},
             "floats" if ratios is None else "exact",
-            accuracy or {},
+            {} if accuracy is None else accuracy,
             work,
         )
 
@@ -245,6 +251,11 @@ class SpeedProblem:
             return solve(self.whole, case, self.signs).verdict
         except TooDenseError:
             return exact_verdict(self.whole.reduced, case, self.signs)
+
+
+def _restricted(accuracy: Mapping[str, SpeedAccuracy], links: Sequence[str]) -> Mapping[str, SpeedAccuracy]:
+    """The accuracy of some links, made when read."""
+    return LazyMapping(lambda: {link: accuracy[link] for link in links if link in accuracy})
 
 
 def _nearest(speed: Fraction) -> float:

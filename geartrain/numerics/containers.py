@@ -1,12 +1,12 @@
 """Mappings that cannot be changed, and a pause of the garbage collector while many small objects are made at once.
 
-None of those can be garbage yet.
+Some mappings are made when they are read. None of the many objects can be garbage yet.
 """
 
 from __future__ import annotations
 
 import gc
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import fields
 from typing import Any, NoReturn, TypeVar
@@ -33,6 +33,46 @@ class FrozenDict(dict[K, V]):
 
     def __reduce__(self) -> tuple[Any, ...]:
         return FrozenDict, (dict(self),)
+
+
+class LazyMapping(Mapping[K, V]):
+    """A mapping that is made when it is first read; it compares as the dictionary it then is, and pickles as that.
+
+    >>> asked = []
+    >>> found = LazyMapping(lambda: asked.append("made") or {"a": 1})
+    >>> asked
+    []
+    >>> found["a"], found == {"a": 1}, asked
+    (1, True, ['made'])
+    """
+
+    __slots__ = ("_found", "_make")
+
+    def __init__(self, make: Callable[[], Mapping[K, V]]) -> None:
+        self._make: Callable[[], Mapping[K, V]] | None = make
+        self._found: FrozenDict[K, V] = FrozenDict()
+
+    def _made(self) -> FrozenDict[K, V]:
+        make = self._make
+        if make is not None:
+            self._found = FrozenDict(make())
+            self._make = None  # after what it gave is kept, for other threads; what it held may go
+        return self._found
+
+    def __getitem__(self, key: K) -> V:
+        return self._made()[key]
+
+    def __iter__(self) -> Iterator[K]:
+        return iter(self._made())
+
+    def __len__(self) -> int:
+        return len(self._made())
+
+    def __repr__(self) -> str:
+        return repr(self._made())
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return FrozenDict, (dict(self._made()),)
 
 
 class FrozenFields:

@@ -17,7 +17,7 @@ import pytest
 from pydantic import BaseModel
 
 from geartrain import GearTrainError, load
-from geartrain.numerics.containers import FrozenDict
+from geartrain.numerics.containers import FrozenDict, LazyMapping
 from geartrain.train.declaration_files import shipped
 
 
@@ -37,6 +37,9 @@ def mutable(value: Any, path: str, met: set[int]) -> Iterator[str]:
             yield path
         for key, part in value.items():
             yield from mutable(part, f"{path}[{key}]", met)
+    elif isinstance(value, LazyMapping):
+        for key in value:
+            yield from mutable(value[key], f"{path}[{key}]", met)
     elif isinstance(value, tuple):
         for at, part in enumerate(value):
             yield from mutable(part, f"{path}[{at}]", met)
@@ -54,7 +57,7 @@ def test_nothing_in_a_declaration_or_an_answer_can_be_changed(name: str) -> None
     held = {"declaration": train.declaration, "tree": train.tree, "circuits": train.circuits}
     held |= {"answer": train.solve(state), "torques": train.torques(state), "mobility": train.mobility}
     if train.solve(state).verdict:
-        held["floats"] = train.floats(state)
+        held |= {"floats": train.floats(state), "sparse": train.solve(state, method="sparse")}
     found = [path for key, value in held.items() for path in mutable(value, key, set())]
     assert not found
 
@@ -82,6 +85,38 @@ def test_a_frozen_dictionary_refuses_every_change_and_is_a_dictionary_otherwise(
     for again in (copy.copy(frozen), copy.deepcopy(frozen), pickle.loads(pickle.dumps(frozen))):
         assert again == frozen
         assert type(again) is FrozenDict
+
+
+def test_a_lazy_mapping_is_made_once_and_is_then_a_frozen_dictionary() -> None:
+    made: list[dict[str, int]] = []
+
+    def make() -> dict[str, int]:
+        made.append({"a": 1})
+        return made[-1]
+
+    lazy = LazyMapping(make)
+    assert not made
+    assert lazy == {"a": 1} == dict(lazy)
+    assert (lazy["a"], lazy.get("b"), len(lazy), list(lazy), repr(lazy)) == (1, None, 1, ["a"], "{'a': 1}")
+    with pytest.raises(KeyError):
+        lazy["b"]
+    assert made == [{"a": 1}]
+    for again in (copy.copy(lazy), copy.deepcopy(lazy), pickle.loads(pickle.dumps(lazy))):
+        assert again == lazy
+        assert type(again) is FrozenDict
+    for other in (LazyMapping(make), LazyMapping(lambda: {})):
+        assert (other == lazy) == bool(other)
+
+
+@pytest.mark.parametrize("output", [None, "8"])
+def test_an_answer_in_floats_is_copied_pickled_and_compared_read_or_not(output: str | None) -> None:
+    train = load("pennestri-2002")
+    answer, unread = (train.solve(output=output, method="sparse") for _ in range(2))
+    told = answer.to_dict()
+    for again in (copy.copy(unread), copy.deepcopy(unread), pickle.loads(pickle.dumps(unread)), unread):
+        assert again == answer
+        assert again.to_dict() == told
+    assert answer != train.solve(output=output, method="exact")
 
 
 def test_what_a_train_does_not_have_is_refused_with_what_it_has() -> None:

@@ -19,7 +19,7 @@ from strategies import Data, driven_trains, overdriven_trains, trains
 
 from geartrain import GearTrain, load
 from geartrain.errors import RangeError
-from geartrain.kinematics import WillisEquation, WillisMatrix, WillisSystem
+from geartrain.kinematics import WillisEquation, WillisMatrix, WillisSystem, speed_problem
 from geartrain.kinematics.speeds import padded_rows
 
 
@@ -212,6 +212,29 @@ def test_conditions_are_those_of_the_dense_inverse(seed: int) -> None:
     for at, link in enumerate(found.links):
         condition = answer.accuracy[link].condition
         assert condition == (pytest.approx(reach[at] / abs(speeds[at]), rel=1e-6) if speeds[at] else np.inf)
+
+
+def test_speeds_in_floats_pay_for_no_condition_and_no_true_error(monkeypatch: pytest.MonkeyPatch) -> None:
+    paid: list[str] = []
+    conditions, rounded = padded_rows.PaddedRows.condition, speed_problem.rounded
+
+    def condition(self: Any, *given: Any) -> dict[str, float]:
+        paid.append("condition")
+        return conditions(self, *given)
+
+    def true_error(value: Any) -> Any:
+        paid.append("true error")
+        return rounded(value)
+
+    monkeypatch.setattr(padded_rows.PaddedRows, "condition", condition)
+    monkeypatch.setattr(speed_problem, "rounded", true_error)
+    train = shipped.train("pennestri-2002")
+    answer = train.solve(method="sparse")
+    assert answer["8"] == 0.25
+    assert not paid
+    answer.to_dict()
+    answer.to_dict()
+    assert sorted(paid) == ["condition", *["true error"] * len(answer.speeds)]
 
 
 def test_the_older_name_of_the_method_is_the_same_method() -> None:

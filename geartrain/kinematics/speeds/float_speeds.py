@@ -10,6 +10,7 @@ from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import partial
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -21,7 +22,7 @@ from geartrain.kinematics.speeds.scaling import find_exponents
 from geartrain.kinematics.willis_equation import WillisEquation
 from geartrain.kinematics.willis_matrix import independent_rows
 from geartrain.kinematics.willis_system import WillisSystem
-from geartrain.numerics.containers import FrozenFields
+from geartrain.numerics.containers import FrozenFields, LazyMapping
 from geartrain.numerics.exact import as_float
 from geartrain.numerics.labelled_array import LabelledArray, labelled_array
 from geartrain.numerics.long_float import HIGHEST, LOWEST, Real, scaled
@@ -52,7 +53,7 @@ class FloatSpeeds(FrozenFields):
         precision [1].
     condition : mapping of str to float
         Component-wise condition number cond(A, x) of the first case, equation (25), of each link it was asked for; 1 or
-        more, infinite of a link at rest.
+        more, infinite of a link at rest. Made when read.
     exponents : LabelledArray
         Axes (link, case): powers of two, 0 wherever float64 holds the speed and its estimate.
 
@@ -122,7 +123,7 @@ def solve_floats(
     """Solve a determined Willis system in float64: its `matrix()` is factorised.
 
     inputs        link -> speeds, one a case, for every input of the system: one factorisation serves all
-    condition_of  links whose component-wise condition is wanted, one transposed solve each
+    condition_of  links whose component-wise condition is wanted, one transposed solve each when they are read
     ordering      column ordering of the factorisation; COLAMD is the one that never turns quadratic
     refine        one refinement step (else the raw LU, for comparison)
 
@@ -148,7 +149,7 @@ class _Solved(NamedTuple):
     x: Floats
     estimate: Floats
     residual: Floats
-    condition: dict[str, float]
+    condition: Mapping[str, float]
 
 
 class _Way(NamedTuple):
@@ -198,11 +199,13 @@ def _solve(
     left = lu.solve(rest)  # what is still off, itself refined once below
     more = lu.solve(matrix.residual(left, rest, np.zeros_like(rest)))
     # what is left, the rounding of x itself, and what residuals in twice the precision and the last solution may hide
-    hidden = 16 * UNIT_ROUNDOFF**2 * matrix.size(x) + 16 * UNIT_ROUNDOFF * matrix.size(more) + matrix.sunk(x)
-    estimate = 2 * (np.abs(left) + np.abs(more)) + UNIT_ROUNDOFF * np.abs(x) + _reach(lu, hidden)
     terms = matrix.size(x)
+    hidden = 16 * UNIT_ROUNDOFF**2 * terms + 16 * UNIT_ROUNDOFF * matrix.size(more) + matrix.sunk(x)
+    estimate = 2 * (np.abs(left) + np.abs(more)) + UNIT_ROUNDOFF * np.abs(x) + _reach(lu, hidden)
     residual = np.divide(np.abs(rest), terms, out=np.zeros_like(rest), where=terms > 0)
-    return _Solved(x, estimate, residual, matrix.condition(lu, way.condition_of, x[:, 0]))
+    # the factors are kept for as long as nobody has read the conditions, and not where none were asked for
+    condition = LazyMapping(partial(matrix.condition, lu, way.condition_of, x[:, 0])) if way.condition_of else {}
+    return _Solved(x, estimate, residual, condition)
 
 
 def _solve_far(

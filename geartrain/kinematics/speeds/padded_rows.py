@@ -91,6 +91,7 @@ class PaddedRows:
         total: Floats = np.einsum("rt,rtc->rc", _LOW * self.low, np.abs(x[self.columns]))
         return total
 
+    @np.errstate(over="ignore", invalid="ignore", divide="ignore")  # a condition past float64 is infinite
     def condition(self, lu: Any, links: Sequence[str], x: Floats) -> dict[str, float]:
         """cond(A, x) of some links, (25) of docs/theory.md: (|y|, |A||x|) / |x_link|, one transposed solve a link.
 

@@ -6,13 +6,14 @@ cast iron, Dokos's for dry steel. Smith gives their ends, not their tables; what
 
 from __future__ import annotations
 
+import re
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from itertools import pairwise
 from math import log, sqrt
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
 
-from pydantic import AfterValidator, BaseModel, ConfigDict, Field, model_validator
+from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Field, model_validator
 from pydantic_core import PydanticCustomError
 
 from geartrain.numerics.quantity import Figure, Quantity, Velocity
@@ -193,6 +194,27 @@ AnyFrictionLaw = Annotated[
     StribeckFriction | BuckinghamFriction | DokosFriction | TabulatedFriction, Field(discriminator="law")
 ]
 """What a declaration may say of friction besides a number."""
+
+_NAME = re.compile(r"[a-z_]+")
+
+
+def law_of_text(raw: object) -> object:
+    """A law as an option gives it, `stribeck,static=0.2,kinetic=0.08,speed=10 mm/s`, as a declaration would.
+
+    Columns of a table have colons between their values; whatever else it is given stays what it is.
+    """
+    parts = raw.split(",") if isinstance(raw, str) else raw
+    if not isinstance(parts, list) or not parts or not _NAME.fullmatch(str(parts[0]).strip()):
+        return raw
+    found: dict[str, object] = {"law": str(parts[0]).strip()}
+    for part in parts[1:]:
+        name, _, value = str(part).partition("=")
+        found[name.strip()] = [each.strip() for each in value.split(":")] if ":" in value else value.strip()
+    return found
+
+
+FrictionLawOfText = Annotated[AnyFrictionLaw, BeforeValidator(law_of_text)]
+"""The same, as an option may give it too."""
 
 
 @dataclass(frozen=True, slots=True)

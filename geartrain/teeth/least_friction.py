@@ -11,9 +11,13 @@ from geartrain.numerics.quantity import Angle, Figure, Quantity
 from geartrain.teeth.conjugate.conjugate_form import ConjugateToothForm
 from geartrain.teeth.conjugate.form_checks import arcs_of, check_angle, check_arcs
 from geartrain.teeth.conjugate.wheel_pair import WheelPair
+from geartrain.teeth.friction_law import FrictionLawOfText, PairFriction, PositiveVelocity
 from geartrain.teeth.tooth_form import TwoFigures, bad
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from geartrain.numerics.arrays import Floats
     from geartrain.teeth.conjugate.conjugate_transmission import ConjugatePair
     from geartrain.teeth.conjugate.path_of_contact import PathOfContact
     from geartrain.teeth.conjugate.pitch_surfaces import PitchSurfaces
@@ -45,6 +49,12 @@ class LeastFriction(ConjugateToothForm):
     pressure_angle: Angle | None = Field(
         None, description="Greatest pressure angle, at the pitch point, at most 45 deg; default 25 deg"
     )
+    friction_law: FrictionLawOfText | None = Field(
+        None, description="Law of speed under which the loss is to be least; default a coefficient, whatever it is"
+    )
+    pitch_line_speed: PositiveVelocity | None = Field(
+        None, description="Speed of the pitch line for which they are made, with friction_law"
+    )
     margin: Figure | None = Field(
         None, description="Least speed of the contact along a dedendum over the pitch-line speed; default 0.15"
     )
@@ -60,6 +70,9 @@ class LeastFriction(ConjugateToothForm):
     def _parameters_make_sense(self) -> LeastFriction:
         if self.arcs is not None:
             check_arcs(self.arcs)
+        if (self.friction_law is None) != (self.pitch_line_speed is None):
+            fix = "give both, or neither"
+            raise bad("friction_law", "teeth for a law of friction are made for one speed of the pitch line", fix)
         return self._literal_makes_sense() if self.literal else self._usual_makes_sense()
 
     def _usual_makes_sense(self) -> LeastFriction:
@@ -79,6 +92,8 @@ class LeastFriction(ConjugateToothForm):
         return self
 
     def _literal_makes_sense(self) -> LeastFriction:
+        if self.friction_law is not None:
+            raise bad("literal", "the literal shape knows no law of friction", "leave friction_law out")
         if self.pressure_angle is not None or self.margin is not None:
             raise bad("literal", "the literal shape has neither pressure_angle nor margin", "give pressure_angles")
         first, last = (angle.si for angle in self.pressure_angles or (_STEEP, _FLAT))
@@ -110,10 +125,23 @@ class LeastFriction(ConjugateToothForm):
 
         psi, u = (self.pressure_angle or _CEILING).si, float((self.margin or _MARGIN).value)
         approach, recess = (
-            least_friction(pitch, b, X, psi, u) if X else none(psi)
+            least_friction(pitch, b, X, psi, u, self._weight(pitch)) if X else none(psi)
             for b, X in zip((pitch.A, pitch.B), arcs_of(self.arcs or (_HALF, _HALF), pitch), strict=True)
         )
         return PathOfContact(pitch, approach, recess)
+
+    def _weight(self, pitch: PitchSurfaces) -> Callable[[Floats], Floats] | None:
+        """What a contact at the distance d loses, mu S up to a factor; None where friction is the same everywhere."""
+        if self.friction_law is None or self.pitch_line_speed is None or self.friction_law.of_pitch_line:
+            return None
+        by = PairFriction(self.friction_law, self.pitch_line_speed.si)
+
+        def weight(d: Floats) -> Floats:
+            S = pitch.S(d)
+            found: Floats = by((pitch.A + pitch.B) * abs(S)) * S
+            return found
+
+        return weight
 
     def _literal(self, pitch: PitchSurfaces) -> PathOfContact:
         from geartrain.teeth.conjugate.closed_form_sides import extremal

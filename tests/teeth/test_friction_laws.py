@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from geartrain import GearTrainError, load
-from geartrain.teeth import CircularArc, Cycloidal, Involute, Lantern, Triangular, UniformStress
+from geartrain.teeth import CircularArc, Cycloidal, Involute, Lantern, LeastFriction, Triangular, UniformStress
 from geartrain.teeth.friction_law import (
     BuckinghamFriction,
     DokosFriction,
@@ -259,3 +259,91 @@ def test_a_law_that_is_none_is_refused_with_its_line(friction: str, said: str) -
     (problem,) = raised.value.problems
     assert problem.place.endswith(":9")
     assert said in " ".join((problem.what, problem.why, problem.fix))
+
+
+# ------------------------------------------------------------------------------------------------------ least friction
+
+UNDER = {
+    "stribeck": {"friction_law": "stribeck,static=0.2,kinetic=0.08,speed=10 mm/s", "pitch_line_speed": "50 mm/s"},
+    "viscous": {
+        "friction_law": "stribeck,static=0.05,kinetic=0.05,speed=1 mm/s,viscous=5",
+        "pitch_line_speed": "1 m/s",
+    },
+    "dokos": {"friction_law": "dokos", "pitch_line_speed": "0.1 m/s"},
+}
+HIGH, MARGIN = radians(25), 0.15
+
+
+class Alternatives:
+    """Recess sides of 24/36 by plain sums: heights eta over the distance d, and what they lose for a given arc."""
+
+    def __init__(self, form: LeastFriction) -> None:
+        assert form.friction_law is not None
+        assert form.pitch_line_speed is not None
+        A, self.b = 1 / 12, 1 / 18
+        self.d = np.linspace(0.0, 4.0, 8001)
+        self.mu = form.friction_law.coefficient((A + self.b) * self.d * form.pitch_line_speed.si)
+
+    def loss(self, eta: np.ndarray, X: float) -> float:
+        """The integral of mu d / cos^2 psi up to the end of an arc X; NaN where the path is not admissible before."""
+        with np.errstate(divide="ignore", invalid="ignore"):
+            sine = np.where(self.d > 0, eta / self.d, sin(HIGH))
+            secant = 1 / np.sqrt(1 - sine**2)
+        step = self.d[1]
+        arc = np.concatenate(([0.0], np.cumsum((secant[1:] + secant[:-1]) / 2 * step)))
+        last = int(np.searchsorted(arc, X))
+        speeds = np.diff(eta)[: last - 1] / step - self.b * (self.d[1:last] + self.d[: last - 1]) / 2
+        if not (sine[:last] <= sin(HIGH) + 1e-9).all() or not (speeds >= MARGIN - 1e-9).all():
+            return float("nan")
+        lost = self.mu * self.d * secant**2
+        total = np.concatenate(([0.0], np.cumsum((lost[1:] + lost[:-1]) / 2 * step)))
+        return float(np.interp(X, arc, total))
+
+    def slow(self, first: float, start: float = HIGH, more: np.ndarray | float = 0.0) -> np.ndarray:
+        """A ray of `start` up to `first`, then the slowest contact, `more` added to its speed, below the ceiling."""
+        grown = sin(start) * first + np.concatenate(
+            ([0.0], np.cumsum(np.where(self.d[1:] > first, MARGIN + more + self.b * self.d[1:], 0.0)) * self.d[1])
+        )
+        return np.minimum(np.where(self.d <= first, sin(start) * self.d, grown), sin(HIGH) * self.d)
+
+
+@pytest.mark.parametrize("name", UNDER)
+def test_teeth_made_for_a_law_lose_least_under_it(name: str) -> None:
+    form = LeastFriction.declared(UNDER[name])
+    side = form.law(24, 36).path.recess
+    first, X = side.pieces[0].end, side.arc
+    assert pytest.approx(pi / 2) == X
+    ways = Alternatives(form)
+    least = ways.loss(ways.slow(first), X)
+    # a second way to the same length: not the first variation but the least of the loss itself
+    lengths = first * np.linspace(0.8, 1.2, 41)
+    losses = [ways.loss(ways.slow(each), X) for each in lengths]
+    assert lengths[int(np.nanargmin(losses))] == pytest.approx(first, rel=0.011)
+    curve = np.polyfit(lengths[16:25] - first, losses[16:25], 2)
+    assert -curve[1] / (2 * curve[0]) == pytest.approx(0.0, abs=2e-3 * first)
+    # flatter rays, faster stretches, other lengths: none is better
+    random = np.random.default_rng(17)
+    tried = 0
+    for _ in range(60):
+        start, length = radians(random.uniform(18, 25)), first * random.uniform(0.3, 1.6)
+        more = random.uniform(0, 0.5) * (np.abs(ways.d[1:] - random.uniform(0, 1.6)) < random.uniform(0.02, 0.5))
+        other = ways.loss(ways.slow(length, start, more), X)
+        tried += not np.isnan(other)
+        assert not other < least * (1 - 1e-7)
+    assert tried > 20
+
+
+def test_a_level_law_asks_for_the_usual_shape_and_one_of_the_pitch_line_is_level() -> None:
+    usual = LeastFriction.declared({}).law(24, 36).path.recess.pieces[0].end
+    level = {"law": "table", "speeds": ["0 m/s", "1 m/s"], "coefficients": [0.1, 0.1]}
+    for law in (level, "buckingham"):
+        form = LeastFriction.declared({"friction_law": law, "pitch_line_speed": "1 m/s"})
+        assert form.law(24, 36).path.recess.pieces[0].end == pytest.approx(usual, rel=1e-12)
+
+
+def test_a_law_under_which_faster_contacts_lose_less_is_refused() -> None:
+    given = {"friction_law": "stribeck,static=0.2,kinetic=0.02,speed=10 mm/s", "pitch_line_speed": "50 mm/s"}
+    with pytest.raises(GearTrainError, match="other pieces"):
+        LeastFriction.declared(given).law(24, 36)
+    with pytest.raises(GearTrainError, match="one speed of the pitch line"):
+        LeastFriction.declared({"friction_law": "dokos"})

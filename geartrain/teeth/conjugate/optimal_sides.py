@@ -24,6 +24,7 @@ from geartrain.teeth.conjugate.path_side import (
     circle_end,
     ray_end,
 )
+from geartrain.teeth.conjugate.piece_conditions import check_pieces, other_shape, pull
 from geartrain.teeth.conjugate.singular_collocation import FALLEN, ValueAndSlope, lost, solved
 
 if TYPE_CHECKING:
@@ -31,6 +32,7 @@ if TYPE_CHECKING:
 
     from geartrain.numerics.arrays import Floats
     from geartrain.numerics.chebyshev import ChebyshevSeries
+    from geartrain.teeth.conjugate.piece_conditions import Weight
     from geartrain.teeth.conjugate.pitch_surfaces import PitchSurfaces
 
     Made = Callable[[PitchSurfaces, ValueAndSlope, ChebyshevSeries, float], PathPiece]
@@ -229,12 +231,16 @@ def bounded_heat(pitch: PitchSurfaces, b: float, gamma: float, X: float, psi: fl
     return PathSide((RayPiece(psi, first), _reached(pitch, f, sin(psi), first + rest * cos(psi), rest, first)))
 
 
-def least_friction(pitch: PitchSurfaces, b: float, X: float, psi: float, u: float) -> PathSide:
+def least_friction(
+    pitch: PitchSurfaces, b: float, X: float, psi: float, u: float, weight: Weight | None = None
+) -> PathSide:
     """A ray of the greatest pressure angle, then the least speed `u` along the dedendum, so that the loss is least.
 
-    The length of the ray makes the pooled first variation vanish: docs/shapes.md (12) and (13). Raises
-    `RangeError` where the arc is longer than teeth within both bounds reach.
+    The length of the ray makes the pooled first variation vanish: docs/shapes.md (12) and (13), or (19) where friction
+    depends on speed and `weight` gives mu S at distances d. Raises `RangeError` where the arc is longer than teeth
+    within both bounds reach, and where another shape than these two pieces would lose less.
     """
+    loss = pitch.S if weight is None else weight
     longest = ray_end(psi, X)
 
     def lifted(first: float) -> tuple[Callable[[Floats], Floats], float]:
@@ -243,7 +249,7 @@ def least_friction(pitch: PitchSurfaces, b: float, X: float, psi: float, u: floa
 
     def variation(first: float) -> float:
         sine, end = lifted(first)
-        return _variation(pitch, sine, first, end)
+        return _variation(pitch, sine, first, end, loss)
 
     def above(first: float) -> float:
         sine, end = lifted(first)
@@ -254,11 +260,15 @@ def least_friction(pitch: PitchSurfaces, b: float, X: float, psi: float, u: floa
         raise _too_long(pitch, X, psi, u)
     # the bracket keeps off a ray, and a second piece, of no length
     least, most = 1e-3 * longest, longest * (1 - 1e-6)
+    if weight is not None and variation(least) * variation(most) > 0:
+        raise other_shape("no length of it would let the other piece be the best")
     first = root(variation, least, most, variation(least), variation(most))
     if above(first) > 0:  # back at the greatest pressure angle before the end: a shorter ray gets there at the end
         if above(least) > 0:
             raise _too_long(pitch, X, psi, u)
         first = root(above, least, first, above(least), above(first))
+    elif weight is not None:
+        check_pieces(pitch, *lifted(first), first, weight)
     rest = X - first / cos(psi)
     piece = _to_arc(lambda end: SteadySpeedPiece(pitch, b, u, first, sin(psi), end), lifted(first)[1], rest)
     return PathSide((RayPiece(psi, first), piece))
@@ -302,12 +312,10 @@ def _lifted_end(sine: Callable[[Floats], Floats], first: float, rest: float, psi
     return end
 
 
-def _variation(pitch: PitchSurfaces, sine_of: Callable[[Floats], Floats], first: float, end: float) -> float:
-    """Docs/shapes.md (13): the integral of eta / (S^2 cos psi) (2 S / cos^3 psi - lambda / cos^2 psi)."""
+def _variation(
+    pitch: PitchSurfaces, sine_of: Callable[[Floats], Floats], first: float, end: float, loss: Weight
+) -> float:
+    """Docs/shapes.md (13): the integral of eta / (S^2 cos psi) (2 S / cos^3 psi - lambda / cos^2 psi); or (19)."""
     x, weights = _GAUSS
     d = first + (end - first) * (x + 1) / 2
-    S, sine = pitch.S(d), sine_of(d)
-    cosine = np.sqrt(1 - sine**2)
-    last = np.array(end)
-    pull = float(pitch.S(last)) / sqrt(1 - float(sine_of(last)) ** 2)
-    return float(weights @ (sine / (S * cosine) * (2 * S / cosine**3 - pull / cosine**2)))
+    return float(weights @ pull(pitch, sine_of, d, end, loss))

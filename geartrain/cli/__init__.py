@@ -24,6 +24,7 @@ class VerbGroup(EndingGroup, LazyGroup):
             *(
                 "motion",
                 "montecarlo",
+                "budget",
                 "sphere",
                 "teeth",
                 "posterior",

@@ -19,6 +19,7 @@ from geartrain.numerics.lazy_names import lazy_names
 
 if TYPE_CHECKING:
     from geartrain.drawing.backend import render as render
+    from geartrain.drawing.budget_bars import budget_figure as budget_figure
     from geartrain.drawing.corner_plot import counts_figure as counts_figure
     from geartrain.drawing.form_comparison import shapes_figure as shapes_figure
     from geartrain.drawing.monte_carlo_plots import monte_carlo_figure as monte_carlo_figure
@@ -33,6 +34,7 @@ if TYPE_CHECKING:
     from geartrain.drawing.transmission_curves import law_figure as law_figure
 
 _PLACES = {
+    "budget_figure": "budget_bars",
     "counts_figure": "corner_plot",
     "law_figure": "transmission_curves",
     "monte_carlo_figure": "monte_carlo_plots",
@@ -49,6 +51,7 @@ _PLACES = {
 }
 
 __all__ = [
+    "budget_figure",
     "counts_figure",
     "law_figure",
     "monte_carlo_figure",

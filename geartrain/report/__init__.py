@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING
 from geartrain.numerics.lazy_names import lazy_names
 
 if TYPE_CHECKING:
+    from geartrain.report.budget_report import describe_budget as describe_budget
     from geartrain.report.document import Document as Document
     from geartrain.report.document import Picture as Picture
     from geartrain.report.document import Section as Section
@@ -45,6 +46,7 @@ _PLACES = {
     **dict.fromkeys(("TorqueReport", "collect_torque_report"), "torque_figures"),
     **dict.fromkeys(("TrainReport", "collect_report"), "train_data"),
     "answer_schema": "json_schema",
+    "describe_budget": "budget_report",
     "describe_comparison": "reconstruction_comparison",
     "describe_monte_carlo": "monte_carlo_report",
     "describe_motion": "motion_report",
@@ -68,6 +70,7 @@ __all__ = [
     "collect_motion",
     "collect_report",
     "collect_torque_report",
+    "describe_budget",
     "describe_comparison",
     "describe_monte_carlo",
     "describe_motion",

@@ -59,10 +59,15 @@ def _of_trains() -> dict[str, Schema]:
 
 
 def _of_doubt() -> dict[str, Schema]:
+    from geartrain.uncertainty.budget.pointer_budget import TrainBudget
     from geartrain.uncertainty.monte_carlo.monte_carlo_result import MonteCarloResult
     from geartrain.uncertainty.posterior.posterior_result import ToothCountPosterior
 
-    return {"montecarlo": shape_of(MonteCarloResult), "posterior": shape_of(ToothCountPosterior)}
+    return {
+        "montecarlo": shape_of(MonteCarloResult),
+        "budget": shape_of(TrainBudget),
+        "posterior": shape_of(ToothCountPosterior),
+    }
 
 
 def _of_spheres() -> dict[str, Schema]:

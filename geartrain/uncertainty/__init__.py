@@ -7,6 +7,9 @@ monte_carlo
     In: a train with triangular teeth and errors of cutting and fitting, as a `TrialPlan`. Out: how often it jams, how
     far its pointers stray, with confidence intervals; whose errors matter (Sobol indices), and how great they may be
     (tolerance allocation) (docs/cut-by-hand.md).
+budget
+    In: a train, with whatever it declares. Out, by `find_budget`: what each pointer's error comes from (ratio, pins'
+    theory, teeth, lost motion, cutting), in degrees and in days (docs/budgets.md).
 manufacturing_errors
     In: wheels with each tooth where it stands, `CutWheel`. Out, by `cut_transmission_function`: the transmission
     function and events of one pair over the cycle of its teeth.
@@ -19,6 +22,13 @@ from typing import TYPE_CHECKING
 from geartrain.numerics.lazy_names import lazy_names
 
 if TYPE_CHECKING:
+    from geartrain.uncertainty.budget.crank_load import CrankLoad as CrankLoad
+    from geartrain.uncertainty.budget.pointer_budget import BudgetCause as BudgetCause
+    from geartrain.uncertainty.budget.pointer_budget import PointerBudget as PointerBudget
+    from geartrain.uncertainty.budget.pointer_budget import RatioDrift as RatioDrift
+    from geartrain.uncertainty.budget.pointer_budget import TrainBudget as TrainBudget
+    from geartrain.uncertainty.budget.train_budget import BudgetQuestion as BudgetQuestion
+    from geartrain.uncertainty.budget.train_budget import find_budget as find_budget
     from geartrain.uncertainty.confidence_intervals import IntervalEstimate as IntervalEstimate
     from geartrain.uncertainty.confidence_intervals import ProbabilityEstimate as ProbabilityEstimate
     from geartrain.uncertainty.manufacturing_errors.cut_transmission import (
@@ -51,24 +61,31 @@ if TYPE_CHECKING:
     from geartrain.uncertainty.posterior.posterior_result import WheelPosterior as WheelPosterior
 
 __all__ = [
+    "BudgetCause",
+    "BudgetQuestion",
     "ClearanceCase",
     "CountCombination",
     "CountProbability",
+    "CrankLoad",
     "CutTransmissionFunction",
     "CutWheel",
     "IntervalEstimate",
     "MonteCarloResult",
     "PairEventRates",
+    "PointerBudget",
     "PointerErrorCourse",
     "PointerErrorStatistics",
     "ProbabilityEstimate",
+    "RatioDrift",
     "SobolIndices",
     "ToleranceAllocation",
     "ToothCountPosterior",
+    "TrainBudget",
     "TrialPlan",
     "TrialResults",
     "WheelPosterior",
     "cut_transmission_function",
+    "find_budget",
     "find_sobol_indices",
     "find_tolerance",
     "find_trial_plan",
@@ -82,6 +99,9 @@ __all__ = [
 __getattr__ = lazy_names(
     __name__,
     {
+        **dict.fromkeys(("BudgetCause", "PointerBudget", "RatioDrift", "TrainBudget"), "budget.pointer_budget"),
+        **dict.fromkeys(("BudgetQuestion", "find_budget"), "budget.train_budget"),
+        "CrankLoad": "budget.crank_load",
         "ClearanceCase": "monte_carlo.clearance_study",
         "CountCombination": "posterior.posterior_result",
         "CountProbability": "posterior.posterior_result",

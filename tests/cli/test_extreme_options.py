@@ -113,6 +113,8 @@ CASES: list[tuple[tuple[str, ...], tuple[str, ...]]] = [
     (("motion", "{pair}", "--turns", "3"), ("samples:few",)),
     (("montecarlo", "{pair}", "--trials", "4"), ("seed", "set", "clearance", "tolerance", "jam", "workers:few")),
     (("montecarlo", "{pair}"), ("trials:few",)),
+    (("budget", "{pair}", "--samples", "40", "--trials", "4"), ("turns", "span", "seed", "output", "cutting", "body")),
+    (("budget", "{pair}", "--turns", "3"), ("samples:few",)),
     (
         ("posterior", "{pair}", "--free", "x=47:49"),
         ("tolerance", "scale", "most", "limit", "samples:few", "seed", "free"),

@@ -26,6 +26,7 @@ MOTION = ("motion", "moon-triangular", "--turns", "1", "--samples", "64", "--out
 SIZED_TRAIN = ("optimise", "moon-triangular", "--output", "moon", "--best", "jam", "--free", "window")
 DOUBT = ("posterior", "{doubt}", "--free", "x=18:22", "--free", "z=38:42")
 ERRORS = ("montecarlo", "moon-triangular", "--trials", "2", "--output", "moon", "--set", "placement=2 %")
+BUDGET = ("budget", "moon-triangular", "--turns", "1", "--samples", "64", "--output", "moon")
 
 # command and writing option -> the rest of a question, and the suffixes it may be written with
 ASKED: dict[tuple[str, str], tuple[tuple[str, ...], tuple[str, ...]]] = {
@@ -43,6 +44,8 @@ ASKED: dict[tuple[str, str], tuple[tuple[str, ...], tuple[str, ...]]] = {
     ("motion", "--plot"): (MOTION, (".svg",)),
     ("montecarlo", "-o"): (ERRORS, (".md", ".json", ".csv", ".parquet")),
     ("montecarlo", "--plot"): (ERRORS, (".svg",)),
+    ("budget", "-o"): (BUDGET, (".md", ".json")),
+    ("budget", "--plot"): (BUDGET, (".svg",)),
     ("sphere", "-o"): (("sphere", "cube"), (".md", ".json")),
     ("sphere", "--plot"): (("sphere", "cube", "--teeth", "4=12"), (".svg",)),
     ("teeth ratio", "-o"): (("teeth", "ratio", "7/3", "--stages", "1", "--best", "1"), (".md", ".json", ".csv")),

@@ -113,6 +113,11 @@ TRIANGULAR = ("mesh", "triangular", *PAIR)
 MOTION = ("motion", "moon-triangular", "--turns", "1", "--samples", "256", "--output", "moon")
 ASKED: dict[str, list[tuple[str, ...]]] = {
     "motion": [MOTION, (*MOTION, "--estimates", "--spectrum", "--phases", "2"), ("motion", "worm", "--samples", "64")],
+    "budget": [
+        ("budget", "moon-triangular", "--turns", "1", "--samples", "64"),
+        ("budget", "freeth-2008", "--turns", "1", "--samples", "64", "--output", "moon"),
+        ("budget", "moon-triangular", "--turns", "1", "--cutting", "placement=1 %", "--trials", "4"),
+    ],
     "montecarlo": [CUT, (*CUT, "--output", "moon"), (*CUT, "--clearance", "0.2:0.8:2")],
     "posterior": [
         DOUBT,

@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 from math import inf, sqrt
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple, Protocol
 
 import numpy as np
 
@@ -20,7 +20,7 @@ from geartrain.numerics.exact import as_float, log10
 from geartrain.numerics.plain_data import Key, Result, group
 
 if TYPE_CHECKING:
-    from geartrain.dynamics.motion.error_composition import ErrorComposition, ErrorSamples
+    from geartrain.dynamics.motion.error_composition import ErrorSamples
     from geartrain.numerics.arrays import Floats
 
 
@@ -145,6 +145,17 @@ _FINER = 16  # parts of a step, on either side
 _ROUNDS = 2  # each around the best of the one before
 
 
+class ErrorSampler(Protocol):
+    """What errors of outputs can be asked of, at most a chunk of positions at once."""
+
+    @property
+    def chunk(self) -> int:
+        """Positions worked on at once."""
+
+    def at(self, turns: Floats) -> ErrorSamples:
+        """Errors and rates where the input has made some turns."""
+
+
 class PeakRefinement:
     """The greatest and least errors and speeds of each output, with the turns at which they were seen.
 
@@ -169,7 +180,7 @@ class PeakRefinement:
         self.turns = np.take_along_axis(turns, best, axis=2)
 
     def sharpen(
-        self, composition: ErrorComposition, turns: float, tallies: list[RunningStatistics]
+        self, composition: ErrorSampler, turns: float, tallies: list[RunningStatistics]
     ) -> Iterator[ErrorSamples]:
         """Sample again around the extremes, within the run; tallies count what is found there, samples are yielded."""
         low, high = sorted((0.0, turns))

@@ -1,0 +1,96 @@
+"""`geartrain budget`: what each pointer's error comes from: ratio, theory, teeth, lost motion, cutting."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from geartrain.cli.common import (
+    PICTURES,
+    File,
+    Force,
+    Json,
+    Out,
+    check_distinct_outputs,
+    draw,
+    give,
+    sink,
+)
+from geartrain.cli.long_runs import progress
+from geartrain.cli.option_values import MOST_COUNT, quantity
+from geartrain.cli.option_values import turns as read_turns
+
+if TYPE_CHECKING:
+    from geartrain.uncertainty.budget.true_anomaly import Body
+
+Names = list[str] | None
+
+
+def run(
+    file: File,
+    output: Annotated[Names, typer.Option("--output", help="Output; may be repeated.")] = None,
+    state: Annotated[str | None, typer.Option("--state", help="The state; default the first.")] = None,
+    without: Annotated[Names, typer.Option("--without", help="Leave out a pair, to open a loop of real teeth.")] = None,
+    span: Annotated[
+        str | None, typer.Option("--span", help="Time over which ratios drift, such as '19 yr'; default one Saros.")
+    ] = None,
+    turns: Annotated[str, typer.Option("--turns", help="Turns of the input over which teeth are followed.")] = "20",
+    samples: Annotated[int, typer.Option("--samples", min=2, max=MOST_COUNT, help="Positions of the input.")] = 20_000,
+    cutting: Annotated[
+        Names, typer.Option("--cutting", help="KIND=SIZE or NAME.KIND=SIZE in place of what is declared: 'tip=3 %'.")
+    ] = None,
+    trials: Annotated[
+        int, typer.Option("--trials", min=1, max=MOST_COUNT, help="How many times the train is cut.")
+    ] = 256,
+    seed: Annotated[int, typer.Option("--seed", min=0, help="Seed of all that is drawn.")] = 1,
+    body: Annotated[
+        Names, typer.Option("--body", help="OUTPUT=moon, sun or none: whose true motion it shows, if no name tells.")
+    ] = None,
+    plot: Annotated[Path | None, typer.Option("--plot", help="Draw the ranked causes to this file.")] = None,
+    json: Json = False,
+    out: Out = None,
+    force: Force = False,
+) -> None:
+    """What each pointer's error comes from, in degrees and days: ratio, theory, teeth, lost motion, cutting."""
+    from geartrain.analysis.loader import load
+    from geartrain.report.budget_report import describe_budget
+    from geartrain.uncertainty.budget.train_budget import SAROS, STAGES, BudgetQuestion, find_budget
+
+    to = sink(out, force, (".md", ".html", ".json"))
+    picture = sink(plot, force, PICTURES, "--plot")
+    check_distinct_outputs(to, picture)
+    question = BudgetQuestion(
+        tuple(output or ()),
+        tuple(without or ()),
+        SAROS if span is None else quantity("--span", span, "time", least="above 0") / 86400,
+        float(read_turns("--turns", turns)),
+        samples,
+        tuple(cutting or ()),
+        trials,
+        seed,
+        bodies=_bodies(body or ()),
+    )
+    train = load(file)
+    chosen = state if state is not None or not train.states else train.states[0]
+    with progress("budget", STAGES) as bar:
+        found = find_budget(train, question, chosen, on_stage=bar.advance)
+    if plot is not None:
+        from geartrain.drawing import budget_figure
+
+        draw(budget_figure(found), picture)
+    give(to, json, lambda: found, lambda: [describe_budget(found)])
+
+
+def _bodies(texts: list[str] | tuple[()]) -> Mapping[str, Body | None]:
+    """`moon=moon`, `b=sun`, `date=none`."""
+    known: dict[str, Body | None] = {"moon": "moon", "sun": "sun", "none": None}
+    found: dict[str, Body | None] = {}
+    for text in texts:
+        name, equals, body = text.rpartition("=")
+        if not equals or body not in known:
+            raise typer.BadParameter(f"'{text}' is not of the form OUTPUT=moon, sun or none", param_hint="--body")
+        found[name] = known[body]
+    return found

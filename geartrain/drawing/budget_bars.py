@@ -1,0 +1,99 @@
+"""The budget of each pointer as a bar: its causes side by side, the greatest first."""
+
+from __future__ import annotations
+
+from textwrap import shorten
+from typing import TYPE_CHECKING
+
+from geartrain.drawing.backend import Axes, Figure, Patch
+from geartrain.drawing.style import BLACK, BLUE, GREEN, ORANGE, PURPLE, RED, SMALL, TEXT, plain, write
+from geartrain.errors import Problem, QuestionError
+
+if TYPE_CHECKING:
+    from geartrain.uncertainty import PointerBudget, TrainBudget
+
+COLOURS = {"ratio": BLUE, "theory": PURPLE, "teeth": GREEN, "lost motion": ORANGE, "cutting": RED}
+MOST = 8
+"""Pointers in a picture: the worst, by the sum of their causes."""
+_ROOM = 0.055  # share of a bar below which its size is not written in it
+
+
+def budget_figure(found: TrainBudget, most: int = MOST) -> Figure:
+    """A bar for each pointer, the worst on top: shares of its causes in their sum, the greatest first.
+
+    Parameters
+    ----------
+    found : TrainBudget
+        From `find_budget`.
+    most : int
+        Pointers drawn; a line says how many are left out.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        Shares of the sum; sizes [deg] in the bars, sum [deg] and what is not declared beside them.
+
+    Raises
+    ------
+    QuestionError
+        If no cause of any pointer is known.
+
+    Examples
+    --------
+    >>> import geartrain
+    >>> from geartrain.uncertainty import BudgetQuestion, find_budget
+    >>> figure = budget_figure(find_budget(geartrain.load("freeth-2008"), BudgetQuestion(outputs=("moon", "saros"))))
+    >>> [text.get_text() for text in figure.axes[0].get_yticklabels()]
+    ['moon', 'saros']
+    """
+    ranked = sorted((each for each in found.pointers if each.total > 0), key=lambda each: -each.total)
+    if not ranked:
+        why = "no cause of any pointer's error is declared, or all are 0"
+        raise QuestionError(Problem(f"no budget of '{found.name}' to draw", why, "declare targets or teeth"))
+    shown = ranked[:most]
+    figure = Figure(figsize=(11.0, 1.7 + 0.55 * len(shown)), dpi=100, layout="constrained")
+    axes = figure.add_subplot()
+    plain(axes)
+    axes.grid(False, axis="y")
+    for at, pointer in enumerate(shown):
+        _bar(axes, at, pointer)
+    axes.set_yticks(range(len(shown)), [shorten(each.name, 24, placeholder="...") for each in shown])
+    axes.set_ylim(len(shown) - 0.4, -0.6)
+    axes.set_xlim(0.0, 1.0)
+    axes.set_xlabel(_below(len(found.pointers), len(shown), len(ranked)), fontsize=SMALL, loc="left")
+    title = found.name if found.state is None else f"{found.name}, {found.state}"
+    axes.set_title(f"{title}: what each pointer's error comes from", fontsize=TEXT, loc="left", color=BLACK)
+    handles = [Patch(color=colour, label=_legend(cause, found)) for cause, colour in COLOURS.items()]
+    figure.legend(handles=handles, loc="outside lower center", ncols=5, fontsize=SMALL, frameon=False)
+    return figure
+
+
+def _legend(cause: str, found: TrainBudget) -> str:
+    missing = found.not_declared[cause]
+    return cause if not missing else f"{cause} (unknown of {missing})"
+
+
+def _below(pointers: int, shown: int, erring: int) -> str:
+    words = "share of the sum of what is declared"
+    words += f"; {erring - shown} more pointers err less" if erring > shown else ""
+    still = pointers - erring
+    return words + (f"; {still} of {pointers} with nothing but 0 declared" if still else "")
+
+
+def _bar(axes: Axes, at: int, pointer: PointerBudget) -> None:
+    left = 0.0
+    for cause in pointer.ranked:
+        share = (cause.degrees or 0.0) / pointer.total
+        if not share:
+            continue
+        hatch = "//" if cause.declared == "part" else None
+        axes.barh(
+            at, share, left=left, height=0.66, color=COLOURS[cause.name], hatch=hatch, edgecolor="white", gid=cause.name
+        )
+        if share > _ROOM:
+            write(axes, left + share / 2, at, f"{cause.degrees:.2g}°")
+        left += share
+    missing = ", ".join(cause.name for cause in pointer.undeclared)
+    beside = f"sum {pointer.total:.3g}°" + (f"\nnot declared: {missing}" if missing else "")
+    axes.annotate(beside, (1.0, at), xytext=(6, 0), textcoords="offset points", va="center", fontsize=SMALL,
+                  color=BLACK, annotation_clip=False, gid="sum")  # fmt: skip

@@ -1,0 +1,236 @@
+"""All budgets of a train in one state: what is asked, and how the causes are gathered."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from fractions import Fraction
+from typing import TYPE_CHECKING
+
+from geartrain.errors import Problem, QuestionError, check_choice
+from geartrain.train.periods import period_table
+from geartrain.uncertainty.budget.crank_load import find_crank_load
+from geartrain.uncertainty.budget.cutting_trials import cutting_plan, find_cutting_trials, jams_over_clearance
+from geartrain.uncertainty.budget.pin_theory import TheoryError, find_bodies, link_theory, theory_cause
+from geartrain.uncertainty.budget.pointer_budget import BudgetCause, PointerBudget, TrainBudget
+from geartrain.uncertainty.budget.ratio_drift import find_drifts, ratio_cause
+from geartrain.uncertainty.budget.tooth_motion import find_tooth_motion, tooth_causes
+from geartrain.uncertainty.budget.true_anomaly import Body
+
+if TYPE_CHECKING:
+    from geartrain.analysis.gear_train import GearTrain
+    from geartrain.dynamics import Motion
+    from geartrain.kinematics.answer import Answer
+    from geartrain.kinematics.judged_outputs import OutputResult
+    from geartrain.numerics.work import Execution
+    from geartrain.uncertainty.monte_carlo.clearance_study import ClearanceCase
+    from geartrain.uncertainty.monte_carlo.trial_plan import TrialPlan
+
+SAROS = float(period_table()["saros_223_synodic_modern"].value)  # d
+
+
+@dataclass(frozen=True)
+class BudgetQuestion:
+    """What a budget is made of.
+
+    Attributes
+    ----------
+    outputs : tuple of str
+        Names of outputs; by default all that have a target or a dial, or all where none has.
+    without : tuple of str
+        Pairs left out, so that real teeth do not contradict each other around a loop.
+    span_days : float
+        Over which ratios drift [d]; by default one Saros.
+    turns : float
+        Of the input, over which teeth are followed.
+    samples : int
+        Positions of these turns, 2 or more.
+    cutting : tuple of str
+        Errors of cutting in place of those declared, such as "placement=1 %"; by default what the train declares.
+    trials : int
+        How many times the wheels are cut.
+    seed : int
+        Of the random numbers.
+    clearances : tuple of float
+        Shares of each pair's window, or factors of the centre distance, at which jams are counted.
+    bodies : mapping of str to {"moon", "sun"} or None
+        By output, whose true motion it should show, where its name does not tell; None for nobody's.
+
+    Examples
+    --------
+    >>> BudgetQuestion().span_days
+    6585.3213
+    """
+
+    outputs: tuple[str, ...] = ()
+    without: tuple[str, ...] = ()
+    span_days: float = SAROS
+    turns: float = 20.0
+    samples: int = 20_000
+    cutting: tuple[str, ...] = ()
+    trials: int = 256
+    seed: int = 1
+    clearances: tuple[float, ...] = (0.1, 0.3, 0.5, 0.7, 0.9)
+    bodies: Mapping[str, Body | None] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        if not 0 < self.span_days < 1e9:
+            what = f"a span of {self.span_days:g} days"
+            raise QuestionError(
+                Problem(what, "ratios drift in time that passes", "give a span above 0 and below 1e9 days")
+            )
+        if self.samples < 2 or not 0 < self.turns <= 1e6:
+            what = f"{self.samples} positions of {self.turns:g} turns"
+            raise QuestionError(
+                Problem(what, "teeth are followed while the input turns", "give 2 or more, and turns above 0")
+            )
+
+
+STAGES = 5
+"""Of a budget, told one by one: speeds and pins, teeth and play, cutting, jams, crank."""
+
+
+def find_budget(
+    train: GearTrain,
+    asked: BudgetQuestion | None = None,
+    state: str | None = None,
+    means: Execution | None = None,
+    on_stage: Callable[[], None] = lambda: None,
+) -> TrainBudget:
+    """The budget of each pointer of a train: what its error comes from, in degrees and in days.
+
+    Parameters
+    ----------
+    train : GearTrain
+        Whatever it does not declare is named, and never counted as 0.
+    asked : BudgetQuestion, optional
+        Pointers, span, positions, errors of cutting.
+    state : str, optional
+        A declared state; None only of a train that has none.
+    means : Execution, optional
+        Who does the trials of cut wheels; by default this process.
+    on_stage : callable
+        Called after each of `STAGES` stages.
+
+    Returns
+    -------
+    TrainBudget
+        By pointer the causes, ranked; torque of the crank; jams over clearance.
+
+    Raises
+    ------
+    QuestionError
+        If the train does not move, or an output is not declared.
+    GearTrainError
+        If cutting is asked for, and the train's teeth cannot be cut.
+
+    Examples
+    --------
+    >>> import geartrain
+    >>> from geartrain.uncertainty import BudgetQuestion, find_budget
+    >>> question = BudgetQuestion(outputs=("moon",), span_days=36525)
+    >>> moon = find_budget(geartrain.load("freeth-2008"), question)["moon"]
+    >>> moon["ratio"].note, round(moon["ratio"].degrees, 3), round(moon["ratio"].days, 3)
+    ('against month_tropical_J2000 direct', 5.567, 0.422)
+    """
+    from geartrain.numerics.work import Execution
+
+    asked, means = asked or BudgetQuestion(), means or Execution()
+    answer = train.solve(state)
+    for name in (*asked.outputs, *asked.bodies):
+        check_choice("output", name, tuple(answer.outputs))
+    names = asked.outputs or pointer_names(answer)
+    motion = train.motion(state, names, asked.without)
+    theories = _theories(train, asked, answer, motion)
+    on_stage()
+    teeth = find_tooth_motion(motion, asked.turns, asked.samples)
+    on_stage()
+    plan, uncut = cutting_plan(train, asked.cutting, names, state, asked.without)
+    cut = None if plan is None else find_cutting_trials(plan, motion, asked.trials, asked.seed, means)
+    on_stage()
+    jams, jams_note = _jams(plan, uncut, asked, means)
+    on_stage()
+    crank = find_crank_load(train, state, motion.train.lead)
+    on_stage()
+    pointers = []
+    for name in names:
+        output = answer.outputs[name]
+        rate = degrees_per_day(output, train.declaration.unit_days)
+        drifts = find_drifts(output, _float(train.declaration.unit_days), asked.span_days)
+        ratio = ratio_cause(drifts, rate)
+        theory = theory_cause(theories[name], rate)
+        ripple, lost = tooth_causes(teeth, name, rate)
+        cutting = (
+            BudgetCause("cutting", "not declared", note=uncut)
+            if cut is None
+            else cut.cause(name, rate, teeth.declared[name])
+        )
+        pointers.append(
+            PointerBudget(
+                name,
+                output.of,
+                output.relative_to,
+                motion.train.seen_ratio(output.of, output.relative_to) * motion.train.speeds[motion.train.lead],
+                rate,
+                (ratio, theory, ripple, lost, cutting),
+                drifts,
+                teeth.pairs[name],
+            )
+        )
+    return TrainBudget(
+        train.name,
+        state,
+        asked.span_days,
+        asked.turns,
+        asked.samples,
+        motion.train.lead,
+        tuple(pointers),
+        crank,
+        jams,
+        jams_note,
+        teeth.turned_back,
+    )
+
+
+def pointer_names(answer: Answer) -> tuple[str, ...]:
+    """The outputs that somebody reads: those with a target or a dial; all of a train that has neither."""
+    read = tuple(name for name, each in answer.outputs.items() if each.targets or each.output.dial)
+    names = read or tuple(answer.outputs)
+    if not names:
+        why = "a budget is that of a pointer"
+        raise QuestionError(Problem(f"'{answer.train}' declares no output", why, "declare `outputs`"))
+    return names
+
+
+def degrees_per_day(output: OutputResult, unit_days: Fraction | None) -> float | None:
+    """Mean speed of a pointer, without sign; None where it has none or no time is declared."""
+    if unit_days is None or not output.speed:
+        return None
+    return 360 * abs(float(output.speed)) / float(unit_days)
+
+
+def _float(value: Fraction | None) -> float | None:
+    return None if value is None else float(value)
+
+
+def _theories(train: GearTrain, asked: BudgetQuestion, answer: Answer, motion: Motion) -> dict[str, list[TheoryError]]:
+    """By pointer the anomalies of its link and of the link it is read against, each against its body."""
+    problem, days = motion.train, _float(train.declaration.unit_days)
+    bodies = find_bodies(answer.outputs.values(), problem.frame, days, asked.bodies)
+    links = {link: link_theory(problem, link, body) for link, body in bodies.items()}
+    found = {}
+    for name in motion.outputs:
+        output = answer.outputs[name]
+        ends = [link for link in (output.of, output.relative_to) if link in links]
+        # what stands for nothing and is read against the Moon is no pointer of the Moon
+        found[name] = [links[link] for link in ends] if output.of in links else []
+    return found
+
+
+def _jams(
+    plan: TrialPlan | None, uncut: str, asked: BudgetQuestion, means: Execution
+) -> tuple[tuple[ClearanceCase, ...], str]:
+    """How often wheels jam over clearance, or why that is not known."""
+    if plan is None:
+        return (), uncut
+    return jams_over_clearance(plan, asked.clearances, asked.trials, asked.seed, means)

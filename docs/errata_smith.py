@@ -8,12 +8,12 @@ from typing import Any
 
 import numpy as np
 from sources import smith as note
+from sources.smith import BEVEL, SPUR
 
 from geartrain.teeth.conjugate import optimal_sides as forms
 from geartrain.teeth.conjugate.path_of_contact import PathContact, PathOfContact
 from geartrain.teeth.conjugate.pitch_surfaces import PitchSurfaces
 
-SPUR, BEVEL = PitchSurfaces.spur(24, 36), PitchSurfaces.cones(24, 36)
 FRACTIONS = (0.1, 0.25, 0.4, 0.5)  # of a pitch after the pitch point
 
 

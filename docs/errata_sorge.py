@@ -7,25 +7,16 @@ from math import atan2, cos, degrees, hypot, pi, radians, sin, sqrt
 
 import numpy as np
 from sources.sorge import eq_31
-from sources.sorge_contacts import contacts
+from sources.sorge_contacts import FRICTION, contacts, law
 
 import geartrain
 from geartrain.dynamics.motion.pair_impacts import collision_energies
-from geartrain.teeth import Triangular
 from geartrain.teeth.triangular.clearance_window import find_window
-from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
 
-FRICTION = 0.2
 PRINTED = {
     "3a": ("0.1582",), "3b": ("0.1457",), "4a": ("0.1117",), "4b": ("0.0314", "0.0682"), "5a": ("0.0876", "0.0095"),
     "5b": ("0.0119", "0.0696"),
 }  # fmt: skip
-
-
-def law(z1: int, z2: int, clearance: str) -> TriangularTransmission:
-    """A pair of the note: equilateral teeth of equal depth, friction 0.2."""
-    form = Triangular.model_validate({"form": "triangular", "half_angle": "30 deg", "clearance": clearance})
-    return form.law(z1, z2, FRICTION)
 
 
 def table(header: tuple[str, ...], body: list[tuple[str, ...]]) -> Iterator[str]:

@@ -7,18 +7,13 @@ from collections.abc import Iterator
 from math import asin, atan, atan2, cos, degrees, radians, sin
 
 import numpy as np
+from sources.sphere import NOTE, gears
 
 from geartrain.spherical import Configuration, from_polyhedron, ratio_windows, size_gears
 from geartrain.spherical.gear_sphere import GearSphere
 
-NOTE = "icosidodecahedron"
 PRINTED_BETA = 41.8103148828  # deg
 IDLERS = {"5": 60, "3": 36, "e": 24}
-
-
-def gears(five: int = 20, three: int = 12) -> Configuration:
-    """The gears of the note, on the faces of its solid."""
-    return from_polyhedron(NOTE, "faces", teeth={"5": five, "3": three})
 
 
 def sphere() -> Iterator[str]:

@@ -17,6 +17,7 @@ import geartrain
 from geartrain.teeth.conjugate import closed_form_sides, optimal_sides
 from geartrain.teeth.conjugate.path_of_contact import PathContact, PathOfContact
 from geartrain.teeth.conjugate.pitch_surfaces import PitchSurfaces
+from geartrain.teeth.friction_law import FOOT_A_MINUTE, BuckinghamFriction, DokosFriction
 from sources import smith_profiles as profiles
 from sources.row import Finding
 from sources.smith_profiles import Seen
@@ -276,6 +277,17 @@ def sliding(kind: Kind) -> float:
         lambda c: c.U1 - c.U2,
     )
     return max(printed, of_path(kind, lambda v: rate(v) * distance(v), lambda c: c.U1 - c.U2))
+
+
+def dokos(times: float) -> float:
+    """The coefficient of the library's law of dry steel, at so many times its slowest speed."""
+    law = DokosFriction(law="dokos")
+    return float(law.coefficient(np.array(law.slowest.si * times)))
+
+
+def buckingham(feet: float) -> float:
+    """The coefficient of the library's law of cast iron in oil, at so many feet a minute."""
+    return float(BuckinghamFriction(law="buckingham").coefficient(np.array(feet * FOOT_A_MINUTE)))
 
 
 def sliding_turns() -> Finding:

@@ -191,21 +191,30 @@ def conjugates() -> Iterator[Row]:
     )
     yield outside("Section 10, bearings", "pins with ball bearings, belts", "not teeth")
     for place, what, printed in (
-        ("Dokos, slow", "mu of dry steel", "0.53"),
-        ("Dokos, fast", "mu at 10^7 times the speed", "0.18"),
         ("teflon", "mu of teflon on teflon", "0.04"),
         ("soap", "mu of metals with stearic acid", "0.05"),
-        ("Buckingham, 150 ft/min", "mu of cast iron in oil", "0.0112"),
-        ("Buckingham, 2100 ft/min", "the same", "0.0385"),
-        ("Buckingham, stationary", "the same", "0.0517"),
         ("Dudley, least", "mu over oils and speeds", "0.017"),
         ("Dudley, greatest", "the same", "0.061"),
     ):
         yield outside(f"Section 11, {place}", what, DATUM, printed)
+    for place, what, printed, expression in (
+        ("Dokos, slow", "mu of dry steel", "0.53", "dokos(1)"),
+        ("Dokos, fast", "mu at 10^7 times the speed", "0.18", "dokos(10**7)"),
+        ("Buckingham, 150 ft/min", "mu of cast iron in oil", "0.0112", "buckingham(150)"),
+        ("Buckingham, 2100 ft/min", "the same", "0.0385", "buckingham(2100)"),
+        ("Buckingham, stationary", "the same", "0.0517", "buckingham(0)"),
+    ):
+        law = expression.partition("(")[0]
+        yield digits(
+            f"Section 11, {place}", what, printed, expression, f"measured; `friction: {{law: {law}}}` goes by it"
+        )
+    yield words(
+        "Section 11, Buckingham's curve", "falls fast from rest, then rises as V^p, 0.51 <= p <= 0.60", "rise()"
+    )
     yield outside(
         "Section 11, formulas",
-        "mu = c2 exp(-c1 sqrt V) + c3 sqrt V; V^p, p 0.51-0.60; worms V^-p, p 0.5-1",
-        "fits to measurements, without their constants",
+        "mu = c2 exp(-c1 sqrt V) + c3 sqrt V; worms V^-p, 0.5 < p < 1",
+        "fits to measurements, whose constants the note does not give",
     )
     yield outside("Section 11, oil", "what fails at high power", "oil is not computed")
 

@@ -208,13 +208,11 @@ def conjugates() -> Iterator[Row]:
         yield digits(
             f"Section 11, {place}", what, printed, expression, f"measured; `friction: {{law: {law}}}` goes by it"
         )
-    yield words(
-        "Section 11, Buckingham's curve", "falls fast from rest, then rises as V^p, 0.51 <= p <= 0.60", "rise()"
-    )
     yield outside(
         "Section 11, formulas",
-        "mu = c2 exp(-c1 sqrt V) + c3 sqrt V; worms V^-p, 0.5 < p < 1",
-        "fits to measurements, whose constants the note does not give",
+        "mu = c2 exp(-c1 sqrt V) + c3 sqrt V; rises as V^p, 0.51 <= p <= 0.60; worms V^-p, 0.5 < p < 1",
+        "fits to measurements, whose constants the note does not give; what the law here puts between the three values "
+        "is (17) of [Tooth shapes](shapes.md)",
     )
     yield outside("Section 11, oil", "what fails at high power", "oil is not computed")
 

@@ -50,7 +50,7 @@ def test_the_best_radii_are_no_worse_than_a_scan_in_steps_of_a_thousandth(aim: s
     assert found.best.merit(aim) <= scanned(pair(48, 96), aim, *bounds)
     assert bounds[0] <= found.best.radii <= bounds[1]
     assert found.outlines.turns
-    assert found.outlines.difference < 1e-3
+    assert found.outlines.difference < 1e-4
 
 
 @pytest.mark.slow
@@ -61,7 +61,7 @@ def test_the_best_radii_of_any_counts_are_no_worse_than_a_scan_of_all(seed: int)
     for aim in AIMS:
         found = find_tooth_sizes(start, (aim,))
         assert found.best.merit(aim) <= scanned(start, aim, *USUAL_RANGES["radii"])
-        assert found.outlines.difference < 1e-3
+        assert found.outlines.difference < 1e-4
 
 
 @pytest.mark.slow
@@ -133,16 +133,16 @@ def test_limits_are_kept_and_cost_something() -> None:
 
 
 def test_no_design_of_a_front_is_better_than_another_in_both() -> None:
-    found = find_tooth_sizes(pair(15, 60), ("loss", "jam"), {"radii": (0.91, 0.95)})
-    losses, margins = [each.loss for each in found.front], [each.jam for each in found.front]
+    found = find_tooth_sizes(pair(15, 60, radii=0.95), ("loss", "error"), {"window": (0.3, 0.8)})
+    losses, errors = [each.loss for each in found.front], [each.error for each in found.front]
     assert losses == sorted(losses)
-    assert margins == sorted(margins)
-    assert len(found.front) > 5
-    assert found.front == undominated(found.tried, "loss", "jam")
+    assert errors == sorted(errors, reverse=True)
+    assert 20 < len(found.front) <= 200
+    assert {*found.front} <= {*undominated(found.tried, "loss", "error")}
     # the ends are those of each aim alone
     assert found.front[0].loss == found.best.loss
-    alone = find_tooth_sizes(pair(15, 60), ("jam",), {"radii": (0.91, 0.95)})
-    assert found.front[-1].jam == pytest.approx(alone.best.jam, rel=1e-9)
+    alone = find_tooth_sizes(pair(15, 60, radii=0.95), ("error",), {"window": (0.3, 0.8)})
+    assert found.front[-1].error == pytest.approx(alone.best.error, rel=1e-6)
 
 
 @pytest.mark.parametrize(

@@ -33,6 +33,7 @@ USUAL_RANGES: Mapping[str, Range] = {
 _BEYOND = 1e3  # above every figure: designs that turn but miss a limit
 _NOTHING = 1e6  # designs that do not turn
 _FRONT = 9  # bounds on the second aim
+_WORTH = 0.005  # of a front in its second aim: how far apart its designs are
 _WIDEST = {"radii": (0.1, 10.0), "window": (0.0, 1.0), "half_angle": (0.0, pi / 2)}
 
 
@@ -169,7 +170,7 @@ class SizeSearch:
             inside = [at for at, each in self.designs.items() if self.keeps(each, [bound])]
             if inside:
                 polish(known, min(inside, key=lambda at: self.designs[at].merit(first)), rounds=1)
-        return undominated([each for each in self.designs.values() if self.keeps(each)], first, second)
+        return _spread(undominated([each for each in self.designs.values() if self.keeps(each)], first, second), second)
 
 
 def undominated(designs: Sequence[ToothSizes], first: str, second: str) -> tuple[ToothSizes, ...]:
@@ -179,6 +180,16 @@ def undominated(designs: Sequence[ToothSizes], first: str, second: str) -> tuple
         if not found or each.merit(second) < found[-1].merit(second):
             found.append(each)
     return tuple(found)
+
+
+def _spread(front: Sequence[ToothSizes], aim: str) -> tuple[ToothSizes, ...]:
+    """A front without the designs that differ by nothing worth telling from the one before; both ends are kept."""
+    worth = _WORTH * (front[0].merit(aim) - front[-1].merit(aim))
+    found = [front[0]]
+    for each in front[1:-1]:
+        if min(found[-1].merit(aim) - each.merit(aim), each.merit(aim) - front[-1].merit(aim)) >= worth:
+            found.append(each)
+    return (*found, *front[1:][-1:])
 
 
 def _limit(aim: str, merit: float) -> SizeLimit:

@@ -143,7 +143,11 @@ def _within(cause: BudgetCause) -> str:
 def _crank(found: TrainBudget) -> Section:
     crank = found.crank
     rows = [(crank.link, _or_undeclared(crank.torque), _or_undeclared(crank.efficiency), crank.note)]
-    return Section("Crank", (), (Table(("link", "torque", "efficiency", "how"), rows),))
+    tables = [Table(("link", "torque", "efficiency", "how"), rows)]
+    alone = [(name, f"{each:.4g}") for name, each in crank.pointers.items()]
+    if alone:
+        tables.append(Table(("pointer driven alone", "efficiency"), cut(alone)))
+    return Section("Crank", (), tables)
 
 
 def _or_undeclared(value: float | None) -> str:
@@ -152,7 +156,7 @@ def _or_undeclared(value: float | None) -> str:
 
 def _jams(found: TrainBudget) -> Section:
     if not found.jams:
-        return Section("Jams over clearance", (f"{NOT_DECLARED.capitalize()}: {found.jams_note}.",))
+        return Section("Jams over clearance", (f"Not known: {found.jams_note}.",))
     rows = [
         (f"{each.clearance:.6g}", *(share_text(each.events[event]) for event in ("jam", "clash", "standstill")))
         for each in found.jams

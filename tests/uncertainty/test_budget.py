@@ -10,7 +10,7 @@ import pytest
 
 import geartrain
 from geartrain import GearTrain
-from geartrain.uncertainty import BudgetQuestion, TrainBudget, find_budget
+from geartrain.uncertainty import BudgetQuestion, PointerBudget, TrainBudget, find_budget
 from geartrain.uncertainty.budget.pin_theory import least_difference
 from geartrain.uncertainty.budget.true_anomaly import equation_of_centre
 
@@ -221,3 +221,101 @@ def test_a_pointer_that_reads_no_time_has_no_days() -> None:
 def test_questions_without_meaning_are_refused(asked: dict[str, float]) -> None:
     with pytest.raises(geartrain.GearTrainError):
         BudgetQuestion(**asked)
+
+
+# ------------------------------------------------------------------------------------------------------ cutting, crank
+
+
+def cut(placement: str, trials: int = 64) -> PointerBudget:
+    asked = BudgetQuestion(outputs=("sun",), cutting=(f"placement={placement}",), trials=trials, clearances=(), **SHORT)
+    return find_budget(geartrain.load("moon-triangular"), asked)["sun"]
+
+
+def test_wheels_cut_nearly_true_add_nothing_to_the_ripple_of_even_teeth() -> None:
+    pointer = cut("0.00001 %")
+    assert (pointer["teeth"].degrees or 0.0) > 0.02
+    assert (pointer["cutting"].degrees or 1.0) < 1e-4
+    # small errors of the same wheels, twice as great, lead the pointer twice as far astray, but for what switches
+    assert (cut("0.02 %")["cutting"].degrees or 0.0) / (cut("0.01 %")["cutting"].degrees or 1.0) == pytest.approx(
+        2, rel=0.05
+    )
+
+
+def test_cutting_of_one_pair_is_as_great_as_the_places_of_its_teeth() -> None:
+    cause = cut("0.5 %", 256)["cutting"]
+    # y + phi_j = f(x + theta_i): both teeth are off by 0.5 % of their own pitch, at the pointer 360/225 degrees
+    sigma = sqrt(2) * 0.005 * 360 / 225
+    # of several couples that may touch the foremost does, and the mean is the pointer's setting: no more than that
+    assert 0.5 * sigma < (cause.rms or 0.0) < 1.1 * sigma
+    assert cause.interval is not None
+    assert cause.interval[0] < (cause.degrees or 0.0) < cause.interval[1]
+    assert cause.degrees == pytest.approx(2 * 1.96 * (cause.rms or 0.0), rel=0.25)
+
+
+def test_jams_are_counted_over_clearance() -> None:
+    asked = BudgetQuestion(outputs=("sun",), cutting=("placement=4 %",), trials=32, clearances=(0.1, 0.9), **SHORT)
+    jams = find_budget(geartrain.load("moon-triangular"), asked).jams
+    assert [each.clearance for each in jams] == [0.1, 0.9]
+    assert jams[0].events["jam"].count > jams[1].events["jam"].count
+
+
+def test_cutting_that_is_asked_for_and_cannot_be_tried_is_refused() -> None:
+    with pytest.raises(geartrain.GearTrainError, match="no triangular teeth"):
+        find_budget(geartrain.load("freeth-2008"), BudgetQuestion(cutting=("placement=1 %",), **SHORT))
+
+
+def test_the_cranks_torque_is_the_loads_over_the_efficiency() -> None:
+    train = geartrain.load(
+        PAIRS + "gears: [{pair: [p, q], efficiency: 0.9}, {pair: [r, s], efficiency: 0.8}]\nloads: {c: -9}\n"
+    )
+    crank = find_budget(train, BudgetQuestion(**SHORT)).crank
+    assert crank.link == "a"
+    assert crank.torque == pytest.approx(9 / 9 / 0.72)
+    assert crank.efficiency == pytest.approx(0.72)
+    assert crank.pointers == pytest.approx({"c": 0.72})
+
+
+def test_a_crank_without_loads_and_friction_is_not_declared(freeth: TrainBudget) -> None:
+    assert freeth.crank.torque is freeth.crank.efficiency is None
+    assert freeth.crank.note == "neither loads nor friction are declared"
+
+
+# ------------------------------------------------------------------------------------------------------- picture, page
+
+
+def test_the_bars_of_the_picture_are_the_figures_of_the_table() -> None:
+    from geartrain.drawing import budget_figure
+
+    asked = BudgetQuestion(outputs=("moon", "saros", "metonic"), **SHORT)
+    budget = find_budget(geartrain.load("freeth-2021-teeth"), asked)
+    axes = budget_figure(budget).axes[0]
+    names = [label.get_text() for label in axes.get_yticklabels()]
+    assert names == sorted(names, key=lambda name: -budget[name].total)
+    for at, name in enumerate(names):
+        bars = sorted(
+            (patch for patch in axes.patches if abs(patch.get_y() + patch.get_height() / 2 - at) < 0.01),
+            key=lambda patch: patch.get_x(),
+        )
+        drawn = [(bar.get_gid(), bar.get_width() * budget[name].total) for bar in bars]
+        known = [(cause.name, cause.degrees) for cause in budget[name].ranked if cause.degrees]
+        assert [each[0] for each in drawn] == [each[0] for each in known]
+        assert [each[1] for each in drawn] == pytest.approx([each[1] for each in known])
+        assert bars[-1].get_x() + bars[-1].get_width() == pytest.approx(1.0)
+
+
+def test_the_page_has_every_cause_of_every_pointer_and_counts_what_is_missing(freeth: TrainBudget) -> None:
+    from geartrain.report import describe_budget, to_markdown
+
+    text = to_markdown([describe_budget(freeth)])
+    missing = freeth.not_declared
+    assert f"theory of {missing['theory']}, teeth of {missing['teeth']}" in text
+    for pointer in freeth.pointers:
+        assert f"## Ranked: {pointer.name}\n" in text
+    assert text.count("not declared") > sum(missing.values())
+
+
+def test_a_train_of_which_nothing_is_known_has_no_picture() -> None:
+    from geartrain.drawing import budget_figure
+
+    with pytest.raises(geartrain.GearTrainError, match="no budget"):
+        budget_figure(find_budget(geartrain.load("south-pointing-chariot"), BudgetQuestion(**SHORT), "straight on"))

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from geartrain.numerics.plain_data import Result
@@ -27,6 +28,9 @@ class CrankLoad(Result):
         Power out over power in; None where neither friction nor an efficiency is declared, or nothing follows.
     note : str
         Under which loads, or what is not declared.
+    pointers : mapping of str to float
+        By pointer, the efficiency of a train that drives it alone; empty without friction, and without what cannot be
+        driven.
 
     See Also
     --------
@@ -37,24 +41,42 @@ class CrankLoad(Result):
     torque: float | None
     efficiency: float | None
     note: str
+    pointers: Mapping[str, float] = field(default_factory=dict)
 
 
-def find_crank_load(train: GearTrain, state: str | None, lead: str) -> CrankLoad:
-    """Under the declared loads; where there are none, the efficiency from the input to the output."""
+def find_crank_load(train: GearTrain, state: str | None, lead: str, links: Mapping[str, str]) -> CrankLoad:
+    """Under the declared loads; where there are none, the efficiency from the input to the output.
+
+    links   by pointer, the link that turns
+    """
     declared = train.declaration
     link = declared.crank or lead
     found = train.torques(state)
+    pointers = dict(_efficiencies(train, state, link, links)) if _loses(declared) else {}
     if found.verdict.kind != "unloaded":
         torque = found.external.get(link)
         note = f"under the declared loads: {found.verdict.text}"
-        return CrankLoad(link, None if torque is None else float(torque), _efficiency(found, declared), note)
+        return CrankLoad(link, None if torque is None else float(torque), _efficiency(found, declared), note, pointers)
     ways = train.drive_both_ways(state) if _loses(declared) else []
     if not ways or not ways[0].torques.verdict:
         why = "neither loads nor friction are declared" if not _loses(declared) else "no loads are declared"
-        return CrankLoad(link, None, None, why)
+        return CrankLoad(link, None, None, why, pointers)
     way = ways[0]
     note = f"no loads are declared: a unit of power from '{way.source}' to '{way.load}'"
-    return CrankLoad(link, None, _efficiency(way.torques, declared), note)
+    return CrankLoad(link, None, _efficiency(way.torques, declared), note, pointers)
+
+
+def _efficiencies(
+    train: GearTrain, state: str | None, crank: str, links: Mapping[str, str]
+) -> Iterator[tuple[str, float]]:
+    """The efficiency from the crank to each pointer that can be driven from it."""
+    known: dict[str, float | None] = {}
+    for name, link in links.items():
+        if link != crank and link not in known:
+            found = train.driven(link, crank, state)
+            known[link] = float(found.efficiency) if found.verdict and found.efficiency is not None else None
+        if (efficiency := known.get(link)) is not None:
+            yield name, efficiency
 
 
 def _efficiency(found: Torques, declared: Train) -> float | None:

@@ -97,6 +97,8 @@ def jams_over_clearance(
     plan: TrialPlan, clearances: Sequence[float], count: int, seed: int, means: Execution
 ) -> tuple[tuple[ClearanceCase, ...], str]:
     """How often some pair jams at each clearance; none, and why, where a pair has no window."""
+    if not clearances:
+        return (), "no clearance was asked for"
     try:
         return tuple(run_clearances(plan, clearances, count, seed, means)), ""
     except GearTrainError as error:

@@ -150,7 +150,7 @@ def find_budget(
     on_stage()
     jams, jams_note = _jams(plan, uncut, asked, means)
     on_stage()
-    crank = find_crank_load(train, state, motion.train.lead)
+    crank = find_crank_load(train, state, motion.train.lead, {name: answer.outputs[name].of for name in names})
     on_stage()
     pointers = []
     for name in names:

@@ -29,15 +29,15 @@ LETTER = 0.62 / 72  # inches of a letter by points of its size, on the average
 PHASES = {APPROACH: BLUE, RECESS: RED, STANDSTILL: BLACK}
 
 
-def pair_text(law: TriangularTransmission) -> str:
-    """Tooth numbers, half angle, clearance factor and friction of a law's pair, the driver first."""
+def pair_text(law: TriangularTransmission, friction: float | None = None) -> str:
+    """Tooth numbers, half angle, clearance factor and friction, by default the law's, of a pair, the driver first."""
     sizes = law.sizes
     betas = [f"{degrees(beta):.6g}°" for beta in (sizes.beta1, sizes.beta2)]
     beta = betas[0] if betas[0] == betas[1] else ", ".join(betas)
     backwards = "" if law.direction > 0 else ", backwards"
     return (
         f"{sizes.z1} drives {sizes.z2}{backwards}: half angle {beta}, clearance factor {1 + sizes.excess:.10g}, "
-        f"friction {law.friction:.6g}"
+        f"friction {law.friction if friction is None else friction:.6g}"
     )
 
 

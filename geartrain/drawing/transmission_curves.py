@@ -11,6 +11,7 @@ import numpy as np
 
 from geartrain.drawing.backend import Axes, Figure, Line2D
 from geartrain.drawing.style import BLACK, GREY, HALO, PHASES, SMALL, TEXT, WIDTH, pair_text, plain, require_contact
+from geartrain.teeth.rubbed_transmission import RubbedTransmission
 from geartrain.teeth.triangular.real_path import STANDSTILL
 from geartrain.teeth.triangular.speed_jump import SpeedJump
 from geartrain.teeth.triangular.tooth_couple import APPROACH, RECESS
@@ -18,6 +19,7 @@ from geartrain.teeth.triangular.triangular_transmission import TriangularTransmi
 
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
+    from geartrain.teeth.friction_law import PairFriction
 
 _SAMPLES = 401  # of each phase, and of each interval
 _LABELS = (
@@ -30,7 +32,7 @@ _CURVES: tuple[tuple[str, Any], ...] = (("", "-"), ("driven ", (0, (1.5, 0.7))))
 _BEYOND = 4.0  # of the real range: how far an axis follows the ideal path beyond it
 
 
-def law_figure(law: TriangularTransmission) -> Figure:
+def law_figure(law: TriangularTransmission, friction: PairFriction | None = None) -> Figure:
     """The law of triangular teeth over the driver's angle: driven angle, speed ratio, sliding efficiency, moment arms.
 
     Thin lines are the ideal path of one couple of teeth (docs/teeth.md, equations 2 to 11), thick lines the real path
@@ -41,6 +43,8 @@ def law_figure(law: TriangularTransmission) -> Figure:
     ----------
     law : TriangularTransmission
         The pair.
+    friction : PairFriction, optional
+        In place of the law's own, where it depends on speed.
 
     Returns
     -------
@@ -63,12 +67,12 @@ def law_figure(law: TriangularTransmission) -> Figure:
     figure = Figure(figsize=(WIDTH, 11.5), layout="constrained")
     panels = figure.subplots(4, 1, sharex=True)
     for row, axes in enumerate(panels):
-        _panel(axes, law, row)
+        _panel(axes, law, row, friction)
     _matching(panels, law)
     _jumps(panels[1], law)
     _instant_centre(panels[1])
     _time(panels[-1])
-    panels[0].set_title(_title(law), fontsize=TEXT, loc="left", color=BLACK)
+    panels[0].set_title(_title(law, friction), fontsize=TEXT, loc="left", color=BLACK)
     figure.legend(handles=list(_legend(law)), loc="outside lower center", ncols=4, fontsize=SMALL, frameon=False)
     return figure
 
@@ -76,20 +80,22 @@ def law_figure(law: TriangularTransmission) -> Figure:
 # ------------------------------------------------------------------------------------------------------------- curves
 
 
-def _panel(axes: Axes, law: TriangularTransmission, row: int) -> None:
+def _panel(axes: Axes, law: TriangularTransmission, row: int, friction: PairFriction | None) -> None:
     plain(axes)
     axes.set_ylabel(_LABELS[row], fontsize=TEXT)
     ideal, real = [], []
     for phase, low, high in _phases(law):
         x = np.linspace(low, high, _SAMPLES)
-        for y, (whose, style) in zip(_values(law, phase, x)[row], _CURVES, strict=False):
+        for y, (whose, style) in zip(_values(law, friction, phase, x)[row], _CURVES, strict=False):
             line = {"linestyle": style, "gid": f"{whose}ideal {phase}"}
             axes.plot(np.degrees(x), y, color=PHASES[phase], linewidth=1.2, **line)
             ideal.append(y)
     for interval in law.intervals:
         x = np.linspace(interval.start, interval.end, _SAMPLES)
         color = PHASES[interval.phase]
-        for y, (whose, style) in zip(_values(law, interval.phase, x, interval.held)[row], _CURVES, strict=False):
+        for y, (whose, style) in zip(
+            _values(law, friction, interval.phase, x, interval.held)[row], _CURVES, strict=False
+        ):
             line = {"linestyle": style, "solid_capstyle": "butt", "gid": f"{whose}real {interval.phase}"}
             axes.plot(np.degrees(x), y, color=color, linewidth=4.0, **line)
             real.append(y)
@@ -107,7 +113,7 @@ def _phases(law: TriangularTransmission) -> Iterator[tuple[str, float, float]]:
 
 
 def _values(
-    law: TriangularTransmission, phase: str, x: Floats, held: float | None = None
+    law: TriangularTransmission, friction: PairFriction | None, phase: str, x: Floats, held: float | None = None
 ) -> tuple[tuple[Floats, ...], ...]:
     """The curves of each panel at alpha_1 = x (rad): alpha_2 (deg), tau, efficiency, the arms of driver and driven.
 
@@ -118,9 +124,10 @@ def _values(
         return (np.full_like(x, degrees(held)),), (np.zeros_like(x),), (none,), (none, none)
     couple, sizes = law.contact.path.couple, law.sizes
     with np.errstate(all="ignore"):  # beyond the real path a flank may lean past the perpendicular
-        eta = couple.efficiency(phase, x, law.friction, np)
+        rub = law.friction if friction is None else friction(law.sliding(phase, x))
+        eta = couple.efficiency(phase, x, rub, np)
         eta = np.where((eta >= 0) & (eta <= 1), eta, np.nan)
-        arms = couple.moment_arms(phase, x, law.friction, np)
+        arms = couple.moment_arms(phase, x, rub, np)
         rolling = (sizes.D * z / (sizes.z1 + sizes.z2) for z in (sizes.z1, sizes.z2))
         relative = tuple(arm / radius for arm, radius in zip(arms, rolling, strict=True))
         return (np.degrees(couple.angle(phase, x, np)),), (couple.speed(phase, x, np),), (eta,), relative
@@ -219,13 +226,14 @@ def _time(axes: Axes) -> None:
     )
 
 
-def _title(law: TriangularTransmission) -> str:
+def _title(law: TriangularTransmission, friction: PairFriction | None) -> str:
+    losses = law if friction is None else RubbedTransmission(law, friction)
     low, high = law.speed_range()
     least, greatest = law.error_range()
     return "\n".join(
         (
-            pair_text(law),
-            f"speed ratio {low:.4g} to {high:.4g}, mean efficiency {law.efficiency_mean():.4g}, "
+            pair_text(law, losses.friction),
+            f"speed ratio {low:.4g} to {high:.4g}, mean efficiency {losses.efficiency_mean():.4g}, "
             f"transmission error {degrees(greatest - least):.4g}° peak to peak",
             fill(f"{law.verdict.kind}: {law.verdict.text}", 100),
         )

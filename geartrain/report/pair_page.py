@@ -130,12 +130,15 @@ def _triangular_pair(
     mesh: TriangularMesh, outlines: Sequence[WheelOutline], operation: PairOperation | None
 ) -> TriangularPair:
     from geartrain.dynamics.motion.pair_impacts import find_pair_impacts
+    from geartrain.teeth.rubbed_transmission import pair_friction
     from geartrain.teeth.triangular.contact_course import contact_course
     from geartrain.teeth.triangular.triangular_account import triangular_figures
 
     impacts = None if operation is None or not mesh.law.intervals else find_pair_impacts(mesh.law, operation)
     figures = triangular_figures(mesh.law, mesh.window, losses=mesh.efficiency(mesh.driver))
-    return TriangularPair(figures, contact_course(mesh.law), impacts, tuple(outlines))
+    return TriangularPair(
+        figures, contact_course(mesh.law, friction=pair_friction(mesh.wheels)), impacts, tuple(outlines)
+    )
 
 
 def _triangular_page(

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from geartrain.report.document import Section, Table, figure
 from geartrain.teeth.pair_verdict import friction_lock_at_speed
-from geartrain.teeth.rubbed_transmission import friction_words
+from geartrain.teeth.rubbed_transmission import friction_words, pair_friction
 from geartrain.teeth.triangular.contact_course import contact_course
 from geartrain.teeth.triangular.triangular_explanations import explain_clearance, explain_friction_lock
 
@@ -26,7 +26,7 @@ def triangular_sections(mesh: TriangularMesh, operation: PairOperation | None) -
     if window is not None:
         yield _clearance(law, window)
     if law.intervals:
-        yield from (_path(law), _course(law), _law(law), _collisions(law), _losses(mesh), *_impacts(law, operation))
+        yield from (_path(law), _course(mesh), _law(law), _collisions(law), _losses(mesh), *_impacts(law, operation))
 
 
 def triangular_verdict(mesh: TriangularMesh) -> str:
@@ -94,9 +94,9 @@ def _path(law: TriangularTransmission) -> Section:
     return Section("Path of contact", (ideal,), (Table(header, rows),))
 
 
-def _course(law: TriangularTransmission) -> Section:
+def _course(mesh: TriangularMesh) -> Section:
     """Speed ratio, instant centre and moment arms at the ends of every interval and between them."""
-    found = contact_course(law)
+    found = contact_course(mesh.law, friction=pair_friction(mesh.wheels))
     columns = (found.speed_ratio, found.instant_centre, found.driver_arm, found.driven_arm, found.efficiency)
     rows = [
         (phase, _deg(x), _deg(y), *(figure(value) if isfinite(value) else "-" for value in values))

@@ -178,8 +178,14 @@ class RubbedTransmission(TransmissionFunction):
 
 def rubbed(law: TransmissionFunction, wheels: MeshingWheels) -> TransmissionFunction:
     """The law of a pair with the friction that its wheels declare, where that depends on speed; else as it is."""
+    by = pair_friction(wheels)
+    return law if by is None else RubbedTransmission(law, by)
+
+
+def pair_friction(wheels: MeshingWheels) -> PairFriction | None:
+    """The law of friction of a pair at its speed; None where friction is a number, or no speed is known."""
     declared, at = wheels.friction_law, wheels.pitch_line
-    return law if declared is None or at is None else RubbedTransmission(law, PairFriction(declared, at))
+    return None if declared is None or at is None else PairFriction(declared, at)
 
 
 def friction_words(mesh: GearMesh) -> str:

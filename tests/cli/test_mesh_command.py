@@ -258,3 +258,47 @@ def test_wheels_cut_from_their_profiles_touch_wherever_the_path_says_that_they_d
             off = translate(rotate(cut[1], pi - y - 1e-4, origin=(0, 0), use_radians=True), distance)
             on = translate(rotate(cut[1], pi - y + 1e-4, origin=(0, 0), use_radians=True), distance)
             assert (driver.distance(off) > 1e-4) != (driver.distance(on) > 1e-4)
+
+
+LAW = "stribeck,static=0.2,kinetic=0.08,speed=10 mm/s"
+REFUSED_LAWS = [
+    (["--friction", "dokos"], "give --rate and --module"),
+    (["--friction", "dokos", "--rate", "1 rpm"], "nothing says how large it is"),
+    (["--friction", "dokos", "--module", "1mm"], "nothing says how fast it is"),
+    (["--friction", "stribek,static=1"], "'stribeck'"),
+    (["--friction", "stribeck,static=0.2"], "kinetic: Field required"),
+    (["--friction", "dokos", "--vary", "window=0.1:0.9:3"], "asks for friction as a number"),
+    (["--friction", "dokos", "--best", "loss"], "asks for friction as a number"),
+]
+
+
+@pytest.mark.parametrize(("arguments", "said"), REFUSED_LAWS, ids=lambda value: str(value)[:40])
+def test_a_law_of_friction_says_what_it_lacks(arguments: list[object], said: str) -> None:
+    done = ended("mesh", "triangular", "--teeth", 48, 96, "--window", 0.5, *arguments)
+    assert done.returncode == 2
+    assert said in " ".join(done.stderr.split())
+
+
+def test_a_pair_under_a_law_of_friction_tells_its_speed_and_what_acts_at_every_angle(tmp_path: Path) -> None:
+    asked = ("mesh", "triangular", "--teeth", 48, 96, "--clearance", 1.01, "--friction", LAW, "--module", "2mm")
+    said = call(*asked, "--rate", "1 turn/s").output
+    # half the sum of the modules times teeth is the least centre distance: 144 mm
+    speed = 2 * pi * 0.144 * 1.01 / 3
+    assert f"at a pitch-line speed of {speed:.6g} m/s" in said
+    picture = tmp_path / "l.svg"
+    data = json.loads(call(*asked, "--rate", "1 turn/s", "--plot", picture, "--json").stdout)
+    course, mean = data["course"], data["efficiency"]["friction"]
+    assert 0.08 < mean < 0.2
+    assert f"friction {mean:.6g}" in picture.read_text(encoding="utf-8").replace("<!-- ", "")
+    ratios = zip(course["speed_ratio"], course["driven_arm"], course["driver_arm"], strict=True)
+    assert [tau * second / first for tau, second, first in ratios] == pytest.approx(course["efficiency"], rel=1e-13)
+    slow = json.loads(call(*asked, "--rate", "1 turn/h", "--json").stdout)
+    fixed = json.loads(call(*asked[:7], "--friction", 0.2, "--module", "2mm", "--json").stdout)
+    assert slow["efficiency"]["mean"] == pytest.approx(fixed["efficiency"]["mean"], abs=1e-5)
+
+
+def test_the_second_wheel_drives_at_its_own_speed() -> None:
+    asked = ("mesh", "involute", "--teeth", 24, 36, "--friction", "buckingham", "--module", "2mm", "--rate", "1 turn/s")
+    for driver, radius in ((1, 0.024), (2, 0.036)):
+        said = call(*asked, "--driver", driver).output
+        assert f"at a pitch-line speed of {2 * pi * radius:.6g} m/s" in said

@@ -30,6 +30,7 @@ from geartrain.cli.mesh.form_options import (
     read_shaft_angle,
     two_wheels,
 )
+from geartrain.cli.mesh.pair_friction import Friction, Rate, read_pair_friction
 from geartrain.cli.mesh.wheel_profile import (
     FINE,
     Bore,
@@ -40,7 +41,6 @@ from geartrain.cli.mesh.wheel_profile import (
     write_profile,
 )
 from geartrain.cli.option_values import at_option
-from geartrain.cli.option_values import friction as read_friction
 from geartrain.errors import GearTrainError
 from geartrain.teeth.tooth_form import ToothForm
 
@@ -65,7 +65,8 @@ def _run(
     teeth: Annotated[tuple[int, int], typer.Option("--teeth", help="Teeth of the first and the second wheel.")],
     internal: Annotated[bool, typer.Option("--internal", help="The second wheel is a ring.")] = False,
     bevel: Annotated[str | None, typer.Option("--bevel", help="Angle between the axes, such as 90deg.")] = None,
-    friction: Annotated[str, typer.Option("--friction", help="Coefficient of friction.")] = "0",
+    friction: Friction = "0",
+    rate: Rate = None,
     driver: Annotated[int, typer.Option("--driver", min=1, max=2, help="Which wheel drives, 1 or 2.")] = 1,
     backlash: Annotated[
         str | None, typer.Option("--backlash", help="Play on the pitch circle, in modules or with a unit.")
@@ -100,10 +101,11 @@ def _run(
 
     to, picture, outlined = _sinks(out, plot, profile, force)
     angle, size = read_shaft_angle(internal, bevel), read_module(module, backlash)
-    wheels = two_wheels(teeth, read_friction(friction), size, internal, angle)
+    rub = read_pair_friction(friction)
+    wheels = two_wheels(teeth, rub.coefficient, size, internal, angle)
     form = read_form(model, own | {"backlash": backlash})
     try:
-        mesh = pair_in_mesh(form, wheels, angle, driver)
+        mesh = rub.of(pair_in_mesh(form, wheels, angle, driver), rate)
     except GearTrainError as error:
         raise at_option(error, "--teeth") from None
     blank = {"clearance": clearance, "fillet": fillet, "bore": bore, "rim": rim, "tolerance": tolerance}
@@ -120,7 +122,7 @@ def _figure(mesh: GearMesh) -> Figure:
 
     if mesh.path is not None:
         return shapes_figure({mesh.form: mesh.path})
-    return transmission_figure(mesh.law, f"{mesh.tooth_form.words} teeth, {mesh.name}")
+    return transmission_figure(mesh.losses, f"{mesh.tooth_form.words} teeth, {mesh.name}")
 
 
 def _sinks(out: Path | None, plot: Path | None, profile: Path | None, force: bool) -> tuple[Sink, Sink, Sink]:

@@ -31,6 +31,7 @@ from geartrain.cli.common import (
 from geartrain.cli.long_runs import progress
 from geartrain.cli.mesh.best_sizes import SizeQuestion, read_start
 from geartrain.cli.mesh.form_options import FormOptions, form_command, option_name, pair_in_mesh, read_form, two_wheels
+from geartrain.cli.mesh.pair_friction import Friction, Rate, read_pair_friction
 from geartrain.cli.mesh.wheel_profile import (
     FINE,
     Bore,
@@ -41,7 +42,6 @@ from geartrain.cli.mesh.wheel_profile import (
     write_profile,
 )
 from geartrain.cli.option_values import at_option, quantity
-from geartrain.cli.option_values import friction as read_friction
 from geartrain.errors import GearTrainError
 from geartrain.teeth.triangular.triangular_form import FEWEST, Triangular
 
@@ -73,13 +73,15 @@ class TriangularOptions:
     friction: str
     driver: int
     backwards: bool
+    rate: str | None = None
 
     def mesh(self, **varied: str) -> TriangularMesh:
         """The pair in mesh, with some options replaced by what is varied."""
         from geartrain.teeth.triangular.triangular_mesh import TriangularMesh
 
         z1, z2 = (round(float(varied.get(name, z))) for name, z in zip(("z1", "z2"), self.teeth, strict=True))
-        wheels = two_wheels((z1, z2), read_friction(varied.get("friction", self.friction)), self.module)
+        rub = read_pair_friction(varied.get("friction", self.friction))
+        wheels = two_wheels((z1, z2), rub.coefficient, self.module)
         form = self.form({name: value for name, value in varied.items() if name not in _PAIR})
         try:
             mesh = pair_in_mesh(form, wheels, None, self.driver)
@@ -88,6 +90,7 @@ class TriangularOptions:
             given = next(clearances, "clearance")
             raise at_option(error, "--teeth" if min(z1, z2) < FEWEST else option_name(given)) from None
         assert isinstance(mesh, TriangularMesh)
+        mesh = rub.of(mesh, self.rate)
         return replace(mesh, law=mesh.law.turned_back()) if self.backwards else mesh
 
     def form(self, varied: Mapping[str, str]) -> ToothForm:
@@ -102,6 +105,7 @@ def sweep(pair: TriangularOptions, vary: list[str], picture: Sink, json: bool, t
     from geartrain.teeth.triangular.parameter_sweep import sweep as run_sweep
 
     ranges, units = _ranges(vary)
+    read_pair_friction(pair.friction).number("--vary")
 
     def make(**values: float) -> TriangularTransmission:
         return pair.mesh(**{name: f"{value!r}{units[name]}" for name, value in values.items()}).law
@@ -182,13 +186,13 @@ def _run(
     module: Annotated[
         str | None, typer.Option("--module", help="Pitch diameter over tooth count, which gives the wheels a size.")
     ] = None,
-    friction: Annotated[str, typer.Option("--friction", help="Coefficient of friction.")] = "0",
+    friction: Friction = "0",
     driver: Annotated[int, typer.Option("--driver", min=1, max=2, help="Which wheel drives, 1 or 2.")] = 1,
     backwards: Annotated[bool, typer.Option("--backwards", help="Turn backwards, on the back flanks.")] = False,
     inertia: Annotated[
         str | None, typer.Option("--inertia", help="Moment of inertia of all that turns with the driven wheel.")
     ] = None,
-    rate: Annotated[str | None, typer.Option("--rate", help="Speed of the driver, such as '1 turn/s'.")] = None,
+    rate: Rate = None,
     load: Annotated[str | None, typer.Option("--load", help="Torque that resists the driven wheel.")] = None,
     vary: Annotated[
         list[str] | None,
@@ -229,9 +233,9 @@ def _run(
     check_distinct_outputs(to, outlined, picture, drawing)
     size = None if module is None else quantity("--module", module, "length", least="above 0")
     asked = SizeQuestion(best, tuple(free or ()), tuple(within or ()))
-    if asked.is_one({"--vary": vary, "--teeth-plot": teeth_plot}):
-        asked.answer(read_start(teeth, own, read_friction(friction), driver), to, picture, json)
-    pair = TriangularOptions(teeth, own, size, friction, driver, backwards)
+    if asked.is_one({"--vary": vary, "--teeth-plot": teeth_plot, "--profile": profile}):
+        asked.answer(read_start(teeth, own, read_pair_friction(friction).number("--best"), driver), to, picture, json)
+    pair = TriangularOptions(teeth, own, size, friction, driver, backwards, rate)
     if vary:
         _check_one_pair({"--teeth-plot": teeth_plot, "--profile": profile})
         sweep(pair, vary, picture, json, to)
@@ -242,8 +246,9 @@ def _run(
     give(to, json, lambda: collect_pair(mesh, outlines, operation), lambda: [describe_pair(mesh, outlines, operation)])
     if plot is not None:
         from geartrain.drawing import law_figure
+        from geartrain.teeth.rubbed_transmission import pair_friction
 
-        draw(law_figure(mesh.law), picture)
+        draw(law_figure(mesh.law, pair_friction(mesh.wheels)), picture)
     if teeth_plot is not None:
         from geartrain.drawing import teeth_figure
 

@@ -44,6 +44,7 @@ def check_pieces(
 
 
 def other_shape(why: str) -> RangeError:
+    """What is said of a law under which two pieces are not the side of least loss."""
     return RangeError(
         Problem(
             "under this law of friction teeth of least loss have other pieces than a constant pressure angle and a "

@@ -13,6 +13,7 @@ from geartrain.numerics.plain_data import Key, Result, finite
 
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
+    from geartrain.teeth.friction_law import PairFriction
     from geartrain.teeth.triangular.real_path import DriveInterval
     from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
 
@@ -46,8 +47,13 @@ class ContactCourse(Result):
     efficiency: Floats
 
 
-def contact_course(law: TriangularTransmission, samples: int = _USUAL) -> ContactCourse:
-    """The course of a pair, `samples` rows for each interval of its real path; none for teeth that never touch."""
+def contact_course(
+    law: TriangularTransmission, samples: int = _USUAL, friction: PairFriction | None = None
+) -> ContactCourse:
+    """The course of a pair, `samples` rows for each interval of its real path; none for teeth that never touch.
+
+    friction   in place of the law's own, where it depends on speed
+    """
     at = [(each, np.linspace(each.start, each.end, samples)) for each in law.intervals]
     couple = law.contact.path.couple
 
@@ -55,10 +61,13 @@ def contact_course(law: TriangularTransmission, samples: int = _USUAL) -> Contac
         values = [what(each.phase, x) if each.held is None else np.full_like(x, held(each)) for each, x in at]
         return np.concatenate([np.empty(0), *values])
 
-    def arm(wheel: int) -> Floats:
-        return column(lambda phase, x: couple.moment_arms(phase, x, law.friction, np)[wheel], lambda _: nan)
+    def rub(phase: str, x: Floats) -> float | Floats:
+        return law.friction if friction is None else friction(law.sliding(phase, x))
 
-    eta = column(lambda phase, x: couple.efficiency(phase, x, law.friction, np), lambda _: nan)
+    def arm(wheel: int) -> Floats:
+        return column(lambda phase, x: couple.moment_arms(phase, x, rub(phase, x), np)[wheel], lambda _: nan)
+
+    eta = column(lambda phase, x: couple.efficiency(phase, x, rub(phase, x), np), lambda _: nan)
     first, second = arm(0), arm(1)
     return ContactCourse(
         tuple(each.phase for each, x in at for _ in x),

@@ -221,7 +221,7 @@ class ToothCouple:
         """Side and tangents: eta = (1 - f side tan2) / (1 - f side tan1)."""
         return self.approach_friction(x, m) if phase == APPROACH else self.recess_friction(x, m)
 
-    def efficiency(self, phase: str, x: Any, f: float, m: ModuleType = math) -> Any:
+    def efficiency(self, phase: str, x: Any, f: Any, m: ModuleType = math) -> Any:
         """Sliding efficiency at friction f, Eqs. (32) and (33) corrected."""
         side, tan2, tan1 = self.friction(phase, x, m)
         return (1 - f * side * tan2) / (1 - f * side * tan1)
@@ -234,7 +234,7 @@ class ToothCouple:
         """Speed of sliding over the driver's angular speed, docs/shapes.md (14)."""
         return self.approach_sliding(x, m) if phase == APPROACH else self.recess_sliding(x, m)
 
-    def moment_arms(self, phase: str, x: Any, f: float, m: ModuleType = math) -> tuple[Any, Any]:
+    def moment_arms(self, phase: str, x: Any, f: Any, m: ModuleType = math) -> tuple[Any, Any]:
         """Distances b1, b2 of both centres from the line of the force at friction f, Eqs. (28) to (31) corrected.
 
         That line is the normal, turned about the contact by the angle of friction: with h1, h2 the distances of the
@@ -242,7 +242,7 @@ class ToothCouple:
         """
         n1, n2 = self.normal_arms(phase, x, m)
         side, tan2, tan1 = self.friction(phase, x, m)
-        length = math.hypot(1.0, f)
+        length = m.hypot(1.0, f)
         return n1 * (1 - f * side * tan1) / length, n2 * (1 - f * side * tan2) / length
 
     def instant_centre(self, phase: str, x: Any, m: ModuleType = math) -> Any:

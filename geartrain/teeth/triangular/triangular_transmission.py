@@ -82,13 +82,19 @@ class TriangularTransmission(TransmissionFunction):
         found = (self._map(S, partial(self._rubs, at)) for at in range(3))
         return ContactRubbing(*(each[None] for each in found))
 
+    def sliding(self, phase: str, x: Floats) -> Floats:
+        """Speed of sliding at alpha_1 = x (rad) over that of the pitch line."""
+        sizes = self.sizes
+        found: Floats = self.contact.path.couple.sliding(phase, x, np) * (sizes.z1 + sizes.z2) / (sizes.D * sizes.z1)
+        return found
+
     def _rubs(self, at: int, interval: DriveInterval, x: Any) -> Any:
         """Sliding over the pitch line's speed, and what friction adds to the power that enters and leaves."""
         if interval.held is not None:
             return nan
-        couple, sizes = self.contact.path.couple, self.sizes
+        couple = self.contact.path.couple
         if at == 0:
-            return couple.sliding(interval.phase, x, np) * (sizes.z1 + sizes.z2) / (sizes.D * sizes.z1)
+            return self.sliding(interval.phase, x)
         side, tan2, tan1 = couple.friction(interval.phase, x, np)
         return -side * (tan1 if at == 1 else tan2)
 

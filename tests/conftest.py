@@ -27,7 +27,7 @@ def pytest_addoption(parser: pytest.Parser) -> None:
     parser.addoption("--slow", action="store_true", help="also run the tests marked slow")
     parser.addoption("--trains", type=int, default=1000, help="how many random trains each law is held on (1000)")
     parser.addoption("--first-train", type=int, default=0, help="the seed of the first random train (0)")
-    parser.addoption("--mutants", type=int, help="how many spoilt declarations are tried (300; 1000 with --slow)")
+    parser.addoption("--mutants", type=int, default=1000, help="how many spoilt declarations are tried (1000)")
     parser.addoption("--first-mutant", type=int, default=0, help="the seed of the first spoilt declaration (0)")
 
 

@@ -266,10 +266,13 @@ def sets_between_shafts(seed: int) -> dict[str, Any]:
     return {"links": links, "revolutes": joints, "gears": [{"pair": pair} for pair in gears], "inputs": {"s0": 1}}
 
 
+FAILED = (42, 641)  # a shaft at rest, off by more than an estimate that errors of one sign alone had made
+
+
 @pytest.fixture(scope="module")
 def determined_sets(request: pytest.FixtureRequest) -> list[tuple[int, GearTrain, dict[str, Fraction]]]:
     """Those of 250 seeds (700 with `--slow`) whose speeds are determined, with the exact speeds."""
-    seeds = range(700 if request.config.getoption("--slow") else 250)
+    seeds = dict.fromkeys((*FAILED, *range(700 if request.config.getoption("--slow") else 250)))
     drawn = ((seed, GearTrain.declare(sets_between_shafts(seed))) for seed in seeds)
     solved = ((seed, train, train.solve()) for seed, train in drawn)
     return [(seed, train, dict(answer.speeds)) for seed, train, answer in solved if answer.verdict]

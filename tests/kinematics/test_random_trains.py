@@ -1,7 +1,6 @@
-"""Random trains against the oracle in joint rates: 400, a thousand with `--slow`, more with `--trains 100000`.
+"""A thousand random trains against the oracle in joint rates; more with `--trains 100000`, others with `--first-train`.
 
-`--first-train` takes others. A failure names the seed:
-`pytest tests/kinematics/test_random_trains.py --trains 1 --first-train SEED`.
+A failure names the seed: `pytest tests/kinematics/test_random_trains.py --trains 1 --first-train SEED`.
 """
 
 from __future__ import annotations
@@ -10,7 +9,6 @@ from collections.abc import Iterator
 from functools import lru_cache
 from typing import Any
 
-import pytest
 from joint_rates import TURNS_A_SECOND, Motion, move
 from random_trains import RandomTrain, driven_train, random_train
 
@@ -18,12 +16,6 @@ from geartrain import GearTrain, GearTrainError
 from geartrain.kinematics.answer import Answer
 from geartrain.kinematics.components import SolvedPart
 from geartrain.kinematics.speeds import exact_verdict
-
-
-@pytest.fixture
-def seeds(seeds: range, request: pytest.FixtureRequest) -> range:
-    """The first 400 of the usual thousand; all with `--slow`, and as many as `--trains` says."""
-    return seeds[:400] if len(seeds) == 1000 and not request.config.getoption("--slow") else seeds
 
 
 @lru_cache(maxsize=1000)

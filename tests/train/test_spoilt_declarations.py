@@ -23,8 +23,8 @@ KEPT: dict[str, dict[str, Any]] = json.loads((DATA / "spoilt_declarations.json")
 @pytest.fixture
 def mutants(request: pytest.FixtureRequest) -> Iterable[tuple[str, dict[str, Any]]]:
     first = request.config.getoption("--first-mutant")
-    count = request.config.getoption("--mutants") or (1000 if request.config.getoption("--slow") else 300)
-    return chain(KEPT.items(), ((str(seed), mutant(seed)) for seed in range(first, first + count)))
+    seeds = range(first, first + request.config.getoption("--mutants"))
+    return chain(KEPT.items(), ((str(seed), mutant(seed)) for seed in seeds))
 
 
 @pytest.fixture(autouse=True)

@@ -225,6 +225,32 @@ def test_a_law_of_the_pitch_line_is_a_number_for_each_pair() -> None:
 
 
 @pytest.mark.parametrize(
+    ("form", "radius"),
+    [
+        ("{form: triangular, half_angle: 30 deg, clearance: 1.01}", 0.048 * 1.01),
+        ("{form: triangular, half_angle: 30 deg, clearance: 1.01, radii: [1, 2.01]}", 0.048),
+        ("{form: triangular, half_angle: 30 deg, centre_distance: 145.5 mm, radii: [50 mm, 98.1 mm]}", 0.1455 / 3),
+        ("{form: involute}", 0.048),
+        ("{form: involute, centre_distance: 144.3 mm, addendum: [1, 1]}", 0.1443 / 3),
+    ],
+)
+def test_a_pitch_line_is_where_the_wheels_of_a_size_roll(form: str, radius: float) -> None:
+    text = f"""
+links:
+  frame: {{}}
+  a: {{wheels: {{p: {{teeth: 48, module: 2 mm}}}}}}
+  b: {{wheels: {{q: {{teeth: 96, module: 2 mm}}}}}}
+revolutes: [{{pair: [frame, a], axis: A}}, {{pair: [frame, b], axis: B}}]
+gears: [{{pair: [p, q], tooth_form: {form}, friction: {{law: dokos}}}}]
+inputs: {{a: 1}}
+rate: 3 turn/s
+"""
+    (mesh,) = load(text).meshes
+    assert mesh.pitch_radius == pytest.approx(radius, rel=1e-12)
+    assert mesh.wheels.pitch_line == pytest.approx(6 * pi * radius, rel=1e-12)
+
+
+@pytest.mark.parametrize(
     ("change", "said"),
     [
         (("rate: 2 turn/s", ""), "nothing says how fast the train turns"),

@@ -324,4 +324,6 @@ def _declared(mesh: TriangularMesh) -> ToothSizes:
     if window and mesh.verdict.kind == "runs":
         place = min(max((sizes.excess - window.jam) / (window.run - window.jam), 0.0), 1.0)
     radii = sizes.R2 / sizes.R1 * sizes.z1 / sizes.z2
-    return ToothSizes((sizes.z1, sizes.z2), radii, place, sizes.half_angles, mesh.law.friction, driver)
+    # friction by a law of speed is searched under with its mean coefficient at the speed of the pair
+    friction = mesh.losses.friction if mesh.verdict else mesh.law.friction
+    return ToothSizes((sizes.z1, sizes.z2), radii, place, sizes.half_angles, friction, driver)

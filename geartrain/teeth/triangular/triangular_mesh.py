@@ -106,9 +106,9 @@ class TriangularMesh(GearMesh):
 
     @property
     def pitch_radius(self) -> float | None:
-        """Of the centre distance that the law has, where that is in m."""
+        """Of the centre distance that the law has, where that is in m; else as large as the modules say."""
         if not self.tooth_form.in_metres(self.wheels.module):
-            return None
+            return super().pitch_radius
         z1, z2 = self.wheels.counts
         return self.law.sizes.D * z1 / (z1 + z2)
 

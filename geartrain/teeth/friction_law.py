@@ -9,6 +9,7 @@ from __future__ import annotations
 import re
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
+from functools import cache
 from itertools import pairwise
 from math import log, sqrt
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
@@ -17,6 +18,7 @@ from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Fie
 from pydantic_core import PydanticCustomError
 
 from geartrain.numerics.quantity import Figure, Quantity, Velocity
+from geartrain.numerics.roots import root
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -44,19 +46,31 @@ def stribeck(v: Floats, static: float, kinetic: float, speed: float, exponent: f
 
 
 def buckingham(V: Floats) -> Floats:
-    """mu = c2 exp(-c1 V) + c3 sqrt(V) at the pitch-line speed V (m/s), docs/shapes.md (17).
-
-    The three constants are those at which it has Buckingham's three printed values: c2 is that of the stationary pair,
-    c3 that of the fastest, where the first term has gone, and c1 follows from the middle one.
-    """
+    """mu = c2 exp(-c1 sqrt V) + c3 sqrt V at the pitch-line speed V (m/s), docs/shapes.md (17)."""
     import numpy as np
 
-    (_, rest), (slow, low), (fast, high) = BUCKINGHAM
-    rise = high / sqrt(fast)
-    fall = log(rest / (low - rise * sqrt(slow))) / slow
-    feet = np.asarray(V) / FOOT_A_MINUTE
-    found: Floats = rest * np.exp(-fall * feet) + rise * np.sqrt(feet)
+    c1, c2, c3 = buckingham_constants()
+    root_of = np.sqrt(np.asarray(V) / FOOT_A_MINUTE)
+    found: Floats = c2 * np.exp(-c1 * root_of) + c3 * root_of
     return found
+
+
+@cache
+def buckingham_constants() -> tuple[float, float, float]:
+    """c1, c2, c3, V in ft/min, at which the law has the three printed values: c2 is that of the stationary pair.
+
+    With a = exp(-c1 sqrt V1) of the slower pair and q = sqrt(V2/V1), the two others give
+    c2 a^q + q (mu1 - c2 a) = mu2 for a.
+    """
+    (_, rest), (slow, low), (fast, high) = BUCKINGHAM
+    q = sqrt(fast / slow)
+
+    def off(a: float) -> float:
+        return float(rest * a**q + q * (low - rest * a) - high)
+
+    most = low / rest
+    a = root(off, 0.0, most, off(0.0), off(most))
+    return -log(a) / sqrt(slow), rest, (low - rest * a) / sqrt(slow)
 
 
 def dokos(v: Floats, slowest: float) -> Floats:

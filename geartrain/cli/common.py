@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import re
 import sys
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from pathlib import Path
@@ -100,11 +100,11 @@ class Sink:
 STANDARD, STANDARD_NAME = Sink(), Path("-")
 
 
-def sink(out: Path | None, force: bool, allowed: Iterable[str] = (), option: str = "-o") -> Sink:
+def sink(out: Path | None, force: bool, allowed: Collection[str] = (), option: str = "-o") -> Sink:
     """Where the result of an option goes, made sure of before it is worked out.
 
     allowed   suffixes; empty for all
-    Raises `GearTrainError` for what may not be written.
+    Raises `GearTrainError` for what may not be written, and for pages of documents where what makes them is missing.
     """
     if out is None or out == STANDARD_NAME:
         if out is not None and option != "-o":
@@ -113,7 +113,10 @@ def sink(out: Path | None, force: bool, allowed: Iterable[str] = (), option: str
         return Sink(plain=out is not None)
     from geartrain.numerics.files import destination
 
-    suffix_of(out, allowed, option)
+    if suffix_of(out, allowed, option) == ".html" and ".html" in allowed:
+        from geartrain.report.html_page import check_pages
+
+        check_pages()
     destination(out, force)
     return Sink(out, force)
 

@@ -6,9 +6,11 @@ import re
 from base64 import b64encode
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cache
 from hashlib import sha256
 from importlib import resources
 from itertools import count
+from typing import Any
 from urllib.parse import urlsplit
 
 from geartrain.errors import MissingExtraError
@@ -59,15 +61,11 @@ def to_html(documents: Sequence[Document]) -> str:
     >>> "<h1>&lt;b&gt;</h1>" in page, "One &amp; one." in page
     (True, True)
     """
-    try:
-        from jinja2 import Environment
-        from markupsafe import Markup
-    except ImportError:
-        raise MissingExtraError("jinja2", "report", "a report in HTML") from None
-    environment = Environment(autoescape=True, trim_blocks=True, lstrip_blocks=True)
-    environment.filters |= {"is_web": is_web, "is_cited": lambda cell: isinstance(cell, CitedText)}
+    check_pages()
+    from markupsafe import Markup
+
     script, numbers = _shipped("page.js"), count(1)
-    return environment.from_string(_shipped("page.html")).render(
+    page: str = _template().render(
         documents=documents,
         anchors=[_anchors(document, f"{at}-" if at else "") for at, document in enumerate(documents)],
         drawings=[
@@ -79,6 +77,25 @@ def to_html(documents: Sequence[Document]) -> str:
         script=Markup(script),
         policy=_policy(script, framed=any(document.aside.viewer for document in documents)),
     )
+    return page
+
+
+def check_pages() -> None:
+    """Make sure that pages can be made, before what is to stand in them is worked out; else `MissingExtraError`."""
+    try:
+        import jinja2  # noqa: F401
+    except ImportError:
+        raise MissingExtraError("jinja2", "report", "a report in HTML") from None
+
+
+@cache
+def _template() -> Any:
+    """The page to be filled, compiled once: that takes longer than to fill it."""
+    from jinja2 import Environment
+
+    environment = Environment(autoescape=True, trim_blocks=True, lstrip_blocks=True)
+    environment.filters |= {"is_web": is_web, "is_cited": lambda cell: isinstance(cell, CitedText)}
+    return environment.from_string(_shipped("page.html"))
 
 
 def is_web(url: str) -> bool:

@@ -62,6 +62,17 @@ def test_a_page_without_jinja2_is_refused_with_the_extra_to_install(
     assert list(tmp_path.iterdir()) == [old]
 
 
+@pytest.mark.parametrize("verb", ["report", "compare", "bench", "motion", "torques", "montecarlo", "posterior"])
+def test_a_page_that_cannot_be_made_is_refused_before_anything_is_read_or_drawn(
+    verb: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setitem(sys.modules, "jinja2", None)
+    done = ended(verb, tmp_path / "no such train", "-o", tmp_path / "new.html")
+    assert done.returncode == 2
+    assert "jinja2 is not installed" in done.stderr
+    assert "no such train" not in done.stderr
+
+
 def test_the_same_report_in_markdown_needs_no_extra(tmp_path: Path) -> None:
     out = tmp_path / "r.md"
     assert without("jinja2", arguments=["report", "worm", "-o", out]).returncode == 0

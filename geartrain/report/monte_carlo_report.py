@@ -50,6 +50,8 @@ def describe_monte_carlo(found: MonteCarloResult) -> Document:
 def _sections(found: MonteCarloResult) -> Iterator[Section]:
     yield _verdict(found)
     yield _pairs(found)
+    if found.trials.filings:
+        yield _filing(found)
     yield _pointers(found)
     for course in found.courses:
         yield _course(course.to_dict())
@@ -82,6 +84,11 @@ def angle_text(figure: IntervalEstimate) -> str:
     return f"{value:.3g} ({low:.3g}..{high:.3g})"
 
 
+def number_text(figure: IntervalEstimate) -> str:
+    """`12.4 (11.8..13)`."""
+    return f"{figure.value:.3g} ({figure.low:.3g}..{figure.high:.3g})"
+
+
 def _verdict(found: MonteCarloResult) -> Section:
     train = found.trials.train
     jam, stops = train.events["jam"], train.events["stops"]
@@ -99,6 +106,16 @@ def _pairs(found: MonteCarloResult) -> Section:
         "errors of placement alone, is 2 lcm Q(play/2 sigma)."
     )
     return Section("Pairs", (text,), (Table(header, cut(rows)),))
+
+
+def _filing(found: MonteCarloResult) -> Section:
+    rows = []
+    for each in found.trials.filings:
+        work = number_text(each.strokes), number_text(each.teeth), str(each.most)
+        rows.append((each.name, share_text(each.filed), *work, share_text(each.jams)))
+    header = ("pair", "jams before", "strokes", "teeth filed", "most strokes", "jams after")
+    text = "Where a pair jams, its flanks are filed until it passes. Strokes and teeth are means over all trials."
+    return Section("Filing", (text,), (Table(header, cut(rows)),))
 
 
 def _tallied(pair: PairEventRates) -> tuple[str, ...]:

@@ -13,6 +13,7 @@ from geartrain.teeth.meshing_wheels import DeclaredPair, MeshDriver, MeshingWhee
 from geartrain.teeth.transmission import ExactRatio
 
 if TYPE_CHECKING:
+    from geartrain.teeth.conjugate.displaced_contact import DisplacedContact
     from geartrain.teeth.conjugate.path_of_contact import PathOfContact
     from geartrain.teeth.outlines.cut_wheel import BlankSizes, WheelOutline
     from geartrain.teeth.outlines.wheel_requirement import WheelRequirement
@@ -241,6 +242,11 @@ class GearMesh(ABC):
                 "declare `tooth_form: {form: triangular, ...}`",
             )
         )
+
+    @property
+    def displaced_contact(self) -> DisplacedContact | None:
+        """The law of displaced flanks along the path of contact, this wheel driving; None for teeth without one."""
+        return None
 
     @abstractmethod
     def account(self) -> PairAccount:

@@ -91,19 +91,47 @@ class WheelManufacture(Declared):
     """
 
     placement: Annotated[AngleError, short_for("value")] | None = Field(
-        None, description="Of each tooth from its place about the axle"
+        None, description="Of each tooth from its place about the axle; positive is ahead, the way the wheel turns"
     )
     eccentricity: Annotated[LengthError, short_for("value")] | None = Field(
         None, description="Distance of the axle from the middle of the teeth"
     )
     eccentric_at: Angle | None = Field(
-        None, description="Where the middle of the teeth lies from the axle, from the first tooth; default anywhere"
+        None,
+        description="Where the middle of the teeth lies from the axle, from the first tooth; positive is ahead, the "
+        "way the wheel turns, as of placement; default anywhere",
     )
     tip: Annotated[LengthError, short_for("value")] | None = Field(None, description="Of each tip along its radius")
     aperture: Annotated[AngleError, short_for("value")] | None = Field(None, description="Of each tooth's aperture")
     measured: MeasuredTeeth | None = Field(None, description="Tables of a real wheel, tooth by tooth")
     source: str | None = Field(None, description="Key of the source")
     note: str | None = Field(None, description="A remark for the reader")
+
+
+class Filing(Declared):
+    """A pair is filed to fit: the flank that stands out farthest where it jams is filed until the couple passes.
+
+    See Also
+    --------
+    PairMounting : holds it as `filing`
+    """
+
+    stroke: LengthOff = Field(
+        description="What one stroke of the file takes off a flank, along its normal; a fraction of the tooth's depth"
+    )
+
+    @model_validator(mode="after")
+    def _takes_something(self) -> Filing:
+        if self.stroke.value <= 0:
+            raise PydanticCustomError(
+                "error",
+                "a stroke of {text} takes nothing",
+                {
+                    "text": self.stroke.text,
+                    "fix": "write a length above 0, such as 0.02 mm, or a fraction of the depth",
+                },
+            )
+        return self
 
 
 class PairMounting(Declared):
@@ -120,6 +148,9 @@ class PairMounting(Declared):
     )
     bearing: Annotated[LengthError, short_for("value")] | None = Field(
         None, description="Play of the bearings: the distance moves by up to this, either way, from tooth to tooth"
+    )
+    filing: Filing | None = Field(
+        None, description="The pair is turned through its cycle, and what jams is filed until it passes; default not"
     )
     source: str | None = Field(None, description="Key of the source")
     note: str | None = Field(None, description="A remark for the reader")

@@ -4,7 +4,7 @@ posterior
     In: a declaration with wheels in doubt, and what is known of its outputs. Out, by `infer_counts`: the posterior of
     every count by Bayes' theorem, exact by the weighted join of `synthesis` or from a sample (docs/counts-in-doubt.md).
 monte_carlo
-    In: a train with triangular teeth and errors of cutting and fitting, as a `TrialPlan`. Out: how often it jams, how
+    In: a train with real teeth and errors of cutting and fitting, as a `TrialPlan`. Out: how often it jams, how
     far its pointers stray, with confidence intervals; whose errors matter (Sobol indices), and how great they may be
     (tolerance allocation) (docs/cut-by-hand.md).
 budget

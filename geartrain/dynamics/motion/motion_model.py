@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterator, Mapping
 from dataclasses import replace
 from fractions import Fraction
 from functools import cached_property
@@ -86,6 +86,18 @@ class Motion:
         """The composition while the input turns as declared."""
         return self._compose(1)
 
+    def with_sources(self, pairs: Collection[str]) -> ErrorComposition:
+        """The composition while the input turns as declared, some pairs that keep their ratio among its sources.
+
+        So that laws which do not keep it can be put in their place.
+
+        Parameters
+        ----------
+        pairs : collection of str
+            Names of pairs; others and those that ripple anyway change nothing.
+        """
+        return self._compose(1, pairs)
+
     @cached_property
     def hung(self) -> ErrorComposition:
         """The same with every link as its teeth hold it, no pointer set: what the laws themselves say."""
@@ -96,9 +108,9 @@ class Motion:
         """The composition while the input turns the other way: the other flanks drive."""
         return self._compose(-1)
 
-    def _compose(self, way: int) -> ErrorComposition:
+    def _compose(self, way: int, besides: Collection[str] = ()) -> ErrorComposition:
         """Every link is set where ideal teeth would have it at turn 0; its pins are counted from there."""
-        found, setting = self._hung(way, self._seen), self._setting
+        found, setting = self._hung(way, self._seen, besides), self._setting
         if setting is None:
             return found
         sources = list(found.sources)
@@ -121,9 +133,9 @@ class Motion:
             SeenLink(index[of], index[base], axis_sense(of, base, signs)) for of, base in self.outputs.values()
         )
 
-    def _hung(self, way: int, outputs: tuple[SeenLink, ...]) -> ErrorComposition:
+    def _hung(self, way: int, outputs: tuple[SeenLink, ...], besides: Collection[str] = ()) -> ErrorComposition:
         """The composition with every link as its teeth hold it: at turn 0 it lags by what they do."""
-        found = ErrorComposition(self.spread, tuple(self._errors.sources(way)), outputs)
+        found = ErrorComposition(self.spread, tuple(self._errors.sources(way, besides)), outputs)
         error = self._errors.play(way)
         if error is None:
             return found

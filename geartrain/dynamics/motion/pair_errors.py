@@ -5,7 +5,7 @@ Sections 1 and 3 of docs/motion.md: the driver's forward angle S (3), and the ph
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
@@ -78,7 +78,7 @@ class PairErrors:
     @cached_property
     def _stands(self) -> Mapping[str, float]:
         """Where a tooth of the driven wheel stands when its angle is 0 (pitches past the line of centres), by pair."""
-        return {mesh.name: mesh.stands for mesh in self.train.rippling}
+        return {mesh.name: mesh.stands for mesh in self.train.teeth}
 
     def play(self, way: int) -> Floats | None:
         """What the play of teeth that keep their ratio adds to the angle of each link (rad); None where it is nothing.
@@ -99,9 +99,13 @@ class PairErrors:
         forward = -1 if self.train.relative(driver, circuit.carrier) < 0 else 1
         return forward if circuit.a * circuit.b < 0 else -forward
 
-    def sources(self, way: int) -> Iterator[PairErrorSource]:
-        """The pairs whose error changes as they turn, and pins, with their laws while the input turns that way."""
-        laws: dict[str, TransmissionFunction] = {mesh.name: mesh.law for mesh in self.train.rippling}
+    def sources(self, way: int, besides: Collection[str] = ()) -> Iterator[PairErrorSource]:
+        """The pairs whose error changes as they turn, and pins, with their laws while the input turns that way.
+
+        besides   pairs that keep their ratio and are wanted as well
+        """
+        meshes = [mesh for mesh in self.train.teeth if not mesh.rigid or mesh.name in besides]
+        laws: dict[str, TransmissionFunction] = {mesh.name: mesh.law for mesh in meshes}
         laws |= {joint.coupling.name: joint.law for joint in self.train.pins}
         circuits = {circuit.id: circuit for circuit in self.train.circuits}
         for at, name in enumerate(self.spread.pairs):

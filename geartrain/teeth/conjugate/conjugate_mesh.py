@@ -14,6 +14,7 @@ from geartrain.teeth.meshing_wheels import NamedForm, PairSize
 
 if TYPE_CHECKING:
     from geartrain.teeth.conjugate.conjugate_transmission import ConjugateTransmission
+    from geartrain.teeth.conjugate.displaced_contact import DisplacedContact
     from geartrain.teeth.conjugate.off_design import OffDesignTransmission
     from geartrain.teeth.conjugate.path_of_contact import PathOfContact
     from geartrain.teeth.outlines.cut_wheel import BlankSizes, WheelOutline
@@ -116,6 +117,15 @@ class ConjugateMesh(GearMesh):
         """The pair, with which wheel is which gear."""
         first, second = self.gears
         return f"pair '{self.name}' (gear 1 is '{first}', gear 2 '{second}')"
+
+    @property
+    def displaced_contact(self) -> DisplacedContact:
+        """Of the design; axles that stand elsewhere displace all flanks alike."""
+        from geartrain.teeth.conjugate.displaced_contact import displaced_contact
+
+        pitch, law = self.law.path.pitch, self.law
+        gap = 0.0 if pitch.bevel else law.distance - abs(pitch.R1 + pitch.R2)
+        return displaced_contact(law.pair, law.driver, gap)
 
     def account(self) -> PairAccount:
         """Arcs and contact ratio of its design, error, play and efficiency."""

@@ -12,6 +12,7 @@ from geartrain.numerics.quantity import Quantity
 from geartrain.teeth.triangular.pair_geometry import depth
 
 if TYPE_CHECKING:
+    from geartrain.teeth.conjugate.displaced_contact import DisplacedWheelSizes
     from geartrain.teeth.gear_mesh import GearMesh
     from geartrain.train import PairMounting, Train, Wheel, WheelManufacture
     from geartrain.train.manufacturing import AngleError, LengthError
@@ -54,6 +55,7 @@ class WheelErrors:
     errors             by kind: placement in pitches, aperture in half angles, the others in depths
     towards            where its middle lies from the axle, from the first tooth (rad); None for anywhere
     tables             measured tooth by tooth, by kind, in the same fractions
+    displaced          sizes of teeth whose flanks are displaced along their path of contact; None for triangular teeth
     """
 
     name: str
@@ -62,6 +64,7 @@ class WheelErrors:
     errors: Mapping[str, ErrorSpecification] = field(default_factory=dict)
     towards: float | None = None
     tables: Mapping[str, tuple[float, ...]] = field(default_factory=dict)
+    displaced: DisplacedWheelSizes | None = None
 
     @property
     def pitch(self) -> float:
@@ -70,8 +73,8 @@ class WheelErrors:
 
     @property
     def depth(self) -> float:
-        """Depth of a tooth over the outer radius."""
-        return depth(self.z, self.half_angle)
+        """Depth of a tooth over the outer radius; of displaced flanks in modules, or rad on cones."""
+        return self.displaced.depth if self.displaced else depth(self.z, self.half_angle)
 
     @property
     def true(self) -> bool:
@@ -135,17 +138,17 @@ def check_names(settings: Sequence[ErrorOverride], wheels: Sequence[str], pairs:
     for each in settings:
         known = wheels if each.kind in OF_WHEELS else pairs
         if each.of and each.of not in known:
-            what = f"no {'wheel' if each.kind in OF_WHEELS else 'pair'} '{each.of}' has triangular teeth"
+            what = f"no {'wheel' if each.kind in OF_WHEELS else 'pair'} '{each.of}' has teeth that are cut by hand"
             raise QuestionError(Problem(what, f"its {each.kind} cannot be set", suggest(each.of, known)))
 
 
-def wheel_errors(train: Train, name: str, half_angle: float, settings: Sequence[ErrorOverride]) -> WheelErrors:
+def wheel_errors(train: Train, even: WheelErrors, settings: Sequence[ErrorOverride]) -> WheelErrors:
     """The errors of one wheel: its own or the train's, then what is set. Raises `RangeError` beyond its tooth."""
+    name = even.name
     link, wheel = train.wheels[name]
     own = wheel.cutting is not None
     cutting = wheel.cutting if own else train.cutting
     where = ("links", link, "wheels", name, "cutting") if own else ("cutting",)
-    even = WheelErrors(name, wheel.count or 0, half_angle)
     reader = _Reader(train.place(*where), name, _scales(even, wheel))
     errors = {kind: reader.off(kind, getattr(cutting, kind, None)) for kind in OF_WHEELS}
     for each in settings:
@@ -154,16 +157,16 @@ def wheel_errors(train: Train, name: str, half_angle: float, settings: Sequence[
     errors = {kind: off for kind, off in errors.items() if off.size}
     reader.check(errors)
     at = cutting.eccentric_at if cutting is not None else None
-    return replace(even, errors=errors, towards=at.si if at else None, tables=reader.tables(cutting))
+    # declared ahead, as placement is; teeth are counted as they pass, which is behind
+    return replace(even, errors=errors, towards=-at.si if at else None, tables=reader.tables(cutting))
 
 
 def pair_errors(
-    train: Train, mesh: GearMesh, lesser: str, half_angle: float, settings: Sequence[ErrorOverride]
+    train: Train, mesh: GearMesh, lesser: WheelErrors, settings: Sequence[ErrorOverride]
 ) -> dict[str, ErrorSpecification]:
     """The errors of the axes of a pair, in depths of the less deep teeth, those of the wheel `lesser`."""
     fitting = mesh.gear.fitting or train.fitting
-    wheel = train.wheels[lesser][1]
-    reader = _Reader(mesh.place, mesh.name, _scales(WheelErrors(lesser, wheel.count or 0, half_angle), wheel))
+    reader = _pair_reader(train, mesh, lesser)
     errors = {kind: reader.off(kind, getattr(fitting, kind, None)) for kind in OF_PAIRS}
     for each in settings:
         if each.kind in OF_PAIRS and each.of in ("", mesh.name):
@@ -172,13 +175,27 @@ def pair_errors(
     return {kind: off for kind, off in errors.items() if off.size}
 
 
+def filing_stroke(train: Train, mesh: GearMesh, lesser: WheelErrors) -> float:
+    """What one stroke of the file takes, in depths of the less deep teeth; 0 where nothing is filed to fit."""
+    fitting = mesh.gear.fitting or train.fitting
+    filing = fitting.filing if fitting is not None else None
+    return _pair_reader(train, mesh, lesser).fraction("stroke", filing.stroke) if filing is not None else 0.0
+
+
+def _pair_reader(train: Train, mesh: GearMesh, lesser: WheelErrors) -> _Reader:
+    return _Reader(mesh.place, mesh.name, _scales(lesser, train.wheels[lesser.name][1]))
+
+
 def _scales(even: WheelErrors, wheel: Wheel) -> dict[str, float | None]:
     """What one of a fraction is: of an angle (rad), and of a length (m; None where no module says how great)."""
     deep = None
     if wheel.module is not None and wheel.module.unit is not None:
-        # the pitch circle lies half way down the tooth
-        deep = even.depth * wheel.module.si * even.z / 2 / (1 - even.depth / 2)
-    lengths: dict[str, float | None] = dict.fromkeys(("eccentricity", "tip", "centre", "bearing"), deep)
+        if even.displaced is not None:
+            deep = even.depth * even.displaced.modules * wheel.module.si
+        else:
+            # the pitch circle lies half way down the tooth
+            deep = even.depth * wheel.module.si * even.z / 2 / (1 - even.depth / 2)
+    lengths: dict[str, float | None] = dict.fromkeys(("eccentricity", "tip", "centre", "bearing", "stroke"), deep)
     return {"placement": even.pitch, "aperture": 2 * even.half_angle, **lengths}
 
 

@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+from abc import abstractmethod
 from copy import copy
 from fractions import Fraction
-from math import ceil, floor, inf
+from math import ceil, floor, inf, lcm, pi
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from geartrain.teeth.transmission import TransmissionFunction, behind
 from geartrain.uncertainty.manufacturing_errors.cut_pair import CutGearPair, CutToothPairs
+from geartrain.uncertainty.manufacturing_errors.displaced_pair import DisplacedPair
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -18,28 +20,29 @@ if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats, Ints
 
 _LEFT_BEHIND = 2  # pitches beyond the reach: who left so long ago lags more than who left later
+_SLOPE = 1e-4  # of a pitch: over which the speed is the slope of the lag
 _TRIAL_BLOCK = 8192  # angles worked on at once: their arrays stay in a cache
 
 
 class TrialTransmissionFunction(TransmissionFunction):
     """Many pairs of cut wheels as one law.
 
-    pair   arrays (trials, z), or (z,) where all trials share a wheel
-    even   the mean error of wheels without errors (rad)
-    rows   the trial asked at each angle
-    last   errors (rad of the driven wheel) as they were when each trial was last asked
+    even     the mean error of wheels without errors (rad)
+    rows     the trial asked at each angle
+    count    couples in a full cycle of teeth; `pitches` of both wheels (rad)
+    last     errors (rad of the driven wheel) as they were when each trial was last asked
     """
 
-    def __init__(self, pair: CutGearPair, even: float, rows: Ints) -> None:
-        self.pair, self.even, self.rows = pair, even, rows
-        self.ratio, self.period = Fraction(pair.sizes.z1, pair.sizes.z2), pair.sizes.p1 * pair.count
+    def __init__(self, teeth: tuple[int, int], even: float, rows: Ints) -> None:
+        self.even, self.rows = even, rows
+        self.count, self.pitches = lcm(*teeth), (2 * pi / teeth[0], 2 * pi / teeth[1])
+        self.ratio, self.period = Fraction(*teeth), self.pitches[0] * self.count
         self.last: Floats = np.zeros(len(rows))
         self._columns: Ints | slice = slice(None)
-        widest, place = pair.widest, pair.first.place
-        apart = float(np.ptp(place)) / pair.sizes.p1 + float(np.ptp(pair.second.place)) / pair.sizes.p2
-        low = floor((-widest - float(place.max())) / pair.sizes.p1) if widest > -inf else 0
-        high = ceil((widest - float(place.min())) / pair.sizes.p1) + 1 if widest > -inf else -1
-        self._window = range(low - _LEFT_BEHIND - ceil(apart), high + 1)
+
+    @abstractmethod
+    def _found(self, S: Floats, rows: Ints) -> tuple[Floats, Floats]:
+        """Errors and speeds of some trials."""
 
     def error_and_speed(self, S: ArrayLike) -> tuple[Floats, Floats]:
         """Transmission errors (rad of the driven wheel), -inf where nothing touches, and dq/dS; S is (n,)."""
@@ -50,6 +53,61 @@ class TrialTransmissionFunction(TransmissionFunction):
             error[part], speed[part] = self._found(S[part], self.rows[part])
         self.last[self._columns] = error
         return error, speed
+
+    def picked(self, columns: Ints) -> TrialTransmissionFunction:
+        """The laws of some of the trials."""
+        found = copy(self)
+        found.rows, found._columns = self.rows[columns], columns
+        return found
+
+    def error(self, S: ArrayLike) -> Floats:
+        """Transmission errors (rad of the driven wheel)."""
+        return self.error_and_speed(S)[0]
+
+    def speed(self, S: ArrayLike) -> Floats:
+        """dq/dS."""
+        return self.error_and_speed(S)[1]
+
+    def error_moments(self) -> tuple[float, float]:
+        """The mean error of even wheels, and no ripple: what a superposition counts in its phases."""
+        return self.even, 0.0
+
+    def error_range(self) -> tuple[float, float]:
+        """Not known before all trials are asked."""
+        return -inf, inf
+
+    def speed_range(self) -> tuple[float, float]:
+        """Not known before all trials are asked."""
+        return 0.0, inf
+
+    def efficiency(self, S: ArrayLike) -> Floats:
+        """Not asked of trials."""
+        return np.full(np.shape(S), np.nan)
+
+    def efficiency_mean(self) -> float:
+        """Not asked of trials."""
+        return float("nan")
+
+    def efficiency_at_constant_load(self) -> float:
+        """Not asked of trials."""
+        return float("nan")
+
+    def efficiency_least(self) -> float:
+        """Not asked of trials."""
+        return float("nan")
+
+
+class CutTrialTransmission(TrialTransmissionFunction):
+    """Of triangular teeth: `pair` has arrays (trials, z), or (z,) where all trials share a wheel."""
+
+    def __init__(self, pair: CutGearPair, even: float, rows: Ints) -> None:
+        super().__init__((pair.sizes.z1, pair.sizes.z2), even, rows)
+        self.pair = pair
+        widest, place = pair.widest, pair.first.place
+        apart = float(np.ptp(place)) / pair.sizes.p1 + float(np.ptp(pair.second.place)) / pair.sizes.p2
+        low = floor((-widest - float(place.max())) / pair.sizes.p1) if widest > -inf else 0
+        high = ceil((widest - float(place.min())) / pair.sizes.p1) + 1 if widest > -inf else -1
+        self._window = range(low - _LEFT_BEHIND - ceil(apart), high + 1)
 
     def _found(self, S: Floats, rows: Ints) -> tuple[Floats, Floats]:
         pitch = self.pair.sizes.p1
@@ -97,47 +155,22 @@ class TrialTransmissionFunction(TransmissionFunction):
             sizes.delta + tip1 + tip2 - shift,
         )
 
-    def picked(self, columns: Ints) -> TrialTransmissionFunction:
-        """The laws of some of the trials."""
-        found = copy(self)
-        found.rows, found._columns = self.rows[columns], columns
-        return found
 
-    def error(self, S: ArrayLike) -> Floats:
-        """Transmission errors (rad of the driven wheel)."""
-        return self.error_and_speed(S)[0]
+class DisplacedTrialTransmission(TrialTransmissionFunction):
+    """Of conjugate teeth with displaced flanks: the foremost couple drives."""
 
-    def speed(self, S: ArrayLike) -> Floats:
-        """dq/dS."""
-        return self.error_and_speed(S)[1]
+    def __init__(self, pair: DisplacedPair, even: float, rows: Ints) -> None:
+        super().__init__(pair.teeth, even, rows)
+        self.pair = pair
 
-    def error_moments(self) -> tuple[float, float]:
-        """The mean error of even wheels, and no ripple: what a superposition counts in its phases."""
-        return self.even, 0.0
-
-    def error_range(self) -> tuple[float, float]:
-        """Not known before all trials are asked."""
-        return -inf, inf
-
-    def speed_range(self) -> tuple[float, float]:
-        """Not known before all trials are asked."""
-        return 0.0, inf
-
-    def efficiency(self, S: ArrayLike) -> Floats:
-        """Not asked of trials."""
-        return np.full(np.shape(S), np.nan)
-
-    def efficiency_mean(self) -> float:
-        """Not asked of trials."""
-        return float("nan")
-
-    def efficiency_at_constant_load(self) -> float:
-        """Not asked of trials."""
-        return float("nan")
-
-    def efficiency_least(self) -> float:
-        """Not asked of trials."""
-        return float("nan")
+    def _found(self, S: Floats, rows: Ints) -> tuple[Floats, Floats]:
+        rest = np.mod(S, self.period)
+        lag, couple = self.pair.first_lag(rows, rest)
+        step = _SLOPE * self.pitches[0]
+        with np.errstate(invalid="ignore"):
+            # inf - inf where nothing touches
+            slope = (self.pair.lag(rows, rest + step, couple) - self.pair.lag(rows, rest - step, couple)) / (2 * step)
+        return -lag, np.where(np.isfinite(slope), float(self.ratio) - slope, 0.0)
 
 
 def _of(each: Floats, rows: Ints, teeth: Ints) -> Any:

@@ -61,6 +61,7 @@ class MonteCarloResult(Result):
         group("errors", Key("wheels", "wheel_errors"), Key("pairs", "pair_errors")),
         Key("any_pair", "trials.train"),
         Key("pairs", "trials.pairs"),
+        Key("filing", "trials.filings"),
         Key("outputs", "trials.pointers"),
         group("convergence", Key("jam", "trials.jams"), Key("stops", "trials.stops")),
         "partial",
@@ -95,6 +96,16 @@ class MonteCarloResult(Result):
             yield (
                 "Bearings move from tooth to tooth: jams are judged with the axes at their nearest, the rest at their "
                 "farthest too, which is the worst that can be."
+            )
+        if any(wheel.displaced is not None for wheel in plan.wheels):
+            yield (
+                "Teeth with a path of contact are displaced along it, right to first order in their errors; tips that "
+                "touch beyond its ends are counted, roots in the way of tips are not."
+            )
+        if plan.files:
+            yield (
+                "Pairs are filed to fit: where a pair jams, the flank that stands out farthest takes strokes until it "
+                "passes, and shares of jams and errors are those of the filed wheels. Each pair is filed by itself."
             )
         uncut = self.trials.train.uncut
         if uncut:

@@ -6,13 +6,14 @@ doubled; and another clearance is met by the same wheels.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from math import pi
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from geartrain.uncertainty.manufacturing_errors.cut_wheel import CutWheel, displaced
+from geartrain.uncertainty.manufacturing_errors.displaced_wheel import DisplacedWheel
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -68,10 +69,13 @@ class RandomStreams:
         return off.size * unit
 
 
-def draw_wheel(wheel: WheelErrors, item: int, streams: RandomStreams, trials: int = BLOCK) -> tuple[CutWheel, Bools]:
-    """Wheels of outer radius 1, arrays (trials, z) where drawn, and whether each can be cut (trials,).
+def draw_wheel(
+    wheel: WheelErrors, item: int, streams: RandomStreams, trials: int = BLOCK
+) -> tuple[CutWheel | DisplacedWheel, Bools]:
+    """Wheels, arrays (trials, z) where drawn, and whether each can be cut (trials,).
 
-    Those that cannot are handed back even, so that nothing downstream meets teeth without tips.
+    Triangular ones have the outer radius 1. Those that cannot be cut are handed back even, so that nothing downstream
+    meets teeth without tips.
     """
     shape = (trials, wheel.z)
     zero = np.zeros(wheel.z)
@@ -83,9 +87,12 @@ def draw_wheel(wheel: WheelErrors, item: int, streams: RandomStreams, trials: in
     # declared errors are ahead and wider; a wheel's arrays are behind and flatter
     place, tip = -wheel.pitch * drawn("placement"), wheel.depth * drawn("tip")
     flank = wheel.half_angle * drawn("aperture")
+    eccentric = _eccentric(wheel, item, streams, trials) if "eccentricity" in wheel.errors else None
+    if wheel.displaced is not None:
+        return _displaced(place, tip, flank, eccentric, trials)
     leading = trailing = flank
-    if "eccentricity" in wheel.errors:
-        e, towards = _eccentric(wheel, item, streams, trials)
+    if eccentric is not None:
+        e, towards = eccentric
         out, turned = displaced(1.0 + tip, np.arange(wheel.z) * wheel.pitch + place, e[:, None], towards[:, None])
         place, tip, leading, trailing = place + turned, tip + out, flank - turned, flank + turned
     cut = CutWheel(1.0, wheel.half_angle, place, tip, leading, trailing)
@@ -94,6 +101,16 @@ def draw_wheel(wheel: WheelErrors, item: int, streams: RandomStreams, trials: in
         return cut, good
     kept = [np.where(good[:, None], each, 0.0) for each in (place, tip, leading, trailing)]
     return CutWheel(1.0, wheel.half_angle, *kept), good
+
+
+def _displaced(
+    place: Floats, tip: Floats, flank: Floats, eccentric: tuple[Floats, Floats] | None, trials: int
+) -> tuple[DisplacedWheel, Bools]:
+    zero = np.zeros(place.shape[-1])
+    e, towards = (0.0, 0.0) if eccentric is None else eccentric
+    found = DisplacedWheel(place, tip, flank, flank, zero, zero, e, towards)
+    good = np.broadcast_to(found.cuttable.all(axis=-1), (trials,))
+    return (found if good.all() else replace(found, place=np.where(good[:, None], place, 0.0))), good
 
 
 def _eccentric(wheel: WheelErrors, item: int, streams: RandomStreams, trials: int) -> tuple[Floats, Floats]:

@@ -4,26 +4,27 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
+from functools import cached_property
 from math import inf
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from geartrain.dynamics.motion.error_composition import ErrorComposition
 from geartrain.dynamics.motion.superposition import Superposition
 from geartrain.teeth.constant_lag import ConstantLag
-from geartrain.uncertainty.manufacturing_errors.cut_pair import CutGearPair
 from geartrain.uncertainty.manufacturing_errors.cut_wheel import CutWheel
-from geartrain.uncertainty.manufacturing_errors.meshing_cycle import MeshingVerdicts
-from geartrain.uncertainty.manufacturing_errors.meshing_verdicts import batch_verdicts
-from geartrain.uncertainty.manufacturing_errors.trial_transmission import TrialTransmissionFunction
-from geartrain.uncertainty.monte_carlo.random_streams import BLOCK, POSITION, RandomStreams, draw_wheel, fitted
+from geartrain.uncertainty.manufacturing_errors.displaced_wheel import DisplacedWheel
+from geartrain.uncertainty.monte_carlo.random_streams import BLOCK, POSITION, RandomStreams, draw_wheel
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from geartrain.numerics.arrays import Bools, Floats
-    from geartrain.uncertainty.monte_carlo.trial_plan import TrialPair, TrialPlan
+    from geartrain.uncertainty.manufacturing_errors.file_strokes import FilingWork
+    from geartrain.uncertainty.manufacturing_errors.trial_transmission import TrialTransmissionFunction
+    from geartrain.uncertainty.monte_carlo.trial_pair import TrialPair
+    from geartrain.uncertainty.monte_carlo.trial_plan import TrialPlan
 
     Marks = NDArray[np.uint8]
 
@@ -40,18 +41,29 @@ class TrialWheels:
     plan: TrialPlan
     streams: RandomStreams
     trials: int
-    wheels: tuple[CutWheel, ...]
+    wheels: tuple[CutWheel | DisplacedWheel, ...]
     good: tuple[Bools, ...]
 
-    def pair(self, at: int, widest: int = 0) -> CutGearPair:
+    def pair(self, at: int, widest: int = 0) -> Any:
         """One pair as it was drawn; `widest` 1 and -1 have its bearings at their farthest and nearest."""
         pair = self.plan.pairs[at]
-        sizes = pair.sizes
-        wheels = (
-            fitted(self.wheels[pair.first], sizes.R1, sizes.beta1, pair.mirrored[0]),
-            fitted(self.wheels[pair.second], sizes.R2, sizes.beta2, pair.mirrored[1]),
-        )
-        return CutGearPair(sizes, *wheels, self._shift(pair, at, widest))
+        if not pair.stroke:
+            return pair.cut(self.wheels, self._shift(pair, at, widest))
+        filed = self.filing[at].pair
+        return filed if widest < 0 else replace(filed, shift=self._shift(pair, at, widest))
+
+    @cached_property
+    def filing(self) -> dict[int, FilingWork[Any]]:
+        """What is filed of each pair that is fitted so, by number, its bearings at their nearest."""
+        pairs = enumerate(self.plan.pairs)
+        return {at: pair.filed(pair.cut(self.wheels, self._shift(pair, at, -1))) for at, pair in pairs if pair.stroke}
+
+    def strokes(self) -> Floats:
+        """How many strokes of the file each pair takes, and on how many teeth, (trials, 2 pairs)."""
+        found = np.zeros((self.trials, 2 * len(self.plan.pairs)))
+        for at, work in self.filing.items():
+            found[:, 2 * at], found[:, 2 * at + 1] = work.strokes, work.teeth
+        return found
 
     def _shift(self, pair: TrialPair, at: int, widest: int) -> Floats | float:
         if not pair.fitting:
@@ -93,9 +105,9 @@ def judge_trial_pairs(drawn: TrialWheels, pairs: Iterable[int] | None = None) ->
 
 def _judged(drawn: TrialWheels, at: int) -> tuple[Marks, Floats]:
     pair = drawn.plan.pairs[at]
-    near, far = _verdicts(drawn.pair(at, -1)), None
+    near, far = pair.verdicts(drawn.pair(at, -1)), None
     if pair.fitting.get("bearing"):
-        far = _verdicts(drawn.pair(at, 1))
+        far = pair.verdicts(drawn.pair(at, 1))
     loose = far or near
     marks = (
         JAM * near.jams
@@ -105,13 +117,7 @@ def _judged(drawn: TrialWheels, at: int) -> tuple[Marks, Floats]:
     )
     uncut = ~(drawn.good[pair.first] & drawn.good[pair.second])
     marks = np.where(uncut, UNCUT, marks)
-    return np.broadcast_to(marks, (drawn.trials,)).astype(np.uint8), near.play / pair.sizes.p2
-
-
-def _verdicts(pair: CutGearPair) -> MeshingVerdicts:
-    """The verdicts on a batch; one trial where all share everything."""
-    first = pair.first if pair.trials else replace(pair.first, place=pair.first.place[None])
-    return batch_verdicts(pair.sizes, first, pair.second, pair.shift)
+    return np.broadcast_to(marks, (drawn.trials,)).astype(np.uint8), near.play / pair.pitches[1]
 
 
 # ------------------------------------------------------------------------------------------------------------- pointers
@@ -152,14 +158,12 @@ def trial_pointers(
     wanted = whole.outputs if outputs is None else tuple(whole.outputs[each] for each in outputs)
     offsets = whole.offsets and (whole.offsets if outputs is None else tuple(whole.offsets[each] for each in outputs))
     pairs = {source.id: plan.pairs[at[source.id]] for source in whole.sources if source.id in at}
-    laws = {name: TrialTransmissionFunction(drawn.pair(at[name]), pair.even, rows) for name, pair in pairs.items()}
+    laws = {name: pair.law(drawn.pair(at[name]), rows) for name, pair in pairs.items()}
     cut, even = [], []
     for source in whole.sources:
         pair, law = pairs.get(source.id), laws.get(source.id)
         # a cut law repeats after the whole cycle of teeth, an even one after a pitch
-        cut.append(replace(source, law=law, cycles=source.cycles / law.pair.count) if law else source)
-        even.append(
-            replace(source, law=ConstantLag(law.ratio, law.pair.sizes.p1, pair.even)) if pair and law else source
-        )
+        cut.append(replace(source, law=law, cycles=source.cycles / law.count) if law else source)
+        even.append(replace(source, law=ConstantLag(law.ratio, law.pitches[0], pair.even)) if pair and law else source)
     made = [ErrorComposition(whole.spread, tuple(each), wanted, offsets) for each in (cut, even)]
     return TrialPointers(made[0], made[1], laws)

@@ -3,24 +3,25 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from math import gcd, lcm
 from typing import TYPE_CHECKING, Any
 
 from geartrain.dynamics.motion.error_composition import ErrorComposition
-from geartrain.errors import Problem, QuestionError, RangeError
+from geartrain.errors import Problem, QuestionError
 from geartrain.numerics.decimal_text import fraction_text
-from geartrain.teeth.triangular.pair_geometry import TriangularSizes
 from geartrain.uncertainty.manufacturing_errors.declared_errors import (
     OF_PAIRS,
     ErrorOverride,
     ErrorSpecification,
     WheelErrors,
     check_names,
+    filing_stroke,
     pair_errors,
     wheel_errors,
 )
+from geartrain.uncertainty.monte_carlo.trial_pair import DisplacedTrialPair, TrialPair, TriangularTrialPair
 
 if TYPE_CHECKING:
     from geartrain.analysis.gear_train import GearTrain
@@ -29,28 +30,6 @@ if TYPE_CHECKING:
     from geartrain.teeth.gear_mesh import GearMesh
 
 _FARTHEST = 10**6  # turns of the input within which positions are drawn, where the train takes longer to repeat
-
-
-@dataclass(frozen=True, slots=True)
-class TrialPair:
-    """One gear pair: `first` drives, both wheels by number; `mirrored` where a wheel turns against its own numbering.
-
-    even     mean error of the pair without cutting errors (rad of the driven wheel)
-    fitting  errors of its axes, in depths of the less deep teeth
-    """
-
-    name: str
-    sizes: TriangularSizes
-    first: int
-    second: int
-    mirrored: tuple[bool, bool]
-    even: float
-    fitting: Mapping[str, ErrorSpecification] = field(default_factory=dict)
-
-    @property
-    def depth(self) -> float:
-        """Depth of the less deep teeth (as the radii)."""
-        return min(self.sizes.depths)
 
 
 @dataclass(frozen=True)
@@ -62,7 +41,7 @@ class TrialPlan:
     name : str
         Of the train.
     wheels : tuple of WheelErrors
-        Every wheel with triangular teeth, and how it is cut.
+        Every wheel that is cut by hand, and how.
     pairs : tuple of TrialPair
         Every pair of them, with its sizes and the errors of its axes.
     composition : ErrorComposition
@@ -98,6 +77,11 @@ class TrialPlan:
         """The number of the stream from which positions are drawn; pairs come before it, and wheels before them."""
         return len(self.wheels) + len(self.pairs)
 
+    @property
+    def files(self) -> bool:
+        """True if some pair is filed to fit."""
+        return any(pair.stroke for pair in self.pairs)
+
     def scaled(self, factor: float, kind: str = "") -> TrialPlan:
         """The plan with all errors, or those of one kind, so many times as great.
 
@@ -124,7 +108,7 @@ class TrialPlan:
         clearance : float
             A factor of the least centre distance (1 and above), or a share of each pair's own window (below 1).
         """
-        return replace(self, pairs=tuple(replace(each, sizes=_cleared(each, clearance)) for each in self.pairs))
+        return replace(self, pairs=tuple(each.cleared(clearance) for each in self.pairs))
 
     def question(self) -> dict[str, Any]:
         """All on which results hang, as plain data: a journal knows its train by it."""
@@ -135,7 +119,8 @@ class TrialPlan:
                 for each in self.wheels
             ],
             "pairs": [
-                [each.name, each.first, each.second, *_sizes(each.sizes), _plain(each.fitting)] for each in self.pairs
+                [each.name, each.first, each.second, *each.question, _plain(each.fitting), each.stroke]
+                for each in self.pairs
             ],
             "outputs": [[name, fraction_text(speed)] for name, speed in zip(self.outputs, self.speeds, strict=True)],
             "span": self.span,
@@ -144,22 +129,6 @@ class TrialPlan:
 
 def _plain(errors: Mapping[str, ErrorSpecification]) -> dict[str, Any]:
     return {kind: [off.way, off.size] for kind, off in errors.items()}
-
-
-def _sizes(sizes: TriangularSizes) -> tuple[float, ...]:
-    return sizes.R1, sizes.R2, sizes.beta1, sizes.beta2, sizes.excess
-
-
-def _cleared(pair: TrialPair, clearance: float) -> TriangularSizes:
-    if clearance >= 1:
-        return pair.sizes.at(clearance - 1)
-    from geartrain.teeth.triangular.clearance_window import find_window
-
-    window = find_window(pair.sizes)
-    if not window:
-        what = f"pair '{pair.name}' has no window of clearance"
-        raise RangeError(Problem(what, "no clearance lets its even teeth turn", "give clearance factors above 1"))
-    return pair.sizes.at(window.at(clearance))
 
 
 def find_trial_plan(
@@ -174,7 +143,7 @@ def find_trial_plan(
     Parameters
     ----------
     train : GearTrain
-        With triangular teeth, and `cutting` or `fitting` errors unless they are set here.
+        With triangular or conjugate teeth, and `cutting` or `fitting` errors unless they are set here.
     settings : sequence of ErrorOverride
         Errors in place of what is declared; `read_error_overrides` reads them.
     outputs : sequence of str
@@ -192,7 +161,7 @@ def find_trial_plan(
     Raises
     ------
     QuestionError
-        For trains without triangular teeth or without errors.
+        For trains without such teeth or without errors.
     RangeError
         For errors greater than the tooth.
     GearTrainError
@@ -207,51 +176,59 @@ def find_trial_plan(
     (['a~b1', 'b2~c1', 'c2~d1', 'd2~e'], 0.001)
     """
     motion = train.motion(state, outputs, without)
-    meshes = [mesh for mesh in motion.train.teeth if mesh.has_cut_sizes]
+    meshes = [mesh for mesh in motion.train.teeth if mesh.has_cut_sizes or mesh.displaced_contact is not None]
     if not meshes:
-        what = f"'{train.name}' has no triangular teeth"
-        why = "cutting errors are reckoned tooth by tooth for straight flanks that meet in a point"
-        fix = "declare `tooth_form: {form: triangular, half_angle: 30 deg, window: 0.5}` on the train or on its pairs"
+        what = f"'{train.name}' has no triangular teeth, nor others whose errors are reckoned"
+        why = "cutting errors are reckoned tooth by tooth for triangular teeth and for those with a path of contact"
+        fix = "declare `tooth_form: {form: involute}` or another such form on the train or on its pairs"
         raise QuestionError(Problem(what, why, fix))
-    names = tuple(dict.fromkeys(wheel for mesh in meshes for wheel in (mesh.driver, mesh.driven)))
+    even: dict[str, WheelErrors] = {}
+    for mesh in meshes:
+        for wheel in _even_wheels(train, mesh):
+            even.setdefault(wheel.name, wheel)
+    names = tuple(even)
     check_names(settings, names, [mesh.name for mesh in meshes])
-    angles = _half_angles(meshes)
-    wheels = tuple(wheel_errors(train.declaration, name, angles[name], settings) for name in names)
+    wheels = tuple(wheel_errors(train.declaration, each, settings) for each in even.values())
     senses = _Senses(motion)
     pairs = tuple(_pair(train, mesh, names, senses, settings) for mesh in meshes)
+    composition = motion.with_sources([pair.name for pair in pairs])
     if all(wheel.true for wheel in wheels) and not any(pair.fitting for pair in pairs):
         what = f"'{train.name}' declares no errors"
         why = "wheels cut true neither jam nor stray"
         fix = "declare `cutting: {placement: {normal: 2 %}}`, or give --set placement='2 %'"
         raise QuestionError(Problem(what, why, fix))
     speeds = tuple(tally.ratio for tally in motion.tallies())
-    reach = tuple(_reach(motion.ahead, at, [pair.name for pair in pairs]) for at in range(len(motion.outputs)))
+    reach = tuple(_reach(composition, at, [pair.name for pair in pairs]) for at in range(len(motion.outputs)))
     return TrialPlan(
         train.name,
         wheels,
         pairs,
-        motion.ahead,
+        composition,
         tuple(motion.outputs),
         speeds,
         reach,
-        _span(motion.ahead, pairs),
+        _span(composition, pairs),
         motion.train.lead,
     )
 
 
-def _half_angles(meshes: Sequence[GearMesh]) -> dict[str, float]:
-    """Half angle of the teeth of every wheel, as its first pair has them (rad)."""
-    found: dict[str, float] = {}
-    for mesh in meshes:
-        sizes = mesh.cut_sizes
-        found.setdefault(mesh.driver, sizes.beta1)
-        found.setdefault(mesh.driven, sizes.beta2)
-    return found
+def _even_wheels(train: GearTrain, mesh: GearMesh) -> tuple[WheelErrors, WheelErrors]:
+    """The driver and the driven wheel of a pair without errors, as this pair has their teeth."""
+    counts = [train.declaration.wheels[name][1].count or 0 for name in (mesh.driver, mesh.driven)]
+    contact = mesh.displaced_contact
+    if contact is None:
+        angles = mesh.cut_sizes.beta1, mesh.cut_sizes.beta2
+        return WheelErrors(mesh.driver, counts[0], angles[0]), WheelErrors(mesh.driven, counts[1], angles[1])
+    first, second = contact.wheels
+    return (
+        WheelErrors(mesh.driver, counts[0], first.half_angle, displaced=first),
+        WheelErrors(mesh.driven, counts[1], second.half_angle, displaced=second),
+    )
 
 
 def _span(composition: ErrorComposition, pairs: Sequence[TrialPair]) -> float:
     """Turns of the input after which the same teeth meet everywhere, no more than a million."""
-    counts = {pair.name: lcm(pair.sizes.z1, pair.sizes.z2) for pair in pairs}
+    counts = {pair.name: pair.count for pair in pairs}
     cycles = [source.cycles / counts.get(source.id, 1) for source in composition.used if source.cycles]
     if not cycles:
         return 1.0
@@ -284,16 +261,20 @@ class _Senses:
 def _pair(
     train: GearTrain, mesh: GearMesh, names: tuple[str, ...], senses: _Senses, settings: Sequence[ErrorOverride]
 ) -> TrialPair:
-    sizes = mesh.cut_sizes
-    first = sizes.depths[0] <= sizes.depths[1]
-    lesser, angle = (mesh.driver, sizes.beta1) if first else (mesh.driven, sizes.beta2)
-    fitting = pair_errors(train.declaration, mesh, lesser, angle, settings)
-    return TrialPair(
-        mesh.name,
-        sizes,
-        names.index(mesh.driver),
-        names.index(mesh.driven),
-        (senses.mirrored(mesh.name, mesh.driver), senses.mirrored(mesh.name, mesh.driven)),
-        mesh.law.error_moments()[0],
-        {kind: off for kind, off in fitting.items() if kind in OF_PAIRS},
-    )
+    wheels, contact = _even_wheels(train, mesh), mesh.displaced_contact
+    lesser = min(wheels, key=lambda wheel: wheel.depth) if contact is not None else _less_deep(mesh, wheels)
+    fitting = pair_errors(train.declaration, mesh, lesser, settings)
+    fitting = {kind: off for kind, off in fitting.items() if kind in OF_PAIRS}
+    mirrored = senses.mirrored(mesh.name, mesh.driver), senses.mirrored(mesh.name, mesh.driven)
+    numbers = names.index(mesh.driver), names.index(mesh.driven)
+    even, stroke = mesh.law.error_moments()[0], filing_stroke(train.declaration, mesh, lesser)
+    if contact is None:
+        sizes = mesh.cut_sizes
+        return TriangularTrialPair(mesh.name, *numbers, mirrored, even, sizes, fitting=fitting, stroke=stroke)
+    return DisplacedTrialPair(mesh.name, *numbers, mirrored, even, contact, fitting=fitting, stroke=stroke)
+
+
+def _less_deep(mesh: GearMesh, wheels: tuple[WheelErrors, WheelErrors]) -> WheelErrors:
+    """The wheel with the less deep triangular teeth, the driver of two alike."""
+    depths = mesh.cut_sizes.depths
+    return wheels[0] if depths[0] <= depths[1] else wheels[1]

@@ -11,8 +11,7 @@ from typing import TYPE_CHECKING, TypedDict, cast
 import numpy as np
 
 from geartrain.numerics.plain_data import Key, Result, finite
-from geartrain.uncertainty.confidence_intervals import IntervalEstimate, ProbabilityEstimate, deviation_of
-from geartrain.uncertainty.manufacturing_errors.least_backlash import nominal_backlash
+from geartrain.uncertainty.confidence_intervals import IntervalEstimate, ProbabilityEstimate, deviation_of, mean_of
 from geartrain.uncertainty.monte_carlo.pointer_error import FirstOrderError, PointerErrorCourse, PointerErrorStatistics
 from geartrain.uncertainty.monte_carlo.trial_block import CLASH, DISENGAGED, JAM, LOST, STANDSTILL, STOPS, UNCUT
 
@@ -73,6 +72,38 @@ class PairEventRates(Result):
         return cast("EventRates", self.events)
 
 
+@dataclass(frozen=True, slots=True)
+class FilingStatistics(Result):
+    """How much one pair, or the whole train, was filed until it passed.
+
+    Attributes
+    ----------
+    name : str
+        Of the pair, or "the train".
+    filed : ProbabilityEstimate
+        How often it jams before it is filed.
+    strokes, teeth : IntervalEstimate
+        Mean number of strokes, and of teeth that took them, over all trials.
+    most : int
+        Strokes of the trial that took most.
+    jams : ProbabilityEstimate
+        How often it jams after, a flank being spoilt first.
+
+    See Also
+    --------
+    TrialResults : holds them
+    """
+
+    KEYS = (Key("pair", "name"), "filed", "strokes", "teeth", "most", Key("jams_after", "jams"))
+
+    name: str
+    filed: ProbabilityEstimate
+    strokes: IntervalEstimate
+    teeth: IntervalEstimate
+    most: int
+    jams: ProbabilityEstimate
+
+
 @dataclass(frozen=True)
 class ConvergenceStep:
     """A probability from the first so many trials."""
@@ -107,6 +138,8 @@ class TrialResults:
         Pair -> bound on the probability of a jam, where one is known.
     courses : sequence of PointerErrorCourse
         Along a turn, where asked for.
+    filing : ndarray
+        Strokes of the file, and teeth that took them, by pair, (trials, 2 pairs); empty where nothing is filed to fit.
 
     See Also
     --------
@@ -123,6 +156,7 @@ class TrialResults:
     sums: Sequence[Mapping[str, tuple[float, ...]]]
     bounds: Mapping[str, float] = field(default_factory=dict)
     courses: Sequence[PointerErrorCourse] = ()
+    filing: Floats = field(default_factory=lambda: np.zeros((0, 0)))
 
     @property
     def done(self) -> int:
@@ -138,7 +172,7 @@ class TrialResults:
     def pairs(self) -> tuple[PairEventRates, ...]:
         """Each pair."""
         return tuple(
-            _tally(pair.name, self.marks[:, at], nominal_backlash(pair.sizes), self.bounds.get(pair.name, nan))
+            _tally(pair.name, self.marks[:, at], pair.play, self.bounds.get(pair.name, nan))
             for at, pair in enumerate(self.plan.pairs)
         )
 
@@ -147,6 +181,25 @@ class TrialResults:
         """Any pair of the train."""
         bound = min(1.0, sum(self.bounds.values())) if len(self.bounds) == len(self.plan.pairs) else nan
         return _tally("the train", np.bitwise_or.reduce(self.marks, axis=1), nan, bound)
+
+    @cached_property
+    def filings(self) -> tuple[FilingStatistics, ...]:
+        """Each pair that is filed to fit, and the train; none where nothing is."""
+        if not self.plan.files:
+            return ()
+        found = [
+            self._filing(pair.name, self.filing[:, 2 * at : 2 * at + 2], self.pairs[at])
+            for at, pair in enumerate(self.plan.pairs)
+            if pair.stroke
+        ]
+        whole = np.stack([self.filing[:, ::2].sum(axis=1), self.filing[:, 1::2].sum(axis=1)], axis=1)
+        return (*found, self._filing("the train", whole, self.train))
+
+    def _filing(self, name: str, work: Floats, events: PairEventRates) -> FilingStatistics:
+        strokes, teeth = work.T
+        filed = ProbabilityEstimate(int(np.count_nonzero(strokes)), len(strokes))
+        most = int(strokes.max(initial=0.0))
+        return FilingStatistics(name, filed, mean_of(strokes), mean_of(teeth), most, events.events["jam"])
 
     @cached_property
     def pointers(self) -> tuple[PointerErrorStatistics, ...]:

@@ -7,6 +7,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import partial
 from importlib.metadata import version
+from math import isnan
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -14,7 +15,6 @@ import numpy as np
 from geartrain.dynamics.motion.superposition import Superposition
 from geartrain.errors import Problem, QuestionError, RangeError
 from geartrain.numerics.work import Execution
-from geartrain.uncertainty.manufacturing_errors.least_backlash import jamming_bound
 from geartrain.uncertainty.monte_carlo.pointer_error import PointerErrorCourse
 from geartrain.uncertainty.monte_carlo.random_streams import BLOCK, RandomStreams
 from geartrain.uncertainty.monte_carlo.trial_block import (
@@ -43,7 +43,10 @@ _MOST = 10**9
 
 @dataclass(frozen=True, slots=True)
 class TrialRecord:
-    """One block of trials: numbers of its trials, and arrays as in `TrialResults`; `play` least, in driven pitches."""
+    """One block of trials: numbers of its trials, and arrays as in `TrialResults`; `play` least, in driven pitches.
+
+    filing   strokes of the file, and teeth that took them, by pair, (trials, 2 pairs); none where nothing is filed
+    """
 
     first: int
     turns: Floats
@@ -52,6 +55,7 @@ class TrialRecord:
     errors: Floats
     off: Sequence[tuple[float, float, int]] = ()
     sums: Sequence[Mapping[str, tuple[float, ...]]] = field(default_factory=tuple)
+    filing: Floats = field(default_factory=lambda: np.zeros((0, 0)))
 
 
 def journal_key(plan: TrialPlan, seed: int, trials: int, **more: Any) -> dict[str, Any]:
@@ -178,6 +182,7 @@ def work_block(plan: TrialPlan, seed: int, task: Sequence[int]) -> dict[str, Any
         "errors": _pack(errors.T),
         "off": off,
         "sums": _sums(plan, found, runs),
+        **({"filing": _pack(drawn.strokes())} if plan.files else {}),
     }
 
 
@@ -232,6 +237,7 @@ def unpack(plan: TrialPlan, block: int, packed: Mapping[str, Any]) -> TrialRecor
         array("errors", len(plan.outputs)),
         [tuple(each) for each in packed["off"]],
         packed["sums"],
+        array("filing", 2 * pairs) if plan.files else np.zeros((0, 0)),
     )
 
 
@@ -259,6 +265,7 @@ def gathered(plan: TrialPlan, seed: int, wanted: int, found: Sequence[TrialRecor
         first,  # type: ignore[arg-type]
         sums,
         jamming_bounds(plan),
+        filing=np.concatenate([rows.filing for rows in found]),
     )
 
 
@@ -272,8 +279,8 @@ def jamming_bounds(plan: TrialPlan) -> dict[str, float]:
         if plain and normal:
             # the bound is of one deviation for both wheels: the greater of the two
             sizes = [each.errors["placement"].size for each in wheels if each.errors]
-            found[pair.name] = jamming_bound(pair.sizes, max(sizes, default=0.0))
-    return found
+            found[pair.name] = pair.jamming_bound(max(sizes, default=0.0))
+    return {name: bound for name, bound in found.items() if not isnan(bound)}
 
 
 def run_course(plan: TrialPlan, output: int, positions: int, seed: int = 1, trials: int = BLOCK) -> PointerErrorCourse:

@@ -1,0 +1,316 @@
+"""What displaced flanks of conjugate teeth do to the driven wheel, along the path of contact.
+
+A flank that stands out by n along its normal where it touches turns the driven wheel ahead by n over the moment arm of
+the normal, docs/cut-by-hand.md (1). The normal passes the pitch point under the pressure angle psi, so that the arm is
+R2 cos psi on cylinders and sin R2 cos psi on cones: of an involute, the radius of its base circle. Beyond the ends of
+the path a tip still touches, its corner against the mate's flank: the driven wheel then falls behind, and how far
+follows from the law of cosines.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from functools import lru_cache
+from math import cos, inf, pi, radians
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from geartrain.errors import Problem, RangeError
+
+if TYPE_CHECKING:
+    from geartrain.numerics.arrays import Floats
+    from geartrain.teeth.conjugate.conjugate_transmission import ConjugatePair
+    from geartrain.teeth.conjugate.path_of_contact import PathOfContact
+    from geartrain.teeth.conjugate.pitch_surfaces import PitchSurfaces
+
+_NODES = 257  # of the tables along the path and beyond its ends; linear between them
+_SMALL = 1e-12  # of a radian of contact beyond an end: none
+_BLUNT = radians(10)  # half the aperture, at least: of teeth with parallel sides no fraction could be taken
+
+
+def polar_of(pitch: PitchSurfaces, gear: int, points: Floats) -> tuple[Floats, Floats]:
+    """Radius of points about the axle of a gear, and azimuth from the pitch point, positive the way X grows.
+
+    Cylinders: points (..., 2), the radius in modules. Cones: points (..., 3) on the unit sphere, the radius in rad.
+    """
+    x = points[..., 0]
+    R = -pitch.R1 if gear == 1 else pitch.R2
+    side = 1.0 if gear == 1 else -float(np.sign(R))
+    if not pitch.bevel:
+        y = points[..., 1] - R
+        return np.hypot(x, y), np.arctan2(x, side * y)
+    axis, up = np.array([0.0, np.sin(R), np.cos(R)]), np.array([0.0, side * np.cos(R), -side * np.sin(R)])
+    outwards = points @ up
+    return np.arctan2(np.hypot(x, outwards), points @ axis), np.arctan2(x, outwards)
+
+
+def azimuth_at(pitch: PitchSurfaces, gear: int, own: float, other: Floats) -> Floats:
+    """The azimuth (rad, 0 or greater) of points `own` from the axle of a gear and `other` from its mate's.
+
+    The law of cosines, plane or spherical; NaN where there is none. A ring's mate has its axle on the other side.
+    """
+    D = pitch.R1 + pitch.R2
+    if gear == 2:
+        D = abs(D)
+    if pitch.bevel:
+        cosine = (np.cos(other) - np.cos(own) * np.cos(D)) / (np.sin(own) * np.sin(D))
+    else:
+        cosine = (own * own + D * D - other * other) / (2 * own * D)
+    with np.errstate(invalid="ignore"):
+        found: Floats = np.arccos(cosine)
+    return found
+
+
+def _point_at(pitch: PitchSurfaces, gear: int, radius: float, azimuth: Floats) -> Floats:
+    """Fixed points at polar places about the axle of a gear."""
+    R = -pitch.R1 if gear == 1 else pitch.R2
+    side = 1.0 if gear == 1 else -float(np.sign(R))
+    if not pitch.bevel:
+        return np.stack([radius * np.sin(azimuth), R + side * radius * np.cos(azimuth)], axis=-1)
+    axis, up = np.array([0.0, np.sin(R), np.cos(R)]), np.array([0.0, side * np.cos(R), -side * np.sin(R)])
+    out = np.sin(azimuth)[..., None] * np.array([1.0, 0.0, 0.0]) + np.cos(azimuth)[..., None] * up
+    found: Floats = np.cos(radius) * axis + np.sin(radius) * out
+    return found
+
+
+def corner_contact(path: PathOfContact, gear: int, radius: Floats, azimuth: Floats) -> tuple[Floats, Floats]:
+    """How far both gears have turned (as X) while the tip of `gear` touches its mate's flank at points of it.
+
+    The points are polar in the mate's X = 0 position. The tip of gear 1 touches beyond the recess, that of gear 2
+    before the approach.
+    """
+    pitch, mate = path.pitch, 3 - gear
+    reach = {1: pitch.reach, 2: abs(pitch.reach2)}
+    end = np.array(path.arcs[1] if gear == 1 else -path.arcs[0])
+    tip_radius, tip_azimuth = (float(each) for each in polar_of(pitch, gear, _flank(path, gear, end)))
+    turned = azimuth_at(pitch, gear, tip_radius, radius) * (1.0 if gear == 1 else -1.0)
+    _, there = polar_of(pitch, mate, _point_at(pitch, gear, tip_radius, turned))
+    own, other = reach[gear] * (turned - tip_azimuth), reach[mate] * (there - azimuth)
+    return (own, other) if gear == 1 else (other, own)
+
+
+def _flank(path: PathOfContact, gear: int, X: Floats) -> Floats:
+    return (path.flank1 if gear == 1 else path.flank2)(X)
+
+
+def _touched(pair: ConjugatePair, gear: int) -> tuple[Floats, Floats]:
+    """The flank that the tip of `gear` touches beyond the end of the path, from there on: polar points of its mate."""
+    path, mate, (approach, recess) = pair.path, 3 - gear, pair.path.arcs
+    first, last = (recess, -approach) if gear == 1 else (-approach, recess)
+    # closer towards the end of the path, where the corner leaves it along a parabola
+    part = np.linspace(0, 1, _NODES) ** 2
+    if pair.solid[mate - 1]:
+        return polar_of(path.pitch, mate, _flank(path, mate, first + (last - first) * part))
+    # a round pin goes on beyond its flank, as far as its outermost point
+    pitch = path.pitch
+    radius, azimuth = (float(each) for each in polar_of(pitch, mate, _flank(path, mate, np.array(first))))
+    reach = pitch.reach if mate == 1 else abs(pitch.reach2)
+    middle = reach * np.exp(1j * pair.halves[mate - 1] / reach * (-1 if mate == 1 else 1))
+    out = middle / abs(middle)
+    from_middle = (radius * np.exp(1j * azimuth) - middle) / out
+    around = np.angle(from_middle) * (1 - part)
+    points = middle + out * abs(from_middle) * np.exp(1j * around)
+    return np.abs(points), np.angle(points)
+
+
+def flank_levers(path: PathOfContact, gear: int, X: Floats) -> Floats:
+    """How far the flank of a gear moves along the normal at its contact X where it turns about its pitch point.
+
+    For 1 rad, anticlockwise with X to the right and gear 2 above: z . ((P - P0) x n), on the sphere P0 . (P x n).
+    """
+    pitch, at = path.pitch, path.at(X)
+    middle = np.zeros((len(X), 3 if pitch.bevel else 2))
+    if pitch.bevel:
+        middle[:, 2] = 1.0
+    P0 = (pitch.on_gear1 if gear == 1 else pitch.on_gear2)(middle, -X)
+    # P lies on the normal, or P x n is the pole of its great circle: both as at the pitch point
+    return np.asarray(P0[:, 1] * at.cos_psi - P0[:, 0] * at.sin_psi)
+
+
+@dataclass(frozen=True)
+class CornerLag:
+    """How far (rad) the driven wheel falls behind while a tip touches beyond an end of the path, over even steps.
+
+    step   of the driver's angle beyond the end (rad); the last lag is where the corner has no flank left
+    """
+
+    step: float
+    lags: Floats
+
+    def __call__(self, beyond: Floats) -> Floats:
+        """The lag (rad) at angles beyond the end; 0 before it, infinite where the corner touches no more."""
+        at = np.maximum(beyond, 0.0) / self.step
+        low = np.minimum(at.astype(np.int64), len(self.lags) - 2)
+        first = self.lags[low]
+        found = first + (self.lags[low + 1] - first) * (at - low)
+        return np.where(at <= len(self.lags) - 1, found, inf)
+
+    @property
+    def most(self) -> float:
+        """The angle (rad) over which the corner touches."""
+        return self.step * (len(self.lags) - 1)
+
+
+@dataclass(frozen=True)
+class DisplacedWheelSizes:
+    """What fractions of one wheel's errors are of, lengths in modules (cones: rad on the unit sphere).
+
+    depth        between the radii at which its flank works
+    half_angle   of the chord of its flank, from where it begins to work to its tip, with the middle of its tooth, at
+                 least 10 degrees (rad)
+    modules      in one of these lengths
+    """
+
+    z: int
+    depth: float
+    half_angle: float
+    modules: float = 1.0
+
+    @property
+    def pitch(self) -> float:
+        """Circular pitch, in the unit of the lengths."""
+        return pi / self.modules
+
+
+@dataclass(frozen=True, eq=False)
+class DisplacedContact:
+    """One couple of teeth of a pair as it turns through its contact, and what displaced flanks change.
+
+    Lengths are modules; on cones they are angles on the unit sphere. All columns are rad of the driven wheel's lag for
+    one unit, at even steps of the driver's angle x past its place from `start` to `end` (rad). Of the driver (1) and of
+    the driven wheel (2):
+
+    wheels       the driver and the driven wheel
+    across, along   of a wheel whose teeth stand off its axle across the line of centres (the way it moves), and along
+    tilt         of a flank that is flatter by 1 rad, turned about its pitch point
+    apart        of axles farther apart, or a wider shaft angle
+    normal       of a flank lower by 1 along its normal: 1 over the moment arm
+    entering, leaving   of tips beyond the ends of the path
+    longer       how far (rad of the driver) a tip higher by 1 moves the end (the driver's) or the start
+    play         rad of the driven wheel
+    stands       where a driven tooth stands when its angle is 0 (rad past the line of centres)
+    distance     of the axles; infinite where they are not parallel
+    even         the lag of even wheels, as that of axles which do not stand as designed (rad), along the same steps
+    """
+
+    wheels: tuple[DisplacedWheelSizes, DisplacedWheelSizes]
+    start: float
+    end: float
+    across: tuple[Floats, Floats]
+    along: tuple[Floats, Floats]
+    tilt: tuple[Floats, Floats]
+    apart: Floats
+    normal: Floats
+    entering: CornerLag
+    leaving: CornerLag
+    longer: tuple[float, float]
+    play: float
+    stands: float
+    even: Floats
+    distance: float
+
+    @property
+    def ratio(self) -> Fraction:
+        """Mean speed ratio."""
+        return Fraction(self.wheels[0].z, self.wheels[1].z)
+
+    @property
+    def pitches(self) -> tuple[float, float]:
+        """Pitches of both wheels (rad)."""
+        return 2 * pi / self.wheels[0].z, 2 * pi / self.wheels[1].z
+
+    def apart_by(self, shift: float) -> DisplacedContact:
+        """The same teeth, their axles farther apart by so much."""
+        return replace(self, even=self.even + shift * self.apart, distance=self.distance + shift)
+
+
+@lru_cache(maxsize=256)
+def displaced_contact(pair: ConjugatePair, driver: int, gap: float = 0.0) -> DisplacedContact:
+    """The contact of a conjugate pair, one of its gears driving; `gap`: by how much its axles are farther apart."""
+    path, pitch = pair.path, pair.path.pitch
+    approach, recess = path.arcs
+    if approach + recess <= 0:
+        raise RangeError(
+            Problem("these teeth do not reach each other", "no flank can be displaced", "give them longer arcs")
+        )
+    ring = not pitch.bevel and pitch.R2 < 0
+    X = np.linspace(-approach, recess, _NODES)
+    at = path.at(X)
+    reach = pitch.reach, abs(pitch.reach2)
+    normal = 1 / (reach[2 - driver] * at.cos_psi)
+    tangent, radial = normal * at.cos_psi, normal * at.sin_psi
+    # cones: a wheel whose axis leans moves its teeth across by the cosine of its cone, docs/cut-by-hand.md (3)
+    lean = (cos(pitch.R1), cos(pitch.R2)) if pitch.bevel else (1.0, 1.0)
+    # along: the way from its axle to the pitch point; a ring's is that of the other wheel
+    up = (1.0, 1.0 if ring else -1.0) if driver == 1 else (-1.0 if ring else 1.0, -1.0)
+    levers = flank_levers(path, 1, X), flank_levers(path, 2, X)
+    sign = 1.0 if driver == 1 else -1.0
+    order = (0, 1) if driver == 1 else (1, 0)
+    flip = slice(None) if driver == 1 else slice(None, None, -1)  # gear 2 drives the same contacts the other way round
+    tips = (_corner(pair, 3 - driver, driver), _corner(pair, driver, driver))
+    own, other = order
+    start, end = (-approach, recess) if driver == 1 else (-recess, approach)
+    lead = pair.halves[driver - 1]
+    sizes = tuple(_sizes(pair, gear) for gear in (1, 2))
+    found = DisplacedContact(
+        (sizes[own], sizes[other]),
+        (start - lead) / reach[own],
+        (end - lead) / reach[own],
+        tuple((tangent * lean[each])[flip] for each in order),  # type: ignore[arg-type]
+        tuple((each * radial)[flip] for each in up),  # type: ignore[arg-type]
+        tuple((sign * normal * levers[each])[flip] for each in order),  # type: ignore[arg-type]
+        ((-1.0 if ring else 1.0) * radial)[flip],
+        normal[flip],
+        *tips,
+        tuple(_end_shift(path, each + 1) / reach[own] for each in order),  # type: ignore[arg-type]
+        pair.play / reach[other],
+        sum(pair.halves) / reach[other],
+        np.zeros(_NODES),
+        inf if pitch.bevel else abs(pitch.R1 + pitch.R2),
+    )
+    return found.apart_by(gap) if gap else found
+
+
+def _corner(pair: ConjugatePair, gear: int, driver: int) -> CornerLag:
+    """The lag of the driven gear while the tip of one gear touches: the driver's where it leaves, else as it enters."""
+    path, pitch = pair.path, pair.path.pitch
+    first = path.arcs[1] if gear == 1 else -path.arcs[0]
+    turned1, turned2 = corner_contact(path, gear, *_touched(pair, gear))
+    lag = (turned1 - turned2) / (abs(pitch.reach2) if driver == 1 else pitch.reach)
+    own = turned1 / pitch.reach if driver == 1 else turned2 / abs(pitch.reach2)
+    beyond = (own - first / (pitch.reach if driver == 1 else abs(pitch.reach2))) * (1.0 if gear == 1 else -1.0)
+    good = np.isfinite(beyond) & np.isfinite(lag) & (beyond >= 0)
+    beyond, lag = np.append(0.0, beyond[good]), np.append(0.0, lag[good])
+    # as far as the corner goes on; where it turns round it has left the flank
+    rising = np.flatnonzero(np.diff(beyond) < 0)
+    stop = int(rising[0]) + 1 if len(rising) else len(beyond)
+    beyond, lag = beyond[:stop], np.maximum.accumulate(lag[:stop])
+    most = max(float(beyond[-1]), _SMALL)
+    even = np.linspace(0.0, most, _NODES)
+    return CornerLag(most / (_NODES - 1), np.interp(even, beyond, lag))
+
+
+def _end_shift(path: PathOfContact, gear: int) -> float:
+    """How much longer (X) a tip that is higher by 1 lets the contact last."""
+    approach, recess = path.arcs
+    end, inner = (recess, recess - 1e-4 * (approach + recess)) if gear == 1 else (-approach, -approach + 1e-4)
+    points = (path.flank1 if gear == 1 else path.flank2)(np.array([end, inner]))
+    radius, _ = polar_of(path.pitch, gear, points)
+    rise = abs(float(radius[0] - radius[1]))
+    return abs(end - inner) / rise if rise else 0.0
+
+
+def _sizes(pair: ConjugatePair, gear: int) -> DisplacedWheelSizes:
+    path, pitch = pair.path, pair.path.pitch
+    approach, recess = path.arcs
+    X = np.array([-approach, recess] if gear == 1 else [recess, -approach])
+    radius, azimuth = polar_of(pitch, gear, (path.flank1 if gear == 1 else path.flank2)(X))
+    reach = pitch.reach if gear == 1 else abs(pitch.reach2)
+    half = pair.halves[gear - 1] / reach
+    width = (np.sin(radius) if pitch.bevel else radius) * ((azimuth if gear == 1 else -azimuth) + half)
+    depth = abs(float(radius[1] - radius[0]))
+    lean = float(np.arctan2(width[0] - width[1], depth))
+    z = pitch.z1 if gear == 1 else pitch.z2
+    return DisplacedWheelSizes(z, depth, max(lean, _BLUNT), z / (2 * reach))

@@ -231,17 +231,10 @@ class GearMesh(ABC):
 
     @property
     def cut_sizes(self) -> Any:
-        """The sizes about which manufacturing errors are drawn: `TriangularSizes`, of flanks that meet in a point.
-
-        Raises `RangeError` for teeth of another form.
-        """
-        raise RangeError(
-            Problem(
-                f"{self.label} has no triangular teeth",
-                "cutting errors are reckoned tooth by tooth for straight flanks that meet in a point",
-                "declare `tooth_form: {form: triangular, ...}`",
-            )
-        )
+        """The `TriangularSizes` about which errors are drawn; raises `RangeError` for teeth of another form."""
+        why = "these sizes are of straight flanks that meet in a point"
+        fix = "declare `tooth_form: {form: triangular, ...}`"
+        raise RangeError(Problem(f"{self.label} has no triangular teeth", why, fix))
 
     @property
     def displaced_contact(self) -> DisplacedContact | None:

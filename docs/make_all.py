@@ -8,6 +8,7 @@ from pathlib import Path
 
 import make_accuracy
 import make_architecture
+import make_budgets
 import make_best_radii
 import make_commands
 import make_errata
@@ -44,6 +45,7 @@ def main() -> None:
     )
     facts = (
         make_architecture,
+        make_budgets,
         make_best_radii,
         make_commands,
         make_errata,

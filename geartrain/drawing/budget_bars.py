@@ -74,10 +74,10 @@ def _legend(cause: str, found: TrainBudget) -> str:
 
 
 def _below(pointers: int, shown: int, erring: int) -> str:
-    words = "share of the sum of what is declared"
-    words += f"; {erring - shown} more pointers err less" if erring > shown else ""
+    words = "share of the sum of what is declared; hatched: declared in part"
+    words += f"; pointers that err less, not drawn: {erring - shown}" if erring > shown else ""
     still = pointers - erring
-    return words + (f"; {still} of {pointers} with nothing but 0 declared" if still else "")
+    return words + (f"; of which no error is known: {still} of {pointers}" if still else "")
 
 
 def _bar(axes: Axes, at: int, pointer: PointerBudget) -> None:

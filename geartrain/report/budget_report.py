@@ -162,5 +162,9 @@ def _jams(found: TrainBudget) -> Section:
         for each in found.jams
         if each.clearance is not None
     ]
-    text = "How often any pair of the train does so, with 95 % intervals; clearances below 1 are shares of windows."
+    trials = found.jams[0].events["jam"].of
+    text = (
+        f"How often any pair of the train does so, in {trials} trials each, with 95 % intervals; clearances below 1 "
+        "are shares of each pair's window."
+    )
     return Section("Jams over clearance", (text,), (Table(("clearance", "jam", "clash", "standstill"), rows),))

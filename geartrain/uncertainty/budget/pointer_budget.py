@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from fractions import Fraction
 from typing import TYPE_CHECKING, Literal
 
 from geartrain.numerics.plain_data import Key, Result
 
 if TYPE_CHECKING:
+    from geartrain.kinematics.judged_outputs import SpeedValue
     from geartrain.uncertainty.budget.crank_load import CrankLoad
     from geartrain.uncertainty.monte_carlo.clearance_study import ClearanceCase
 
@@ -108,7 +108,7 @@ class PointerBudget(Result):
         Of the output.
     of, relative_to : str
         The link that turns, and the link it is read against.
-    speed : Fraction
+    speed : Fraction, float, LongFloat or None
         Mean speed of the one seen from the other [the train's unit].
     degrees_per_day : float or None
         The same without sign; None where the train's unit is no time.
@@ -138,7 +138,7 @@ class PointerBudget(Result):
     name: str
     of: str
     relative_to: str
-    speed: Fraction
+    speed: SpeedValue | None
     degrees_per_day: float | None
     causes: tuple[BudgetCause, ...]
     drifts: tuple[RatioDrift, ...] = ()
@@ -213,7 +213,7 @@ class TrainBudget(Result):
     >>> from geartrain.uncertainty import find_budget
     >>> budget = find_budget(geartrain.load("freeth-2008"))
     >>> budget.not_declared["cutting"], len(budget.pointers)
-    (10, 10)
+    (9, 10)
     """
 
     KEYS = (

@@ -23,6 +23,8 @@ if TYPE_CHECKING:
     from geartrain.kinematics.answer import Answer
     from geartrain.kinematics.judged_outputs import OutputResult
     from geartrain.numerics.work import Execution
+    from geartrain.uncertainty.budget.cutting_trials import CuttingTrials
+    from geartrain.uncertainty.budget.tooth_motion import ToothMotion
     from geartrain.uncertainty.monte_carlo.clearance_study import ClearanceCase
     from geartrain.uncertainty.monte_carlo.trial_plan import TrialPlan
 
@@ -51,6 +53,8 @@ class BudgetQuestion:
         How many times the wheels are cut.
     seed : int
         Of the random numbers.
+    jam_trials : int
+        How many times they are cut at each clearance.
     clearances : tuple of float
         Shares of each pair's window, or factors of the centre distance, at which jams are counted.
     bodies : mapping of str to {"moon", "sun"} or None
@@ -70,6 +74,7 @@ class BudgetQuestion:
     cutting: tuple[str, ...] = ()
     trials: int = 256
     seed: int = 1
+    jam_trials: int = 64
     clearances: tuple[float, ...] = (0.1, 0.3, 0.5, 0.7, 0.9)
     bodies: Mapping[str, Body | None] = field(default_factory=dict)
 
@@ -152,31 +157,8 @@ def find_budget(
     on_stage()
     crank = find_crank_load(train, state, motion.train.lead, {name: answer.outputs[name].of for name in names})
     on_stage()
-    pointers = []
-    for name in names:
-        output = answer.outputs[name]
-        rate = degrees_per_day(output, train.declaration.unit_days)
-        drifts = find_drifts(output, _float(train.declaration.unit_days), asked.span_days)
-        ratio = ratio_cause(drifts, rate)
-        theory = theory_cause(theories[name], rate)
-        ripple, lost = tooth_causes(teeth, name, rate)
-        cutting = (
-            BudgetCause("cutting", "not declared", note=uncut)
-            if cut is None
-            else cut.cause(name, rate, teeth.declared[name])
-        )
-        pointers.append(
-            PointerBudget(
-                name,
-                output.of,
-                output.relative_to,
-                motion.train.seen_ratio(output.of, output.relative_to) * motion.train.speeds[motion.train.lead],
-                rate,
-                (ratio, theory, ripple, lost, cutting),
-                drifts,
-                teeth.pairs[name],
-            )
-        )
+    causes = _TrainCauses(asked, _float(train.declaration.unit_days), theories, teeth, cut, uncut)
+    pointers = tuple(causes.pointer(answer.outputs[name]) for name in names)
     return TrainBudget(
         train.name,
         state,
@@ -184,12 +166,48 @@ def find_budget(
         asked.turns,
         asked.samples,
         motion.train.lead,
-        tuple(pointers),
+        pointers,
         crank,
         jams,
         jams_note,
         teeth.turned_back,
     )
+
+
+@dataclass(frozen=True)
+class _TrainCauses:
+    """What was found of the whole train, from which the budget of each pointer is taken."""
+
+    asked: BudgetQuestion
+    unit_days: float | None
+    theories: Mapping[str, list[TheoryError]]
+    teeth: ToothMotion
+    cut: CuttingTrials | None
+    uncut: str
+
+    def pointer(self, output: OutputResult) -> PointerBudget:
+        """The budget of one output."""
+        name, speed = output.name, output.speed
+        # mean speed without sign; none where the pointer stands or the unit is no time
+        rate = 360 * abs(float(speed)) / self.unit_days if speed and self.unit_days else None
+        drifts = find_drifts(output, self.unit_days, self.asked.span_days)
+        ripple, lost = tooth_causes(self.teeth, name, rate)
+        causes = (
+            ratio_cause(drifts, rate),
+            theory_cause(self.theories[name], rate),
+            ripple,
+            lost,
+            self._cutting(name, rate),
+        )
+        return PointerBudget(name, output.of, output.relative_to, speed, rate, causes, drifts, self.teeth.pairs[name])
+
+    def _cutting(self, name: str, rate: float | None) -> BudgetCause:
+        known = self.teeth.declared[name]
+        if not known.gears and not known.pins:
+            return BudgetCause("cutting", "whole", 0.0, 0.0, 0.0, note="no gear pair lies between it and the input")
+        if self.cut is None:
+            return BudgetCause("cutting", "not declared", note=self.uncut)
+        return self.cut.cause(name, rate, known)
 
 
 def pointer_names(answer: Answer) -> tuple[str, ...]:
@@ -200,13 +218,6 @@ def pointer_names(answer: Answer) -> tuple[str, ...]:
         why = "a budget is that of a pointer"
         raise QuestionError(Problem(f"'{answer.train}' declares no output", why, "declare `outputs`"))
     return names
-
-
-def degrees_per_day(output: OutputResult, unit_days: Fraction | None) -> float | None:
-    """Mean speed of a pointer, without sign; None where it has none or no time is declared."""
-    if unit_days is None or not output.speed:
-        return None
-    return 360 * abs(float(output.speed)) / float(unit_days)
 
 
 def _float(value: Fraction | None) -> float | None:
@@ -233,4 +244,4 @@ def _jams(
     """How often wheels jam over clearance, or why that is not known."""
     if plan is None:
         return (), uncut
-    return jams_over_clearance(plan, asked.clearances, asked.trials, asked.seed, means)
+    return jams_over_clearance(plan, asked.clearances, asked.jam_trials, asked.seed, means)

@@ -267,6 +267,31 @@ def test_what_a_law_lacks_is_said_with_the_line_of_the_pair(change: tuple[str, s
     assert unloaded.meshes[0].efficiency_texts == ("-", "-"), "a pair itself is told without its losses"
 
 
+def test_losses_under_a_law_are_named_where_no_speed_is_determined() -> None:
+    text = """
+links:
+  frame: {}
+  sun: {wheels: {s: {teeth: 24, module: 1 mm}}}
+  planet: {wheels: {p: {teeth: 18, module: 1 mm}}}
+  ring: {wheels: {r: {teeth: 60, internal: true, module: 1 mm}}}
+  arm: {}
+revolutes:
+  - {pair: [frame, sun], axis: A}
+  - {pair: [frame, ring], axis: A}
+  - {pair: [frame, arm], axis: A}
+  - {pair: [arm, planet], axis: P}
+tooth_form: {form: involute, addendum: 0.6}
+friction: {law: dokos}
+gears: [{pair: [s, p]}, {pair: [p, r]}]
+inputs: {sun: 1}
+rate: 1 turn/s
+solve_for: ring
+loads: {arm: -84 N m}
+"""
+    left_out = {each.what: each.where for each in load(text).torques().left_out}
+    assert left_out["losses of pairs"] == ("s~p", "p~r")
+
+
 @pytest.mark.parametrize(
     ("friction", "said"),
     [

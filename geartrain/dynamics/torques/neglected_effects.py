@@ -79,10 +79,18 @@ def _open(
     found = tuple(
         circuit.id
         for circuit in busy
-        if means[circuit.id] != MeanEfficiencies() and setting.relative(circuit.i, circuit.carrier) is None
+        if (means[circuit.id] != MeanEfficiencies() or _at_no_speed(setting, circuit))
+        and setting.relative(circuit.i, circuit.carrier) is None
     )
     if found:
         yield NeglectedEffect("losses of pairs", found, "who drives there depends on speeds that are not determined")
+
+
+def _at_no_speed(setting: LoadCase, circuit: Circuit) -> bool:
+    """True for teeth whose friction asks for a speed, which has no means where none is determined."""
+    tooth = setting.meshes.get(circuit.id)
+    declared = circuit.kind == "gear" and setting.gears[circuit.id].efficiency is not None
+    return tooth is not None and not declared and tooth.wheels.friction_law is not None
 
 
 def _rubbing(setting: LoadCase) -> list[str]:

@@ -6,6 +6,7 @@ import atexit
 import gc
 import os
 import sys
+from functools import partial
 from typing import Annotated
 
 import typer
@@ -79,7 +80,10 @@ def _start_lightly() -> None:
     os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "__all__")
 
 
-def main() -> None:
-    """Run the command. What is wrong with the input is said on standard error, with exit code 2; a fault is code 3."""
+def main(name: str = "geartrain") -> None:
+    """Run the command. What is wrong with the input is said on standard error, with exit code 2; a fault is code 3.
+
+    name   by which usage and help call it: what can be typed to start it again
+    """
     _start_lightly()
-    sys.exit(guarded(app))
+    sys.exit(guarded(partial(app, prog_name=name)))

@@ -88,6 +88,15 @@ def test_every_verb_that_exists_has_help_and_every_option_of_it_is_in_the_docs(r
         assert option.name == "help" or option.help, f"{option.name} has a help text"
 
 
+def test_usage_names_the_command_as_it_was_started(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
+    """By the script, or by `python -m geartrain` where there is none on the path; never by what called it in Python."""
+    monkeypatch.setattr(sys.modules["__main__"], "__package__", "pytest", raising=False)
+    assert "Usage: geartrain solve" in run("solve", "--help")[1]
+    command = [sys.executable, "-m", "geartrain", "solve", "--help"]
+    done = subprocess.run(command, capture_output=True, text=True, check=True)
+    assert "Usage: python -m geartrain solve" in done.stdout
+
+
 def test_a_command_without_a_verb_shows_its_help_and_a_misspelt_verb_is_corrected(run: Run) -> None:
     code, out, err = run()
     assert code == 2

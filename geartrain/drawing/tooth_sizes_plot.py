@@ -9,8 +9,8 @@ from geartrain.drawing.backend import Axes, Figure
 from geartrain.drawing.style import BLACK, BLUE, GREEN, GREY, RED, SMALL, TEXT, WIDTH, plain
 
 if TYPE_CHECKING:
+    from geartrain.synthesis.tooth_sizes.best_sizes import BestToothSizes
     from geartrain.synthesis.tooth_sizes.size_design import ToothSizes
-    from geartrain.synthesis.tooth_sizes.size_search import BestToothSizes
 
 _LABELS = {
     "loss": "loss (%)",

@@ -115,7 +115,7 @@ def _of_any_form(kind: type) -> Schema:
 
 def _of_pairs() -> dict[str, Schema]:
     from geartrain.report.pair_page import FormedPair, TriangularPair
-    from geartrain.synthesis.tooth_sizes.size_search import BestToothSizes
+    from geartrain.synthesis.tooth_sizes.best_sizes import BestToothSizes
     from geartrain.teeth.conjugate.pair_design import PairDesign
     from geartrain.teeth.form_comparison import FormComparison
     from geartrain.teeth.pin_figures import PinFigures

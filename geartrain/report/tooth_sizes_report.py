@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING
 from geartrain.report.document import Document, Section, Table
 
 if TYPE_CHECKING:
+    from geartrain.synthesis.tooth_sizes.best_sizes import BestToothSizes
     from geartrain.synthesis.tooth_sizes.outline_agreement import OutlineAgreement
     from geartrain.synthesis.tooth_sizes.size_design import SizeLimit, ToothSizes
-    from geartrain.synthesis.tooth_sizes.size_search import BestToothSizes
     from geartrain.synthesis.tooth_sizes.train_sizes import BestTrainSizes, PairSizes
 
 AIM_WORDS: Mapping[str, str] = {
@@ -54,8 +54,8 @@ def describe_tooth_sizes(found: BestToothSizes) -> Document:
     z1, z2 = found.teeth
     lead = [
         f"The wheel of {found.teeth[found.driver - 1]} drives the wheel of {found.teeth[2 - found.driver]}; friction "
-        f"{found.friction:g}. Free: {free_text(found.free)}.{_limits_text(found.limits)} {found.evaluations} designs "
-        "were looked at.",
+        f"{found.friction:g}. Free: {free_text(found.free)}.{_limits_text(found.limits)}{_stops_text(found)} "
+        f"{found.evaluations} designs were looked at.",
         sizes_text(found.best),
     ]
     sections = [Section("Sizes", (_WORDS,), (Table(_HEADER, list(_rows(found))),)), _agreement(found.outlines)]
@@ -185,6 +185,12 @@ def _limits_text(limits: Sequence[SizeLimit]) -> str:
         for limit in limits
     ]
     return f" Within: {', '.join(parts)}."
+
+
+def _stops_text(found: BestToothSizes) -> str:
+    if found.stops is None:
+        return ""
+    return f" Cut with the errors given, the best jams or clashes in {100 * found.stops:.3g} % of the trials."
 
 
 def _rows(found: BestToothSizes) -> Iterator[Sequence[str]]:

@@ -38,11 +38,12 @@ if TYPE_CHECKING:
     from geartrain.synthesis.target_ratio import read_ratio as read_ratio
     from geartrain.synthesis.tooth_count_ranges import CountRuns as CountRuns
     from geartrain.synthesis.tooth_count_ranges import read_counts as read_counts
+    from geartrain.synthesis.tooth_sizes.best_sizes import BestToothSizes as BestToothSizes
+    from geartrain.synthesis.tooth_sizes.best_sizes import find_tooth_sizes as find_tooth_sizes
+    from geartrain.synthesis.tooth_sizes.chance_limit import ChanceLimit as ChanceLimit
     from geartrain.synthesis.tooth_sizes.outline_agreement import OutlineAgreement as OutlineAgreement
     from geartrain.synthesis.tooth_sizes.size_design import SizeLimit as SizeLimit
     from geartrain.synthesis.tooth_sizes.size_design import ToothSizes as ToothSizes
-    from geartrain.synthesis.tooth_sizes.size_search import BestToothSizes as BestToothSizes
-    from geartrain.synthesis.tooth_sizes.size_search import find_tooth_sizes as find_tooth_sizes
     from geartrain.synthesis.tooth_sizes.train_size_search import find_train_sizes as find_train_sizes
     from geartrain.synthesis.tooth_sizes.train_sizes import BestTrainSizes as BestTrainSizes
     from geartrain.synthesis.tooth_sizes.train_sizes import PairSizes as PairSizes
@@ -55,6 +56,7 @@ __all__ = [
     "Assignment",
     "BestToothSizes",
     "BestTrainSizes",
+    "ChanceLimit",
     "ConstraintOptions",
     "CountRuns",
     "EpicyclicSet",
@@ -84,8 +86,9 @@ __all__ = [
 _PLACES = {
     "Approximant": "stern_brocot",
     "Assignment": "train.train_findings",
-    "BestToothSizes": "tooth_sizes.size_search",
+    "BestToothSizes": "tooth_sizes.best_sizes",
     "BestTrainSizes": "tooth_sizes.train_sizes",
+    "ChanceLimit": "tooth_sizes.chance_limit",
     "ConstraintOptions": "constraints.constraint_options",
     "CountRuns": "tooth_count_ranges",
     "EpicyclicSet": "epicyclic.epicyclic_sets",
@@ -105,7 +108,7 @@ _PLACES = {
     "find_orrery": "orrery.orrery_search",
     "find_sets": "epicyclic.set_search",
     "find_stages": "ratio.stage_search",
-    "find_tooth_sizes": "tooth_sizes.size_search",
+    "find_tooth_sizes": "tooth_sizes.best_sizes",
     "find_train_sizes": "tooth_sizes.train_size_search",
     "read_counts": "tooth_count_ranges",
     "read_ratio": "target_ratio",

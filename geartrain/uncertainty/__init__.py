@@ -42,6 +42,7 @@ if TYPE_CHECKING:
     from geartrain.uncertainty.monte_carlo.clearance_study import ClearanceCase as ClearanceCase
     from geartrain.uncertainty.monte_carlo.clearance_study import jamming_map as jamming_map
     from geartrain.uncertainty.monte_carlo.monte_carlo_result import MonteCarloResult as MonteCarloResult
+    from geartrain.uncertainty.monte_carlo.pair_trials import PairTrials as PairTrials
     from geartrain.uncertainty.monte_carlo.pointer_error import PointerErrorCourse as PointerErrorCourse
     from geartrain.uncertainty.monte_carlo.pointer_error import PointerErrorStatistics as PointerErrorStatistics
     from geartrain.uncertainty.monte_carlo.sobol_indices import SobolIndices as SobolIndices
@@ -72,6 +73,7 @@ __all__ = [
     "IntervalEstimate",
     "MonteCarloResult",
     "PairEventRates",
+    "PairTrials",
     "PointerBudget",
     "PointerErrorCourse",
     "PointerErrorStatistics",
@@ -110,6 +112,7 @@ __getattr__ = lazy_names(
         "IntervalEstimate": "confidence_intervals",
         "MonteCarloResult": "monte_carlo.monte_carlo_result",
         "PairEventRates": "monte_carlo.trial_results",
+        "PairTrials": "monte_carlo.pair_trials",
         "PointerErrorCourse": "monte_carlo.pointer_error",
         "PointerErrorStatistics": "monte_carlo.pointer_error",
         "ProbabilityEstimate": "confidence_intervals",

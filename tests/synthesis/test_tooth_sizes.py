@@ -10,7 +10,7 @@ import pytest
 from scipy.optimize import differential_evolution
 
 from geartrain.errors import QuestionError
-from geartrain.synthesis import SizeLimit, ToothSizes, find_tooth_sizes
+from geartrain.synthesis import ChanceLimit, SizeLimit, ToothSizes, find_tooth_sizes
 from geartrain.synthesis.tooth_sizes.size_design import AIMS, equal_depth_radii
 from geartrain.synthesis.tooth_sizes.size_search import USUAL_RANGES, SizeSearch, undominated
 
@@ -130,6 +130,22 @@ def test_limits_are_kept_and_cost_something() -> None:
     loose, tight = (find_tooth_sizes(pair(48, 96), ("loss",), free, limits) for limits in ((), (limit,)))
     assert loose.best.jam < limit.bound <= tight.best.jam
     assert tight.best.loss > loose.best.loss
+
+
+def test_a_limit_on_a_chance_is_asked_of_few_designs_and_met() -> None:
+    """A chance that falls at 0.9853: the best that is let in is there, for the loss rises from 0.9823 on."""
+    asked: list[float] = []
+
+    def chance(design: ToothSizes) -> float:
+        asked.append(design.radii)
+        return 0.0 if design.radii >= 0.9853 else 0.5
+
+    found = find_tooth_sizes(pair(48, 96), free={"radii": (0.95, 1.0)}, chance=ChanceLimit(0.1, chance))
+    assert 0.9853 <= found.best.radii < 0.9856
+    assert found.stops == 0.0
+    assert len(asked) < 20
+    with pytest.raises(QuestionError, match="none stops"):
+        find_tooth_sizes(pair(48, 96), free={"window": (0.4, 0.6)}, chance=ChanceLimit(0.1, lambda _: 1.0))
 
 
 def test_no_design_of_a_front_is_better_than_another_in_both() -> None:

@@ -16,6 +16,7 @@ from geartrain.errors import GearTrainError, Problem
 from geartrain.teeth.triangular.triangular_form import Triangular
 
 if TYPE_CHECKING:
+    from geartrain.synthesis.tooth_sizes.chance_limit import ChanceLimit
     from geartrain.synthesis.tooth_sizes.size_design import SizeLimit, ToothSizes
 
 _DESIGNS = {1: 60, 2: 500, 3: 900}
@@ -34,16 +35,17 @@ _FIGURES = {
 
 @dataclass(frozen=True)
 class SizeQuestion:
-    """What `--best` asks for: one aim or two with a comma, what is free, and limits."""
+    """What `--best` asks for: one aim or two with a comma, what is free, limits, and errors of the wheels."""
 
     best: str | None
     free: tuple[str, ...]
     within: tuple[str, ...]
+    errors: tuple[str, ...]
 
     def is_one(self, others: Mapping[str, object]) -> bool:
         """True where the best sizes are asked for; refused beside options that ask for something else."""
         if self.best is None:
-            for option, given in (("--free", self.free), ("--within", self.within)):
+            for option, given in (("--free", self.free), ("--within", self.within), ("--set", self.errors)):
                 if given:
                     raise typer.BadParameter(
                         "nothing says what sizes are to be best in: give --best", param_hint=option
@@ -60,16 +62,37 @@ class SizeQuestion:
         from geartrain.synthesis import find_tooth_sizes
 
         aims = tuple(part.strip() for part in (self.best or "").split(","))
-        free, limits = read_free(self.free), read_limits(self.within)
+        free, limits = read_free(self.free), read_limits([text for text in self.within if not _is_chance(text)])
+        chance = self._chance()
         work = _DESIGNS.get(len(free), 900) * len(aims)
         with progress("best sizes", work, patience=2) as bar:
-            found = find_tooth_sizes(start, aims, free, limits, bar.advance)
+            found = find_tooth_sizes(start, aims, free, limits, chance, bar.advance)
         give(to, json, lambda: found, lambda: [describe_tooth_sizes(found)])
         if picture.path is not None:
             from geartrain.drawing import tooth_sizes_figure
 
             draw(tooth_sizes_figure(found), picture)
         raise typer.Exit(GOOD if found.outlines.turns else VERDICT)
+
+    def _chance(self) -> ChanceLimit | None:
+        """The limit on the chance that a pair cut with errors stops."""
+        from geartrain.synthesis import ChanceLimit
+
+        given = [text.partition("=")[2] for text in self.within if _is_chance(text)]
+        if bool(given) != bool(self.errors):
+            what = "--within stops=5% and the errors, such as --set 'placement=1 %', go together"
+            raise typer.BadParameter(what, param_hint="--within" if given else "--set")
+        if not given:
+            return None
+        from geartrain.uncertainty import PairTrials, read_error_overrides
+
+        bound = min(quantity("--within", text, "fraction", plain=True, least="0") for text in given)
+        return ChanceLimit(bound, PairTrials(read_error_overrides(self.errors)).stops)
+
+
+def _is_chance(text: str) -> bool:
+    """True for the limit that asks for trials."""
+    return text.partition("=")[0].strip() == "stops"
 
 
 def read_start(teeth: tuple[int, int], own: FormOptions, friction: float, driver: int) -> ToothSizes:

@@ -208,7 +208,13 @@ def _run(
     ] = None,
     within: Annotated[
         list[str] | None,
-        typer.Option("--within", help="With --best: NAME=LIMIT of loss, error, impact, jam, window_width, play."),
+        typer.Option(
+            "--within", help="With --best: NAME=LIMIT of loss, error, impact, jam, window_width, play, stops."
+        ),
+    ] = None,
+    set_: Annotated[
+        list[str] | None,
+        typer.Option("--set", help="With --within stops=5%: KIND=SIZE of errors as of montecarlo: 'placement=1 %'."),
     ] = None,
     plot: Annotated[
         Path | None, typer.Option("--plot", help="Draw the law, the sweep, or the designs of --best to this file.")
@@ -232,7 +238,7 @@ def _run(
     outlined = profile_sink(profile, force)
     check_distinct_outputs(to, outlined, picture, drawing)
     size = None if module is None else quantity("--module", module, "length", least="above 0")
-    asked = SizeQuestion(best, tuple(free or ()), tuple(within or ()))
+    asked = SizeQuestion(best, tuple(free or ()), tuple(within or ()), tuple(set_ or ()))
     if asked.is_one({"--vary": vary, "--teeth-plot": teeth_plot, "--profile": profile}):
         asked.answer(read_start(teeth, own, read_pair_friction(friction).number("--best"), driver), to, picture, json)
     pair = TriangularOptions(teeth, own, size, friction, driver, backwards, rate)

@@ -1,0 +1,84 @@
+"""`mesh triangular --best` and `--vary radii`: what is told, limits with units, what is refused."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+from commands import call
+
+PAIR = ("mesh", "triangular", "--teeth", 48, 96)
+BEST = (*PAIR, "--friction", "0.2", "--best", "loss", "--free", "window=0.4:0.6")
+
+
+def test_the_page_tells_the_sizes_as_a_declaration_has_them() -> None:
+    done = call(*BEST, "--radii", "0.98")
+    assert done.exit_code == 0, done.output
+    assert "{form: triangular, half_angle: 30 deg, window: 0." in done.stdout
+    assert "radii: 0.98}" in done.stdout
+    assert "the wheels turn" in done.stdout
+
+
+def test_limits_have_units_and_are_kept() -> None:
+    asked = (*BEST, "--radii", "0.98", "--within", "error=0.0474deg", "--within", "jam=0.9", "--json")
+    best = json.loads(call(*asked).stdout)["best"]
+    assert best["error"] <= 0.0474 * 0.017453292519943295
+    assert best["jam"] >= 0.9
+    assert 0.4 <= best["window"] <= 0.6
+
+
+def test_a_chance_is_told_with_the_errors_it_is_of() -> None:
+    done = call(*BEST, "--radii", "0.98", "--within", "stops=5%", "--set", "placement=1 %")
+    assert "jams or clashes in 0 % of the trials" in done.stdout, done.output
+
+
+@pytest.mark.parametrize(
+    ("more", "word"),
+    [
+        (("--best", "speed"), "nothing to be best in"),
+        (("--best", "error", "--free", "depth"), "no size of triangular teeth"),
+        (("--best", "error", "--free", "window=0.5"), "NAME=LOW:HIGH"),
+        (("--best", "error", "--within", "depth=1"), "NAME=LIMIT"),
+        (("--best", "error", "--within", "error=1 m"), "an angle belongs here"),
+        (("--best", "error", "--within", "stops=5%"), "go together"),
+        (("--best", "error", "--clearance", "1.01"), "does not go with --best"),
+        (("--best", "error", "--vary", "window=0.1:0.9:3"), "--best asks for something else"),
+        (("--best", "loss"), "without friction"),
+        (("--free", "radii"), "give --best"),
+        (("--set", "placement=1 %"), "give --best"),
+        (("--window", "0.5", "--radii", "0"), "out of range"),
+    ],
+)
+def test_what_cannot_be_asked_is_refused(more: tuple[str, ...], word: str) -> None:
+    done = call(*PAIR, *more)
+    assert done.exit_code != 0
+    assert word in " ".join(f"{done.output} {done.exception}".replace("\u2502", " ").split())
+    assert not done.stdout
+
+
+def test_a_picture_of_the_designs_and_of_a_front(tmp_path: Path) -> None:
+    for aims in ("loss", "loss,error"):
+        picture = tmp_path / f"{aims}.svg"
+        done = call(*PAIR, "--friction", "0.2", "--best", aims, "--free", "window=0.4:0.6", "--plot", picture)
+        assert done.exit_code == 0, done.output
+        assert ("front" in picture.read_text(encoding="utf-8")) is (aims == "loss,error")
+
+
+def test_radii_are_varied_as_one_number() -> None:
+    """The best of three is pitch-true radii's better neighbour, and beside it the phases change."""
+    done = call(*PAIR, "--window", "0.5", "--friction", "0.2", "--vary", "radii=0.94:1:4")
+    rows = [line.split(",") for line in done.stdout.splitlines()]
+    assert rows[0][0] == "radii"
+    assert [round(float(row[0]), 3) for row in rows[1:]] == [0.94, 0.96, 0.98, 1.0]
+    efficiency = [float(row[rows[0].index("efficiency_mean")]) for row in rows[1:]]
+    assert efficiency == pytest.approx([0.9678, 0.9751, 0.9906, 0.9773], abs=5e-5)
+
+
+def test_one_number_stands_for_two_radii() -> None:
+    sizes = [
+        json.loads(call(*PAIR, "--window", "0.5", "--radii", radii, "--json").stdout)["sizes"]["radii"]
+        for radii in ("1", "pitch_true", "49/50")
+    ]
+    assert sizes[0] == sizes[1] == [1.0, 2.0]
+    assert sizes[2] == pytest.approx([1.0, 1.96], rel=1e-15)

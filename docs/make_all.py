@@ -8,8 +8,8 @@ from pathlib import Path
 
 import make_accuracy
 import make_architecture
-import make_budgets
 import make_best_radii
+import make_budgets
 import make_commands
 import make_errata
 import make_extremes

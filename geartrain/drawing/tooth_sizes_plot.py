@@ -14,9 +14,9 @@ if TYPE_CHECKING:
 
 _LABELS = {
     "loss": "loss (%)",
-    "error": "transmission error, peak to peak (deg)",
+    "error": "error, peak to peak (deg)",
     "impact": "impact",
-    "jam": "margin before a jam (modules)",
+    "jam": "margin (modules)",
     "radii": "R2/R1 over z2/z1",
     "window": "window",
     "half_angle": "half angle (deg)",
@@ -36,8 +36,8 @@ def tooth_sizes_figure(found: BestToothSizes) -> Figure:
     Returns
     -------
     matplotlib.figure.Figure
-        Of one aim a panel for each free size; of two the Pareto front between them. Radii of equal depth and
-        pitch-true ones are marked.
+        Of one aim a panel for each free size; of two the Pareto front between them, alone and among all designs. Radii
+        of equal depth and pitch-true ones are marked.
 
     Examples
     --------
@@ -57,14 +57,22 @@ def tooth_sizes_figure(found: BestToothSizes) -> Figure:
 
 
 def _front_figure(found: BestToothSizes) -> Figure:
+    """The front alone, and where it stands among all designs."""
     first, second = found.aims
-    figure = Figure(figsize=(WIDTH, 0.75 * WIDTH), layout="constrained")
-    axes = figure.subplots()
-    _panel(axes, found, first, second)
-    ends = [_shown(each, name) for name in (first, second) for each in found.front]
-    half = len(ends) // 2
-    axes.plot(ends[:half], ends[half:], color=BLUE, linewidth=1.8, marker="o", markersize=3, gid="front", label="front")
-    axes.legend(fontsize=SMALL, frameon=False)
+    figure = Figure(figsize=(WIDTH, 0.5 * WIDTH), layout="constrained")
+    near, far = figure.subplots(1, 2)
+    x, y = ([_shown(each, name) for each in found.front] for name in (first, second))
+    plain(near)
+    near.set_xlabel(_LABELS[first], fontsize=TEXT)
+    near.set_ylabel(_LABELS[second], fontsize=TEXT)
+    near.set_title("Pareto front", fontsize=TEXT)
+    near.locator_params(axis="x", nbins=4)
+    _panel(far, found, first, second)
+    far.set_title("among all designs", fontsize=TEXT)
+    for axes in (near, far):
+        axes.plot(x, y, color=BLUE, linewidth=1.8, marker="o", markersize=3, gid="front", label="front")
+    near.plot(x[0], y[0], color=RED, marker="*", markersize=9, linewidth=0)
+    far.legend(fontsize=SMALL, frameon=False)
     return figure
 
 

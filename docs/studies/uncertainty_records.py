@@ -10,13 +10,14 @@ from studies.records import StudyRecords, distinct, number_text, seconds_text, t
 
 TOGETHER, SINGLY = "together", "one by one"
 COUNTS = "tooth counts"
+DISPLACED = "displaced flanks"
 
 
 @dataclass(frozen=True, slots=True)
 class RateRecord:
     """One way to many trials.
 
-    family     what is worked out: tooth counts, pairs with errors of place or with every error
+    family     what is worked out: tooth counts, pairs with errors of place or with every error, displaced flanks
     case       of it
     method     one by one, or a way of doing many together
     trials     worked out, each of `work` units: combinations of counts, or tooth pitches

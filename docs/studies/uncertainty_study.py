@@ -14,9 +14,11 @@ from typing import Any
 
 from studies.count_trials import Counted
 from studies.cut_pair_trials import BLOCK, EVERY, EXACT, NORMAL, PLACES, Batch, errors_of, jams
+from studies.displaced_pair_trials import FORMS, DisplacedBatch
 from studies.measurement import Step, in_turns, measure, taken
 from studies.uncertainty_records import (
     COUNTS,
+    DISPLACED,
     SINGLY,
     TOGETHER,
     ErrorRecord,
@@ -60,6 +62,8 @@ def _steps(effort: Effort, quick: bool) -> Iterator[Step]:
     for errors in (PLACES, EVERY):
         for pair in _PAIRS[:1] if quick else _PAIRS:
             yield f"{pair[0]}/{pair[1]}, {errors}", partial(_pitches, Batch(*pair, errors, 1), effort)
+    for form in FORMS:
+        yield f"64/38, {form}", partial(_displaced, form, effort)
     for case in (EXACT, NORMAL):
         yield f"estimates, {case}", partial(_estimates, case, effort)
     yield "workers", partial(_by_workers, effort)
@@ -101,6 +105,20 @@ def _pitches(one: Batch, effort: Effort) -> list[RateRecord]:
         (TOGETHER, batch.trials, batch.together),
     ]
     rows, singles = _measured(batch.errors, batch.name, batch.pitches, ways, effort.rounds)
+    note = f"{found.stops.mean():.2g} of the trials stop"
+    return [rows[0], _checked(rows[1], *batch.compared(found, singles), len(singles), note)]
+
+
+def _displaced(form: str, effort: Effort) -> list[RateRecord]:
+    """Full cycles of a pair with a path of contact, out of place and eccentric, judged together and one by one."""
+    trials = max(effort.solved, effort.pitches // 10 // DisplacedBatch(form, 64, 38, 1).pitches)
+    batch = DisplacedBatch(form, 64, 38, trials)
+    found = batch.together()
+    ways: list[tuple[str, int, Callable[[], Any]]] = [
+        (SINGLY, effort.solved, partial(batch.singly, effort.solved)),
+        (TOGETHER, batch.trials, batch.together),
+    ]
+    rows, singles = _measured(DISPLACED, batch.name, batch.pitches, ways, effort.rounds)
     note = f"{found.stops.mean():.2g} of the trials stop"
     return [rows[0], _checked(rows[1], *batch.compared(found, singles), len(singles), note)]
 

@@ -24,7 +24,7 @@ from studies.cut_pair_trials import (
     jams,
     uneven_driven,
 )
-from studies.uncertainty_records import COUNTS, SINGLY, ErrorRecord, UncertaintyRecords, slope
+from studies.uncertainty_records import COUNTS, DISPLACED, SINGLY, ErrorRecord, UncertaintyRecords, slope
 from studies.uncertainty_study import uncertainty
 
 from geartrain.uncertainty.manufacturing_errors.least_backlash import nominal_backlash
@@ -189,13 +189,14 @@ def test_estimates_near_the_exact_chance(records: UncertaintyRecords) -> None:
 def test_what_is_done_together_is_what_the_loop_does(records: UncertaintyRecords) -> None:
     for row in records.rates:
         assert row.differing == 0
-        assert row.error is None or row.error < 1e-6
+        # displaced flanks are looked at where even teeth stand, at fewer angles than the loop does
+        assert row.error is None or row.error < (5e-4 if row.family == DISPLACED else 1e-6)
         assert row.method != SINGLY or row.ratio == 1
-    assert {row.family for row in records.rates} == {COUNTS, PLACES, EVERY}
+    assert {row.family for row in records.rates} == {COUNTS, PLACES, EVERY, DISPLACED}
 
 
 def test_records_survive_json_and_print_a_table_for_each_family(records: UncertaintyRecords) -> None:
     again = UncertaintyRecords.from_dict(json.loads(json.dumps(records.to_dict())))
     assert again.to_markdown() == records.to_markdown()
-    for family, row in product((COUNTS, PLACES, EVERY), ("|",)):
+    for family, row in product((COUNTS, PLACES, EVERY, DISPLACED), ("|",)):
         assert f"## {family.capitalize()}\n\n{row}" in again.to_markdown()

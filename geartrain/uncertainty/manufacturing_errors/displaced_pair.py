@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from geartrain.numerics.arrays import Bools, Floats, Ints
     from geartrain.teeth.conjugate.displaced_contact import DisplacedContact
 
-_PHASES = 8  # of a pitch at which couples are looked at: between them the lag is smooth but for small corners
+_PHASES = 4  # of a pitch at which couples are looked at, beside the ends of their paths: between, lags are smooth
 
 
 @dataclass(frozen=True)
@@ -73,12 +73,16 @@ class DisplacedPair:
     @cached_property
     def widest(self) -> tuple[float, float]:
         """Angles (rad of the driver) past a tooth's place from where to where it can touch."""
-        at, late = self.contact, float(np.abs(self.first.place).max(initial=0.0))
-        tips = [
-            longer * float(np.abs(wheel.tips).max(initial=0.0))
-            for longer, wheel in zip(at.longer, (self.first, self.second), strict=True)
-        ]
-        return at.start - at.entering.most - tips[1] - late, at.end + at.leaving.most + tips[0] + late
+        at, (leaving, entering) = self.contact, self._late
+        return at.start - at.entering.most - entering, at.end + at.leaving.most + leaving
+
+    @cached_property
+    def _late(self) -> tuple[float, float]:
+        """How much earlier than the end of the path, and later than its start, some tooth meets a corner."""
+        late = float(np.abs(self.first.place).max(initial=0.0))
+        tips = (float(np.abs(each.tips).max(initial=0.0)) for each in (self.first, self.second))
+        leaving, entering = (late + longer * tip for longer, tip in zip(self.contact.longer, tips, strict=True))
+        return leaving, entering
 
     # ---------------------------------------------------------------------------------------------- couple by couple
 
@@ -144,8 +148,12 @@ class DisplacedPair:
         shift = np.asarray(self.shift)[..., None] if np.ndim(self.shift) else self.shift
         ratio = float(at.ratio)
         own = sign * ratio * one.place - flank1 * l1 + low1 * w
-        own = own + self._corners(x - sign * one.place, one.tips) + even + apart * shift
+        own = own + even + apart * shift
         other = -sign * two.place + flank2 * l2 + low2 * w
+        if not at.start + self._late[1] < x < at.end - self._late[0]:
+            own = own + self._corners(x - sign * one.place, one.tips)
+            # places of the driver's teeth and heights of the driven both move where couples enter: taken one by one
+            other = other + at.entering(at.start - at.longer[1] * two.tips - x) - at.entering(np.array(at.start - x))
         # a couple on the back joins the driver's tooth to the driven tooth that follows
         driver = np.roll(own, j, -1) + self._swing(one, u, 0.0, -t1 * sign, -y1)
         driven = np.roll(other, j - back, -1) + self._swing(two, ratio * u, at.stands + back * at.play, t2 * sign, y2)
@@ -164,7 +172,9 @@ class DisplacedPair:
 
     def _phases(self) -> Iterator[tuple[list[SideTerms], list[SideTerms]]]:
         """Couples in front and on the back at each position of the driver within a pitch."""
-        for u in np.arange(_PHASES) * (self.contact.pitches[0] / _PHASES):
+        pitch, (start, end) = self.contact.pitches[0], (self.contact.start, self.contact.end)
+        ends = np.mod([start, end, -start, -end], pitch)
+        for u in (*(np.arange(_PHASES) * (pitch / _PHASES)), *ends):
             yield list(self.side_terms(u, False)), list(self.side_terms(u, True))
 
     def play(self) -> Floats:

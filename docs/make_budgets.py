@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
+from textwrap import fill
 
 import geartrain
 from geartrain import GearTrain
@@ -123,7 +124,8 @@ def _list(told: dict[str, list[Told]]) -> list[str]:
         for each in all_of:
             budget = each.budgets[0]
             worst = max(budget.pointers, key=lambda pointer: pointer.total)
-            how = "assumed" if each.assumed else "not to be had" if each.refused else "declared"
+            assumed = "assumed" if FORM in each.assumed else "assumed in part"
+            how = assumed if each.assumed else "triangular ones cannot turn" if each.refused else "declared"
             causes = ", ".join(f"{cause.name} {cause.degrees:.3g}" for cause in worst.ranked if cause.degrees)
             row = (f"[{each.stem}](budgets/{each.stem}.md)", how, str(len(budget.pointers)), worst.name, causes or "-")
             lines.append(f"| {' | '.join(row)} |")
@@ -151,6 +153,7 @@ def _literature(antikythera: list[Told]) -> list[str]:
         "theory": _size(moon, "theory"),
         "times": f"{_of(moon, 'teeth') / _of(moon, 'theory'):.0f}",
         "ratio": _size(moon, "ratio"),
+        "drifts": f"{_of(moon, 'teeth') / _of(moon, 'ratio'):.0f}",
         "cutting": _size(moon, "cutting"),
         "within": "not known" if within is None else f"{within[0]:.2g} to {within[1]:.2g}",
         "lost": _size(moon, "lost motion"),
@@ -163,10 +166,19 @@ def _literature(antikythera: list[Told]) -> list[str]:
         "metonic_cut": _size(budget["metonic"], "cutting"),
         "jams": f"{100 * low:.0f}" if low == high else f"{100 * low:.0f} to {100 * high:.0f}",
         "windows": ", ".join(f"{share:g}" for share in jam),
-        "planets": ", ".join(f"{each.name} {_size(each, 'teeth')} and {_size(each, 'cutting')}" for each in planets),
+        "planets": ", ".join(
+            f"of {each.name.capitalize()} {_size(each, 'teeth')} and {_size(each, 'cutting')}" for each in planets
+        ),
         "saros_lost": _size(budget["saros"], "lost motion"),
     }
-    return [LITERATURE.format(**words)]
+    return [_filled(LITERATURE.format(**words))]
+
+
+def _filled(text: str) -> str:
+    """Paragraphs in lines of a page's width, whatever figures they have got."""
+    return "\n\n".join(
+        fill(" ".join(part.split()), 118, break_long_words=False, break_on_hyphens=False) for part in text.split("\n\n")
+    )
 
 
 def _pitch_true() -> TrainBudget:
@@ -184,7 +196,13 @@ def _size(pointer: PointerBudget, cause: str) -> str:
     found = pointer[cause]  # type: ignore[index]
     if found.degrees is None:
         return "not known"
-    return f"{found.degrees:.2g} degrees" + ("" if found.days is None else f" ({found.days:.2g} days)")
+    days = "" if found.days is None else f" ({_digits(found.days)} days)"
+    return f"{_digits(found.degrees)} degrees{days}"
+
+
+def _digits(value: float) -> str:
+    """Two digits, a last 0 too."""
+    return f"{value:#.2g}".removesuffix(".") if value < 100 else f"{value:.0f}"
 
 
 HEAD = """# Budgets of the pointers
@@ -243,45 +261,46 @@ tell after how many years it is as great as the greatest other cause.
 
 LITERATURE = """## What stands of what has been concluded
 
-Figures are of the [reconstruction of 2021](budgets/freeth-2021.md), which declares no teeth: assumed are
-equilateral teeth of equal depth in all its pairs (the rule of [Sorge's note](teeth.md)), each in the middle of its
-window of clearance, and a normal error of 0.1 degrees in the place of every tooth, the least that is quoted of the
-fragments. No clearance, depth or radius of a tooth in mesh has survived: other assumptions give other figures, and
-with a declaration anyone can try them.
+Figures are of the [reconstruction of 2021](budgets/freeth-2021.md), which declares no teeth: assumed are equilateral
+teeth of equal depth in all its pairs (the rule of [Sorge's note](teeth.md)), each in the middle of its window of
+clearance, and a normal error of 0.1 degrees in the place of every tooth, the least that is quoted of the fragments.
+No clearance, depth or radius of a tooth in mesh has survived: other assumptions give other figures, and with a
+declaration anyone can try them.
 
 **"The triangular shape of the teeth alone produces negligible errors"** (Szigety and Arenas 2025, The Impact of
 Triangular-Toothed Gears on the Functionality of the Antikythera Mechanism; of this study only the abstract was
 read). *Stands for slow pointers, not for the Moon, under these assumptions.* Of {count} pointers whose teeth are
-known, {small} ripple by less than a degree: the Saros pointer by {saros}, the Metonic by {metonic}, where a cell of
-the Saros dial is 6.5 degrees wide. The Moon ripples by {teeth} peak to peak, {rms} degrees rms: {times} times what
-its pin and slot leave against the true Moon, {theory}, and several times what its ratio drifts in a Saros, {ratio}.
-This hangs on the radii. With pitch-true radii, in the ratio of the teeth, it is {true}. Whoever finds the ripple
-negligible assumes, or measures by, other teeth than Sorge's rule gives, or looks at rms and slow dials; which of
-these, we do not know.
+known, {small} ripple by less than a degree: the Saros pointer by {saros}, where a cell of its dial is 6.5 degrees
+wide, the Metonic by {metonic}. The Moon ripples by {teeth} peak to peak, {rms} degrees rms: {times} times what its
+pin and slot leave against the true Moon, {theory}, and {drifts} times what its ratio drifts in a Saros, {ratio}. This
+hangs on the radii: with pitch-true ones, in the ratio of the teeth, it is {true}. Whoever finds the ripple
+negligible assumes other teeth than Sorge's rule gives, or measures it by something greater; which of these, the
+abstract does not say.
 
-**"Manufacturing inaccuracies significantly increase the likelihood of gear jamming or disengagement; the errors
-identified by Edmunds exceed the tolerable limits"** (same abstract). *Stands.* With the least of the errors quoted,
-0.1 degrees, some pair jams in {jams} % of the trials at shares {windows} of each pair's window. It does not follow
-that the mechanism did not turn: few pairs of very unequal wheels jam ([cut by hand](cut-by-hand.md), 6), and a
-maker who files what jams removes the worst teeth.
+**"Manufacturing inaccuracies significantly increase the likelihood of gear jamming or disengagement"**, and the
+errors identified by Edmunds exceed the limits that can be tolerated (same abstract). *Stands.* With the least of the
+errors quoted, 0.1 degrees, some pair jams in {jams} % of the trials at shares {windows} of each pair's window. It does
+not follow that the mechanism did not turn: it is a few pairs of very unequal wheels that jam ([cut by
+hand](cut-by-hand.md)), and a maker who files what jams removes the worst teeth.
 
-**That the shape of teeth weighs little beside cutting.** *Not at 0.1 degrees.* Cutting moves the Moon by {cutting}
-(interval {within} degrees), as much as the ripple of even teeth; at greater errors it would weigh more, in
-proportion. On the slow dials cutting is the greater of the two: Saros {saros_cut}, Metonic {metonic_cut}.
+**That the shape of teeth weighs little beside cutting**, as the same abstract may be read. *Not at 0.1 degrees.*
+Cutting moves the Moon by {cutting}, with an interval of {within} degrees: as much as the ripple of even teeth. The
+Saros pointer it moves by {saros_cut}, the Metonic by {metonic_cut}. At greater errors it weighs more, in proportion,
+where the train still turns.
 
 **The remarks on accuracy of cutting in Freeth and Jones 2012 and Freeth et al. 2021.** Neither text was read for
-this page, and nothing is quoted. What can be said to whoever asks whether hand-cut wheels could show what these
-reconstructions intend: at 0.1 degrees, yes for the planets, whose ripple and cutting are {planets}; and for the
-Moon's anomaly, 13 degrees peak to peak, which stands out from ripple and cutting of half its size each, but not for
-its finer half: that the pin and slot meet the true Moon within {theory} could not be seen on such a pointer.
+this page, and nothing is quoted or judged. What can be said to whoever asks whether hand-cut wheels could show what
+these reconstructions intend: at 0.1 degrees, ripple and cutting are {planets}. The Moon's anomaly, 13
+degrees peak to peak, stands out from ripple and cutting of half its size each; how well it is drawn does not: that
+pin and slot meet the true Moon within {theory} could not be seen on such a pointer.
 
 **An indicated position of the Moon could differ by 20 degrees** (Edmunds and Freeth 2011, second-hand). *Stands
-from errors of 0.3 degrees on*, and at any error once the crank turns back.
+from errors of 0.3 degrees on* ([cut by hand](cut-by-hand.md)), and at any error once the crank turns back.
 
-**What nobody counts: lost motion.** In the middle of their windows triangular teeth have a play of a third of a
-pitch and more, and the Moon stands at the end of six pairs that gear up. When the crank turns back it stays behind
-by up to {lost}, the Saros pointer by {saros_lost}. That is the greatest cause on nearly every pointer, and it is
-one that a user avoids by always turning forward: all other figures here assume that. Whoever sets such a mechanism
+**Lost motion**, of which neither abstract nor second-hand quotation speaks. In the middle of its window a pair of
+triangular teeth has a play of a good part of a pitch, and six pairs lie before the Moon. When the crank turns back it
+stays behind by up to {lost}, the Saros pointer by {saros_lost}. That is the greatest cause on nearly every pointer,
+and one that a user avoids by always turning forward, as all other figures here assume. Whoever sets such a mechanism
 to a date must come to it from before.
 """
 

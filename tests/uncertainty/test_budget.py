@@ -7,6 +7,7 @@ from math import atan2, degrees, pi, sin, sqrt
 
 import numpy as np
 import pytest
+from sorge import Pair, first_of_all
 
 import geartrain
 from geartrain import GearTrain
@@ -151,12 +152,16 @@ def test_lost_motion_of_involutes_is_the_sum_of_their_play_at_the_pointer() -> N
     assert pointer["teeth"].degrees == 0.0
 
 
-def test_lost_motion_of_one_triangular_pair_is_never_less_than_its_play() -> None:
+def test_lost_motion_of_one_triangular_pair_is_the_room_between_its_envelopes() -> None:
     train = geartrain.load("moon-triangular")
     lost = find_budget(train, BudgetQuestion(outputs=("sun",), **SHORT))["sun"]["lost motion"]
-    (least,) = (mesh.play * 360 / 225 for mesh in train.meshes if mesh.name == "a~b1")
-    assert least <= (lost.rms or 0.0) <= (lost.degrees or 0.0) <= 360 / 225
-    assert lost.degrees >= least
+    (sizes,) = (mesh.cut_sizes for mesh in train.meshes if mesh.name == "a~b1")
+    pair = Pair(sizes.z1, sizes.z2, sizes.R1, sizes.R2, sizes.beta1, sizes.beta2, sizes.excess, np)
+    # the reference from the closure equations: U(t) - L(t) with L(t) = -U(-t) - p2, over one pitch
+    t = np.linspace(0.0, pair.p1, 2001)
+    play = np.degrees(first_of_all(pair, t) + first_of_all(pair, -t) + pair.p2)
+    assert lost.degrees == pytest.approx(play.max(), rel=1e-3)
+    assert lost.rms == pytest.approx(sqrt(np.mean(play**2)), rel=1e-3)
 
 
 def test_the_ripple_of_each_pair_alone_is_its_own_range_at_the_pointer() -> None:
@@ -188,6 +193,16 @@ def test_a_train_with_teeth_on_some_pairs_says_on_how_many() -> None:
     teeth = find_budget(train, BudgetQuestion(**SHORT))["c"]["teeth"]
     assert teeth.declared == "part"
     assert teeth.note.startswith("1 of 2 pairs")
+
+
+def test_teeth_without_a_declared_backlash_have_no_known_play() -> None:
+    form = "tooth_form: {form: involute, pressure_angle: 20 deg}"
+    pointer = find_budget(declare(f"[{{pair: [p, q], {form}}}, {{pair: [r, s], {form}}}]"), BudgetQuestion(**SHORT))[
+        "c"
+    ]
+    assert pointer["teeth"].degrees == 0.0
+    assert pointer["lost motion"].declared == "not declared"
+    assert "backlash" in pointer["lost motion"].note
 
 
 def test_followers_whose_pins_have_no_size_are_no_perfect_pointers() -> None:

@@ -181,10 +181,10 @@ def tooth_causes(found: ToothMotion, name: str, degrees_per_day: float | None) -
     more = f"; {bare}, which pass on no ripple here" if known.bare else ""
     play = f"; play of the pins of {', '.join(known.pins)} unknown" if known.pins else ""
     declared: Declared = "part" if known.bare or known.real < known.gears else "whole"
-    return (
-        _cause("teeth", declared, tally.peak_to_peak, tally.rms, degrees_per_day, of + worst + more),
-        _cause("lost motion", "part" if known.pins else declared, most, rms, degrees_per_day, of + play),
-    )
+    lost = _cause("lost motion", "part" if known.pins else declared, most, rms, degrees_per_day, of + play)
+    if known.real and most < _FEW:
+        lost = BudgetCause("lost motion", "not declared", note="its pairs have teeth, but no backlash is declared")
+    return _cause("teeth", declared, tally.peak_to_peak, tally.rms, degrees_per_day, of + worst + more), lost
 
 
 def _undeclared(note: str) -> tuple[BudgetCause, BudgetCause]:

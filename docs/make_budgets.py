@@ -171,7 +171,7 @@ def _literature(antikythera: list[Told]) -> list[str]:
         ),
         "saros_lost": _size(budget["saros"], "lost motion"),
     }
-    return [_filled(LITERATURE.format(**words))]
+    return [_filled(LITERATURE.format(**words)), ""]
 
 
 def _filled(text: str) -> str:

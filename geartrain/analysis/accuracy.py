@@ -7,7 +7,7 @@ reason, and costs nothing. How methods do on whole families of trains is measure
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import partial
 
@@ -59,7 +59,16 @@ class TrainAccuracy(Result):
     left_out: dict[str, str]
 
 
-def find_accuracy(train: GearTrain, state: str | None = None, positions: int = 10_000) -> TrainAccuracy:
+Measurement = Callable[[GearTrain, str | None], Iterator[MethodAccuracy]]
+"""What yields the methods of a stage, on a train in a state; raises `AbsentStageError` where there is none."""
+
+
+def find_accuracy(
+    train: GearTrain,
+    state: str | None = None,
+    positions: int = 10_000,
+    more: Mapping[Stage, Measurement] | None = None,
+) -> TrainAccuracy:
     """Measure every method of every stage that the train has.
 
     Parameters
@@ -70,6 +79,8 @@ def find_accuracy(train: GearTrain, state: str | None = None, positions: int = 1
         The state to solve; by default that of a train without states.
     positions : int
         Driver angles of each transmission function, and positions of the input over 20 turns; 2 or more.
+    more : mapping of str to callable, optional
+        Further stages, from rooms that stand above trains: name -> what yields its methods.
 
     Returns
     -------
@@ -99,6 +110,7 @@ def find_accuracy(train: GearTrain, state: str | None = None, positions: int = 1
         LAWS: partial(measure_laws, train, state, positions),
         MOTION: partial(measure_motion, train, state, positions),
         TORQUES: partial(measure_torques, train, state),
+        **{stage: partial(measure, train, state) for stage, measure in (more or {}).items()},
     }
     methods: list[MethodAccuracy] = []
     left_out: dict[str, str] = {}

@@ -24,11 +24,13 @@ if TYPE_CHECKING:
     from geartrain.kinematics.answer import Answer
     from geartrain.numerics.arrays import Floats
 
-Stage = Literal["speeds", "transmission functions", "motion", "torques"]
+Stage = Literal["speeds", "transmission functions", "motion", "torques", "optimisation"]
 SPEEDS: Final = "speeds"
 LAWS: Final = "transmission functions"
 MOTION: Final = "motion"
 TORQUES: Final = "torques"
+OPTIMISATION: Final = "optimisation"
+"""Measured by `synthesis`, which knows how to size teeth."""
 TURNS = 20.0
 """Turns of the input over which motion is followed."""
 _NO_FORM = "no pair has a tooth form, and no pin its sizes"
@@ -49,13 +51,15 @@ class MethodAccuracy:
     error : float or None
         Greatest error, in `unit`; None for the method that others are held against.
     unit : str
-        Of the error: relative, pitches of the driven side, or degrees.
+        Of the error: relative, pitches of the driven side, degrees, or a part of the power that a pair is given.
     reference : str
         What the error was held against.
     prepared : float or None
         Time of what came before it once, such as making tables [s].
     ratio : float
         Seconds over those of the cheapest method of the stage, 1 or more.
+    evaluations : int or None
+        How often a search asked for the figure that it makes small; None for what is no search.
 
     See Also
     --------
@@ -66,10 +70,11 @@ class MethodAccuracy:
     method: str
     seconds: float
     error: float | None
-    unit: Literal["relative", "pitches", "deg"]
+    unit: Literal["relative", "pitches", "deg", "of power"]
     reference: str
     prepared: float | None = None
     ratio: float = 1.0
+    evaluations: int | None = None
 
 
 class AbsentStageError(Exception):

@@ -2,11 +2,19 @@
 
 from __future__ import annotations
 
-from typing import Annotated
+from collections.abc import Iterator
+from functools import partial
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from geartrain.cli.common import GOOD, VERDICT, File, Force, Json, Out, StateName, give, sink
+from geartrain.cli.long_runs import ProgressBar, progress
+
+if TYPE_CHECKING:
+    from geartrain.analysis import GearTrain, MethodAccuracy
+    from geartrain.analysis.accuracy import Measurement
+    from geartrain.analysis.method_accuracy import Stage
 
 
 def run(
@@ -19,16 +27,29 @@ def run(
     out: Out = None,
     force: Force = False,
 ) -> None:
-    """Measure error against run time on a train: exact and float speeds, transmission functions, motion, torques."""
+    """Measure error against run time on a train: speeds, transmission functions, motion, torques, optimisation."""
     from geartrain.analysis import find_accuracy
     from geartrain.analysis.loader import load
-    from geartrain.analysis.method_accuracy import SPEEDS
+    from geartrain.analysis.method_accuracy import OPTIMISATION, SPEEDS
     from geartrain.report.accuracy_report import AccuracyReport, describe_accuracy
 
     to = sink(out, force, (".md", ".html", ".json"))
     train = load(file)
     states = (state,) if state is not None else train.states or (None,)
-    measured = tuple(find_accuracy(train, name, positions) for name in states)
+    with progress("bench", patience=2) as bar:
+        more: dict[Stage, Measurement] = {OPTIMISATION: partial(_measure_optimisation, bar)}
+        measured = tuple(find_accuracy(train, name, positions, more) for name in states)
     found = AccuracyReport(train.name, train.declaration.title, measured)
     give(to, json, lambda: found, lambda: [describe_accuracy(found)])
     raise typer.Exit(VERDICT if any(SPEEDS in each.left_out for each in measured) else GOOD)
+
+
+def _measure_optimisation(bar: ProgressBar, train: GearTrain, state: str | None) -> Iterator[MethodAccuracy]:
+    """How teeth are best sized; nothing of it is loaded for a train without tooth forms."""
+    from geartrain.analysis.method_accuracy import AbsentStageError
+
+    if not train.meshes_in(state):
+        raise AbsentStageError("no pair has triangular teeth of free sizes")
+    from geartrain.synthesis.tooth_sizes.search_accuracy import measure_optimisation
+
+    return measure_optimisation(train, state, bar.advance)

@@ -10,8 +10,8 @@ from geartrain.numerics.plain_data import Result
 from geartrain.report.document import Document, Section, Table
 
 _LEAD = (
-    "Times are the best of repeats on this machine; compare them within a stage only, as ratios to its cheapest way. "
-    "`prepared` is what comes once, before: laws, windows of clearance, tables."
+    "Times are the best of repeats on this machine, or of one run where that takes long; compare them within a stage "
+    "only, as ratios to its cheapest way. `prepared` is what comes once, before: laws, windows of clearance, tables."
 )
 
 
@@ -47,6 +47,10 @@ def _table(rows: Sequence[MethodAccuracy]) -> Table:
         [row.method, _time(row.prepared), _time(row.seconds), f"{row.ratio:.3g}", _error(row), row.reference]
         for row in rows
     ]
+    if any(row.evaluations is not None for row in rows):
+        header.append("evaluations")
+        for row, line in zip(rows, cells, strict=True):
+            line.append("-" if row.evaluations is None else str(row.evaluations))
     return Table(header, cells)
 
 
@@ -57,5 +61,7 @@ def _error(row: MethodAccuracy) -> str:
 
 
 def _time(seconds: float | None) -> str:
-    """Three digits in milliseconds."""
-    return "-" if seconds is None else f"{seconds * 1e3:.3g} ms"
+    """Three digits, in milliseconds below a second."""
+    if seconds is None:
+        return "-"
+    return f"{seconds:.3g} s" if seconds >= 1 else f"{seconds * 1e3:.3g} ms"

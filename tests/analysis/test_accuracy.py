@@ -16,7 +16,7 @@ from commands import LOCKED, RIGHT, call
 
 from geartrain import GearTrain, load
 from geartrain.analysis import MethodAccuracy, TrainAccuracy, find_accuracy, method_accuracy
-from geartrain.analysis.method_accuracy import LAWS, MOTION, SPEEDS, TORQUES
+from geartrain.analysis.method_accuracy import LAWS, MOTION, OPTIMISATION, SPEEDS, TORQUES
 
 PAIR: dict[str, Any] = {
     "links": {"frame": {}, "a": {"wheels": {"p": 20}}, "b": {"wheels": {"w": 40}}},
@@ -37,6 +37,7 @@ def _once() -> Iterator[None]:
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(method_accuracy, "_ENOUGH", 0.0)
         patch.setattr(method_accuracy, "_LONG", 0.0)
+        patch.setattr("geartrain.synthesis.tooth_sizes.search_accuracy._REACH", 0.01)
         yield
 
 
@@ -119,13 +120,13 @@ def test_a_train_that_does_not_turn_says_so_and_measures_nothing(train_file: obj
     assert done.exit_code == 1
     (found,) = json.loads(done.stdout)["states"]
     assert found["methods"] == []
-    assert set(found["left_out"]) == {SPEEDS, LAWS, MOTION, TORQUES}
+    assert set(found["left_out"]) == {SPEEDS, LAWS, MOTION, TORQUES, OPTIMISATION}
 
 
 def test_the_command_has_a_table_for_each_stage_and_one_answer_for_each_state(train_file: object) -> None:
     done = call("bench", "moon-triangular", "--positions", 100)
     assert done.exit_code == 0
-    for stage in (SPEEDS, LAWS, MOTION):
+    for stage in (SPEEDS, LAWS, MOTION, OPTIMISATION):
         assert f"## {stage}\n" in done.stdout
     assert "torques: no loads are declared" in done.stdout
     states = RIGHT.replace("inputs: {a: 1}", "states: {one: {inputs: {a: 1}}, other: {inputs: {b: 1}}}")

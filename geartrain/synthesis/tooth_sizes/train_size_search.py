@@ -137,12 +137,11 @@ class TrainSizeSearch:
 
     @cached_property
     def _meshes(self) -> Mapping[str, TriangularMesh]:
-        found = (mesh for mesh in self.train.meshes_in(self.state) if isinstance(mesh, TriangularMesh))
-        return {mesh.name: mesh for mesh in found if not mesh.tooth_form.has_lengths}
+        return sizeable_meshes(self.train, self.state)
 
     @cached_property
     def _starts(self) -> Mapping[str, ToothSizes]:
-        return {name: _declared(mesh) for name, mesh in self._meshes.items()}
+        return {name: declared_sizes(mesh) for name, mesh in self._meshes.items()}
 
     @cached_property
     def _asked(self) -> tuple[str, ...]:
@@ -305,6 +304,12 @@ class TrainSizeSearch:
         }
 
 
+def sizeable_meshes(train: GearTrain, state: str | None) -> dict[str, TriangularMesh]:
+    """The pairs with triangular teeth whose sizes are not declared as lengths, by name."""
+    found = (mesh for mesh in train.meshes_in(state) if isinstance(mesh, TriangularMesh))
+    return {mesh.name: mesh for mesh in found if not mesh.tooth_form.has_lengths}
+
+
 def _form(sizes: ToothSizes) -> Triangular:
     return Triangular.declared(form_data(sizes))
 
@@ -314,7 +319,7 @@ def _rounded(sizes: ToothSizes) -> ToothSizes:
     return sizes.at({"radii": round(sizes.radii, DIGITS), "window": round(sizes.window, DIGITS)})
 
 
-def _declared(mesh: TriangularMesh) -> ToothSizes:
+def declared_sizes(mesh: TriangularMesh) -> ToothSizes:
     """The sizes of a pair as declared: the first wheel of the pair first; in mid window where it does not turn."""
     sizes, window = mesh.law.sizes, mesh.window
     driver = 1 + mesh.gear.pair.index(mesh.driver)

@@ -73,11 +73,9 @@ def _missing(train: GearTrain) -> list[str]:
     """What a budget needs and the train leaves open: teeth, friction, errors of cutting."""
     declared = train.declaration
     own = declared.tooth_form is not None or any(gear.tooth_form for gear in declared.gears)
-    cut = declared.cutting is not None
-    only_triangular = all(mesh.form == "triangular" for mesh in train.meshes)
     lines = [] if own else [FORM]
     lines += [FRICTION] if declared.friction is None and not any(gear.friction for gear in declared.gears) else []
-    return [*lines, *([] if cut or not only_triangular else [CUTTING])]
+    return lines if declared.cutting is not None else [*lines, CUTTING]
 
 
 def _budgets(train: GearTrain) -> tuple[TrainBudget, ...]:

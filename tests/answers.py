@@ -59,6 +59,7 @@ RUNS = (
     "motion {} --turns 2 --samples 400 --links --estimates --spectrum --json",
     "motion {} --turns -1/3 --samples 50 --csv",
     "montecarlo {} --trials 4 --json",
+    "budget {} --turns 2 --samples 400 --trials 4 --json",
     'montecarlo {} --trials 4 --set placement="0.1 deg" --set tip="0.3 %" --json',
 )
 """What is asked of every state of every shipped train."""
@@ -88,7 +89,19 @@ OTHERS = (
 )
 """What is asked of no train, or of several."""
 
-TELLING = ("solve", "report", "compare", "torques", "motion", "montecarlo", "sphere", "teeth", "posterior", "mesh")
+TELLING = (
+    "solve",
+    "report",
+    "compare",
+    "torques",
+    "motion",
+    "montecarlo",
+    "budget",
+    "sphere",
+    "teeth",
+    "posterior",
+    "mesh",
+)
 """Verbs with `--json`: where a page shows their text, their data are asked for too."""
 
 LIMIT = 200

@@ -35,8 +35,8 @@ def run(
     state: Annotated[str | None, typer.Option("--state", help="The state; default the first.")] = None,
     without: Annotated[Names, typer.Option("--without", help="Leave out a pair, to open a loop of real teeth.")] = None,
     span: Annotated[
-        str | None, typer.Option("--span", help="Time over which ratios drift, such as '19 yr'; default one Saros.")
-    ] = None,
+        str, typer.Option("--span", help="Time over which ratios drift: '6940 d', or a name that `periods` lists.")
+    ] = "saros_223_synodic_modern",
     turns: Annotated[str, typer.Option("--turns", help="Turns of the input over which teeth are followed.")] = "20",
     samples: Annotated[int, typer.Option("--samples", min=2, max=MOST_COUNT, help="Positions of the input.")] = 20_000,
     cutting: Annotated[
@@ -57,7 +57,7 @@ def run(
     """What each pointer's error comes from, in degrees and days: ratio, theory, teeth, lost motion, cutting."""
     from geartrain.analysis.loader import load
     from geartrain.report.budget_report import describe_budget
-    from geartrain.uncertainty.budget.train_budget import SAROS, STAGES, BudgetQuestion, find_budget
+    from geartrain.uncertainty.budget.train_budget import STAGES, BudgetQuestion, find_budget
 
     to = sink(out, force, (".md", ".html", ".json"))
     picture = sink(plot, force, PICTURES, "--plot")
@@ -65,7 +65,7 @@ def run(
     question = BudgetQuestion(
         tuple(output or ()),
         tuple(without or ()),
-        SAROS if span is None else quantity("--span", span, "time", least="above 0") / 86400,
+        _days(span),
         float(read_turns("--turns", turns)),
         samples,
         tuple(cutting or ()),
@@ -82,6 +82,16 @@ def run(
 
         draw(budget_figure(found), picture)
     give(to, json, lambda: found, lambda: [describe_budget(found)])
+
+
+def _days(text: str) -> float:
+    """A time, or a period of the shipped table, in days."""
+    from geartrain.train.periods import period_table
+
+    row = period_table().get(text.strip())
+    if row is not None and row.kind == "period":
+        return float(row.value)
+    return quantity("--span", text, "time", least="above 0") / 86400
 
 
 def _bodies(texts: list[str] | tuple[()]) -> Mapping[str, Body | None]:

@@ -75,6 +75,8 @@ class CuttingTrials:
 def find_cutting_trials(plan: TrialPlan, motion: Motion, count: int, seed: int, means: Execution) -> CuttingTrials:
     """Cut the wheels so many times; the motion is that with even teeth."""
     found = run_trials(plan, count, seed, means)
+    if not found.complete:  # interrupted: a budget of half the trials would not say so
+        raise KeyboardInterrupt
     teeth = ErrorDifference(plan.composition, without_teeth(motion).ahead)
     parts = [teeth.at(found.turns[start : start + teeth.chunk]).error for start in range(0, found.done, teeth.chunk)]
     return CuttingTrials(found, np.concatenate(parts, axis=1))

@@ -85,7 +85,7 @@ def rates(records: UncertaintyRecords) -> str:
     told = next(row for row in counts if row.error is not None)
     displaced = together(records, DISPLACED)
     # runs kept from before these were measured have none
-    more = paragraphs(FLANKS, **_of_flanks(records, displaced, places, every)) if displaced else ""
+    more = "\n" + paragraphs(FLANKS, **_of_flanks(records, displaced, places, every)) if displaced else ""
     return (
         "## Rates\n\n"
         + paragraphs(

@@ -17,7 +17,13 @@ from geartrain.teeth.conjugate.wheel_pair import WheelPair
 from geartrain.teeth.contact.gear_outline import GearOutline, ToothFlanks
 from geartrain.teeth.contact.outline_contact import TwoFlankContact, solve
 from geartrain.teeth.contact.outline_curve import OutlineCurve
-from geartrain.uncertainty import find_trial_plan, read_error_overrides, run_trials
+from geartrain.uncertainty import (
+    CutWheel,
+    cut_transmission_function,
+    find_trial_plan,
+    read_error_overrides,
+    run_trials,
+)
 from geartrain.uncertainty.manufacturing_errors.displaced_pair import DisplacedPair
 from geartrain.uncertainty.manufacturing_errors.displaced_wheel import DisplacedWheel
 from geartrain.uncertainty.manufacturing_errors.file_strokes import file_to_fit
@@ -310,6 +316,41 @@ def test_a_train_is_cut_filed_and_composed(form: str, tmp_path: Path) -> None:
     # to first order sigma on each wheel, and a mean lag of none: the spread of an error of one couple
     sigma = 0.01 * 2 * pi / 37 * 2**0.5
     assert 0.6 * sigma < found.pointers[0].deviation.value < 1.05 * sigma
+
+
+def test_a_stroke_lowers_a_triangular_flank_by_itself_and_moves_the_tip_down_the_other() -> None:
+    wheel = CutWheel.even(16, 10.0, 0.5).widened(RNG.uniform(-0.05, 0.05, 16)).placed(RNG.uniform(-0.02, 0.02, 16))
+    leading, trailing = RNG.uniform(0, 0.05, (2, 16))
+    filed = wheel.filed(leading, trailing)
+
+    def lines(each: CutWheel) -> list[tuple[np.ndarray, np.ndarray]]:
+        """Of both flanks the distance from the axle and the direction of the normal, ahead counted up."""
+        tip = each.r * np.exp(-1j * each.theta)
+        ways = (each.half_angle + each.leading, 1j), (each.half_angle + each.trailing, -1j)
+        normals = [tip / abs(tip) * side * np.exp(-side * lean) for lean, side in ways]
+        return [((tip / normal).real, np.angle(normal)) for normal in normals]
+
+    for (far, way), (then, turned), low in zip(lines(wheel), lines(filed), (leading, trailing), strict=True):
+        assert turned == pytest.approx(way, abs=1e-14)
+        assert far - then == pytest.approx(low, abs=1e-13)
+
+
+def test_triangular_pairs_are_filed_until_they_turn(tmp_path: Path) -> None:
+    # 15 % of such pairs jam, as docs/cut-by-hand.md prints
+    text = PAIR.replace("p: 24", "p: 64").replace("w: 37", "w: 38").replace("normal: 1 %", "normal: 5.16 %")
+    form = "{form: triangular, half_angle: 30 deg, clearance: 1.02}"
+    (tmp_path / "pair.yaml").write_text(text.replace("{form: FORM, backlash: 0.2}", form))
+    plan = find_trial_plan(geartrain.load(tmp_path / "pair.yaml"))
+    bare = replace(plan, pairs=tuple(replace(pair, stroke=0.0) for pair in plan.pairs))
+    before, after = run_trials(bare, 40), run_trials(plan, 40)
+    assert before.train.events["jam"].count == after.filings[-1].filed.count > 0
+    assert after.train.events["jam"].count == 0
+    # wheel by wheel, by the law of one pair
+    drawn = draw_trial_wheels(plan, RandomStreams(1, 0), 40)
+    at = int(np.argmax([work.strokes.sum() for work in drawn.filing.values()]))
+    pair, trial = drawn.pair(at), int(drawn.filing[at].strokes.argmax())
+    law = cut_transmission_function(pair.sizes, pair.first.trial(trial), pair.second.trial(trial))
+    assert law.events.play >= 0
 
 
 def test_settings_and_wheels_of_other_forms() -> None:

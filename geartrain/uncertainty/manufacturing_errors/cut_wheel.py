@@ -231,6 +231,24 @@ class CutWheel:
             self.trailing + turned,
         ).checked()
 
+    def filed(self, leading: Floats, trailing: Floats) -> CutWheel:
+        """The same teeth with flanks lowered along their normals: each tip moves down the other flank.
+
+        Parameters
+        ----------
+        leading, trailing : ndarray
+            By how much, 0 or more, (..., z) [as R].
+        """
+        ahead, behind = self.half_angle + self.leading, self.half_angle + self.trailing
+        # the other flank meets the lowered one this much farther down
+        down, across = 1 / np.sin(ahead + behind), trailing * np.sin(ahead) - leading * np.sin(behind)
+        radial = self.r - down * (leading * np.cos(behind) + trailing * np.cos(ahead))
+        late = -np.arctan2(down * across, radial)
+        tip = np.hypot(radial, down * across) - self.radius
+        return replace(
+            self, place=self.place + late, tip=tip, leading=self.leading - late, trailing=self.trailing + late
+        )
+
     def mirrored(self, first: int = 0) -> CutWheel:
         """The wheel seen from behind, turning the other way.
 

@@ -194,7 +194,7 @@ class DisplacedPair:
         """The same with the flank that stands out farthest of the four that are nearest there."""
         count = self.trials[0]
         best, where = np.full(count, np.inf), np.zeros((3, count), np.int64)
-        gain = np.full(count, float(self.contact.normal.min()))
+        gain = np.full(count, float(self.contact.normal.max()))
         for fronts, backs in self._phases():
             for front in fronts:
                 for back in backs:

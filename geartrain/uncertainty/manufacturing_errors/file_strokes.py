@@ -23,7 +23,7 @@ class TightPlace:
 
     play    least play over the cycle (rad of the driven wheel); below 0 it jams
     wheel   0 the driver, 1 the driven wheel; `tooth` of it, on its `side`: 0 leading, 1 trailing
-    gain    rad of the driven wheel by which the play grows where that flank is lowered by 1
+    gain    the most (rad of the driven wheel) by which the play grows where that flank is lowered by 1
     """
 
     play: Floats
@@ -59,11 +59,15 @@ Pair = TypeVar("Pair", bound=FileablePair)
 
 @dataclass(frozen=True)
 class FilingWork(Generic[Pair]):
-    """What was filed of many pairs: the pairs after it, and by trial how many strokes on how many teeth, (trials,)."""
+    """What was filed of many pairs: the pairs after it, and by trial how many strokes on how many teeth, (trials,).
+
+    low   how far each flank of either wheel is lowered, (trials, 2 sides, z)
+    """
 
     pair: Pair
     strokes: Ints
     teeth: Ints
+    low: tuple[Floats, Floats]
 
     @property
     def filed(self) -> Bools:
@@ -87,8 +91,8 @@ def file_to_fit(pair: Pair, stroke: float, deepest: float) -> FilingWork[Pair]:
         active, tight = active[jams], _some(tight, jams)
         if not len(active):
             break
-        # as many strokes as let this place pass; rounding must not leave it just below 0
-        wanted = np.maximum(np.ceil(-tight.play / (tight.gain * stroke) * (1 + 1e-12)), 1).astype(np.int64)
+        # no more strokes than this place needs at the least; where they were too few, it comes again
+        wanted = np.maximum(np.ceil(-tight.play / (tight.gain * stroke)), 1).astype(np.int64)
         wanted = np.minimum(wanted, int(np.ceil(deepest / stroke)))
         strokes[active] += wanted
         for wheel in (0, 1):
@@ -99,7 +103,7 @@ def file_to_fit(pair: Pair, stroke: float, deepest: float) -> FilingWork[Pair]:
         if not len(active):
             break
     teeth = sum(np.count_nonzero(each.any(axis=1), axis=1) for each in low)
-    return FilingWork(pair.filed((low[0], low[1])), strokes, np.asarray(teeth))
+    return FilingWork(pair.filed((low[0], low[1])), strokes, np.asarray(teeth), (low[0], low[1]))
 
 
 def _some(tight: TightPlace, rows: Bools) -> TightPlace:

@@ -26,7 +26,7 @@ from geartrain.uncertainty.manufacturing_errors.least_backlash import (
 )
 
 if TYPE_CHECKING:
-    from geartrain.numerics.arrays import Bools, Floats
+    from geartrain.numerics.arrays import Bools, Floats, Ints
 
 
 CHUNK = 1 << 15  # couples worked on at once: their arrays stay in a cache, and memory is bounded
@@ -104,9 +104,17 @@ class MeshingCycle:
     # ------------------------------------------------------------------------------------------------------------ jams
 
     def play(self) -> Floats:
-        """Least play of each trial (trials,): told roughly for all couples, exactly for those that come near it."""
+        """Least play of each trial (trials,)."""
+        return self.tightest()[0]
+
+    def tightest(self) -> tuple[Floats, Ints, Ints]:
+        """Least play of each trial, its front couple, and how many couples before it the back couple is, (trials,).
+
+        Told roughly for all couples, exactly for those that come near it.
+        """
         rough: dict[int, Any] = {}
         play = np.full(self.trials, inf)
+        where = np.zeros((2, self.trials), np.int64)
         for bound, each in self._candidates():
             if bound > play.max():
                 break
@@ -114,10 +122,10 @@ class MeshingCycle:
             rough[each.n] = np.minimum(rough[each.n], value) if each.n in rough else value
             play = np.minimum(play, value.min(axis=1))
         for n, value in rough.items():
-            self._refine(play, n, np.array(value))
-        return play
+            self._refine(play, where, n, np.array(value))
+        return play, where[0], where[1]
 
-    def _refine(self, play: Floats, n: int, rough: Floats) -> None:
+    def _refine(self, play: Floats, where: Ints, n: int, rough: Floats) -> None:
         """The exact play of every couple that may have the least: those seen tell how far rough ones are above it."""
         slack, open_ = _SLACK * self.sizes.p2, np.isfinite(rough)
         chosen = np.zeros_like(open_)
@@ -127,6 +135,10 @@ class MeshingCycle:
             if not len(rows):
                 return
             exact = self._exactly(rows, columns, n)
+            less = np.flatnonzero(exact <= play[rows])
+            # the least of each trial comes last, and stays
+            less = less[np.argsort(-exact[less], kind="stable")]
+            where[0, rows[less]], where[1, rows[less]] = columns[less], n
             np.minimum.at(play, rows, exact)
             open_[rows, columns] = False
             slack = max(slack, 2 * float(np.max(rough[rows, columns] - exact)))

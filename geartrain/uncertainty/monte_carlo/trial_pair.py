@@ -10,10 +10,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from geartrain.errors import Problem, QuestionError, RangeError
+from geartrain.errors import Problem, RangeError
 from geartrain.uncertainty.manufacturing_errors.cut_pair import CutGearPair
 from geartrain.uncertainty.manufacturing_errors.displaced_pair import DisplacedPair
 from geartrain.uncertainty.manufacturing_errors.file_strokes import FilingWork, file_to_fit
+from geartrain.uncertainty.manufacturing_errors.filed_cut_pair import FileableCutPair
 from geartrain.uncertainty.manufacturing_errors.least_backlash import jamming_bound, nominal_backlash
 from geartrain.uncertainty.manufacturing_errors.meshing_verdicts import batch_verdicts
 from geartrain.uncertainty.manufacturing_errors.trial_transmission import (
@@ -152,14 +153,19 @@ class TriangularTrialPair(TrialPair):
         return CutTrialTransmission(pair, self.even, rows)
 
     def filed(self, pair: Any) -> FilingWork[Any]:
-        """Refused."""
-        raise QuestionError(
-            Problem(
-                f"pair '{self.name}' has triangular teeth, which are not filed to fit",
-                "a triangular tooth loses height with every stroke, and no law of that is held here",
-                "leave `filing` out of the fitting of this pair",
-            )
-        )
+        """Those that jam are filed; the others are left as they are drawn."""
+        count = pair.trials[0] if pair.trials else 1
+        jams = np.flatnonzero(self.verdicts(pair).jams)
+        strokes, teeth = np.zeros((2, count), np.int64)
+        low = tuple(np.zeros((count, 2, z)) for z in self.teeth)
+        if len(jams):
+            whole = FileableCutPair(_each(pair, count))
+            work = file_to_fit(whole.taken(jams), self.stroke * self.depth, _SPOILT * self.sizes.R2 * self.pitches[1])
+            strokes[jams], teeth[jams] = work.strokes, work.teeth
+            for own, filed in zip(low, work.low, strict=True):
+                own[jams] = filed
+            pair = whole.filed((low[0], low[1])).pair
+        return FilingWork(pair, strokes, teeth, (low[0], low[1]))
 
     def jamming_bound(self, sigma: float) -> float:
         """2 lcm Q(play / 2 sigma)."""
@@ -239,3 +245,11 @@ class DisplacedTrialPair(TrialPair):
                 Problem(what, why, "leave --clearance out, or give factors above 1 where axes are parallel")
             )
         return replace(self, contact=self.contact.apart_by((clearance - 1) * self.contact.distance))
+
+
+def _each(pair: CutGearPair, count: int) -> CutGearPair:
+    """The pair with an axis of trials on both wheels."""
+    wheels = [
+        replace(wheel, place=np.broadcast_to(wheel.place, (count, wheel.z))) for wheel in (pair.first, pair.second)
+    ]
+    return CutGearPair(pair.sizes, wheels[0], wheels[1], pair.shift)

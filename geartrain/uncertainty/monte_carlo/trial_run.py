@@ -274,7 +274,8 @@ def jamming_bounds(plan: TrialPlan) -> dict[str, float]:
     found = {}
     for pair in plan.pairs:
         wheels = plan.wheels[pair.first], plan.wheels[pair.second]
-        plain = all(not each.tables and set(each.errors) <= {"placement"} for each in wheels) and not pair.fitting
+        plain = all(not each.tables and set(each.errors) <= {"placement"} for each in wheels)
+        plain = plain and not pair.fitting and not pair.stroke
         normal = all(off.way == "normal" for each in wheels for off in each.errors.values())
         if plain and normal:
             # the bound is of one deviation for both wheels: the greater of the two

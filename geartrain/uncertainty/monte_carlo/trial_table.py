@@ -56,6 +56,7 @@ def _names(plan: TrialPlan) -> list[str]:
         "turns",
         *(f"{name} error (deg)" for name in plan.outputs),
         *(f"{pair.name} {what}" for pair in plan.pairs for what in ("play (pitches)", "events")),
+        *(f"{pair.name} {what}" for pair in plan.pairs if pair.stroke for what in ("strokes", "teeth filed")),
     ]
 
 
@@ -64,4 +65,7 @@ def _columns(plan: TrialPlan, rows: TrialRecord) -> list[Floats]:
     values = [rows.first + np.arange(len(rows.turns)), rows.turns, *np.degrees(rows.errors.T)]
     for at in range(len(plan.pairs)):
         values += [rows.play[:, at], rows.marks[:, at]]
+    for at, pair in enumerate(plan.pairs):
+        if pair.stroke:
+            values += [rows.filing[:, 2 * at].astype(np.int64), rows.filing[:, 2 * at + 1].astype(np.int64)]
     return values

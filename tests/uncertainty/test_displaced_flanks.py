@@ -318,6 +318,19 @@ def test_a_train_is_cut_filed_and_composed(form: str, tmp_path: Path) -> None:
     assert 0.6 * sigma < found.pointers[0].deviation.value < 1.05 * sigma
 
 
+def test_axles_that_are_not_where_the_teeth_are_made_for_are_no_error_of_cutting(tmp_path: Path) -> None:
+    text = PAIR.replace("FORM, backlash: 0.2", "cycloidal, backlash: 0.2, centre_distance: 30.55")
+    (tmp_path / "pair.yaml").write_text(text)
+    train = geartrain.load(tmp_path / "pair.yaml")
+    plan = find_trial_plan(train, read_error_overrides(["placement=0.0001 %"]))
+    law, pitch, S = train.meshes[0].law, 2 * pi / 37, np.linspace(0, 2 * pi / 24, 50)
+    lag = draw_trial_wheels(plan, RandomStreams(1, 0), 1).pair(0).first_lag(np.zeros(50, int), S)[0]
+    # to first order in 0.05 modules, the ripple of the outlines' own law
+    assert np.ptp(law.error(S)) > 0.001 * pitch
+    assert -lag == pytest.approx(law.error(S), abs=1e-3 * pitch)
+    assert abs(run_trials(plan, 200).pointers[0].mean.value) < 1e-4 * pitch
+
+
 def test_a_stroke_lowers_a_triangular_flank_by_itself_and_moves_the_tip_down_the_other() -> None:
     wheel = CutWheel.even(16, 10.0, 0.5).widened(RNG.uniform(-0.05, 0.05, 16)).placed(RNG.uniform(-0.02, 0.02, 16))
     leading, trailing = RNG.uniform(0, 0.05, (2, 16))

@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from geartrain.teeth.conjugate.displaced_contact import DisplacedContact
 
 _PHASES = 4  # of a pitch at which couples are looked at, beside the ends of their paths: between, lags are smooth
+_FINE = 512  # of a pitch: for the mean of a lag with a few corners
 
 
 @dataclass(frozen=True)
@@ -302,6 +303,15 @@ class DisplacedPair:
             less = here < best
             best, which = np.where(less, here, best), np.where(less, n - j, which)
         return best, which
+
+
+def mean_lag(contact: DisplacedContact) -> float:
+    """The mean lag of even wheels (rad of the driven wheel): 0 at the distance that they are made for."""
+    if not contact.even.any():
+        return 0.0
+    pair = DisplacedPair(contact, *(DisplacedWheel.even(wheel.z) for wheel in contact.wheels))
+    S = np.arange(_FINE) * (contact.pitches[0] / _FINE)
+    return float(pair.first_lag(np.zeros(_FINE, np.int64), S)[0].mean())
 
 
 def _of(each: Floats, rows: Ints, teeth: Ints) -> Any:

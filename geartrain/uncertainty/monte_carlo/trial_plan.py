@@ -21,6 +21,7 @@ from geartrain.uncertainty.manufacturing_errors.declared_errors import (
     pair_errors,
     wheel_errors,
 )
+from geartrain.uncertainty.manufacturing_errors.displaced_pair import mean_lag
 from geartrain.uncertainty.monte_carlo.trial_pair import DisplacedTrialPair, TrialPair, TriangularTrialPair
 
 if TYPE_CHECKING:
@@ -267,10 +268,12 @@ def _pair(
     fitting = {kind: off for kind, off in fitting.items() if kind in OF_PAIRS}
     mirrored = senses.mirrored(mesh.name, mesh.driver), senses.mirrored(mesh.name, mesh.driven)
     numbers = names.index(mesh.driver), names.index(mesh.driven)
-    even, stroke = mesh.law.error_moments()[0], filing_stroke(train.declaration, mesh, lesser)
+    stroke = filing_stroke(train.declaration, mesh, lesser)
     if contact is None:
-        sizes = mesh.cut_sizes
+        sizes, even = mesh.cut_sizes, mesh.law.error_moments()[0]
         return TriangularTrialPair(mesh.name, *numbers, mirrored, even, sizes, fitting=fitting, stroke=stroke)
+    # that of the first-order law itself, lest its own error at another distance be taken for one of cutting
+    even = -mean_lag(contact)
     return DisplacedTrialPair(mesh.name, *numbers, mirrored, even, contact, fitting=fitting, stroke=stroke)
 
 

@@ -310,7 +310,7 @@ def mean_lag(contact: DisplacedContact) -> float:
     if not contact.even.any():
         return 0.0
     pair = DisplacedPair(contact, *(DisplacedWheel.even(wheel.z) for wheel in contact.wheels))
-    S = np.arange(_FINE) * (contact.pitches[0] / _FINE)
+    S = np.linspace(0.0, contact.pitches[0], _FINE, endpoint=False)
     return float(pair.first_lag(np.zeros(_FINE, np.int64), S)[0].mean())
 
 

@@ -1,4 +1,4 @@
-"""Tooth numbers for a wanted motion.
+"""Tooth numbers for a wanted motion, and sizes of triangular teeth.
 
 In: a ratio, a train with wheels to be found, a kind of epicyclic set, or the periods of an orrery; limits on wheels.
 Out: the tooth counts that fit, ranked, with proof that the search was complete, or why it was not.

@@ -14,7 +14,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from geartrain.errors import Problem, QuestionError, RangeError
-from geartrain.spherical.configuration import Configuration, mesh_kinds
+from geartrain.spherical import Configuration
+from geartrain.spherical.configuration import mesh_kinds
 from geartrain.spherical.pitch_cones import pitch_cone, separations
 
 if TYPE_CHECKING:

@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from geartrain import GearTrain
+from geartrain.synthesis import ConstraintOptions
 from geartrain.synthesis.constraints.assembly_constraints import find_constraints
-from geartrain.synthesis.constraints.constraint_options import ConstraintOptions
 from geartrain.synthesis.constraints.count_conditions import CountConstraint
 from geartrain.train import Train
 

@@ -6,9 +6,8 @@ from functools import cache
 
 import geartrain
 from geartrain import GearTrain
-from geartrain.report.train_data import TrainReport, collect_report
-from geartrain.scene import Scene, make_scene
-from geartrain.scene.layout import Layout, lay_out
+from geartrain.report import TrainReport, collect_report
+from geartrain.scene import Layout, Scene, lay_out, make_scene
 
 
 def trains() -> list[str]:

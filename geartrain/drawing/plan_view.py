@@ -177,7 +177,7 @@ def _name_wheels(page: ScaledPage, standing: ProjectedScene, wheels: Sequence[Sc
     for at in sorted(range(len(wheels)), key=lambda at: wheels[at].radius):
         wheel, lines = wheels[at], [wheels[at].id, str(wheels[at].teeth)]
         spots = list(_spots(centres[at], wheel, page.scale))
-        hidden = _within(np.array(spots).reshape(-1, 2), centres[:at], reach[:at])
+        hidden = points_in_discs(np.array(spots).reshape(-1, 2), centres[:at], reach[:at])
         spots = [spots[spot] for spot in np.argsort(hidden, kind="stable")]
         box = room.place(lines, _FINE, spots)
         if box is not None:
@@ -186,7 +186,7 @@ def _name_wheels(page: ScaledPage, standing: ProjectedScene, wheels: Sequence[Sc
         page.remarks.append(f"{room.left} names had no room")
 
 
-def _within(points: Floats, centres: Floats, reach: Floats) -> NDArray[np.bool_]:
+def points_in_discs(points: Floats, centres: Floats, reach: Floats) -> NDArray[np.bool_]:
     """Which points (n, 2) lie in one of the discs (m, 2)."""
     if not len(points) or not len(centres):
         return np.zeros(len(points), dtype=bool)

@@ -30,7 +30,7 @@ from marching import declared
 from sorge import mp
 
 from geartrain import GearTrainError, load
-from geartrain.teeth.pin_transmission import PinToSlotTransmission, SlotToPinTransmission
+from geartrain.teeth import PinToSlotTransmission, SlotToPinTransmission
 
 
 def parameters(case: Case) -> object:

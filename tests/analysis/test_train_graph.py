@@ -16,7 +16,8 @@ from reference_solver import find_carrier
 import geartrain
 from geartrain import GearTrain, load
 from geartrain.errors import DeclarationError, QuestionError
-from geartrain.kinematics.graph import to_dot, to_graphml, to_json
+from geartrain.kinematics import to_dot
+from geartrain.kinematics.graph import to_graphml, to_json
 from geartrain.numerics.lazy_graph import Lazy, LazyDict
 
 OF_LINKS = {"declared", "frame", "wheels", "reference", "speed"}

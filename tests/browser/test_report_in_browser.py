@@ -11,10 +11,7 @@ import shipped
 from playwright.sync_api import Browser, Page
 
 from geartrain import load
-from geartrain.report.document import Picture
-from geartrain.report.html_page import to_html
-from geartrain.report.shared_page import describe_shared_page
-from geartrain.report.train_data import collect_report
+from geartrain.report import Picture, collect_report, describe_shared_page, to_html
 
 EVIL = "<script>alert(1)</script>\"'><img src=x onerror=alert(2)>"
 SVG = (

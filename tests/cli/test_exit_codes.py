@@ -195,7 +195,7 @@ def test_a_run_with_nothing_to_resume_says_that_it_begins_anew(
 def test_a_journal_of_another_question_is_refused_and_kept(
     run: Callable[..., tuple[int, str, str]], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    from geartrain.numerics.work import Journal
+    from geartrain.numerics import Journal
 
     finish = Journal.finish
     monkeypatch.setattr(Journal, "finish", Journal.close)

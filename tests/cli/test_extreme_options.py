@@ -20,7 +20,8 @@ from hypothesis import strategies as st
 import geartrain
 from geartrain.dynamics import MotionRun
 from geartrain.errors import GearTrainError
-from geartrain.teeth.pin_transmission import PinToSlotTransmission, PinTransmission, SlotToPinTransmission
+from geartrain.teeth import PinToSlotTransmission, SlotToPinTransmission
+from geartrain.teeth.pin_transmission import PinTransmission
 from geartrain.teeth.triangular.pair_geometry import TriangularSizes, equal_depth
 from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
 

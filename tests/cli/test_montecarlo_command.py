@@ -117,7 +117,7 @@ def test_an_interrupted_run_says_so_and_is_taken_up(
 
 
 def test_a_journal_of_another_question_is_refused(train_file: Write, here: Path) -> None:
-    from geartrain.numerics.work import Journal
+    from geartrain.numerics import Journal
     from geartrain.uncertainty.monte_carlo.trial_run import journal_key
 
     plan = find_trial_plan(load(train_file(PAIR)))

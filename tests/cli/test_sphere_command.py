@@ -12,8 +12,7 @@ from commands import call
 from places import DOCS
 
 from geartrain import GearTrainError, load
-from geartrain.spherical import from_polyhedron
-from geartrain.spherical.gear_sphere import GearSphere
+from geartrain.spherical import GearSphere, from_polyhedron
 
 
 def data(*arguments: object) -> dict:

@@ -33,7 +33,7 @@ from studies.tooth_number_records import (
 )
 from studies.tooth_number_study import tooth_numbers
 
-from geartrain.analysis.gear_train import GearTrain
+from geartrain.analysis import GearTrain
 from geartrain.synthesis.formulas.output_formulas import with_counts
 
 

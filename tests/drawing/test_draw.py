@@ -34,7 +34,7 @@ from matplotlib.figure import Figure
 from geartrain.drawing import picture, render
 from geartrain.drawing.arrangement import arrange, spread
 from geartrain.drawing.dial_faces import dials_figure
-from geartrain.drawing.plan_view import _within, plan_figure
+from geartrain.drawing.plan_view import plan_figure, points_in_discs
 from geartrain.drawing.train_pictures import KINDS
 from geartrain.scene import make_scene
 from geartrain.scene.pose import body_errors, scene_pose
@@ -515,7 +515,7 @@ def test_a_row_twice_as_long_takes_twice_the_steps_to_draw() -> None:
 def test_spots_are_hidden_by_the_discs_they_lie_in(
     points: list[tuple[float, float]], discs: list[tuple[float, float, float]]
 ) -> None:
-    found = _within(
+    found = points_in_discs(
         np.array(points).reshape(-1, 2), np.array(discs).reshape(-1, 3)[:, :2], np.array([disc[2] for disc in discs])
     )
     assert list(found) == [any(hypot(x - u, y - v) < reach for u, v, reach in discs) for x, y in points]

@@ -29,6 +29,7 @@ from geartrain.drawing.tornado_chart import VarianceShare, tornado_figure
 from geartrain.errors import QuestionError
 from geartrain.uncertainty import IntervalEstimate as Figure_
 from geartrain.uncertainty import (
+    MonteCarloResult,
     SobolIndices,
     find_trial_plan,
     infer_counts,
@@ -37,7 +38,6 @@ from geartrain.uncertainty import (
     run_course,
     run_trials,
 )
-from geartrain.uncertainty.monte_carlo.monte_carlo_result import MonteCarloResult
 from geartrain.uncertainty.monte_carlo.sobol_indices import SobolIndex
 from geartrain.uncertainty.posterior.pairwise_posterior import joint_posterior, most_informative_wheels
 

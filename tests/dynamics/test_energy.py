@@ -24,7 +24,7 @@ from geartrain import GearTrain, GearTrainError, load, shipped
 from geartrain.dynamics import Torques
 from geartrain.dynamics.torques.flow_patterns import find_flow_patterns
 from geartrain.dynamics.torques.torque_balance import LoadedPair, TorqueBalance
-from geartrain.teeth.transmission import TransmissionFunction
+from geartrain.teeth import TransmissionFunction
 from geartrain.train.mechanism import Efficiencies
 
 Data = dict[str, Any]

@@ -20,7 +20,7 @@ from geartrain.dynamics.motion.error_composition import ErrorComposition
 from geartrain.dynamics.motion.pair_impacts import collision_energies
 from geartrain.kinematics.components import SolvedPart
 from geartrain.kinematics.speeds import solve
-from geartrain.teeth.pin_transmission import PinToSlotTransmission
+from geartrain.teeth import PinToSlotTransmission
 from geartrain.teeth.transmission import ExactRatio
 from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
 

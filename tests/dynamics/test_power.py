@@ -26,10 +26,9 @@ from geartrain.dynamics.motion.pair_impacts import collision_energies
 from geartrain.dynamics.torques.load_case import input_and_output
 from geartrain.dynamics.torques.power_flow import watts_per_unit
 from geartrain.numerics.decimal_text import percent_of_text, percent_text, watts_text
-from geartrain.report.document import Document
-from geartrain.report.text import to_markdown
-from geartrain.report.torque_figures import collect_torque_report, collect_torques
-from geartrain.report.torque_report import describe_torques, torque_sections
+from geartrain.report import Document, collect_torque_report, describe_torques, to_markdown
+from geartrain.report.torque_figures import collect_torques
+from geartrain.report.torque_report import torque_sections
 
 RING = """
 extends: planetary-24-18-60
@@ -462,8 +461,7 @@ def titles(document: Document) -> list[str]:
 
 
 def test_a_report_tells_of_torques_in_loaded_states_only() -> None:
-    from geartrain.report.train_data import collect_report
-    from geartrain.report.train_report import describe_train
+    from geartrain.report import collect_report, describe_train
 
     train = load(SPLIT)
     found = [title for title in titles(describe_train(collect_report(train))) if "torques" in title or "power" in title]

@@ -21,11 +21,8 @@ from strategies import Data, trains
 
 from geartrain import GearTrain, load
 from geartrain.dynamics import Torques
-from geartrain.report.text import to_markdown
-from geartrain.report.torque_figures import collect_torque_report, collect_torques
-from geartrain.report.torque_report import describe_torques
-from geartrain.report.train_data import collect_report
-from geartrain.report.train_report import describe_train
+from geartrain.report import collect_report, collect_torque_report, describe_torques, describe_train, to_markdown
+from geartrain.report.torque_figures import collect_torques
 
 AXLE = """
 links:

@@ -21,12 +21,10 @@ from places import DOCS
 
 from geartrain import GearTrain, GearTrainError, load
 from geartrain.dynamics import MotionRun
-from geartrain.report.text import to_markdown
-from geartrain.report.train_data import collect_report
-from geartrain.report.train_report import describe_train
+from geartrain.report import collect_report, describe_train, to_markdown
+from geartrain.teeth import GearMesh
 from geartrain.teeth.conjugate.conjugate_mesh import ConjugateMesh
 from geartrain.teeth.conjugate.conjugate_transmission import ConjugateTransmission
-from geartrain.teeth.gear_mesh import GearMesh
 from geartrain.teeth.triangular.triangular_mesh import TriangularMesh
 
 INVOLUTE = "{form: involute}"

@@ -20,12 +20,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from geartrain import load
-from geartrain.report.text import to_markdown
-from geartrain.report.torque_figures import collect_torque_report, collect_torques
-from geartrain.report.torque_report import describe_torques
-from geartrain.report.train_data import collect_report
-from geartrain.report.train_report import describe_train
-from geartrain.teeth.pin_transmission import PinToSlotTransmission, SlotToPinTransmission
+from geartrain.report import collect_report, collect_torque_report, describe_torques, describe_train, to_markdown
+from geartrain.report.torque_figures import collect_torques
+from geartrain.teeth import PinToSlotTransmission, SlotToPinTransmission
 
 PIN = """
 links: {frame: {}, a: {}, b: {}}

@@ -21,8 +21,8 @@ import geartrain
 from geartrain import GearTrain, GearTrainError
 from geartrain.export import export_files, notices, wheel_file
 from geartrain.scene import ManufacturingSizes, SolidModel, make_scene
+from geartrain.teeth import Involute
 from geartrain.teeth.conjugate.wheel_pair import WheelPair
-from geartrain.teeth.involute import Involute
 from geartrain.teeth.outline_mesh import OutlineMesh
 from geartrain.teeth.triangular.triangular_mesh import TriangularMesh
 

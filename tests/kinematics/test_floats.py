@@ -17,9 +17,11 @@ from test_large_trains import ten_thousand_cascade
 
 from geartrain import GearTrain, GearTrainError, load
 from geartrain.errors import RangeError
-from geartrain.kinematics.speeds.float_speeds import FloatSpeeds, solve_floats
+from geartrain.kinematics import FloatSpeeds
+from geartrain.kinematics.speeds.float_speeds import solve_floats
+from geartrain.numerics import LongFloat
 from geartrain.numerics.decimal_text import decimal
-from geartrain.numerics.long_float import LongFloat, scaled
+from geartrain.numerics.long_float import scaled
 
 EPS = Fraction(1, 2**53)
 

@@ -21,7 +21,7 @@ from strategies import trains
 from test_cases import KINEMATIC, REJECT, declaration
 
 from geartrain import GearTrain, load
-from geartrain.kinematics.gridlock import MeshRemoval
+from geartrain.kinematics import MeshRemoval
 from geartrain.kinematics.gridlock import removal_choice as choosing
 from geartrain.kinematics.gridlock.branch_and_bound import greedy_removal
 from geartrain.kinematics.gridlock.gain_graph import (

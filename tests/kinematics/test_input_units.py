@@ -5,6 +5,7 @@ The scales stand here once more, as turns a second, so that the tables under tes
 
 from __future__ import annotations
 
+import json
 import math
 from copy import deepcopy
 from fractions import Fraction
@@ -19,8 +20,8 @@ from strategies import Data, driven_trains
 import geartrain
 from geartrain import GearTrain, GearTrainError, load
 from geartrain.dynamics.torques.power_flow import watts_per_unit
-from geartrain.export.rexs import _per_minute
-from geartrain.scene import make_scene
+from geartrain.export import train_file
+from geartrain.scene import ManufacturingSizes, SolidModel, make_scene
 
 SCALES = {
     "turn/s": Fraction(1),
@@ -156,12 +157,10 @@ def test_watts_are_right_beside_a_zero_and_in_a_declared_unit(inputs: str, unit:
     ],
 )
 def test_an_export_counts_turns_a_minute(rest: str, a_minute: float) -> None:
-    from types import SimpleNamespace
-    from typing import cast
-
-    train = pair(rest)
-    work = cast("Any", SimpleNamespace(train=train, scene=SimpleNamespace(state=None)))
-    assert float(_per_minute(work)["a"]) == pytest.approx(a_minute, rel=1e-15)
+    model = json.loads(train_file(SolidModel(pair(rest), ManufacturingSizes()), "rexs"))["model"]
+    (running,) = (case["components"] for case in model["load_spectrum"]["load_cases"])
+    shaft = next(each for each in running if each["name"] == "a")
+    assert shaft["attributes"][0]["floating_point"] == pytest.approx(a_minute, rel=1e-15)
 
 
 @pytest.mark.parametrize(

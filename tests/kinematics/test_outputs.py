@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 
 from geartrain import GearTrain, GearTrainError, load
-from geartrain.kinematics.judged_outputs import TargetResult
+from geartrain.kinematics import TargetResult
 
 LUNAR = """
 name: lunar

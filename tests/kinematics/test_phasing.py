@@ -20,12 +20,8 @@ from studies.residue_errors import first_float_failure, measure_phase_accuracy
 from teeth3d import Wheel, best, in_space, misfits
 
 from geartrain import GearTrain, GearTrainError
-from geartrain.kinematics.phasing import (
-    MeshPhasing,
-    find_divisibility_rule,
-    spherical_divisibility_rule,
-    spherical_phasing,
-)
+from geartrain.kinematics import MeshPhasing
+from geartrain.kinematics.phasing import find_divisibility_rule, spherical_divisibility_rule, spherical_phasing
 from geartrain.numerics.integer_lattice import saturated_lattice
 from geartrain.numerics.rational_angles import rational_angle, recognised_angle
 from geartrain.spherical import Configuration

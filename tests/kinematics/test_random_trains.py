@@ -13,7 +13,7 @@ from joint_rates import TURNS_A_SECOND, Motion, move
 from random_trains import RandomTrain, driven_train, random_train
 
 from geartrain import GearTrain, GearTrainError
-from geartrain.kinematics.answer import Answer
+from geartrain.kinematics import Answer
 from geartrain.kinematics.components import SolvedPart
 from geartrain.kinematics.speeds import exact_verdict
 

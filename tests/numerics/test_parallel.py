@@ -28,7 +28,8 @@ from hypothesis import strategies as st
 from places import TESTS
 
 from geartrain.errors import GearTrainError, MissingExtraError, QuestionError
-from geartrain.numerics.work import Journal, cores, open_executor, run
+from geartrain.numerics import Journal, open_executor, run
+from geartrain.numerics.work import cores
 from geartrain.numerics.work import task_runner as running
 from geartrain.numerics.work.journal import first_difference
 from geartrain.numerics.work.processes import ProcessPool

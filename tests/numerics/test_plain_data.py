@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 import pytest
 
-from geartrain.numerics.long_float import LongFloat
+from geartrain.numerics import LongFloat
 from geartrain.numerics.plain_data import Key, Result, group, plain
 
 

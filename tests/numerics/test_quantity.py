@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from geartrain.numerics.quantity import Figure, Quantity
+from geartrain.numerics import Figure, Quantity
 
 
 @given(st.integers(-(10**12), 10**12))

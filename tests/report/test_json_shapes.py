@@ -13,7 +13,8 @@ from answer_schemas import holds
 from commands import LOCKED, RIGHT, WRONG, call
 from jsonschema import Draft202012Validator, SchemaError
 
-from geartrain.report.json_schema import answer_schema, answers
+from geartrain.report import answer_schema
+from geartrain.report.json_schema import answers
 
 ONE_STATE = RIGHT.replace("inputs: {a: 1}", "states: {only: {inputs: {a: 1}}}")
 TWO_STATES = RIGHT.replace("inputs: {a: 1}", "states: {only: {inputs: {a: 1}}, other: {inputs: {b: 1}}}").replace(

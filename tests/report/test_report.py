@@ -28,12 +28,15 @@ from rich.console import Console
 
 from geartrain import load
 from geartrain.cli.common import as_json
-from geartrain.report.html_page import to_html
-from geartrain.report.reconstruction_comparison import describe_comparison
-from geartrain.report.text import to_markdown, to_terminal
-from geartrain.report.torque_figures import collect_torque_report
-from geartrain.report.train_data import collect_report
-from geartrain.report.train_report import describe_train
+from geartrain.report import (
+    collect_report,
+    collect_torque_report,
+    describe_comparison,
+    describe_train,
+    to_html,
+    to_markdown,
+)
+from geartrain.report.text import to_terminal
 
 Rows = list[list[str]]
 SCRIPT = (ROOT / "geartrain" / "report" / "page.js").read_text(encoding="utf-8")

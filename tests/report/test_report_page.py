@@ -14,13 +14,16 @@ import pytest
 from commands import LOCKED, call, without
 
 from geartrain import GearTrainError, load
-from geartrain.report.document import Picture
-from geartrain.report.html_page import inline, is_web, to_html
-from geartrain.report.reconstruction_comparison import describe_comparison
-from geartrain.report.shared_page import describe_shared_page
-from geartrain.report.text import to_markdown
-from geartrain.report.train_data import collect_report
-from geartrain.report.train_report import describe_train
+from geartrain.report import (
+    Picture,
+    collect_report,
+    describe_comparison,
+    describe_shared_page,
+    describe_train,
+    to_html,
+    to_markdown,
+)
+from geartrain.report.html_page import inline, is_web
 
 SVG = (
     '<?xml version="1.0"?><!DOCTYPE svg><svg xmlns="http://www.w3.org/2000/svg" width="10pt" height="5pt" '

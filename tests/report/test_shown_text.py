@@ -20,8 +20,7 @@ from places import ROOT
 
 from geartrain.errors import Problem, printable
 from geartrain.numerics.files import LongTable, csv_line, csv_lines, csv_text
-from geartrain.report.document import Document, Section, Table
-from geartrain.report.text import to_markdown
+from geartrain.report import Document, Section, Table, to_markdown
 
 EVIL = "\x1b]0;owned\x07\x1b[2J\x9b31m\u202etxt"
 STEERING = re.compile("[\x00-\x08\x0b-\x1f\x7f-\x9f\u202a-\u202e\u2028\u2029]")
@@ -224,9 +223,8 @@ def test_a_terminal_shows_a_hostile_report_as_text(hostile: Path) -> None:
     from rich.console import Console
 
     from geartrain import load
+    from geartrain.report import collect_report, describe_train
     from geartrain.report.text import to_terminal
-    from geartrain.report.train_data import collect_report
-    from geartrain.report.train_report import describe_train
 
     out = io.StringIO()
     to_terminal(

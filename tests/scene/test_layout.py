@@ -15,7 +15,7 @@ from places import TRAINS
 from shapely.geometry import Point
 
 import geartrain
-from geartrain.scene.layout import Layout, WheelPlace, lay_out
+from geartrain.scene import Layout, WheelPlace, lay_out
 from geartrain.scene.layout.axial_slots import find_axial_slots
 
 NAMES = sorted(path.stem for path in TRAINS.glob("*/*.yaml"))

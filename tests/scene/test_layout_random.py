@@ -11,7 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from geartrain import GearTrain
-from geartrain.scene.layout import lay_out
+from geartrain.scene import lay_out
 
 TEETH = st.integers(8, 90)
 

@@ -19,10 +19,9 @@ from reference_solver import solve_naively, turning_graph, willis_rows
 from strategies import asked_trains, driven_trains, rerooted
 
 from geartrain import GearTrain, load
-from geartrain.scene import Scene, make_scene
+from geartrain.scene import Scene, lay_out, make_scene
 from geartrain.scene.bodies import find_bodies
 from geartrain.scene.context import SceneContext
-from geartrain.scene.layout import lay_out
 from geartrain.scene.pose import scene_pose
 
 SAMPLE = 20 if settings().derandomize else 40  # `--slow` draws new trains, and twice as many

@@ -13,15 +13,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from geartrain.errors import QuestionError, RangeError
+from geartrain.synthesis import TargetRatio, approximants, read_counts, read_ratio
 from geartrain.synthesis.gear_pair_search import count_pairs, find_pairs
-from geartrain.synthesis.stern_brocot import (
-    approximants,
-    nearest_first,
-    neighbours,
-    runs,
-)
-from geartrain.synthesis.target_ratio import TargetRatio, read_ratio
-from geartrain.synthesis.tooth_count_ranges import read_counts
+from geartrain.synthesis.stern_brocot import nearest_first, neighbours, runs
 
 SLOW = not settings().derandomize  # `--slow` draws new examples (conftest.py), and more
 

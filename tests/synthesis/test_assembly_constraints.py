@@ -19,9 +19,10 @@ from teeth3d import best, in_space
 
 from geartrain import GearTrain, load
 from geartrain.errors import QuestionError
-from geartrain.numerics.quantity import Quantity
+from geartrain.numerics import Quantity
+from geartrain.synthesis import ConstraintOptions
 from geartrain.synthesis.constraints.assembly_constraints import find_constraints
-from geartrain.synthesis.constraints.constraint_options import ConstraintOptions, read_constraint_options
+from geartrain.synthesis.constraints.constraint_options import read_constraint_options
 from geartrain.synthesis.constraints.count_conditions import Condition, CountConstraint, CountEquation
 from geartrain.synthesis.constraints.planet_assembly import bezout
 

@@ -15,11 +15,9 @@ from hypothesis import strategies as st
 
 from geartrain import GearTrain
 from geartrain.errors import QuestionError, RangeError
-from geartrain.synthesis.epicyclic.epicyclic_sets import EpicyclicSet, declare
+from geartrain.synthesis import EpicyclicSet, find_sets, read_ratio, search_train
+from geartrain.synthesis.epicyclic.epicyclic_sets import declare
 from geartrain.synthesis.epicyclic.set_kinds import EpicyclicKind, kinds
-from geartrain.synthesis.epicyclic.set_search import find_sets
-from geartrain.synthesis.target_ratio import read_ratio
-from geartrain.synthesis.train.train_search import search_train
 
 F = Fraction
 NAMES = list(kinds())

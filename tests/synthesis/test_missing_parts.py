@@ -11,8 +11,8 @@ import pytest
 from places import DOCS
 
 from geartrain import GearTrain, load
-from geartrain.synthesis.train.train_findings import PartFindings, TrainFindings
-from geartrain.synthesis.train.train_search import search_train
+from geartrain.synthesis import TrainFindings, search_train
+from geartrain.synthesis.train.train_findings import PartFindings
 
 F = Fraction
 Row = tuple[int, int, int]

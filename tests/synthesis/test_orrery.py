@@ -12,11 +12,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from geartrain import load
-from geartrain.analysis.gear_train import GearTrain
+from geartrain.analysis import GearTrain
 from geartrain.errors import QuestionError, RangeError
+from geartrain.synthesis import Orrery, find_orrery
 from geartrain.synthesis.orrery.arbor_trees import TreeEnumeration, fewest_wheels
-from geartrain.synthesis.orrery.orrery_result import Orrery
-from geartrain.synthesis.orrery.orrery_search import find_orrery
 from geartrain.synthesis.orrery.pair_ratio_table import pair_ratios, reach
 from geartrain.synthesis.orrery.period_targets import read_period_targets
 from geartrain.train.periods import period_table

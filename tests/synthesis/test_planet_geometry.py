@@ -21,7 +21,7 @@ from shapely import affinity
 
 from geartrain import GearTrain, load
 from geartrain.errors import QuestionError
-from geartrain.numerics.quantity import Quantity
+from geartrain.numerics import Quantity
 from geartrain.synthesis.constraints.decimal_sines import cosine, is_positive, sine
 from geartrain.synthesis.constraints.involute_interference import (
     InRing,

@@ -17,12 +17,9 @@ from hypothesis import strategies as st
 
 import geartrain
 from geartrain import GearTrain
-from geartrain.report.reconstruction_comparison import describe_comparison
-from geartrain.report.text import to_markdown
-from geartrain.report.train_data import collect_report
-from geartrain.report.train_report import describe_train
+from geartrain.report import collect_report, describe_comparison, describe_train, to_markdown
+from geartrain.synthesis import search_train
 from geartrain.synthesis.formulas import with_counts
-from geartrain.synthesis.train.train_search import search_train
 from geartrain.uncertainty import infer_counts
 
 Counts = tuple[int, int]

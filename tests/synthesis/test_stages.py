@@ -18,15 +18,13 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from geartrain.errors import QuestionError, RangeError
-from geartrain.numerics.work import Journal, open_executor
+from geartrain.numerics import Journal, open_executor
+from geartrain.synthesis import StageConstraints, StageFindings, TargetRatio, find_stages
 from geartrain.synthesis.ratio import search_segments as stages_work
 from geartrain.synthesis.ratio.product_windows import expand, products_of
 from geartrain.synthesis.ratio.ratio_windows import cuts, errors, rounded_up
 from geartrain.synthesis.ratio.stage_pairs import best_pairing, suited
-from geartrain.synthesis.ratio.stage_problem import StageConstraints
-from geartrain.synthesis.ratio.stage_search import StageFindings, find_stages
 from geartrain.synthesis.stern_brocot import farey_neighbours
-from geartrain.synthesis.target_ratio import TargetRatio
 
 SLOW = not settings().derandomize  # `--slow` draws new examples (conftest.py), and more
 Set = tuple[int, ...]

@@ -21,9 +21,7 @@ from geartrain import GearTrain, load
 from geartrain.cli.mesh import PairGroup
 from geartrain.dynamics.motion.pair_impacts import PairOperation, find_pair_impacts
 from geartrain.errors import GearTrainError
-from geartrain.report.text import to_markdown
-from geartrain.report.train_data import collect_report
-from geartrain.report.train_report import describe_train
+from geartrain.report import collect_report, describe_train, to_markdown
 from geartrain.scene import make_scene
 from geartrain.teeth import CircularArc
 from geartrain.teeth.any_tooth_form import tooth_forms

@@ -9,7 +9,7 @@ import pytest
 from places import DATA
 
 from geartrain.errors import GearTrainError
-from geartrain.numerics.quantity import Quantity
+from geartrain.numerics import Quantity
 from geartrain.teeth import Involute, Lantern
 from geartrain.teeth.conjugate.path_costs import measure
 from geartrain.teeth.conjugate.wheel_pair import WheelPair

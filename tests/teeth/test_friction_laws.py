@@ -9,7 +9,16 @@ import numpy as np
 import pytest
 
 from geartrain import GearTrainError, load
-from geartrain.teeth import CircularArc, Cycloidal, Involute, Lantern, LeastFriction, Triangular, UniformStress
+from geartrain.teeth import (
+    CircularArc,
+    Cycloidal,
+    Involute,
+    Lantern,
+    LeastFriction,
+    TransmissionFunction,
+    Triangular,
+    UniformStress,
+)
 from geartrain.teeth.friction_law import (
     BuckinghamFriction,
     DokosFriction,
@@ -18,7 +27,6 @@ from geartrain.teeth.friction_law import (
     TabulatedFriction,
 )
 from geartrain.teeth.rubbed_transmission import RubbedTransmission
-from geartrain.teeth.transmission import TransmissionFunction
 
 FT_MIN = 0.3048 / 60
 

@@ -17,9 +17,8 @@ from shapely import Polygon
 
 import geartrain
 from geartrain.errors import GearTrainError
+from geartrain.teeth import BlankSizes, Involute
 from geartrain.teeth.contact import GearOutline, OutlineCurve, ToothFlanks, solve
-from geartrain.teeth.involute import Involute
-from geartrain.teeth.outlines.cut_wheel import BlankSizes
 from geartrain.teeth.outlines.wheel_outline import outline
 
 ALPHA = pi / 9

@@ -14,12 +14,12 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from geartrain.errors import QuestionError
+from geartrain.teeth import BlankSizes, WheelOutline
 from geartrain.teeth.conjugate import optimal_sides as forms
 from geartrain.teeth.conjugate.conjugate_transmission import ConjugatePair
 from geartrain.teeth.conjugate.path_of_contact import PathOfContact
 from geartrain.teeth.conjugate.pitch_surfaces import PitchSurfaces
 from geartrain.teeth.outlines.contour import Contour
-from geartrain.teeth.outlines.cut_wheel import BlankSizes, WheelOutline
 from geartrain.teeth.outlines.wheel_outline import outline
 
 shapely = pytest.importorskip("shapely")

@@ -10,7 +10,8 @@ import numpy as np
 import pytest
 from studies.reference_solutions import reference
 
-from geartrain.teeth.transmission import ExactRatio, TransmissionFunction
+from geartrain.teeth import TransmissionFunction
+from geartrain.teeth.transmission import ExactRatio
 from geartrain.teeth.transmission_table import CellTable, TabulatedTransmission
 from geartrain.teeth.triangular.clearance_window import find_window
 from geartrain.teeth.triangular.pair_geometry import TriangularSizes, equal_depth

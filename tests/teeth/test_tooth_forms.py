@@ -16,6 +16,7 @@ from places import DATA
 from pydantic import ValidationError
 
 from geartrain.errors import GearTrainError
+from geartrain.teeth import Cycloidal, Involute, Lantern, LeastFriction, UniformStress, UniformTemperature
 from geartrain.teeth.conjugate.conjugate_form import ConjugateToothForm
 from geartrain.teeth.conjugate.conjugate_transmission import ConjugateTransmission
 from geartrain.teeth.conjugate.off_design import OffDesignTransmission, outlines
@@ -23,12 +24,6 @@ from geartrain.teeth.conjugate.path_costs import height, measure
 from geartrain.teeth.conjugate.path_of_contact import PathOfContact
 from geartrain.teeth.conjugate.wheel_pair import WheelPair
 from geartrain.teeth.contact.outline_contact import solve
-from geartrain.teeth.cycloidal import Cycloidal
-from geartrain.teeth.involute import Involute
-from geartrain.teeth.lantern import Lantern
-from geartrain.teeth.least_friction import LeastFriction
-from geartrain.teeth.uniform_stress import UniformStress
-from geartrain.teeth.uniform_temperature import UniformTemperature
 
 TABLES = json.loads((DATA / "tooth_shapes.json").read_text(encoding="utf-8"))
 PERFORMANCE = {(row[0], row[1]): row[2:] for row in TABLES["performance"]}

@@ -14,7 +14,7 @@ from mutants import mutant
 from places import DATA
 
 from geartrain import GearTrain, GearTrainError, load
-from geartrain.report.train_data import collect_report
+from geartrain.report import collect_report
 
 KEPT: dict[str, dict[str, Any]] = json.loads((DATA / "spoilt_declarations.json").read_text(encoding="utf-8"))
 """Declarations that once raised something else, by the seed they came of: a seed makes others as trains are added."""

@@ -17,9 +17,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from geartrain import load
-from geartrain.analysis.gear_train import GearTrain
+from geartrain.analysis import GearTrain
 from geartrain.errors import GearTrainError, QuestionError, RangeError
-from geartrain.numerics.work import Journal, open_executor
+from geartrain.numerics import Journal, open_executor
 from geartrain.report import describe_posterior
 from geartrain.synthesis.formulas import with_counts
 from geartrain.uncertainty import ToothCountPosterior, infer_counts

@@ -16,10 +16,11 @@ from sorge import Pair, least_play
 from test_hand_cut_batch import chance_that_none_rises
 
 from geartrain import GearTrain, load
-from geartrain.numerics.work import Execution, Journal, open_executor
+from geartrain.numerics import Execution, Journal, open_executor
 from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
 from geartrain.uncertainty import (
     CutWheel,
+    IntervalEstimate,
     TrialPlan,
     TrialResults,
     cut_transmission_function,
@@ -30,7 +31,7 @@ from geartrain.uncertainty import (
     run_course,
     run_trials,
 )
-from geartrain.uncertainty.confidence_intervals import IntervalEstimate, deviation_of, mean_of, percentile_of, wilson
+from geartrain.uncertainty.confidence_intervals import deviation_of, mean_of, percentile_of, wilson
 from geartrain.uncertainty.manufacturing_errors.meshing_verdicts import batch_verdicts
 from geartrain.uncertainty.monte_carlo.clearance_study import run_clearances
 from geartrain.uncertainty.monte_carlo.random_streams import RandomStreams

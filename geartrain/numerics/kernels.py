@@ -1,0 +1,124 @@
+"""Kernels: functions of numbers and arrays in plain Python that can be compiled, once and for all processes to come.
+
+A kernel is written with `@kernel` and called like any function; it then runs as Python. `compiled` is the same function
+as machine code by numba, an optional library (the extra `fast`), which keeps it on disk: beside the package, or where
+that cannot be written in the user's cache or `NUMBA_CACHE_DIR`. numba is imported when a kernel is first compiled or
+loaded, never before.
+
+A kernel may call other kernels by their names, and functions of `math`; what it calls is part of what the file on disk
+is known by, so that a change anywhere in it is compiled anew. Rounding is that of Python: no sums are reordered and no
+products fused. A division by zero gives an infinity, as in numpy, where Python's floats would raise. Arguments should
+keep their types, C-contiguous and writable arrays, for each new type is compiled anew.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from contextlib import suppress
+from functools import cached_property, update_wrapper
+from hashlib import sha256
+from importlib import import_module
+from importlib.util import find_spec
+from types import CodeType, FunctionType, ModuleType
+from typing import Any, Generic, ParamSpec, TypeVar, cast
+
+from geartrain.errors import MissingExtraError
+
+P = ParamSpec("P")
+R = TypeVar("R")
+
+_PAYS = 2.0  # s of work: less is done before numba is imported and kernels are loaded, which takes some half a second
+_PLAIN = (bool, int, float, str, bytes, tuple, type(None))  # values of globals that are compiled into a kernel
+
+
+class Kernel(Generic[P, R]):
+    """A function in plain Python, and the same compiled; made by `kernel`."""
+
+    def __init__(self, function: Callable[P, R]) -> None:
+        update_wrapper(self, function)
+        self._function = cast(FunctionType, function)
+
+    def __call__(self, *arguments: P.args, **named: P.kwargs) -> R:
+        """The function as Python runs it."""
+        return cast(R, self._function(*arguments, **named))
+
+    @cached_property
+    def compiled(self) -> Callable[P, R]:
+        """The function compiled, or loaded from disk when it is first called. Raises `MissingExtraError`."""
+        numba = _numba()
+        function = self._function
+        # a twin whose names of kernels stand for compiled ones; its own name holds all that it is compiled from
+        names = {name: each.compiled for name, each in self._named.items() if isinstance(each, Kernel)}
+        twin = FunctionType(
+            function.__code__, {**function.__globals__, **names}, function.__name__, function.__defaults__
+        )
+        twin.__qualname__ = f"{function.__qualname__}_{self.digest}"
+        made = numba.njit(twin, error_model="numpy", nogil=True)
+        with suppress(RuntimeError):  # where neither the package's folder nor a cache of the user's can be written
+            made.enable_caching()
+        return cast("Callable[P, R]", made)
+
+    def chosen(self, fast: bool) -> Callable[P, R]:
+        """The function compiled if it is to be fast, or as Python runs it."""
+        return self.compiled if fast else self
+
+    @property
+    def _named(self) -> dict[str, Any]:
+        """What the names of the function stand for in its module."""
+        known = self._function.__globals__
+        return {name: known[name] for name in _names(self._function.__code__) if name in known}
+
+    @cached_property
+    def digest(self) -> str:
+        """Of all that the function is compiled from: its code, constants of its module, kernels it calls."""
+        found = sha256(_text(self._function.__code__).encode())
+        for name, each in sorted(self._named.items()):
+            if isinstance(each, Kernel):
+                found.update(f"{name} {each.digest}".encode())
+            elif isinstance(each, _PLAIN):
+                found.update(f"{name} {each!r}".encode())
+        return found.hexdigest()[:16]
+
+
+def kernel(function: Callable[P, R]) -> Kernel[P, R]:
+    """A function of numbers and arrays as one that can be compiled: a decorator."""
+    return Kernel(function)
+
+
+def is_fast(fast: bool | None, seconds: float) -> bool:
+    """Whether kernels are compiled for work that takes Python and numpy some seconds.
+
+    fast   as the user asks; None compiles if numba is there and the work large enough to pay for loading it
+
+    Raises `MissingExtraError` where numba is asked for and is not installed.
+    """
+    if fast is None:
+        return seconds >= _PAYS and find_spec("numba") is not None and _usable()
+    if fast:
+        _numba()
+    return fast
+
+
+def _usable() -> bool:
+    try:
+        _numba()
+    except MissingExtraError:
+        return False
+    return True
+
+
+def _numba() -> ModuleType:
+    try:
+        return import_module("numba")
+    except ImportError as error:  # or one that does not know this Python or numpy yet
+        raise MissingExtraError("numba", "fast", "compiling kernels") from error
+
+
+def _names(code: CodeType) -> set[str]:
+    inner = (each for each in code.co_consts if isinstance(each, CodeType))
+    return set(code.co_names).union(*map(_names, inner))
+
+
+def _text(code: CodeType) -> str:
+    constants = [_text(each) if isinstance(each, CodeType) else repr(each) for each in code.co_consts]
+    return f"{code.co_code.hex()} {code.co_names} {code.co_varnames} {constants}"

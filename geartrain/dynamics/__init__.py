@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING
 from geartrain.numerics.lazy_names import lazy_names
 
 if TYPE_CHECKING:
+    from geartrain.dynamics.motion.corner_positions import CornerPositions
     from geartrain.dynamics.motion.error_composition import ErrorSamples
     from geartrain.dynamics.motion.error_curve import TransmissionErrorCurve
     from geartrain.dynamics.motion.motion_model import Motion
@@ -32,6 +33,7 @@ if TYPE_CHECKING:
 
 __all__ = [
     "BearingTorque",
+    "CornerPositions",
     "DrivenWay",
     "ErrorEstimates",
     "ErrorSamples",
@@ -55,6 +57,7 @@ __all__ = [
 
 _PLACES = {
     "BearingTorque": "torques.member_torques",
+    "CornerPositions": "motion.corner_positions",
     "DrivenWay": "torques.torque_results",
     "ErrorEstimates": "motion.superposition",
     "ErrorSamples": "motion.error_composition",

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from geartrain.dynamics.motion.corner_positions import CornerPositions, CornerSearch
 from geartrain.dynamics.motion.error_composition import ErrorComposition, ErrorSamples, SeenLink
 from geartrain.dynamics.motion.error_curve import TransmissionErrorCurve
 from geartrain.dynamics.motion.motion_problem import MotionProblem
@@ -273,6 +274,38 @@ class Motion:
         parts = [self.ahead.at(turns[start : start + chunk]) for start in range(0, len(turns), chunk)]
         error, rate = (np.concatenate([part[column] for part in parts], axis=1) for column in (1, 2))
         return ErrorSamples(turns, error, rate, frozenset().union(*(part.turned_back for part in parts)))
+
+    def corner_positions(self, start: float, end: float) -> CornerPositions:
+        """Where some pair that an output depends on is at a corner of its law: between them all errors are smooth.
+
+        A speed may jump there. To take its values on either side, ask a little before and a little after.
+
+        Parameters
+        ----------
+        start, end : float
+            Turns of the input; where the end is less than the start it turns back, on the other flanks.
+
+        Returns
+        -------
+        CornerPositions
+            Turns from the lesser to the greater of the two, both included, in ascending order, with the pair at each.
+
+        Raises
+        ------
+        QuestionError
+            If there are more than twenty million.
+
+        Examples
+        --------
+        A pair of triangular teeth has a corner a pitch, and the driver of the first makes 45 in one turn of the crank:
+
+        >>> import geartrain
+        >>> corners = geartrain.load("moon-triangular").motion(outputs=["moon"]).corner_positions(0, 1)
+        >>> len(corners.turns), corners.names().count("a~b1")
+        (160, 45)
+        """
+        composition = self.ahead if end >= start else self.back
+        return CornerSearch(composition).over(min(start, end), max(start, end))
 
     def ripples(
         self, turns: float, samples: int, on_done: Callable[[int], None] = lambda _: None

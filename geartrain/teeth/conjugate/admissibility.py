@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from math import cos, degrees, sin
+from math import degrees
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -37,7 +37,7 @@ def _undercuts(path: PathOfContact) -> Iterator[ToothFault]:
         for gear, U in ((1, contact.U1), (2, contact.U2)):
             if (U <= 0).any():
                 X = _standstill(path, d, U, gear, recess)
-                angle = degrees(X / (path.pitch.reach if gear == 1 else abs(path.pitch.reach2)))
+                angle = degrees(X / path.pitch.reach_of(gear))
                 where = "recess" if recess else "approach"
                 yield ToothFault(
                     "undercut",
@@ -69,7 +69,7 @@ def _pointed(path: PathOfContact, halves: Halves | None) -> Iterator[ToothFault]
     """Where the two flanks of a tooth would meet before its tip."""
     for gear, X in ((1, path.arcs[1]), (2, -path.arcs[0])):
         if X and (room := tip_thickness(path, gear, halves)) < 0:
-            z = path.pitch.z1 if gear == 1 else path.pitch.z2
+            z = path.pitch.teeth_of(gear)
             name = "recess" if X > 0 else "approach"
             point = _point(path, gear, X, halves)
             end = "end" if (X > 0) == (gear == 1) else "begin"
@@ -92,7 +92,7 @@ def _point(path: PathOfContact, gear: int, X: float, halves: Halves | None) -> f
     def room(x: float) -> float:
         return _thickness(path, gear, x, halves)
 
-    foot = -path.arcs[0] if gear == 1 else path.arcs[1]
+    foot, _ = path.ends(gear)
     foot = foot if foot * X > 0 else 0.0  # contact on one side of the pitch point keeps off it
     at_foot, at_tip = room(foot), room(X)
     return root(room, foot, X, at_foot, at_tip) if at_foot > 0 else 0.0
@@ -100,28 +100,21 @@ def _point(path: PathOfContact, gear: int, X: float, halves: Halves | None) -> f
 
 def tip_thickness(path: PathOfContact, gear: int, halves: Halves | None = None) -> float:
     """Angle (rad) of the top land of a gear's tooth; negative where its flanks cross. `halves` as in `faults`."""
-    return _thickness(path, gear, path.arcs[1] if gear == 1 else -path.arcs[0], halves)
+    return _thickness(path, gear, path.ends(gear)[1], halves)
 
 
 def _thickness(path: PathOfContact, gear: int, X: float, halves: Halves | None) -> float:
     """Angle (rad) between the flanks of a tooth where they touch at X."""
-    reach = path.pitch.reach if gear == 1 else abs(path.pitch.reach2)
+    reach = path.pitch.reach_of(gear)
     half = (halves[gear - 1] if halves else path.pitch.p / 4) / reach
-    points = (path.flank1 if gear == 1 else path.flank2)(np.array([X]))[0]
+    points = path.flank(gear, np.array([X]))[0]
     return float(2 * (half - _azimuth(path, gear, points)))
 
 
 def _azimuth(path: PathOfContact, gear: int, point: Floats) -> float:
     """How far (rad) a body point is from the direction of the pitch point, towards the middle of its flank's tooth."""
-    pitch = path.pitch
-    R = -pitch.R1 if gear == 1 else pitch.R2
-    if not pitch.bevel:
-        forwards = float(np.arctan2(point[0], (point[1] - R) * np.sign(-R)))
-        return -forwards if gear == 1 else forwards  # a driver's tooth is behind its flank
-    axis = np.array([0.0, sin(R), cos(R)])
-    start = np.array([0.0, 0.0, 1.0]) - cos(R) * axis
-    across = point - (point @ axis) * axis
-    return float(np.arctan2(np.cross(start, across) @ axis, start @ across))
+    _, forwards = path.pitch.polar(gear, point)
+    return float(-forwards if gear == 1 else forwards)  # a driver's tooth is behind its flank
 
 
 def _broken(path: PathOfContact) -> Iterator[ToothFault]:

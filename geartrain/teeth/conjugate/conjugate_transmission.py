@@ -80,10 +80,10 @@ class ConjugateTransmission(ExactRatio):
         self.pair, self.path, self.driver, self.direction = pair, pair.path, driver, direction
         self.friction = check_friction(friction)
         pitch = pair.path.pitch
-        sizes = ((pitch.z1, pitch.reach), (pitch.z2, abs(pitch.reach2)))
-        (z1, self._reach), (z2, driven) = sizes if driver == 1 else sizes[::-1]
+        z1, z2 = pitch.teeth_of(driver), pitch.teeth_of(3 - driver)
         super().__init__(Fraction(z1, z2), 2 * pi / z1)
-        self._play = pair.play / driven
+        self._reach = pitch.reach_of(driver)
+        self._play = pair.play / pitch.reach_of(3 - driver)
         self._ahead = self._play if direction < 0 else 0.0
         self._lead = pair.halves[driver - 1]
 

@@ -13,13 +13,15 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import lru_cache
 from math import cos, inf, pi, radians
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeVar
 
 import numpy as np
 
 from geartrain.errors import Problem, RangeError
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from geartrain.numerics.arrays import Floats
     from geartrain.teeth.conjugate.conjugate_transmission import ConjugatePair
     from geartrain.teeth.conjugate.path_of_contact import PathOfContact
@@ -27,23 +29,11 @@ if TYPE_CHECKING:
 
 _NODES = 257  # of the tables along the path and beyond its ends; linear between them
 _SMALL = 1e-12  # of a radian of contact beyond an end: none
+_END_STEP = 1e-4  # of the arc of contact: over which it is told how a tip's radius changes
 _BLUNT = radians(10)  # half the aperture, at least: of teeth with parallel sides no fraction could be taken
 
 
-def polar_of(pitch: PitchSurfaces, gear: int, points: Floats) -> tuple[Floats, Floats]:
-    """Radius of points about the axle of a gear, and azimuth from the pitch point, positive the way X grows.
-
-    Cylinders: points (..., 2), the radius in modules. Cones: points (..., 3) on the unit sphere, the radius in rad.
-    """
-    x = points[..., 0]
-    R = -pitch.R1 if gear == 1 else pitch.R2
-    side = 1.0 if gear == 1 else -float(np.sign(R))
-    if not pitch.bevel:
-        y = points[..., 1] - R
-        return np.hypot(x, y), np.arctan2(x, side * y)
-    axis, up = np.array([0.0, np.sin(R), np.cos(R)]), np.array([0.0, side * np.cos(R), -side * np.sin(R)])
-    outwards = points @ up
-    return np.arctan2(np.hypot(x, outwards), points @ axis), np.arctan2(x, outwards)
+Value = TypeVar("Value")
 
 
 def azimuth_at(pitch: PitchSurfaces, gear: int, own: float, other: Floats) -> Floats:
@@ -63,18 +53,6 @@ def azimuth_at(pitch: PitchSurfaces, gear: int, own: float, other: Floats) -> Fl
     return found
 
 
-def _point_at(pitch: PitchSurfaces, gear: int, radius: float, azimuth: Floats) -> Floats:
-    """Fixed points at polar places about the axle of a gear."""
-    R = -pitch.R1 if gear == 1 else pitch.R2
-    side = 1.0 if gear == 1 else -float(np.sign(R))
-    if not pitch.bevel:
-        return np.stack([radius * np.sin(azimuth), R + side * radius * np.cos(azimuth)], axis=-1)
-    axis, up = np.array([0.0, np.sin(R), np.cos(R)]), np.array([0.0, side * np.cos(R), -side * np.sin(R)])
-    out = np.sin(azimuth)[..., None] * np.array([1.0, 0.0, 0.0]) + np.cos(azimuth)[..., None] * up
-    found: Floats = np.cos(radius) * axis + np.sin(radius) * out
-    return found
-
-
 def corner_contact(path: PathOfContact, gear: int, radius: Floats, azimuth: Floats) -> tuple[Floats, Floats]:
     """How far both gears have turned (as X) while the tip of `gear` touches its mate's flank at points of it.
 
@@ -82,31 +60,25 @@ def corner_contact(path: PathOfContact, gear: int, radius: Floats, azimuth: Floa
     before the approach.
     """
     pitch, mate = path.pitch, 3 - gear
-    reach = {1: pitch.reach, 2: abs(pitch.reach2)}
-    end = np.array(path.arcs[1] if gear == 1 else -path.arcs[0])
-    tip_radius, tip_azimuth = (float(each) for each in polar_of(pitch, gear, _flank(path, gear, end)))
+    _, tip = path.ends(gear)
+    tip_radius, tip_azimuth = (float(each) for each in pitch.polar(gear, path.flank(gear, tip)))
     turned = azimuth_at(pitch, gear, tip_radius, radius) * (1.0 if gear == 1 else -1.0)
-    _, there = polar_of(pitch, mate, _point_at(pitch, gear, tip_radius, turned))
-    own, other = reach[gear] * (turned - tip_azimuth), reach[mate] * (there - azimuth)
+    _, there = pitch.polar(mate, pitch.from_polar(gear, tip_radius, turned))
+    own, other = pitch.reach_of(gear) * (turned - tip_azimuth), pitch.reach_of(mate) * (there - azimuth)
     return (own, other) if gear == 1 else (other, own)
-
-
-def _flank(path: PathOfContact, gear: int, X: Floats) -> Floats:
-    return (path.flank1 if gear == 1 else path.flank2)(X)
 
 
 def _touched(pair: ConjugatePair, gear: int) -> tuple[Floats, Floats]:
     """The flank that the tip of `gear` touches beyond the end of the path, from there on: polar points of its mate."""
-    path, mate, (approach, recess) = pair.path, 3 - gear, pair.path.arcs
-    first, last = (recess, -approach) if gear == 1 else (-approach, recess)
+    path, pitch, mate = pair.path, pair.path.pitch, 3 - gear
+    last, first = path.ends(gear)
     # closer towards the end of the path, where the corner leaves it along a parabola
     part = np.linspace(0, 1, _NODES) ** 2
     if pair.solid[mate - 1]:
-        return polar_of(path.pitch, mate, _flank(path, mate, first + (last - first) * part))
+        return pitch.polar(mate, path.flank(mate, first + (last - first) * part))
     # a round pin goes on beyond its flank, as far as its outermost point
-    pitch = path.pitch
-    radius, azimuth = (float(each) for each in polar_of(pitch, mate, _flank(path, mate, np.array(first))))
-    reach = pitch.reach if mate == 1 else abs(pitch.reach2)
+    radius, azimuth = (float(each) for each in pitch.polar(mate, path.flank(mate, first)))
+    reach = pitch.reach_of(mate)
     middle = reach * np.exp(1j * pair.halves[mate - 1] / reach * (-1 if mate == 1 else 1))
     out = middle / abs(middle)
     from_middle = (radius * np.exp(1j * azimuth) - middle) / out
@@ -229,58 +201,57 @@ class DisplacedContact:
 @lru_cache(maxsize=256)
 def displaced_contact(pair: ConjugatePair, driver: int, gap: float = 0.0) -> DisplacedContact:
     """The contact of a conjugate pair, one of its gears driving; `gap`: by how much its axles are farther apart."""
-    path, pitch = pair.path, pair.path.pitch
-    approach, recess = path.arcs
-    if approach + recess <= 0:
+    path, pitch, gears = pair.path, pair.path.pitch, (driver, 3 - driver)
+    if sum(path.arcs) <= 0:
         raise RangeError(
             Problem("these teeth do not reach each other", "no flank can be displaced", "give them longer arcs")
         )
-    ring = not pitch.bevel and pitch.R2 < 0
-    X = np.linspace(-approach, recess, _NODES)
+    # gear 2 drives the same contacts the other way round
+    sense = 1.0 if driver == 1 else -1.0
+    first, last = path.ends(driver)
+    X = np.linspace(first, last, _NODES)
     at = path.at(X)
-    reach = pitch.reach, abs(pitch.reach2)
-    normal = 1 / (reach[2 - driver] * at.cos_psi)
+    own, other = (pitch.reach_of(gear) for gear in gears)
+    normal = 1 / (other * at.cos_psi)
     tangent, radial = normal * at.cos_psi, normal * at.sin_psi
+    # from the axle of a gear to the pitch point; a ring's is that of the other wheel
+    ring = not pitch.bevel and pitch.R2 < 0
+    up = {1: sense, 2: sense if ring else -sense}
     # cones: a wheel whose axis leans moves its teeth across by the cosine of its cone, docs/cut-by-hand.md (3)
-    lean = (cos(pitch.R1), cos(pitch.R2)) if pitch.bevel else (1.0, 1.0)
-    # along: the way from its axle to the pitch point; a ring's is that of the other wheel
-    up = (1.0, 1.0 if ring else -1.0) if driver == 1 else (-1.0 if ring else 1.0, -1.0)
-    levers = flank_levers(path, 1, X), flank_levers(path, 2, X)
-    sign = 1.0 if driver == 1 else -1.0
-    order = (0, 1) if driver == 1 else (1, 0)
-    flip = slice(None) if driver == 1 else slice(None, None, -1)  # gear 2 drives the same contacts the other way round
-    tips = (_corner(pair, 3 - driver, driver), _corner(pair, driver, driver))
-    own, other = order
-    start, end = (-approach, recess) if driver == 1 else (-recess, approach)
+    lean = {1: cos(pitch.R1), 2: cos(pitch.R2)} if pitch.bevel else {1: 1.0, 2: 1.0}
     lead = pair.halves[driver - 1]
-    sizes = tuple(_sizes(pair, gear) for gear in (1, 2))
     found = DisplacedContact(
-        (sizes[own], sizes[other]),
-        (start - lead) / reach[own],
-        (end - lead) / reach[own],
-        tuple((tangent * lean[each])[flip] for each in order),  # type: ignore[arg-type]
-        tuple((each * radial)[flip] for each in up),  # type: ignore[arg-type]
-        tuple((sign * normal * levers[each])[flip] for each in order),  # type: ignore[arg-type]
-        ((-1.0 if ring else 1.0) * radial)[flip],
-        normal[flip],
-        *tips,
-        tuple(_end_shift(path, each + 1) / reach[own] for each in order),  # type: ignore[arg-type]
-        pair.play / reach[other],
-        sum(pair.halves) / reach[other],
-        np.zeros(_NODES),
-        inf if pitch.bevel else abs(pitch.R1 + pitch.R2),
+        wheels=_both(gears, lambda gear: _sizes(pair, gear)),
+        start=(sense * first - lead) / own,
+        end=(sense * last - lead) / own,
+        across=_both(gears, lambda gear: tangent * lean[gear]),
+        along=_both(gears, lambda gear: radial * up[gear]),
+        tilt=_both(gears, lambda gear: sense * normal * flank_levers(path, gear, X)),
+        apart=-radial if ring else radial,
+        normal=normal,
+        entering=_corner(pair, 3 - driver, driver),
+        leaving=_corner(pair, driver, driver),
+        longer=_both(gears, lambda gear: _end_shift(path, gear) / own),
+        play=pair.play / other,
+        stands=sum(pair.halves) / other,
+        even=np.zeros(_NODES),
+        distance=inf if pitch.bevel else abs(pitch.R1 + pitch.R2),
     )
     return found.apart_by(gap) if gap else found
+
+
+def _both(gears: tuple[int, int], value: Callable[[int], Value]) -> tuple[Value, Value]:
+    """A value of the driver, and of the driven wheel."""
+    return value(gears[0]), value(gears[1])
 
 
 def _corner(pair: ConjugatePair, gear: int, driver: int) -> CornerLag:
     """The lag of the driven gear while the tip of one gear touches: the driver's where it leaves, else as it enters."""
     path, pitch = pair.path, pair.path.pitch
-    first = path.arcs[1] if gear == 1 else -path.arcs[0]
-    turned1, turned2 = corner_contact(path, gear, *_touched(pair, gear))
-    lag = (turned1 - turned2) / (abs(pitch.reach2) if driver == 1 else pitch.reach)
-    own = turned1 / pitch.reach if driver == 1 else turned2 / abs(pitch.reach2)
-    beyond = (own - first / (pitch.reach if driver == 1 else abs(pitch.reach2))) * (1.0 if gear == 1 else -1.0)
+    _, first = path.ends(gear)
+    turned = corner_contact(path, gear, *_touched(pair, gear))
+    lag = (turned[0] - turned[1]) / pitch.reach_of(3 - driver)
+    beyond = (turned[driver - 1] - first) / pitch.reach_of(driver) * (1.0 if gear == 1 else -1.0)
     good = np.isfinite(beyond) & np.isfinite(lag) & (beyond >= 0)
     beyond, lag = np.append(0.0, beyond[good]), np.append(0.0, lag[good])
     # as far as the corner goes on; where it turns round it has left the flank
@@ -294,23 +265,20 @@ def _corner(pair: ConjugatePair, gear: int, driver: int) -> CornerLag:
 
 def _end_shift(path: PathOfContact, gear: int) -> float:
     """How much longer (X) a tip that is higher by 1 lets the contact last."""
-    approach, recess = path.arcs
-    end, inner = (recess, recess - 1e-4 * (approach + recess)) if gear == 1 else (-approach, -approach + 1e-4)
-    points = (path.flank1 if gear == 1 else path.flank2)(np.array([end, inner]))
-    radius, _ = polar_of(path.pitch, gear, points)
+    foot, tip = path.ends(gear)
+    step = _END_STEP * (foot - tip)
+    radius, _ = path.pitch.polar(gear, path.flank(gear, np.array([tip, tip + step])))
     rise = abs(float(radius[0] - radius[1]))
-    return abs(end - inner) / rise if rise else 0.0
+    return abs(step) / rise if rise else 0.0
 
 
 def _sizes(pair: ConjugatePair, gear: int) -> DisplacedWheelSizes:
     path, pitch = pair.path, pair.path.pitch
-    approach, recess = path.arcs
-    X = np.array([-approach, recess] if gear == 1 else [recess, -approach])
-    radius, azimuth = polar_of(pitch, gear, (path.flank1 if gear == 1 else path.flank2)(X))
-    reach = pitch.reach if gear == 1 else abs(pitch.reach2)
+    radius, azimuth = pitch.polar(gear, path.flank(gear, np.array(path.ends(gear))))
+    reach = pitch.reach_of(gear)
     half = pair.halves[gear - 1] / reach
     width = (np.sin(radius) if pitch.bevel else radius) * ((azimuth if gear == 1 else -azimuth) + half)
     depth = abs(float(radius[1] - radius[0]))
     lean = float(np.arctan2(width[0] - width[1], depth))
-    z = pitch.z1 if gear == 1 else pitch.z2
+    z = pitch.teeth_of(gear)
     return DisplacedWheelSizes(z, depth, max(lean, _BLUNT), z / (2 * reach))

@@ -66,8 +66,7 @@ def _outline(pair: ConjugatePair, gear: int, z: int, R: float) -> GearOutline:
         place = (points[:, 0] + 1j * points[:, 1]) * turn
         return np.stack([place.real, place.imag], axis=1)
 
-    approach, recess = pair.path.arcs
-    foot, tip = (-approach, recess) if gear == 1 else (recess, -approach)
+    foot, tip = pair.path.ends(gear)
     cuts = sorted({0.0, foot, tip, *_joints(pair.path)}, reverse=foot > tip)
     curves = [OutlineCurve(flank, a, b) for a, b in pairwise(cuts)]
     return GearOutline((ToothFlanks.symmetric((_straight(flank, foot, tip), *curves)),), z, ring=R < 0)
@@ -75,7 +74,7 @@ def _outline(pair: ConjugatePair, gear: int, z: int, R: float) -> GearOutline:
 
 def _body(path: PathOfContact, gear: int, X: Floats) -> Floats:
     """Points of a flank from the wheel's axle: x towards the space that the tooth leads into, y outwards."""
-    points = (path.flank1 if gear == 1 else path.flank2)(X)
+    points = path.flank(gear, X)
     if gear == 1:
         return np.asarray(points + np.array([0.0, path.pitch.R1]))
     R = path.pitch.R2

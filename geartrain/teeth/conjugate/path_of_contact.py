@@ -94,18 +94,14 @@ class PathOfContact:
         """Pitches of displacement while one pair touches; below 0 where no contact is in reach."""
         return sum(self.arcs) / self.pitch.p
 
+    def ends(self, gear: int) -> tuple[float, float]:
+        """Displacements X at which the root end of a gear's flank touches, and its tip."""
+        approach, recess = self.arcs
+        return (-approach, recess) if gear == 1 else (recess, -approach)
+
     def radii(self, gear: int) -> tuple[float, float]:
         """Radii (modules; half-angles of cones, rad) between which a gear's flank works, root end first."""
-        approach, recess = self.arcs
-        ends = np.array([-approach, recess] if gear == 1 else [recess, -approach])
-        points = (self.flank1 if gear == 1 else self.flank2)(ends)
-        R = -self.pitch.R1 if gear == 1 else self.pitch.R2
-        if self.pitch.bevel:
-            axis = np.array([0.0, np.sin(R), np.cos(R)])
-            # not acos, which loses half the digits of a slender cone
-            low, high = np.arctan2(np.linalg.norm(np.cross(points, axis), axis=1), points @ axis)
-        else:
-            low, high = np.hypot(points[:, 0], points[:, 1] - R)
+        (low, high), _ = self.pitch.polar(gear, self.flank(gear, np.array(self.ends(gear))))
         return float(low), float(high)
 
     def at(self, X: ArrayLike) -> PathContact:
@@ -158,6 +154,10 @@ class PathOfContact:
         """Points of gear 2's profile, likewise."""
         X = np.asarray(X, dtype=float)
         return self.pitch.on_gear2(self._points(X), X)
+
+    def flank(self, gear: int, X: ArrayLike) -> Floats:
+        """Points of the profile of gear 1 or 2, likewise."""
+        return self.flank1(X) if gear == 1 else self.flank2(X)
 
     def _points(self, X: Floats) -> Floats:
         contact = self.at(X)

@@ -61,6 +61,18 @@ class PitchSurfaces:
         """Pitch-line displacement X in one radian of gear 2: R2 (negative for a ring), or sin R2."""
         return sin(self.R2) if self.bevel else self.R2
 
+    def teeth_of(self, gear: int) -> int:
+        """Tooth number of gear 1 or 2."""
+        return self.z1 if gear == 1 else self.z2
+
+    def reach_of(self, gear: int) -> float:
+        """Pitch-line displacement in one radian of a gear, without sign."""
+        return self.reach if gear == 1 else abs(self.reach2)
+
+    def axle_of(self, gear: int) -> float:
+        """Height of the axle of a gear above the pitch point; bevel: the angle of its axis from it (rad)."""
+        return -self.R1 if gear == 1 else self.R2
+
     @property
     def p(self) -> float:
         """Circular pitch, as X."""
@@ -102,6 +114,40 @@ class PitchSurfaces:
     def on_gear2(self, points: Floats, X: Floats) -> Floats:
         """The same for gear 2: turned by -X / reach2 about O2."""
         return self._turned(points, -X / self.reach2, self.R2)
+
+    def polar(self, gear: int, points: Floats) -> tuple[Floats, Floats]:
+        """Radius of fixed points about the axle of a gear, and azimuth from the pitch point, positive the way X grows.
+
+        Cylinders: points (..., 2), the radius in modules. Cones: points (..., 3) on the unit sphere, the radius in rad.
+        """
+        x = points[..., 0]
+        if not self.bevel:
+            R = self.axle_of(gear)
+            y = points[..., 1] - R
+            return np.hypot(x, y), np.arctan2(x, self._side(gear) * y)
+        axis, up = self._axis_and_up(gear)
+        outwards = points @ up
+        # not acos, which loses half the digits of a slender cone
+        return np.arctan2(np.hypot(x, outwards), points @ axis), np.arctan2(x, outwards)
+
+    def from_polar(self, gear: int, radius: float, azimuth: Floats) -> Floats:
+        """Fixed points of one radius about the axle of a gear, the inverse of `polar`."""
+        if not self.bevel:
+            up = self.axle_of(gear) + self._side(gear) * radius * np.cos(azimuth)
+            return np.stack([radius * np.sin(azimuth), up], axis=-1)
+        axis, up = self._axis_and_up(gear)
+        out = np.sin(azimuth)[..., None] * np.array([1.0, 0.0, 0.0]) + np.cos(azimuth)[..., None] * up
+        found: Floats = np.cos(radius) * axis + np.sin(radius) * out
+        return found
+
+    def _side(self, gear: int) -> float:
+        """1 where the pitch point lies above the axle of a gear, -1 where it lies below."""
+        return 1.0 if self.axle_of(gear) < 0 else -1.0
+
+    def _axis_and_up(self, gear: int) -> tuple[Floats, Floats]:
+        """Of cones: the axis of a gear, and at right angles to it the direction of the pitch point."""
+        R, side = self.axle_of(gear), self._side(gear)
+        return np.array([0.0, sin(R), cos(R)]), np.array([0.0, side * cos(R), -side * sin(R)])
 
     def _turned(self, points: Floats, angle: Floats, R: float) -> Floats:
         """Rodrigues' rotation about the axis at the polar angle `R` from the pitch point; spur: at height R over it."""

@@ -69,16 +69,13 @@ def _R(path: PathOfContact, gear: int) -> float:
 
 def _polar(path: PathOfContact, gear: int, X: Floats) -> tuple[Floats, Floats]:
     """Radius about the axle, and azimuth from the pitch crossing towards the space."""
-    points = (path.flank1 if gear == 1 else path.flank2)(X)
-    centre = -path.pitch.R1 if gear == 1 else path.pitch.R2
-    up = 1.0 if centre < 0 else -1.0
-    azimuth = np.arctan2(points[:, 0], (points[:, 1] - centre) * up)
-    return np.hypot(points[:, 0], points[:, 1] - centre), azimuth if gear == 1 else -azimuth
+    radius, azimuth = path.pitch.polar(gear, path.flank(gear, X))
+    return radius, azimuth if gear == 1 else -azimuth
 
 
 def _spaced(path: PathOfContact, gear: int, X: Floats, tolerance: float) -> Floats:
     """Displacements at which a chord leaves the flank by as much everywhere: ds sqrt(curvature) constant."""
-    points = (path.flank1 if gear == 1 else path.flank2)(X)
+    points = path.flank(gear, X)
     steps = np.diff(points, axis=0)
     length = np.hypot(steps[:, 0], steps[:, 1])
     heading = np.unwrap(np.arctan2(steps[:, 1], steps[:, 0]))
@@ -94,7 +91,7 @@ def _spaced(path: PathOfContact, gear: int, X: Floats, tolerance: float) -> Floa
 
 def _bends(path: PathOfContact, gear: int, X: Floats) -> Floats:
     """Which points are the last before a flank turns from hollow to bulging, or back."""
-    points = (path.flank1 if gear == 1 else path.flank2)(X)
+    points = path.flank(gear, X)
     steps = np.diff(points @ np.array([1, 1j]))
     bent = np.angle(steps[1:] * np.conj(steps[:-1]))
     sense = np.sign(np.where(np.abs(bent) > _STRAIGHT, bent, 0.0))
@@ -149,7 +146,7 @@ def _tangents(path: PathOfContact, gear: int, X: Floats, outward: int) -> tuple[
     contact = path.at(X)
     sine, cosine = contact.sin_psi, contact.cos_psi
     x, y = path.pitch.point(contact.d, contact.sin_psi, contact.cos_psi).T
-    y = y - (-path.pitch.R1 if gear == 1 else path.pitch.R2)
+    y = y - path.pitch.axle_of(gear)
     up = 1.0 if (gear == 1 or outward < 0) else -1.0
     lean = np.arctan2(x, y * up)  # of the radius to the contact, from the line of centres towards +x
     # unit vectors along the radius and across it towards +x; the flank runs along (-sine, cosine)

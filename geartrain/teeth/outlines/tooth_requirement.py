@@ -132,7 +132,7 @@ class ToothRequirement(WheelRequirement):
     @property
     def z(self) -> int:
         """Tooth number."""
-        return self.pair.path.pitch.z1 if self.gear == 1 else self.pair.path.pitch.z2
+        return self.pair.path.pitch.teeth_of(self.gear)
 
     @property
     def distance(self) -> float:

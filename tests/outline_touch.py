@@ -1,0 +1,133 @@
+"""Where triangular teeth touch, from the outlines of both wheels alone, and the moments of the force there.
+
+The driver turns about the origin, the driven wheel about (D, 0), both so that their teeth go up at the line of centres:
+a tip of the driver at the angle t from it stands at R1 (cos t, sin t), one of the driven wheel at u at
+(D - R2 cos u, R2 sin u). The driver pushes upwards: a tip of the one lies on a flank of the other, and the couple of
+teeth that holds the driven wheel farthest on is the one that drives. With the other flank all is seen in the mirror.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+import numpy as np
+from plane_statics import Touch, Vector
+
+
+class Places(NamedTuple):
+    """Driven angle u less its pitches, the point of contact and the normal on the driven wheel, each over (n,)."""
+
+    driven: np.ndarray
+    x: np.ndarray
+    y: np.ndarray
+    normal_x: np.ndarray
+    normal_y: np.ndarray
+
+
+@dataclass(frozen=True)
+class Outlines:
+    """Two wheels with straight flanks that meet in points, lengths in one unit, half angles in radians."""
+
+    z1: int
+    z2: int
+    R1: float
+    R2: float
+    b1: float
+    b2: float
+    D: float
+
+    @classmethod
+    def of(cls, sizes: Any) -> Outlines:
+        """The declared sizes of a pair."""
+        return cls(sizes.z1, sizes.z2, sizes.R1, sizes.R2, sizes.beta1, sizes.beta2, sizes.D)
+
+    def places(self, t: np.ndarray) -> Places:
+        """Where the front flanks touch while a tip of the driver stands at t, (n,)."""
+        pitch = 2 * np.pi / self.z1
+        whole = np.round(t / pitch)
+        found = [self._couple(t - whole * pitch + k * pitch, k) for k in range(-3, 4)]
+        ahead = np.array([each.driven for each in found])
+        best = ahead.argmax(axis=0)
+        assert np.isfinite(ahead.max(axis=0)).all(), "no tooth touches"
+        chosen = [np.take_along_axis(np.array(values), best[None], 0)[0] for values in zip(*found, strict=True)]
+        return Places(chosen[0] + whole * 2 * np.pi / self.z2, *chosen[1:])
+
+    def _couple(self, theta: np.ndarray, k: int) -> Places:
+        """One tooth of the driver at theta with the k-th tooth of the driven wheel; -inf where they do not reach."""
+        one, other = self._tip_of_driver(theta), self._tip_of_driven(theta)
+        first = one.driven >= other.driven
+        found = [np.where(first, *values) for values in zip(one, other, strict=True)]
+        return Places(found[0] - k * 2 * np.pi / self.z2, *found[1:])
+
+    def _tip_of_driver(self, theta: np.ndarray) -> Places:
+        """The driver's tip on the lower flank of a driven tooth: sine law in the triangle of axis, its tip and ours."""
+        x, y = self.R1 * np.cos(theta), self.R1 * np.sin(theta)
+        away = np.hypot(self.D - x, y)
+        valley = self.R2 * np.sin(self.b2) / np.sin(self.b2 + np.pi / self.z2)
+        reached = (away <= self.R2) & (away >= valley)
+        leans = np.arcsin(np.minimum(1.0, self.R2 * np.sin(self.b2) / away))
+        u = np.where(reached, np.arctan2(y, self.D - x) + leans - self.b2, -np.inf)
+        held = np.where(reached, u, 0.0)
+        # along the flank from the driven tip towards the valley below it
+        along = np.cos(held + self.b2), -np.sin(held + self.b2)
+        return Places(u, x, y, *_upwards(along))
+
+    def _tip_of_driven(self, theta: np.ndarray) -> Places:
+        """A driven tip on the upper flank of the driver's tooth: where its line leaves the driven tip circle."""
+        along = -np.cos(theta - self.b1), -np.sin(theta - self.b1)
+        x, y = self.R1 * np.cos(theta) - self.D, self.R1 * np.sin(theta)
+        middle = -(x * along[0] + y * along[1])
+        square = middle**2 - (x**2 + y**2 - self.R2**2)
+        far = middle + np.sqrt(np.maximum(square, 0.0))
+        length = self.R1 * np.sin(np.pi / self.z1) / np.sin(self.b1 + np.pi / self.z1)
+        reached = (square >= 0) & (far >= 0) & (far <= length)
+        x, y = x + far * along[0], y + far * along[1]
+        return Places(np.where(reached, np.arctan2(y, -x), -np.inf), x + self.D, y, *_upwards(along))
+
+    def moments(self, t: np.ndarray, friction: float) -> tuple[np.ndarray, np.ndarray]:
+        """Driven speed over the driver's, and the driver's torque over the load's, front flanks, forward."""
+        at = self.places(t)
+        # velocities of both points along the normal, for unit speeds: the driven wheel turns the other way round
+        first = -at.y * at.normal_x + at.x * at.normal_y
+        second = at.y * at.normal_x + (self.D - at.x) * at.normal_y
+        speed = first / second
+        along = -at.normal_y, at.normal_x
+        slides = speed * (at.y * along[0] + (self.D - at.x) * along[1]) - (-at.y * along[0] + at.x * along[1])
+        rubs = -friction * np.sign(slides)
+        force = at.normal_x + rubs * along[0], at.normal_y + rubs * along[1]
+        into = at.x * force[1] - at.y * force[0]
+        out = (self.D - at.x) * force[1] + at.y * force[0]
+        return speed, into / out
+
+    def touches(
+        self, t: float, links: tuple[str, str], centres: tuple[Vector, Vector], friction: float
+    ) -> tuple[Touch, Touch]:
+        """Front and back flank at one place of the driver, somewhere in the plane."""
+        found = []
+        for mirror in (1.0, -1.0):
+            at = self.places(np.array([mirror * t]))
+            point = float(at.x[0]), mirror * float(at.y[0])
+            normal = float(at.normal_x[0]), mirror * float(at.normal_y[0])
+            found.append(Touch(*links, _moved(point, centres, self.D), _turned(normal, centres), friction))
+        return found[0], found[1]
+
+
+def _upwards(along: tuple[np.ndarray, np.ndarray]) -> tuple[np.ndarray, np.ndarray]:
+    """The normal of a flank that has a part upwards, as the driver pushes."""
+    sign = np.where(along[0] > 0, 1.0, -1.0)
+    return -along[1] * sign, along[0] * sign
+
+
+def _turned(vector: Vector, centres: tuple[Vector, Vector]) -> Vector:
+    (x, y), (X, Y) = centres
+    distance = np.hypot(X - x, Y - y)
+    c, s = (X - x) / distance, (Y - y) / distance
+    return float(vector[0] * c - vector[1] * s), float(vector[0] * s + vector[1] * c)
+
+
+def _moved(point: Vector, centres: tuple[Vector, Vector], D: float) -> Vector:
+    """A point of the pair's own plane, in whose unit the axes are D apart."""
+    scale = np.hypot(centres[1][0] - centres[0][0], centres[1][1] - centres[0][1]) / D
+    x, y = _turned(point, centres)
+    return float(centres[0][0] + scale * x), float(centres[0][1] + scale * y)

@@ -164,6 +164,8 @@ def _literature(antikythera: list[Told]) -> list[str]:
         "metonic_cut": _size(budget["metonic"], "cutting"),
         "jams": f"{100 * low:.0f}" if low == high else f"{100 * low:.0f} to {100 * high:.0f}",
         "windows": ", ".join(f"{share:g}" for share in jam),
+        "mars_teeth": _size(budget["mars"], "teeth"),
+        "mars_cutting": _size(budget["mars"], "cutting"),
         "planets": ", ".join(
             f"of {each.name.capitalize()} {_size(each, 'teeth')} and {_size(each, 'cutting')}" for each in planets
         ),
@@ -286,11 +288,24 @@ Cutting moves the Moon by {cutting}, with an interval of {within} degrees: as mu
 Saros pointer it moves by {saros_cut}, the Metonic by {metonic_cut}. At greater errors it weighs more, in proportion,
 where the train still turns.
 
-**The remarks on accuracy of cutting in Freeth and Jones 2012 and Freeth et al. 2021.** Neither text was read for
-this page, and nothing is quoted or judged. What can be said to whoever asks whether hand-cut wheels could show what
-these reconstructions intend: at 0.1 degrees, ripple and cutting are {planets}. The Moon's anomaly, 13
-degrees peak to peak, stands out from ripple and cutting of half its size each; how well it is drawn does not: that
-pin and slot meet the true Moon within {theory} could not be seen on such a pointer.
+**"Added to these inherent theoretical errors were significant mechanical inaccuracies because of the way that the
+rotations were transmitted"** (Freeth and Jones 2012, The Cosmos in the Antikythera Mechanism, ISAW Papers 4, section
+3.10, after an error of nearly 38 degrees that deferent and epicycle leave Mars at its retrogrades; second-hand, as
+quoted at drmsh.com/antikythera-mechanism-report). *Stands for the Moon, not for Mars.* Ripple and cutting of the Moon,
+{teeth} and {cutting}, are each {times} times what its pin and slot leave or more. Those of Mars, {mars_teeth} and
+{mars_cutting}, are together less than a twentieth of the 38 degrees: with Mars it is the theory that fails, and better
+teeth would not have helped.
+
+**"Considerable cumulative inaccuracies in the gear trains, which would have cancelled out many of the subtle
+anomalies built into its design"** (Wikipedia's article on the mechanism in 2017, second-hand too; which paper it takes
+this from was not seen). *Does not stand for the anomalies, stands for how finely they are drawn.* The Moon's anomaly,
+13 degrees peak to peak, stands out from ripple and cutting of half its size each. That pin and slot meet the true Moon
+within {theory} could not be seen on such a pointer, nor that its ratio drifts by {ratio} in a Saros.
+
+**Remarks on accuracy of cutting in Freeth et al. 2021**, A Model of the Cosmos in the ancient Greek Antikythera
+Mechanism. Its text was not to be had beyond abstract and introduction, so that nothing is quoted or judged. What can
+be said to whoever asks whether hand-cut wheels could show what this reconstruction intends: at 0.1 degrees, ripple and
+cutting are {planets}.
 
 **An indicated position of the Moon could differ by 20 degrees** (Edmunds and Freeth 2011, second-hand). *Stands
 from errors of 0.3 degrees on* ([cut by hand](cut-by-hand.md)), and at any error once the crank turns back.

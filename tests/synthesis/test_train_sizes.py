@@ -54,6 +54,22 @@ def test_what_two_pairs_in_a_row_pass_on_is_the_product_of_their_means(found: Be
     assert 1 - found.together == pytest.approx(passed, rel=1e-9)
 
 
+def test_pairs_that_name_the_driven_wheel_first_are_sized_alike() -> None:
+    """The same train with its pairs named the other way round: the same gain, by radii the other way round."""
+    turned = TWO.replace("[a, b1]", "[b1, a]").replace("[b2, c]", "[c, b2]")
+    turned = turned.replace("window: 0.5}", "window: 0.5, radii: 0.97}")
+    straight = TWO.replace("window: 0.5}", f"window: 0.5, radii: {1 / 0.97!r}}}")
+    one, other = (
+        find_train_sizes(geartrain.load(text), "c", free={"window": (0.4, 0.7)}) for text in (straight, turned)
+    )
+    for figure in ("before", "apart", "together"):
+        assert getattr(other, figure) == pytest.approx(getattr(one, figure), rel=1e-5)
+    for first, second in zip(one.pairs, other.pairs, strict=True):
+        assert first.driver == second.driver
+        assert first.teeth == second.teeth[::-1]
+        assert first.before.radii * second.before.radii == pytest.approx(1.0, rel=1e-9)
+
+
 @pytest.mark.parametrize("folder", ["", "below"])
 def test_the_declaration_extends_the_train_from_wherever_it_is_written(tmp_path: Path, folder: str) -> None:
     """Its figure is the one that was told; a window alone is free, so that little has to be looked for."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from fractions import Fraction
 from math import atan2, degrees, pi, sin, sqrt
 
@@ -35,7 +36,9 @@ def test_the_metonic_moon_gains_what_exact_fractions_say(freeth: TrainBudget) ->
     assert first.degrees_per_turn == pytest.approx(float(360 * error), rel=1e-12)
     in_a_century = 360 * 36525 * (Fraction(254, 19) / TROPICAL_YEAR - 1 / TROPICAL_MONTH)
     assert first.degrees_per_century == pytest.approx(float(in_a_century), rel=1e-12)
-    assert freeth["moon"]["ratio"].degrees == pytest.approx(float(in_a_century), rel=1e-12)
+    ratio = freeth["moon"]["ratio"]
+    assert ratio.degrees == pytest.approx(float(in_a_century), rel=1e-12)
+    assert ratio.rms == pytest.approx(np.linspace(0, float(in_a_century), 10_001).std(), rel=1e-3)
 
 
 def test_a_relation_that_its_makers_meant_is_met_exactly_and_comes_after_the_sky(freeth: TrainBudget) -> None:
@@ -103,6 +106,17 @@ def test_a_sun_without_pins_errs_by_the_whole_equation_of_centre(freeth: TrainBu
     both, parts = freeth["synodic month"]["theory"], (freeth["moon"]["theory"], freeth["sun"]["theory"])
     assert both.degrees == pytest.approx(sum(part.degrees or 0.0 for part in parts))
     assert both.rms == pytest.approx(sqrt(sum((part.rms or 0.0) ** 2 for part in parts)))
+
+
+def test_a_pointer_that_turns_against_the_crank_has_the_same_anomaly(freeth: TrainBudget) -> None:
+    """Cranked at `c`, which turns against the Moon, as fast as it did."""
+    declared = geartrain.load("freeth-2008").declaration
+    (speed,) = declared.inputs.values()
+    turned = replace(speed, value=Fraction(-32, 19), text="-32/19")
+    train = GearTrain(declared.changed(crank="c", inputs={"c": turned}))
+    moon = find_budget(train, BudgetQuestion(outputs=("moon",), **SHORT))["moon"]
+    for figure in ("degrees", "rms", "days"):
+        assert getattr(moon["theory"], figure) == pytest.approx(getattr(freeth["moon"]["theory"], figure), rel=1e-9)
 
 
 def test_the_true_motion_at_any_phase_leaves_nothing() -> None:
@@ -288,6 +302,13 @@ def test_the_cranks_torque_is_the_loads_over_the_efficiency() -> None:
     assert crank.torque == pytest.approx(9 / 9 / 0.72)
     assert crank.efficiency == pytest.approx(0.72)
     assert crank.pointers == pytest.approx({"c": 0.72})
+
+
+def test_a_pointer_driven_alone_loses_on_the_way_from_the_crank() -> None:
+    """Teeth that lose more one way than the other."""
+    gears = "gears: [{pair: [p, q], efficiency: {forward: 0.9, backward: 0.5}}, {pair: [r, s], efficiency: 0.8}]\n"
+    crank = find_budget(geartrain.load(PAIRS + gears), BudgetQuestion(**SHORT)).crank
+    assert crank.pointers == pytest.approx({"c": 0.9 * 0.8})
 
 
 def test_a_crank_without_loads_and_friction_is_not_declared(freeth: TrainBudget) -> None:

@@ -24,9 +24,11 @@ from geartrain.uncertainty import (
     read_error_overrides,
     run_trials,
 )
+from geartrain.uncertainty.manufacturing_errors.cut_pair import CutGearPair
 from geartrain.uncertainty.manufacturing_errors.displaced_pair import DisplacedPair
 from geartrain.uncertainty.manufacturing_errors.displaced_wheel import DisplacedWheel
 from geartrain.uncertainty.manufacturing_errors.file_strokes import file_to_fit
+from geartrain.uncertainty.manufacturing_errors.filed_cut_pair import FileableCutPair
 from geartrain.uncertainty.monte_carlo.random_streams import RandomStreams
 from geartrain.uncertainty.monte_carlo.trial_block import draw_trial_wheels, trial_pointers
 
@@ -145,26 +147,25 @@ def test_axles_farther_apart_give_an_external_pair_play_and_take_it_from_a_ring(
         assert pair.play() - at.play == pytest.approx(sign * 2 * 0.01 * np.tan(radians(20)) / driven, rel=1e-9)
 
 
-def test_flanks_that_lean_touch_as_their_outlines_do() -> None:
-    at = displaced_contact(PAIRS["involute"], 1)
-    first, second = even(at)
-    drawn = outlines(PAIRS["involute"])
+@pytest.mark.parametrize("driver", [1, 2])
+def test_flanks_that_lean_touch_as_their_outlines_do(driver: int) -> None:
+    at = displaced_contact(PAIRS["involute"], driver)
+    drawn = outlines(PAIRS["involute"])[:: 1 if driver == 1 else -1]
     for gear in (0, 1):
         off = []
         for lean in (0.01, 0.0025):
-            wheel, outline = (first, second)[gear], drawn[gear]
-            flank = np.full(wheel.z, lean)
-            leaning = replace(wheel, leading=flank, trailing=flank)
-            pair = DisplacedPair(at, *((leaning, second) if gear == 0 else (first, leaning)))
-            tooth = outline.teeth[0]
-            sides = [tilted(side, outline.z / 2, lean, way) for side, way in ((tooth.ahead, 1), (tooth.behind, -1))]
-            outline = replace(outline, teeth=(ToothFlanks(*sides),))
+            wheels, turned = list(even(at)), list(drawn)
+            flank = np.full(wheels[gear].z, lean)
+            wheels[gear] = replace(wheels[gear], leading=flank, trailing=flank)
+            pair = DisplacedPair(at, *wheels)
+            tooth, R = drawn[gear].teeth[0], drawn[gear].z / 2
+            sides = [tilted(side, R, lean, way) for side, way in ((tooth.ahead, 1), (tooth.behind, -1))]
+            turned[gear] = replace(drawn[gear], teeth=(ToothFlanks(*sides),))
             S = np.random.default_rng(3).uniform(0, at.pitches[0], 40)
-            contact = solve(*((outline, drawn[1]) if gear == 0 else (drawn[0], outline)), 30.0, S)
-            found, true = by_law(pair, S), off_ratio(at, contact, S)
+            found, true = by_law(pair, S), off_ratio(at, solve(turned[0], turned[1], 30.0, S), S)
             assert np.ptp(true[0]) > lean / 10
-            off.append(np.median(np.abs(found[0] - true[0])))
-        assert off[1] < off[0] / 6
+            off.append([np.median(np.abs(one - other)) for one, other in zip(found, true, strict=True)])
+        assert all(small < large / 6 for large, small in zip(*off, strict=True))
 
 
 def tilted(side: tuple[OutlineCurve, ...], R: float, lean: float, way: int) -> tuple[OutlineCurve, ...]:
@@ -253,6 +254,37 @@ def test_the_least_play_of_a_batch_is_that_of_each_pair_angle_by_angle(name: str
         scanned = pair.first_lag(rows, S)[0] + pair.first_lag(rows, S, back=True)[0] + at.play
         assert play == pytest.approx(scanned.min(), abs=2e-3 * at.pitches[1])
     assert pair.tight_place().play == pytest.approx(pair.play(), abs=1e-14)
+
+
+ERRORS = {
+    "place": ("place",),
+    "tips": ("tip",),
+    "leaning": ("leading", "trailing"),
+    "lowered": ("leading_low", "trailing_low"),
+    "eccentric": ("e", "towards"),
+}
+
+
+@BOTH
+@pytest.mark.parametrize("errors", ERRORS.values(), ids=ERRORS)
+def test_each_error_is_in_the_least_play_as_it_is_angle_by_angle(
+    name: str, driver: int, errors: tuple[str, ...]
+) -> None:
+    """Wheel by wheel or couple by couple: two ways to the same sum, at the angles at which play is looked for."""
+    at, rng = displaced_contact(PAIRS[name], driver), np.random.default_rng(8)
+    wheels = []
+    for wheel in even(at):
+        size = {"place": 0.005 * at.pitches[0], "tip": 0.2, "e": 0.03, "towards": 3.0}
+        shape = {"e": (2,), "towards": (2,)}
+        drawn = {each: rng.normal(0, size.get(each, 0.01), shape.get(each, (2, wheel.z))) for each in errors}
+        wheels.append(replace(wheel, **{each: -np.abs(v) if each == "tip" else v for each, v in drawn.items()}))
+    pair, pitch = DisplacedPair(at, *wheels), at.pitches[0]
+    within = np.mod([0, pitch / 4, pitch / 2, 3 * pitch / 4, at.start, at.end, -at.start, -at.end], pitch)
+    S = (np.arange(pair.count)[:, None] * pitch + within).ravel()
+    for trial, play in enumerate(pair.play()):
+        rows = np.full(len(S), trial)
+        apart = pair.first_lag(rows, S)[0] + pair.first_lag(rows, S, back=True)[0] + at.play
+        assert play == pytest.approx(apart.min(), abs=1e-12)
 
 
 @BOTH
@@ -346,6 +378,41 @@ def test_a_stroke_lowers_a_triangular_flank_by_itself_and_moves_the_tip_down_the
     for (far, way), (then, turned), low in zip(lines(wheel), lines(filed), (leading, trailing), strict=True):
         assert turned == pytest.approx(way, abs=1e-14)
         assert far - then == pytest.approx(low, abs=1e-13)
+
+
+@pytest.mark.parametrize("wheel", [0, 1])
+@pytest.mark.parametrize("side", [0, 1])
+def test_the_triangular_flank_that_stands_out_is_the_one_that_is_filed(wheel: int, side: int) -> None:
+    """One tooth a third of a pitch ahead jams by its leading flank, one as far behind by its trailing flank."""
+    form = "{form: triangular, half_angle: 30 deg, window: 0.3}"
+    text = PAIR.replace("{form: FORM, backlash: 0.2}", form).partition("cutting")[0]
+    sizes = geartrain.load(text).meshes[0].law.sizes
+    wheels = [CutWheel.even(sizes.z1, sizes.R1, sizes.beta1), CutWheel.even(sizes.z2, sizes.R2, sizes.beta2)]
+    place = np.zeros((2, wheels[wheel].z))  # two trials: the second is without errors
+    place[0, 7] = (-1, 1)[side] * 0.35 * wheels[wheel].pitch
+    wheels = [each.placed(place if at == wheel else np.zeros((2, each.z))) for at, each in enumerate(wheels)]
+    work = file_to_fit(FileableCutPair(CutGearPair(sizes, *wheels)), 0.002 * sizes.R1, 1.0)
+    assert work.strokes[0] > 0 == work.strokes[1]
+    assert [np.argwhere(low).tolist() for low in work.low] == [[[0, side, 7]] if at == wheel else [] for at in (0, 1)]
+
+
+def test_a_wheel_seen_from_behind_turns_the_other_way() -> None:
+    """Tooth by tooth, and in mesh: what the driven wheel leads by on its back is what it lags by in the mirror."""
+    at = displaced_contact(PAIRS["involute"], 1)
+    names = ("place", "leading", "trailing", "leading_low", "trailing_low")
+    first, second = (
+        replace(
+            each,
+            **{name: RNG.normal(0, 0.002, each.z) for name in names},
+            e=np.array(0.05),
+            towards=np.array(RNG.uniform(0, 6)),
+        )
+        for each in even(at)
+    )
+    assert first.mirrored(5).tips == pytest.approx(first.tips[(5 - np.arange(first.z)) % first.z], abs=1e-15)
+    pair, mirror = DisplacedPair(at, first, second), DisplacedPair(at, first.mirrored(), second.mirrored(1))
+    S, rows = angles(pair), np.zeros(60, int)
+    assert mirror.first_lag(rows, -S)[0] == pytest.approx(pair.first_lag(rows, S, back=True)[0], abs=1e-15)
 
 
 def test_triangular_pairs_are_filed_until_they_turn(tmp_path: Path) -> None:

@@ -1,0 +1,190 @@
+"""The speeds at the end of one step, for one guess of what touches and sticks: elimination in the solved order.
+
+    M (v+ - v) = h T + sum f_c P_c,   r_c v+ = k_c  for every c that touches        docs/dynamics.md (7)
+
+A pair that touches gives its driven coordinate, v_d = sum w_o v_o + k/r_d, and hands row and column of d on to the
+coordinates before it; one that is apart leaves d free, and d is eliminated by Gauss. Where each coordinate hangs on one
+before it (a chain, a tree) the first is I_p += tau^2 I_c, b_p += tau (b_c - I_c k_c), and a step costs O(n).
+
+Rows that determine no coordinate (a second way between two links, stops, stuck bearings) stand in the matrix with a
+compliance far below that of any mass: s r^T r v = s k r.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+from geartrain.dynamics.time.contact_system import ContactState, ContactSystem
+from geartrain.numerics.kernels import kernel
+
+if TYPE_CHECKING:
+    from geartrain.numerics.arrays import Floats
+
+
+class StepEquations(NamedTuple):
+    """One step: what is given of it, room to solve it in, and what comes out.
+
+    load            impulses from outside, and momentum at the start of the step
+    bound           k of both flanks of each pair (rad/s); `stop_bound` of each stop
+    ratio, arm      speed ratio, and driver's torque over the driven side's, of both flanks
+    A, b            the matrix and right side, as they are eliminated
+    w, g, known     of a driven coordinate: its speed is w v + known, its row is handed on by g
+    v, P, drive     speeds; impulses of pairs and stops; impulses that keep the speed of prescribed coordinates
+    """
+
+    load: Floats
+    bound: Floats
+    stop_bound: Floats
+    ratio: Floats
+    arm: Floats
+    A: Floats
+    b: Floats
+    w: Floats
+    g: Floats
+    known: Floats
+    v: Floats
+    P: Floats
+    drive: Floats
+
+
+@kernel
+def solve_guess(system: ContactSystem, state: ContactState, here: StepEquations, step: float, creep: float) -> None:
+    """Speeds and impulses for what the state takes to touch, turn and be stopped.
+
+    creep   speed up to which a stuck bearing gives way (rad/s)
+    """
+    assemble(system, state, here, step, creep)
+    for d in range(len(here.v) - 1, -1, -1):
+        if system.given[d] == 0:
+            if system.owner[d] >= 0 and state.touching[system.owner[d]] != 0:
+                hand_on(system, state, here, d)
+            else:
+                eliminate_free(system, here, d)
+    here.P[:] = 0.0
+    here.drive[:] = 0.0
+    for d in range(len(here.v)):
+        substitute(system, state, here, d)
+    find_stiff_impulses(system, state, here)
+
+
+@kernel
+def assemble(system: ContactSystem, state: ContactState, here: StepEquations, step: float, creep: float) -> None:
+    """The matrix and right side of all coordinates, without the pairs that determine one."""
+    A, b = here.A, here.b
+    for d in range(len(b)):
+        b[d] = here.load[d]
+        A[d, d] = system.matrix[d, d]
+        for x in range(system.near_at[d], system.near_at[d + 1]):
+            o = system.near[x]
+            A[d, o] = system.matrix[d, o]
+            A[o, d] = system.matrix[o, d]
+    for m in range(len(system.sliding)):
+        turning = state.turning[m]
+        for x in range(system.bearing_at[m], system.bearing_at[m + 1]):
+            if turning != 0:
+                b[system.bearing_of[x]] -= step * system.sliding[m] * turning * system.bearing_c[x]
+            else:
+                stiff = step * system.sticking[m] / creep * system.bearing_c[x]
+                for y in range(system.bearing_at[m], system.bearing_at[m + 1]):
+                    A[system.bearing_of[x], system.bearing_of[y]] += stiff * system.bearing_c[y]
+    for m in range(len(system.stiff)):
+        if system.stiff[m] > 0.0 and state.touching[m] != 0:
+            side = state.touching[m] - 1
+            for x in range(system.pair_at[m], system.pair_at[m + 1]):
+                push = system.stiff[m] * (system.pair_driven[x] - here.arm[m, side] * system.pair_driver[x])
+                b[system.pair_of[x]] += push * (1.0 - 2.0 * side) * here.bound[m, side]
+                for y in range(system.pair_at[m], system.pair_at[m + 1]):
+                    row = system.pair_driven[y] - here.ratio[m, side] * system.pair_driver[y]
+                    A[system.pair_of[x], system.pair_of[y]] += push * row
+    for m in range(len(system.stop_stiff)):
+        if state.stopped[m] != 0:
+            for x in range(system.stop_at[m], system.stop_at[m + 1]):
+                push = system.stop_stiff[m] * system.stop_c[x]
+                b[system.stop_of[x]] += push * here.stop_bound[m]
+                for y in range(system.stop_at[m], system.stop_at[m + 1]):
+                    A[system.stop_of[x], system.stop_of[y]] += push * system.stop_c[y]
+
+
+@kernel
+def hand_on(system: ContactSystem, state: ContactState, here: StepEquations, d: int) -> None:
+    """Eliminate a coordinate whose pair touches: its speed is known from others, its row goes to them."""
+    A, b, w, g, near = here.A, here.b, here.w, here.g, system.near
+    low, high = system.near_at[d], system.near_at[d + 1]
+    m = system.owner[d]
+    side = state.touching[m] - 1
+    lead = system.pair_driven[system.pair_at[m]]  # the driven coordinate stands first in its row
+    for x in range(low, high):
+        w[x] = 0.0
+        g[x] = 0.0
+    for x in range(system.pair_at[m] + 1, system.pair_at[m + 1]):
+        w[system.slot[x]] = (here.ratio[m, side] * system.pair_driver[x] - system.pair_driven[x]) / lead
+        g[system.slot[x]] = (here.arm[m, side] * system.pair_driver[x] - system.pair_driven[x]) / lead
+    known, own = (1.0 - 2.0 * side) * here.bound[m, side] / lead, A[d, d]
+    here.known[d] = known
+    rest = b[d] - own * known
+    for x in range(low, high):
+        o = near[x]
+        b[o] += g[x] * rest - A[o, d] * known
+        for y in range(low, high):
+            A[o, near[y]] += g[x] * (A[d, near[y]] + own * w[y]) + A[o, d] * w[y]
+
+
+@kernel
+def eliminate_free(system: ContactSystem, here: StepEquations, d: int) -> None:
+    """Eliminate a coordinate that no pair determines, by Gauss."""
+    A, b, near = here.A, here.b, system.near
+    low, high = system.near_at[d], system.near_at[d + 1]
+    for x in range(low, high):
+        o = near[x]
+        if A[o, d] != 0.0:
+            part = A[o, d] / A[d, d]
+            b[o] -= part * b[d]
+            for y in range(low, high):
+                A[o, near[y]] -= part * A[d, near[y]]
+
+
+@kernel
+def substitute(system: ContactSystem, state: ContactState, here: StepEquations, d: int) -> None:
+    """The speed of a coordinate from those before it, and the impulse of its pair or drive."""
+    A, v, near = here.A, here.v, system.near
+    low, high = system.near_at[d], system.near_at[d + 1]
+    if system.given[d] != 0:
+        v[d] = state.speed[d]
+        here.drive[d] += A[d, d] * v[d] - here.b[d]
+        for x in range(low, high):  # prescribed ones come first: these are prescribed too
+            here.drive[d] += A[d, near[x]] * v[near[x]]
+            here.drive[near[x]] += A[near[x], d] * v[d]
+        return
+    rest = -here.b[d]
+    for x in range(low, high):
+        rest += A[d, near[x]] * v[near[x]]
+    m = system.owner[d]
+    if m >= 0 and state.touching[m] != 0:
+        v[d] = here.known[d]
+        for x in range(low, high):
+            v[d] += here.w[x] * v[near[x]]
+        here.P[m] = (rest + A[d, d] * v[d]) / system.pair_driven[system.pair_at[m]] * (3.0 - 2.0 * state.touching[m])
+    else:
+        v[d] = -rest / A[d, d]
+
+
+@kernel
+def find_stiff_impulses(system: ContactSystem, state: ContactState, here: StepEquations) -> None:
+    """Impulses of pairs that determine nothing, and of stops, from what their rows yield."""
+    pairs = len(system.stiff)
+    for m in range(pairs):
+        if system.stiff[m] > 0.0 and state.touching[m] != 0:
+            side = state.touching[m] - 1
+            rate = 0.0
+            for x in range(system.pair_at[m], system.pair_at[m + 1]):
+                rate += (system.pair_driven[x] - here.ratio[m, side] * system.pair_driver[x]) * here.v[
+                    system.pair_of[x]
+                ]
+            here.P[m] = system.stiff[m] * (here.bound[m, side] - (1.0 - 2.0 * side) * rate)
+    for m in range(len(system.stop_stiff)):
+        if state.stopped[m] != 0:
+            rate = 0.0
+            for x in range(system.stop_at[m], system.stop_at[m + 1]):
+                rate += system.stop_c[x] * here.v[system.stop_of[x]]
+            # a stop holds from ahead: r v <= k
+            here.P[pairs + m] = system.stop_stiff[m] * (rate - here.stop_bound[m])

@@ -1,0 +1,130 @@
+"""What the kernels of time stepping read and write: arrays of one train, its state, and a record of its run.
+
+Coordinates stand in solved order: a pair's driven coordinate after those its row holds beside it. Rows are sparse, one
+behind another: those of number m are entries at[m] to at[m + 1].
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+if TYPE_CHECKING:
+    from geartrain.numerics.arrays import Floats, Ints
+
+OPEN, FRONT, BACK = 0, 1, 2
+"""Which flank of a pair touches: none, the drive flank, the coast flank."""
+
+WORK_DRIVE, WORK_TORQUE, WORK_SPRING, BEARINGS, VISCOUS, BLOWS, STEP, FRICTION = range(8)
+"""Columns of the energy account (J): three kinds of work put in, five of loss."""
+
+ENERGIES = 8
+
+TIME_APART, TIME_COAST, BLOW_COUNT, BLOW_ENERGY, BLOW_SPEED, IMPULSE, RUBBED, GAP, CHANGES, PEAK = range(10)
+"""Columns of what is counted of each pair: steps apart and on the coast flank, blows, their energy and greatest speed,
+impulse, energy rubbed away, greatest gap, changes of flank, greatest impulse of a step without blow."""
+
+COUNTS = 10
+
+IMPACT_COLUMNS = 5
+"""Columns of the list of impacts: time, pair (stops behind the pairs), closing speed, energy, impulse."""
+
+
+class ContactSystem(NamedTuple):
+    """A train as coordinates and contacts, in SI units.
+
+    mass, viscous, matrix   M, D, and M + h D + h^2 K, (n, n)
+    torque                  constant torque on each coordinate
+    given                   1 where the speed is prescribed
+    owner                   the pair that determines a coordinate when it touches; -1 none
+    near                    coordinates before it with which each may be coupled (sparse, `near_at`)
+    pair_of                 of a pair's row; `pair_driver`, `pair_driven`: what they add to the speeds of both sides
+    slot                    where in `near` of its owner an entry stands; -1 for the owner itself, -2 without one
+    start_driver, start_driven   angles of both sides where all coordinates are 0
+    two_sided               1 for a pin without clearance, and gears without play
+    tables, arms            laws of both flanks; loss factors (front, back) x (forward, back), -1 for none
+    stiff                   of pairs that determine nothing: inverse compliance of their row
+    bearing_*               rows of relative speeds in bearings, with torques of sliding and sticking
+    stop_*                  rows that may not pass first + (1 + floor(t/beat)) pitch
+    spring_*                rows pulled by stiffness (rest + rate t - angle)
+    """
+
+    mass: Floats
+    viscous: Floats
+    matrix: Floats
+    torque: Floats
+    given: Ints
+    owner: Ints
+    near_at: Ints
+    near: Ints
+    pair_at: Ints
+    pair_of: Ints
+    pair_driver: Floats
+    pair_driven: Floats
+    slot: Ints
+    start_driver: Floats
+    start_driven: Floats
+    two_sided: Ints
+    restitution: Floats
+    tables: Ints
+    arms: Ints
+    stiff: Floats
+    bearing_at: Ints
+    bearing_of: Ints
+    bearing_c: Floats
+    sliding: Floats
+    sticking: Floats
+    stop_at: Ints
+    stop_of: Ints
+    stop_c: Floats
+    stop_first: Floats
+    stop_pitch: Floats
+    stop_beat: Floats
+    stop_restitution: Floats
+    stop_stiff: Floats
+    spring_at: Ints
+    spring_of: Ints
+    spring_c: Floats
+    spring_stiffness: Floats
+    spring_rest: Floats
+    spring_rate: Floats
+
+
+class ContactState(NamedTuple):
+    """Where a train is: changed by the kernel in place.
+
+    clock      time (s), step number
+    angle      of the coordinates (rad); `speed` (rad/s)
+    touching   flank of each pair; `turning`, of each bearing: -1, 0 (stuck), 1; `stopped` of each stop: 0, 1
+    ratio      speed ratio of each pair at the last step, (pairs, 2)
+    """
+
+    clock: Floats
+    angle: Floats
+    speed: Floats
+    touching: Ints
+    turning: Ints
+    stopped: Ints
+    ratio: Floats
+
+
+class RunRecord(NamedTuple):
+    """What a run leaves: changed by the kernel in place.
+
+    energy         as `WORK_DRIVE` and the others
+    counts         (pairs and stops, COUNTS)
+    angles, speeds samples, (samples, n); `forces` mean force torques between samples, (samples, pairs + stops)
+    drive          mean torque of each prescribed coordinate between samples, (samples, n)
+    impacts        (room, IMPACT_COLUMNS); `numbers`: samples, impacts seen, steps not solved, pivots, steps counted
+    """
+
+    energy: Floats
+    counts: Floats
+    angles: Floats
+    speeds: Floats
+    forces: Floats
+    drive: Floats
+    impacts: Floats
+    numbers: Ints
+
+
+SAMPLES, IMPACTS, UNSOLVED, PIVOTS, STEPS = range(5)

@@ -1,0 +1,155 @@
+"""A model run through time: kernels called with room for what they find."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from geartrain.dynamics.time.contact_model import ContactModel
+from geartrain.dynamics.time.contact_solution import StepEquations
+from geartrain.dynamics.time.contact_system import (
+    COUNTS,
+    ENERGIES,
+    FRONT,
+    IMPACT_COLUMNS,
+    IMPACTS,
+    SAMPLES,
+    ContactState,
+    ContactSystem,
+    RunRecord,
+)
+from geartrain.dynamics.time.law_tables import value_and_slope
+from geartrain.dynamics.time.time_steps import run_steps
+
+if TYPE_CHECKING:
+    from geartrain.numerics.arrays import Floats
+
+_CREEP = 1e-10  # of the fastest coordinate: a stuck bearing gives way so slowly
+_SLACK = 1e-11  # of that speed
+_ROOM = 100_000  # impacts that are kept
+
+
+class StepPlan(NamedTuple):
+    """How a model is stepped: length of a step (s), steps not counted, steps counted, steps from sample to sample.
+
+    apart   gap from which teeth count as apart (rad)
+    """
+
+    step: float
+    skip: int
+    steps: int
+    stride: int
+    apart: float = 1e-5
+
+
+@dataclass
+class SimulatedRun:
+    """What a run left, in the coordinates' own order; `start` and `end` are kinetic energies of what is counted (J)."""
+
+    plan: StepPlan
+    angles: Floats
+    speeds: Floats
+    forces: Floats
+    drive: Floats
+    counts: Floats
+    energy: Floats
+    impacts: Floats
+    numbers: tuple[int, ...]
+    start: float
+    end: float
+
+
+def simulate(model: ContactModel, plan: StepPlan, fast: bool = False) -> SimulatedRun:
+    """Run a model; `fast` compiles the kernels."""
+    system, n = model.system(plan.step), len(model.torque)
+    state = start_state(model, system)
+    rows = len(model.pairs) + len(model.stops)
+    here = _equations(n, len(model.pairs), len(model.stops), len(system.near))
+    samples = (plan.skip + plan.steps) // plan.stride
+    record = RunRecord(
+        np.zeros(ENERGIES),
+        np.zeros((rows, COUNTS)),
+        np.zeros((samples, n)),
+        np.zeros((samples, n)),
+        np.zeros((samples, rows)),
+        np.zeros((samples, n)),
+        np.zeros((_ROOM, IMPACT_COLUMNS)),
+        np.zeros(5, dtype=np.int64),
+    )
+    run = run_steps.chosen(fast)
+    fastest = max(float(np.max(np.abs(model.typical), initial=0.0)), float(np.max(np.abs(state.speed), initial=0.0)))
+    fastest = fastest or 1.0
+    length = fastest * plan.step * (plan.skip + plan.steps)
+    slack = max(_SLACK * fastest, 4 * np.finfo(float).eps * (1 + length) / plan.step)
+    skip = plan.skip - plan.skip % plan.stride
+    laws = model.laws
+    arguments = plan.stride, _CREEP * fastest, plan.apart, slack
+    run(system, laws, state, here, record, plan.step, skip, *arguments, False)
+    start = _kinetic(system, state)
+    run(system, laws, state, here, record, plan.step, plan.steps, *arguments, True)
+    order = np.argsort(model.order.coordinates)
+    kept = min(int(record.numbers[IMPACTS]), _ROOM)
+    done = int(record.numbers[SAMPLES])
+    return SimulatedRun(
+        plan,
+        record.angles[:done, order],
+        record.speeds[:done, order],
+        record.forces[:done],
+        record.drive[:done, order],
+        record.counts,
+        record.energy,
+        record.impacts[:kept],
+        tuple(int(each) for each in record.numbers),
+        start,
+        _kinetic(system, state),
+    )
+
+
+def start_state(model: ContactModel, system: ContactSystem) -> ContactState:
+    """All coordinates at 0, at the speeds the model starts with, or those of all front flanks in contact."""
+    n, pairs = len(model.torque), len(model.pairs)
+    place = {each: at for at, each in enumerate(model.order.coordinates)}
+    speed = np.zeros(n)
+    for each, value in model.given.items():
+        speed[place[each]] = value
+    ratio = np.zeros((pairs, 2))
+    for m in range(pairs):
+        for side in range(2):
+            _, ratio[m, side] = value_and_slope(model.laws, int(system.tables[m, side]), float(system.start_driver[m]))
+    for d, m in enumerate(model.order.owner):
+        if m >= 0 and model.given:
+            row = slice(system.pair_at[m] + 1, system.pair_at[m + 1])
+            lead = system.pair_driven[system.pair_at[m]]
+            others = speed[system.pair_of[row]]
+            speed[d] = (ratio[m, 0] * system.pair_driver[row] - system.pair_driven[row]) @ others / lead
+    if model.start is not None:
+        speed = np.array([model.start[each] for each in model.order.coordinates], dtype=np.float64)
+    touching = np.full(pairs, FRONT, dtype=np.int64)
+    turning = np.zeros(len(model.bearings), dtype=np.int64)
+    return ContactState(
+        np.zeros(2), np.zeros(n), speed, touching, turning, np.zeros(len(model.stops), dtype=np.int64), ratio
+    )
+
+
+def _equations(n: int, pairs: int, stops: int, near: int) -> StepEquations:
+    return StepEquations(
+        np.zeros(n),
+        np.zeros((pairs, 2)),
+        np.zeros(stops),
+        np.zeros((pairs, 2)),
+        np.zeros((pairs, 2)),
+        np.zeros((n, n)),
+        np.zeros(n),
+        np.zeros(near),
+        np.zeros(near),
+        np.zeros(n),
+        np.zeros(n),
+        np.zeros(pairs + stops),
+        np.zeros(n),
+    )
+
+
+def _kinetic(system: ContactSystem, state: ContactState) -> float:
+    return float(state.speed @ system.mass @ state.speed / 2)

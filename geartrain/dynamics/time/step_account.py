@@ -1,0 +1,171 @@
+"""What one step adds to the account of a run: energies, shares of time apart, blows."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from geartrain.dynamics.time.contact_solution import StepEquations
+from geartrain.dynamics.time.contact_system import (
+    BEARINGS,
+    BLOW_COUNT,
+    BLOW_ENERGY,
+    BLOW_SPEED,
+    BLOWS,
+    CHANGES,
+    FRICTION,
+    GAP,
+    IMPACTS,
+    IMPULSE,
+    PEAK,
+    RUBBED,
+    STEP,
+    TIME_APART,
+    TIME_COAST,
+    VISCOUS,
+    WORK_DRIVE,
+    WORK_SPRING,
+    WORK_TORQUE,
+    ContactState,
+    ContactSystem,
+    RunRecord,
+)
+from geartrain.dynamics.time.law_tables import LawTables
+from geartrain.numerics.kernels import kernel
+
+if TYPE_CHECKING:
+    from geartrain.numerics.arrays import Floats, Ints
+
+
+@kernel
+def count_energy(
+    system: ContactSystem,
+    state: ContactState,
+    here: StepEquations,
+    record: RunRecord,
+    step: float,
+    creep: float,
+    middle: Floats,
+) -> None:
+    """Work of drives, torques and springs, losses by drag: each impulse times the mean speed of its step."""
+    for d in range(len(middle)):
+        record.energy[WORK_DRIVE] += here.drive[d] * middle[d]
+        record.energy[WORK_TORQUE] += step * system.torque[d] * middle[d]
+        record.energy[VISCOUS] += step * system.viscous[d, d] * here.v[d] * middle[d]
+        for x in range(system.near_at[d], system.near_at[d + 1]):
+            o = system.near[x]
+            across = here.v[d] * middle[o] + here.v[o] * middle[d]
+            record.energy[VISCOUS] += step * system.viscous[d, o] * across
+    for m in range(len(system.spring_stiffness)):
+        pull = system.spring_rest[m] + system.spring_rate[m] * (state.clock[0] + step)
+        rate = 0.0
+        for x in range(system.spring_at[m], system.spring_at[m + 1]):
+            o = system.spring_of[x]
+            pull -= system.spring_c[x] * (state.angle[o] + step * here.v[o])
+            rate += system.spring_c[x] * middle[o]
+        record.energy[WORK_SPRING] += step * system.spring_stiffness[m] * pull * rate
+    for m in range(len(system.sliding)):
+        rate, end = 0.0, 0.0
+        for x in range(system.bearing_at[m], system.bearing_at[m + 1]):
+            rate += system.bearing_c[x] * middle[system.bearing_of[x]]
+            end += system.bearing_c[x] * here.v[system.bearing_of[x]]
+        torque = system.sliding[m] * state.turning[m]
+        if state.turning[m] == 0:
+            torque = system.sticking[m] * end / creep
+        record.energy[BEARINGS] += step * torque * rate
+
+
+@kernel
+def count_contacts(
+    system: ContactSystem,
+    laws: LawTables,
+    state: ContactState,
+    here: StepEquations,
+    record: RunRecord,
+    step: float,
+    apart: float,
+    middle: Floats,
+    before: Ints,
+    gap: Floats,
+    closing: Floats,
+) -> None:
+    """Shares of time, blows with their energy, and what friction takes, by pair."""
+    for m in range(len(system.stiff)):
+        rate_S, rate_q, mean_S, mean_q = 0.0, 0.0, 0.0, 0.0
+        for x in range(system.pair_at[m], system.pair_at[m + 1]):
+            o = system.pair_of[x]
+            rate_S += system.pair_driver[x] * here.v[o]
+            rate_q += system.pair_driven[x] * here.v[o]
+            mean_S += system.pair_driver[x] * middle[o]
+            mean_q += system.pair_driven[x] * middle[o]
+        counts = record.counts[m]
+        if system.two_sided[m] == 0:
+            ahead = step * (rate_q - here.ratio[m, 0] * rate_S - gap[m, 0])
+            behind = step * (here.ratio[m, 1] * rate_S - rate_q - gap[m, 1])
+            if ahead > apart and behind > apart:
+                counts[TIME_APART] += 1.0
+            elif behind < ahead:
+                counts[TIME_COAST] += 1.0
+            counts[GAP] = max(counts[GAP], min(ahead, behind))
+        now = state.touching[m]
+        if now == 0:
+            continue
+        side = now - 1
+        sign = 1.0 - 2.0 * side
+        taken = -here.P[m] * sign * (mean_q - here.ratio[m, side] * mean_S)
+        rubbed = -here.P[m] * sign * (here.ratio[m, side] - here.arm[m, side]) * mean_S
+        record.energy[FRICTION] += rubbed
+        counts[RUBBED] += rubbed
+        counts[IMPULSE] += here.P[m] * sign
+        if now != before[m] and before[m] != 0:
+            counts[CHANGES] += 1.0
+        jumps = laws.jump[system.tables[m, side]] / 2
+        leapt = now != before[m] or abs(here.ratio[m, side] - state.ratio[m, side]) > jumps
+        if leapt and system.two_sided[m] == 0 and closing[m, side] > 0.0:
+            record.energy[BLOWS] += taken
+            counts[BLOW_COUNT] += 1.0
+            counts[BLOW_ENERGY] += taken
+            counts[BLOW_SPEED] = max(counts[BLOW_SPEED], closing[m, side])
+            note_impact(record, state.clock[0] + step, m, closing[m, side], taken, here.P[m])
+        else:
+            record.energy[STEP] += taken
+            counts[PEAK] = max(counts[PEAK], abs(here.P[m]))
+
+
+@kernel
+def count_stops(
+    system: ContactSystem, state: ContactState, here: StepEquations, record: RunRecord, middle: Floats, before: Ints
+) -> None:
+    """Blows of links against their stops."""
+    pairs = len(system.stiff)
+    for m in range(len(system.stop_stiff)):
+        if state.stopped[m] == 0:
+            continue
+        rate, start = 0.0, 0.0
+        for x in range(system.stop_at[m], system.stop_at[m + 1]):
+            rate += system.stop_c[x] * middle[system.stop_of[x]]
+            start += system.stop_c[x] * state.speed[system.stop_of[x]]
+        taken = here.P[pairs + m] * rate
+        counts = record.counts[pairs + m]
+        counts[IMPULSE] += here.P[pairs + m]
+        if before[pairs + m] == 0 and start > 0.0:
+            record.energy[BLOWS] += taken
+            counts[BLOW_COUNT] += 1.0
+            counts[BLOW_ENERGY] += taken
+            counts[BLOW_SPEED] = max(counts[BLOW_SPEED], start)
+            note_impact(record, state.clock[0], pairs + m, start, taken, here.P[pairs + m])
+        else:
+            record.energy[STEP] += taken
+
+
+@kernel
+def note_impact(record: RunRecord, time: float, which: int, speed: float, energy: float, impulse: float) -> None:
+    """Write an impact down, as long as there is room."""
+    at = record.numbers[IMPACTS]
+    if at < len(record.impacts):
+        row = record.impacts[at]
+        row[0] = time
+        row[1] = which
+        row[2] = speed
+        row[3] = energy
+        row[4] = impulse
+    record.numbers[IMPACTS] = at + 1

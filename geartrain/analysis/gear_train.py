@@ -75,7 +75,7 @@ class GearTrain(TrainDynamics):
     @cached_property
     def graph(self) -> Graph:
         """The networkx graph in the first state; `graph_in` says what its nodes and edges carry."""
-        return self.graph_in(self.states[0] if self.states else None)
+        return self.graph_in(self.state_or_first(None))
 
     def graph_in(self, state: str | None = None) -> Graph:
         """The train as a networkx MultiGraph: links are nodes; turning pairs, gear pairs and couplings edges.

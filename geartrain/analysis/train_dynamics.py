@@ -156,7 +156,7 @@ class TrainDynamics(TrainKinematics):
         from geartrain.dynamics import DrivenWay
         from geartrain.dynamics.torques.load_case import input_and_output
 
-        case = self.declaration.case(state if state is not None or not self.states else self.states[0])
+        case = self.declaration.case(self.state_or_first(state))
         found = input_and_output(self.declaration, case)
         ways = [] if found is None else [found, found[::-1]]
         return [DrivenWay(self.driven(load, source, state), source, load) for source, load in ways]

@@ -37,6 +37,16 @@ class TrainKinematics:
         """Names of the declared states; empty for a train that has only one way to run."""
         return tuple(self.declaration.states)
 
+    def state_or_first(self, state: str | None) -> str | None:
+        """A state that was named, else the first declared; None for a train that has none.
+
+        Parameters
+        ----------
+        state : str or None
+            A declared state, or None.
+        """
+        return state if state is not None or not self.states else self.states[0]
+
     @cached_property
     def tree(self) -> Tree:
         """The turning pairs as a spanning tree rooted at the frame."""

@@ -74,9 +74,8 @@ def run(
         bodies=_bodies(body or ()),
     )
     train = load(file)
-    chosen = state if state is not None or not train.states else train.states[0]
     with progress("budget", STAGES) as bar:
-        found = find_budget(train, question, chosen, on_stage=bar.advance)
+        found = find_budget(train, question, train.state_or_first(state), on_stage=bar.advance)
     if plot is not None:
         from geartrain.drawing import budget_figure
 

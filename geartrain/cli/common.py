@@ -51,8 +51,7 @@ def load_all(files: list[str]) -> list[GearTrain]:
 
 def is_sound(train: GearTrain, state: str | None) -> bool:
     """True if all is determined and as expected in a state (by default the first), and no teeth are at fault."""
-    first = state if state is not None or not train.states else train.states[0]
-    return bool(train.solve(first)) and not train.faults
+    return bool(train.solve(train.state_or_first(state))) and not train.faults
 
 
 def tell(text: str) -> None:

@@ -55,7 +55,7 @@ def run(
     write_figure(figure, to)
     if is_sound(train, state):
         return
-    verdict = train.solve(state if state is not None or not train.states else train.states[0]).verdict
+    verdict = train.solve(train.state_or_first(state)).verdict
     if not verdict:
         tell(f"the train is {verdict}")
     raise typer.Exit(VERDICT)

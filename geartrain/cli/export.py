@@ -52,9 +52,7 @@ def run(
         what = "it is not said what to write" if to is None else "--to and -o are both given"
         raise GearTrainError(Problem(what, "", "give --to FOLDER for all files, or -o FILE for one", "export"))
     train = load(file)
-    if state is None and train.states:
-        state = train.states[0]
-    work = SolidModel(train, _making(module, thickness, bore, backlash), state)
+    work = SolidModel(train, _making(module, thickness, bore, backlash), train.state_or_first(state))
     shown = _turns(turns)
     if out is not None:
         _one(work, out, wheel, shown, force)

@@ -65,7 +65,10 @@ def graph_figure(train: GearTrain, state: str | None = None, labels: bool = True
     links = list(declared.links)
     too_many(train, len(links), _MOST, "links")
     broken = {
-        pair for loop in train.solve(_first(train, state)).verdict.loops if not loop.closes for pair in loop.pairs
+        pair
+        for loop in train.solve(train.state_or_first(state)).verdict.loops
+        if not loop.closes
+        for pair in loop.pairs
     }
     edges = edges_of(train, tuple(broken))
     places = _places(links, edges)
@@ -85,10 +88,6 @@ def graph_figure(train: GearTrain, state: str | None = None, labels: bool = True
         _draw_vertex(axes, link, at, edges, link == declared.frame, named)
     figure.legend(handles=list(_legend(edges)), loc="lower center", ncols=5, fontsize=SMALL - 1, frameon=False)
     return figure
-
-
-def _first(train: GearTrain, state: str | None) -> str | None:
-    return state if state is not None or not train.states else train.states[0]
 
 
 # -------------------------------------------------------------------------------------------------------------- placing

@@ -49,8 +49,7 @@ def make_scene(train: GearTrain, state: str | None = None, layout: Layout | None
     'exact'
     """
     declared = train.declaration
-    if state is None and train.states:
-        state = train.states[0]
+    state = train.state_or_first(state)
     stage = SceneContext(train, train.solve(state, method="exact"), layout or lay_out(train))
     verdict, faults = find_verdict(stage)
     moved = find_movement(stage)

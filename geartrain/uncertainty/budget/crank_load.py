@@ -49,21 +49,22 @@ def find_crank_load(train: GearTrain, state: str | None, lead: str, links: Mappi
 
     links   by pointer, the link that turns
     """
-    declared = train.declaration
-    link = declared.crank or lead
+    link, loses = train.declaration.crank or lead, _loses(train.declaration)
     found = train.torques(state)
-    pointers = dict(_efficiencies(train, state, link, links)) if _loses(declared) else {}
+    pointers = dict(_efficiencies(train, state, link, links)) if loses else {}
     if found.verdict.kind != "unloaded":
         torque = found.external.get(link)
         note = f"under the declared loads: {found.verdict.text}"
-        return CrankLoad(link, None if torque is None else float(torque), _efficiency(found, declared), note, pointers)
-    ways = train.drive_both_ways(state) if _loses(declared) else []
+        efficiency = _efficiency(found) if loses else None
+        return CrankLoad(link, None if torque is None else float(torque), efficiency, note, pointers)
+    if not loses:
+        return CrankLoad(link, None, None, "neither loads nor friction are declared", pointers)
+    ways = train.drive_both_ways(state)
     if not ways or not ways[0].torques.verdict:
-        why = "neither loads nor friction are declared" if not _loses(declared) else "no loads are declared"
-        return CrankLoad(link, None, None, why, pointers)
+        return CrankLoad(link, None, None, "no loads are declared", pointers)
     way = ways[0]
     note = f"no loads are declared: a unit of power from '{way.source}' to '{way.load}'"
-    return CrankLoad(link, None, _efficiency(way.torques, declared), note, pointers)
+    return CrankLoad(link, None, _efficiency(way.torques), note, pointers)
 
 
 def _efficiencies(
@@ -74,16 +75,13 @@ def _efficiencies(
     for name, link in links.items():
         if link != crank and link not in known:
             found = train.driven(link, crank, state)
-            known[link] = float(found.efficiency) if found.verdict and found.efficiency is not None else None
+            known[link] = _efficiency(found) if found.verdict else None
         if (efficiency := known.get(link)) is not None:
             yield name, efficiency
 
 
-def _efficiency(found: Torques, declared: Train) -> float | None:
-    """None where nothing could be lost because nothing is declared."""
-    if found.efficiency is None or not _loses(declared):
-        return None
-    return float(found.efficiency)
+def _efficiency(found: Torques) -> float | None:
+    return None if found.efficiency is None else float(found.efficiency)
 
 
 def _loses(declared: Train) -> bool:

@@ -41,7 +41,7 @@ class CuttingTrials:
     trials: TrialResults
     even: Floats
 
-    def cause(self, name: str, degrees_per_day: float | None, known: DeclaredPairs) -> BudgetCause:
+    def cause(self, name: str, known: DeclaredPairs) -> BudgetCause:
         """The range that holds 95 % of the errors of one output, and its interval: ends of both percentiles'.
 
         known   what moves the output
@@ -51,10 +51,9 @@ class CuttingTrials:
         whole = np.isfinite(errors)
         reach = len(self.trials.plan.reach[at])
         if known.gears and not reach:
-            return BudgetCause("cutting", "not declared", note="none of the pairs that move it can be cut")
+            return BudgetCause.unknown("cutting", "none of the pairs that move it can be cut")
         if known.bare and not np.ptp(errors[whole]):
-            note = f"no dimensions are declared of {', '.join(known.bare)}"
-            return BudgetCause("cutting", "not declared", note=note)
+            return BudgetCause.unknown("cutting", f"no dimensions are declared of {', '.join(known.bare)}")
         runs = whole & turning_trials(self.trials.marks, self.trials.plan.reach[at])
         kept = runs if np.count_nonzero(runs) >= FEWEST else whole
         note = f"{int(np.count_nonzero(runs))} of {self.trials.done} trials turn"
@@ -68,8 +67,8 @@ class CuttingTrials:
         if interval is None:
             note += "; too few trials for an interval"
         declared: Declared = "part" if known.bare or reach < known.gears else "whole"
-        days = size / degrees_per_day if degrees_per_day else None
-        return BudgetCause("cutting", declared, size, degrees(deviation_of(values).value), days, interval, note)
+        deviation = degrees(deviation_of(values).value)
+        return BudgetCause("cutting", declared, size, deviation, interval=interval, note=note)
 
 
 def find_cutting_trials(plan: TrialPlan, motion: Motion, count: int, seed: int, means: Execution) -> CuttingTrials:

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from geartrain.uncertainty.budget.pointer_budget import BudgetCause
-from geartrain.uncertainty.budget.tooth_motion import moving_pairs
+from geartrain.uncertainty.budget.tooth_motion import declared_pairs
 from geartrain.uncertainty.budget.true_anomaly import TRUE_MOTIONS, Body, equation_of_centre
 
 if TYPE_CHECKING:
@@ -75,10 +75,7 @@ def link_theory(problem: MotionProblem, link: str, body: Body) -> TheoryError:
     from geartrain.dynamics import Motion
 
     motion = Motion(replace(problem, teeth=[]), {link: (link, problem.frame)})
-    sized = {joint.coupling.name for joint in problem.pins}
-    couplings = {circuit.id for circuit in problem.circuits if circuit.kind != "gear"}
-    moving = [name for name in moving_pairs(motion, link) if name in couplings]
-    if bare := [name for name in moving if name not in sized]:
+    if bare := declared_pairs(motion, link).bare:
         return TheoryError(False, 0.0, 0.0, f"no dimensions are declared of {', '.join(bare)}")
     used = [source for source in motion.ahead.used if source.cycles]
     if len(used) > 1:
@@ -119,13 +116,12 @@ def least_difference(error: Floats, e: float) -> Floats:
     return rest(float(found.x))
 
 
-def theory_cause(parts: list[TheoryError], degrees_per_day: float | None) -> BudgetCause:
+def theory_cause(parts: list[TheoryError]) -> BudgetCause:
     """Parts of a pointer and of what it is read against: their cycles differ, so that peaks add, squares of rms too."""
     if not parts:
-        return BudgetCause("theory", "not declared", note="no true motion is shipped for what it shows")
+        return BudgetCause.unknown("theory", "no true motion is shipped for what it shows")
     if unknown := [part.words for part in parts if not part.known]:
-        return BudgetCause("theory", "not declared", note="; ".join(unknown))
+        return BudgetCause.unknown("theory", "; ".join(unknown))
     size = float(np.degrees(sum(part.peak_to_peak for part in parts)))
     rms = float(np.degrees(hypot(*(part.rms for part in parts))))
-    days = size / degrees_per_day if degrees_per_day else None
-    return BudgetCause("theory", "whole", size, rms, days, note="; ".join(part.words for part in parts))
+    return BudgetCause("theory", "whole", size, rms, note="; ".join(part.words for part in parts))

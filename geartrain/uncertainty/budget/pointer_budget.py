@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Literal
 
 from geartrain.numerics.plain_data import Key, Result
@@ -61,6 +61,31 @@ class BudgetCause(Result):
     days: float | None = None
     interval: tuple[float, float] | None = None
     note: str = ""
+
+    @classmethod
+    def unknown(cls, name: CauseName, note: str) -> BudgetCause:
+        """A cause of which nothing is declared.
+
+        Parameters
+        ----------
+        name : str
+            What it comes from.
+        note : str
+            What is not declared.
+        """
+        return cls(name, "not declared", note=note)
+
+    def in_days(self, degrees_per_day: float | None) -> BudgetCause:
+        """The cause with its size as a time.
+
+        Parameters
+        ----------
+        degrees_per_day : float or None
+            How fast the pointer turns; None where it stands or no time is declared.
+        """
+        if self.degrees is None or not degrees_per_day:
+            return self
+        return replace(self, days=self.degrees / degrees_per_day)
 
     @property
     def measure(self) -> str:

@@ -45,15 +45,14 @@ def _drift(result: TargetResult, unit_days: float | None, span_days: float) -> R
     )
 
 
-def ratio_cause(drifts: tuple[RatioDrift, ...], degrees_per_day: float | None) -> BudgetCause:
+def ratio_cause(drifts: tuple[RatioDrift, ...]) -> BudgetCause:
     """The drift over the span, against the first target."""
     if not drifts:
-        return BudgetCause("ratio", "not declared", note="no target is declared for this pointer")
+        return BudgetCause.unknown("ratio", "no target is declared for this pointer")
     first = drifts[0]
     if first.degrees_over_span is None:
         note = f"against {first.target}: the train's unit is no time, so that there is no span to drift over"
-        return BudgetCause("ratio", "not declared", note=note)
+        return BudgetCause.unknown("ratio", note)
     size = abs(first.degrees_over_span)
-    days = size / degrees_per_day if degrees_per_day else None
     # a line from 0 to its end: rms about its mean
-    return BudgetCause("ratio", "whole", size, size / sqrt(12), days, note=f"against {first.target}")
+    return BudgetCause("ratio", "whole", size, size / sqrt(12), note=f"against {first.target}")

@@ -113,7 +113,7 @@ def find_tooth_motion(
             for name, most, square in zip(names, greatest, squares, strict=True)
         },
         pair_ripples(motion),
-        {name: _declared(motion, name) for name in names},
+        {name: declared_pairs(motion, name) for name in names},
         tuple(sorted(back)),
     )
 
@@ -148,7 +148,8 @@ def moving_pairs(motion: Motion, output: str) -> tuple[str, ...]:
     return tuple(name for name, moves in found.items() if moves)
 
 
-def _declared(motion: Motion, output: str) -> DeclaredPairs:
+def declared_pairs(motion: Motion, output: str) -> DeclaredPairs:
+    """What moves an output, and how much of it is declared."""
     circuits = {circuit.id: circuit for circuit in motion.train.circuits}
     real = {mesh.name for mesh in motion.train.teeth}
     sized = {joint.coupling.name for joint in motion.train.pins}
@@ -163,7 +164,7 @@ def _declared(motion: Motion, output: str) -> DeclaredPairs:
     )
 
 
-def tooth_causes(found: ToothMotion, name: str, degrees_per_day: float | None) -> tuple[BudgetCause, BudgetCause]:
+def tooth_causes(found: ToothMotion, name: str) -> tuple[BudgetCause, BudgetCause]:
     """Ripple and lost motion of one output."""
     known = found.declared[name]
     if known.gears and not known.real:
@@ -181,19 +182,15 @@ def tooth_causes(found: ToothMotion, name: str, degrees_per_day: float | None) -
     more = f"; {bare}, which pass on no ripple here" if known.bare else ""
     play = f"; play of the pins of {', '.join(known.pins)} unknown" if known.pins else ""
     declared: Declared = "part" if known.bare or known.real < known.gears else "whole"
-    lost = _cause("lost motion", "part" if known.pins else declared, most, rms, degrees_per_day, of + play)
+    lost = _cause("lost motion", "part" if known.pins else declared, most, rms, of + play)
     if known.real and most < _FEW:
-        lost = BudgetCause("lost motion", "not declared", note="its pairs have teeth, but no backlash is declared")
-    return _cause("teeth", declared, tally.peak_to_peak, tally.rms, degrees_per_day, of + worst + more), lost
+        lost = BudgetCause.unknown("lost motion", "its pairs have teeth, but no backlash is declared")
+    return _cause("teeth", declared, tally.peak_to_peak, tally.rms, of + worst + more), lost
 
 
 def _undeclared(note: str) -> tuple[BudgetCause, BudgetCause]:
-    return BudgetCause("teeth", "not declared", note=note), BudgetCause("lost motion", "not declared", note=note)
+    return BudgetCause.unknown("teeth", note), BudgetCause.unknown("lost motion", note)
 
 
-def _cause(
-    name: CauseName, declared: Declared, size: float, rms: float, degrees_per_day: float | None, note: str
-) -> BudgetCause:
-    size = degrees(size)
-    days = size / degrees_per_day if degrees_per_day else None
-    return BudgetCause(name, declared, size, degrees(rms), days, note=note)
+def _cause(name: CauseName, declared: Declared, size: float, rms: float, note: str) -> BudgetCause:
+    return BudgetCause(name, declared, degrees(size), degrees(rms), note=note)

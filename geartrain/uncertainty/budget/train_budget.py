@@ -191,23 +191,18 @@ class _TrainCauses:
         # mean speed without sign; none where the pointer stands or the unit is no time
         rate = 360 * abs(float(speed)) / self.unit_days if speed and self.unit_days else None
         drifts = find_drifts(output, self.unit_days, self.asked.span_days)
-        ripple, lost = tooth_causes(self.teeth, name, rate)
-        causes = (
-            ratio_cause(drifts, rate),
-            theory_cause(self.theories[name], rate),
-            ripple,
-            lost,
-            self._cutting(name, rate),
-        )
+        ratio, theory = ratio_cause(drifts), theory_cause(self.theories[name])
+        found = (ratio, theory, *tooth_causes(self.teeth, name), self._cutting(name))
+        causes = tuple(cause.in_days(rate) for cause in found)
         return PointerBudget(name, output.of, output.relative_to, speed, rate, causes, drifts, self.teeth.pairs[name])
 
-    def _cutting(self, name: str, rate: float | None) -> BudgetCause:
+    def _cutting(self, name: str) -> BudgetCause:
         known = self.teeth.declared[name]
         if not known.gears and not known.pins:
             return BudgetCause("cutting", "whole", 0.0, 0.0, 0.0, note="no gear pair lies between it and the input")
         if self.cut is None:
-            return BudgetCause("cutting", "not declared", note=self.uncut)
-        return self.cut.cause(name, rate, known)
+            return BudgetCause.unknown("cutting", self.uncut)
+        return self.cut.cause(name, known)
 
 
 def pointer_names(answer: Answer) -> tuple[str, ...]:

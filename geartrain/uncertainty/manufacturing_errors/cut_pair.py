@@ -50,6 +50,18 @@ class CutToothPairs(ToothCouple):
         self.reach: Floats = np.where(np.asarray(delta) > 0, 2 * np.arcsin(self.entry), -np.inf)
         self.exit_angle: Floats = -2 * np.arcsin(_half_sine(R2, R1, D, delta))
 
+    @classmethod
+    def of(cls, sizes: TriangularSizes, tips: tuple[Any, Any], flanks: tuple[Any, Any], shift: Any) -> CutToothPairs:
+        """Couples of the teeth of a pair: tips higher and half angles wider by so much, axles so much farther apart."""
+        return cls(
+            sizes.R1 + tips[0],
+            sizes.R2 + tips[1],
+            sizes.beta1 + flanks[0],
+            sizes.beta2 + flanks[1],
+            sizes.D + shift,
+            sizes.delta + (tips[0] + tips[1]) - shift,
+        )
+
     def contact(self, x: Any) -> Any:
         """f(x) = min(approach, recess): alpha_2 at first contact, where |x| is within the reach."""
         return np.minimum(self.approach_angle(x, np), self.recess_angle(x, np))
@@ -126,15 +138,8 @@ class CutGearPair:
         j = (k if of_driven is None else of_driven) % self.sizes.z2
         one, two, sizes = self.first, self.second, self.sizes
         shift = self.shift if np.ndim(self.shift) == 0 else np.asarray(self.shift)[..., None]
-        tips = one.tip[..., i] + two.tip[..., j]
-        return CutToothPairs(
-            sizes.R1 + one.tip[..., i],
-            sizes.R2 + two.tip[..., j],
-            sizes.beta1 + one.leading[..., i],
-            sizes.beta2 + two.trailing[..., j],
-            sizes.D + shift,
-            sizes.delta + tips - shift,
-        )
+        tips = one.tip[..., i], two.tip[..., j]
+        return CutToothPairs.of(sizes, tips, (one.leading[..., i], two.trailing[..., j]), shift)
 
     def places(self, k: Any) -> tuple[Floats, Floats]:
         """How late the two teeth of couples k are (rad, each of its own wheel)."""

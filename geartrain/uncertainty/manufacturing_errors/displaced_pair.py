@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from geartrain.uncertainty.manufacturing_errors.cut_wheel import of_teeth
 from geartrain.uncertainty.manufacturing_errors.displaced_wheel import DisplacedWheel
 from geartrain.uncertainty.manufacturing_errors.file_strokes import TightPlace
 from geartrain.uncertainty.manufacturing_errors.meshing_cycle import MeshingVerdicts
@@ -274,21 +275,21 @@ class DisplacedPair:
         at, sign = self.contact, -1.0 if back else 1.0
         one, two, ratio = self.first, self.second, float(self.contact.ratio)
         i, j = k % one.z, (k + back) % two.z
-        place = _of(one.place, rows, i)
+        place = of_teeth(one.place, rows, i)
         x = sign * (S - k * at.pitches[0] - place)
         flank1, low1 = (one.trailing, one.trailing_low) if back else (one.leading, one.leading_low)
         flank2, low2 = (two.leading, two.leading_low) if back else (two.trailing, two.trailing_low)
         shift = self.shift if np.ndim(self.shift) == 0 else self.shift[rows]
         names = (*at.across, *at.along, *at.tilt, at.normal, at.even, at.apart)
         t1, t2, y1, y2, l1, l2, w, even, apart = self._columns(x, names)
-        lag = sign * (ratio * place - _of(two.place, rows, j)) + even + apart * shift
-        lag = lag - _of(flank1, rows, i) * l1 + _of(flank2, rows, j) * l2
-        lag = lag + (_of(low1, rows, i) + _of(low2, rows, j)) * w
+        lag = sign * (ratio * place - of_teeth(two.place, rows, j)) + even + apart * shift
+        lag = lag - of_teeth(flank1, rows, i) * l1 + of_teeth(flank2, rows, j) * l2
+        lag = lag + (of_teeth(low1, rows, i) + of_teeth(low2, rows, j)) * w
         for wheel, angle, across, along in ((one, S, -t1, -y1), (two, ratio * S + at.stands + back * at.play, t2, y2)):
             if np.any(wheel.e):
                 e, towards = (each[rows] if np.ndim(each) else each for each in (wheel.e, wheel.towards))
                 lag = lag + e * (sign * across * np.sin(angle - towards) + along * np.cos(angle - towards))
-        found: Floats = lag + self._corners(x, _of(one.tips, rows, i), _of(two.tips, rows, j))
+        found: Floats = lag + self._corners(x, of_teeth(one.tips, rows, i), of_teeth(two.tips, rows, j))
         return found
 
     def first_lag(self, rows: Ints, S: Floats, back: bool = False) -> tuple[Floats, Ints]:
@@ -312,13 +313,6 @@ def mean_lag(contact: DisplacedContact) -> float:
     pair = DisplacedPair(contact, *(DisplacedWheel.even(wheel.z) for wheel in contact.wheels))
     S = np.linspace(0.0, contact.pitches[0], _FINE, endpoint=False)
     return float(pair.first_lag(np.zeros(_FINE, np.int64), S)[0].mean())
-
-
-def _of(each: Floats, rows: Ints, teeth: Ints) -> Any:
-    """The value of one tooth of each trial; a plain 0 where all are, which costs no array."""
-    if each.ndim == 1:
-        return each[teeth] if each.any() else 0.0
-    return each[rows, teeth]
 
 
 def _at(terms: Any, rows: Ints, n: Ints) -> Floats:

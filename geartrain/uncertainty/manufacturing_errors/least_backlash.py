@@ -96,7 +96,7 @@ def least_sum(front: CutToothPairs, back: CutToothPairs, delta: Any) -> Any:
 
 def even_tooth_pair(sizes: TriangularSizes) -> CutToothPairs:
     """The one couple of wheels without errors."""
-    return CutToothPairs(sizes.R1, sizes.R2, sizes.beta1, sizes.beta2, sizes.D, sizes.delta)
+    return CutToothPairs.of(sizes, (0.0, 0.0), (0.0, 0.0), 0.0)
 
 
 @lru_cache(maxsize=1024)

@@ -6,12 +6,13 @@ from abc import abstractmethod
 from copy import copy
 from fractions import Fraction
 from math import ceil, floor, inf, lcm, pi
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from geartrain.teeth.transmission import TransmissionFunction, behind
 from geartrain.uncertainty.manufacturing_errors.cut_pair import CutGearPair, CutToothPairs
+from geartrain.uncertainty.manufacturing_errors.cut_wheel import of_teeth
 from geartrain.uncertainty.manufacturing_errors.displaced_pair import DisplacedPair
 
 if TYPE_CHECKING:
@@ -125,18 +126,18 @@ class CutTrialTransmission(TrialTransmissionFunction):
         """What couples k make the driven wheel lag (rad); inf out of reach. One that has left holds it where it did."""
         pair, sizes = self.pair, self.pair.sizes
         i, j = k % sizes.z1, k % sizes.z2
-        place = _of(pair.first.place, rows, i)
+        place = of_teeth(pair.first.place, rows, i)
         x, couples = ahead + place, self._couples(rows, i, j)
         reach = couples.reach
         with np.errstate(all="ignore"):
             y = np.where(x < -reach, couples.exit_angle, couples.contact(np.clip(x, -reach, reach)))
-            lag = (y - sizes.ratio * x) + (sizes.ratio * place - _of(pair.second.place, rows, j))
+            lag = (y - sizes.ratio * x) + (sizes.ratio * place - of_teeth(pair.second.place, rows, j))
         return np.where((x <= reach) & (reach > -inf), lag, inf)
 
     def _speed(self, rows: Ints, k: Ints, ahead: Floats) -> Floats:
         """The speed couples k give the driven wheel; 0 where they have left."""
         i, j = k % self.pair.sizes.z1, k % self.pair.sizes.z2
-        x, couples = ahead + _of(self.pair.first.place, rows, i), self._couples(rows, i, j)
+        x, couples = ahead + of_teeth(self.pair.first.place, rows, i), self._couples(rows, i, j)
         reach = couples.reach
         with np.errstate(all="ignore"):
             inside = np.clip(x, -reach, reach)
@@ -145,15 +146,9 @@ class CutTrialTransmission(TrialTransmissionFunction):
     def _couples(self, rows: Ints, i: Ints, j: Ints) -> CutToothPairs:
         one, two, sizes = self.pair.first, self.pair.second, self.pair.sizes
         shift = self.pair.shift if np.ndim(self.pair.shift) == 0 else self.pair.shift[rows]
-        tip1, tip2 = _of(one.tip, rows, i), _of(two.tip, rows, j)
-        return CutToothPairs(
-            sizes.R1 + tip1,
-            sizes.R2 + tip2,
-            sizes.beta1 + _of(one.leading, rows, i),
-            sizes.beta2 + _of(two.trailing, rows, j),
-            sizes.D + shift,
-            sizes.delta + tip1 + tip2 - shift,
-        )
+        tips = of_teeth(one.tip, rows, i), of_teeth(two.tip, rows, j)
+        flanks = of_teeth(one.leading, rows, i), of_teeth(two.trailing, rows, j)
+        return CutToothPairs.of(sizes, tips, flanks, shift)
 
 
 class DisplacedTrialTransmission(TrialTransmissionFunction):
@@ -171,10 +166,3 @@ class DisplacedTrialTransmission(TrialTransmissionFunction):
             # inf - inf where nothing touches
             slope = (self.pair.lag(rows, rest + step, couple) - self.pair.lag(rows, rest - step, couple)) / (2 * step)
         return -lag, np.where(np.isfinite(slope), float(self.ratio) - slope, 0.0)
-
-
-def _of(each: Floats, rows: Ints, teeth: Ints) -> Any:
-    """The value of one tooth of each trial; a plain 0 where all are, which costs no array."""
-    if each.ndim == 1:
-        return each[teeth] if each.any() else 0.0
-    return each[rows, teeth]

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from functools import cache
 from itertools import pairwise
 from math import log, sqrt
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Field, model_validator
 from pydantic_core import PydanticCustomError
@@ -114,9 +114,6 @@ class FrictionLaw(BaseModel, ABC):
 
     model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
 
-    pitch_line: ClassVar[bool] = False
-    """True for laws of the pitch-line speed, whose coefficient is the same at every contact."""
-
     if TYPE_CHECKING:
         law: str
 
@@ -126,8 +123,8 @@ class FrictionLaw(BaseModel, ABC):
 
     @property
     def of_pitch_line(self) -> bool:
-        """True if the speed is that of the pitch line."""
-        return self.pitch_line
+        """True if the speed is that of the pitch line, so that the coefficient is the same at every contact."""
+        return False
 
 
 class StribeckFriction(FrictionLaw):
@@ -149,9 +146,12 @@ class StribeckFriction(FrictionLaw):
 class BuckinghamFriction(FrictionLaw):
     """Lubricated cast-iron spur gears, by the speed of the pitch line."""
 
-    pitch_line: ClassVar[bool] = True
-
     law: Literal["buckingham"] = Field(description="Lubricated cast iron, by pitch-line speed: Buckingham")
+
+    @property
+    def of_pitch_line(self) -> bool:
+        """True: it was measured so."""
+        return True
 
     def coefficient(self, speed: Floats) -> Floats:
         """`buckingham`."""

@@ -52,6 +52,11 @@ class SampledFunction:
         return min(self.seen, key=lambda at: self.seen[at])
 
 
+def distance(one: Point, other: Point, bounds: Sequence[tuple[float, float]]) -> float:
+    """The greatest difference of two points of a box, in ranges."""
+    return max(abs(a - b) / (high - low) for a, b, (low, high) in zip(one, other, bounds, strict=True))
+
+
 def minimise(value: Function, bounds: Sequence[tuple[float, float]], starts: Sequence[Point] = ()) -> SampledFunction:
     """Samples of `value` in a box, the best of which is its least value as far as is found.
 
@@ -109,16 +114,11 @@ def _apart(sampled: SampledFunction) -> list[Point]:
     """The lowest samples, none near another."""
     found: list[Point] = []
     for at in sorted(sampled.seen, key=lambda at: sampled.seen[at]):
-        if all(_distance(sampled, at, other) > _NEAR for other in found):
+        if all(distance(at, other, sampled.bounds) > _NEAR for other in found):
             found.append(at)
         if len(found) == _BASINS:
             break
     return found
-
-
-def _distance(sampled: SampledFunction, one: Point, other: Point) -> float:
-    """The greatest difference of two points, in ranges."""
-    return max(abs(a - b) / (high - low) for a, b, (low, high) in zip(one, other, sampled.bounds, strict=True))
 
 
 def _brackets(sampled: SampledFunction) -> list[tuple[float, float]]:

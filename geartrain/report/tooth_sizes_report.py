@@ -211,14 +211,10 @@ def _agreement(found: OutlineAgreement) -> Section:
         f"{'turn' if found.turns else 'do not turn'}; the greatest relative difference is {found.difference:.2g}."
     )
     rows = [
-        (name, *(told(name, each) for each in getattr(found, name)), f"{_difference(*getattr(found, name)):.2g}")
-        for name in ("loss", "error", "impact", "play")
+        (name, *(told(name, each) for each in getattr(found, name)), f"{off:.2g}")
+        for name, off in found.differences.items()
     ]
     return Section("By the outlines", (text,), (Table(("figure", "law", "outlines", "relative difference"), rows),))
-
-
-def _difference(a: float, b: float) -> float:
-    return abs(a - b) / max(abs(a), abs(b), 1e-12)
 
 
 def _front(found: BestToothSizes) -> Section:

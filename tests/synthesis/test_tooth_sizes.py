@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import json
 import random
 from dataclasses import replace
 from math import pi, radians
 
+import numpy as np
 import pytest
 from scipy.optimize import differential_evolution
 
@@ -42,6 +44,17 @@ def test_losses_of_radii_by_rule_and_of_better_ones(
     loss = [100 * start.at({"radii": each}).loss for each in (equal_depth_radii(*teeth, THIRTY), 1.0)]
     assert loss == pytest.approx([equal, true], abs=0.05 if equal > 10 else 0.005)
     assert 100 * start.at({"radii": 0.98 if teeth == (48, 96) else 0.92}).loss == pytest.approx(best, abs=0.005)
+
+
+@pytest.mark.parametrize("number", [np.float64, np.float32])
+def test_sizes_may_be_numbers_of_numpy(number: type[np.floating]) -> None:
+    found = ToothSizes(
+        (np.int64(48), np.int64(96)), number(0.75), number(0.5), (number(0.5), number(0.5)), number(0.25)
+    )
+    plain = ToothSizes((48, 96), 0.75, 0.5, (0.5, 0.5), 0.25)
+    assert found == plain
+    assert [found.merit(aim) for aim in AIMS] == [plain.merit(aim) for aim in AIMS]
+    assert json.dumps(found.at({"radii": number(1.0)}).to_dict()) == json.dumps(plain.at({"radii": 1.0}).to_dict())
 
 
 @pytest.mark.parametrize("aim", AIMS)

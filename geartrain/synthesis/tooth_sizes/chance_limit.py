@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 from geartrain.errors import Problem, QuestionError
-from geartrain.numerics.global_minimum import Point
+from geartrain.numerics.global_minimum import Point, distance
 from geartrain.synthesis.tooth_sizes.size_design import ToothSizes
 from geartrain.synthesis.tooth_sizes.size_search import SizeSearch
 
@@ -42,7 +42,7 @@ def best_within(search: SizeSearch, aim: str, limit: ChanceLimit) -> tuple[Tooth
     for at in known:
         if len(refused) == _ASKED:
             break
-        if any(_distance(search, at, other) < _NEAR for other in refused):
+        if any(distance(at, other, search.bounds) < _NEAR for other in refused):
             continue
         if (chance := limit.chance(search.design(at))) <= limit.bound:
             return _narrowed(search, aim, limit, at, chance, refused)
@@ -58,14 +58,9 @@ def _narrowed(
     if not refused:
         return search.design(at), chance
     value = search.value(aim)
-    beyond = min(refused, key=lambda other: _distance(search, at, other))
+    beyond = min(refused, key=lambda other: distance(at, other, search.bounds))
     for _ in range(_HALVINGS):
         middle = tuple((a + b) / 2 for a, b in zip(at, beyond, strict=True))
         better = value(middle) < value(at) and (found := limit.chance(search.design(middle))) <= limit.bound
         at, beyond, chance = (middle, beyond, found) if better else (at, middle, chance)
     return search.design(at), chance
-
-
-def _distance(search: SizeSearch, one: Point, other: Point) -> float:
-    """The greatest difference of two points, in ranges."""
-    return max(abs(a - b) / (high - low) for a, b, (low, high) in zip(one, other, search.bounds, strict=True))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from math import cos, sin
 from typing import TYPE_CHECKING
@@ -16,6 +17,7 @@ if TYPE_CHECKING:
     from geartrain.teeth.triangular.pair_geometry import TriangularSizes
 
 
+_NOTHING = 1e-12  # figures below it are 0 but for rounding
 _CELLS, _NODES = 24, 4  # of each smooth stretch of the outlines' law, and the nodes of Gauss in each
 
 
@@ -45,9 +47,14 @@ class OutlineAgreement(Result):
 
     @property
     def difference(self) -> float:
-        """The greatest difference of the two, over the greater of them."""
-        pairs = (self.loss, self.error, self.impact, self.play)
-        return max(abs(a - b) / max(abs(a), abs(b), 1e-12) for a, b in pairs)
+        """The greatest of the `differences`."""
+        return max(self.differences.values())
+
+    @property
+    def differences(self) -> Mapping[str, float]:
+        """By figure, the difference of the two over the greater of them."""
+        pairs = {"loss": self.loss, "error": self.error, "impact": self.impact, "play": self.play}
+        return {name: abs(a - b) / max(abs(a), abs(b), _NOTHING) for name, (a, b) in pairs.items()}
 
 
 def outline_law(sizes: TriangularSizes, friction: float) -> OutlineTransmission:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 from math import inf, isnan
@@ -82,6 +82,15 @@ class ToothSizes(Result):
     friction: float
     driver: int = 1
 
+    def __post_init__(self) -> None:
+        # plain numbers, whatever was given: all that follows is scalar
+        z1, z2 = self.teeth
+        first, second = self.half_angles
+        object.__setattr__(self, "teeth", (int(z1), int(z2)))
+        object.__setattr__(self, "half_angles", (float(first), float(second)))
+        for name in ("radii", "window", "friction"):
+            object.__setattr__(self, name, float(getattr(self, name)))
+
     def at(self, parameters: Mapping[str, float]) -> ToothSizes:
         """The design with some parameters of `PARAMETERS` replaced.
 
@@ -93,8 +102,8 @@ class ToothSizes(Result):
         angle = parameters.get("half_angle")
         return replace(
             self,
-            radii=float(parameters.get("radii", self.radii)),
-            window=float(parameters.get("window", self.window)),
+            radii=parameters.get("radii", self.radii),
+            window=parameters.get("window", self.window),
             half_angles=self.half_angles if angle is None else (angle, angle),
         )
 
@@ -244,3 +253,8 @@ class SizeLimit(Result):
         """
         found = float(getattr(sizes, self.figure))
         return self.bound - found if self.figure in self.LEAST else found - self.bound
+
+
+def keeps(design: ToothSizes, limits: Iterable[SizeLimit]) -> bool:
+    """Whether a design turns and keeps all limits."""
+    return design.runs and all(limit.excess(design) <= 0 for limit in limits)

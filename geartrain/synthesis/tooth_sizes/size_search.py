@@ -12,11 +12,7 @@ from math import pi
 
 from geartrain.errors import Problem, QuestionError
 from geartrain.numerics.global_minimum import Point, SampledFunction, minimise, polish
-from geartrain.synthesis.tooth_sizes.size_design import (
-    PARAMETERS,
-    SizeLimit,
-    ToothSizes,
-)
+from geartrain.synthesis.tooth_sizes.size_design import PARAMETERS, SizeLimit, ToothSizes, keeps
 
 Range = tuple[float, float]
 USUAL_RANGES: Mapping[str, Range] = {
@@ -54,11 +50,8 @@ class SizeSearch:
         return self.designs[at]
 
     def place(self, design: ToothSizes) -> Point:
-        """The point of a design, drawn into the bounds."""
-        return tuple(
-            min(max(design.parameter(name), low), high)
-            for name, (low, high) in zip(self.free, self.bounds, strict=True)
-        )
+        """The point of a design, which may lie outside the bounds."""
+        return tuple(map(design.parameter, self.free))
 
     @property
     def bounds(self) -> tuple[Range, ...]:
@@ -67,7 +60,7 @@ class SizeSearch:
 
     def keeps(self, design: ToothSizes, more: Sequence[SizeLimit] = ()) -> bool:
         """Whether a design turns and keeps all limits."""
-        return design.runs and all(limit.excess(design) <= 0 for limit in (*self.limits, *more))
+        return keeps(design, (*self.limits, *more))
 
     def value(self, aim: str, more: Sequence[SizeLimit] = ()) -> Callable[[Point], float]:
         """The figure to be made small; beyond all figures where a pair does not turn or misses a limit."""
@@ -90,7 +83,8 @@ class SizeSearch:
         turns = any(design.runs for design in self.designs.values())
         names = ", ".join(self.free)
         why = "every one that turns misses a limit" if turns else "none of them turns"
-        what = f"no {names} in the ranges asked for makes a pair of {start_text(self.start)}"
+        z1, z2 = self.start.teeth
+        what = f"no {names} in the ranges asked for makes a pair of {z1} and {z2} teeth that turns"
         raise QuestionError(Problem(what, why, "widen the ranges, free more, or loosen the limits"))
 
     def front(self, first: str, second: str) -> tuple[ToothSizes, ...]:
@@ -127,11 +121,6 @@ def _spread(front: Sequence[ToothSizes], aim: str) -> tuple[ToothSizes, ...]:
 
 def _limit(aim: str, merit: float) -> SizeLimit:
     return SizeLimit(aim, -merit if aim == "jam" else merit)
-
-
-def start_text(start: ToothSizes) -> str:
-    """`15 and 60 teeth that turns`, as complaints say it."""
-    return f"{start.teeth[0]} and {start.teeth[1]} teeth that turns"
 
 
 def checked_ranges(free: Mapping[str, Range | None]) -> dict[str, Range]:

@@ -8,7 +8,8 @@ pair after the other until the figure gains nothing more, so that it is never wo
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import replace
 from functools import cached_property
 from math import inf
 from typing import Any
@@ -19,9 +20,10 @@ from geartrain.analysis.gear_train import GearTrain
 from geartrain.dynamics import MotionRun
 from geartrain.errors import GearTrainError, Problem, QuestionError, check_choice
 from geartrain.synthesis.tooth_sizes.outline_agreement import confirm_by_outlines
-from geartrain.synthesis.tooth_sizes.size_design import AIMS, SizeLimit, ToothSizes
+from geartrain.synthesis.tooth_sizes.size_design import AIMS, SizeLimit, ToothSizes, keeps
 from geartrain.synthesis.tooth_sizes.size_search import Range, SizeSearch, checked_ranges
 from geartrain.synthesis.tooth_sizes.train_sizes import DIGITS, BestTrainSizes, PairSizes, form_data
+from geartrain.teeth.gear_mesh import GearMesh
 from geartrain.teeth.triangular.triangular_form import Triangular
 from geartrain.teeth.triangular.triangular_mesh import TriangularMesh
 
@@ -103,14 +105,14 @@ class TrainSizeSearch:
         on_step: OnStep,
     ) -> None:
         self.train, self.aim, self.limits, self._on_step = train, aim, tuple(limits), on_step
-        self.output = output
-        self.state = state if state is not None or not train.states else train.states[0]
+        self.output, self.state = output, train.state_or_first(state)
         self.free = checked_ranges({"radii": None} if free is None else free)
         case = train.declaration.case(self.state)
         self.source = train.declaration.crank or next(iter(case.inputs), "")
         declared = case.outputs.get(output)
         self.link = output if declared is None else declared.of or output
         check_choice("link", self.link, tuple(train.declaration.links))
+        self._done: dict[Any, ToothSizes] = {}  # the best sizes of a pair by itself, for others like it
 
     @property
     def _acting(self) -> bool:
@@ -122,7 +124,7 @@ class TrainSizeSearch:
     @cached_property
     def _drivers(self) -> Mapping[str, str]:
         """The pairs that act on the output, and the wheel that drives each on the way there."""
-        meshes = {mesh.name: mesh for mesh in self.train.meshes_in(self.state)}
+        meshes = {mesh.name: mesh for mesh in self._all_meshes}
         if self.aim == "loss":
             # without losses: teeth that do not turn as they are declared still tell where the power goes
             pairs = self._ideal.driven(self.link, self.source, self.state).pairs
@@ -136,8 +138,12 @@ class TrainSizeSearch:
         return self._with({name: each for name, each in self._starts.items() if each.runs})
 
     @cached_property
+    def _all_meshes(self) -> tuple[GearMesh, ...]:
+        return self.train.meshes_in(self.state)
+
+    @cached_property
     def _meshes(self) -> Mapping[str, TriangularMesh]:
-        return sizeable_meshes(self.train, self.state)
+        return sizeable_meshes(self._all_meshes)
 
     @cached_property
     def _starts(self) -> Mapping[str, ToothSizes]:
@@ -155,7 +161,7 @@ class TrainSizeSearch:
         return found
 
     def _untouched(self) -> Iterator[tuple[str, str]]:
-        for mesh in self.train.meshes_in(self.state):
+        for mesh in self._all_meshes:
             if mesh.name not in self._drivers:
                 yield mesh.name, f"not on the way to '{self.output}'"
             elif not isinstance(mesh, TriangularMesh):
@@ -165,10 +171,9 @@ class TrainSizeSearch:
 
     def _free_of(self, name: str) -> dict[str, Range]:
         """What is free of one pair: not the half angle of a wheel that has another mate."""
-        mates = [
-            mesh for mesh in self.train.meshes_in(self.state) if {*mesh.gear.pair} & {*self._meshes[name].gear.pair}
-        ]
-        return {size: each for size, each in self.free.items() if size != "half_angle" or len(mates) == 1}
+        wheels = {*self._meshes[name].gear.pair}
+        alone = sum(not wheels.isdisjoint(mesh.gear.pair) for mesh in self._all_meshes) == 1
+        return {size: each for size, each in self.free.items() if size != "half_angle" or alone}
 
     # ----------------------------------------------------------------------------------------------- what is compared
 
@@ -242,7 +247,7 @@ class TrainSizeSearch:
         """The best sizes of one pair by itself, with the digits of a declaration."""
         start, free = self._starts[name], self._free_of(name)
         driver = 1 + self._meshes[name].gear.pair.index(self._drivers[name])
-        start = ToothSizes(start.teeth, start.radii, start.window, start.half_angles, start.friction, driver)
+        start = replace(start, driver=driver)
         key = start, tuple(free.items())
         if key not in self._done:
             search = SizeSearch(start, free, self.limits)
@@ -250,18 +255,14 @@ class TrainSizeSearch:
         self._on_step()
         return self._done[key]
 
-    @cached_property
-    def _done(self) -> dict[Any, ToothSizes]:
-        return {}
-
     def _descend(self, best: float, sizes: dict[str, ToothSizes]) -> tuple[float, dict[str, ToothSizes]]:
         """Coordinate descent on the figure of the train."""
         reach = _REACH
         for _ in range(_SWEEPS):
             before = best
             for name in self._asked:
-                for size, (low, high) in self._free_of(name).items():
-                    best, sizes[name] = self._step(best, sizes, name, size, (low, high), reach)
+                for size, bounds in self._free_of(name).items():
+                    best, sizes[name] = self._step(best, sizes, name, size, bounds, reach)
             if before - best <= _GAIN * before:
                 break
             reach /= 2
@@ -272,13 +273,12 @@ class TrainSizeSearch:
     ) -> tuple[float, ToothSizes]:
         """The best value of one size of one pair near where it is: by Brent's bounded method."""
         here, width = sizes[name].parameter(size), reach * (bounds[1] - bounds[0])
-        keeps = SizeSearch(sizes[name], {size: bounds}, self.limits).keeps
         found = (best, sizes[name])
 
         def value(x: float) -> float:
             nonlocal found
             design = _rounded(sizes[name].at({size: x}))
-            figure = self.figure({**sizes, name: design}) if keeps(design) else inf
+            figure = self.figure({**sizes, name: design}) if keeps(design, self.limits) else inf
             found = min(found, (figure, design), key=lambda each: each[0])
             return min(figure, 1e6)
 
@@ -304,9 +304,9 @@ class TrainSizeSearch:
         }
 
 
-def sizeable_meshes(train: GearTrain, state: str | None) -> dict[str, TriangularMesh]:
+def sizeable_meshes(meshes: Iterable[GearMesh]) -> dict[str, TriangularMesh]:
     """The pairs with triangular teeth whose sizes are not declared as lengths, by name."""
-    found = (mesh for mesh in train.meshes_in(state) if isinstance(mesh, TriangularMesh))
+    found = (mesh for mesh in meshes if isinstance(mesh, TriangularMesh))
     return {mesh.name: mesh for mesh in found if not mesh.tooth_form.has_lengths}
 
 

@@ -107,12 +107,13 @@ class BestTrainSizes(Result):
     declaration: Mapping[str, Any]
 
 
-def form_data(sizes: ToothSizes) -> dict[str, Any]:
-    """Sizes as a declaration says them."""
-    first, second = (f"{degrees(angle):.10g} deg" for angle in sizes.half_angles)
+def form_data(sizes: ToothSizes, exact: bool = False) -> dict[str, Any]:
+    """Sizes as a declaration says them; `exact`: with all digits of a float."""
+    angles, lengths = ("", "") if exact else (".10g", f".{DIGITS}f")
+    first, second = (f"{degrees(angle):{angles}} deg" for angle in sizes.half_angles)
     return {
         "form": "triangular",
         "half_angle": first if first == second else [first, second],
-        "window": f"{sizes.window:.{DIGITS}f}",
-        "radii": f"{sizes.radii:.{DIGITS}f}",
+        "window": f"{sizes.window:{lengths}}",
+        "radii": f"{sizes.radii:{lengths}}",
     }

@@ -214,7 +214,7 @@ class ClearanceWindow:
     @property
     def works(self) -> bool:
         """True if some clearance lets the pair turn."""
-        return self.jam < self.run
+        return bool(self.jam < self.run)
 
     def at(self, fraction: float) -> float:
         """The excess at a fraction of the window, 0 at the jam and 1 where contact is lost."""

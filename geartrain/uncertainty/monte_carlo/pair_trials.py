@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from math import degrees
 
 from geartrain.analysis.gear_train import GearTrain
 from geartrain.synthesis import ToothSizes
+from geartrain.synthesis.tooth_sizes.train_sizes import form_data
 from geartrain.uncertainty.manufacturing_errors.declared_errors import ErrorOverride
 from geartrain.uncertainty.monte_carlo.trial_plan import find_trial_plan
 from geartrain.uncertainty.monte_carlo.trial_run import run_trials
@@ -53,17 +53,11 @@ class PairTrials:
             The pair as designed.
         """
         (z1, z2), driver = sizes.teeth, ("w1", "w2")[sizes.driver - 1]
-        form = {
-            "form": "triangular",
-            "half_angle": [f"{degrees(angle)!r} deg" for angle in sizes.half_angles],
-            "window": repr(sizes.window),
-            "radii": repr(sizes.radii),
-        }
         train = GearTrain.declare(
             {
                 "links": {"frame": {}, "a": {"wheels": {"w1": z1}}, "b": {"wheels": {"w2": z2}}},
                 "revolutes": [{"pair": ["frame", "a"], "axis": "A"}, {"pair": ["frame", "b"], "axis": "B"}],
-                "gears": [{"pair": ["w1", "w2"], "tooth_form": form, "driver": driver}],
+                "gears": [{"pair": ["w1", "w2"], "tooth_form": form_data(sizes, exact=True), "driver": driver}],
                 "inputs": {("a", "b")[sizes.driver - 1]: 1},
                 "outputs": {("b", "a")[sizes.driver - 1]: {}},
             }

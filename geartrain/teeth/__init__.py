@@ -19,12 +19,19 @@ from geartrain.numerics.lazy_names import lazy_names
 if TYPE_CHECKING:
     from geartrain.teeth import any_tooth_form
     from geartrain.teeth.any_tooth_form import *  # noqa: F403
+    from geartrain.teeth.friction_law import BuckinghamFriction as BuckinghamFriction
+    from geartrain.teeth.friction_law import DokosFriction as DokosFriction
+    from geartrain.teeth.friction_law import FrictionLaw as FrictionLaw
+    from geartrain.teeth.friction_law import PairFriction as PairFriction
+    from geartrain.teeth.friction_law import StribeckFriction as StribeckFriction
+    from geartrain.teeth.friction_law import TabulatedFriction as TabulatedFriction
     from geartrain.teeth.gear_mesh import GearMesh as GearMesh
     from geartrain.teeth.outlines.cut_wheel import BlankSizes as BlankSizes
     from geartrain.teeth.outlines.cut_wheel import WheelOutline as WheelOutline
     from geartrain.teeth.pair_verdict import PairVerdict as PairVerdict
     from geartrain.teeth.pin_transmission import PinToSlotTransmission as PinToSlotTransmission
     from geartrain.teeth.pin_transmission import SlotToPinTransmission as SlotToPinTransmission
+    from geartrain.teeth.rubbed_transmission import RubbedTransmission as RubbedTransmission
     from geartrain.teeth.transmission import TransmissionFunction as TransmissionFunction
     from geartrain.teeth.transmission_figures import SlidingEfficiency as SlidingEfficiency
     from geartrain.teeth.transmission_figures import SpeedRatio as SpeedRatio
@@ -32,12 +39,19 @@ if TYPE_CHECKING:
 
     __all__ = [
         "BlankSizes",
+        "BuckinghamFriction",
+        "DokosFriction",
+        "FrictionLaw",
         "GearMesh",
+        "PairFriction",
         "PairVerdict",
         "PinToSlotTransmission",
+        "RubbedTransmission",
         "SlidingEfficiency",
         "SlotToPinTransmission",
         "SpeedRatio",
+        "StribeckFriction",
+        "TabulatedFriction",
         "TransmissionError",
         "TransmissionFunction",
         "WheelOutline",
@@ -46,12 +60,19 @@ if TYPE_CHECKING:
 
 _PLACES = {
     "BlankSizes": "outlines.cut_wheel",
+    "BuckinghamFriction": "friction_law",
+    "DokosFriction": "friction_law",
+    "FrictionLaw": "friction_law",
     "GearMesh": "gear_mesh",
+    "PairFriction": "friction_law",
     "PairVerdict": "pair_verdict",
     "PinToSlotTransmission": "pin_transmission",
+    "RubbedTransmission": "rubbed_transmission",
     "SlidingEfficiency": "transmission_figures",
     "SlotToPinTransmission": "pin_transmission",
     "SpeedRatio": "transmission_figures",
+    "StribeckFriction": "friction_law",
+    "TabulatedFriction": "friction_law",
     "TransmissionError": "transmission_figures",
     "TransmissionFunction": "transmission",
     "WheelOutline": "outlines.cut_wheel",

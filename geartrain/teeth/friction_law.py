@@ -110,7 +110,13 @@ Speeds = Literal["sliding", "pitch_line"]
 
 
 class FrictionLaw(BaseModel, ABC):
-    """Friction between teeth as a function of a speed: of sliding, at each contact, or of the pitch line."""
+    """Friction between teeth as a function of a speed: of sliding, at each contact, or of the pitch line.
+
+    See Also
+    --------
+    geartrain.teeth.StribeckFriction, geartrain.teeth.BuckinghamFriction : two of them.
+    geartrain.teeth.PairFriction : a pair that runs under one.
+    """
 
     model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
 
@@ -119,7 +125,13 @@ class FrictionLaw(BaseModel, ABC):
 
     @abstractmethod
     def coefficient(self, speed: Floats) -> Floats:
-        """The coefficient of friction at speeds of 0 or more (m/s)."""
+        """The coefficient of friction.
+
+        Parameters
+        ----------
+        speed : ndarray
+            Speeds of 0 or more [m/s].
+        """
 
     @property
     def of_pitch_line(self) -> bool:
@@ -128,7 +140,14 @@ class FrictionLaw(BaseModel, ABC):
 
 
 class StribeckFriction(FrictionLaw):
-    """Friction that falls from rest to full sliding, and may rise again with the speed."""
+    """Friction that falls from rest to full sliding, and may rise again with the speed.
+
+    Examples
+    --------
+    >>> law = StribeckFriction(law="stribeck", static="0.2", kinetic="0.08", speed="10 mm/s")
+    >>> [round(float(law.coefficient(speed)), 4) for speed in (0.0, 0.01, 1.0)]
+    [0.2, 0.1241, 0.08]
+    """
 
     law: Literal["stribeck"] = Field(description="Falls from rest to full sliding: Stribeck")
     static: Coefficient = Field(description="Coefficient at rest")
@@ -144,7 +163,14 @@ class StribeckFriction(FrictionLaw):
 
 
 class BuckinghamFriction(FrictionLaw):
-    """Lubricated cast-iron spur gears, by the speed of the pitch line."""
+    """Lubricated cast-iron spur gears, by the speed of the pitch line.
+
+    Examples
+    --------
+    >>> law = BuckinghamFriction(law="buckingham")
+    >>> [round(float(law.coefficient(feet * 0.3048 / 60)), 4) for feet in (0, 150, 2100)]
+    [0.0517, 0.0112, 0.0385]
+    """
 
     law: Literal["buckingham"] = Field(description="Lubricated cast iron, by pitch-line speed: Buckingham")
 
@@ -159,7 +185,14 @@ class BuckinghamFriction(FrictionLaw):
 
 
 class DokosFriction(FrictionLaw):
-    """Dry steel on dry steel."""
+    """Dry steel on dry steel.
+
+    Examples
+    --------
+    >>> law = DokosFriction(law="dokos", slowest="2 mm/s")
+    >>> [round(float(law.coefficient(speed)), 4) for speed in (0.0, 0.02, 1e5)]
+    [0.53, 0.48, 0.18]
+    """
 
     law: Literal["dokos"] = Field(description="Dry steel on dry steel, by speed of sliding: Dokos")
     slowest: PositiveVelocity = Field(
@@ -173,7 +206,14 @@ class DokosFriction(FrictionLaw):
 
 
 class TabulatedFriction(FrictionLaw):
-    """Coefficients at some speeds, straight lines between them."""
+    """Coefficients at some speeds, straight lines between them.
+
+    Examples
+    --------
+    >>> law = TabulatedFriction(law="table", speeds=["0 m/s", "1 m/s"], coefficients=["0.2", "0.1"])
+    >>> [round(float(law.coefficient(speed)), 4) for speed in (0.0, 0.25, 3.0)]
+    [0.2, 0.175, 0.1]
+    """
 
     law: Literal["table"] = Field(description="Coefficients at speeds of your own")
     speeds: tuple[Velocity, ...] = Field(description="Speeds, each above the last; level before the first and beyond")
@@ -233,7 +273,24 @@ FrictionLawOfText = Annotated[AnyFrictionLaw, BeforeValidator(law_of_text)]
 
 @dataclass(frozen=True, slots=True)
 class PairFriction:
-    """A law of friction in a pair whose pitch line runs at a speed (m/s)."""
+    """A law of friction in a pair whose pitch line runs at some speed: the coefficient, by the speed of sliding.
+
+    Attributes
+    ----------
+    law : FrictionLaw
+        The law.
+    pitch_line : float
+        Speed of the pitch line [m/s].
+
+    Examples
+    --------
+    Teeth that slide at a fifth of the pitch line's 50 mm/s:
+
+    >>> from geartrain.teeth import StribeckFriction
+    >>> law = StribeckFriction(law="stribeck", static="0.2", kinetic="0.08", speed="10 mm/s")
+    >>> round(float(PairFriction(law, 0.05)(0.2)), 4)
+    0.1241
+    """
 
     law: FrictionLaw
     pitch_line: float

@@ -41,6 +41,21 @@ class RubbedTransmission(TransmissionFunction):
 
     At a driver angle where teeth slide at v the coefficient is mu(v), and a contact passes (1 + mu out) / (1 + mu into)
     of its power (docs/shapes.md, section 15); contacts at once take equal shares of the driver's torque.
+
+    Parameters
+    ----------
+    law : TransmissionFunction
+        Of the pair, whatever its own friction.
+    by : PairFriction
+        The friction, and the speed of the pitch line.
+
+    Examples
+    --------
+    >>> from geartrain.teeth import Involute, PairFriction, StribeckFriction
+    >>> friction = StribeckFriction(law="stribeck", static="0.2", kinetic="0.08", speed="10 mm/s")
+    >>> rubbed = RubbedTransmission(Involute(form="involute").law(24, 36), PairFriction(friction, 0.05))
+    >>> round(rubbed.friction, 4), round(rubbed.efficiency_mean(), 4)
+    (0.1512, 0.9811)
     """
 
     def __init__(self, law: TransmissionFunction, by: PairFriction) -> None:
@@ -83,7 +98,13 @@ class RubbedTransmission(TransmissionFunction):
         return self.law.rubbing(S)
 
     def coefficient(self, S: ArrayLike) -> Floats:
-        """Coefficient of friction at each contact, at driver angles S (rad); NaN where there is none."""
+        """Coefficient of friction at each contact; NaN where there is none.
+
+        Parameters
+        ----------
+        S : array_like
+            Driver angles [rad], any shape.
+        """
         return self.by(self.rubbing(S).sliding)
 
     def efficiency(self, S: ArrayLike) -> Floats:

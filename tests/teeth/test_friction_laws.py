@@ -10,23 +10,21 @@ import pytest
 
 from geartrain import GearTrainError, load
 from geartrain.teeth import (
+    BuckinghamFriction,
     CircularArc,
     Cycloidal,
+    DokosFriction,
     Involute,
     Lantern,
     LeastFriction,
+    PairFriction,
+    RubbedTransmission,
+    StribeckFriction,
+    TabulatedFriction,
     TransmissionFunction,
     Triangular,
     UniformStress,
 )
-from geartrain.teeth.friction_law import (
-    BuckinghamFriction,
-    DokosFriction,
-    PairFriction,
-    StribeckFriction,
-    TabulatedFriction,
-)
-from geartrain.teeth.rubbed_transmission import RubbedTransmission
 
 FT_MIN = 0.3048 / 60
 

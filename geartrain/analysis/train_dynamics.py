@@ -225,13 +225,13 @@ class TrainDynamics(TrainKinematics):
         """
         declared, case = self.declaration, self._case(state)
         inertias = {name: link.inertia.si for name, link in declared.links.items() if link.inertia is not None}
-        if not inertias or declared.rate is None or declared.rate.unit is None or not self._teeth:
+        if not inertias or case.rate is None or case.rate.unit is None or not self._teeth:
             return {}
         from geartrain.dynamics import Motion
         from geartrain.dynamics.motion.tooth_impacts import find_impacts
 
         moving = self._moving(case, ())
-        return {} if moving.contradictions() else find_impacts(Motion(moving, {}), inertias, declared.rate.si)
+        return {} if moving.contradictions() else find_impacts(Motion(moving, {}), inertias, case.rate.si)
 
     def _moving(self, case: StateCase, without: Sequence[str]) -> MotionProblem:
         from geartrain.dynamics.motion.motion_problem import build_motion_problem

@@ -14,7 +14,6 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 from geartrain.errors import GearTrainError, Problem
-from geartrain.numerics.quantity import Figure
 from geartrain.teeth.gear_mesh import GearMesh
 from geartrain.teeth.meshing_wheels import MeshingWheels, PairSize
 from geartrain.train import GearPair, Train, Wheel
@@ -70,16 +69,16 @@ def find_meshes(train: Train, shaft_angle: ShaftAngle = lambda _: None) -> tuple
 def _meshing_wheels(train: Train, gear: GearPair, place: str) -> MeshingWheels:
     """The wheels of a pair as its tooth form reads them."""
     first, second = (train.wheels[name][1] for name in gear.pair)
-    friction = train.friction if gear.friction is None else gear.friction
+    friction = train.friction_of(gear)
     return MeshingWheels(
         gear,
         place,
         (first.count or 0, second.count or 0),
         (first.kind, second.kind),
         (first.internal, second.internal),
-        float(friction.value) if isinstance(friction, Figure) else None,
+        None if friction is None else friction.sliding,
         _pitch_distance(first, second),
-        None if isinstance(friction, Figure) else friction,
+        None if friction is None else friction.law,
     )
 
 

@@ -16,7 +16,11 @@ _MOST_DIGITS = 400  # longer numbers are slips or attacks, and squaring them wou
 _NUMBER = r"[+-]?(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][+-]?\d{1,3})?"
 _MOST = Fraction("1e300")  # what a float holds, with room for units
 _LEAST_MEASURE = Fraction(1, 10**30)  # of base units: up to the tenth power such a measure is a float
-_IN_FLOATS = ("length", "angle", "velocity", "inertia")
+_IN_FLOATS = (
+    *("length", "angle", "velocity", "inertia", "mass", "density"),
+    *("torsional stiffness", "torsional stiffness or stiffness"),
+    *("torsional damping", "torsional damping or damping"),
+)
 _FIGURE = re.compile(rf"^\s*({_NUMBER})\s*(?:([/:])\s*({_NUMBER}))?\s*$")
 _QUANTITY = re.compile(rf"^\s*({_NUMBER}(?:\s*[/:]\s*\d+)?)\s*([^\d\s].*?)?\s*$")
 
@@ -139,7 +143,7 @@ def _half_unit(text: str) -> Fraction | None:
     return Fraction(10) ** (int(exponent or 0) - decimals) / 2
 
 
-def _not_negative(figure: Figure) -> Figure:
+def _pushing_nothing(figure: Figure) -> Figure:
     if figure.value < 0:
         raise PydanticCustomError(
             "friction",
@@ -149,7 +153,12 @@ def _not_negative(figure: Figure) -> Figure:
     return figure
 
 
-Friction = Annotated[Figure, AfterValidator(_not_negative)]
+def parse_friction(raw: object) -> Figure:
+    """A coefficient of friction, 0 or more."""
+    return _pushing_nothing(Figure.parse(raw))
+
+
+Friction = Annotated[Figure, AfterValidator(_pushing_nothing)]
 
 
 @dataclass(frozen=True, slots=True)
@@ -184,17 +193,17 @@ class Quantity:
 
     @property
     def dimension(self) -> str | None:
-        """length, angle, time, speed, velocity, torque, inertia, fraction, or None for a plain number."""
+        """length, angle, time, speed, torque and what else `UNITS` knows, or None for a plain number."""
         return None if self.unit is None else scale(self.unit)[0]
 
     @property
     def base(self) -> Fraction:
-        """Value in m, turn, s, turn/s, m/s, N m or kg m2; a plain number as it is."""
+        """Value in m, turn, s, turn/s, N m and what else `units` names; a plain number as it is."""
         return self.value if self.unit is None else self.value * scale(self.unit)[1]
 
     @property
     def si(self) -> float:
-        """Value in m, rad, s, rad/s, m/s, N m or kg m2."""
+        """Value in m, rad, s, rad/s, N m and what else `units` names, radians for turns."""
         if self.unit in IRRATIONAL:
             return float(self.value)
         scale = RADIANS_PER_TURN if self.dimension in ("angle", "speed") else 1.0
@@ -209,7 +218,8 @@ class Quantity:
         raw : str, int, float, Fraction or Quantity
             Such as "9.6 mm", "30 deg", "1400 rpm", 0.98.
         dimension : str
-            length, angle, time, speed, velocity, torque, inertia or fraction; "time or length" allows two.
+            length, angle, time, speed, velocity, torque, inertia, mass, density, torsional stiffness, stiffness,
+            torsional damping, damping or fraction; "time or length" allows two.
         plain : bool
             Whether a plain number will do. 0 always does.
 
@@ -259,7 +269,7 @@ def _measured(quantity: Quantity, dimension: str) -> Quantity:
         raise PydanticCustomError(
             "number",
             "{text} is beyond all measure",
-            {"text": quantity.text, "fix": f"write {_one(dimension)} {bounds} in base units"},
+            {"text": quantity.text, "fix": f"write {_one(quantity.dimension or dimension)} {bounds} in base units"},
         )
     return quantity
 
@@ -302,10 +312,19 @@ class Dimension:
 
 
 Length = Annotated[Quantity, Dimension("length", plain=True)]
+MeasuredLength = Annotated[Quantity, Dimension("length")]
+"""A length that needs its unit."""
 Angle = Annotated[Quantity, Dimension("angle")]
+Time = Annotated[Quantity, Dimension("time")]
 Span = Annotated[Quantity, Dimension("time or length")]
 Speed = Annotated[Quantity, Dimension("speed", plain=True)]
 Velocity = Annotated[Quantity, Dimension("velocity")]
 Torque = Annotated[Quantity, Dimension("torque", plain=True)]
 Inertia = Annotated[Quantity, Dimension("inertia")]
+Mass = Annotated[Quantity, Dimension("mass")]
+Density = Annotated[Quantity, Dimension("density")]
+TorsionalStiffness = Annotated[Quantity, Dimension("torsional stiffness")]
+MeshStiffness = Annotated[Quantity, Dimension("torsional stiffness or stiffness")]
+TorsionalDamping = Annotated[Quantity, Dimension("torsional damping")]
+MeshDamping = Annotated[Quantity, Dimension("torsional damping or damping")]
 Share = Annotated[Quantity, Dimension("fraction", plain=True)]

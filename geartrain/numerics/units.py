@@ -1,7 +1,7 @@
 """Units of measure: what dimension each has, and how many base units it is, exactly.
 
-Base units are m, turn, s, turn/s, m/s, N m, kg m2 and 1. A radian is no rational part of a turn: its scale holds to 50
-digits.
+Base units are m, turn, s, turn/s, m/s, N m, kg m2, kg, kg/m3, N m/rad, N/m, N m s/rad, N s/m and 1. A radian is no
+rational part of a turn: its scale holds to 50 digits, and what is for each radian is kept so.
 """
 
 from __future__ import annotations
@@ -48,6 +48,19 @@ UNITS: dict[str, tuple[str, Fraction]] = {
     "kg mm2": ("inertia", Fraction(1, 10**6)),
     "g mm2": ("inertia", Fraction(1, 10**9)),
     "g cm2": ("inertia", Fraction(1, 10**7)),
+    "kg": ("mass", Fraction(1)),
+    "g": ("mass", Fraction(1, 1000)),
+    "kg/m3": ("density", Fraction(1)),
+    "g/cm3": ("density", Fraction(1000)),
+    "N m/rad": ("torsional stiffness", Fraction(1)),
+    "N mm/rad": ("torsional stiffness", Fraction(1, 1000)),
+    "N/m": ("stiffness", Fraction(1)),
+    "N/mm": ("stiffness", Fraction(1000)),
+    "N/um": ("stiffness", Fraction(10**6)),
+    "N m s/rad": ("torsional damping", Fraction(1)),
+    "N mm s/rad": ("torsional damping", Fraction(1, 1000)),
+    "N s/m": ("damping", Fraction(1)),
+    "N s/mm": ("damping", Fraction(1000)),
     "%": ("fraction", Fraction(1, 100)),
     "ppm": ("fraction", Fraction(1, 10**6)),
 }
@@ -75,6 +88,13 @@ SPELT = {
     "kg m^2": "kg m2",
     "g mm^2": "g mm2",
     "kg*m^2": "kg m2",
+    "kg/m^3": "kg/m3",
+    "g/cm^3": "g/cm3",
+    "Nm/rad": "N m/rad",
+    "Nmm/rad": "N mm/rad",
+    "N/µm": "N/um",
+    "N/μm": "N/um",
+    "Nms/rad": "N m s/rad",
 }
 
 

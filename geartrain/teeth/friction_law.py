@@ -138,6 +138,13 @@ class FrictionLaw(BaseModel, ABC):
         """True if the speed is that of the pitch line, so that the coefficient is the same at every contact."""
         return False
 
+    @property
+    def at_rest(self) -> float:
+        """The coefficient at speed 0: what a start has to overcome."""
+        import numpy as np
+
+        return float(self.coefficient(np.zeros(1))[0])
+
 
 class StribeckFriction(FrictionLaw):
     """Friction that falls from rest to full sliding, and may rise again with the speed.
@@ -248,6 +255,14 @@ AnyFrictionLaw = Annotated[
     StribeckFriction | BuckinghamFriction | DokosFriction | TabulatedFriction, Field(discriminator="law")
 ]
 """What a declaration may say of friction besides a number."""
+
+
+@cache
+def law_keys() -> frozenset[str]:
+    """Every key that some law has."""
+    laws = (StribeckFriction, BuckinghamFriction, DokosFriction, TabulatedFriction)
+    return frozenset(key for law in laws for key in law.model_fields)
+
 
 _NAME = re.compile(r"[a-z_]+")
 

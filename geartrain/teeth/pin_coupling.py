@@ -9,14 +9,26 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Annotated, Literal
 
-from pydantic import BaseModel, ConfigDict, Field, model_validator
+from pydantic import AfterValidator, BaseModel, ConfigDict, Field, model_validator
 from pydantic_core import PydanticCustomError
 
 from geartrain.errors import Problem, RangeError
-from geartrain.numerics.quantity import Friction, Length
+from geartrain.numerics.quantity import Length, Quantity
+from geartrain.teeth.coulomb_friction import DeclaredCoulombFriction
+from geartrain.teeth.restitution import DeclaredRestitution
 
 if TYPE_CHECKING:
     from geartrain.teeth.pin_transmission import PinToSlotTransmission, PinTransmission
+
+
+def _not_negative(length: Quantity) -> Quantity:
+    if length.value < 0:
+        raise PydanticCustomError(
+            "pin",
+            "a clearance of {text} is none",
+            {"text": length.text, "fix": "a slot is as wide as its pin or wider: give 0 or more"},
+        )
+    return length
 
 
 class _Coupling(BaseModel):
@@ -29,7 +41,15 @@ class _Coupling(BaseModel):
     slot: str = Field(description="The link that has the slot")
     pin_radius: Length | None = Field(None, description="Distance of the pin from its own link's axis")
     offset: Length | None = Field(None, description="Distance of the two links' axes")
-    friction: Friction | None = Field(None, description="Coefficient of friction of the pin along its slot")
+    clearance: Annotated[Length, AfterValidator(_not_negative)] | None = Field(
+        None, description="Width of the slot less the diameter of the pin: the pin's play; default 0"
+    )
+    friction: DeclaredCoulombFriction | None = Field(
+        None, description="Coefficient of friction of the pin along its slot, or {sliding, static, deviation}"
+    )
+    restitution: DeclaredRestitution | None = Field(
+        None, description="Speed of parting over speed of meeting where the pin strikes its slot; default the train's"
+    )
     source: str | None = Field(None, description="Key of the source of the dimensions")
     status: Literal["surviving", "reconstructed", "hypothetical"] | None = Field(
         None, description="Whether the device survives, is forced by surviving parts, or is a proposal"
@@ -48,7 +68,7 @@ class _Coupling(BaseModel):
             return None
         from geartrain.teeth.pin_transmission import PinToSlotTransmission
 
-        friction = float(self.friction.value) if self.friction else 0.0
+        friction = float(self.friction.sliding.value) if self.friction else 0.0
         return PinToSlotTransmission(self.pin_radius.si, self.offset.si, friction)
 
 

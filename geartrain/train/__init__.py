@@ -5,6 +5,7 @@ lines on which they were written, or `DeclarationError` with every problem that 
 out here; `geartrain.GearTrain` does that.
 
 declaration, mechanism, outputs, states, manufacturing   the models; state_case: what is prescribed in one state
+efficiencies, bearing_friction, friction_in_force        what is lost; drives: what drives a train in time
 fields, validation, references, unit_consistency         strictness, problems in words, names, units
 yaml_nodes, declaration_files, inheritance               YAML with line numbers, shipped trains, `extends`
 periods                                                  the table of periods of the sky
@@ -12,7 +13,10 @@ periods                                                  the table of periods of
 
 from __future__ import annotations
 
+from geartrain.train.bearing_friction import BearingFriction
 from geartrain.train.declaration import Train
+from geartrain.train.drives import Drive, Escapement, HandDrive, SpringDrive
+from geartrain.train.friction_in_force import FrictionInForce
 from geartrain.train.manufacturing import PairMounting, WheelManufacture
 from geartrain.train.mechanism import Axis, GearPair, Link, Revolute, Source, Teeth, Wheel
 from geartrain.train.outputs import Dial, Expect, Output, Published, SpeedUnit, Target, View
@@ -22,10 +26,15 @@ from geartrain.train.validation import declare
 
 __all__ = [
     "Axis",
+    "BearingFriction",
     "Clutch",
     "Dial",
+    "Drive",
+    "Escapement",
     "Expect",
+    "FrictionInForce",
     "GearPair",
+    "HandDrive",
     "Link",
     "Output",
     "PairMounting",
@@ -33,6 +42,7 @@ __all__ = [
     "Revolute",
     "Source",
     "SpeedUnit",
+    "SpringDrive",
     "State",
     "StateCase",
     "Target",

@@ -13,9 +13,23 @@ from geartrain.errors import Loc, Marks, Problem, QuestionError, dotted, suggest
 from geartrain.numerics.quantity import Quantity, Speed, Torque, in_unit
 from geartrain.numerics.units import same_kind
 from geartrain.teeth.pin_coupling import Coupling
+from geartrain.teeth.restitution import DeclaredRestitution
+from geartrain.train.drives import Drive, Escapement
 from geartrain.train.fields import ByName, Declared, DeclaredFriction, DeclaredToothForm, Id, Nothing
+from geartrain.train.friction_in_force import FrictionInForce, friction_in_force
 from geartrain.train.manufacturing import PairMounting, WheelManufacture
-from geartrain.train.mechanism import Axis, GearPair, Link, Revolute, Source, Wheel
+from geartrain.train.mechanism import (
+    Axis,
+    GearPair,
+    Link,
+    MaterialDensity,
+    PairDamping,
+    PairStiffness,
+    Revolute,
+    Source,
+    Thickness,
+    Wheel,
+)
 from geartrain.train.outputs import Dial, Output, SpeedUnit, View
 from geartrain.train.periods import period_table
 from geartrain.train.state_case import StateCase
@@ -60,8 +74,17 @@ class Train(Declared):
         None, description="Form of the teeth of every pair that has none of its own"
     )
     friction: DeclaredFriction | None = Field(
-        None, description="Friction of the teeth of every pair that has none of its own, or a law of speed"
+        None,
+        description="Friction of the teeth of every pair that has none of its own: a coefficient, or {sliding, static, "
+        "deviation}, or a law of speed",
     )
+    restitution: DeclaredRestitution | None = Field(
+        None, description="Of every pair and coupling that has none of its own: speed of parting over that of meeting"
+    )
+    stiffness: PairStiffness | None = Field(None, description="Of the teeth of every pair that has none of its own")
+    damping: PairDamping | None = Field(None, description="Of the teeth of every pair that has none of its own")
+    thickness: Thickness | None = Field(None, description="Of every wheel that has none of its own")
+    density: MaterialDensity | None = Field(None, description="Of every wheel that has none of its own")
     cutting: WheelManufacture | None = Field(
         None, description="How far the teeth of every wheel are off that says nothing of its own"
     )
@@ -75,6 +98,8 @@ class Train(Declared):
     )
     crank: Id | None = Field(None, description="The link where power enters; default the inputs")
     rate: Speed | None = Field(None, description="Speed of the input in real time, where watts or impacts are asked")
+    drive: Drive | None = Field(None, description="What drives the train in time; default `rate`")
+    escapement: Escapement | None = Field(None, description="What lets one link pass half a tooth a beat")
     fixed: tuple[Id, ...] = Field((), description="Links held to the frame, one body with it")
     locks: tuple[tuple[Id, Id], ...] = Field((), description="Pairs of links that are one body")
     clutches: ByName[Clutch] = Field(
@@ -119,6 +144,27 @@ class Train(Declared):
         """
         return gear.tooth_form or self.tooth_form
 
+    def friction_of(self, part: GearPair | Coupling) -> FrictionInForce | None:
+        """Friction of a pair's teeth, its own, else the train's; or of a coupling's pin. None where none is declared.
+
+        Parameters
+        ----------
+        part : GearPair or PinAndSlot or PinFollower
+            Of this train.
+        """
+        return friction_in_force(part.friction or (self.friction if isinstance(part, GearPair) else None))
+
+    def restitution_of(self, part: GearPair | Coupling) -> float | None:
+        """Restitution of a gear pair or coupling: its own, else the train's; None where none is declared.
+
+        Parameters
+        ----------
+        part : GearPair or PinAndSlot or PinFollower
+            Of this train.
+        """
+        found = self.restitution if part.restitution is None else part.restitution
+        return None if found is None else float(found.value)
+
     @property
     def cases(self) -> tuple[StateCase, ...]:
         """What is prescribed in each state, or once for a train without states."""
@@ -151,6 +197,7 @@ class Train(Declared):
             update = {key: getattr(output, key) for key in output.model_fields_set}
             outputs[name] = inherited.model_copy(update=update) if inherited else output
         loc: Loc = ("states", state, "inputs") if state is not None and own.inputs is not None else ("inputs",)
+        drive = own.drive or self.drive or (None if self.rate is None else Drive(rate=self.rate))
         return StateCase(
             state,
             inputs={link: self._speed(speed) for link, speed in inputs.items()},
@@ -162,6 +209,8 @@ class Train(Declared):
             loads=self.loads if own.loads is None else own.loads,
             solve_for=self.solve_for if own.solve_for is None else own.solve_for,
             exact=all(self._is_exact(speed) for speed in inputs.values()),
+            drive=drive,
+            rate=self.rate if drive is None or drive.rate is None else drive.rate,
         )
 
     def check_state(self, state: str | None) -> None:

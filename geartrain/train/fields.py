@@ -17,8 +17,10 @@ from pydantic import (
 )
 from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
+from geartrain.errors import nearest_names
 from geartrain.numerics.containers import FrozenDict
-from geartrain.numerics.quantity import Friction
+from geartrain.numerics.quantity import Figure, Quantity
+from geartrain.teeth.coulomb_friction import CoulombFriction, DeclaredCoulombFriction
 
 MOST_TEETH = 10**12
 
@@ -99,6 +101,28 @@ def also(kind: Any, schema: dict[str, Any]) -> dict[str, Any]:
     return {"anyOf": [kind, schema]}
 
 
+def above_zero(fix: str) -> AfterValidator:
+    """A number or quantity is above 0."""
+
+    def check(given: Figure | Quantity) -> Figure | Quantity:
+        if given.value <= 0:
+            raise PydanticCustomError("bound", "{text} is not above 0", {"text": given.text, "fix": fix})
+        return given
+
+    return AfterValidator(check)
+
+
+def not_below_zero(fix: str) -> AfterValidator:
+    """A number or quantity is 0 or more."""
+
+    def check(given: Figure | Quantity) -> Figure | Quantity:
+        if given.value < 0:
+            raise PydanticCustomError("bound", "{text} is below 0", {"text": given.text, "fix": fix})
+        return given
+
+    return AfterValidator(check)
+
+
 Id = Annotated[str, WithJsonSchema({"type": ["string", "number"]})]
 """A name, as written: numbers are names too."""
 Part = TypeVar("Part")
@@ -126,8 +150,20 @@ def friction_laws() -> TypeAdapter[Any]:
 
 
 def read_friction(raw: object) -> Any:
-    """A coefficient, or a law of speed where there are keys."""
-    return friction_laws().validate_python(raw) if isinstance(raw, Mapping) else _coefficient().validate_python(raw)
+    """Coulomb's friction from a coefficient or its keys, or a law of speed where there are keys of one."""
+    law = isinstance(raw, Mapping) and _names_a_law(raw)
+    return (friction_laws() if law else _coulomb_friction()).validate_python(raw)
+
+
+def _names_a_law(keys: Mapping[Any, Any]) -> bool:
+    """True for `law`, and where `law` is forgotten or misspelt beside more keys of laws than of Coulomb's friction."""
+    if any(key == "law" or nearest_names(str(key), ("law",)) for key in keys):
+        return True
+    if all(key in CoulombFriction.model_fields for key in keys):
+        return False
+    from geartrain.teeth.friction_law import law_keys
+
+    return sum(key in law_keys() for key in keys) > sum(key in CoulombFriction.model_fields for key in keys)
 
 
 def _tell_friction(friction: Any) -> Any:
@@ -136,21 +172,20 @@ def _tell_friction(friction: Any) -> Any:
 
 
 @cache
-def _coefficient() -> TypeAdapter[Any]:
-    return TypeAdapter(Friction)
+def _coulomb_friction() -> TypeAdapter[Any]:
+    return TypeAdapter(DeclaredCoulombFriction)
 
 
 if TYPE_CHECKING:
-    from geartrain.numerics.quantity import Figure
     from geartrain.teeth.any_tooth_form import AnyToothForm
     from geartrain.teeth.friction_law import FrictionLaw
 
     DeclaredToothForm = AnyToothForm
-    DeclaredFriction = Figure | FrictionLaw
+    DeclaredFriction = CoulombFriction | FrictionLaw
 else:
 
     class DeclaredFriction:
-        """Friction as a field of a model: a coefficient, or a law of speed, imported when the first is read."""
+        """Friction as a field of a model: Coulomb's, or a law of speed, imported when the first is read."""
 
         @classmethod
         def __get_pydantic_core_schema__(cls, source: Any, handler: Any) -> CoreSchema:
@@ -159,7 +194,7 @@ else:
 
         @classmethod
         def __get_pydantic_json_schema__(cls, schema: CoreSchema, handler: GetJsonSchemaHandler) -> dict[str, Any]:
-            return {"anyOf": [handler(_coefficient().core_schema), handler(friction_laws().core_schema)]}
+            return {"anyOf": [handler(_coulomb_friction().core_schema), handler(friction_laws().core_schema)]}
 
     class DeclaredToothForm:
         """A tooth form as a field of a model: the forms are imported when the first is read."""

@@ -15,7 +15,21 @@ from pydantic import (
 )
 from pydantic_core import PydanticCustomError
 
-from geartrain.numerics.quantity import Angle, Figure, Inertia, Length, Quantity, Share, Torque
+from geartrain.numerics.quantity import (
+    Angle,
+    Density,
+    Figure,
+    Inertia,
+    Length,
+    Mass,
+    MeasuredLength,
+    MeshDamping,
+    MeshStiffness,
+    TorsionalDamping,
+)
+from geartrain.teeth.restitution import DeclaredRestitution
+from geartrain.train.bearing_friction import DeclaredBearing
+from geartrain.train.efficiencies import DeclaredEfficiency
 from geartrain.train.fields import (
     Boolean,
     ByName,
@@ -25,7 +39,9 @@ from geartrain.train.fields import (
     DeclaredToothForm,
     Id,
     Status,
+    above_zero,
     also,
+    not_below_zero,
     short_for,
     side,
 )
@@ -111,6 +127,10 @@ def _teeth_kind(raw: object) -> str:
     return "doubt" if isinstance(raw, dict | Teeth) else "count"
 
 
+Thickness = Annotated[MeasuredLength, above_zero("give a length such as 2 mm")]
+MaterialDensity = Annotated[Density, above_zero("give for example 8.7 g/cm3, that of bronze")]
+
+
 class Wheel(Declared):
     """A wheel on a link. A bare number is its tooth count.
 
@@ -133,6 +153,8 @@ class Wheel(Declared):
     )
     hand: Literal["right", "left"] = Field("right", description="Hand of a worm's thread")
     module: Length | None = Field(None, description="Pitch diameter over tooth count")
+    thickness: Thickness | None = Field(None, description="Of the wheel along its axis; default the train's")
+    density: MaterialDensity | None = Field(None, description="Of what it is made of; default the train's")
     cutting: WheelManufacture | None = Field(None, description="How far its teeth are off; default the train's")
     status: Status | None = Field(None, description="surviving, reconstructed or hypothetical")
     source: str | None = Field(None, description="Key of the source")
@@ -153,14 +175,6 @@ class Wheel(Declared):
         return also({"type": "integer", "minimum": 1}, handler(schema))
 
 
-def _not_negative(torque: Quantity) -> Quantity:
-    if torque.value < 0:
-        raise PydanticCustomError(
-            "bearing", "a friction torque is not negative", {"fix": "give its magnitude: it acts against the turning"}
-        )
-    return torque
-
-
 class Link(Declared):
     """A rigid body: an arbor with its wheels, a carrier, the frame.
 
@@ -172,9 +186,17 @@ class Link(Declared):
     wheels: ByName[Annotated[Wheel, short_for("teeth")]] = Field(
         {}, validate_default=True, description="The wheels fixed on this link, by id"
     )
-    inertia: Inertia | None = Field(None, description="Moment of inertia about its axis")
-    bearing: Annotated[Torque, AfterValidator(_not_negative)] | None = Field(
-        None, description="Friction torque of its bearing, against its turning"
+    inertia: Inertia | None = Field(
+        None, description="Moment of inertia about its axis; default from its wheels, where their `density` is given"
+    )
+    mass: Annotated[Mass, above_zero("give a mass such as 20 g")] | None = Field(
+        None, description="Mass of a link that a carrier takes round; default from its wheels, as `inertia`"
+    )
+    bearing: DeclaredBearing | None = Field(
+        None, description="Friction torque of its bearing, against its turning, or {sliding, static}"
+    )
+    drag: Annotated[TorsionalDamping, not_below_zero("it acts against the turning: give its magnitude")] | None = Field(
+        None, description="Viscous drag: torque against its turning for each radian a second"
     )
     angle: Angle | None = Field(None, description="Angle at the start")
     note: str | None = Field(None, description="A remark for the reader")
@@ -221,48 +243,6 @@ class Revolute(Declared):
     note: str | None = Field(None, description="A remark for the reader")
 
 
-def _no_more_than_all(efficiency: Quantity) -> Quantity:
-    if efficiency.base > 1:
-        meant = f"{efficiency.text} %" if efficiency.unit is None and efficiency.base <= 100 else "0.98"
-        raise PydanticCustomError(
-            "efficiency",
-            "an efficiency of {text} makes power out of nothing",
-            {"text": efficiency.text, "fix": f"an efficiency is at most 1: write for example 0.98 or {meant}"},
-        )
-    return efficiency
-
-
-Efficiency = Annotated[Share, AfterValidator(_no_more_than_all)]
-
-
-class Efficiencies(Declared):
-    """Basic efficiency of a pair, carrier held, by the wheel that drives: above 0 and at most 1, or a percentage.
-
-    A pair may lock in one direction, which 0 or less says, but not in both.
-    """
-
-    forward: Efficiency = Field(description="With the first wheel driving, at most 1; 0 or less locks")
-    backward: Efficiency = Field(description="With the second wheel driving, at most 1; 0 or less locks")
-
-    @model_validator(mode="after")
-    def _passes_power_one_way(self) -> Efficiencies:
-        if self.forward.base <= 0 and self.backward.base <= 0:
-            raise PydanticCustomError(
-                "efficiency",
-                "an efficiency of {text} lets no power through in either direction",
-                {"text": self.forward.text, "fix": "an efficiency is above 0 and at most 1, such as 0.98 or 98 %"},
-            )
-        return self
-
-    @classmethod
-    def __get_pydantic_json_schema__(cls, schema: Any, handler: GetJsonSchemaHandler) -> dict[str, Any]:
-        return also({"type": ["number", "string"]}, handler(schema))
-
-
-def _efficiency(raw: object) -> object:
-    return raw if isinstance(raw, dict | Efficiencies) else {"forward": raw, "backward": raw}
-
-
 def _positive(figure: Figure) -> Figure:
     if figure.value <= 0:
         raise PydanticCustomError(
@@ -271,6 +251,10 @@ def _positive(figure: Figure) -> Figure:
             {"text": figure.text, "fix": "a share is above 0; leave it out where it is not known"},
         )
     return figure
+
+
+PairStiffness = Annotated[MeshStiffness, above_zero("teeth yield: give for example 20 N/um")]
+PairDamping = Annotated[MeshDamping, not_below_zero("it takes energy: give 0 or more")]
 
 
 class GearPair(Declared):
@@ -287,9 +271,20 @@ class GearPair(Declared):
     pair: tuple[Id, Id] = Field(description="The two wheels")
     tooth_form: DeclaredToothForm | None = Field(None, description="Form of the teeth; default the train's")
     friction: DeclaredFriction | None = Field(
-        None, description="Coefficient of friction between teeth, or a law of speed"
+        None, description="Coefficient of friction between teeth, or {sliding, static, deviation}, or a law of speed"
     )
-    efficiency: Annotated[Efficiencies, BeforeValidator(_efficiency)] | None = Field(
+    restitution: DeclaredRestitution | None = Field(
+        None, description="Speed of parting over speed of meeting of teeth that strike, 0 to 1; default the train's"
+    )
+    stiffness: PairStiffness | None = Field(
+        None,
+        description="Of teeth in mesh: torque on the driven wheel for each radian that it yields, or force along the "
+        "line of action for each length; default the train's",
+    )
+    damping: PairDamping | None = Field(
+        None, description="Of teeth in mesh, by speed as `stiffness` is by angle or length; default the train's"
+    )
+    efficiency: DeclaredEfficiency | None = Field(
         None,
         description="Basic efficiency with the carrier held, at most 1: a number, a percentage, or {forward, backward}",
     )

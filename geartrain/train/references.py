@@ -8,7 +8,7 @@ from geartrain.errors import Loc, Problem, dotted, suggest
 from geartrain.numerics.quantity import Quantity
 from geartrain.train.declaration import Train
 from geartrain.train.outputs import Output
-from geartrain.train.unit_consistency import declared_units, mixed_inputs, mixed_torques, target_units
+from geartrain.train.unit_consistency import declared_units, mixed_inputs, mixed_torques, rates, target_units
 
 
 def find_problems(train: Train) -> Iterator[Problem]:
@@ -160,6 +160,9 @@ def _prescriptions(train: Train) -> Iterator[Problem]:
     yield from _scope(train, train.inputs, train.fixed, train.locks, ())
     yield from mixed_inputs(train)
     yield from mixed_torques(train)
+    yield from rates(train)
+    if train.escapement is not None and train.escapement.link not in train.links:
+        yield _unknown(train, "link", train.escapement.link, train.links, "escapement", "link")
     yield from _named_links(train, train.loads, "loads")
     for key in ("crank", "solve_for"):
         if (link := getattr(train, key)) is not None and link not in train.links:

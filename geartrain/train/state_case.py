@@ -9,6 +9,7 @@ from fractions import Fraction
 from geartrain.errors import Loc
 from geartrain.numerics.decimal_text import abridged_text, decimal
 from geartrain.numerics.quantity import Quantity
+from geartrain.train.drives import Drive
 from geartrain.train.outputs import Output
 
 
@@ -36,6 +37,10 @@ class StateCase:
         Torques on links; power into the train is positive.
     solve_for : str or None
         The link whose torque is named as unknown.
+    drive : Drive or None
+        What drives the train in time: the state's, the train's, or its `rate`.
+    rate : Quantity or None
+        Speed of the input in real time, where `drive` or the train's `rate` says it.
     exact : bool
         False where radians had to be counted in turns, or turns in radians: to 50 digits then.
     causes : mapping of tuple of str to tuple of str
@@ -59,6 +64,8 @@ class StateCase:
     loads: Mapping[str, Quantity] = field(default_factory=dict)
     solve_for: str | None = None
     exact: bool = True
+    drive: Drive | None = None
+    rate: Quantity | None = None
     causes: Mapping[tuple[str, ...], tuple[str, ...]] = field(default_factory=dict)
 
     def given(self, link: str) -> str:

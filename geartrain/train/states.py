@@ -8,6 +8,7 @@ from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 
 from geartrain.numerics.quantity import Speed, Torque
+from geartrain.train.drives import Drive
 from geartrain.train.fields import ByName, Declared, Id, Nothing
 from geartrain.train.outputs import Output
 
@@ -48,6 +49,7 @@ class State(Declared):
     inputs: ByName[Speed] | None = Field(None, description="Prescribed speeds by link")
     loads: ByName[Torque] | None = Field(None, description="Torques on links; power into the train is positive")
     solve_for: Id | None = Field(None, description="The link whose torque is unknown")
+    drive: Drive | None = Field(None, description="What drives the train in time")
     outputs: ByName[Annotated[Output, Nothing]] = Field(
         {}, validate_default=True, description="Outputs of this state, merged with the train's by name"
     )

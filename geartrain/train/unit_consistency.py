@@ -7,6 +7,7 @@ from collections.abc import Iterator, Mapping
 from geartrain.errors import Loc, Problem, dotted
 from geartrain.numerics.quantity import Quantity
 from geartrain.train.declaration import Train
+from geartrain.train.drives import Drive
 from geartrain.train.outputs import Target
 from geartrain.train.periods import period_table, suggested_period
 
@@ -39,14 +40,31 @@ def mixed_torques(train: Train) -> Iterator[Problem]:
     groups: list[tuple[Loc, Mapping[str, Quantity]]] = [(("loads",), train.loads)]
     groups += [(("states", name, "loads"), state.loads or {}) for name, state in train.states.items()]
     found = [((*loc, link), torque) for loc, loads in groups for link, torque in loads.items()]
-    found += [(("links", name, "bearing"), link.bearing) for name, link in train.links.items() if link.bearing]
+    found += [(("links", name, "bearing"), part.bearing.sliding) for name, part in train.links.items() if part.bearing]
+    found += [(loc, torque) for loc, drive in declared_drives(train) for torque in drive.torques]
     named = next((torque for _, torque in found if torque.unit is not None), None)
     for loc, torque in found:
         if named is not None and torque.unit is None and torque.value:
             why = f"'{named}' has a unit, this has none"
-            fix = "write all loads and bearings in one way"
+            fix = "write all loads, bearings and drives in one way"
             yield Problem(f"torques mix units: '{torque}'", why, fix, train.place(*loc))
             return
+
+
+def declared_drives(train: Train) -> Iterator[tuple[Loc, Drive]]:
+    """The drives of the train and of its states, with where they stand."""
+    if train.drive is not None:
+        yield ("drive",), train.drive
+    for name, state in train.states.items():
+        if state.drive is not None:
+            yield ("states", name, "drive"), state.drive
+
+
+def rates(train: Train) -> Iterator[Problem]:
+    """A rate that is said twice."""
+    if train.rate is not None and train.drive is not None and train.drive.rate is not None:
+        why = f"`rate` says {train.rate} and `drive` says {train.drive.rate}"
+        yield Problem("the rate is declared twice", why, "leave one of them out", train.place("drive", "rate"))
 
 
 def target_units(train: Train, target: Target, loc: Loc) -> Iterator[Problem]:
@@ -128,7 +146,7 @@ def declared_units(train: Train) -> Iterator[Problem]:
             if length.value:
                 (plain if length.unit is None else named).append(("axes", label))
     for at, coupling in enumerate(train.couplings):
-        for size in (coupling.pin_radius, coupling.offset):
+        for size in (coupling.pin_radius, coupling.offset, coupling.clearance):
             if size is not None and size.value:
                 (plain if size.unit is None else named).append(("couplings", at))
     if plain and named:

@@ -22,6 +22,7 @@ from geartrain.errors import (
     suggest,
 )
 from geartrain.numerics.containers import collector_paused
+from geartrain.teeth.coulomb_friction import CoulombFriction
 from geartrain.train.declaration import Train
 from geartrain.train.fields import DeclaredFriction, DeclaredToothForm
 from geartrain.train.references import find_problems
@@ -237,6 +238,7 @@ def _models_in(annotation: Any) -> Iterator[Any]:
     if annotation is DeclaredToothForm:
         yield from _forms().values()
     elif annotation is DeclaredFriction:
+        yield CoulombFriction
         yield from _laws().values()
     elif isinstance(annotation, type) and issubclass(annotation, BaseModel):
         yield annotation

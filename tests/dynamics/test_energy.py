@@ -25,7 +25,7 @@ from geartrain.dynamics import Torques
 from geartrain.dynamics.torques.flow_patterns import find_flow_patterns
 from geartrain.dynamics.torques.torque_balance import LoadedPair, TorqueBalance
 from geartrain.teeth import TransmissionFunction
-from geartrain.train.mechanism import Efficiencies
+from geartrain.train.efficiencies import Efficiencies
 
 Data = dict[str, Any]
 
@@ -45,7 +45,7 @@ def bearings_of(train: GearTrain, found: Torques) -> dict[str, list[tuple[str, F
             continue
         carrier = train.tree.parent[link][0]
         relative = along[link] - along[carrier]
-        torque = -part.bearing.base * ((relative > 0) - (relative < 0))
+        torque = -part.bearing.sliding.base * ((relative > 0) - (relative < 0))
         own, other = train.signs.get(link, 1), train.signs.get(carrier, 1)
         taken[link] = [(link, own * torque), (carrier, -other * torque)]
     return taken

@@ -85,6 +85,11 @@ class LoadCase:
         free = any(value for column, value in form.items() if column != PRESCRIBED)
         return None if free else form.get(PRESCRIBED, Fraction(0))
 
+    def rubs(self, part: GearPair | Coupling) -> bool:
+        """True for a pair or coupling whose coefficient of friction is above 0, or follows a law of speed."""
+        friction = self.train.friction_of(part)
+        return friction is not None and friction.rubs
+
     def bearer(self, link: str) -> str:
         """What bears the axis that a link turns about, however its coaxial joints are declared."""
         return self.tree.top.get(link, link)
@@ -112,10 +117,10 @@ class LoadCase:
 
     def bearing(self, link: str) -> Fraction:
         """Friction torque of a link's bearing, N m or plain."""
-        torque = self.train.links[link].bearing
-        if torque is None or link == self.train.frame:
+        friction = self.train.links[link].bearing
+        if friction is None or link == self.train.frame:
             return Fraction(0)
-        return torque.base
+        return friction.sliding.base
 
 
 def input_and_output(train: Train, case: StateCase) -> tuple[str, str] | None:

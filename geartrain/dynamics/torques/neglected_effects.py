@@ -46,7 +46,7 @@ def find_neglected_effects(
 def _pins(setting: LoadCase, busy: Sequence[Circuit]) -> Iterator[NeglectedEffect]:
     """Friction of pins that is no share of the power that passes."""
     couplings = setting.couplings
-    rubbing = [circuit for circuit in busy if circuit.kind != "gear" and _rubs(couplings[circuit.id].friction)]
+    rubbing = [circuit for circuit in busy if circuit.kind != "gear" and setting.rubs(couplings[circuit.id])]
     if swinging := tuple(circuit.id for circuit in rubbing if not circuit.b):
         why = "a follower only swings: it passes no power on average, of which its friction could be a share"
         yield NeglectedEffect("friction of pins", swinging, why)
@@ -64,7 +64,7 @@ def _teeth(
         gear = setting.gears.get(circuit.id)
         if gear is None or gear.efficiency is not None or circuit.id in setting.meshes:
             continue
-        rubs = _rubs(gear.friction or setting.train.friction) and means[circuit.id] == MeanEfficiencies()
+        rubs = setting.rubs(gear) and means[circuit.id] == MeanEfficiencies()
         if rubs and setting.relative(circuit.i, circuit.carrier) != 0:
             found.append(circuit.id)
     if found:
@@ -155,8 +155,3 @@ def _inertia(setting: LoadCase) -> Iterator[NeglectedEffect]:
         yield NeglectedEffect(
             "inertia", heavy, "torques are those of slow turning: no acceleration and no blow is counted"
         )
-
-
-def _rubs(friction: object) -> bool:
-    """True for a coefficient above 0, and for a law of speed."""
-    return bool(getattr(friction, "value", friction))

@@ -1,0 +1,65 @@
+"""Coulomb friction as a train declares it: a coefficient of sliding, one at rest, and how far the first is in doubt."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any
+
+from pydantic import (
+    BaseModel,
+    BeforeValidator,
+    ConfigDict,
+    Field,
+    GetJsonSchemaHandler,
+    model_serializer,
+    model_validator,
+)
+from pydantic_core import PydanticCustomError
+
+from geartrain.numerics.quantity import Friction, parse_friction
+
+
+class CoulombFriction(BaseModel):
+    """Dry friction: a part of the normal force, whatever the speed of sliding. A bare number is `sliding`."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
+
+    sliding: Friction = Field(description="Coefficient while surfaces slide")
+    static: Friction | None = Field(
+        None, description="Coefficient at rest, which a start has to overcome; `sliding` or more, default `sliding`"
+    )
+    deviation: Friction | None = Field(
+        None,
+        description="Standard deviation of a normal distribution about `sliding`, for Monte Carlo; `static` keeps its "
+        "ratio to `sliding`; default 0",
+    )
+
+    @model_validator(mode="after")
+    def _rests_no_easier(self) -> CoulombFriction:
+        if self.static is not None and self.static.value < self.sliding.value:
+            raise PydanticCustomError(
+                "friction",
+                "a static friction of {static} is below the sliding friction of {sliding}",
+                {
+                    "static": self.static.text,
+                    "sliding": self.sliding.text,
+                    "fix": "what slides is never harder to move than what rests: give `static` as `sliding` or more",
+                },
+            )
+        return self
+
+    @model_serializer(mode="wrap")
+    def _told(self, handler: Any) -> Any:
+        """As it was declared: the bare number where there is no more."""
+        return str(self.sliding) if self.static is None and self.deviation is None else handler(self)
+
+    @classmethod
+    def __get_pydantic_json_schema__(cls, schema: Any, handler: GetJsonSchemaHandler) -> dict[str, Any]:
+        return {"anyOf": [{"type": ["number", "string"]}, handler(schema)]}
+
+
+def _sliding(raw: object) -> object:
+    return raw if isinstance(raw, dict | BaseModel) else {"sliding": parse_friction(raw)}
+
+
+DeclaredCoulombFriction = Annotated[CoulombFriction, BeforeValidator(_sliding)]
+"""The same, or a bare number."""

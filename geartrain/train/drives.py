@@ -1,0 +1,168 @@
+"""What drives a train in time: a speed, a torque, a weight, a spring, a hand; and the escapement that lets it go."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from math import tau
+from typing import Annotated
+
+from pydantic import Field, model_validator
+from pydantic_core import PydanticCustomError
+
+from geartrain.numerics.quantity import (
+    Figure,
+    Inertia,
+    Mass,
+    MeasuredLength,
+    Quantity,
+    Speed,
+    Time,
+    Torque,
+    TorsionalStiffness,
+)
+from geartrain.train.fields import Count, Declared, Id, above_zero, not_below_zero
+
+DriveTorque = Annotated[Torque, not_below_zero("it acts the way the input turns: give its magnitude")]
+
+
+class SpringDrive(Declared):
+    """A spring on the driven link: its torque is `stiffness` times the angle by which it is wound, and runs down.
+
+    See Also
+    --------
+    Drive : holds it as `spring`
+    """
+
+    stiffness: Annotated[TorsionalStiffness, above_zero("give for example 0.02 N m/rad")] = Field(
+        description="Torque for each radian by which it is wound"
+    )
+    turns: Annotated[Figure, not_below_zero("give the turns by which it is wound at the start")] = Field(
+        description="Turns by which it is wound at the start"
+    )
+
+    def torque(self, unwound: float) -> float:
+        """Torque [N m] after the link has turned some way as it is driven.
+
+        Parameters
+        ----------
+        unwound : float
+            How far it has turned [rad].
+        """
+        return self.stiffness.si * (tau * float(self.turns.value) - unwound)
+
+
+class HandDrive(Declared):
+    """A hand at the crank: a torque, or a speed that it keeps with some stiffness, and the inertia that moves along.
+
+    See Also
+    --------
+    Drive : holds it as `hand`
+    """
+
+    torque: DriveTorque | None = Field(None, description="Torque that it gives")
+    rate: Speed | None = Field(None, description="Speed that it means to keep")
+    stiffness: Annotated[TorsionalStiffness, above_zero("give for example 5 N m/rad")] | None = Field(
+        None, description="Torque for each radian by which the crank is behind the hand; default rigid"
+    )
+    inertia: Annotated[Inertia, not_below_zero("an inertia is 0 or more")] | None = Field(
+        None, description="Moment of inertia of arm and crank; default 0"
+    )
+
+    @model_validator(mode="after")
+    def _is_one_thing(self) -> HandDrive:
+        if (self.torque is None) == (self.rate is None):
+            raise PydanticCustomError(
+                "drive", "a hand gives a torque or keeps a rate", {"fix": "give exactly one of torque, rate"}
+            )
+        if self.torque is not None and self.stiffness is not None:
+            raise PydanticCustomError(
+                "drive",
+                "a hand that gives a torque needs no stiffness",
+                {"fix": "`stiffness` says how a hand that keeps a `rate` yields: leave it out, or give `rate`"},
+            )
+        return self
+
+
+class Drive(Declared):
+    """What drives the train in time: exactly one of rate, torque, weight, spring, hand.
+
+    A rate is that of the input, as the train's own `rate`; all others act where power enters, at `crank`, else at the
+    input, the way the input turns.
+
+    See Also
+    --------
+    Train : holds it as `drive`
+    State : holds one of its own
+    StateCase : what is in force in one state
+
+    Examples
+    --------
+    >>> drive = Drive(weight="4 kg", drum="20 mm")
+    >>> drive.kind, drive.weight.si * drive.drum.si
+    ('weight', 0.08)
+    """
+
+    rate: Speed | None = Field(None, description="Speed of the input in real time, held whatever the load")
+    torque: DriveTorque | None = Field(None, description="A constant torque")
+    weight: Annotated[Mass, above_zero("give a mass such as 4 kg")] | None = Field(
+        None, description="Mass of a weight that pulls a line on a drum"
+    )
+    drum: Annotated[MeasuredLength, above_zero("give a length such as 20 mm")] | None = Field(
+        None, description="Radius at which that line pulls: of the drum, with half the line"
+    )
+    spring: SpringDrive | None = Field(None, description="A spring")
+    hand: HandDrive | None = Field(None, description="A hand")
+
+    @model_validator(mode="after")
+    def _is_one_thing(self) -> Drive:
+        kinds = ("rate", "torque", "weight", "spring", "hand")
+        given = [key for key in kinds if getattr(self, key) is not None]
+        if len(given) != 1:
+            raise PydanticCustomError(
+                "drive",
+                "a drive is one thing, and this gives {given}",
+                {"given": " and ".join(given) or "nothing", "fix": f"give exactly one of {', '.join(kinds)}"},
+            )
+        if (self.weight is None) != (self.drum is None):
+            raise PydanticCustomError(
+                "drive",
+                "a weight pulls a line on a drum",
+                {"fix": "give `weight`, a mass, and `drum`, the radius at which its line pulls"},
+            )
+        return self
+
+    @property
+    def torques(self) -> tuple[Quantity, ...]:
+        """The torques it declares as such."""
+        hand = None if self.hand is None else self.hand.torque
+        return tuple(torque for torque in (self.torque, hand) if torque is not None)
+
+    @property
+    def kind(self) -> str:
+        """rate, torque, weight, spring or hand."""
+        return next(key for key in ("rate", "torque", "weight", "spring", "hand") if getattr(self, key) is not None)
+
+
+class Escapement(Declared):
+    """It lets one link pass by half a tooth a beat, and no more: a limit from one side.
+
+    See Also
+    --------
+    Train : holds it as `escapement`
+
+    Examples
+    --------
+    >>> Escapement(link="escape", teeth=30, beat="1 s").speed
+    Fraction(1, 60)
+    """
+
+    link: Id = Field(description="The link of the escape wheel")
+    teeth: Count = Field(description="Teeth of the escape wheel")
+    beat: Annotated[Time, above_zero("give a time such as 1 s")] = Field(
+        description="Time from one beat to the next, of which each lets half a tooth pass"
+    )
+
+    @property
+    def speed(self) -> Fraction:
+        """Mean speed of its link [turn/s]: half a tooth a beat."""
+        return 1 / (2 * self.teeth * self.beat.base)

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from geartrain.teeth.derived_transmission import DerivedTransmission
 from geartrain.teeth.friction_law import PairFriction
 from geartrain.teeth.transmission import ContactRubbing, TransmissionFunction
 
@@ -36,7 +37,7 @@ class _Nodes(NamedTuple):
     coefficient: Floats
 
 
-class RubbedTransmission(TransmissionFunction):
+class RubbedTransmission(DerivedTransmission):
     """A law with friction that depends on speed: its motion is the law's own, its losses those of each contact.
 
     At a driver angle where teeth slide at v the coefficient is mu(v), and a contact passes (1 + mu out) / (1 + mu into)
@@ -59,7 +60,8 @@ class RubbedTransmission(TransmissionFunction):
     """
 
     def __init__(self, law: TransmissionFunction, by: PairFriction) -> None:
-        self.law, self.by, self.ratio, self.period = law, by, law.ratio, law.period
+        super().__init__(law)
+        self.by = by
 
     # ---------------------------------------------------------------------------------------------------- kinematics
 
@@ -70,22 +72,6 @@ class RubbedTransmission(TransmissionFunction):
     def speed(self, S: ArrayLike) -> Floats:
         """The law's own."""
         return self.law.speed(S)
-
-    def speed_range(self) -> tuple[float, float]:
-        """The law's own."""
-        return self.law.speed_range()
-
-    def error_range(self) -> tuple[float, float]:
-        """The law's own."""
-        return self.law.error_range()
-
-    def error_moments(self) -> tuple[float, float]:
-        """The law's own."""
-        return self.law.error_moments()
-
-    def corners(self) -> list[float]:
-        """The law's own."""
-        return self.law.corners()
 
     def turned_back(self) -> RubbedTransmission:
         """The law of the other flanks, rubbed by the same friction."""
@@ -126,11 +112,6 @@ class RubbedTransmission(TransmissionFunction):
     def friction(self) -> float:  # type: ignore[override]
         """Mean coefficient over the driver's angle and the contacts."""
         return float(self._sampled.weights @ self._sampled.coefficient)
-
-    @property
-    def locking_friction(self) -> float:
-        """The least constant friction that locks; infinite where none does."""
-        return self.law.locking_friction
 
     @property
     def locks(self) -> bool:

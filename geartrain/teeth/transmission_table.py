@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from geartrain.teeth.derived_transmission import DerivedTransmission
 from geartrain.teeth.transmission import TransmissionFunction, behind
 
 if TYPE_CHECKING:
@@ -103,7 +104,7 @@ def fit(
     return best
 
 
-class TabulatedTransmission(TransmissionFunction):
+class TabulatedTransmission(DerivedTransmission):
     """A law read from tables, each made when first asked for.
 
     law         the law itself, which still answers what is asked of a whole period
@@ -111,8 +112,8 @@ class TabulatedTransmission(TransmissionFunction):
     """
 
     def __init__(self, law: TransmissionFunction, tolerance: float = 1e-12, degree: int = DEGREE) -> None:
-        self.law, self.ratio, self.period, self.friction = law, law.ratio, law.period, law.friction
-        self.tolerance, self.degree = tolerance, degree
+        super().__init__(law)
+        self.friction, self.tolerance, self.degree = law.friction, tolerance, degree
         self.cuts = np.unique(np.mod(np.asarray(law.corners(), dtype=float), law.period))
 
     def _fit(self, function: Callable[[Floats], Floats], scale: float) -> CellTable:
@@ -145,18 +146,6 @@ class TabulatedTransmission(TransmissionFunction):
         """Efficiency at driver angles S (rad); NaN where the law has none."""
         return self.efficiency_table(S)
 
-    def speed_range(self) -> tuple[float, float]:
-        """The law's own."""
-        return self.law.speed_range()
-
-    def error_range(self) -> tuple[float, float]:
-        """The law's own."""
-        return self.law.error_range()
-
-    def error_moments(self) -> tuple[float, float]:
-        """The law's own."""
-        return self.law.error_moments()
-
     def efficiency_mean(self) -> float:
         """The law's own."""
         return self.law.efficiency_mean()
@@ -168,15 +157,6 @@ class TabulatedTransmission(TransmissionFunction):
     def efficiency_least(self) -> float:
         """The law's own."""
         return self.law.efficiency_least()
-
-    @property
-    def locking_friction(self) -> float:
-        """The law's own."""
-        return self.law.locking_friction
-
-    def corners(self) -> list[float]:
-        """The law's own."""
-        return self.law.corners()
 
     def turned_back(self) -> TabulatedTransmission:
         """Tables of the law turned back."""

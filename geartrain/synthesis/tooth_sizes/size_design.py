@@ -35,8 +35,7 @@ def impact_of(law: TransmissionFunction) -> float:
 
     What the inelastic collisions of one pitch dissipate, docs/motion.md (7), over the energy of the driven side.
     """
-    leaps = [leap.after - leap.before for leap in law.speed_leaps() or ()]
-    return float(sum(leap * leap for leap in leaps)) / float(law.ratio) ** 2
+    return float(sum(leap.size**2 for leap in law.speed_leaps() or ())) / float(law.ratio) ** 2
 
 
 @dataclass(frozen=True)

@@ -100,17 +100,33 @@ class Outlines:
         out = (self.D - at.x) * force[1] + at.y * force[0]
         return speed, into / out
 
-    def touches(
-        self, t: float, links: tuple[str, str], centres: tuple[Vector, Vector], friction: float
-    ) -> tuple[Touch, Touch]:
-        """Front and back flank at one place of the driver, somewhere in the plane."""
-        found = []
-        for mirror in (1.0, -1.0):
-            at = self.places(np.array([mirror * t]))
-            point = float(at.x[0]), mirror * float(at.y[0])
-            normal = float(at.normal_x[0]), mirror * float(at.normal_y[0])
-            found.append(Touch(*links, _moved(point, centres, self.D), _turned(normal, centres), friction))
-        return found[0], found[1]
+    def driven(self, t: float, flank: int = 0) -> float:
+        """Where a driven tooth stands whose lower flank is pushed, or with 1 when the tooth below it is held back.
+
+        The first is as far back as it can be, the second as far ahead: they differ by the play.
+        """
+        if flank == 0:
+            return float(self.places(np.array([t])).driven[0])
+        return 2 * np.pi / self.z2 - float(self.places(np.array([-t])).driven[0])
+
+    def touch(
+        self,
+        t: float,
+        links: tuple[str, str],
+        centres: tuple[Vector, Vector],
+        friction: float,
+        flank: int = 0,
+        clockwise: bool = False,
+    ) -> Touch:
+        """The front or (1) the back flank at one place of the driver, somewhere in the plane.
+
+        t   counted forwards, which may be clockwise
+        """
+        mirror = (1.0, -1.0)[flank]
+        at = self.places(np.array([mirror * t]))
+        up = mirror * (-1.0 if clockwise else 1.0)
+        point, normal = (float(at.x[0]), up * float(at.y[0])), (float(at.normal_x[0]), up * float(at.normal_y[0]))
+        return Touch(*links, _moved(point, centres, self.D), _turned(normal, centres), friction)
 
 
 def _upwards(along: tuple[np.ndarray, np.ndarray]) -> tuple[np.ndarray, np.ndarray]:

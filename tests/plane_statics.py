@@ -34,7 +34,8 @@ class Touch:
     """One flank of `first` can press on `second` in a point, along `normal` (of length 1, out of the first body).
 
     `through` is another point through which the force goes, for a pair that is known by its efficiency alone; it is
-    chosen by who drives: (if the first wheel drives in the bearers' frame, if the second does).
+    chosen by who drives: (if the first wheel drives in the bearer's frame, if the second does). A touch that also
+    `pulls` stands for both flanks of a pair without friction.
     """
 
     first: str
@@ -44,13 +45,14 @@ class Touch:
     friction: float = 0.0
     through: tuple[Vector, Vector] | None = None
     bearer: str = FRAME
+    pulls: bool = False
 
 
 @dataclass(frozen=True)
 class Balance:
     """Torques that balance: of the asked body and the held ones (N m), normal forces (N), and the power lost (W).
 
-    `lost` goes by touch, then by hinge.
+    `lost` goes by touch, then by hinge; `put_in` is what all torques from outside put in.
     """
 
     torque: float
@@ -58,6 +60,7 @@ class Balance:
     forces: tuple[float, ...]
     flanks: tuple[int, ...]
     lost: tuple[float, ...]
+    put_in: float
 
 
 def flanks(first: str, second: str, point: Vector, normal: Vector, friction: float) -> tuple[Touch, Touch]:
@@ -71,7 +74,7 @@ def flanks(first: str, second: str, point: Vector, normal: Vector, friction: flo
 def rolling(first: str, second: str, centres: tuple[Vector, Vector], radii: tuple[float, float]) -> tuple[Touch]:
     """Two pitch circles without losses; a ring has a negative radius."""
     (touch, _) = toothed(first, second, centres, radii, (1.0, 1.0))
-    return (replace(touch, through=None),)
+    return (replace(touch, through=None, pulls=True),)
 
 
 def toothed(
@@ -107,10 +110,7 @@ def toothed(
 
 @dataclass(frozen=True)
 class Mechanism:
-    """Bodies at one instant. `joints` holds for each pair its two flanks, of which one presses or none.
-
-    A pair without friction may have one touch alone, whose force may have either sign.
-    """
+    """Bodies at one instant. `joints` holds for each pair the flanks that may press, mostly two."""
 
     hinges: Sequence[Hinge]
     joints: Sequence[tuple[Touch, ...]]
@@ -197,7 +197,7 @@ class Mechanism:
         start = 2 * len(self.hinges)
         pressing = solved[start : start + len(touches)]
         scale = 1e-11 * (np.abs(pressing).max(initial=0.0) + 1e-300)
-        if any(force < -scale for force, pair in zip(pressing, self.joints, strict=True) if len(pair) > 1):
+        if any(force < -scale and not touch.pulls for force, touch in zip(pressing, touches, strict=True)):
             return None
         lost = []
         for touch, way, normal_force in zip(touches, ways, pressing, strict=True):
@@ -210,7 +210,9 @@ class Mechanism:
         for hinge in self.hinges:
             lost.append(abs(hinge.friction * _relative_turning(motion, hinge)))
         torque, *others = map(float, solved[start + len(touches) :])
-        return Balance(torque, tuple(others), tuple(map(float, pressing)), used, tuple(lost))
+        acting = [*loads.items(), *zip((asked, *held), (torque, *others), strict=True)]
+        put_in = sum(acts * motion[name][2] for name, acts in acting)
+        return Balance(torque, tuple(others), tuple(map(float, pressing)), used, tuple(lost), put_in)
 
     @staticmethod
     def _drives(touch: Touch, motion: Mapping[str, Vector3]) -> float:

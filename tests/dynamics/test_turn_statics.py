@@ -160,7 +160,7 @@ def saturn(S: float) -> Mechanism:
     at[FRAME] = (0, 0)
     rolls = [rolling(i, j, (at[i], at[j]), (z, y)) for i, j, z, y in pairs]
     hinges = [Hinge(FRAME, "b", (0, 0)), *borne, Hinge(FRAME, "saturn", (0, 0), 1e-3)]
-    return Mechanism(hinges, [*rolls, (Touch("sa68", "sa86s", pin, normal),)])
+    return Mechanism(hinges, [*rolls, (Touch("sa68", "sa86s", pin, normal, pulls=True),)])
 
 
 def test_the_bearing_of_a_retrograde_planet() -> None:
@@ -248,8 +248,8 @@ def both(wheels: Outlines, t: float) -> Mechanism:
     away = hypot(point[0] - axis[0], point[1] - axis[1])
     normal = -(point[1] - axis[1]) / away, (point[0] - axis[0]) / away
     hinges = [Hinge(FRAME, "a", (0, 0)), Hinge(FRAME, "b", centre), Hinge(FRAME, "c", axis, 0.5)]
-    teeth = wheels.touches(t, ("a", "b"), ((0.0, 0.0), centre), 0.1)
-    return Mechanism(hinges, [teeth, flanks("b", "c", point, normal, 0.2)])
+    teeth = wheels.touch(t, ("a", "b"), ((0.0, 0.0), centre), 0.1)
+    return Mechanism(hinges, [(teeth,), flanks("b", "c", point, normal, 0.2)])
 
 
 def test_teeth_and_a_pin_in_one_train() -> None:
@@ -258,7 +258,6 @@ def test_teeth_and_a_pin_in_one_train() -> None:
     # one position by the balance of all bodies, the load against the clockwise turning of c
     def torque(t: float) -> float:
         found = only(both(wheels, t).balances({"a": 1.0}, {"c": 3.0}, "a"))
-        assert found.flanks[0] == 0
         assert sum(found.lost) == pytest.approx(
             found.torque + 3.0 * both(wheels, t).motion({"a": 1.0})["c"][2], rel=1e-12
         )

@@ -11,8 +11,8 @@ import geartrain
 from geartrain import GearTrain
 from geartrain.kinematics.graph import adjacency_labels
 from geartrain.train.periods import period_table
-from sources.row import Digits, Exactly, Finding, Holds, Row, Source, outside
-from sources.ways import Call, Command
+from sources.row import Digits, Exactly, Finding, Holds, Row, Source, Statements, outside
+from sources.ways import Command
 
 SECTION = "the-antikythera-train-of-pennestri-valentini-and-petti-2002"
 MONTHS, TABLE_6, PRICE = "years-over-months", "table-6-the-conjectured-wheels", "price-1974"
@@ -21,26 +21,8 @@ HISTORY = "history, not kinematics: nothing to compute"
 SOLVE = "solve pennestri-2002"
 
 
-def call(expression: str) -> Call:
-    """An expression with the names of this module."""
-    return Call(expression, globals())
-
-
-def exact(place: str, claim: str, printed: str, expression: str, erratum: str = "", section: str = "") -> Row:
-    """A number or text that must be the same."""
-    return Row(place, claim, printed, call(expression), Exactly(), erratum, section=section)
-
-
-def digits(
-    place: str, claim: str, printed: str, expression: str, erratum: str = "", section: str = "", why: str = ""
-) -> Row:
-    """A number right at its digits."""
-    return Row(place, claim, printed, call(expression), Digits(), erratum, why, section)
-
-
-def words(place: str, claim: str, expression: str, erratum: str = "", section: str = "", why: str = "") -> Row:
-    """A claim in words."""
-    return Row(place, claim, "", call(expression), Holds(), erratum, why, section)
+_OWN = Statements(globals())
+call, exact, digits, words = _OWN.call, _OWN.exact, _OWN.digits, _OWN.words
 
 
 @lru_cache(maxsize=1)
@@ -174,20 +156,22 @@ def structure() -> Iterator[Row]:
         for name, entries in columns.items():
             yield exact(f"Table {table}, {name}", "bodies i, j, k, wheels", entries, f"circuit('{name}')")
     yield exact(
-        "Table 3, caption", "fundamental circuits", "8-18", "caption()", "Its columns are G13 to G18", "table-3"
+        "Table 3, caption", "fundamental circuits", "8-18", "caption()", "Its columns are G13 to G18", section="table-3"
     )
     yield words("Eq. (2)", "w_i - tau w_j + (tau - 1) w_k = 0, tau = -z_j/z_i, for each circuit", "willis()")
     for entry in TEETH.split():
         name, _, teeth = entry.partition("=")
-        wrong = ("Only 60 gives the speeds", "z18-15-or-60") if entry == "z18=15" else ("", "")
-        yield exact(f"Tooth list, {name}", "teeth", teeth, f"count('{name.capitalize()}')", *wrong)
+        erratum, section = ("Only 60 gives the speeds", "z18-15-or-60") if entry == "z18=15" else ("", "")
+        expression = f"count('{name.capitalize()}')"
+        yield exact(f"Tooth list, {name}", "teeth", teeth, expression, erratum, section=section)
     for link, entries in enumerate(TABLE_7, 1):
         yield exact(
             f"Table 7, row {link}",
             "what stands in the row, in order",
             entries,
             f"cells({link})",
-            *(("Row 18 of the matrix holds", "table-7") if link == 18 else ()),
+            "Row 18 of the matrix holds" if link == 18 else "",
+            section="table-7" if link == 18 else "",
         )
 
 
@@ -264,7 +248,7 @@ def speeds() -> Iterator[Row]:
             yield outside(place, claim, "Price's train has no wheel EK, and no equation of the listing uses it", teeth)
         else:
             wrong = ("| 48 | 75/16 |", PRICE) if name == "A" else ("", "")
-            yield exact(place, claim, teeth, f"count('{name}', price())", *wrong)
+            yield exact(place, claim, teeth, f"count('{name}', price())", erratum=wrong[0], section=wrong[1])
     for entry in MAPLE.split():
         name, _, teeth = entry.partition("=")
         yield exact(f"Maple, {name}", "teeth, in the paper's numbers", teeth, f"count('{name}')")
@@ -328,16 +312,15 @@ def counts_months(link: int, months: int) -> Finding:
     return Finding(abs(found / wanted - 1) < Fraction(1, 10**4), f"{found} turns a year, wanted {float(wanted):.4f}")
 
 
-def results() -> Iterator[Row]:
-    """The text of the results, Tables 5 and 6, the missing parts."""
-    cut = "printed cut off, for"
+def years_and_months() -> Iterator[Row]:
+    """What the results start from, and Table 5."""
     yield digits(
         "Results, year",
         "Hipparchus' year (days)",
         "365.242",
         "period('year_hipparchus_tropical')",
         "365 + 1/4 - 1/300",
-        MONTHS,
+        section=MONTHS,
     )
     yield digits(
         "Results, month",
@@ -345,11 +328,15 @@ def results() -> Iterator[Row]:
         "29.53058",
         "period('month_synodic_hipparchus_4267')",
         "Hipparchus' month",
-        MONTHS,
+        section=MONTHS,
     )
     yield outside("Results, definitions", "what a sidereal and a synodic month are", "definitions, and right")
     yield words(
-        "Results, its name", "that month is the sidereal one", "sidereal()", "a sidereal month; it is synodic", MONTHS
+        "Results, its name",
+        "that month is the sidereal one",
+        "sidereal()",
+        "a sidereal month; it is synodic",
+        section=MONTHS,
     )
     yield words("Footnote 1", "the Julian year is more than 11 minutes too long; 10 days in all", "calendar()")
     yield outside(
@@ -365,8 +352,12 @@ def results() -> Iterator[Row]:
         "27.3229",
         "period('month_sidereal_J2000')",
         "The sidereal month of Table 5 is long",
-        MONTHS,
+        section=MONTHS,
     )
+
+
+def results() -> Iterator[Row]:
+    """Their five points."""
     yield exact("Results 1", "turns of the crank in a year", "5", "speed(2) / abs(speed(3))")
     yield words("Results 2, sun and moon", "wheels 3 and 5 are the Sun and the Moon in the zodiac", "pointers()")
     yield digits("Results 2, w5", "year over sidereal month", "13.3684", "speed(5)")
@@ -376,14 +367,14 @@ def results() -> Iterator[Row]:
         "13.3676",
         "period('year_tropical_J2000') / period('month_sidereal_J2000')",
         "13.3676 in the text is its consequence",
-        MONTHS,
+        section=MONTHS,
     )
     yield words(
         "Results 3, wheel 19",
         "turns once in a synodic month",
         "counts_months(19, 1)",
         "wheel 19 counts synodic months",
-        MONTHS,
+        section=MONTHS,
     )
     yield digits(
         "Results 3, actual",
@@ -391,22 +382,26 @@ def results() -> Iterator[Row]:
         "12.3681",
         "Fraction('365.242199') / Fraction('29.53059')",
         "12.3681 is the quotient of the misprint",
-        MONTHS,
+        section=MONTHS,
     )
     yield digits("Results 3, w17", "turns of link 17 a year, without sign", "12.3684", "abs(speed(17))")
     yield digits(
-        "Results 3, Price", "Price's ratio 236/19", "12.4210", "price_ratio()", "given as Price's ratio", MONTHS
+        "Results 3, Price", "Price's ratio 236/19", "12.4210", "price_ratio()", "given as Price's ratio", section=MONTHS
     )
     yield words(
-        "Results 4, wheel 9", "turns once in a lunar year", "counts_months(9, 12)", "wheel 9 counts lunar years", MONTHS
+        "Results 4, wheel 9",
+        "turns once in a lunar year",
+        "counts_months(9, 12)",
+        "wheel 9 counts lunar years",
+        section=MONTHS,
     )
     yield digits(
         "Results 4, actual",
         "365.242199/(29.53059*12)",
         "1.03068",
         "Fraction('365.242199') / (Fraction('29.53059') * 12)",
-        f"{cut} 1.03069",
-        MONTHS,
+        "printed cut off, for 1.03069",
+        section=MONTHS,
     )
     yield digits("Results 4, w19", "turns of link 19 a year, without sign", "1.0307", "abs(speed(19))")
     yield exact("Results 5, wheel 8", "years in which it turns once", "4", "1 / speed(8)")
@@ -415,8 +410,12 @@ def results() -> Iterator[Row]:
         "wheel 8 is not engaged with any other",
         "mates()",
         "wheel 8 is engaged with no other",
-        MONTHS,
+        section=MONTHS,
     )
+
+
+def missing_parts() -> Iterator[Row]:
+    """Table 6 and what it is for."""
     yield exact("Missing parts, N", "teeth of wheel N", "64", "count('N', price())")
     yield digits("Missing parts, speed of N", "turns a year", "0.25", "speed(8)")
     yield exact("Footnote 2, months", "synodic months of a saros", "223", "months_of_saros()")
@@ -496,7 +495,9 @@ def months_of_saros() -> Fraction:
 
 def rows() -> tuple[Row, ...]:
     """All of them."""
-    return tuple(row for part in (introduction, structure, speeds, results) for row in part())
+    return tuple(
+        row for part in (introduction, structure, speeds, years_and_months, results, missing_parts) for row in part()
+    )
 
 
 SOURCE = Source(

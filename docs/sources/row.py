@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from decimal import Decimal
 from fractions import Fraction
 from functools import cached_property
 from typing import Any
 
-from sources.ways import Way
+from sources.ways import Call, Way
 
 REPRODUCED, ERRATUM, OUTSIDE = "reproduced", "erratum", "out of scope"
 VERDICTS = (REPRODUCED, ERRATUM, OUTSIDE)
@@ -185,6 +186,55 @@ class Row:
 def outside(place: str, claim: str, why: str, printed: str = "") -> Row:
     """A statement that geartrain does not answer, and why."""
     return Row(place, claim, printed, why=why)
+
+
+@dataclass(frozen=True)
+class Statements:
+    """Statements whose ways are expressions with the names of one module."""
+
+    names: Mapping[str, Any] = field(repr=False)
+
+    def call(self, expression: str) -> Call:
+        """The way to a value."""
+        return Call(expression, self.names)
+
+    def words(
+        self, place: str, claim: str, expression: str, erratum: str = "", why: str = "", section: str = ""
+    ) -> Row:
+        """A claim in words; the expression gives a `Finding`."""
+        return Row(place, claim, "", self.call(expression), Holds(), erratum, why, section)
+
+    def equation(
+        self, place: str, claim: str, expression: str, judge: Judge | None = None, erratum: str = "", why: str = ""
+    ) -> Row:
+        """An equation; the expression gives how far its two sides differ."""
+        return Row(place, claim, "", self.call(expression), judge or Equal(), erratum, why)
+
+    def digits(
+        self,
+        place: str,
+        claim: str,
+        printed: str,
+        expression: str,
+        erratum: str = "",
+        why: str = "",
+        section: str = "",
+    ) -> Row:
+        """A number right at its digits."""
+        return Row(place, claim, printed, self.call(expression), Digits(), erratum, why, section)
+
+    def exact(
+        self,
+        place: str,
+        claim: str,
+        printed: str,
+        expression: str,
+        erratum: str = "",
+        why: str = "",
+        section: str = "",
+    ) -> Row:
+        """A number or text that must be the same."""
+        return Row(place, claim, printed, self.call(expression), Exactly(), erratum, why, section)
 
 
 @dataclass(frozen=True)

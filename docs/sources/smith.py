@@ -20,7 +20,7 @@ from geartrain.teeth.conjugate.pitch_surfaces import PitchSurfaces
 from geartrain.teeth.friction_law import FOOT_A_MINUTE, BuckinghamFriction, DokosFriction
 from sources import smith_profiles as profiles
 from sources.row import Finding
-from sources.smith_profiles import Seen
+from sources.smith_profiles import Seen, crawl
 from sources.ways import Command
 
 ONCE, TWICE = 1e-9, 1e-6  # what differentiating points once and twice leaves
@@ -427,16 +427,6 @@ def triangle(which: int) -> float:
         else:
             worst = max(worst, abs(sin(turn) / tan(alpha) + cos(turn) * cos(A) - sin(A) / tan(R)))
     return float(worst)
-
-
-def crawl(v: Seen, at: Any) -> Any:
-    """(42) with (43), or (44) with the law of cosines, which is (45); `at` in the place of c + s."""
-    r, R, c, psi = v.r[0], v.R1, v.c(1), v.psi(1)
-    if v.bevel:
-        cos_A = np.cos(r) * np.cos(c) + np.sin(r) * np.sin(c) * np.sin(psi)
-        return (cos_A - np.cos(R) * np.cos(at)) * np.sin(c) / (np.sin(R) * np.sin(at) ** 2)
-    A2 = r**2 + c**2 - 2 * r * c * np.sin(psi)
-    return (R**2 + at**2 - A2) * c / (2 * R * at**2)
 
 
 def speed_of_contact(kind: Kind) -> tuple[float, float]:

@@ -223,3 +223,13 @@ def loss_63(R1: Any, R2: Any, r: Any, p: Any, q: Any, sqrt: Callable[[Any], Any]
     own = s if opposite else -s
     crawl = (R1**2 - r**2 + s**2 + 2 * c * own + 2 * r * c * sine) * c / (2 * R1 * (c + own) ** 2)
     return sqrt(1 / r**2 + 1 / p**2) * (1 / R1 + 1 / R2) * R1 * s / crawl * N / R1
+
+
+def crawl(v: Seen, at: Any) -> Any:
+    """(42) with (43), or (44) with the law of cosines, which is (45); `at` in the place of c + s."""
+    r, R, c, psi = v.r[0], v.R1, v.c(1), v.psi(1)
+    if v.bevel:
+        cos_A = np.cos(r) * np.cos(c) + np.sin(r) * np.sin(c) * np.sin(psi)
+        return (cos_A - np.cos(R) * np.cos(at)) * np.sin(c) / (np.sin(R) * np.sin(at) ** 2)
+    A2 = r**2 + c**2 - 2 * r * c * np.sin(psi)
+    return (R**2 + at**2 - A2) * c / (2 * R * at**2)

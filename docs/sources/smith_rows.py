@@ -5,32 +5,15 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from sources import smith
-from sources.row import Digits, Equal, Holds, Judge, Mended, Row, Source, outside
+from sources.row import Equal, Mended, Row, Source, Statements, outside
 from sources.smith import BOTH, ONCE, TWICE
-from sources.ways import Call
 
 HISTORY = "history: nothing to compute"
 DATUM = "a measurement that the note quotes, not computed"
 
 
-def call(expression: str) -> Call:
-    """An expression with the names of `sources.smith`."""
-    return Call(expression, vars(smith))
-
-
-def words(place: str, claim: str, expression: str, erratum: str = "", why: str = "") -> Row:
-    """A claim in words."""
-    return Row(place, claim, "", call(expression), Holds(), erratum, why)
-
-
-def equation(place: str, claim: str, expression: str, judge: Judge, erratum: str = "", why: str = "") -> Row:
-    """An equation, both sides worked out."""
-    return Row(place, claim, "", call(expression), judge, erratum, why)
-
-
-def digits(place: str, claim: str, printed: str, expression: str, why: str = "") -> Row:
-    """A number right at its digits."""
-    return Row(place, claim, printed, call(expression), Digits(), why=why)
+_OF_SMITH = Statements(vars(smith))
+words, equation, digits = _OF_SMITH.words, _OF_SMITH.equation, _OF_SMITH.digits
 
 
 def introduction() -> Iterator[Row]:
@@ -95,7 +78,7 @@ def introduction() -> Iterator[Row]:
 
 
 def conjugates() -> Iterator[Row]:
-    """Sections 8 to 11."""
+    """Sections 8 and 9."""
     yield equation(
         "Eq. (6)",
         "where a given bevel gear touches",
@@ -172,6 +155,10 @@ def conjugates() -> Iterator[Row]:
         "a gear whose rate of heat is constant could be had",
         "the note gives it no use; no such form is offered",
     )
+
+
+def friction() -> Iterator[Row]:
+    """Sections 10 and 11."""
     yield equation("Eq. (17)", "sliding by r and psi, spur", "sliding('spur')", Equal(ONCE))
     yield equation("Eq. (18)", "sliding by r and psi, bevel", "sliding('bevel')", Equal(ONCE))
     yield equation(
@@ -206,7 +193,7 @@ def conjugates() -> Iterator[Row]:
     ):
         law = expression.partition("(")[0]
         yield digits(
-            f"Section 11, {place}", what, printed, expression, f"measured; `friction: {{law: {law}}}` goes by it"
+            f"Section 11, {place}", what, printed, expression, why=f"measured; `friction: {{law: {law}}}` goes by it"
         )
     yield outside(
         "Section 11, formulas",
@@ -277,8 +264,8 @@ def curvatures() -> Iterator[Row]:
     )
 
 
-def optima() -> Iterator[Row]:
-    """Sections 15 to 21, the six problems."""
+def work_and_stress() -> Iterator[Row]:
+    """Sections 15 to 17."""
     yield outside("Section 15, (Wrong)", "work as an integral of force over the tooth", "given by the note as wrong")
     yield equation(
         "Section 15, spirals",
@@ -321,7 +308,7 @@ def optima() -> Iterator[Row]:
             "arithmetic from (51) as printed",
             printed,
             f"arithmetic('{key}')",
-            "the arithmetic; what is concluded from it is the erratum below",
+            why="the arithmetic; what is concluded from it is the erratum below",
         )
     yield words("Section 16, trains", "trains lose less than one pair of large ratio", "trains()", "**Section 16**")
     yield equation("Eqs. (53), (54)", "stress by force and curvatures, plane and sphere", "stress()", Equal(TWICE))
@@ -340,6 +327,10 @@ def optima() -> Iterator[Row]:
         "Section 17, involutes", "c falls with sqrt(r - r0), stress grows with (r - r0)^(-1/4)", "involute_root()"
     )
     yield outside("Footnote 8", "stress of two balls", "teeth touch along lines here")
+
+
+def heat_and_optima() -> Iterator[Row]:
+    """Sections 18 to 21, the six problems."""
     yield equation("Eqs. (60), (61)", "rate of heat and how long it lasts: their product", "heat()", Equal(TWICE))
     yield equation("Eq. (62)", "heat of an area", "heat()", Equal(TWICE))
     yield equation("Eq. (63)", "Z in r, r', r''", "long_one(63)", Mended(TWICE), "| (63) | 2")
@@ -380,6 +371,7 @@ def optima() -> Iterator[Row]:
     )
 
 
+_PARTS = (introduction, conjugates, friction, curvatures, work_and_stress, heat_and_optima)
 SOURCE = Source(
     "Smith",
     "W. D. Smith, Optimal shapes for gears, NEC Research Institute, 22 December 1993 (19 pages)",
@@ -388,5 +380,5 @@ SOURCE = Source(
     "teeth, spur and bevel: involute, uniform stress, uniform temperature; points of the two teeth alone are "
     "turned to where they touch, and differentiated as they lie.",
     "smiths-note-on-optimal-gears-1993",
-    tuple(row for part in (introduction, conjugates, curvatures, optima) for row in part()),
+    tuple(row for part in _PARTS for row in part()),
 )

@@ -15,28 +15,17 @@ from geartrain.teeth import Triangular
 from geartrain.teeth.triangular.clearance_window import find_window
 from geartrain.teeth.triangular.tooth_couple import ToothCouple
 from sources import sorge_contacts as note
-from sources.row import Equal, Finding, Holds, Judge, Mended, Row, Source, outside
+from sources.row import Equal, Finding, Mended, Row, Source, Statements, outside
 from sources.sorge_contacts import Contact, contacts, figures, law, off
-from sources.ways import Call, Command
+from sources.ways import Command
 
 SECTION = "sorges-note-on-ancient-gears"
 HISTORY = "history, not mechanics: nothing to compute"
 A, R = "approach", "recess"
 
 
-def call(expression: str) -> Call:
-    """An expression with the names of this module."""
-    return Call(expression, globals())
-
-
-def words(place: str, claim: str, expression: str, erratum: str = "", why: str = "") -> Row:
-    """A claim in words, judged by a function of this module."""
-    return Row(place, claim, "", call(expression), Holds(), erratum, why)
-
-
-def equation(place: str, claim: str, expression: str, judge: Judge | None = None, erratum: str = "") -> Row:
-    """An equation, both sides worked out by a function of this module."""
-    return Row(place, claim, "", call(expression), judge or Equal(), erratum)
+_OWN = Statements(globals())
+words, equation = _OWN.words, _OWN.equation
 
 
 def mesh(z1: int, z2: int, clearance: str, path: str) -> Command:

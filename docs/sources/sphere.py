@@ -13,8 +13,8 @@ import geartrain
 from geartrain.numerics.arrays import Floats
 from geartrain.spherical import Configuration, from_polyhedron, ratio_windows, size_gears, survey
 from geartrain.spherical.gear_sphere import GearSphere
-from sources.row import Digits, Equal, Exactly, Finding, Holds, Row, Source, outside
-from sources.ways import Call, Command
+from sources.row import Digits, Exactly, Finding, Row, Source, Statements, outside
+from sources.ways import Command
 
 SECTION = "the-note-on-spherical-configurations-of-rounded-gears"
 NOTE = "icosidodecahedron"
@@ -22,19 +22,8 @@ SIZED = "sphere icosidodecahedron --teeth 5=20,3=12 --radius 5=1.25"
 PICTURE = "the copy has no pictures; "
 
 
-def call(expression: str) -> Call:
-    """An expression with the names of this module."""
-    return Call(expression, globals())
-
-
-def words(place: str, claim: str, expression: str, erratum: str = "", why: str = "") -> Row:
-    """A claim in words."""
-    return Row(place, claim, "", call(expression), Holds(), erratum, why)
-
-
-def equation(place: str, claim: str, expression: str) -> Row:
-    """A formula: both sides worked out."""
-    return Row(place, claim, "", call(expression), Equal())
+_OWN = Statements(globals())
+words, equation, digits, exact = _OWN.words, _OWN.equation, _OWN.digits, _OWN.exact
 
 
 def number(place: str, claim: str, printed: str, path: str, erratum: str = "", why: str = "") -> Row:
@@ -234,8 +223,8 @@ def window() -> Finding:
     return Finding(found.low < 45 / 33 < found.high, f"{found.low:.4f} < 45/33 < {found.high:.4f}")
 
 
-def rows_of_note() -> Iterator[Row]:
-    """All rows, in the order of the text."""
+def introduction() -> Iterator[Row]:
+    """What such a model is, and the order of work."""
     yield outside(
         "Introduction, 5-4-3",
         "a picture of a 5-4-3 configuration",
@@ -253,6 +242,10 @@ def rows_of_note() -> Iterator[Row]:
     yield outside(
         "How to, steps 1 to 6", "the order of work", f"a method, not a result; all of it is `geartrain {SIZED}`"
     )
+
+
+def first_steps() -> Iterator[Row]:
+    """Steps 1 to 3: which gears turn, where they stand, how large the sphere is."""
     yield words("Step 1, three", "a loop of three is locked", "closed_loop(3)")
     yield words("Step 1, even", "a loop with an even number turns", "closed_loop(4)")
     yield words(
@@ -285,6 +278,10 @@ def rows_of_note() -> Iterator[Row]:
     yield equation(
         "Step 3, R_sph", "R_sph = S cos 36/(2 sin 18)", "off(S * cos(36 * DEG) / (2 * sin(18 * DEG)), R_SPH)"
     )
+
+
+def angles() -> Iterator[Row]:
+    """Step 4: the angles between axes."""
     yield equation("Step 4, D", "D = S/(2 sin 36)", "off(S / (2 * sin(36 * DEG)), D)")
     yield equation(
         "Step 4, H",
@@ -295,27 +292,25 @@ def rows_of_note() -> Iterator[Row]:
         "Step 4, phi", "phi = atan(D/H)", "off(atan(D / sqrt(R_SPH**2 - R**2)), gears().angle(*gears().meshes[0]))"
     )
     yield number("Step 4, value of phi", "angle between pentagon and triangle (deg)", "37.37736814", "angles.5-3")
-    yield Row(
+    yield digits(
         "Step 4, first beta",
         "angle between two triangles by an arcsine (deg)",
         "44.9110304",
-        call("right_beta()"),
-        Digits(),
+        "right_beta()",
         "| the angle between triangles by an arcsine of the wrong side",
         "the note corrects itself, and leaves the first text standing",
     )
-    yield Row("Step 4, its arithmetic", "2 asin(sin 18/cos 36), as a number (deg)", "44.9110304", call("wrong_beta()"))
+    yield digits("Step 4, its arithmetic", "2 asin(sin 18/cos 36), as a number (deg)", "44.9110304", "wrong_beta()")
     yield equation(
         "Step 4, beta",
         "beta = 2 atan(S/(2 R_sph)) = 2 atan(sin 18/cos 36)",
         "max(off(2 * atan(x), right_beta() * DEG) for x in (S / 2 / R_SPH, sin(18 * DEG) / cos(36 * DEG)))",
     )
-    yield Row(
+    yield digits(
         "Step 4, value of beta",
         "that angle (deg)",
         "41.8103148828",
-        call("right_beta()"),
-        Digits(),
+        "right_beta()",
         "| the corrected angle, 41.8103148828",
     )
     yield words(
@@ -324,6 +319,10 @@ def rows_of_note() -> Iterator[Row]:
         "triangles_mesh()",
         "| it is an angle between neighbours |",
     )
+
+
+def sizes() -> Iterator[Row]:
+    """Steps 5 and 6: radii and teeth."""
     yield equation("Step 5, R1", "R1 = R_sph sin a", "sines(0)")
     yield equation("Step 5, R2", "R2 = R_sph sin(phi - a)", "sines(1)")
     yield equation("Step 5, ratio", "R1/R2 = sin a/sin(phi - a)", "sines(2)")
@@ -355,18 +354,15 @@ def rows_of_note() -> Iterator[Row]:
         "three_types()",
         "| more than two types are very difficult or impossible |",
     )
-    yield Row(
+    yield exact(
         "Step 6, pitch",
         "diametral pitch N/R",
         "8",
-        call("diametral()"),
-        Exactly(),
+        "diametral()",
         "| a diametral pitch N/R of 8 |",
         "N/R is 8; the diametral pitch is teeth over diameter",
     )
-    yield Row(
-        "Step 6, teeth", "N1/R1 = N2/R2 with 10 and 6 teeth", "8", call("round(10 / 1.25 + 6 / 0.75) // 2"), Exactly()
-    )
+    yield exact("Step 6, teeth", "N1/R1 = N2/R2 with 10 and 6 teeth", "8", "round(10 / 1.25 + 6 / 0.75) // 2")
     yield outside(
         "Step 6, slope",
         "teeth should slope radially outwards",
@@ -383,5 +379,5 @@ SOURCE = Source(
     "S, L, R_SPH, R and D are measured on a dodecahedron of the library, DEG is a degree; 20 and 12 teeth stand for "
     "the ratio 5/3.",
     SECTION,
-    tuple(rows_of_note()),
+    tuple(row for part in (introduction, first_steps, angles, sizes) for row in part()),
 )

@@ -20,6 +20,7 @@ from sources.smith_profiles import (
     big_M,
     corrected_56,
     corrected_63,
+    crawl,
     loss_63,
     printed_56,
     printed_63,
@@ -203,16 +204,6 @@ def test_the_sum_gives_0_80_to_0_70_of_the_speed_from_a_fifth_to_two_fifths_of_a
     v = seen(path_of("spur(24,36)", "involute20"), True, 0.2, 0.999)
     ratio = crawl(v, v.c(1) + v.s) / v.crawl(1)
     np.testing.assert_allclose(np.interp(np.pi * np.array([0.2, 0.4]), v.X, ratio), [0.80, 0.70], atol=0.005)
-
-
-def crawl(v: Seen, at: Any) -> Any:
-    """(42) with (43), or (44) with the law of cosines, `at` in the place of c + s."""
-    r, R, c, psi = v.r[0], v.R1, v.c(1), v.psi(1)
-    if v.bevel:
-        cos_A = np.cos(r) * np.cos(c) + np.sin(r) * np.sin(c) * np.sin(psi)
-        return (cos_A - np.cos(R) * np.cos(at)) * np.sin(c) / (np.sin(R) * np.sin(at) ** 2)
-    A2 = r**2 + c**2 - 2 * r * c * np.sin(psi)
-    return (R**2 + at**2 - A2) * c / (2 * R * at**2)
 
 
 @each(*SPUR, *BEVEL)

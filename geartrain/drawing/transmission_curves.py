@@ -124,7 +124,7 @@ def _values(
         return (np.full_like(x, degrees(held)),), (np.zeros_like(x),), (none,), (none, none)
     couple, sizes = law.contact.path.couple, law.sizes
     with np.errstate(all="ignore"):  # beyond the real path a flank may lean past the perpendicular
-        rub = law.friction if friction is None else friction(law.sliding(phase, x))
+        rub = law.coefficient(phase, x, friction)
         eta = couple.efficiency(phase, x, rub, np)
         eta = np.where((eta >= 0) & (eta <= 1), eta, np.nan)
         arms = couple.moment_arms(phase, x, rub, np)

@@ -82,7 +82,7 @@ class GearMesh(ABC):
         """Coefficient of friction; None where none is declared, or a law of speed is."""
         return self.wheels.friction
 
-    @property
+    @cached_property
     def losses(self) -> TransmissionFunction:
         """The law with what its teeth lose; of friction that depends on a speed that is not known, nothing."""
         return self._rubbed(self.law)
@@ -312,7 +312,7 @@ class GearMesh(ABC):
         """
         from geartrain.teeth.transmission_figures import SlidingEfficiency
 
-        return SlidingEfficiency(self._rubbed(self.law if driver == self.driver else self.reversed))
+        return SlidingEfficiency(self.losses if driver == self.driver else self._rubbed(self.reversed))
 
     @property
     def tells_losses(self) -> bool:

@@ -61,13 +61,12 @@ def contact_course(
         values = [what(each.phase, x) if each.held is None else np.full_like(x, held(each)) for each, x in at]
         return np.concatenate([np.empty(0), *values])
 
-    def rub(phase: str, x: Floats) -> float | Floats:
-        return law.friction if friction is None else friction(law.sliding(phase, x))
-
     def arm(wheel: int) -> Floats:
-        return column(lambda phase, x: couple.moment_arms(phase, x, rub(phase, x), np)[wheel], lambda _: nan)
+        return column(
+            lambda phase, x: couple.moment_arms(phase, x, law.coefficient(phase, x, friction), np)[wheel], lambda _: nan
+        )
 
-    eta = column(lambda phase, x: couple.efficiency(phase, x, rub(phase, x), np), lambda _: nan)
+    eta = column(lambda phase, x: couple.efficiency(phase, x, law.coefficient(phase, x, friction), np), lambda _: nan)
     first, second = arm(0), arm(1)
     return ContactCourse(
         tuple(each.phase for each, x in at for _ in x),

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from fractions import Fraction
-from functools import cached_property, lru_cache, partial
+from functools import cached_property, lru_cache
 from itertools import pairwise
 from math import inf, nan, sqrt
 from typing import TYPE_CHECKING, Any
@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
     from geartrain.numerics.arrays import Floats
+    from geartrain.teeth.friction_law import PairFriction
     from geartrain.teeth.pair_verdict import PairVerdict
 
 
@@ -84,8 +85,7 @@ class TriangularTransmission(TransmissionFunction):
 
     def rubbing(self, S: ArrayLike) -> ContactRubbing:
         """Of the one couple in contact; NaN in a standstill."""
-        found = (self._map(S, partial(self._rubs, at)) for at in range(3))
-        return ContactRubbing(*(each[None] for each in found))
+        return ContactRubbing(*(each[None] for each in self._map_all(S, self._rubs, 3)))
 
     def sliding(self, phase: str, x: Floats) -> Floats:
         """Speed of sliding at alpha_1 = x (rad) over that of the pitch line."""
@@ -93,15 +93,16 @@ class TriangularTransmission(TransmissionFunction):
         found: Floats = self.contact.path.couple.sliding(phase, x, np) * (sizes.z1 + sizes.z2) / (sizes.D * sizes.z1)
         return found
 
-    def _rubs(self, at: int, interval: DriveInterval, x: Any) -> Any:
+    def coefficient(self, phase: str, x: Floats, by: PairFriction | None) -> float | Floats:
+        """Friction at alpha_1 = x (rad): the law's own, or `by` the speed of sliding."""
+        return self.friction if by is None else by(self.sliding(phase, x))
+
+    def _rubs(self, interval: DriveInterval, x: Floats) -> tuple[Any, Any, Any]:
         """Sliding over the pitch line's speed, and what friction adds to the power that enters and leaves."""
         if interval.held is not None:
-            return nan
-        couple = self.contact.path.couple
-        if at == 0:
-            return self.sliding(interval.phase, x)
-        side, tan2, tan1 = couple.friction(interval.phase, x, np)
-        return -side * (tan1 if at == 1 else tan2)
+            return nan, nan, nan
+        side, tan2, tan1 = self.contact.path.couple.friction(interval.phase, x, np)
+        return self.sliding(interval.phase, x), -side * tan1, -side * tan2
 
     def error_and_speed(self, S: ArrayLike) -> tuple[Floats, Floats]:
         """Transmission error (rad of the driven wheel) and tau; where in the path an angle falls is found once."""

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import product
 from math import gcd
 from typing import TYPE_CHECKING, Any
 
@@ -130,23 +131,25 @@ class DisplacedPair:
         beyond = at.leaving(x - at.end - at.longer[0] * tip1)
         return np.asarray(beyond + at.entering(at.start - at.longer[1] * tip2 - x))
 
-    def _columns(self, x: Floats, names: tuple[Floats, ...]) -> list[Floats]:
-        """Columns of the contact at x, linear between their steps, constant beyond the ends."""
+    def _columns(self, x: Floats) -> list[Floats]:
+        """Columns of the contact at x, linear between their steps, constant beyond the ends.
+
+        Across, along and tilt of both wheels, normal, even, apart.
+        """
         at = self.contact
         last = len(at.normal) - 1
         place = np.clip((x - at.start) * (last / (at.end - at.start)), 0.0, last)
         low = np.minimum(place.astype(np.int64), last - 1)
         part = place - low
-        return [each[low] + (each[low + 1] - each[low]) * part for each in names]
+        columns = (*at.across, *at.along, *at.tilt, at.normal, at.even, at.apart)
+        return [each[low] + (each[low + 1] - each[low]) * part for each in columns]
 
     def _side(self, u: float, x: float, j: int, back: bool) -> SideTerms:
         """Equation (2), apart for the two wheels: teeth of each at one x, placed by n = tooth + j."""
         at, sign = self.contact, -1.0 if back else 1.0
         one, two = self.first, self.second
-        names = (*at.across, *at.along, *at.tilt, at.normal, at.even, at.apart)
-        t1, t2, y1, y2, l1, l2, w, even, apart = (float(each) for each in self._columns(np.array(x), names))
-        flank1, low1 = (one.trailing, one.trailing_low) if back else (one.leading, one.leading_low)
-        flank2, low2 = (two.leading, two.leading_low) if back else (two.trailing, two.trailing_low)
+        t1, t2, y1, y2, l1, l2, w, even, apart = (float(each) for each in self._columns(np.array(x)))
+        (flank1, low1), (flank2, low2) = one.flanks(back), two.flanks(not back)
         shift = np.asarray(self.shift)[..., None] if np.ndim(self.shift) else self.shift
         ratio = float(at.ratio)
         own = sign * ratio * one.place - flank1 * l1 + low1 * w
@@ -172,12 +175,12 @@ class DisplacedPair:
 
     # ------------------------------------------------------------------------------------------------ play, and jams
 
-    def _phases(self) -> Iterator[tuple[list[SideTerms], list[SideTerms]]]:
-        """Couples in front and on the back at each position of the driver within a pitch."""
+    def _meetings(self) -> Iterator[tuple[SideTerms, SideTerms]]:
+        """A couple in front and one on the back, all that meet at some position of the driver within a pitch."""
         pitch, (start, end) = self.contact.pitches[0], (self.contact.start, self.contact.end)
         ends = np.mod([start, end, -start, -end], pitch)
         for u in (*(np.arange(_PHASES) * (pitch / _PHASES)), *ends):
-            yield list(self.side_terms(u, False)), list(self.side_terms(u, True))
+            yield from product(self.side_terms(u, False), self.side_terms(u, True))
 
     def play(self) -> Floats:
         """The least play over the whole cycle of teeth (rad of the driven wheel), (trials,).
@@ -185,11 +188,8 @@ class DisplacedPair:
         What wheels add is apart for each: over all couples that meet, the least sum is that of the least terms.
         """
         best = np.full(self.trials, np.inf)
-        for fronts, backs in self._phases():
-            for front in fronts:
-                for back in backs:
-                    met = _least_met(front.driver + back.driver, front.driven + back.driven)
-                    best = np.minimum(best, met)
+        for front, back in self._meetings():
+            best = np.minimum(best, _least_met(front.driver + back.driver, front.driven + back.driven))
         return best + self.contact.play
 
     def tight_place(self) -> TightPlace:
@@ -197,37 +197,36 @@ class DisplacedPair:
         count = self.trials[0]
         best, where = np.full(count, np.inf), np.zeros((3, count), np.int64)
         gain = np.full(count, float(self.contact.normal.max()))
-        for fronts, backs in self._phases():
-            for front in fronts:
-                for back in backs:
-                    play, n1, n2 = _where_met(front.driver + back.driver, front.driven + back.driven, count)
-                    rows = np.flatnonzero(play < best)
-                    if not len(rows):
-                        continue
-                    best[rows] = play[rows]
-                    n1, n2 = n1[rows], n2[rows]
-                    z1, z2 = self.teeth
-                    # what each of the four leaves to the play: the least stands out farthest
-                    left = np.stack(
-                        [
-                            _at(front.driver, rows, n1),
-                            _at(back.driver, rows, n1),
-                            _at(back.driven, rows, n2),
-                            _at(front.driven, rows, n2),
-                        ]
-                    )
-                    flank = left.argmin(axis=0)
-                    teeth = np.stack(
-                        [
-                            (n1 - front.pitches) % z1,
-                            (n1 - back.pitches) % z1,
-                            (n2 - back.pitches + 1) % z2,
-                            (n2 - front.pitches) % z2,
-                        ]
-                    )
-                    where[0, rows], where[2, rows] = flank // 2, flank % 2
-                    where[1, rows] = np.take_along_axis(teeth, flank[None], axis=0)[0]
+        for front, back in self._meetings():
+            play, n1, n2 = _where_met(front.driver + back.driver, front.driven + back.driven, count)
+            rows = np.flatnonzero(play < best)
+            if len(rows):
+                best[rows] = play[rows]
+                where[:, rows] = self._farthest_out(front, back, rows, n1[rows], n2[rows])
         return TightPlace(best + self.contact.play, where[0], where[1], where[2], gain)
+
+    def _farthest_out(self, front: SideTerms, back: SideTerms, rows: Ints, n1: Ints, n2: Ints) -> Ints:
+        """Wheel, tooth and side of the flank that stands out farthest of the four that meet in some trials."""
+        z1, z2 = self.teeth
+        # what each of the four leaves to the play: the least stands out farthest
+        left = np.stack(
+            [
+                _at(front.driver, rows, n1),
+                _at(back.driver, rows, n1),
+                _at(back.driven, rows, n2),
+                _at(front.driven, rows, n2),
+            ]
+        )
+        teeth = np.stack(
+            [
+                (n1 - front.pitches) % z1,
+                (n1 - back.pitches) % z1,
+                (n2 - back.pitches + 1) % z2,
+                (n2 - front.pitches) % z2,
+            ]
+        )
+        flank = left.argmin(axis=0)
+        return np.stack([flank // 2, np.take_along_axis(teeth, flank[None], axis=0)[0], flank % 2])
 
     def filed(self, low: tuple[Floats, Floats]) -> DisplacedPair:
         """The pair with its flanks lowered, arrays (trials, 2 sides, z) of both wheels."""
@@ -277,11 +276,9 @@ class DisplacedPair:
         i, j = k % one.z, (k + back) % two.z
         place = of_teeth(one.place, rows, i)
         x = sign * (S - k * at.pitches[0] - place)
-        flank1, low1 = (one.trailing, one.trailing_low) if back else (one.leading, one.leading_low)
-        flank2, low2 = (two.leading, two.leading_low) if back else (two.trailing, two.trailing_low)
+        (flank1, low1), (flank2, low2) = one.flanks(back), two.flanks(not back)
         shift = self.shift if np.ndim(self.shift) == 0 else self.shift[rows]
-        names = (*at.across, *at.along, *at.tilt, at.normal, at.even, at.apart)
-        t1, t2, y1, y2, l1, l2, w, even, apart = self._columns(x, names)
+        t1, t2, y1, y2, l1, l2, w, even, apart = self._columns(x)
         lag = sign * (ratio * place - of_teeth(two.place, rows, j)) + even + apart * shift
         lag = lag - of_teeth(flank1, rows, i) * l1 + of_teeth(flank2, rows, j) * l2
         lag = lag + (of_teeth(low1, rows, i) + of_teeth(low2, rows, j)) * w

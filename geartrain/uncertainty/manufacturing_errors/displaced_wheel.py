@@ -66,6 +66,10 @@ class DisplacedWheel:
         found: Floats = self.tip + np.asarray(self.e)[..., None] * np.cos(angle)
         return found
 
+    def flanks(self, trailing: bool) -> tuple[Floats, Floats]:
+        """How much flatter one side of the teeth is, and how far lower."""
+        return (self.trailing, self.trailing_low) if trailing else (self.leading, self.leading_low)
+
     @property
     def cuttable(self) -> Bools:
         """For each tooth, whether the next stands behind it."""

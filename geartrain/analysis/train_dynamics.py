@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, overload
 
 from geartrain.analysis.train_kinematics import TrainKinematics
 from geartrain.errors import Problem, QuestionError, check_choice
 from geartrain.train import StateCase, Train
 
 if TYPE_CHECKING:
-    from geartrain.dynamics import DrivenWay, Motion, PowerFlow, ToothImpact, Torques
+    from geartrain.dynamics import DrivenWay, Motion, PowerFlow, ToothImpact, TorqueCycle, Torques
     from geartrain.dynamics.driven_meshes import DrivenWays
     from geartrain.dynamics.gear_meshes import PinMesh
     from geartrain.dynamics.motion.motion_problem import MotionProblem
@@ -105,23 +105,62 @@ class TrainDynamics(TrainKinematics):
 
         return find_pins(self.declaration)
 
-    def torques(self, state: str | None = None) -> Torques:
-        """Torques on links and pairs, and the flow of power, under the loads of one state.
+    @overload
+    def torques(self, state: str | None = None) -> Torques: ...
+
+    @overload
+    def torques(
+        self, state: str | None = None, *, turns: float, samples: int = ..., of: str | None = None
+    ) -> TorqueCycle: ...
+
+    def torques(
+        self, state: str | None = None, *, turns: float | None = None, samples: int = 20_000, of: str | None = None
+    ) -> Torques | TorqueCycle:
+        """Torques on links and pairs, and the flow of power, under the loads of one state: means, or over a turn.
 
         Parameters
         ----------
         state : str, optional
             A declared state; None only of a train that has none.
+        turns : float, optional
+            Turns of the input, above 0: the torque at every position of so many turns, with the ratio and the friction
+            that real teeth, pins and bearings have there. Without it exact torques at mean speeds.
+        samples : int
+            Positions of such a run, 2 or more; corners and jumps come on top.
+        of : str, optional
+            The link whose torque is asked for over a turn, by default the crank or input.
 
         Returns
         -------
-        Torques
+        Torques or TorqueCycle
             With a verdict: self-locking, or loads that do not balance, are no error.
+
+        Raises
+        ------
+        QuestionError
+            If the train does not move, or turns or link are none to be asked for.
         """
+        setting = self._setting(state)
+        if turns is not None:
+            return self._torque_cycle(state, setting, turns, samples, of)
         from geartrain.dynamics.torques.torque_analysis import find_torques, torques_unknown
 
-        setting = self._setting(state)
         return torques_unknown(state) if setting is None else find_torques(setting)
+
+    def _torque_cycle(
+        self, state: str | None, setting: LoadCase | None, turns: float, samples: int, of: str | None
+    ) -> TorqueCycle:
+        from geartrain.dynamics import Motion, TorqueCycle, TorqueVerdict
+        from geartrain.dynamics.turn.turn_analysis import find_torque_cycle
+
+        links = tuple(self.declaration.links)
+        if of is not None:
+            check_choice("link", of, links)
+        if setting is None:
+            return TorqueCycle(state, TorqueVerdict("still", "the speeds of this state are not determined"), of or "")
+        moving = self._moving(self._case(state), ())
+        motion = Motion(moving, {link: (link, self.declaration.frame) for link in moving.system.links})
+        return find_torque_cycle(setting, motion, turns, samples, of)
 
     def driven(self, load: str, source: str, state: str | None = None) -> Torques:
         """Torques while a unit of power leaves at one link, driven from another: efficiency, or self-locking.

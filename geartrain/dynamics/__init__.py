@@ -30,10 +30,13 @@ if TYPE_CHECKING:
     from geartrain.dynamics.torques.power_circulation import PowerNode, PowerStream, RecirculatingPower
     from geartrain.dynamics.torques.power_flow import PowerFlow, PowerLoss
     from geartrain.dynamics.torques.torque_results import DrivenWay, NeglectedEffect, Torques, TorqueVerdict
+    from geartrain.dynamics.turn.cycle_parts import CycleEnergy, PairCycle, PlaceInRun, TorqueExtreme
+    from geartrain.dynamics.turn.torque_cycle import TorqueCycle
 
 __all__ = [
     "BearingTorque",
     "CornerPositions",
+    "CycleEnergy",
     "DrivenWay",
     "ErrorEstimates",
     "ErrorSamples",
@@ -41,7 +44,9 @@ __all__ = [
     "Motion",
     "MotionRun",
     "NeglectedEffect",
+    "PairCycle",
     "PairTorque",
+    "PlaceInRun",
     "PowerFlow",
     "PowerLoss",
     "PowerNode",
@@ -50,6 +55,8 @@ __all__ = [
     "RunningStatistics",
     "SpectrumLine",
     "ToothImpact",
+    "TorqueCycle",
+    "TorqueExtreme",
     "TorqueVerdict",
     "Torques",
     "TransmissionErrorCurve",
@@ -58,6 +65,7 @@ __all__ = [
 _PLACES = {
     "BearingTorque": "torques.member_torques",
     "CornerPositions": "motion.corner_positions",
+    "CycleEnergy": "turn.cycle_parts",
     "DrivenWay": "torques.torque_results",
     "ErrorEstimates": "motion.superposition",
     "ErrorSamples": "motion.error_composition",
@@ -65,7 +73,9 @@ _PLACES = {
     "Motion": "motion.motion_model",
     "MotionRun": "motion.motion_run",
     "NeglectedEffect": "torques.torque_results",
+    "PairCycle": "turn.cycle_parts",
     "PairTorque": "torques.member_torques",
+    "PlaceInRun": "turn.cycle_parts",
     "PowerFlow": "torques.power_flow",
     "PowerLoss": "torques.power_flow",
     "PowerNode": "torques.power_circulation",
@@ -74,6 +84,8 @@ _PLACES = {
     "RunningStatistics": "motion.run_statistics",
     "SpectrumLine": "motion.order_spectrum",
     "ToothImpact": "motion.tooth_impacts",
+    "TorqueCycle": "turn.torque_cycle",
+    "TorqueExtreme": "turn.cycle_parts",
     "TorqueVerdict": "torques.torque_results",
     "Torques": "torques.torque_results",
     "TransmissionErrorCurve": "motion.error_curve",

@@ -294,8 +294,8 @@ class PairFriction:
     ----------
     law : FrictionLaw
         The law.
-    pitch_line : float
-        Speed of the pitch line [m/s].
+    pitch_line : float or array of float
+        Speed of the pitch line, one or one for each position [m/s].
 
     Examples
     --------
@@ -308,7 +308,7 @@ class PairFriction:
     """
 
     law: FrictionLaw
-    pitch_line: float
+    pitch_line: float | Floats
 
     def __call__(self, sliding: ArrayLike) -> Floats:
         """The coefficient where teeth slide at these speeds, over that of the pitch line."""

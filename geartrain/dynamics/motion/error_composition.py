@@ -171,6 +171,13 @@ class ErrorComposition:
         """What errors of links (rad, by index) add to the forward angle of a source's driver."""
         return float(sum(sign * error[link] for link, sign in self._turned_by(source)))
 
+    def driver_angle(self, source: PairErrorSource, phase: InputPhase, error: Floats) -> Floats:
+        """Forward angle (rad) of a source's driver, from errors of links about their own axes (rad, (links, n))."""
+        S = phase.cycles(source.cycles) * source.law.period + source.start
+        for link, sign in self._turned_by(source):
+            S += sign * error[link]
+        return S
+
     def _turned_by(self, source: PairErrorSource) -> tuple[tuple[int, int], tuple[int, int]]:
         """The links whose errors turn a source's driver, itself and its carrier, each with its sign: equation (3)."""
         joint = self.spread.joints[source.pair]

@@ -12,11 +12,15 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import chain, islice, product
+from typing import TYPE_CHECKING
 
 from geartrain.dynamics.torques.block_solution import Sides, eliminate_block, solve_block
 from geartrain.dynamics.torques.torque_balance import DrivingSides, SolvedTorques, TorqueBalance, TorqueUnknown
 from geartrain.numerics.block_triangular import Block
 from geartrain.numerics.elimination import LinearForm, feasible
+
+if TYPE_CHECKING:
+    from geartrain.numerics.arrays import Bools, Floats, Ints
 
 _MOST_TRIED = 14  # lossy torques of a block whose patterns are all tried: 2^14 small solutions
 _MOST_OPEN = 10  # the same where torques stay open anyway, and the iteration has found some that balance
@@ -24,7 +28,8 @@ _FEW = 4  # lossy torques whose patterns are not worth a trial in floats
 _CHUNK = 2**21  # numbers in the matrices tried at once: 16 MB of float64
 _MOST_ROUNDS = 50  # of the iteration; a pattern that comes again ends it sooner
 _MOST_FLOWS = 256  # kept while blocks are gone through
-_NEAR = 1e-9  # of the greatest torque: a direction this faint may be either
+NEAR = 1e-9
+"""Of the greatest torque: a direction this faint may be either."""
 _KNOWN = -1  # the column in which known torques stand
 
 Values = dict[int, Fraction | None]
@@ -250,5 +255,16 @@ class _Floats:
             yield from chunk
             return
         # a direction that fails by rounding only is left to the fractions
-        against = np.max(found * self.turns * sides, axis=1) > _NEAR * np.max(np.abs(found), axis=1)
+        against = contradicts(found.T, -(self.turns * sides).T)
         yield from (each for each, bad in zip(chunk, against.tolist(), strict=True) if not bad)
+
+
+def contradicts(torques: Floats, signs: Floats | Ints) -> Bools:
+    """Where torques (columns, n) have other signs than a pattern asks of them, rounding forgiven: equation (7).
+
+    signs   1, -1, or 0 where any will do
+    """
+    import numpy as np
+
+    found: Bools = np.max(-torques * signs, axis=0, initial=0.0) > NEAR * np.max(np.abs(torques), axis=0, initial=0.0)
+    return found

@@ -8,7 +8,7 @@ from math import inf
 
 from geartrain.dynamics.torques.bearing_reversal import SpeedBounds, find_reversing_bearings
 from geartrain.dynamics.torques.load_case import LoadCase
-from geartrain.dynamics.torques.mean_efficiencies import MeanEfficiencies
+from geartrain.dynamics.torques.mean_efficiencies import MeanEfficiencies, find_mean_efficiencies
 from geartrain.dynamics.torques.torque_results import NeglectedEffect
 from geartrain.kinematics.circuits import Circuit
 from geartrain.numerics.decimal_text import decimal
@@ -43,6 +43,19 @@ def find_neglected_effects(
     return (*found, *_swing(setting, busy), *_inertia(setting))
 
 
+def neglected_over_turn(setting: LoadCase, at_means: Sequence[str]) -> tuple[NeglectedEffect, ...]:
+    """What torques over a turn leave out: nothing of pins, bearings and swing, where what they need is declared.
+
+    at_means   pairs with real teeth that lose their mean share everywhere
+    """
+    means = {circuit.id: find_mean_efficiencies(setting, circuit) for circuit in setting.circuits}
+    found = [*_bare_pins(setting, setting.circuits), *_teeth(setting, setting.circuits, means), *_inertia(setting)]
+    if at_means:
+        why = "they are redundant, and nothing says at which part of its pitch each of them works: the mean is taken"
+        found.append(NeglectedEffect("swing within a turn", tuple(at_means), why))
+    return tuple(found)
+
+
 def _pins(setting: LoadCase, busy: Sequence[Circuit]) -> Iterator[NeglectedEffect]:
     """Friction of pins that is no share of the power that passes."""
     couplings = setting.couplings
@@ -50,7 +63,14 @@ def _pins(setting: LoadCase, busy: Sequence[Circuit]) -> Iterator[NeglectedEffec
     if swinging := tuple(circuit.id for circuit in rubbing if not circuit.b):
         why = "a follower only swings: it passes no power on average, of which its friction could be a share"
         yield NeglectedEffect("friction of pins", swinging, why)
-    if bare := tuple(circuit.id for circuit in rubbing if circuit.b and circuit.id not in setting.joints):
+    yield from _bare_pins(setting, [circuit for circuit in rubbing if circuit.b])
+
+
+def _bare_pins(setting: LoadCase, busy: Sequence[Circuit]) -> Iterator[NeglectedEffect]:
+    """Friction declared on pins that have no dimensions."""
+    couplings = setting.couplings
+    rubbing = [circuit.id for circuit in busy if circuit.kind != "gear" and _rubs(couplings[circuit.id].friction)]
+    if bare := tuple(name for name in rubbing if name not in setting.joints):
         why = "it depends on `pin_radius` and `offset`, which are not declared"
         yield NeglectedEffect("friction of pins", bare, why)
 

@@ -35,17 +35,33 @@ class UnknownLinks:
     undecided: TorqueVerdict | None = None
 
 
+@dataclass(frozen=True)
+class TorqueQuestion:
+    """What is asked in one case: loads that act, and the links whose torque is to be found."""
+
+    loads: Mapping[str, Fraction]
+    asked: UnknownLinks
+
+
 def find_torques(setting: LoadCase) -> Torques:
     """Torques under the declared loads, or under the friction of bearings alone: equations (3) to (8) and (10)."""
+    question = find_question(setting, setting.case.solve_for)
+    if isinstance(question, TorqueVerdict):
+        return Torques(setting.case.state, question)
+    return _balanced(setting, question.loads, question.asked)
+
+
+def find_question(setting: LoadCase, solve_for: str | None) -> TorqueQuestion | TorqueVerdict:
+    """What acts and what is asked for; a verdict where nothing acts, or nothing can be asked."""
     loads = {link: torque.base for link, torque in setting.case.loads.items()}
     if not loads and not any(map(setting.bearing, setting.train.links)):
         text = "no load is declared: give `loads` on links, negative against their turning, or `bearing` friction"
-        return Torques(setting.case.state, TorqueVerdict("unloaded", text))
-    asked = _asked(setting, loads, setting.case.solve_for)
+        return TorqueVerdict("unloaded", text)
+    asked = _asked(setting, loads, solve_for)
     verdict = _summed(setting, (*loads, *asked.links))
     if verdict is None:
         verdict = _still(setting, asked.links)
-    return _balanced(setting, loads, asked) if verdict is None else Torques(setting.case.state, verdict)
+    return TorqueQuestion(loads, asked) if verdict is None else verdict
 
 
 def torques_unknown(state: str | None) -> Torques:

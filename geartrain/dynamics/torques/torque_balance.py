@@ -209,10 +209,14 @@ class TorqueBalance:
         }
         return TorqueUnknown(pieces, meshes, sides, turn, blank.barred)
 
+    def places(self, mesh: LoadedPair) -> Iterator[tuple[int, int, Fraction]]:
+        """Where the torques of a mesh stand: the row, which of its three links it is of, and a factor."""
+        yield from ((self._at[link], at, Fraction(1)) for at, link in enumerate(mesh.links) if link in self._at)
+        yield from ((row, mesh.links.index(link), factor) for row, link, factor in self._parts.get(mesh.id, ()))
+
     def _entries(self, mesh: LoadedPair, side: int) -> Iterator[tuple[int, Fraction]]:
-        torques = dict(zip(mesh.links, mesh.torques(side), strict=True))
-        yield from ((self._at[link], torque) for link, torque in torques.items() if link in self._at)
-        yield from ((row, torques[link] * factor) for row, link, factor in self._parts.get(mesh.id, ()))
+        torques = mesh.torques(side)
+        yield from ((row, torques[at] * factor) for row, at, factor in self.places(mesh))
 
 
 def _direction(entries: Sequence[tuple[int, int, Fraction]], known: Fraction) -> tuple[object, ...]:

@@ -1,0 +1,251 @@
+"""What torque over a turn answers: the torque at every position, energies over the run, extremes and where they are."""
+
+from __future__ import annotations
+
+import html
+from collections.abc import Mapping
+from dataclasses import dataclass, field, fields
+from math import isfinite
+from typing import TYPE_CHECKING
+
+from geartrain.dynamics.torques.torque_results import NeglectedEffect, TorqueVerdict
+from geartrain.dynamics.turn.cycle_parts import CycleEnergy, PairCycle, PlaceInRun, TorqueExtreme
+from geartrain.numerics.containers import FrozenFields
+from geartrain.numerics.plain_data import Key, Result, group
+
+if TYPE_CHECKING:
+    from geartrain.numerics.arrays import Floats
+    from geartrain.numerics.labelled_array import LabelledArray
+
+
+@dataclass(frozen=True)
+class TorqueCycle(FrozenFields, Result):
+    """Torques of a train over some turns of its input, position by position: docs/torques.md, sections 14 to 17.
+
+    Positions are about `samples` even ones, every corner and jump of the laws with a position on either side of it,
+    those at which something turns back or changes its flank, and more where integrals ask for them; arrays over them
+    are read-only. Where nothing balances the train is locked: the torque is NaN there. A torque of 1 N m over one turn
+    of its own link is 2 pi J.
+
+    Attributes
+    ----------
+    state : str or None
+        The state; None for a train without states.
+    verdict : TorqueVerdict
+        Whether torques follow: `determined`; `incomplete` where something is left out; `ambiguous` where several
+        patterns of power flow balance somewhere; `self-locking` where nothing balances at some position. Where the
+        question itself has no answer it is the verdict of `Torques`, and nothing else is given.
+    link : str
+        The link whose torque is asked for.
+    newton_metres : bool
+        True where torques are in N m, False where they are in the plain unit of the loads.
+    span : float
+        Turns of the input in the run.
+    period : float or None
+        Turns after which everything stands as at the start; None where nothing ripples.
+    turns : array of float, (n,)
+        Positions of the input, in ascending order; the two sides of a jump stand at one position.
+    torque : array of float, (n,)
+        Torque at the link, positive where it drives the way the link turns on average (about its own axis, if it turns
+        nowhere on average); where several patterns balance, of the one that loses least [N m, or plain].
+    highest : array of float, (n,)
+        The same with the pattern that loses most.
+    standing : array of float, (n,)
+        The torque that starts the train at each position, static friction everywhere.
+    speeds : LabelledArray
+        Speeds of links over the input's, (link, position).
+    powers : LabelledArray
+        Power that each torque from outside puts in, over the speed of the input, (link, position) [N m, or plain].
+    losses : LabelledArray
+        Power lost over the speed of the input, (part, position) [N m, or plain].
+    mean : float or None
+        Mean of the torque over the run; None where the train locks.
+    greatest, least : TorqueExtreme or None
+        Of the torque, and of all patterns where several balance; the greatest is None where the train locks.
+    starting : TorqueExtreme or None
+        What starts the train at the worst position; None where it locks there.
+    energy : CycleEnergy or None
+        Over the run; None where the train locks.
+    parts : mapping of str to PairCycle
+        Gear pairs, couplings, and bearings by `bearing LINK`.
+    locked_share : float
+        Share of the run in which nothing balances.
+    held_share : float
+        Share of the run in which loads and link both put power in, and all of it is lost.
+    ambiguous_share : float
+        Share of the run in which several patterns balance.
+    locked : tuple of (PlaceInRun, PlaceInRun)
+        Beginning and end of each stretch in which nothing balances.
+    complete : bool
+        False where there were too many patterns of power flow to try them all.
+    left_out : tuple of NeglectedEffect
+        What is not counted.
+
+    Examples
+    --------
+    A pin at 10 mm drives a slot whose axis is 8 mm off, with friction, against 10 N m. The mean has a closed form,
+    10 (1 + 0.3/pi ln((10 + 8)/(10 - 8))), and the torque goes up to five times as much:
+
+    >>> import geartrain
+    >>> found = geartrain.load('''
+    ... links: {frame: {}, a: {}, b: {}}
+    ... revolutes: [{pair: [frame, a], axis: A}, {pair: [frame, b], axis: B}]
+    ... couplings: [{kind: pin_and_slot, pin: a, slot: b, pin_radius: 10 mm, offset: 8 mm, friction: 0.3}]
+    ... inputs: {a: 1}
+    ... outputs: {b: {}}
+    ... loads: {b: -10 N m}
+    ... ''').torques(turns=1)
+    >>> found.link, round(found.mean, 6), round(found.greatest.torque, 6), round(found.efficiency, 6)
+    ('a', 12.098195, 50.978459, 0.82657)
+    """
+
+    KEYS = (
+        "state",
+        "verdict",
+        group(
+            "input",
+            *("link", "mean", Key("greatest", "greatest_torque"), Key("least", "least_torque")),
+            *(Key("greatest_at", "greatest_place"), Key("least_at", "least_place")),
+        ),
+        Key("starting", "starting_torque"),
+        Key("starting_at", "starting_place"),
+        *("efficiency", "energy", "parts", "flank_changes", "loses_most", "recirculating"),
+        *("locked_share", "locked", "held_share", "ambiguous_share"),
+        *(Key("turns", "span"), "period", "complete", "left_out"),
+    )
+
+    state: str | None
+    verdict: TorqueVerdict
+    link: str = ""
+    newton_metres: bool = True
+    span: float = 0.0
+    period: float | None = None
+    turns: Floats | None = None
+    torque: Floats | None = None
+    highest: Floats | None = None
+    standing: Floats | None = None
+    speeds: LabelledArray | None = None
+    powers: LabelledArray | None = None
+    losses: LabelledArray | None = None
+    mean: float | None = None
+    greatest: TorqueExtreme | None = None
+    least: TorqueExtreme | None = None
+    starting: TorqueExtreme | None = None
+    energy: CycleEnergy | None = None
+    parts: Mapping[str, PairCycle] = field(default_factory=dict)
+    locked_share: float = 0.0
+    held_share: float = 0.0
+    ambiguous_share: float = 0.0
+    locked: tuple[tuple[PlaceInRun, PlaceInRun], ...] = ()
+    complete: bool = True
+    left_out: tuple[NeglectedEffect, ...] = ()
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        for each in fields(self):
+            value = getattr(self, each.name)
+            if hasattr(value, "flags"):
+                value.flags.writeable = False
+
+    @property
+    def unit(self) -> str:
+        """`N m`, or nothing for plain numbers."""
+        return "N m" if self.newton_metres else ""
+
+    @property
+    def greatest_torque(self) -> float | None:
+        """The greatest torque."""
+        return None if self.greatest is None else self.greatest.torque
+
+    @property
+    def greatest_place(self) -> PlaceInRun | None:
+        """Where the torque is greatest."""
+        return _place(self.greatest)
+
+    @property
+    def least_torque(self) -> float | None:
+        """The least torque; below 0 the loads drive there."""
+        return None if self.least is None else self.least.torque
+
+    @property
+    def least_place(self) -> PlaceInRun | None:
+        """Where the torque is least."""
+        return _place(self.least)
+
+    @property
+    def starting_torque(self) -> float | None:
+        """What starts the train at the worst position; None where it locks."""
+        return None if self.starting is None else self.starting.torque
+
+    @property
+    def starting_place(self) -> PlaceInRun | None:
+        """The worst position to start from."""
+        return _place(self.starting)
+
+    @property
+    def efficiency(self) -> float | None:
+        """Energy out over energy in, over the run; None where the train locks, or nothing is put in on the whole."""
+        if self.energy is None:
+            return None
+        net_in, net_out = self.energy.net_in, self.energy.net_out
+        if net_in > 0:
+            return max(net_out, 0.0) / (net_in + max(-net_out, 0.0))
+        return -net_in / -net_out if net_out < 0 else None
+
+    @property
+    def flank_changes(self) -> Mapping[str, int]:
+        """How often the play is crossed, by pair and coupling."""
+        return {name: part.flank_changes for name, part in self.parts.items() if part.kind != "bearing"}
+
+    @property
+    def loses_most(self) -> str | None:
+        """The pair, coupling or bearing that loses most energy; None where nothing is lost."""
+        name = max(self.parts, key=lambda each: self.parts[each].loss, default=None)
+        return None if name is None or not self.parts[name].loss else name
+
+    @property
+    def recirculating(self) -> Mapping[str, float]:
+        """Pairs through which more energy passes than is put into the train, with how many times as much."""
+        if self.energy is None or not (put_in := self.energy.put_in + self.energy.loads_put_in) > 0:
+            return {}
+        shares = {name: part.passed / put_in for name, part in self.parts.items() if part.kind != "bearing"}
+        return {name: share for name, share in shares.items() if share > 1 + 1e-9}
+
+    def at(self, turns: float) -> float:
+        """The torque at a position between those of the run, by a straight line between its neighbours.
+
+        Parameters
+        ----------
+        turns : float
+            Turns of the input, from 0 to `span`.
+
+        Returns
+        -------
+        float
+            At the link asked for [N m, or plain]; NaN where the train is locked.
+        """
+        import numpy as np
+
+        assert self.turns is not None
+        assert self.torque is not None
+        return float(np.interp(turns, self.turns, self.torque))
+
+    def _repr_html_(self) -> str:
+        figures = {
+            "mean": self.mean,
+            "greatest": self.greatest_torque,
+            "least": self.least_torque,
+            "starting": self.starting_torque,
+            "efficiency": self.efficiency,
+        }
+        rows = "".join(f"<tr><td>{name}</td><td>{_shown(value)}</td></tr>" for name, value in figures.items())
+        head = f"torque at {html.escape(self.link)} over {self.span:g} turns, {self.unit or 'plain'}"
+        return f"<p>{head}: {html.escape(self.verdict.text)}</p><table>{rows}</table>"
+
+
+def _place(extreme: TorqueExtreme | None) -> PlaceInRun | None:
+    return None if extreme is None else PlaceInRun(extreme.turns, extreme.days)
+
+
+def _shown(value: float | None) -> str:
+    return "" if value is None or not isfinite(value) else f"{value:.8g}"

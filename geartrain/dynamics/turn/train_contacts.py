@@ -1,0 +1,89 @@
+"""From a declared train in one case to the contacts of all its pairs: which law, which friction, which side drives."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import TYPE_CHECKING
+
+from geartrain.dynamics.pair_speeds import pitch_line_speed
+from geartrain.dynamics.torques.mean_efficiencies import find_mean_efficiencies
+from geartrain.dynamics.turn.pair_contact import (
+    BasicEfficiency,
+    ContactLosses,
+    NoLosses,
+    PairContact,
+    PinFriction,
+    ToothFriction,
+)
+from geartrain.teeth.friction_law import PairFriction
+
+if TYPE_CHECKING:
+    from geartrain.dynamics.motion.error_composition import PairErrorSource
+    from geartrain.dynamics.torques.load_case import LoadCase
+    from geartrain.kinematics.circuits import Circuit
+    from geartrain.teeth.gear_mesh import GearMesh
+
+
+def followed_pairs(setting: LoadCase, teeth: Mapping[str, GearMesh]) -> list[str]:
+    """The pairs of constant ratio that have to be followed all the same: what they lose depends on their position."""
+    return [name for name, mesh in teeth.items() if mesh.rigid and _by_friction(setting, mesh)]
+
+
+def find_contacts(
+    setting: LoadCase, sources: Mapping[str, PairErrorSource], teeth: Mapping[str, GearMesh]
+) -> dict[str, PairContact]:
+    """The contact of every pair and coupling, by name.
+
+    sources   the pairs that are followed position by position; others have a constant ratio
+    teeth     real teeth with the wheel driving whose law the sources hold
+    """
+    return {each.id: _contact(setting, each, sources.get(each.id), teeth.get(each.id)) for each in setting.circuits}
+
+
+def mean_friction_pairs(
+    setting: LoadCase, sources: Mapping[str, PairErrorSource], teeth: Mapping[str, GearMesh]
+) -> Iterator[str]:
+    """The pairs whose friction is counted by its mean: redundant ones, of whose position the motion does not tell."""
+    return (name for name, mesh in teeth.items() if name not in sources and _by_friction(setting, mesh))
+
+
+def _by_friction(setting: LoadCase, mesh: GearMesh) -> bool:
+    return setting.gears[mesh.name].efficiency is None and mesh.rubs
+
+
+def _contact(setting: LoadCase, circuit: Circuit, source: PairErrorSource | None, mesh: GearMesh | None) -> PairContact:
+    first = circuit.kind == "gear" and (mesh is None or mesh.driver == circuit.wheels[0])
+    losses = _pin_losses(setting, circuit) if circuit.kind != "gear" else _losses(setting, circuit, first, source, mesh)
+    if source is not None:
+        return PairContact(circuit, first, source.forward, source.sense, float(source.law.ratio), losses, source)
+    own, other = (circuit.a, circuit.b) if first else (circuit.b, circuit.a)
+    return PairContact(circuit, first, 1, -1 if circuit.a * circuit.b > 0 else 1, abs(own / other), losses)
+
+
+def _pin_losses(setting: LoadCase, circuit: Circuit) -> ContactLosses:
+    joint = setting.joints.get(circuit.id)
+    if joint is None or not joint.law.friction:
+        return NoLosses()
+    return PinFriction(joint.law, joint.law.friction, joint.law.friction)
+
+
+def _losses(
+    setting: LoadCase, circuit: Circuit, first: bool, source: PairErrorSource | None, mesh: GearMesh | None
+) -> ContactLosses:
+    """What a gear pair loses: by its friction at each position, or the same part everywhere."""
+    if source is not None and mesh is not None and _by_friction(setting, mesh):
+        return _tooth_friction(setting, circuit, source, mesh)
+    means = find_mean_efficiencies(setting, circuit).load
+    driver, driven = (float(each) for each in (means if first else means[::-1]))
+    return NoLosses() if driver == driven == 1 else BasicEfficiency(driver, driven)
+
+
+def _tooth_friction(setting: LoadCase, circuit: Circuit, source: PairErrorSource, mesh: GearMesh) -> ToothFriction:
+    law, coefficient = mesh.wheels.friction_law, mesh.friction or 0.0
+    if law is None:
+        return ToothFriction(lambda sliding, turning: coefficient)
+    pitch_line = pitch_line_speed(setting, circuit, mesh).known() / (source.mean or 1.0)
+    return ToothFriction(
+        lambda sliding, turning: PairFriction(law, pitch_line * turning)(sliding),
+        lambda sliding, turning: PairFriction(law, 0.0)(sliding),
+    )

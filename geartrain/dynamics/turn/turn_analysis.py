@@ -1,0 +1,241 @@
+"""Torque over a turn, from a train in one case to its answer: docs/torques.md, sections 14 to 17."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from geartrain.dynamics.torques.neglected_effects import neglected_over_turn
+from geartrain.dynamics.torques.torque_analysis import TorqueQuestion, build_balance, find_question
+from geartrain.dynamics.torques.torque_results import NeglectedEffect, TorqueVerdict
+from geartrain.dynamics.turn.cycle_parts import CycleEnergy, PairCycle, PlaceInRun, TorqueExtreme
+from geartrain.dynamics.turn.extreme_search import find_extreme
+from geartrain.dynamics.turn.position_motion import PositionMotion
+from geartrain.dynamics.turn.torque_cycle import TorqueCycle
+from geartrain.dynamics.turn.train_contacts import find_contacts, followed_pairs, mean_friction_pairs
+from geartrain.dynamics.turn.turn_balance import TurnBalance, generic_balance
+from geartrain.dynamics.turn.turn_run import FAINT, RunScales, TurnRun, sign_beyond
+from geartrain.errors import Problem, QuestionError
+from geartrain.numerics.labelled_array import labelled_array
+
+if TYPE_CHECKING:
+    from geartrain.dynamics.motion.motion_model import Motion
+    from geartrain.dynamics.torques.load_case import LoadCase
+    from geartrain.dynamics.turn.position_torques import PositionTorques
+    from geartrain.numerics.arrays import Floats
+
+DEFAULT_SAMPLES = 20_000
+MOST_TURNS = 1e9
+
+
+def find_torque_cycle(
+    setting: LoadCase, motion: Motion, turns: float, samples: int = DEFAULT_SAMPLES, of: str | None = None
+) -> TorqueCycle:
+    """Torques over some turns of the input.
+
+    motion   of all links, each seen from the frame
+    of       the link whose torque is unknown, in place of that which the declaration tells
+    """
+    if not 0 < turns <= MOST_TURNS:
+        what, why = f"torques over {turns:g} turns", "a run goes forward"
+        raise QuestionError(Problem(what, why, f"give turns above 0, up to {MOST_TURNS:g}"))
+    if samples < 2:
+        raise QuestionError(
+            Problem(f"{samples} positions of the input", "from one to the next it turns", "give 2 or more")
+        )
+    state = setting.case.state
+    question = find_question(setting, of or setting.case.solve_for)
+    if isinstance(question, TorqueVerdict):
+        return TorqueCycle(state, question, of or "")
+    if not question.asked.enough:
+        text = "fewer torques are asked for than the train has freedoms: at single positions no loads balance so"
+        return TorqueCycle(state, question.asked.undecided or TorqueVerdict("undecided", text), of or "")
+    return _Answer(TurnRun(build_turn_balance(setting, motion, question), turns, samples)).told(of)
+
+
+def build_turn_balance(setting: LoadCase, motion: Motion, question: TorqueQuestion) -> TurnBalance:
+    """A train under load, to be asked at positions."""
+    teeth = {mesh.name: mesh for mesh in motion.train.teeth}
+    positions = PositionMotion(motion, followed_pairs(setting, teeth))
+    loads = {link: float(torque) for link, torque in question.loads.items()}
+    bearings = {link: float(setting.bearing(link)) for link in setting.train.links if setting.bearing(link)}
+    known = dict(question.loads)
+    for link in bearings:
+        known[link] = known.get(link, Fraction(0)) + setting.bearing(link)
+    balance = generic_balance(build_balance(setting, known, question.asked.links))
+    contacts = find_contacts(setting, positions.sources, teeth)
+    return TurnBalance(
+        setting, positions, balance, contacts, loads, {link: (each, each) for link, each in bearings.items()}
+    )
+
+
+@dataclass
+class _Answer:
+    """What is told of a run."""
+
+    run: TurnRun
+
+    def told(self, of: str | None) -> TorqueCycle:
+        """The answer."""
+        train, found, weights = self.run.train, self.run.found, self.run.cells.weights
+        row = train.asked.index(of) if of in train.asked else 0
+        link = train.asked[row]
+        own = _Asked(row, -1 if train.setting.speeds[link] < 0 else 1)
+        locked, ambiguous = (
+            float(weights @ ~found.valid) / self.run.span,
+            float(weights @ (found.layers > 1)) / self.run.span,
+        )
+        torque, left_out, period = own.torque(found), self._left_out(), train.motion.motion.period
+        names = (*train.pairs, *(f"bearing {link}" for link in train.bearings))
+        labels = [repr(each) for each in self.run.cells.turns.tolist()]
+        return TorqueCycle(
+            train.setting.case.state,
+            self._verdict(locked, ambiguous, left_out),
+            link,
+            self._has_units,
+            self.run.span,
+            None if period is None else float(period),
+            self.run.cells.turns,
+            torque,
+            own.highest(found),
+            own.highest(self.run.standing),
+            labelled_array(found.speeds, link=train.outside, position=labels),
+            labelled_array(found.powers, link=train.outside, position=labels),
+            labelled_array(found.losses, part=names, position=labels),
+            None if locked else float(weights @ torque) / self.run.span,
+            None if locked else self._extreme(own, 1, False),
+            self._extreme(own, -1, False),
+            self._extreme(own, 1, True) if self.run.standing.valid.all() else None,
+            None if locked else self._energy(),
+            self._parts(names),
+            locked,
+            self._held(),
+            ambiguous,
+            self._stretches(),
+            train.complete,
+            left_out,
+        )
+
+    @property
+    def _has_units(self) -> bool:
+        setting = self.run.train.setting
+        torques = [*setting.case.loads.values(), *(link.bearing for link in setting.train.links.values())]
+        return any(each is not None and each.unit is not None for each in torques)
+
+    def _left_out(self) -> tuple[NeglectedEffect, ...]:
+        train = self.run.train
+        teeth = {mesh.name: mesh for mesh in train.motion.motion.train.teeth}
+        means = tuple(mean_friction_pairs(train.setting, train.motion.sources, teeth))
+        return neglected_over_turn(train.setting, means)
+
+    def _verdict(self, locked: float, ambiguous: float, left_out: tuple[NeglectedEffect, ...]) -> TorqueVerdict:
+        asked = ", ".join(self.run.train.asked)
+        if locked:
+            text = f"no torque on {asked} balances over {locked:.4%} of the run: the train locks there"
+            return TorqueVerdict("self-locking", text)
+        if ambiguous:
+            text = f"several patterns of power flow balance over {ambiguous:.4%} of the run"
+            return TorqueVerdict("ambiguous", f"{text}; the one that loses least is given")
+        if left_out:
+            what = ", ".join(map(str, left_out))
+            return TorqueVerdict("incomplete", f"the torque of every position follows, but for {what}")
+        return TorqueVerdict("determined", "the torque of every position follows")
+
+    def _place(self, turns: float) -> PlaceInRun:
+        train = self.run.train.setting.train
+        if train.unit_days is None:
+            return PlaceInRun(turns)
+        speed = abs(float(self.run.train.setting.speeds[self.run.train.motion.motion.train.lead]))
+        return PlaceInRun(turns, turns / speed * float(train.unit_days) if speed else None)
+
+    def _extreme(self, own: _Asked, way: int, static: bool) -> TorqueExtreme | None:
+        """The greatest torque (the least with -1), sharpened between positions."""
+
+        def torque(found: PositionTorques) -> Floats:
+            return own.highest(found) if way > 0 else own.torque(found)
+
+        static = static and self.run.train.starts_harder
+        extreme = find_extreme(
+            lambda turns: torque(self.run.train.at(turns, static)),
+            self.run.cells,
+            way,
+            torque(self.run.standing if static else self.run.found),
+        )
+        return None if extreme is None else TorqueExtreme(extreme[1], *self._place(extreme[0]))
+
+    def _energy(self) -> CycleEnergy:
+        """Energies over the run, from powers over the input's speed: angles are in radians."""
+        found, asked = self.run.found, len(self.run.train.asked)
+        weights = self.run.cells.weights * 2 * np.pi
+        driving, loading = found.powers[:asked], found.powers[asked:]
+        sums = [float(weights @ np.maximum(sign * part, 0).sum(axis=0)) for part, sign in
+                ((driving, 1), (driving, -1), (loading, -1), (loading, 1))]  # fmt: skip
+        kinds = [each.kind for each in self.run.train.contacts.values()] + ["bearing"] * len(self.run.train.bearings)
+        losses = found.losses @ weights
+        lost = [float(sum(loss for loss, own in zip(losses, kinds, strict=True) if own == kind))
+                for kind in ("mesh", "pin", "bearing")]  # fmt: skip
+        return CycleEnergy(*sums, *lost)
+
+    def _parts(self, names: tuple[str, ...]) -> Mapping[str, PairCycle]:
+        found, weights = self.run.found, self.run.cells.weights * 2 * np.pi
+        kinds = [each.kind for each in self.run.train.contacts.values()] + ["bearing"] * len(self.run.train.bearings)
+        losses, passed = (
+            np.where(found.valid, found.losses, 0) @ weights,
+            np.where(found.valid, found.passed, 0) @ weights,
+        )
+        changes = [_changes(row, self._closes) for row in sign_beyond(found.pressed, RunScales.of(found).pressed)]
+        changes += [0] * len(self.run.train.bearings)
+        return {
+            name: PairCycle(kind, float(loss), float(through), count)
+            for name, kind, loss, through, count in zip(names, kinds, losses, passed, changes, strict=True)
+        }
+
+    @property
+    def _closes(self) -> bool:
+        """True if the run ends as it began."""
+        period = self.run.train.motion.motion.period
+        return period is None or (self.run.span / float(period)) % 1 == 0
+
+    def _held(self) -> float:
+        """Share of the run in which loads put power in and what is asked for does too."""
+        found, asked = self.run.found, len(self.run.train.asked)
+        driving, loading = found.powers[:asked].sum(axis=0), found.powers[asked:].sum(axis=0)
+        least = FAINT * np.nanmax(np.abs(found.powers), initial=0.0)
+        return float(self.run.cells.weights @ ((driving > least) & (loading > least))) / self.run.span
+
+    def _stretches(self) -> tuple[tuple[PlaceInRun, PlaceInRun], ...]:
+        """Where nothing balances."""
+        turns, locked = self.run.cells.turns, np.concatenate([[False], ~self.run.found.valid, [False]])
+        starts, ends = np.flatnonzero(locked[1:] & ~locked[:-1]), np.flatnonzero(locked[:-1] & ~locked[1:]) - 1
+        return tuple(
+            (self._place(float(turns[a])), self._place(float(turns[b]))) for a, b in zip(starts, ends, strict=True)
+        )
+
+
+class _Asked(NamedTuple):
+    """The link that is told of, by number, and the sense of its mean motion."""
+
+    row: int
+    way: int
+
+    def torque(self, found: PositionTorques) -> Floats:
+        """Its torque in that sense, in the solution that loses least."""
+        torque: Floats = self.way * found.torque[self.row]
+        return torque
+
+    def highest(self, found: PositionTorques) -> Floats:
+        """The same in the one that loses most."""
+        torque: Floats = self.way * found.highest[self.row]
+        return torque
+
+
+def _changes(signs: Floats, closes: bool) -> int:
+    """How often a sign changes; where it is 0 the last one stays."""
+    own = signs[signs != 0]
+    if not len(own):
+        return 0
+    return int(np.count_nonzero(own[1:] != own[:-1])) + int(closes and own[0] != own[-1])

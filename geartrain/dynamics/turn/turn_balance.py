@@ -1,0 +1,285 @@
+"""The balance of a train over its turn: torques, powers and losses at any positions of the input."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from functools import cached_property
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from geartrain.dynamics.turn.pair_contact import DriverState, PairForce
+from geartrain.dynamics.turn.position_balance import BalanceLayer, ColumnPieces, solve_positions
+from geartrain.dynamics.turn.position_torques import PositionTorques
+from geartrain.numerics.named_arrays import joined
+
+if TYPE_CHECKING:
+    from geartrain.dynamics.torques.load_case import LoadCase
+    from geartrain.dynamics.torques.torque_balance import TorqueBalance, TorqueUnknown
+    from geartrain.dynamics.turn.pair_contact import PairContact
+    from geartrain.dynamics.turn.position_motion import LinkMotion, PositionMotion
+    from geartrain.numerics.arrays import Bools, Floats
+
+_CHUNK = 8192  # positions worked on at once
+_ROUNDS = 6  # of finding flanks and speeds that agree
+_AT_REST = 1e-12  # of the fastest speed: slower stands still
+_FAINT = 1e-9  # of the greatest torque through a pair in a chunk: less presses on no flank
+_SCALE = 10007  # of coefficients of which nothing cancels by chance
+
+
+class _State(NamedTuple):
+    """A train at some positions: how links turn, how pairs stand, and what they do by side, of the first of equals."""
+
+    motion: LinkMotion
+    contacts: Mapping[str, DriverState]
+    forces: Mapping[str, Mapping[int, PairForce]]
+    static: bool
+
+
+@dataclass
+class TurnBalance:
+    """A train under load, to be asked at positions.
+
+    balance    of mean torques, whose order of solution holds at every position
+    contacts   by pair, in the order of the circuits
+    loads      by link, about its own axis; `bearings`, friction torque by link: sliding, and static
+    complete   False where not all patterns of power flow were tried
+    """
+
+    setting: LoadCase
+    motion: PositionMotion
+    balance: TorqueBalance
+    contacts: Mapping[str, PairContact]
+    loads: Mapping[str, float]
+    bearings: Mapping[str, tuple[float, float]]
+    complete: bool = True
+
+    @property
+    def pairs(self) -> tuple[str, ...]:
+        """Names of pairs and couplings."""
+        return tuple(self.contacts)
+
+    @property
+    def asked(self) -> tuple[str, ...]:
+        """The links whose torque is found."""
+        return self.balance.unknown
+
+    @cached_property
+    def outside(self) -> tuple[str, ...]:
+        """The links with a torque from outside that may do work."""
+        return tuple(dict.fromkeys((*self.asked, *self.loads)))
+
+    @cached_property
+    def _columns(self) -> tuple[TorqueUnknown, ...]:
+        return self.balance.columns
+
+    @cached_property
+    def _of_pair(self) -> Mapping[str, int]:
+        """The column of each pair."""
+        return {mesh.id: at for at, column in enumerate(self._columns) for mesh in column.meshes}
+
+    @cached_property
+    def starts_harder(self) -> bool:
+        """True if something has another friction at rest than in motion."""
+        return any(each.losses.starts_harder for each in self.contacts.values()) or any(
+            sliding != static for sliding, static in self.bearings.values()
+        )
+
+    # ----------------------------------------------------------------------------------------------------- positions
+
+    def at(self, turns: Floats, static: bool = False) -> PositionTorques:
+        """Everything at some positions of the input.
+
+        static   with the friction of what is about to move, in place of that of what moves
+        """
+        size = min(_CHUNK, self.motion.composition.chunk)
+        parts = [self._chunk(turns[start : start + size], static) for start in range(0, max(len(turns), 1), size)]
+        return joined(parts)
+
+    def _chunk(self, turns: Floats, static: bool) -> PositionTorques:
+        coasting: dict[str, Bools] = {}
+        for _ in range(_ROUNDS):
+            state = self._state(self.motion.at(turns, coasting), static)
+            layers = self._solved(state)
+            best = self._extreme(layers, state, 1)
+            found = self._coasting(best)
+            none = np.zeros(len(turns), bool)
+            if all(np.array_equal(found.get(name, none), coasting.get(name, none)) for name in {*found, *coasting}):
+                break
+            coasting = found
+        return self._told(state, layers, best)
+
+    def _coasting(self, best: BalanceLayer) -> dict[str, Bools]:
+        """The pairs that press on their coast flanks, and where."""
+        found = {}
+        for name, contact in self.contacts.items():
+            if contact.has_flanks:
+                pressed = best.values[self._of_pair[name]]
+                back = best.valid & (pressed < -_FAINT * np.max(np.abs(pressed), initial=0.0))
+                if back.any():
+                    found[name] = back
+        return found
+
+    def _state(self, motion: LinkMotion, static: bool) -> _State:
+        contacts = {name: self._contact_state(each, motion) for name, each in self.contacts.items()}
+        forces: dict[str, dict[int, PairForce]] = {}
+        for column in self._columns:
+            if column.meshes:
+                lead = self.contacts[column.meshes[0].id]
+                sides = (1, -1) if lead.two_sided else (1,)
+                forces[lead.name] = {side: lead.torques(side, contacts[lead.name], static) for side in sides}
+        return _State(motion, contacts, forces, static)
+
+    def _contact_state(self, contact: PairContact, motion: LinkMotion) -> DriverState:
+        turning = contact.way * self._speed(motion, contact.ends[0], contact.circuit.carrier)
+        return DriverState(motion.angles.get(contact.name, np.zeros(0)), turning)
+
+    def _speed(self, motion: LinkMotion, link: str, carrier: str) -> Floats:
+        """Speed of a link seen from another, about the parallels' direction; exactly 0 where it stands still."""
+        rows = self.motion.links
+        found = motion.speeds[rows[link]] - motion.speeds[rows[carrier]]
+        scale = np.max(np.abs(motion.speeds), initial=0.0)
+        return np.where(np.abs(found) <= _AT_REST * scale, 0.0, found)
+
+    def _own_speed(self, motion: LinkMotion, link: str) -> Floats:
+        """Speed of a link about its own axis."""
+        found: Floats = self.setting.sense(link) * motion.speeds[self.motion.links[link]]
+        return found
+
+    # -------------------------------------------------------------------------------------------------- the balance
+
+    def _solved(self, state: _State) -> list[BalanceLayer]:
+        size = len(state.motion.turns)
+        rows = self.balance.links
+        known = np.zeros((max([len(rows), *(row + 1 for row in self.balance.rows)]), size))
+        for link, torque in self.loads.items():
+            known[rows.index(link)] += torque
+        for link in self.bearings:
+            for bearer, rubbing in self._friction(state, link):
+                known[rows.index(bearer)] += rubbing
+        pieces = [self._pieces(column, state) for column in self._columns]
+        layers, complete = solve_positions(pieces, self.balance.parts, known)
+        self.complete &= complete
+        return layers
+
+    def _friction(self, state: _State, link: str) -> list[tuple[str, Floats]]:
+        """What a bearing does to its link and to what bears it, about their own axes."""
+        carrier, setting = self.setting.tree.parent[link][0], self.setting
+        torque = self.bearings[link][state.static] * np.sign(self._speed(state.motion, link, carrier))
+        found = [(link, -setting.sense(link) * torque)]
+        if carrier != setting.train.frame:
+            found.append((carrier, setting.sense(carrier) * torque))
+        return found
+
+    def _pieces(self, column: TorqueUnknown, state: _State) -> ColumnPieces:
+        """What a unit of one unknown does to each row; equal planets have the numbers of the first of them."""
+        if not column.meshes:
+            size = len(state.motion.turns)
+            rows = {row: np.full(size, float(value)) for row, value in column.pieces[0].items()}
+            return ColumnPieces({0: rows}, {})
+        forces = state.forces[column.meshes[0].id]
+        two_sided = len(forces) > 1
+        pieces = {side if two_sided else 0: self._rows(column, force) for side, force in forces.items()}
+        barred = {side if two_sided else 0: force.barred for side, force in forces.items() if force.barred is not None}
+        return ColumnPieces(pieces, barred)
+
+    def _rows(self, column: TorqueUnknown, force: PairForce) -> dict[int, Floats]:
+        found: dict[int, Floats] = {}
+        for mesh in column.meshes:
+            first, second = self._like(mesh.id, column, force)
+            i, j, k = mesh.senses
+            members = i * first, j * second, -k * (first + second)
+            for row, member, factor in self.balance.places(mesh):
+                found[row] = found.get(row, 0.0) + float(factor) * members[member]
+        return found
+
+    def _like(self, name: str, column: TorqueUnknown, force: PairForce) -> tuple[Floats, Floats]:
+        """What the first of equal planets has on its two links, for another that may name them in another order."""
+        alike = self.contacts[name].first == self.contacts[column.meshes[0].id].first
+        return (force.first, force.second) if alike else (force.second, force.first)
+
+    def _extreme(self, layers: Sequence[BalanceLayer], state: _State, way: int) -> BalanceLayer:
+        """At each position the solution in which least power is asked for; with -1 the one in which most is."""
+        if len(layers) == 1:
+            return layers[0]
+        speeds = np.array([self._own_speed(state.motion, link) for link in self.asked])
+        power = [way * (each.values[self._asked_columns] * speeds).sum(axis=0) for each in layers]
+        which = np.argmin([np.where(each.valid, p, np.inf) for each, p in zip(layers, power, strict=True)], axis=0)
+        found = layers[0].copy()
+        for at, layer in enumerate(layers[1:], 1):
+            chosen = which == at
+            found.values[:, chosen], found.valid[chosen] = layer.values[:, chosen], layer.valid[chosen]
+        return found
+
+    @cached_property
+    def _asked_columns(self) -> list[int]:
+        first = next(at for at, column in enumerate(self._columns) if not column.meshes)
+        return list(range(first, first + len(self.asked)))
+
+    # ------------------------------------------------------------------------------------------------------- answers
+
+    def _told(self, state: _State, layers: Sequence[BalanceLayer], best: BalanceLayer) -> PositionTorques:
+        motion, size = state.motion, len(state.motion.turns)
+        torque = np.where(best.valid, best.values[self._asked_columns], np.nan)
+        worst = self._extreme(layers, state, -1)
+        speeds = np.array([self._own_speed(motion, link) for link in self.outside])
+        acting = np.zeros_like(speeds)
+        acting[: len(self.asked)] = torque
+        for link, load in self.loads.items():
+            acting[self.outside.index(link)] += load
+        slipping = [self._speed(motion, link, self.setting.tree.parent[link][0]) for link in self.bearings]
+        rubbed = [
+            self.bearings[link][state.static] * np.abs(each) for link, each in zip(self.bearings, slipping, strict=True)
+        ]
+        flows = [self._flow(name, best, state) for name in self.pairs]
+        kinks = [each.losses.kinks(state.contacts[name]) for name, each in self.contacts.items()]
+        return PositionTorques(
+            motion.turns,
+            best.valid,
+            np.sum([each.valid for each in layers], axis=0).astype(float),
+            torque,
+            np.where(worst.valid, worst.values[self._asked_columns], np.nan),
+            speeds,
+            acting * speeds,
+            _stack([*(loss for loss, _ in flows), *rubbed], size),
+            _stack([*(passed for _, passed in flows), *rubbed], size),
+            _stack([best.values[self._of_pair[name]] for name in self.pairs], size),
+            _stack([state.contacts[name].turning for name in self.pairs], size),
+            _stack(slipping, size),
+            _stack([each for each in kinks if each is not None], size),
+        )
+
+    def _flow(self, name: str, best: BalanceLayer, state: _State) -> tuple[Floats, Floats]:
+        """What a pair loses, and what its two sides put into it, in its carrier's frame."""
+        column = self._columns[self._of_pair[name]]
+        pressed = best.values[self._of_pair[name]]
+        forces = state.forces[column.meshes[0].id]
+        circuit = self.contacts[name].circuit
+        powers = []
+        for end, link in enumerate((circuit.i, circuit.j)):
+            ahead, back = (self._like(name, column, forces.get(side, forces[1]))[end] for side in (1, -1))
+            torque = np.where(pressed < 0, back, ahead) * pressed
+            powers.append(torque * self._speed(state.motion, link, circuit.carrier))
+        return -(powers[0] + powers[1]), np.maximum(-powers[0], 0) + np.maximum(-powers[1], 0)
+
+
+def _stack(rows: Sequence[Floats], size: int) -> Floats:
+    return np.array(rows) if rows else np.zeros((0, size))
+
+
+def generic_balance(balance: TorqueBalance) -> TorqueBalance:
+    """The balance with numbers of which nothing cancels by chance, as at single positions: for the order in it."""
+    group = {name: at for at, names in enumerate(balance.ties, 1) for name in names}
+    meshes = tuple(
+        replace(
+            mesh,
+            a=_SCALE * mesh.a + group.get(mesh.id, len(balance.ties) + at),
+            b=_SCALE * (mesh.b or -1) - 1,
+            forward=Fraction(1),
+            backward=Fraction(1),
+        )
+        for at, mesh in enumerate(balance.meshes, 1)
+    )
+    return replace(balance, meshes=meshes)

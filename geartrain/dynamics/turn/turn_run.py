@@ -1,0 +1,143 @@
+"""A run over some turns: where torques are asked for, so that integrals are right and no kink is missed."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from geartrain.dynamics.motion.corner_positions import CornerSearch
+from geartrain.dynamics.turn.run_positions import NODES, RunCells, find_kinks, run_cells
+from geartrain.numerics.named_arrays import joined, some
+
+if TYPE_CHECKING:
+    from geartrain.dynamics.turn.position_torques import PositionTorques
+    from geartrain.dynamics.turn.turn_balance import TurnBalance
+    from geartrain.numerics.arrays import Bools, Floats, Ints
+
+_ROUNDS = 3  # of looking for kinks: those of one cell come one after another
+_ACCURACY, _ROUNDING = 1e-8, 1e-13  # of all energy, spread evenly over the run, and what a cell may be off by at least
+_DEPTH = 12  # halvings of a cell
+_MOST_TIMES = 12  # as many positions as at first: the rest stays as coarse as it is
+FAINT = 1e-9
+"""Of the greatest torque or power in a run: less has no sign."""
+
+
+@dataclass
+class TurnRun:
+    """A run over some turns, in at least `samples` positions."""
+
+    train: TurnBalance
+    span: float
+    samples: int
+
+    @cached_property
+    def corners(self) -> Floats:
+        """Positions at which a law has a corner."""
+        return CornerSearch(self.train.motion.composition).over(0.0, self.span).turns
+
+    @cached_property
+    def narrowest(self) -> float:
+        """Turns of the input in a period of the fastest law."""
+        fastest = max((float(each.cycles) for each in self.train.motion.sources.values()), default=0.0)
+        return 1 / max(fastest, 1 / self.span)
+
+    @cached_property
+    def _followed(self) -> tuple[RunCells, PositionTorques]:
+        """Cells in order, kinks among their ends, as narrow as integrals ask for; and all at their positions."""
+        breaks, steps = self.corners, max(1, self.samples // NODES)
+        for _ in range(_ROUNDS):
+            cells = run_cells(self.span, steps, breaks, self.narrowest)
+            found = self.train.at(cells.asked)
+            kinks = self._kinks(cells, found)
+            if not len(kinks):
+                break
+            breaks = np.concatenate([breaks, kinks])
+        else:
+            cells = run_cells(self.span, steps, breaks, self.narrowest)
+            found = self.train.at(cells.asked)
+        return self._halved(cells, found)
+
+    def _kinks(self, cells: RunCells, found: PositionTorques) -> Floats:
+        scales = RunScales.of(found)
+        return find_kinks(lambda turns: self.signs(self.train.at(turns), scales), cells, self.signs(found, scales))
+
+    def _halved(self, cells: RunCells, found: PositionTorques) -> tuple[RunCells, PositionTorques]:
+        """Cells halved until powers are integrated to a small part of all of them, in order."""
+        total = float(cells.weights @ np.nan_to_num(np.abs(found.powers)).sum(axis=0))
+        kept: list[tuple[RunCells, PositionTorques]] = []
+        count, most = 0, _MOST_TIMES * len(cells.asked)
+        for depth in range(_DEPTH + 1):
+            coarse = self._coarse(cells, found, total)
+            if depth == _DEPTH or count > most:
+                coarse[:] = False
+            kept.append((cells.some(~coarse), some(found, np.repeat(~coarse, NODES))))
+            count += len(cells.asked)
+            if not coarse.any():
+                break
+            cells = cells.halved(coarse)
+            found = self.train.at(cells.asked)
+        low, high = (np.concatenate([getattr(each, name) for each, _ in kept]) for name in ("low", "high"))
+        order = np.argsort(low)
+        nodes = (order[:, None] * NODES + np.arange(NODES)).ravel()
+        return RunCells(low[order], high[order], cells.aside), some(joined([each for _, each in kept]), nodes)
+
+    def _coarse(self, cells: RunCells, found: PositionTorques, total: float) -> Bools:
+        """The cells too wide for what is put in or for what is lost."""
+        integrands = found.powers[: len(self.train.asked)].sum(axis=0), found.losses.sum(axis=0)
+        rough = np.max([cells.roughness(np.nan_to_num(each)) for each in integrands], axis=0)
+        found_coarse: Bools = rough > total * (_ACCURACY * (cells.high - cells.low) / self.span + _ROUNDING)
+        return found_coarse
+
+    @property
+    def cells(self) -> RunCells:
+        """The cells of the run."""
+        return self._followed[0]
+
+    @property
+    def found(self) -> PositionTorques:
+        """Everything at the positions of the run."""
+        return self._followed[1]
+
+    def signs(self, found: PositionTorques, scales: RunScales) -> Ints:
+        """Whatever has a kink where its sign changes."""
+        outside = found.powers.shape[0]
+        asked = len(self.train.asked)
+        return np.concatenate(
+            [
+                sign_beyond(found.pressed, scales.pressed),
+                np.sign(found.turning),
+                np.sign(found.slipping),
+                np.sign(found.kinks),
+                found.layers[None],
+                sign_beyond(found.powers[:asked], scales.power),
+                sign_beyond(found.powers[asked:outside], scales.power),
+            ]
+        ).astype(np.int64)
+
+    @cached_property
+    def standing(self) -> PositionTorques:
+        """With the friction of what is about to move."""
+        return self.train.at(self.cells.asked, static=True) if self.train.starts_harder else self.found
+
+
+@dataclass(frozen=True)
+class RunScales:
+    """The greatest torque through any pair, and the greatest power: what is a small part of it has no sign."""
+
+    pressed: float
+    power: float
+
+    @classmethod
+    def of(cls, found: PositionTorques) -> RunScales:
+        """At some positions."""
+        pressed = np.where(found.valid, np.abs(found.pressed), 0.0)
+        return cls(float(np.max(pressed, initial=0.0)), float(np.nanmax(np.abs(found.powers), initial=0.0)))
+
+
+def sign_beyond(values: Floats, scale: float) -> Floats:
+    """Signs, 0 for what is a small part of a scale."""
+    with np.errstate(invalid="ignore"):
+        return np.where(np.abs(values) > FAINT * scale, np.sign(values), 0.0)

@@ -1,0 +1,152 @@
+"""Torque over a turn: closed forms of pins, printed cases, conservation, and the balance of mean torques."""
+
+from __future__ import annotations
+
+from math import acos, asin, log, pi, sqrt
+
+import numpy as np
+import pytest
+from models import load
+
+from geartrain import GearTrain
+from geartrain.dynamics import TorqueCycle
+from geartrain.errors import QuestionError
+
+_TWO_LINKS = """
+links: {{frame: {{}}, a: {{}}, b: {{{bearing}}}}}
+revolutes: [{{pair: [frame, a], axis: A}}, {{pair: [frame, b], axis: B}}]
+couplings: [{{kind: {kind}, pin: {pin}, slot: {slot}, pin_radius: {r} mm, offset: {e} mm, friction: {f}}}]
+inputs: {{a: 1}}
+outputs: {{b: {{}}}}
+{loads}
+"""
+
+
+def pin_train(r: float, e: float, f: float, loads: str = "", bearing: str = "", driver: str = "pin") -> GearTrain:
+    """Link a drives link b by a pin in a slot."""
+    pin, slot = ("a", "b") if driver == "pin" else ("b", "a")
+    kind = "pin_and_slot" if r > e else "pin_follower"
+    return load(_TWO_LINKS.format(kind=kind, pin=pin, slot=slot, r=r, e=e, f=f, loads=loads, bearing=bearing))
+
+
+def cycle(train: GearTrain, turns: float = 1, samples: int = 1000) -> TorqueCycle:
+    return train.torques(turns=turns, samples=samples)
+
+
+def torque(found: TorqueCycle) -> tuple[float, float, float]:
+    assert found.mean is not None
+    assert found.greatest is not None
+    assert found.least is not None
+    return found.mean, found.greatest.torque, found.least.torque
+
+
+# ------------------------------------------------------------------------------------------------ pins, in closed form
+
+
+def test_a_pin_that_drives_a_slot_peaks_at_five_times_its_mean() -> None:
+    r, e, f = 10, 8, 0.3
+    found = cycle(pin_train(r, e, f, "loads: {b: -10 N m}"))
+    mean, greatest, _ = torque(found)
+    assert mean == pytest.approx(10 * (1 + f / pi * log((r + e) / (r - e))), rel=1e-9)
+    assert greatest == pytest.approx(50.9784589, abs=5e-8)
+    assert found.greatest is not None
+    assert min(found.greatest.turns, 1 - found.greatest.turns) * 2 * pi == pytest.approx(0.032612, abs=1e-6)
+    assert found.efficiency == pytest.approx(0.8265696, abs=5e-8)
+
+
+@pytest.mark.parametrize(("f", "mean", "greatest"), [(0.3, 12.994123, 21.847911), (0.7, 36.9620, 153.3510)])
+def test_a_slot_that_drives_its_pin(f: float, mean: float, greatest: float) -> None:
+    found = torque(cycle(pin_train(10, 8, f, "loads: {b: -10 N m}", driver="slot")))
+    assert found[0] == pytest.approx(mean, rel=2e-7)
+    assert found[1] == pytest.approx(greatest, rel=4e-7)
+
+
+def test_a_slot_locks_where_friction_holds_the_pin() -> None:
+    """Where |sin psi| >= (r/e) / sqrt(1 + f^2), from f = sqrt(r^2 - e^2)/e = 0.75 on."""
+    assert not cycle(pin_train(10, 8, 0.7499, "loads: {b: -10 N m}", driver="slot")).locked_share
+    found = cycle(pin_train(10, 8, 0.8, "loads: {b: -10 N m}", driver="slot"))
+    share = 1 - 2 / pi * asin(10 / 8 / sqrt(1 + 0.8**2))
+    assert found.locked_share == pytest.approx(share, abs=1e-9)
+    assert found.locked_share == pytest.approx(0.139505, abs=5e-7)
+    assert (found.verdict.kind, found.mean, found.efficiency, found.starting) == ("self-locking", None, None, None)
+    assert np.isnan(found.torque).any()
+    assert len(found.locked) == 2
+
+
+def test_a_weight_on_a_follower_drives_it_back_and_locks_it_near_its_dead_points() -> None:
+    r, e, f = 6, 10, 0.2
+    found = cycle(pin_train(r, e, f, "loads: {b: -10 N m}"))
+    mean, greatest, least = torque(found)
+    assert mean == pytest.approx(10 * f / pi * log((e + r) / (e - r)), rel=1e-9)
+    assert greatest == pytest.approx(3.9356616, abs=5e-8)
+    assert least == pytest.approx(-15, abs=1e-7)
+    assert found.held_share == pytest.approx(0.0582218, abs=5e-8)
+    assert found.energy is not None
+    assert found.energy.put_in / (2 * pi) == pytest.approx(2.5367917, abs=5e-8)
+    assert found.energy.returned / (2 * pi) == pytest.approx(1.6542493, abs=5e-8)
+    assert found.powers is not None
+    assert found.turns is not None
+    weighed = found.powers["b"] > 0
+    steps = np.diff(found.turns)
+    assert float(steps[weighed[1:] & weighed[:-1]].sum()) == pytest.approx(acos(r / e) / pi, abs=1e-6)
+
+
+def test_drag_on_a_follower_turns_round_at_its_dead_points() -> None:
+    r, e, f = 6, 10, 0.2
+    found = cycle(pin_train(r, e, f, bearing="bearing: 1 N m"))
+    mean, greatest, least = torque(found)
+    assert mean == pytest.approx(2 / pi * asin(r / e) + f / pi * log((e + r) / (e - r)), rel=1e-9)
+    assert (mean, greatest) == (pytest.approx(0.4979198, abs=5e-8), pytest.approx(1.5185660, abs=3e-7))
+    assert least == pytest.approx(0.15, abs=1e-8)
+    assert torque(cycle(pin_train(r, e, 0, bearing="bearing: 1 N m")))[0] == pytest.approx(0.4096655, abs=5e-8)
+    assert found.flank_changes == {"a~b": 2}
+
+
+# --------------------------------------------------------------------------------------------------- shipped trains
+
+
+def test_a_bearing_behind_a_retrograde_pointer_takes_twice_what_its_mean_speed_tells() -> None:
+    train = load("extends: freeth-2021\nlinks: {saturn: {bearing: 1 N mm}}\n")
+    naive = abs(float(train.torques().external["a"]))
+    found = cycle(train, 442 / 427)
+    mean, greatest, least = torque(found)
+    assert (mean, greatest) == (pytest.approx(1.50887e-5, rel=4e-7), pytest.approx(2.6959e-5, rel=2e-6))
+    assert mean / naive == pytest.approx(2.065600, abs=5e-7)
+    assert greatest / naive == pytest.approx(3.690611, abs=5e-7)
+    assert least == pytest.approx(0, abs=1e-9)
+
+
+def test_what_goes_in_comes_out_or_is_lost_at_every_position() -> None:
+    train = load("extends: moon-triangular\nloads: {moon: -1 N mm}\nlinks: {d: {bearing: 1 N mm}}\n")
+    found = cycle(train, 2, 500)
+    assert found.powers is not None
+    assert found.losses is not None
+    lost = found.losses.values.sum(axis=0)
+    assert np.abs(found.powers.values.sum(axis=0) - lost).max() < 1e-14
+    assert found.losses.values.min() > -1e-17
+
+
+def test_without_friction_a_constant_load_asks_for_its_mean_ratio() -> None:
+    train = load("extends: moon-triangular\nfriction: 0\nloads: {moon: -1 N mm}\n")
+    found = cycle(train, 95, 1000)
+    assert found.mean == pytest.approx(0.001 * 254 / 95, rel=1e-9)
+
+
+def test_a_train_of_declared_efficiencies_has_the_torques_of_its_means_everywhere() -> None:
+    train = load(
+        """
+        extends: planetary-24-18-60
+        gears: [{pair: [s, p], efficiency: 0.98}, {pair: [p, ring], efficiency: {forward: 0.97, backward: 0.95}}]
+        links: {carrier: {bearing: 0.07 N m}}
+        loads: {carrier: -10 N m}
+        """
+    )
+    exact = float(train.torques().external["sun"])
+    found = cycle(train)
+    assert torque(found) == pytest.approx((exact,) * 3, rel=1e-12)
+    assert found.verdict.kind == "determined"
+
+
+def test_a_run_goes_forward() -> None:
+    with pytest.raises(QuestionError, match="torques over -1 turns"):
+        cycle(pin_train(10, 8, 0.3, "loads: {b: -10 N m}"), -1)

@@ -69,7 +69,7 @@ def _pins(setting: LoadCase, busy: Sequence[Circuit]) -> Iterator[NeglectedEffec
 def _bare_pins(setting: LoadCase, busy: Sequence[Circuit]) -> Iterator[NeglectedEffect]:
     """Friction declared on pins that have no dimensions."""
     couplings = setting.couplings
-    rubbing = [circuit.id for circuit in busy if circuit.kind != "gear" and _rubs(couplings[circuit.id].friction)]
+    rubbing = [circuit.id for circuit in busy if circuit.kind != "gear" and setting.rubs(couplings[circuit.id])]
     if bare := tuple(name for name in rubbing if name not in setting.joints):
         why = "it depends on `pin_radius` and `offset`, which are not declared"
         yield NeglectedEffect("friction of pins", bare, why)

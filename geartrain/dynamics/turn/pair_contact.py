@@ -125,16 +125,18 @@ class BasicEfficiency(ContactLosses):
 class ToothFriction(ContactLosses):
     """Friction of real teeth: each contact passes (1 + f out)/(1 + f into), f < 0 where its flanks slide back.
 
-    sliding, static   coefficient at a speed of sliding over that of the pitch line, and this speed over its mean
+    sliding   coefficient at a speed of sliding over that of the pitch line, and the driver's speed over the input's
+    static    coefficient at rest; `differs`, True if that is another
     """
 
     sliding: Callable[[Floats, Floats], Floats | float]
-    static: Callable[[Floats, Floats], Floats | float] | None = None
+    static: float
+    differs: bool
 
     @property
     def starts_harder(self) -> bool:
         """True if there is another coefficient at rest."""
-        return self.static is not None
+        return self.differs
 
     def torques(
         self, tau: Floats, law: TransmissionFunction | None, at: DriverState, way: Floats, static: bool
@@ -143,8 +145,7 @@ class ToothFriction(ContactLosses):
         assert law is not None
         sliding, into, out = law.rubbing(at.S)
         touching = ~np.isnan(out)
-        law_of = self.static if static and self.static is not None else self.sliding
-        f = law_of(sliding, np.abs(at.turning)) * way
+        f = (self.static if static else self.sliding(sliding, np.abs(at.turning))) * way
         with np.errstate(divide="ignore", invalid="ignore"):
             into, out = 1 + f * into, 1 + f * out
             # the side that drives: a contact whose force it cannot press together locks the pair

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from geartrain.dynamics.pair_speeds import pitch_line_speed
 from geartrain.dynamics.torques.mean_efficiencies import find_mean_efficiencies
@@ -48,7 +48,8 @@ def mean_friction_pairs(
 
 
 def _by_friction(setting: LoadCase, mesh: GearMesh) -> bool:
-    return setting.gears[mesh.name].efficiency is None and mesh.rubs
+    gear = setting.gears[mesh.name]
+    return gear.efficiency is None and setting.rubs(gear)
 
 
 def _contact(setting: LoadCase, circuit: Circuit, source: PairErrorSource | None, mesh: GearMesh | None) -> PairContact:
@@ -61,10 +62,10 @@ def _contact(setting: LoadCase, circuit: Circuit, source: PairErrorSource | None
 
 
 def _pin_losses(setting: LoadCase, circuit: Circuit) -> ContactLosses:
-    joint = setting.joints.get(circuit.id)
-    if joint is None or not joint.law.friction:
+    joint, friction = setting.joints.get(circuit.id), setting.train.friction_of(setting.couplings[circuit.id])
+    if joint is None or friction is None or not friction.rubs:
         return NoLosses()
-    return PinFriction(joint.law, joint.law.friction, joint.law.friction)
+    return PinFriction(joint.law, joint.law.friction, friction.static)
 
 
 def _losses(
@@ -80,10 +81,27 @@ def _losses(
 
 def _tooth_friction(setting: LoadCase, circuit: Circuit, source: PairErrorSource, mesh: GearMesh) -> ToothFriction:
     law, coefficient = mesh.wheels.friction_law, mesh.friction or 0.0
+    declared = setting.train.friction_of(setting.gears[circuit.id])
+    static = coefficient if declared is None else declared.static
     if law is None:
-        return ToothFriction(lambda sliding, turning: coefficient)
+        return ToothFriction(lambda sliding, turning: coefficient, static, static != coefficient)
     pitch_line = pitch_line_speed(setting, circuit, mesh).known() / (source.mean or 1.0)
-    return ToothFriction(
-        lambda sliding, turning: PairFriction(law, pitch_line * turning)(sliding),
-        lambda sliding, turning: PairFriction(law, 0.0)(sliding),
-    )
+    return ToothFriction(lambda sliding, turning: PairFriction(law, pitch_line * turning)(sliding), static, True)
+
+
+class BearingTorques(NamedTuple):
+    """Friction torque of a bearing while it turns, and at rest."""
+
+    sliding: float
+    static: float
+
+
+def find_bearings(setting: LoadCase) -> dict[str, BearingTorques]:
+    """The links whose bearing rubs."""
+    declared = {link: part.bearing for link, part in setting.train.links.items() if link != setting.train.frame}
+    found = {
+        link: BearingTorques(float(each.sliding.base), float(each.at_rest.base))
+        for link, each in declared.items()
+        if each is not None
+    }
+    return {link: each for link, each in found.items() if any(each)}

@@ -10,13 +10,14 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from geartrain.dynamics.torques.neglected_effects import neglected_over_turn
+from geartrain.dynamics.torques.power_flow import has_torque_units
 from geartrain.dynamics.torques.torque_analysis import TorqueQuestion, build_balance, find_question
 from geartrain.dynamics.torques.torque_results import NeglectedEffect, TorqueVerdict
 from geartrain.dynamics.turn.cycle_parts import CycleEnergy, PairCycle, PlaceInRun, TorqueExtreme
 from geartrain.dynamics.turn.extreme_search import find_extreme
 from geartrain.dynamics.turn.position_motion import PositionMotion
 from geartrain.dynamics.turn.torque_cycle import TorqueCycle
-from geartrain.dynamics.turn.train_contacts import find_contacts, followed_pairs, mean_friction_pairs
+from geartrain.dynamics.turn.train_contacts import find_bearings, find_contacts, followed_pairs, mean_friction_pairs
 from geartrain.dynamics.turn.turn_balance import TurnBalance, generic_balance
 from geartrain.dynamics.turn.turn_run import FAINT, RunScales, TurnRun, sign_beyond
 from geartrain.errors import Problem, QuestionError
@@ -62,15 +63,13 @@ def build_turn_balance(setting: LoadCase, motion: Motion, question: TorqueQuesti
     teeth = {mesh.name: mesh for mesh in motion.train.teeth}
     positions = PositionMotion(motion, followed_pairs(setting, teeth))
     loads = {link: float(torque) for link, torque in question.loads.items()}
-    bearings = {link: float(setting.bearing(link)) for link in setting.train.links if setting.bearing(link)}
+    bearings = find_bearings(setting)
     known = dict(question.loads)
-    for link in bearings:
-        known[link] = known.get(link, Fraction(0)) + setting.bearing(link)
+    for link, friction in bearings.items():
+        known[link] = known.get(link, Fraction(0)) + Fraction(friction.static)
     balance = generic_balance(build_balance(setting, known, question.asked.links))
     contacts = find_contacts(setting, positions.sources, teeth)
-    return TurnBalance(
-        setting, positions, balance, contacts, loads, {link: (each, each) for link, each in bearings.items()}
-    )
+    return TurnBalance(setting, positions, balance, contacts, loads, bearings)
 
 
 @dataclass
@@ -96,7 +95,7 @@ class _Answer:
             train.setting.case.state,
             self._verdict(locked, ambiguous, left_out),
             link,
-            self._has_units,
+            has_torque_units(train.setting.train, train.setting.case.state),
             self.run.span,
             None if period is None else float(period),
             self.run.cells.turns,
@@ -119,12 +118,6 @@ class _Answer:
             train.complete,
             left_out,
         )
-
-    @property
-    def _has_units(self) -> bool:
-        setting = self.run.train.setting
-        torques = [*setting.case.loads.values(), *(link.bearing for link in setting.train.links.values())]
-        return any(each is not None and each.unit is not None for each in torques)
 
     def _left_out(self) -> tuple[NeglectedEffect, ...]:
         train = self.run.train

@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from geartrain.dynamics.torques.torque_balance import TorqueBalance, TorqueUnknown
     from geartrain.dynamics.turn.pair_contact import PairContact
     from geartrain.dynamics.turn.position_motion import LinkMotion, PositionMotion
+    from geartrain.dynamics.turn.train_contacts import BearingTorques
     from geartrain.numerics.arrays import Bools, Floats
 
 _CHUNK = 8192  # positions worked on at once
@@ -53,7 +54,7 @@ class TurnBalance:
     balance: TorqueBalance
     contacts: Mapping[str, PairContact]
     loads: Mapping[str, float]
-    bearings: Mapping[str, tuple[float, float]]
+    bearings: Mapping[str, BearingTorques]
     complete: bool = True
 
     @property
@@ -84,7 +85,7 @@ class TurnBalance:
     def starts_harder(self) -> bool:
         """True if something has another friction at rest than in motion."""
         return any(each.losses.starts_harder for each in self.contacts.values()) or any(
-            sliding != static for sliding, static in self.bearings.values()
+            each.sliding != each.static for each in self.bearings.values()
         )
 
     # ----------------------------------------------------------------------------------------------------- positions

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import json
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from math import exp, log, pi
 from pathlib import Path
 
@@ -102,14 +102,7 @@ def page(rows: list[Row]) -> Iterator[str]:
     yield "or the other a little smaller. At other half angles and clearances ask"
     yield "`geartrain mesh triangular --best loss`."
     yield ""
-    yield "| teeth | best | law (1) | least loss | by the law | pitch-true | equal depth |"
-    yield "|---|---|---|---|---|---|---|"
-    for row in rows:
-        pair = int(row["z1"]), int(row["z2"])
-        if pair in SHOWN:
-            losses = (row["loss"], spent[pair], row["pitch_true"], row["equal_depth"])
-            cells = " | ".join("does not turn" if each is None else f"{100 * each:.2f} %" for each in losses)
-            yield f"| {pair[0]}/{pair[1]} | {row['radii']:.4f} | {law(*pair, A, B):.4f} | {cells} |"
+    yield from table(rows, spent, (A, B))
     yield ""
     equal_driver = 100 * (exp(B * (2 / 48) ** 2) - 1)
     involute = pi * FRICTION / 2
@@ -118,6 +111,20 @@ def page(rows: list[Row]) -> Iterator[str]:
     yield f"A pair so made loses {min(share):.2f} to {max(share):.2f} times $1/z_1 + 1/z_2$, where an involute pair"
     yield f"with arcs of half a pitch on either side loses $\\pi f/2 = {involute:.2f}$ times: ancient teeth of the"
     yield "right size are as good as any that slide over one pitch."
+
+
+def table(
+    rows: list[Row], spent: Mapping[tuple[int, int], float | None], constants: tuple[float, float]
+) -> Iterator[str]:
+    """Some pairs: the best radii, and what they lose with radii by rules."""
+    yield "| teeth | best | law (1) | least loss | by the law | pitch-true | equal depth |"
+    yield "|---|---|---|---|---|---|---|"
+    for row in rows:
+        pair = int(row["z1"]), int(row["z2"])
+        if pair in SHOWN:
+            losses = (row["loss"], spent[pair], row["pitch_true"], row["equal_depth"])
+            cells = " | ".join("does not turn" if each is None else f"{100 * each:.2f} %" for each in losses)
+            yield f"| {pair[0]}/{pair[1]} | {row['radii']:.4f} | {law(*pair, *constants):.4f} | {cells} |"
 
 
 WHY = r"""## Why

@@ -13,6 +13,7 @@ from errata_sphere import sphere
 
 import geartrain
 from geartrain import GearTrain
+from geartrain.kinematics.answer import Answer
 from geartrain.kinematics.graph import adjacency_labels
 from geartrain.train.periods import period_table
 
@@ -116,6 +117,12 @@ def months() -> Iterator[str]:
         "and 13.3676 in the text is its consequence. The text also calls 29.53058 d a sidereal month; it is synodic."
     )
     yield ""
+    yield from items(solved)
+    yield ""
+
+
+def items(solved: Answer) -> Iterator[str]:
+    """What the paper says of single wheels, and of Hipparchus."""
     yield "The items of the results that name wheel 19 and wheel 9 are out of step with Table 4:"
     yield ""
     yield from rows(
@@ -133,7 +140,6 @@ def months() -> Iterator[str]:
     year, month = (table[name].value for name in ("year_hipparchus_tropical", "month_synodic_hipparchus_4267"))
     yield f"Hipparchus' year, given as 365.242 d, is 365 + 1/4 - 1/300 = {number(year, 8)} d (Almagest III 1);"
     yield f"Hipparchus' month, given as 29.53058 d, is {number(month, 8)} d (Almagest IV 2)."
-    yield ""
 
 
 def mates(link: str) -> list[str]:

@@ -142,9 +142,7 @@ def find_budget(
 
     asked, means = asked or BudgetQuestion(), means or Execution()
     answer = train.solve(state)
-    for name in (*asked.outputs, *asked.bodies):
-        check_choice("output", name, tuple(answer.outputs))
-    names = asked.outputs or pointer_names(answer)
+    names = pointer_names(answer, asked)
     motion = train.motion(state, names, asked.without)
     theories = _theories(train, asked, answer, motion)
     on_stage()
@@ -205,8 +203,12 @@ class _TrainCauses:
         return self.cut.cause(name, known)
 
 
-def pointer_names(answer: Answer) -> tuple[str, ...]:
-    """The outputs that somebody reads: those with a target or a dial; all of a train that has neither."""
+def pointer_names(answer: Answer, asked: BudgetQuestion) -> tuple[str, ...]:
+    """The outputs asked for, else those that somebody reads: with a target or a dial, or all where none has either."""
+    for name in (*asked.outputs, *asked.bodies):
+        check_choice("output", name, tuple(answer.outputs))
+    if asked.outputs:
+        return asked.outputs
     read = tuple(name for name, each in answer.outputs.items() if each.targets or each.output.dial)
     names = read or tuple(answer.outputs)
     if not names:

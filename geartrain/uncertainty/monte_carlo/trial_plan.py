@@ -177,12 +177,7 @@ def find_trial_plan(
     (['a~b1', 'b2~c1', 'c2~d1', 'd2~e'], 0.001)
     """
     motion = train.motion(state, outputs, without)
-    meshes = [mesh for mesh in motion.train.teeth if mesh.has_cut_sizes or mesh.displaced_contact is not None]
-    if not meshes:
-        what = f"'{train.name}' has no triangular teeth, nor others whose errors are reckoned"
-        why = "cutting errors are reckoned tooth by tooth for triangular teeth and for those with a path of contact"
-        fix = "declare `tooth_form: {form: involute}` or another such form on the train or on its pairs"
-        raise QuestionError(Problem(what, why, fix))
+    meshes = _cut_meshes(train, motion)
     even: dict[str, WheelErrors] = {}
     for mesh in meshes:
         for wheel in _even_wheels(train, mesh):
@@ -211,6 +206,17 @@ def find_trial_plan(
         _span(composition, pairs),
         motion.train.lead,
     )
+
+
+def _cut_meshes(train: GearTrain, motion: Motion) -> list[GearMesh]:
+    """The pairs whose teeth can be cut with errors. Raises `QuestionError` where there is none."""
+    found = [mesh for mesh in motion.train.teeth if mesh.has_cut_sizes or mesh.displaced_contact is not None]
+    if not found:
+        what = f"'{train.name}' has no triangular teeth, nor others whose errors are reckoned"
+        why = "cutting errors are reckoned tooth by tooth for triangular teeth and for those with a path of contact"
+        fix = "declare `tooth_form: {form: involute}` or another such form on the train or on its pairs"
+        raise QuestionError(Problem(what, why, fix))
+    return found
 
 
 def _even_wheels(train: GearTrain, mesh: GearMesh) -> tuple[WheelErrors, WheelErrors]:

@@ -218,6 +218,7 @@ class TrainDynamics(TrainKinematics):
         outputs: Sequence[str] = (),
         without: Sequence[str] = (),
         tolerance: float | None = None,
+        fast: bool | None = None,
     ) -> Motion:
         """The motion of some outputs or links with real teeth and pins: transmission functions, composed.
 
@@ -231,6 +232,9 @@ class TrainDynamics(TrainKinematics):
             Pairs left out, so that real teeth do not contradict each other around a loop.
         tolerance : float, optional
             Read transmission functions from tables of this accuracy [pitch], several times faster.
+        fast : bool, optional
+            Whether compiled kernels follow the motion, the same to 1e-12 rad and ten times as fast; by default where
+            numba is installed and there are so many positions that it pays to load it.
 
         Returns
         -------
@@ -247,7 +251,7 @@ class TrainDynamics(TrainKinematics):
         case = self._case(state)
         names = outputs or tuple(case.outputs) or tuple(self.declaration.links)
         wanted = {name: self._speeds.single_output(case, name)[1] for name in names}
-        return Motion(self._moving(case, without), wanted, tolerance)
+        return Motion(self._moving(case, without), wanted, tolerance, fast)
 
     def impacts(self, state: str | None = None) -> Mapping[str, ToothImpact]:
         """What collisions of triangular teeth cost, by pair; empty unless inertias and a rate are declared.

@@ -30,6 +30,10 @@ Out = Annotated[
 ]
 Force = Annotated[bool, typer.Option("--force", help="Write over files that are there.")]
 Json = Annotated[bool, typer.Option("--json", help="Print plain data as JSON.")]
+Fast = Annotated[
+    bool | None,
+    typer.Option("--fast/--no-fast", help="Compiled kernels, or none; by default where they pay."),
+]
 StateName = Annotated[str | None, typer.Option("--state", help="The state to solve; default all.")]
 
 

@@ -12,6 +12,7 @@ from geartrain.cli.common import (
     INTERRUPTED,
     PICTURES,
     STANDARD,
+    Fast,
     File,
     Force,
     Json,
@@ -53,6 +54,7 @@ def run(
     ] = None,
     estimates: Annotated[bool, typer.Option("--estimates", help="Cheap estimates, and how far off they are.")] = False,
     spectrum: Annotated[bool, typer.Option("--spectrum", help="Lines by exact order, and whose they are.")] = False,
+    fast: Fast = None,
     json: Json = False,
     csv: Annotated[bool, typer.Option("--csv", help="Print every position as CSV.")] = False,
     plot: Annotated[Path | None, typer.Option("--plot", help="Draw errors and speeds to this file.")] = None,
@@ -74,7 +76,7 @@ def run(
         raise typer.BadParameter("a table is what can be gone on with: give -o x.csv too", param_hint="--resume")
     train = load(file)
     outputs = (*(output or ()), *(train.declaration.links if links else ()))
-    motion = train.motion(state, tuple(dict.fromkeys(outputs)), tuple(without or ()), tolerance)
+    motion = train.motion(state, tuple(dict.fromkeys(outputs)), tuple(without or ()), tolerance, fast)
     asked = MotionRun(motion, _turns(turns, motion), samples)
     if to.suffix == ".csv" and to.path is not None:
         _write_table(asked, to.path, resume, force)

@@ -13,7 +13,7 @@ keep their types, C-contiguous and writable arrays, for each new type is compile
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from contextlib import suppress
 from functools import cached_property, update_wrapper
 from hashlib import sha256
@@ -27,7 +27,7 @@ from geartrain.errors import MissingExtraError
 P = ParamSpec("P")
 R = TypeVar("R")
 
-_PAYS = 2.0  # s of work: less is done before numba is imported and kernels are loaded, which takes some half a second
+_PAYS = 5.0  # s of work: less is done before numba is imported and kernels are loaded, which takes some half a second
 _PLAIN = (bool, int, float, str, bytes, tuple, type(None))  # values of globals that are compiled into a kernel
 
 
@@ -46,13 +46,9 @@ class Kernel(Generic[P, R]):
     def compiled(self) -> Callable[P, R]:
         """The function compiled, or loaded from disk when it is first called. Raises `MissingExtraError`."""
         numba = _numba()
-        function = self._function
         # a twin whose names of kernels stand for compiled ones; its own name holds all that it is compiled from
-        names = {name: each.compiled for name, each in self._named.items() if isinstance(each, Kernel)}
-        twin = FunctionType(
-            function.__code__, {**function.__globals__, **names}, function.__name__, function.__defaults__
-        )
-        twin.__qualname__ = f"{function.__qualname__}_{self.digest}"
+        twin = self._twin({name: each.compiled for name, each in self._named.items() if isinstance(each, Kernel)})
+        twin.__qualname__ = f"{self._function.__qualname__}_{self.digest}"
         made = numba.njit(twin, error_model="numpy", nogil=True)
         with suppress(RuntimeError):  # where neither the package's folder nor a cache of the user's can be written
             made.enable_caching()
@@ -62,6 +58,17 @@ class Kernel(Generic[P, R]):
         """The function compiled if it is to be fast, or as Python runs it."""
         return self.compiled if fast else self
 
+    def replaced(self, **kernels: Kernel[..., Any]) -> Kernel[P, R]:
+        """The same function with other kernels for some of those that it calls, by name; not through others."""
+        return Kernel(cast("Callable[P, R]", self._twin(kernels)))
+
+    def _twin(self, names: Mapping[str, object]) -> FunctionType:
+        """The function with other things for some of the names of its module."""
+        own = self._function
+        twin = FunctionType(own.__code__, {**own.__globals__, **names}, own.__name__, own.__defaults__)
+        twin.__annotations__ = own.__annotations__
+        return twin
+
     @property
     def _named(self) -> dict[str, Any]:
         """What the names of the function stand for in its module."""
@@ -70,8 +77,16 @@ class Kernel(Generic[P, R]):
 
     @cached_property
     def digest(self) -> str:
-        """Of all that the function is compiled from: its code, constants of its module, kernels it calls."""
-        found = sha256(_text(self._function.__code__).encode())
+        """Of all that the function is compiled from: its code, constants of its module, kernels it calls.
+
+        Also of the named tuples that its module knows: what is kept on disk holds them as types, and cannot be read
+        where one has gone.
+        """
+        function = self._function
+        found = sha256(f"{function.__module__} {function.__annotations__} {_text(function.__code__)}".encode())
+        for each in function.__globals__.values():
+            if isinstance(each, type) and issubclass(each, tuple) and each is not tuple:
+                found.update(f"{each.__module__} {each.__qualname__} {each.__annotations__}".encode())
         for name, each in sorted(self._named.items()):
             if isinstance(each, Kernel):
                 found.update(f"{name} {each.digest}".encode())

@@ -5,13 +5,13 @@ from __future__ import annotations
 import subprocess
 import sys
 from math import sin
-from types import FunctionType
+from typing import NamedTuple
 
 import pytest
 
 from geartrain.errors import MissingExtraError
 from geartrain.numerics import kernels
-from geartrain.numerics.kernels import Kernel, is_fast, kernel
+from geartrain.numerics.kernels import is_fast, kernel
 
 SCALE = 3.0
 
@@ -51,17 +51,44 @@ def test_a_compiled_division_by_zero_is_infinite() -> None:
     assert quotient.compiled(1.0, 0.0) == float("inf")
 
 
-def changed(function: Kernel[..., float], **names: object) -> Kernel[..., float]:
-    """The same kernel in a module in which some names stand for something else."""
-    inner = function._function
-    return kernel(FunctionType(inner.__code__, {**inner.__globals__, **names}, inner.__name__))
+@kernel
+def flat(x: float) -> float:
+    """Another function that one can call."""
+    return 1.0
 
 
-def test_what_is_kept_on_disk_is_known_by_all_that_it_is_compiled_from() -> None:
-    assert changed(series).digest == series.digest
-    other = changed(wave, SCALE=4.0)
-    assert other.digest != wave.digest
-    assert changed(series, wave=other).digest != series.digest
+def test_a_kernel_may_call_others_than_those_of_its_module() -> None:
+    other = series.replaced(wave=flat)
+    assert other(2) == other.compiled(2) == 1.5
+    assert series(1) == 0.0
+
+
+def test_what_is_kept_on_disk_is_known_by_all_that_it_is_compiled_from(monkeypatch: pytest.MonkeyPatch) -> None:
+    before = wave.digest, series.digest
+    assert series.replaced(wave=flat).digest != series.digest
+    assert series.replaced().digest == series.digest
+    monkeypatch.setitem(wave._function.__globals__, "SCALE", 4.0)
+    assert (wave.replaced().digest, series.replaced(wave=wave.replaced()).digest) != before
+    assert wave.replaced().digest != before[0]
+
+
+class Pair(NamedTuple):
+    """What a kernel may take."""
+
+    first: float
+
+
+class Triple(NamedTuple):
+    """What it may take instead."""
+
+    first: float
+    second: float
+
+
+def test_what_is_kept_on_disk_is_known_by_the_named_tuples_of_the_module_too(monkeypatch: pytest.MonkeyPatch) -> None:
+    before = flat.replaced().digest
+    monkeypatch.setitem(flat._function.__globals__, "Pair", Triple)
+    assert flat.replaced().digest != before
 
 
 def test_little_work_is_left_to_python_and_much_is_compiled_unless_one_says_otherwise() -> None:

@@ -22,9 +22,12 @@ if TYPE_CHECKING:
 
     Flags = NDArray[np.bool_]
 
-_MOST_STEPS = 120  # halved steps count too
-_SETTLED = 2e-15  # rad, over the scale of the angles added
-_FORGIVEN = 1e-9  # rad: a residual that no step lessens any more, at a corner
+MOST_STEPS = 120  # halved steps count too
+SETTLED = 2e-15  # rad, over the scale of the angles added
+FORGIVEN = 1e-9  # rad: a residual that no step lessens any more, at a corner
+
+NO_FIT = "no angles of theirs fit all laws at once"
+DEAD_CENTRE = "past a dead centre: one of them drives another faster than it is driven by it"
 
 
 @dataclass(frozen=True)
@@ -67,19 +70,19 @@ def solve_coupled_errors(
     speed = np.stack([np.broadcast_to(w, base.shape[1:]) for w in turning])
     # 1 for ideal teeth: not positive any more means past a dead centre
     if not (_determinant(jacobian) > 0).all():
-        raise _refusal(pairs, "past a dead centre: one of them drives another faster than it is driven by it")
+        raise refusal(pairs.names, DEAD_CENTRE)
     rate = _solve(jacobian, slope * speed)
     return delta, rate, list(speed + pairs.gain @ rate)
 
 
 def _newton(pairs: CoupledErrors, base: Floats) -> tuple[Floats, Floats]:
     """Errors, and the slopes of the laws there."""
-    tolerance = _SETTLED * (1 + np.max(np.abs(base), initial=0.0) + np.abs(pairs.gain).sum(axis=1).max())
+    tolerance = SETTLED * (1 + np.max(np.abs(base), initial=0.0) + np.abs(pairs.gain).sum(axis=1).max())
     active = np.arange(base.shape[1])
     delta, slopes = pairs.laws_at(base, active)
     now = delta.copy()
     length, size, step = np.ones(len(active)), np.full(len(active), np.inf), np.zeros_like(now)
-    for _ in range(_MOST_STEPS):
+    for _ in range(MOST_STEPS):
         trial = now - length * step
         # at first the step is 0 and the size infinite: the first trial is the start itself
         error, slope = pairs.laws_at(base[:, active] + pairs.gain @ trial, active)
@@ -87,7 +90,7 @@ def _newton(pairs: CoupledErrors, base: Floats) -> tuple[Floats, Floats]:
         found = np.max(np.abs(residual), axis=0)
         better = found < size
         # where nothing lessens it any more the residual is rounding, or the last of a corner
-        done = (better & (found <= tolerance)) | (~better & (length < 1e-9) & (size <= _FORGIVEN))
+        done = (better & (found <= tolerance)) | (~better & (length < 1e-9) & (size <= FORGIVEN))
         length = np.where(better, 1.0, length / 2)
         now, size = np.where(better, trial, now), np.where(better, found, size)
         delta[:, active] = now
@@ -99,8 +102,8 @@ def _newton(pairs: CoupledErrors, base: Floats) -> tuple[Floats, Floats]:
         if not left.any():
             return delta, slopes
         active, now, step, length, size = active[left], now[:, left], step[:, left], length[left], size[left]
-    if float(size.max()) > _FORGIVEN:
-        raise _refusal(pairs, "no angles of theirs fit all laws at once")
+    if float(size.max()) > FORGIVEN:
+        raise refusal(pairs.names, NO_FIT)
     return delta, slopes
 
 
@@ -133,9 +136,10 @@ def _determinant(matrices: Floats) -> Floats:
     return np.asarray(np.linalg.det(matrices))
 
 
-def _refusal(pairs: CoupledErrors, why: str) -> GearTrainError:
-    names = ", ".join(pairs.names)
-    if len(pairs.names) == 1:
+def refusal(pairs: Sequence[str], why: str) -> GearTrainError:
+    """The error that says which pairs cannot be followed, and why."""
+    names = ", ".join(pairs)
+    if len(pairs) == 1:
         what = f"the driver of pair {names} is moved by what it drives, and cannot be followed"
         return GearTrainError(Problem(what, why, "give it ideal teeth, or say who drives it with `driver`"))
     return GearTrainError(

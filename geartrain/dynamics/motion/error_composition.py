@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
 _CHUNK = 32768  # most positions worked on at once
 _NUMBERS = 1 << 23  # most angles kept at once: longer trains take shorter chunks
-_PLAIN = 1  # period up to which a plain product tells where in it the driver stands, to rounding
+PLAIN = 1  # period up to which a plain product tells where in it the driver stands, to rounding
 
 
 @dataclass(frozen=True)
@@ -169,16 +169,16 @@ class ErrorComposition:
 
     def driver_shift(self, source: PairErrorSource, error: Floats) -> float:
         """What errors of links (rad, by index) add to the forward angle of a source's driver."""
-        return float(sum(sign * error[link] for link, sign in self._turned_by(source)))
+        return float(sum(sign * error[link] for link, sign in self.turned_by(source)))
 
     def driver_angle(self, source: PairErrorSource, phase: InputPhase, error: Floats) -> Floats:
         """Forward angle (rad) of a source's driver, from errors of links about their own axes (rad, (links, n))."""
         S = phase.cycles(source.cycles) * source.law.period + source.start
-        for link, sign in self._turned_by(source):
+        for link, sign in self.turned_by(source):
             S += sign * error[link]
         return S
 
-    def _turned_by(self, source: PairErrorSource) -> tuple[tuple[int, int], tuple[int, int]]:
+    def turned_by(self, source: PairErrorSource) -> tuple[tuple[int, int], tuple[int, int]]:
         """The links whose errors turn a source's driver, itself and its carrier, each with its sign: equation (3)."""
         joint = self.spread.joints[source.pair]
         return (
@@ -191,7 +191,7 @@ class ErrorComposition:
         return joint.driver, joint.carrier
 
     @cached_property
-    def _place(self) -> dict[int, int]:
+    def place(self) -> dict[int, int]:
         """The row in which a link stands until it is read for the last time; then another takes the row."""
         last: dict[int, int] = {}
         for at, step in enumerate(self.steps):
@@ -212,38 +212,38 @@ class ErrorComposition:
         return place
 
     @cached_property
-    def _rows(self) -> int:
+    def rows(self) -> int:
         """How many links are kept at once."""
-        return max(self._place.values(), default=-1) + 1
+        return max(self.place.values(), default=-1) + 1
 
     @cached_property
     def chunk(self) -> int:
         """Positions worked on at once: memory is bounded however long the train."""
         # errors and rates of the links, and of coupled pairs a Jacobian at each position
         widest = max((len(step.sources) ** 2 for step in self.steps if step.coupled), default=0)
-        return max(64, min(_CHUNK, _NUMBERS // (2 * (self._rows + widest) + 1)))
+        return max(64, min(_CHUNK, _NUMBERS // (2 * (self.rows + widest) + 1)))
 
     def at(self, turns: Floats) -> ErrorSamples:
         """Errors and rates of the outputs where the input has made some turns, at most a chunk of them."""
         angle = InputPhase(turns)
-        error = np.empty((self._rows, len(turns)))
+        error = np.empty((self.rows, len(turns)))
         rate = np.empty_like(error)
         turned_back = frozenset(pair for step in self.steps for pair in self._take(step, angle, error, rate))
         found = [np.zeros((len(self.outputs), len(turns))) for _ in range(2)]
         for at, seen in enumerate(self.outputs):
             for link, sign in ((seen.of, 1), (seen.base, -seen.sense)):
-                if link in self._place:
-                    found[0][at] += sign * error[self._place[link]]
-                    found[1][at] += sign * rate[self._place[link]]
+                if link in self.place:
+                    found[0][at] += sign * error[self.place[link]]
+                    found[1][at] += sign * rate[self.place[link]]
         for at, offset in enumerate(self.offsets):
             found[0][at] += offset
         return ErrorSamples(turns, found[0], found[1], turned_back)
 
     def _take(self, step: CompositionStep, angle: InputPhase, error: Floats, rate: Floats) -> Iterator[str]:
         """Fill in the links of a step; yields its pairs whose driver turns against its mean."""
-        known = [self._place[link] for link in step.known]
-        first = self._place[step.links[0]]
-        own = slice(first, first + 1) if len(step.links) == 1 else [self._place[link] for link in step.links]
+        known = [self.place[link] for link in step.known]
+        first = self.place[step.links[0]]
+        own = slice(first, first + 1) if len(step.links) == 1 else [self.place[link] for link in step.links]
         error[own] = step.from_known @ error[known] if known else 0.0
         rate[own] = step.from_known @ rate[known] if known else 0.0
         if not step.sources:
@@ -276,27 +276,30 @@ class ErrorComposition:
         if source.start:
             S += source.start
         turning: Floats | float = source.mean
-        for link, sign in self._turned_by(source):
-            place = self._place.get(link)
+        for link, sign in self.turned_by(source):
+            place = self.place.get(link)
             if place is not None:
                 S += sign * error[place]
                 turning = turning + sign * rate[place]
         return S, turning
 
-    def _coupled(self, step: CompositionStep) -> CoupledErrors:
-        """What each driver of a step gains from the errors of the step's own pairs."""
+    def gain(self, step: CompositionStep) -> Floats:
+        """What each driver of a step gains from the errors of the step's own pairs, (sources, sources)."""
         inside = {link: at for at, link in enumerate(step.links)}
         gain = np.zeros((len(step.sources), len(step.sources)))
         for row, at in enumerate(step.sources):
-            for link, sign in self._turned_by(self.sources[at]):
+            for link, sign in self.turned_by(self.sources[at]):
                 if link in inside:
                     gain[row] += sign * step.from_sources[inside[link]]
+        return gain
+
+    def _coupled(self, step: CompositionStep) -> CoupledErrors:
         sources = [self.sources[at] for at in step.sources]
         return CoupledErrors(
             tuple(source.id for source in sources),
             tuple(source.law for source in sources),
             np.array([float(source.sense) for source in sources]),
-            gain,
+            self.gain(step),
         )
 
 
@@ -318,7 +321,7 @@ class InputPhase:
         """
         factor = float(ratio)
         product: Floats = self.turns * factor
-        if factor * self.most <= _PLAIN:
+        if factor * self.most <= PLAIN:
             return product
         # Dekker's product: what rounding took from it is found exactly
         high, low = split(factor)

@@ -11,20 +11,22 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from geartrain.dynamics.motion.compiled_composition import CompiledComposition, compiled_composition, pays
 from geartrain.dynamics.motion.corner_positions import CornerPositions, CornerSearch
 from geartrain.dynamics.motion.error_composition import ErrorComposition, ErrorSamples, SeenLink
 from geartrain.dynamics.motion.error_curve import TransmissionErrorCurve
 from geartrain.dynamics.motion.motion_problem import MotionProblem
 from geartrain.dynamics.motion.pair_errors import PairErrors
+from geartrain.dynamics.motion.pointer_compositions import PointerCompositions
 from geartrain.dynamics.motion.run_statistics import RunningStatistics
 from geartrain.errors import GearTrainError, Problem, QuestionError
 from geartrain.kinematics.relative_speeds import axis_sense
-from geartrain.teeth.constant_lag import ConstantLag
 
 if TYPE_CHECKING:
     from numpy.random import Generator
 
     from geartrain.dynamics.motion.error_propagation import ErrorPropagation
+    from geartrain.dynamics.motion.run_statistics import ErrorSampler
     from geartrain.numerics.arrays import Floats
 
 
@@ -42,9 +44,14 @@ class Motion:
         Name -> the link, and the link it is seen from.
     tolerance : float, optional
         Laws are read from tables of this accuracy [pitches, between 0 and 1]; by default the laws themselves are asked.
+    fast : bool, optional
+        Whether compiled kernels follow the motion, the same to 1e-12; by default where numba is installed and there are
+        so many positions that it pays to load it.
 
     Raises
     ------
+    MissingExtraError
+        If kernels are asked for and numba is not installed: when positions are first asked for.
     QuestionError
         If the tolerance is no part of a pitch.
     GearTrainError
@@ -64,9 +71,13 @@ class Motion:
     """
 
     def __init__(
-        self, train: MotionProblem, outputs: Mapping[str, tuple[str, str]], tolerance: float | None = None
+        self,
+        train: MotionProblem,
+        outputs: Mapping[str, tuple[str, str]],
+        tolerance: float | None = None,
+        fast: bool | None = None,
     ) -> None:
-        self.train, self.outputs, self.tolerance = train, outputs, tolerance
+        self.train, self.outputs, self.tolerance, self.fast = train, outputs, tolerance, fast
         self._errors = PairErrors(train, tolerance)
         self._index = self._errors.index
         if tolerance is not None and not 0 < tolerance < 1:
@@ -85,7 +96,7 @@ class Motion:
     @cached_property
     def ahead(self) -> ErrorComposition:
         """The composition while the input turns as declared."""
-        return self._compose(1)
+        return self._compositions.composed(1)
 
     def with_sources(self, pairs: Collection[str]) -> ErrorComposition:
         """The composition while the input turns as declared, some pairs that keep their ratio among its sources.
@@ -97,35 +108,17 @@ class Motion:
         pairs : collection of str
             Names of pairs; others and those that ripple anyway change nothing.
         """
-        return self._compose(1, pairs)
+        return self._compositions.composed(1, pairs)
 
     @cached_property
     def hung(self) -> ErrorComposition:
         """The same with every link as its teeth hold it, no pointer set: what the laws themselves say."""
-        return ErrorComposition(self.spread, self.ahead.sources, self._seen, self._hung(1, self._seen).offsets)
+        return self._compositions.hung(self.ahead)
 
     @cached_property
     def back(self) -> ErrorComposition:
         """The composition while the input turns the other way: the other flanks drive."""
-        return self._compose(-1)
-
-    def _compose(self, way: int, besides: Collection[str] = ()) -> ErrorComposition:
-        """Every link is set where ideal teeth would have it at turn 0; its pins are counted from there."""
-        found, setting = self._hung(way, self._seen, besides), self._setting
-        if setting is None:
-            return found
-        sources = list(found.sources)
-        for at, source in enumerate(sources):
-            if source.id in self._pins:
-                turned = found.driver_shift(source, setting)
-                sources[at] = replace(source, start=source.start + turned, turned=turned)
-        own = found.offsets or (0.0,) * len(self._seen)
-        offsets = [each + seen.difference(setting) for each, seen in zip(own, self._seen, strict=True)]
-        return ErrorComposition(self.spread, tuple(sources), self._seen, tuple(offsets))
-
-    @cached_property
-    def _pins(self) -> frozenset[str]:
-        return frozenset(joint.coupling.name for joint in self.train.pins)
+        return self._compositions.composed(-1)
 
     @cached_property
     def _seen(self) -> tuple[SeenLink, ...]:
@@ -134,45 +127,16 @@ class Motion:
             SeenLink(index[of], index[base], axis_sense(of, base, signs)) for of, base in self.outputs.values()
         )
 
-    def _hung(self, way: int, outputs: tuple[SeenLink, ...], besides: Collection[str] = ()) -> ErrorComposition:
-        """The composition with every link as its teeth hold it: at turn 0 it lags by what they do."""
-        found = ErrorComposition(self.spread, tuple(self._errors.sources(way, besides)), outputs)
-        error = self._errors.play(way)
-        if error is None:
-            return found
-        sources = tuple(replace(each, start=each.start + found.driver_shift(each, error)) for each in found.sources)
-        return ErrorComposition(self.spread, sources, outputs, tuple(seen.difference(error) for seen in outputs))
+    @cached_property
+    def _compositions(self) -> PointerCompositions:
+        return PointerCompositions(self._errors, self._seen)
 
     @cached_property
     def setting(self) -> Mapping[str, float]:
         """By how much each output's pointer is turned on its wheels (rad), so that its teeth do not displace it."""
-        found = self._setting
+        found = self._compositions.setting
         named = zip(self.outputs, self._seen, strict=True)
         return {name: 0.0 if found is None else seen.difference(found) for name, seen in named}
-
-    @cached_property
-    def _setting(self) -> Floats | None:
-        """By how much links are turned on their wheels (rad), so that none lags at turn 0; None where nothing does.
-
-        Only links that are asked for, or that carry pins, are looked at.
-        """
-        if not self.train.rippling and self._errors.play(1) is None:
-            return None
-        pins = [each for each in self._errors.sources(1) if each.id in self._pins]
-        joints = [self.spread.joints[each.pair] for each in pins]
-        links = sorted({*(link for seen in self._seen for link in (seen.of, seen.base)), *(j.driver for j in joints),
-                        *(j.carrier for j in joints)})  # fmt: skip
-        outputs = tuple(SeenLink(link, self._index[self.train.frame]) for link in links)
-        ideal = np.zeros(len(self.spread.links))
-        ideal[links] = ErrorComposition(self.spread, tuple(pins), outputs).at(np.zeros(1)).error[:, 0]
-        hung = self._hung(1, outputs)
-        # a pin turns with its link, so that at turn 0 it stands as if all teeth were ideal
-        still = {each.pair: ConstantLag.at(each.law, each.start + hung.driver_shift(each, ideal)) for each in pins}
-        sources = tuple(replace(each, law=still.get(each.pair, each.law)) for each in hung.sources)
-        real = ErrorComposition(self.spread, sources, outputs, hung.offsets).at(np.zeros(1)).error[:, 0]
-        setting = np.zeros_like(ideal)
-        setting[links] = ideal[links] - real
-        return setting
 
     def _refuse_loops(self) -> None:
         for loop, real in self.train.contradictions():
@@ -201,7 +165,7 @@ class Motion:
         """
         declared = self.train.phases
         drawn = {mesh.name: float(random.random()) for mesh in self.train.rippling if mesh.name not in declared}
-        return Motion(replace(self.train, phases={**drawn, **declared}), self.outputs, self.tolerance)
+        return Motion(replace(self.train, phases={**drawn, **declared}), self.outputs, self.tolerance, self.fast)
 
     # -------------------------------------------------------------------------------------------------- what it answers
 
@@ -249,12 +213,40 @@ class Motion:
         ErrorSamples
             One stretch after the other.
         """
-        composition = self.ahead if turns >= 0 else self.back
+        composition = self.sampler(turns, samples)
         chunk = composition.chunk
         for start in range(first, samples, chunk):
             at = np.arange(start, min(start + chunk, samples))
             # divided first: the last position is `turns` to the last bit, wherever stretches begin
             yield composition.at(turns * (at / (samples - 1)))
+
+    def sampler(self, turns: float, samples: int) -> ErrorSampler:
+        """What is asked for errors at some positions.
+
+        Parameters
+        ----------
+        turns : float
+            Turns of the input; only their sign counts.
+        samples : int
+            How many positions there will be.
+
+        Returns
+        -------
+        ErrorSampler
+            The composition, or its compiled kernel.
+        """
+        composition = self.ahead if turns >= 0 else self.back
+        if not pays(composition, self.fast, samples):
+            return composition
+        return (self._compiled_ahead if turns >= 0 else self._compiled_back) or composition
+
+    @cached_property
+    def _compiled_ahead(self) -> CompiledComposition | None:
+        return compiled_composition(self.ahead)
+
+    @cached_property
+    def _compiled_back(self) -> CompiledComposition | None:
+        return compiled_composition(self.back)
 
     def at(self, turns: Floats) -> ErrorSamples:
         """Errors and rates of the outputs, turning as declared.
@@ -270,8 +262,9 @@ class Motion:
             Errors [rad] and rates at them.
         """
         turns = np.asarray(turns, dtype=float)
-        chunk = self.ahead.chunk
-        parts = [self.ahead.at(turns[start : start + chunk]) for start in range(0, len(turns), chunk)]
+        composition = self.sampler(1, len(turns))
+        chunk = composition.chunk
+        parts = [composition.at(turns[start : start + chunk]) for start in range(0, len(turns), chunk)]
         error, rate = (np.concatenate([part[column] for part in parts], axis=1) for column in (1, 2))
         return ErrorSamples(turns, error, rate, frozenset().union(*(part.turned_back for part in parts)))
 

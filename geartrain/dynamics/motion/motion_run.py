@@ -121,8 +121,7 @@ class MotionRun:
             self.turned_back |= passage.turned_back
             self.done += len(passage.turns)
             on_done(len(passage.turns))
-        composition = self.motion.ahead if self.turns >= 0 else self.motion.back
-        for passage in peaks.sharpen(composition, self.turns, self.tallies):
+        for passage in peaks.sharpen(self.motion.sampler(self.turns, self.samples), self.turns, self.tallies):
             self.turned_back |= passage.turned_back
 
     def try_phases(self, count: int, seed: int, on_done: OnDone = _untold) -> None:

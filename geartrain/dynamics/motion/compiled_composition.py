@@ -1,0 +1,70 @@
+"""A composition that answers by its compiled kernel: the same errors to 1e-12, some ten times as fast."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from geartrain.dynamics.motion.composition_arrays import make_composition_arrays
+from geartrain.dynamics.motion.composition_kernel import compose, compose_apart
+from geartrain.dynamics.motion.coupled_errors import DEAD_CENTRE, NO_FIT, refusal
+from geartrain.dynamics.motion.coupled_kernel import FOLLOWED
+from geartrain.dynamics.motion.coupled_kernel import NO_FIT as FOUND_NO_FIT
+from geartrain.dynamics.motion.error_composition import PLAIN, ErrorSamples
+from geartrain.numerics.error_free import split
+from geartrain.numerics.kernels import is_fast
+
+if TYPE_CHECKING:
+    from geartrain.dynamics.motion.composition_arrays import CompositionArrays
+    from geartrain.dynamics.motion.error_composition import ErrorComposition
+    from geartrain.numerics.arrays import Floats
+
+_PACE = 2e6  # links a second that numpy goes through, in most trains
+
+
+@dataclass(frozen=True)
+class CompiledComposition:
+    """A composition whose laws all stand in tables."""
+
+    composition: ErrorComposition
+    arrays: CompositionArrays
+    fast: bool = True
+
+    @property
+    def chunk(self) -> int:
+        """Positions worked on at once."""
+        return self.composition.chunk
+
+    def at(self, turns: Floats) -> ErrorSamples:
+        """Errors and rates of the outputs where the input has made some turns."""
+        turns = np.array(turns, dtype=float)
+        farthest = float(np.max(np.abs(turns), initial=0.0))
+        outputs, used = len(self.composition.outputs), self.composition.used
+        error, rate = np.empty((outputs, len(turns))), np.empty((outputs, len(turns)))
+        least = np.empty(len(used))
+        kernel = compose if self.arrays.order.coupled.any() else compose_apart
+        found, step = kernel.chosen(self.fast)(
+            self.arrays, turns, split(turns), PLAIN / farthest if farthest else np.inf, error, rate, least
+        )
+        if found != FOLLOWED:
+            names = [self.composition.sources[at].id for at in self.composition.steps[step].sources]
+            raise refusal(names, NO_FIT if found == FOUND_NO_FIT else DEAD_CENTRE)
+        back = frozenset(source.id for source, slowest in zip(used, least, strict=True) if slowest < 0)
+        return ErrorSamples(turns, error, rate, back)
+
+
+def pays(composition: ErrorComposition, fast: bool | None, positions: int) -> bool:
+    """Whether so many positions are asked of a kernel: where that pays, or as the user says.
+
+    Raises `MissingExtraError` where kernels are asked for and numba is not installed.
+    """
+    links = sum(len(step.links) for step in composition.steps)
+    return links > 0 and is_fast(fast, positions * links / _PACE)
+
+
+def compiled_composition(composition: ErrorComposition) -> CompiledComposition | None:
+    """A composition with its kernel; None where one of its laws does not stand in tables."""
+    arrays = make_composition_arrays(composition)
+    return None if arrays is None else CompiledComposition(composition, arrays)

@@ -1,0 +1,116 @@
+"""The compiled composition of motion is that of numpy to 1e-12, with every law, block and way of turning."""
+
+from __future__ import annotations
+
+import sys
+
+import numpy as np
+import pytest
+from commands import call, ended, without
+
+from geartrain import GearTrainError, load
+from geartrain.dynamics.motion.compiled_composition import CompiledComposition, compiled_composition
+from geartrain.dynamics.motion.error_composition import ErrorComposition
+from geartrain.errors import MissingExtraError
+from geartrain.teeth.transmission_kernel import join_transmission_tables, law_along, make_transmission_table
+
+TOOTHED = ("moon-triangular", "sorge-pairs", "longcase-clock-bs978", "freeth-2021", "freeth-2021-teeth",
+           "freeth-2021-cut", "pennestri-2002-teeth", "freeth-2006", "voulgaris-2022")  # fmt: skip
+
+
+def compiled(composition: ErrorComposition) -> CompiledComposition:
+    found = compiled_composition(composition)
+    assert found is not None
+    return found
+
+
+@pytest.mark.parametrize("name", TOOTHED)
+@pytest.mark.parametrize("way", ["ahead", "back"])
+def test_every_link_of_a_shipped_train_moves_as_without_kernels(name: str, way: str) -> None:
+    train = load(name)
+    composition: ErrorComposition = getattr(train.motion(outputs=list(train.declaration.links)), way)
+    turns = np.append(np.linspace(0, 3.7, 1501), [1e3 + 1 / 3, 12345.678, -0.3])
+    plain, fast = composition.at(turns), compiled(composition).at(turns)
+    assert np.abs(fast.error - plain.error).max() < 1e-12
+    # on either side of a corner a speed has another value, and rounding chooses the side
+    off = np.abs(fast.rate - plain.rate) / (1 + np.abs(plain.rate))
+    assert np.mean(off < 1e-11) > 0.999
+    assert fast.turned_back == plain.turned_back
+    assert np.array_equal(fast.turns, plain.turns)
+
+
+def test_laws_that_are_read_from_tables_are_read_from_the_same() -> None:
+    composition = load("moon-triangular").motion(outputs=["moon"], tolerance=1e-6).ahead
+    turns = np.linspace(0, 95, 3001)
+    plain, fast = composition.at(turns), compiled(composition).at(turns)
+    assert np.abs(fast.error - plain.error).max() < 1e-14
+    assert np.abs(fast.error - load("moon-triangular").motion(outputs=["moon"]).ahead.at(turns).error).max() > 1e-12
+
+
+def test_a_law_in_tables_is_the_law_itself_and_bit_for_bit_the_same_compiled() -> None:
+    for source in load("freeth-2021-teeth").motion(outputs=["mars"]).ahead.used:
+        table = make_transmission_table(source.law)
+        assert table is not None
+        tables = join_transmission_tables([table])
+        S = np.linspace(-2, 3, 997) * source.law.period
+        found = np.zeros((2, 2, len(S)))
+        for at, kernel in enumerate((law_along, law_along.compiled)):
+            kernel(tables, 0, S, found[at, 0], found[at, 1], np.zeros(len(S)), np.zeros(len(S), dtype=np.int32))
+        assert np.array_equal(found[0], found[1])
+        assert np.array_equal(found[0, 0], table.error(S))
+        assert np.abs(found[0, 0] - source.law.error(S)).max() < 1e-14
+        assert np.abs(found[0, 1] - source.law.speed(S)).max() < 1e-13
+
+
+def test_the_kernel_in_plain_python_is_the_compiled_one() -> None:
+    for name in ("freeth-2021-teeth", "pennestri-2002-teeth"):
+        train = load(name)
+        kernel = compiled(train.motion(outputs=list(train.declaration.links)).ahead)
+        turns = np.linspace(0, 2, 7)
+        plain, fast = CompiledComposition(kernel.composition, kernel.arrays, fast=False).at(turns), kernel.at(turns)
+        assert np.abs(plain.error - fast.error).max() < 1e-14
+        assert np.abs(plain.rate - fast.rate).max() < 1e-13
+
+
+def test_pairs_that_cannot_be_followed_are_refused_with_their_names() -> None:
+    composition = load("pennestri-2002-teeth").motion().ahead
+    kernel = compiled(composition)
+    assert kernel.arrays.order.coupled.any()
+    far = kernel.arrays.order._replace(gain=kernel.arrays.order.gain * 1e3)
+    broken = CompiledComposition(composition, kernel.arrays._replace(order=far))
+    with pytest.raises(GearTrainError, match="depend on each other"):
+        broken.at(np.linspace(0, 1, 2000))
+
+
+def test_a_run_is_the_same_whether_kernels_are_asked_for_or_not() -> None:
+    train = load("moon-triangular")
+    slow, fast = (train.motion(outputs=["moon"], fast=fast).ripples(-3.0, 5001)[1]["moon"] for fast in (False, True))
+    assert slow.peak_to_peak == pytest.approx(fast.peak_to_peak, abs=1e-13)
+    assert slow.rms == pytest.approx(fast.rms, abs=1e-13)
+
+
+def test_the_command_says_the_same_with_kernels_and_without() -> None:
+    words = ("motion", "moon-triangular", "--samples", 3000, "--turns", 2, "--spectrum")
+    slow, fast, default = call(*words, "--no-fast"), call(*words, "--fast"), call(*words)
+    assert slow.exit_code == 0
+    assert slow.output == fast.output == default.output
+
+
+def test_kernels_that_are_asked_for_and_not_installed_are_named_with_their_extra(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    motion = load("moon-triangular").motion(outputs=["moon"], fast=True)
+    with monkeypatch.context() as patch:
+        patch.setitem(sys.modules, "numba", None)
+        with pytest.raises(MissingExtraError, match=r"geartrain\[fast\]"):
+            motion.at([0.0, 1.0])
+        refused = ended("motion", "moon-triangular", "--samples", 100, "--fast")
+        assert refused.returncode == 2
+        assert "pip install 'geartrain[fast]'" in refused.stderr
+        assert ended("motion", "moon-triangular", "--samples", 100).returncode == 0
+
+
+@pytest.mark.parametrize("train", ["moon-triangular", "worm"])
+def test_a_motion_of_few_positions_or_of_ideal_teeth_needs_no_numba(train: str) -> None:
+    done = without("numba", "llvmlite", arguments=["motion", train, "--samples", 1000])
+    assert (done.returncode, done.stderr) == (0, "")

@@ -11,9 +11,13 @@ import typer
 from geartrain.cli.common import (
     PICTURES,
     File,
+    FirstState,
     Force,
     Json,
+    Names,
     Out,
+    Seed,
+    Without,
     check_distinct_outputs,
     draw,
     give,
@@ -26,14 +30,12 @@ from geartrain.cli.option_values import turns as read_turns
 if TYPE_CHECKING:
     from geartrain.uncertainty.budget.true_anomaly import Body
 
-Names = list[str] | None
-
 
 def run(
     file: File,
     output: Annotated[Names, typer.Option("--output", help="Output; may be repeated.")] = None,
-    state: Annotated[str | None, typer.Option("--state", help="The state; default the first.")] = None,
-    without: Annotated[Names, typer.Option("--without", help="Leave out a pair, to open a loop of real teeth.")] = None,
+    state: FirstState = None,
+    without: Without = None,
     span: Annotated[
         str, typer.Option("--span", help="Time over which ratios drift: '6940 d', or a name that `periods` lists.")
     ] = "saros_223_synodic_modern",
@@ -45,7 +47,7 @@ def run(
     trials: Annotated[
         int, typer.Option("--trials", min=1, max=MOST_COUNT, help="How many times the train is cut.")
     ] = 256,
-    seed: Annotated[int, typer.Option("--seed", min=0, help="Seed of all that is drawn.")] = 1,
+    seed: Seed = 1,
     body: Annotated[
         Names, typer.Option("--body", help="OUTPUT=moon, sun or none: whose true motion it shows, if no name tells.")
     ] = None,

@@ -35,6 +35,10 @@ Fast = Annotated[
     typer.Option("--fast/--no-fast", help="Compiled kernels, or none; by default where they pay."),
 ]
 StateName = Annotated[str | None, typer.Option("--state", help="The state to solve; default all.")]
+FirstState = Annotated[str | None, typer.Option("--state", help="The state; default the first.")]
+Names = list[str] | None
+Without = Annotated[Names, typer.Option("--without", help="Leave out a pair, to open a loop of real teeth.")]
+Seed = Annotated[int, typer.Option("--seed", min=0, help="Seed of all that is drawn.")]
 
 
 def load_all(files: list[str]) -> list[GearTrain]:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from geartrain.cli.common import GOOD, INTERRUPTED, VERDICT, File, Force, StateName, is_sound, plural, sink, tell
+from geartrain.cli.common import GOOD, INTERRUPTED, VERDICT, File, FirstState, Force, is_sound, plural, sink, tell
 from geartrain.cli.long_runs import progress
 from geartrain.cli.option_values import quantity
 from geartrain.cli.option_values import turns as read_turns
@@ -34,7 +34,7 @@ def run(
         str | None, typer.Option("--as", help="With --to: some of svg,dxf,stl,glb,step,graphml,dot,rexs,csv.")
     ] = None,
     wheel: Annotated[str | None, typer.Option("--wheel", help="With -o: one wheel as .svg, .dxf or .stl.")] = None,
-    state: StateName = None,
+    state: FirstState = None,
     module: Annotated[Size, typer.Option("--module", help="Pitch diameter over teeth, such as 1mm.")] = None,
     thickness: Annotated[Size, typer.Option("--thickness", help="Of wheels and plates, such as 2mm.")] = None,
     bore: Annotated[Size, typer.Option("--bore", help="Diameter of all arbors; 0mm: no holes.")] = None,

@@ -14,9 +14,12 @@ from geartrain.cli.common import (
     File,
     Force,
     Json,
+    Names,
     Out,
+    Seed,
     Sink,
     StateName,
+    Without,
     check_distinct_outputs,
     give,
     read_share,
@@ -32,19 +35,17 @@ if TYPE_CHECKING:
     from geartrain.uncertainty.monte_carlo.monte_carlo_result import MonteCarloResult
     from geartrain.uncertainty.monte_carlo.trial_table import TrialTable
 
-Names = list[str] | None
-
 
 def run(
     file: File,
     trials: Annotated[int, typer.Option("--trials", help="How many times the train is cut.")] = 1000,
-    seed: Annotated[int, typer.Option("--seed", min=0, help="Seed of all that is drawn.")] = 1,
+    seed: Seed = 1,
     set_: Annotated[
         Names, typer.Option("--set", help="KIND=SIZE or NAME.KIND=SIZE in place of what is declared: 'tip=3 %'.")
     ] = None,
     output: Annotated[Names, typer.Option("--output", help="Output or link; may be repeated.")] = None,
     state: StateName = None,
-    without: Annotated[Names, typer.Option("--without", help="Leave out a pair, to open a loop of real teeth.")] = None,
+    without: Without = None,
     clearance: Annotated[
         str | None, typer.Option("--clearance", help="Sweep: factors 1.005:1.04:8, or shares of windows 0.1:0.9:9.")
     ] = None,

@@ -16,9 +16,11 @@ from geartrain.cli.common import (
     File,
     Force,
     Json,
+    Names,
     Out,
     Sink,
     StateName,
+    Without,
     check_distinct_outputs,
     draw,
     emit,
@@ -33,8 +35,6 @@ from geartrain.cli.option_values import turns as read_turns
 if TYPE_CHECKING:
     from geartrain.dynamics import ErrorSamples, Motion, MotionRun
 
-Names = list[str] | None
-
 
 def run(
     file: File,
@@ -44,7 +44,7 @@ def run(
     links: Annotated[bool, typer.Option("--links", help="Every link, not only the outputs.")] = False,
     wide: Annotated[bool, typer.Option("--wide", help="What each pair gives to every output.")] = False,
     state: StateName = None,
-    without: Annotated[Names, typer.Option("--without", help="Leave out a pair, to open a loop of real teeth.")] = None,
+    without: Without = None,
     phases: Annotated[
         int, typer.Option("--phases", min=0, max=MOST_COUNT, help="Runs with random phases of the teeth.")
     ] = 0,

@@ -9,7 +9,7 @@ from typing import Annotated, Any
 
 import typer
 
-from geartrain.cli.common import GOOD, VERDICT, File, Force, Json, Out, Sink, StateName, emit, give, sink
+from geartrain.cli.common import GOOD, VERDICT, File, FirstState, Force, Json, Out, Sink, emit, give, sink
 from geartrain.cli.long_runs import progress
 from geartrain.cli.mesh.best_sizes import read_free, read_limits
 
@@ -30,7 +30,7 @@ def run(
         list[str] | None,
         typer.Option("--within", help="NAME=LIMIT of each pair: loss, error, impact, jam, window_width, play."),
     ] = None,
-    state: StateName = None,
+    state: FirstState = None,
     json: Json = False,
     out: Out = None,
     force: Force = False,

@@ -14,6 +14,7 @@ from geartrain.cli.common import (
     File,
     Force,
     Json,
+    Names,
     Out,
     Sink,
     StateName,
@@ -34,7 +35,6 @@ from geartrain.errors import GearTrainError
 if TYPE_CHECKING:
     from geartrain.uncertainty import ToothCountPosterior
 
-Names = list[str] | None
 FORMS = (".md", ".html", ".json", ".csv", ".parquet")
 
 

@@ -199,6 +199,11 @@ def test_teeth_that_friction_locks_are_no_answer() -> None:
         find_tooth_sizes(pair(48, 96, friction=9.0), free={"radii": (0.97, 0.98)})
 
 
+def test_a_limit_is_of_a_figure_that_there_is() -> None:
+    with pytest.raises(QuestionError, match="loss"):
+        SizeLimit("los", 0.01)
+
+
 def test_without_friction_there_is_no_loss_to_be_least() -> None:
     with pytest.raises(QuestionError, match="without friction"):
         find_tooth_sizes(pair(48, 96, friction=0.0))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NoReturn
 
 import typer
 
@@ -22,15 +22,8 @@ if TYPE_CHECKING:
 _DESIGNS = {1: 60, 2: 500, 3: 900}
 """About so many designs are looked at for so many free parameters, for each aim."""
 _OTHER = ("clearance", "excess", "backlash", "centre_distance")
-_FIGURES = {
-    "loss": "fraction",
-    "error": "angle",
-    "impact": "",
-    "jam": "",
-    "window_width": "",
-    "play": "angle",
-}
-"""What can be limited, and the dimension of its limit; a plain number where there is none."""
+_DIMENSIONS = {"loss": "fraction", "error": "angle", "play": "angle"}
+"""Of limits; others are plain numbers."""
 
 
 @dataclass(frozen=True)
@@ -56,8 +49,8 @@ class SizeQuestion:
                 raise typer.BadParameter("--best asks for something else: leave one of the two out", param_hint=option)
         return True
 
-    def answer(self, start: ToothSizes, to: Sink, picture: Sink, json: bool) -> None:
-        """The best sizes as a page, as data and as a picture."""
+    def answer(self, start: ToothSizes, to: Sink, picture: Sink, json: bool) -> NoReturn:
+        """The best sizes as a page, as data and as a picture; then the command ends."""
         from geartrain.report.tooth_sizes_report import describe_tooth_sizes
         from geartrain.synthesis import find_tooth_sizes
 
@@ -146,15 +139,14 @@ def read_limits(given: Sequence[str]) -> list[SizeLimit]:
     for text in given:
         name, equals, rest = text.partition("=")
         name = name.strip().replace("-", "_")
-        if not equals or name not in _FIGURES:
-            raise typer.BadParameter(
-                f"'{text}' is not NAME=LIMIT, NAME one of {', '.join(_FIGURES)}", param_hint="--within"
-            )
-        found.append(SizeLimit(name, _limit(_FIGURES[name], rest.strip())))
+        if not equals or name not in SizeLimit.FIGURES:
+            what = f"'{text}' is not NAME=LIMIT, NAME one of {', '.join(SizeLimit.FIGURES)}"
+            raise typer.BadParameter(what, param_hint="--within")
+        found.append(SizeLimit(name, _limit(_DIMENSIONS.get(name), rest.strip())))
     return found
 
 
-def _limit(dimension: str, text: str) -> float:
-    if dimension:
+def _limit(dimension: str | None, text: str) -> float:
+    if dimension is not None:
         return quantity("--within", text, dimension, plain=dimension == "fraction", least="0")
     return decimal("--within", text, "limit", "0.02")

@@ -8,11 +8,10 @@ from typing import Annotated, Any
 
 import typer
 
-from geartrain.cli.common import File, Force, Json, Out, StateName
+from geartrain.cli.common import File, Force, Json, Names, Out, StateName
 from geartrain.cli.long_runs import Resume, RunOptions, Scheduler, close_journal, long_run
 from geartrain.cli.teeth.search_options import Best, Csv, Pick, SearchAnswer, Tolerance, Workers, read_tolerance
 
-Names = list[str] | None
 Flag = bool
 
 

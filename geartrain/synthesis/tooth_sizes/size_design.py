@@ -8,7 +8,7 @@ from functools import cached_property
 from math import inf, isnan
 from typing import TYPE_CHECKING
 
-from geartrain.errors import GearTrainError
+from geartrain.errors import GearTrainError, check_choice
 from geartrain.numerics.plain_data import Key, Result
 from geartrain.teeth.triangular.clearance_window import ClearanceWindow, find_window
 from geartrain.teeth.triangular.pair_geometry import TriangularSizes, equal_depth
@@ -241,6 +241,9 @@ class SizeLimit(Result):
 
     LEAST = ("jam", "window_width", "play")
     FIGURES = ("loss", "error", "impact", *LEAST)
+
+    def __post_init__(self) -> None:
+        check_choice("limit", self.figure, self.FIGURES)
 
     def excess(self, sizes: ToothSizes) -> float:
         """By how much a design that turns misses it; 0 or less where it is kept.

@@ -9,7 +9,22 @@ from typing import Annotated, Any
 
 import typer
 
-from geartrain.cli.common import GOOD, VERDICT, File, FirstState, Force, Json, Out, Sink, emit, give, sink
+from geartrain.cli.common import (
+    GOOD,
+    PICTURES,
+    VERDICT,
+    File,
+    FirstState,
+    Force,
+    Json,
+    Out,
+    Sink,
+    check_distinct_outputs,
+    draw,
+    emit,
+    give,
+    sink,
+)
 from geartrain.cli.long_runs import progress
 from geartrain.cli.mesh.best_sizes import read_free, read_limits
 
@@ -24,13 +39,17 @@ def run(
     ] = "loss",
     free: Annotated[
         list[str] | None,
-        typer.Option("--free", help="NAME or NAME=LOW:HIGH of radii, window, half_angle; default radii."),
+        typer.Option(
+            "--free",
+            help="NAME or NAME=LOW:HIGH of radii, window, half_angle (one for pairs that share wheels); default radii.",
+        ),
     ] = None,
     within: Annotated[
         list[str] | None,
         typer.Option("--within", help="NAME=LIMIT of each pair: loss, error, impact, jam, window_width, play."),
     ] = None,
     state: FirstState = None,
+    plot: Annotated[Path | None, typer.Option("--plot", help="Draw what each pair gains to this file.")] = None,
     json: Json = False,
     out: Out = None,
     force: Force = False,
@@ -41,10 +60,16 @@ def run(
     from geartrain.synthesis import find_train_sizes
 
     to = sink(out, force, (".md", ".html", ".json", *_YAML))
+    picture = sink(plot, force, PICTURES, "--plot")
+    check_distinct_outputs(to, picture)
     ranges, limits = read_free(free or ()), read_limits(within or ())
     train = load(file)
     with progress("optimise", 10 * len(train.declaration.gears), patience=2) as bar:
         found = find_train_sizes(train, output, best, ranges, limits, state, bar.advance)
+    if plot is not None:
+        from geartrain.drawing import train_sizes_figure
+
+        draw(train_sizes_figure(found), picture)
     if to.suffix in _YAML:
         _declare(found.declaration, file, to)
         to = Sink()

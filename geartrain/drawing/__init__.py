@@ -30,6 +30,7 @@ if TYPE_CHECKING:
     from geartrain.drawing.spherical_gears import sphere_figure as sphere_figure
     from geartrain.drawing.tooth_contact import teeth_figure as teeth_figure
     from geartrain.drawing.tooth_sizes_plot import tooth_sizes_figure as tooth_sizes_figure
+    from geartrain.drawing.tooth_sizes_plot import train_sizes_figure as train_sizes_figure
     from geartrain.drawing.train_pictures import picture as picture
     from geartrain.drawing.transmission_curves import law_figure as law_figure
 
@@ -47,6 +48,7 @@ _PLACES = {
     "sweep_figure": "parameter_sweep_plot",
     "teeth_figure": "tooth_contact",
     "tooth_sizes_figure": "tooth_sizes_plot",
+    "train_sizes_figure": "tooth_sizes_plot",
     "transmission_figure": "pair_transmission",
 }
 
@@ -64,6 +66,7 @@ __all__ = [
     "sweep_figure",
     "teeth_figure",
     "tooth_sizes_figure",
+    "train_sizes_figure",
     "transmission_figure",
 ]
 

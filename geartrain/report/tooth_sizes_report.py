@@ -103,9 +103,12 @@ def describe_train_sizes(found: BestTrainSizes) -> Document:
             reasons.setdefault(reason, []).append(name)
         rows = [(reason, ", ".join(names)) for reason, names in reasons.items()]
         sections.append(Section("Left as they are", (), (Table(("why", "pairs"), rows),)))
+    shared = ""
+    if "half_angle" in found.free:
+        shared = " Pairs that share a wheel have one half angle; it stays as declared where a mate is not sized."
     lead = [
         f"Power enters at '{found.source}'. Free: {free_text(found.free)}.{_limits_text(found.limits)} Each pair is "
-        "sized by itself, then all together by the figure of the train.",
+        f"sized by itself, then all together by the figure of the train.{shared}",
     ]
     return Document(f"{found.train}: {AIM_WORDS[aim]} at {found.output}", lead, sections)
 

@@ -56,6 +56,7 @@ ASKED: dict[tuple[str, str], tuple[tuple[str, ...], tuple[str, ...]]] = {
     ("posterior", "-o"): (DOUBT, (".md", ".json", ".csv", ".parquet")),
     ("posterior", "--plot"): (DOUBT, (".svg",)),
     ("optimise", "-o"): (SIZED_TRAIN, (".md", ".html", ".json", ".yaml")),
+    ("optimise", "--plot"): (SIZED_TRAIN, (".svg",)),
     ("bench", "-o"): (("bench", "worm"), (".md", ".html", ".json")),
     ("schema", "-o"): (("schema",), (".json",)),
     ("mesh triangular", "-o"): (("mesh", "triangular", *PAIR, "--window", "0.5"), (".md", ".json")),

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import degrees, prod
+from math import degrees, prod, radians
 from pathlib import Path
 from typing import Any
 
@@ -14,6 +14,7 @@ from geartrain import GearTrain
 from geartrain.dynamics import MotionRun
 from geartrain.errors import QuestionError
 from geartrain.synthesis import BestTrainSizes, SizeLimit, find_train_sizes
+from geartrain.synthesis.tooth_sizes.declared_sizes import declared_sizes, sizeable_meshes
 
 NARROW = {"radii": (0.99, 1.06)}
 TWO = """
@@ -86,12 +87,43 @@ def test_the_declaration_extends_the_train_from_wherever_it_is_written(tmp_path:
     assert after > before
 
 
-def test_a_half_angle_is_free_only_of_wheels_with_one_mate() -> None:
-    """The wheel `a` has two mates; `b2` and `c` have each other."""
+def test_a_half_angle_is_free_only_where_all_mates_are_sized() -> None:
+    """The wheel `a` has another mate, off the way to the output; `b2` and `c` have each other."""
     found = find_train_sizes(geartrain.load(TWO), "c", "jam", {"window": (0.4, 0.6), "half_angle": (0.5, 0.6)})
     kept, changed = (pair.together.half_angles for pair in found.pairs)
     assert kept == pytest.approx((0.5235987755982988,) * 2)
     assert changed[0] != kept[0]
+
+
+ROW = """
+links: {frame: {}, a: {wheels: {a: 24}}, b: {wheels: {b: 36}}, c: {wheels: {c: 48}}}
+revolutes: [{pair: [frame, a], axis: A}, {pair: [frame, b], axis: B}, {pair: [frame, c], axis: C}]
+gears: [{pair: [a, b]}, {pair: [b, c]}]
+tooth_form: {form: triangular, half_angle: 30 deg, window: 0.5, radii: pitch_true}
+friction: 0.2
+inputs: {a: 1}
+"""
+
+
+@pytest.mark.parametrize("aim", ["loss", "jam"])
+def test_pairs_that_share_a_wheel_are_given_one_half_angle(aim: str) -> None:
+    """No worse than a scan of the half angle of both, in steps of half a degree."""
+    low, high = radians(26), radians(38)
+    found = find_train_sizes(geartrain.load(ROW), "c", aim, {"half_angle": (low, high)})
+    angles = {angle for pair in found.pairs for angle in pair.together.half_angles}
+    assert len(angles) == 1
+    assert found.together <= found.apart if aim == "loss" else found.together >= found.apart
+    scanned = []
+    for angle in range(52, 77):
+        train = geartrain.load(ROW.replace("30 deg", f"{angle / 2} deg"))
+        if aim == "loss":
+            scanned.append(1 - float(train.driven("c", "a").efficiency or 0))
+        else:
+            sizes = (declared_sizes(mesh) for mesh in sizeable_meshes(train.meshes_in()).values())
+            scanned.append(-min(each.jam for each in sizes))
+    assert (found.together if aim == "loss" else -found.together) <= min(scanned) + 1e-9
+    declared = {gear["tooth_form"]["half_angle"] for gear in found.declaration["gears"]}
+    assert declared == {f"{degrees(angles.pop()):.10g} deg"}
 
 
 def test_what_cannot_be_asked_is_said() -> None:

@@ -200,7 +200,9 @@ def _run(
     ] = None,
     best: Annotated[
         str | None,
-        typer.Option("--best", help="Find the sizes with least loss, error or impact, or widest margin before a jam."),
+        typer.Option(
+            "--best", help="Find the sizes best in loss, error, impact or jam; of two with a comma the front."
+        ),
     ] = None,
     free: Annotated[
         list[str] | None,

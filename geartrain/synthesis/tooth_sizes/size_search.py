@@ -25,6 +25,7 @@ _BEYOND = 1e3  # above every figure: designs that turn but miss a limit
 _NOTHING = 1e6  # designs that do not turn
 _FRONT = 9  # bounds on the second aim
 _WORTH = 0.005  # of a front in its second aim: how far apart its designs are
+_CLEARANCES = ("clearance", "excess", "backlash", "centre_distance")  # as declarations may give it
 _WIDEST = {"radii": (0.1, 10.0), "window": (0.0, 1.0), "half_angle": (0.0, pi / 2)}
 
 
@@ -128,8 +129,10 @@ def checked_ranges(free: Mapping[str, Range | None]) -> dict[str, Range]:
     found = {}
     for name, given in free.items():
         if name not in PARAMETERS:
-            what = f"'{name}' is no size of triangular teeth"
-            raise QuestionError(Problem(what, "", f"free some of {', '.join(PARAMETERS)}"))
+            what = f"'{name}' is no size of triangular teeth that can be free"
+            why = "the clearance is searched as its place in the window, which moves with the radii"
+            fix = f"free some of {', '.join(PARAMETERS)}"
+            raise QuestionError(Problem(what, why if name in _CLEARANCES else "", fix))
         low, high = USUAL_RANGES[name] if given is None else given
         least, most = _WIDEST[name]
         if not least <= low < high <= most or (name == "half_angle" and not low > 0):

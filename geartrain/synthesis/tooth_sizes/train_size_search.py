@@ -8,7 +8,7 @@ pair after the other until the figure gains nothing more, so that it is never wo
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import cached_property
 from math import inf
@@ -19,12 +19,13 @@ from scipy.optimize import minimize_scalar
 from geartrain.analysis.gear_train import GearTrain
 from geartrain.dynamics import MotionRun
 from geartrain.errors import GearTrainError, Problem, QuestionError, check_choice
+from geartrain.synthesis.tooth_sizes.declared_sizes import as_form, declared_sizes, rounded, sizeable_meshes
 from geartrain.synthesis.tooth_sizes.outline_agreement import confirm_by_outlines
+from geartrain.synthesis.tooth_sizes.shared_half_angle import best_shared_angle, pairs_by_shared_wheels
 from geartrain.synthesis.tooth_sizes.size_design import AIMS, SizeLimit, ToothSizes, keeps
 from geartrain.synthesis.tooth_sizes.size_search import Range, SizeSearch, checked_ranges
-from geartrain.synthesis.tooth_sizes.train_sizes import DIGITS, BestTrainSizes, PairSizes, form_data
+from geartrain.synthesis.tooth_sizes.train_sizes import BestTrainSizes, PairSizes, form_data
 from geartrain.teeth.gear_mesh import GearMesh
-from geartrain.teeth.triangular.triangular_form import Triangular
 from geartrain.teeth.triangular.triangular_mesh import TriangularMesh
 
 OnStep = Callable[[], None]
@@ -57,7 +58,7 @@ def find_train_sizes(
         `loss` or `error` of the train at the output; `impact`, the sum over the pairs on the way, or `jam`, their least
         margin.
     free : mapping of str to (float, float), optional
-        As in `find_tooth_sizes`; a half angle is free only of pairs that share no wheel with another.
+        As in `find_tooth_sizes`; pairs that share wheels have one half angle, free where all of them are sized.
     limits : sequence of SizeLimit
         What each pair has to keep.
     state : str, optional
@@ -169,11 +170,17 @@ class TrainSizeSearch:
             elif mesh.name not in self._meshes:
                 yield mesh.name, "declared in lengths"
 
+    @cached_property
+    def _one_angle(self) -> tuple[tuple[str, ...], ...]:
+        """Pairs that share wheels, and so one half angle, where that is free and all of them are sized."""
+        if "half_angle" not in self.free:
+            return ()
+        wheels = {mesh.name: tuple(mesh.gear.pair) for mesh in self._all_meshes}
+        return tuple(each for each in pairs_by_shared_wheels(wheels) if {*each} <= {*self._asked})
+
     def _free_of(self, name: str) -> dict[str, Range]:
-        """What is free of one pair: not the half angle of a wheel that has another mate."""
-        wheels = {*self._meshes[name].gear.pair}
-        alone = sum(not wheels.isdisjoint(mesh.gear.pair) for mesh in self._all_meshes) == 1
-        return {size: each for size, each in self.free.items() if size != "half_angle" or alone}
+        """What is free of one pair by itself: not the half angle of a wheel that has another mate."""
+        return {size: each for size, each in self.free.items() if size != "half_angle" or (name,) in self._one_angle}
 
     # ----------------------------------------------------------------------------------------------- what is compared
 
@@ -181,7 +188,7 @@ class TrainSizeSearch:
         """The train with other sizes of some pairs."""
         declared = self.train.declaration
         gears = tuple(
-            gear.model_copy(update={"tooth_form": _form(sizes[gear.name])}) if gear.name in sizes else gear
+            gear.model_copy(update={"tooth_form": as_form(sizes[gear.name])}) if gear.name in sizes else gear
             for gear in declared.gears
         )
         return GearTrain(declared.model_copy(update={"gears": gears}))
@@ -214,7 +221,7 @@ class TrainSizeSearch:
         before = {name: self._starts[name] for name in self._asked}
         runs = {name: self._meshes[name].verdict.kind == "runs" for name in self._asked}
         first = self.figure({}) if all(runs.values()) and self._acting else self.figure(before)
-        apart = {name: self._alone(name) for name in self._asked}
+        apart = self._apart()
         alone = self.figure(apart)
         best, together = (first, before) if first < alone and self._acting else (alone, apart)
         if best == inf:
@@ -243,46 +250,63 @@ class TrainSizeSearch:
             self._declaration(together),
         )
 
-    def _alone(self, name: str) -> ToothSizes:
+    def _apart(self) -> dict[str, ToothSizes]:
+        """The best sizes of every pair by itself; of pairs that share wheels those at their best half angle."""
+        found = {name: self._alone(name) for name in self._asked}
+        for group in self._one_angle:
+            if len(group) > 1:
+                start, bounds = {name: found[name] for name in group}, self.free["half_angle"]
+                found |= best_shared_angle(start, self._alone, bounds, self.aim, self.limits)
+        return found
+
+    def _alone(self, name: str, half_angle: float | None = None) -> ToothSizes:
         """The best sizes of one pair by itself, with the digits of a declaration."""
         start, free = self._starts[name], self._free_of(name)
         driver = 1 + self._meshes[name].gear.pair.index(self._drivers[name])
-        start = replace(start, driver=driver)
+        start = replace(start if half_angle is None else start.at({"half_angle": half_angle}), driver=driver)
         key = start, tuple(free.items())
         if key not in self._done:
             search = SizeSearch(start, free, self.limits)
-            self._done[key] = _rounded(search.least(self.aim, [start])) if free else start
+            self._done[key] = rounded(search.least(self.aim, [start])) if free else start
         self._on_step()
         return self._done[key]
 
     def _descend(self, best: float, sizes: dict[str, ToothSizes]) -> tuple[float, dict[str, ToothSizes]]:
         """Coordinate descent on the figure of the train."""
+        alike = [group for group in self._one_angle if len(group) > 1]
+        steps: list[tuple[tuple[str, ...], str]] = [
+            ((name,), size) for name in self._asked for size in self._free_of(name)
+        ]
+        steps += [(group, "half_angle") for group in alike]
         reach = _REACH
         for _ in range(_SWEEPS):
             before = best
-            for name in self._asked:
-                for size, bounds in self._free_of(name).items():
-                    best, sizes[name] = self._step(best, sizes, name, size, bounds, reach)
+            for names, size in steps:
+                best, better = self._step(best, sizes, names, size, reach)
+                sizes |= better
             if before - best <= _GAIN * before:
                 break
             reach /= 2
         return best, sizes
 
     def _step(
-        self, best: float, sizes: Mapping[str, ToothSizes], name: str, size: str, bounds: Range, reach: float
-    ) -> tuple[float, ToothSizes]:
-        """The best value of one size of one pair near where it is: by Brent's bounded method."""
-        here, width = sizes[name].parameter(size), reach * (bounds[1] - bounds[0])
-        found = (best, sizes[name])
+        self, best: float, sizes: Mapping[str, ToothSizes], names: Sequence[str], size: str, reach: float
+    ) -> tuple[float, dict[str, ToothSizes]]:
+        """The best value of one size of one pair, or of pairs alike, near where it is: by Brent's bounded method."""
+        lowest, highest = self.free[size]
+        here, width = sizes[names[0]].parameter(size), reach * (highest - lowest)
+        found: tuple[float, dict[str, ToothSizes]] = best, {}
 
         def value(x: float) -> float:
             nonlocal found
-            design = _rounded(sizes[name].at({size: x}))
-            figure = self.figure({**sizes, name: design}) if keeps(design, self.limits) else inf
-            found = min(found, (figure, design), key=lambda each: each[0])
+            designs = {name: rounded(sizes[name].at({size: x})) for name in names}
+            figure = (
+                self.figure({**sizes, **designs}) if all(keeps(each, self.limits) for each in designs.values()) else inf
+            )
+            found = min(found, (figure, designs), key=lambda each: each[0])
             return min(figure, 1e6)
 
-        low, high = max(bounds[0], here - width), min(bounds[1], here + width)
+        low, high = max(lowest, here - width), min(highest, here + width)
         if high > low:
             minimize_scalar(value, bounds=(low, high), method="bounded", options={"maxiter": _TRIES, "xatol": 1e-6})
         return found
@@ -302,33 +326,3 @@ class TrainSizeSearch:
             "title": f"{self.train.declaration.title or self.train.name}: teeth sized for {self.aim} at {self.output}",
             "gears": gears,
         }
-
-
-def sizeable_meshes(meshes: Iterable[GearMesh]) -> dict[str, TriangularMesh]:
-    """The pairs with triangular teeth whose sizes are not declared as lengths, by name."""
-    found = (mesh for mesh in meshes if isinstance(mesh, TriangularMesh))
-    return {mesh.name: mesh for mesh in found if not mesh.tooth_form.has_lengths}
-
-
-def _form(sizes: ToothSizes) -> Triangular:
-    return Triangular.declared(form_data(sizes))
-
-
-def _rounded(sizes: ToothSizes) -> ToothSizes:
-    """With the digits that a declaration has."""
-    return sizes.at({"radii": round(sizes.radii, DIGITS), "window": round(sizes.window, DIGITS)})
-
-
-def declared_sizes(mesh: TriangularMesh) -> ToothSizes:
-    """The sizes of a pair as declared: the first wheel of the pair first; in mid window where it does not turn."""
-    sizes, window = mesh.law.sizes, mesh.window
-    driver = 1 + mesh.gear.pair.index(mesh.driver)
-    if driver == 2:
-        sizes = sizes.swapped()
-    place = 0.5
-    if window and mesh.verdict.kind == "runs":
-        place = min(max((sizes.excess - window.jam) / (window.run - window.jam), 0.0), 1.0)
-    radii = sizes.R2 / sizes.R1 * sizes.z1 / sizes.z2
-    # friction by a law of speed is searched under with its mean coefficient at the speed of the pair
-    friction = mesh.losses.friction if mesh.verdict else mesh.law.friction
-    return ToothSizes((sizes.z1, sizes.z2), radii, place, sizes.half_angles, friction, driver)

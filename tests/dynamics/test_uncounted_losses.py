@@ -23,6 +23,7 @@ from geartrain import load
 from geartrain.report import collect_report, collect_torque_report, describe_torques, describe_train, to_markdown
 from geartrain.report.torque_figures import collect_torques
 from geartrain.teeth import PinToSlotTransmission, SlotToPinTransmission
+from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
 
 PIN = """
 links: {frame: {}, a: {}, b: {}}
@@ -332,3 +333,16 @@ def test_the_captions_of_pictures_name_what_is_left_out() -> None:
 
     found = load(PIN.replace(", pin_radius: 10 mm, offset: 8 mm", "")).torques()
     assert summary_text(found).endswith("left out: friction of pins (P), swing within a turn (P)")
+
+
+def test_the_means_of_teeth_are_worked_out_once_whatever_is_loaded(monkeypatch: pytest.MonkeyPatch) -> None:
+    asked: list[TriangularTransmission] = []
+    mean = TriangularTransmission.efficiency_mean
+    monkeypatch.setattr(TriangularTransmission, "efficiency_mean", lambda law: asked.append(law) or mean(law))
+    train = load(MOON)
+    assert train.driven("moon", "sun").verdict
+    once = len(asked)
+    assert once == 2 * len(train.declaration.gears), "either wheel driving"
+    assert train.driven("d", "crank").verdict
+    assert train.torques().verdict
+    assert len(asked) == once

@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 from geartrain.dynamics.gear_meshes import PinMesh
 from geartrain.dynamics.torques.member_torques import BearingTorque
@@ -17,6 +18,9 @@ from geartrain.numerics.elimination import LinearForm, add_into
 from geartrain.teeth.gear_mesh import GearMesh as ToothMesh
 from geartrain.teeth.pin_coupling import Coupling
 from geartrain.train import GearPair, StateCase, Train
+
+if TYPE_CHECKING:
+    from geartrain.dynamics.torques.mean_efficiencies import MeanEfficiencies
 
 
 @dataclass(frozen=True)
@@ -56,6 +60,13 @@ class LoadCase:
     def joints(self) -> Mapping[str, PinMesh]:
         """Pins in slots with dimensions, by name."""
         return {joint.coupling.name: joint for joint in self.pins}
+
+    @cached_property
+    def means(self) -> Mapping[str, MeanEfficiencies]:
+        """What each pair and coupling loses on the mean, by name: the same whatever is loaded."""
+        from geartrain.dynamics.torques.mean_efficiencies import find_mean_efficiencies
+
+        return {circuit.id: find_mean_efficiencies(self, circuit) for circuit in self.circuits}
 
     @cached_property
     def system(self) -> WillisSystem:

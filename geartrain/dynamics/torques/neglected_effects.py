@@ -8,7 +8,7 @@ from math import inf
 
 from geartrain.dynamics.torques.bearing_reversal import SpeedBounds, find_reversing_bearings
 from geartrain.dynamics.torques.load_case import LoadCase
-from geartrain.dynamics.torques.mean_efficiencies import MeanEfficiencies, find_mean_efficiencies
+from geartrain.dynamics.torques.mean_efficiencies import MeanEfficiencies
 from geartrain.dynamics.torques.torque_results import NeglectedEffect
 from geartrain.kinematics.circuits import Circuit
 from geartrain.numerics.decimal_text import decimal
@@ -48,8 +48,11 @@ def neglected_over_turn(setting: LoadCase, at_means: Sequence[str]) -> tuple[Neg
 
     at_means   pairs with real teeth that lose their mean share everywhere
     """
-    means = {circuit.id: find_mean_efficiencies(setting, circuit) for circuit in setting.circuits}
-    found = [*_bare_pins(setting, setting.circuits), *_teeth(setting, setting.circuits, means), *_inertia(setting)]
+    found = [
+        *_bare_pins(setting, setting.circuits),
+        *_teeth(setting, setting.circuits, setting.means),
+        *_inertia(setting),
+    ]
     if at_means:
         why = "they are redundant, and nothing says at which part of its pitch each of them works: the mean is taken"
         found.append(NeglectedEffect("swing within a turn", tuple(at_means), why))

@@ -11,7 +11,6 @@ from geartrain.dynamics.torques.load_case import LoadCase
 from geartrain.dynamics.torques.load_sharing import find_shares, find_ties
 from geartrain.dynamics.torques.mean_efficiencies import (
     MeanEfficiencies,
-    find_mean_efficiencies,
     settle_mean_efficiencies,
 )
 from geartrain.dynamics.torques.member_torques import HoldingTorque, PairTorque
@@ -147,7 +146,7 @@ def _balanced(setting: LoadCase, loads: Mapping[str, Fraction], asked: UnknownLi
     state = setting.case.state
     if not asked.enough and (lacking := find_imbalance(setting, known, asked.links)) is not None:
         return Torques(state, _with_reason(asked, lacking), asked.links)
-    means = {circuit.id: find_mean_efficiencies(setting, circuit) for circuit in setting.circuits}
+    means = setting.means
     driving = sum((torque * setting.speeds.get(link, 0) for link, torque in loads.items()), Fraction(0)) > 0
     balance, neither = settle_mean_efficiencies(build_balance(setting, known, asked.links, means), means, driving)
     found, complete = find_flow_patterns(balance)

@@ -129,6 +129,13 @@ def _remarks(run: MotionRun) -> Iterator[str]:
             f"At times the driver of {names} turns back: there the other flanks take over, and the play between them "
             "is not followed."
         )
+    open_ = [tally for tally in run.tallies if tally.error_within or tally.speed_within]
+    if open_:
+        error, speed = max(tally.error_within for tally in open_), max(tally.speed_within for tally in open_)
+        yield (
+            f"The run is too long to search each pitch of it: extreme errors of {', '.join(t.name for t in open_)} "
+            f"may lie up to {degrees(error):.2g} deg beyond those told, and speeds up to {speed:.2g} times the input's."
+        )
 
 
 def _pairs(run: MotionRun, every_output: bool) -> Section:

@@ -224,7 +224,7 @@ def test_the_command_tells_errors_and_speeds(tmp_path: Path) -> None:
     data = json.loads(call(*arguments, "--json").stdout)
     assert set(data["outputs"]) == {"moon"}
     assert set(data["outputs"]["moon"]) == {
-        *("transmission_error", "speed", "ratio", "sensitivity", "setting"),
+        *("transmission_error", "speed", "ratio", "extremes_within", "sensitivity", "setting"),
         *("phases", "estimates", "spectrum"),
     }
     assert set(data["outputs"]["moon"]["transmission_error"]) == {"peak_to_peak", "rms"}
@@ -661,7 +661,7 @@ def test_newton_is_kept_from_leaping_over_corners_and_refuses_a_dead_centre() ->
 
 
 def test_extremes_are_found_between_the_positions() -> None:
-    """Twenty turns in 20,000 positions miss the peaks of the teeth by half a percent; looked at closer, they do not."""
+    """Twenty turns in 200,000 positions miss the peaks of the teeth; the search between them does not."""
     motion = load("moon-triangular").motion(outputs=["moon"])
     run = MotionRun(motion, 20.0, 200_001)
     run.go()
@@ -671,7 +671,7 @@ def test_extremes_are_found_between_the_positions() -> None:
     assert (least, most) == (pytest.approx(0.634, abs=5e-4), pytest.approx(1.763, abs=5e-4))
     fine = motion.at(np.linspace(0, 20, 4_000_001)).error[0]
     assert tally.least <= fine.min() + 1e-9
-    assert tally.most >= fine.max() - 1e-6
+    assert tally.most >= fine.max() - 1e-12
     assert tally.most <= fine.max() + 2e-5
     # nothing beyond the ends of the run is counted
     short = MotionRun(motion, 0.05, 51)

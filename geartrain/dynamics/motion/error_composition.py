@@ -7,10 +7,11 @@ depend on each other their errors are found together (5).
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
+from math import gcd, lcm
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -58,6 +59,15 @@ class PairErrorSource:
     def mean(self) -> float:
         """Mean forward speed of the driver over the input's."""
         return float(self.cycles) * self.law.period / (2 * np.pi)
+
+
+def common_period(sources: Sequence[PairErrorSource]) -> Fraction | None:
+    """Turns of the input after which all sources stand as at the start; None where none turns."""
+    cycles = [source.cycles for source in sources if source.cycles]
+    if not cycles:
+        return None
+    # the least common multiple of the periods 1 / cycles, which are in lowest terms
+    return Fraction(lcm(*(each.denominator for each in cycles)), gcd(*(each.numerator for each in cycles)))
 
 
 class CompositionStep(NamedTuple):

@@ -6,14 +6,14 @@ from collections.abc import Callable, Collection, Iterator, Mapping
 from dataclasses import replace
 from fractions import Fraction
 from functools import cached_property
-from math import gcd, lcm, pi
+from math import pi
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from geartrain.dynamics.motion.compiled_composition import CompiledComposition, compiled_composition, pays
 from geartrain.dynamics.motion.corner_positions import CornerPositions, CornerSearch
-from geartrain.dynamics.motion.error_composition import ErrorComposition, ErrorSamples, SeenLink
+from geartrain.dynamics.motion.error_composition import ErrorComposition, ErrorSamples, SeenLink, common_period
 from geartrain.dynamics.motion.error_curve import TransmissionErrorCurve
 from geartrain.dynamics.motion.motion_problem import MotionProblem
 from geartrain.dynamics.motion.pair_errors import PairErrors
@@ -172,11 +172,7 @@ class Motion:
     @cached_property
     def period(self) -> Fraction | None:
         """Turns of the input after which every rippling pair stands as at the start; None where nothing ripples."""
-        cycles = [source.cycles for source in self.ahead.used if source.cycles]
-        if not cycles:
-            return None
-        # the least common multiple of the periods 1 / cycles, which are in lowest terms
-        return Fraction(lcm(*(each.denominator for each in cycles)), gcd(*(each.numerator for each in cycles)))
+        return common_period(self.ahead.used)
 
     @cached_property
     def sensitivity(self) -> Mapping[str, Mapping[str, float]]:

@@ -9,8 +9,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from geartrain.dynamics.motion.extreme_search import ExtremeSearch
 from geartrain.dynamics.motion.order_spectrum import SpectrumLine, find_spectrum
-from geartrain.dynamics.motion.run_statistics import PeakRefinement
+from geartrain.dynamics.motion.run_statistics import SampledPeaks, count_extremes
 from geartrain.dynamics.motion.superposition import ErrorEstimates, find_estimates
 from geartrain.errors import GearTrainError, Problem, QuestionError
 
@@ -100,7 +101,7 @@ class MotionRun:
             )
 
     def go(self, on_done: OnDone = _untold) -> None:
-        """Count every position, and sharpen the extremes between them.
+        """Count every position, and seek the extremes between them.
 
         Parameters
         ----------
@@ -113,7 +114,7 @@ class MotionRun:
             If pairs depend on each other in a way that cannot be followed.
         """
         self.tallies = self.motion.tallies()
-        peaks = PeakRefinement(len(self.tallies), self.turns / (self.samples - 1))
+        peaks = SampledPeaks(len(self.tallies))
         for passage in self.motion.passages(self.turns, self.samples):
             for at, tally in enumerate(self.tallies):
                 tally.add(passage.error[at], passage.rate[at])
@@ -121,8 +122,10 @@ class MotionRun:
             self.turned_back |= passage.turned_back
             self.done += len(passage.turns)
             on_done(len(passage.turns))
-        for passage in peaks.sharpen(self.motion.sampler(self.turns, self.samples), self.turns, self.tallies):
-            self.turned_back |= passage.turned_back
+        composition = self.motion.ahead if self.turns >= 0 else self.motion.back
+        search = ExtremeSearch(composition)
+        count_extremes(search, self.turns, self.turns / (self.samples - 1), peaks, self.tallies)
+        self.turned_back |= search.turned_back
 
     def try_phases(self, count: int, seed: int, on_done: OnDone = _untold) -> None:
         """The same run with random phases of the pairs that declare none.

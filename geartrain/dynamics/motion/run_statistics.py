@@ -1,26 +1,27 @@
-"""Peaks and moments of an output, gathered stretch by stretch, and peaks between the positions of a run.
+"""Peaks and moments of an output, gathered stretch by stretch; its extremes, wherever they are.
 
 Moments of stretches are joined by the update of Chan, Golub and LeVeque (1983). Errors of teeth have sharp peaks, which
-a sample misses by up to half a step on either side: the greatest sampled values of a run are kept, and the steps around
-them are sampled again, twice, ever finer (docs/motion.md, section 5).
+a sample misses: extremes are sought by themselves (docs/motion.md, section 5).
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from math import inf, sqrt
-from typing import TYPE_CHECKING, NamedTuple, Protocol
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from geartrain.dynamics.motion.extreme_search import signed
 from geartrain.errors import Problem, RangeError
 from geartrain.numerics.exact import as_float, log10
 from geartrain.numerics.plain_data import Key, Result, group
 
 if TYPE_CHECKING:
     from geartrain.dynamics.motion.error_composition import ErrorSamples
+    from geartrain.dynamics.motion.extreme_search import ExtremeSearch
     from geartrain.numerics.arrays import Floats
 
 
@@ -62,13 +63,21 @@ class RunningStatistics(Result):
         Extremes of the error [rad].
     slow, fast : float
         Extremes of the speed less its mean, over the input's.
+    error_within, speed_within : float
+        No error [rad] and no speed over the input's of the run is farther beyond these extremes; 0 where the run was
+        searched to the end, which leaves a thousand millionth of the range.
 
     See Also
     --------
     MotionRun.tallies : where these stand.
     """
 
-    KEYS = (group("transmission_error", "peak_to_peak", "rms"), Key("speed", "speed_span"), "ratio")
+    KEYS = (
+        group("transmission_error", "peak_to_peak", "rms"),
+        Key("speed", "speed_span"),
+        "ratio",
+        group("extremes_within", Key("error", "error_within"), Key("speed", "speed_within")),
+    )
 
     name: str
     ratio: Fraction
@@ -79,6 +88,8 @@ class RunningStatistics(Result):
     most: float = -inf
     slow: float = inf
     fast: float = -inf
+    error_within: float = 0.0
+    speed_within: float = 0.0
 
     def add(self, error: Floats, rate: Floats) -> None:
         """Count some more positions.
@@ -141,62 +152,42 @@ class RunningStatistics(Result):
 
 _BIN = 1024  # positions of which the greatest is kept
 _KEPT = 10  # of them, for each output and each extreme
-_FINER = 16  # parts of a step, on either side
-_ROUNDS = 2  # each around the best of the one before
 
 
-class ErrorSampler(Protocol):
-    """What errors of outputs can be asked of, at most a chunk of positions at once."""
+class SampledPeaks:
+    """The greatest and least errors and speeds of each output among sampled positions, and the turns where they are.
 
-    @property
-    def chunk(self) -> int:
-        """Positions worked on at once."""
-
-    def at(self, turns: Floats) -> ErrorSamples:
-        """Errors and rates where the input has made some turns."""
-
-
-class PeakRefinement:
-    """The greatest and least errors and speeds of each output, with the turns at which they were seen.
-
-    step   turns between two positions of the run
+    values, turns    (outputs, 4, n): of `signed` errors and rates, the greatest first
     """
 
-    def __init__(self, outputs: int, step: float) -> None:
-        self.step = abs(step)
-        # by output and extreme: values, the greater the better, and turns
+    def __init__(self, outputs: int) -> None:
         self.values = np.full((outputs, 4, 0), -np.inf)
         self.turns = np.zeros((outputs, 4, 0))
 
     def add(self, passage: ErrorSamples) -> None:
         """Keep the best of some more positions."""
-        signed = _signed(passage)
-        starts = range(0, signed.shape[2], _BIN)
-        at = np.stack([start + np.argmax(signed[:, :, start : start + _BIN], axis=2) for start in starts], axis=2)
-        values = np.concatenate([self.values, np.take_along_axis(signed, at, axis=2)], axis=2)
+        sought = signed(passage.error, passage.rate)
+        starts = range(0, sought.shape[2], _BIN)
+        at = np.stack([start + np.argmax(sought[:, :, start : start + _BIN], axis=2) for start in starts], axis=2)
+        values = np.concatenate([self.values, np.take_along_axis(sought, at, axis=2)], axis=2)
         turns = np.concatenate([self.turns, passage.turns[at]], axis=2)
         best = np.argsort(-values, axis=2)[:, :, :_KEPT]
         self.values = np.take_along_axis(values, best, axis=2)
         self.turns = np.take_along_axis(turns, best, axis=2)
 
-    def sharpen(
-        self, composition: ErrorSampler, turns: float, tallies: list[RunningStatistics]
-    ) -> Iterator[ErrorSamples]:
-        """Sample again around the extremes, within the run; tallies count what is found there, samples are yielded."""
-        low, high = sorted((0.0, turns))
-        step = self.step
-        for _ in range(_ROUNDS):
-            fine = np.arange(-_FINER, _FINER + 1) * (step / _FINER)
-            for at, tally in enumerate(tallies):
-                around = np.clip(np.unique(self.turns[at, :, :, None] + fine), low, high)
-                for start in range(0, len(around), composition.chunk):
-                    passage = composition.at(around[start : start + composition.chunk])
-                    self.add(passage)
-                    tally.reach(passage.error[at], passage.rate[at])
-                    yield passage
-            step /= _FINER
 
+def count_extremes(
+    search: ExtremeSearch, turns: float, step: float, peaks: SampledPeaks, tallies: Sequence[RunningStatistics]
+) -> None:
+    """Let the extremes of a run count, wherever they are, and say what is left open.
 
-def _signed(passage: ErrorSamples) -> Floats:
-    """Errors, errors reversed, rates, rates reversed: what is sought is the greatest of each, (outputs, 4, n)."""
-    return np.stack([passage.error, -passage.error, passage.rate, -passage.rate], axis=1)
+    step, peaks    turns between the positions at which the run was sampled, and the extremes there: around them is
+                   searched where the run is too long to be searched whole
+    """
+    low, high = sorted((0.0, turns))
+    search.over(low, high)
+    if search.doubt.any():
+        search.around(peaks.turns.reshape(len(tallies), -1), abs(step), low, high)
+    for tally, (most, least, fast, slow), doubt in zip(tallies, search.values.tolist(), search.doubt, strict=True):
+        tally.reach(np.array([most, -least]), np.array([fast, -slow]))
+        tally.error_within, tally.speed_within = float(doubt[:2].max()), float(doubt[2:].max())

@@ -29,8 +29,8 @@ from geartrain.teeth.gear_mesh import GearMesh
 from geartrain.teeth.triangular.triangular_mesh import TriangularMesh
 
 OnStep = Callable[[], None]
-_TURNS, _SAMPLES = 20.0, 20_000
-"""Of the input, over which the error of a pointer is followed; peaks between the positions are sharpened."""
+_TURNS, _SAMPLES = 20.0, 2_000
+"""Of the input, over which the error of a pointer is followed; its extremes do not depend on the positions."""
 _REACH = 0.03  # of a range: how far one step of the descent looks
 _TRIES = 8  # figures of the train in one step of the descent
 _SWEEPS = 4

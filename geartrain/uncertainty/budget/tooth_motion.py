@@ -14,15 +14,16 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from geartrain.dynamics.motion.error_composition import ErrorSamples
-from geartrain.dynamics.motion.run_statistics import PeakRefinement, RunningStatistics
+from geartrain.dynamics.motion.extreme_search import ExtremeSearch
+from geartrain.dynamics.motion.rate_bounds import error_difference
+from geartrain.dynamics.motion.run_statistics import RunningStatistics, SampledPeaks, count_extremes
 from geartrain.dynamics.motion.superposition import Superposition
 from geartrain.kinematics.relative_speeds import axis_sense
 from geartrain.uncertainty.budget.pointer_budget import BudgetCause, CauseName, Declared
 
 if TYPE_CHECKING:
     from geartrain.dynamics import Motion
-    from geartrain.dynamics.motion.error_composition import ErrorComposition
+    from geartrain.dynamics.motion.error_composition import ErrorComposition, ErrorSamples
     from geartrain.numerics.arrays import Floats
 
 _FEW = 1e-12  # a smaller sensitivity is rounding
@@ -43,7 +44,7 @@ class ErrorDifference:
     def at(self, turns: Floats) -> ErrorSamples:
         """The differences where the input has made some turns, at most a chunk of them."""
         one, other = self.one.at(turns), self.other.at(turns)
-        return ErrorSamples(turns, one.error - other.error, one.rate - other.rate, one.turned_back | other.turned_back)
+        return error_difference(one, other)
 
 
 class DeclaredPairs(NamedTuple):
@@ -91,7 +92,7 @@ def find_tooth_motion(
     tallies = motion.tallies()
     greatest, squares = np.zeros(len(tallies)), np.zeros(len(tallies))
     back: set[str] = set()
-    peaks = PeakRefinement(len(tallies), turns / (samples - 1))
+    peaks = SampledPeaks(len(tallies))
     chunk = min(ripple.chunk, lost.chunk)
     for start in range(0, samples, chunk):
         at = turns * (np.arange(start, min(start + chunk, samples)) / (samples - 1))
@@ -103,8 +104,8 @@ def find_tooth_motion(
         greatest = np.maximum(greatest, np.abs(play.error).max(axis=1))
         squares += np.sum(play.error**2, axis=1)
         on_done(len(at))
-    for _ in peaks.sharpen(ripple, turns, tallies):
-        pass
+    search = ExtremeSearch(ripple.one, less=ripple.other)
+    count_extremes(search, turns, turns / (samples - 1), peaks, tallies)
     names = list(motion.outputs)
     return ToothMotion(
         dict(zip(names, tallies, strict=True)),

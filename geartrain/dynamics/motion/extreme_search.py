@@ -1,0 +1,345 @@
+"""The least and greatest errors and rates of outputs over a run of the input: branch and bound, then smooth pieces.
+
+The run is cut into steps, narrow beside the shortest pitch, and `rate_bounds` tells between which values errors and
+rates lie in each. Steps that cannot hold an extreme are dropped, the others cut in four, and again. Those that are left
+are cut at the corners of all laws; on each piece everything is smooth, and the extremes of its Chebyshev polynomials
+count, with the limits on both sides of a jump. Nothing of it depends on the positions at which a run is sampled.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from functools import cached_property
+from math import ceil
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+from numpy.polynomial import chebyshev
+
+from geartrain.dynamics.motion.corner_positions import CornerSearch, InputSteps
+from geartrain.dynamics.motion.error_composition import ErrorComposition, common_period
+from geartrain.dynamics.motion.rate_bounds import RateBounds, StepBounds, error_difference
+from geartrain.numerics.chebyshev import points
+
+if TYPE_CHECKING:
+    from geartrain.dynamics.motion.error_composition import ErrorSamples
+    from geartrain.numerics.arrays import Bools, Floats, Indices
+
+_MOST_STEPS = 200_000  # of a run at first: those of a longer run are wider than a pitch
+_FEWEST_STEPS = 64
+_MOST_LEFT = 50_000  # narrow steps divided at once; of more those with the highest bounds
+_MOST_WIDE = 16_000  # wide ones, of all outputs: most of these would be divided for nothing
+_NUMBERS = 1 << 23  # most bounds kept at once
+_PARTS = 4  # of a step that is divided
+_FEW = 1024  # so few steps are cut at corners without being divided further
+_LEAST_DIVISIONS, _MOST_DIVISIONS = 2, 16
+_BATCH = 4096  # steps cut at corners at once
+_BATCHES = 16
+_MOST_CORNERS = 200_000  # in a batch
+_SURE = 1e-9  # of the range of an output's errors or rates: so little more is not sought
+_ROUNDING = 1e-12  # rad: nor what may be rounding
+_NODES, _TO_SERIES = points(8)  # on a smooth piece
+_PLACES = np.linspace(-1, 1, 49)
+_TO_PLACES = chebyshev.chebvander(_PLACES, len(_NODES) - 1) @ _TO_SERIES
+_BESIDE = 1e-9  # of a step: so near to the end of a piece is a limit from one side
+_ULPS = 32  # of the turns: or so near, so that rounding does not lead beyond a corner
+_NO_PIECE = 4  # times as near: two corners so near are one
+
+
+def signed(error: Floats, rate: Floats) -> Floats:
+    """Errors, errors reversed, rates, rates reversed: what is sought is the greatest of each, (outputs, 4, n)."""
+    return np.stack([error, -error, rate, -rate], axis=1)
+
+
+class BoundedSteps(NamedTuple):
+    """Steps of the input with what the values sought cannot pass in them, (outputs, 4, n)."""
+
+    steps: InputSteps
+    above: Floats
+
+    @classmethod
+    def joined(cls, parts: Sequence[BoundedSteps]) -> BoundedSteps:
+        """All steps of some parts."""
+        low, high = (np.concatenate([part.steps[end] for part in parts]) for end in (0, 1))
+        return cls(InputSteps(low, high), np.concatenate([part.above for part in parts], axis=2))
+
+    def chosen(self, which: Bools | Indices | slice) -> BoundedSteps:
+        """Some of them."""
+        return BoundedSteps(InputSteps(self.steps.low[which], self.steps.high[which]), self.above[:, :, which])
+
+    def of_outputs(self, outputs: list[int], search: StepSearch) -> BoundedSteps:
+        """Those that may hold more than was found, for some of the outputs."""
+        above = self.above[outputs]
+        more = (above > (search.values + search.tolerance)[outputs, :, None]).any(axis=(0, 1))
+        return BoundedSteps(InputSteps(self.steps.low[more], self.steps.high[more]), above[:, :, more])
+
+    def before(self, end: float) -> BoundedSteps:
+        """Those that begin before a position of the input."""
+        return self.chosen(self.steps.low < end)
+
+    @property
+    def number(self) -> int:
+        """How many they are."""
+        return len(self.steps.low)
+
+    @property
+    def width(self) -> float:
+        """Of the widest (turns)."""
+        return float(np.max(self.steps.high - self.steps.low, initial=0.0))
+
+
+class StepSearch:
+    """The extremes in steps of the input of what a composition gives, or of what it gives less what another does.
+
+    parts         the composition, and the other if there is one
+    share         of the work on steps that are not narrow
+    values        (outputs, 4): the greatest errors, errors reversed, rates, rates reversed that were found
+    dropped       (outputs, 4): what they may be in steps that were not searched, or between places that were looked at
+    turned_back   pairs whose driver was seen turning against its mean
+    """
+
+    def __init__(self, parts: tuple[ErrorComposition, ...], share: float = 1.0) -> None:
+        self._parts = parts
+        self._most_wide = int(_MOST_WIDE * share)
+        self._bounds = tuple(RateBounds(part) for part in parts)
+        self._corners = tuple(CornerSearch(part) for part in parts)
+        self.chunk = min(bounds.chunk for bounds in self._bounds)
+        self.values = np.full((len(parts[0].outputs), 4), -np.inf)
+        self.dropped = self.values.copy()
+        self.turned_back: set[str] = set()
+
+    @cached_property
+    def step(self) -> float:
+        """Turns of the input that are narrow for every law."""
+        return min(corners.step for corners in self._corners)
+
+    @cached_property
+    def _rate(self) -> float:
+        """Corners in a turn of the input."""
+        return sum(corners.rate for corners in self._corners)
+
+    @property
+    def tolerance(self) -> Floats:
+        """How much more is not sought."""
+        ranges = np.repeat(self.values[:, ::2] + self.values[:, 1::2], 2, axis=1)
+        return np.maximum(_SURE * ranges, _ROUNDING)
+
+    # ------------------------------------------------------------------------------------------------ branch and bound
+
+    def go(self, left: BoundedSteps) -> None:
+        """Search some steps."""
+        before = 0
+        for division in range(_MOST_DIVISIONS):
+            # narrow steps are divided twice at least, and as long as that leaves fewer of them
+            enough = division >= _LEAST_DIVISIONS and (left.number <= _FEW or left.number > before)
+            if not left.number or (left.width <= self.step and enough):
+                break
+            before, left = left.number, self._searched(_divided(left.steps, self.chunk))
+        for _ in range(_BATCHES):
+            # a step that is not narrow has too many corners to list
+            size = min(_BATCH, int(_MOST_CORNERS / max(self._rate * left.width, 1.0)))
+            if not left.number or not size:
+                break
+            self._cut_at_corners(left.chosen(slice(size)).steps)
+            left = self._worth_while(left.chosen(slice(size, None)))
+        self._drop(left)
+
+    def around(self, turns: Floats, step: float, start: float, end: float) -> None:
+        """Search near some positions within a run, as far as steps of that width are narrow."""
+        width = min(step, self.step)
+        low = np.unique(np.clip(turns - width, start, end))
+        high = np.minimum(low + 2 * width, np.append(low[1:], end))
+        self._cut_at_corners(InputSteps(low[high > low], high[high > low]))
+
+    def _searched(self, steps: Iterator[InputSteps]) -> BoundedSteps:
+        """Those that may hold an extreme, the likeliest first, and not too many."""
+        parts = [self._worth_while(self.bounded(part)) for part in steps]
+        left = self._worth_while(BoundedSteps.joined(parts))
+        most = min(_MOST_LEFT, _NUMBERS // (4 * len(self.values))) if left.width <= self.step else self._most_wide
+        self._drop(left.chosen(slice(most, None)))
+        return left.chosen(slice(most))
+
+    def bounded(self, steps: InputSteps) -> BoundedSteps:
+        """With bounds; what is at their ends counts."""
+        found = self._bounds[0].over(*steps)
+        if len(self._bounds) > 1:
+            found = StepBounds.difference(found, self._bounds[1].over(*steps))
+        for passage in (found.low, found.high):
+            self._count(passage)
+        errors = found.errors()
+        above = np.stack([errors.high, -errors.low, found.rate.high, -found.rate.low], axis=1)
+        # where no teeth touch there is no error
+        return BoundedSteps(steps, np.where(np.isnan(above), -np.inf, above))
+
+    def _worth_while(self, given: BoundedSteps) -> BoundedSteps:
+        """Steps that may hold more than was found, those that may hold most first."""
+        excess = (given.above - self.values[:, :, None]) / self.tolerance[:, :, None]
+        most = excess.max(axis=(0, 1), initial=-np.inf)
+        order = np.argsort(-most, kind="stable")
+        return given.chosen(order[: int(np.count_nonzero(most > 1))])
+
+    def _drop(self, given: BoundedSteps) -> None:
+        """Leave steps unsearched."""
+        self.dropped = np.maximum(self.dropped, given.above.max(axis=2, initial=-np.inf))
+
+    def _count(self, passage: ErrorSamples) -> None:
+        values = signed(passage.error, passage.rate)
+        self.values = np.fmax(self.values, np.where(np.isnan(values), -np.inf, values).max(axis=2))
+        self.turned_back |= passage.turned_back
+
+    # --------------------------------------------------------------------------------------------------- smooth pieces
+
+    def _cut_at_corners(self, steps: InputSteps) -> None:
+        """Count the extremes within some steps, apart from each other, piece by piece."""
+        order = np.argsort(steps.low)
+        low, high = steps.low[order], steps.high[order]
+        corners = [search.between(InputSteps(low, high)).turns for search in self._corners]
+        edges = np.unique(np.concatenate([low, high, *corners]))
+        middle, width = (edges[1:] + edges[:-1]) / 2, np.diff(edges)
+        within = np.maximum(np.searchsorted(low, middle) - 1, 0)
+        beside = np.maximum(_BESIDE * (high - low)[within], _ULPS * np.spacing(np.abs(middle)))
+        held = (middle < high[within]) & (width > _NO_PIECE * beside)
+        middle, half = middle[held], (width / 2 - beside)[held]
+        size = max(1, self.chunk // len(_NODES))
+        for first in range(0, len(middle), size):
+            self._take_pieces(middle[first : first + size], half[first : first + size])
+
+    def _take_pieces(self, middle: Floats, half: Floats) -> None:
+        """Count the extremes of smooth pieces."""
+        found = self._at((middle[:, None] + half[:, None] * _NODES).ravel())
+        self._count(found)
+        values = signed(found.error, found.rate).reshape(len(self.values), 4, len(middle), -1)
+        likely: dict[int, list[float]] = {}
+        for sought in np.ndindex(*self.values.shape):
+            peak = self._peak(values[sought], sought)
+            if peak is not None:
+                likely.setdefault(peak[0], []).append(peak[1])
+        if likely:
+            turns = [middle[piece] + half[piece] * u for piece, places in likely.items() for u in places]
+            self._count(self._at(np.array(turns)))
+
+    def _at(self, turns: Floats) -> ErrorSamples:
+        found = [part.at(turns) for part in self._parts]
+        return found[0] if len(found) == 1 else error_difference(*found)
+
+    def _peak(self, pieces: Floats, sought: tuple[int, ...]) -> tuple[int, float] | None:
+        """The piece and the place on it, from -1 to 1, where polynomials are greatest; None where at no such place.
+
+        pieces    (n, nodes): their values at the nodes
+        """
+        # an eighth degree goes little beyond its nodes: pieces that stay far below are not looked at
+        with np.errstate(invalid="ignore"):
+            looked = np.flatnonzero(pieces.max(axis=1) + np.ptp(pieces, axis=1) > self.values[sought])
+        if not len(looked):
+            return None
+        places = pieces[looked] @ _TO_PLACES.T
+        at = np.clip(np.argmax(places, axis=1), 1, len(_PLACES) - 2)
+        every = np.arange(len(at))
+        one, two, three = (places[every, at + side] for side in (-1, 0, 1))
+        bend = 2 * two - one - three
+        with np.errstate(all="ignore"):
+            inner = np.abs(three - one) < 2 * bend
+            peaks = np.where(inner, two + (three - one) ** 2 / (8 * bend), places.max(axis=1))
+        best = int(np.argmax(peaks))
+        series = _TO_SERIES @ pieces[looked[best]]
+        # what the last terms of the series leave open
+        self.dropped[sought] = max(self.dropped[sought], peaks[best] + float(np.abs(series[-2:]).max()))
+        if not inner[best]:
+            return None
+        turns = chebyshev.chebroots(chebyshev.chebder(series)).real
+        near = turns[np.argmin(np.abs(turns - _PLACES[at[best]]))]
+        return int(looked[best]), float(np.clip(near, -1, 1))
+
+
+def _divided(steps: InputSteps, chunk: int) -> Iterator[InputSteps]:
+    """Steps in equal parts, some of them at a time."""
+    size = max(1, chunk // _PARTS)
+    for first in range(0, len(steps.low), size):
+        low, high = (each[first : first + size, None] for each in steps)
+        ends = low + (high - low) * (np.arange(_PARTS + 1) / _PARTS)
+        ends[:, -1:] = high
+        yield InputSteps(ends[:, :-1].ravel(), ends[:, 1:].ravel())
+
+
+class ExtremeSearch:
+    """The extremes over a run of the input of what a composition gives, or of what it gives less what another does.
+
+    values        (outputs, 4): the greatest errors, errors reversed, rates, rates reversed that were found
+    turned_back   pairs whose driver was seen turning against its mean
+    """
+
+    def __init__(self, composition: ErrorComposition, less: ErrorComposition | None = None) -> None:
+        self._parts = (composition,) if less is None else (composition, less)
+        self._whole = StepSearch(self._parts)
+        outputs = len(composition.outputs)
+        self.values, self._dropped = (np.full((outputs, 4), -np.inf) for _ in range(2))
+        self.turned_back = self._whole.turned_back
+
+    @property
+    def doubt(self) -> Floats:
+        """By how much a value of the run may be greater than those found, as far as is known; (outputs, 4)."""
+        beyond = self._dropped - self.values
+        return np.where(beyond > 2 * self._whole.tolerance, beyond, 0.0)
+
+    @cached_property
+    def _groups(self) -> dict[tuple[int, ...], tuple[ErrorComposition, ...]]:
+        """Outputs that depend on the same pairs, by index, with the compositions of them alone."""
+        found: dict[frozenset[int], list[int]] = {}
+        for at in range(len(self.values)):
+            pairs = (source.pair for part in self._parts for source in _alone(part, (at,)).used)
+            found.setdefault(frozenset(pairs), []).append(at)
+        return {tuple(each): tuple(_alone(part, each) for part in self._parts) for each in found.values()}
+
+    def over(self, start: float, end: float) -> None:
+        """Search from one position of the input to a greater one."""
+        if not len(self.values):
+            return
+        end = _period_end(self._parts, start, end)
+        left: dict[tuple[int, ...], list[BoundedSteps]] = {group: [] for group in self._groups}
+        for steps in self._first(start, end):
+            bounded = self._whole.bounded(steps)
+            for group, parts in left.items():
+                parts.append(bounded.of_outputs(list(group), self._whole))
+        for group, parts in left.items():
+            search = StepSearch(self._groups[group], 1 / len(left))
+            search.values = self._whole.values[list(group)]
+            search.go(BoundedSteps.joined(parts).before(_period_end(self._groups[group], start, end)))
+            self._take(group, search)
+
+    def around(self, turns: Floats, step: float, start: float, end: float) -> None:
+        """Search also near positions that promise much, (outputs, n), within a run."""
+        for group, parts in self._groups.items():
+            search = StepSearch(parts)
+            search.values = self.values[list(group)]
+            search.around(turns[list(group)], step, start, end)
+            self._take(group, search)
+
+    def _take(self, group: tuple[int, ...], search: StepSearch) -> None:
+        """Count what was found for some outputs."""
+        at = list(group)
+        self.values[at] = self._whole.values[at] = np.maximum(self.values[at], search.values)
+        self._dropped[at] = np.maximum(self._dropped[at], search.dropped)
+        self.turned_back |= search.turned_back
+
+    def _first(self, start: float, end: float) -> Iterator[InputSteps]:
+        """The whole run, in steps that are narrow if there are not too many."""
+        wanted = (end - start) / self._whole.step
+        number = _MOST_STEPS if wanted > _MOST_STEPS else max(_FEWEST_STEPS, ceil(wanted))
+        for first in range(0, number, self._whole.chunk):
+            at = np.arange(first, min(first + self._whole.chunk, number) + 1)
+            ends = start + (end - start) * (at / number)
+            ends[at == number] = end
+            yield InputSteps(ends[:-1], ends[1:])
+
+
+def _alone(composition: ErrorComposition, outputs: Sequence[int]) -> ErrorComposition:
+    """A composition of some of its outputs only."""
+    seen = tuple(composition.outputs[at] for at in outputs)
+    offsets = tuple(composition.offsets[at] for at in outputs) if composition.offsets else ()
+    return ErrorComposition(composition.spread, composition.sources, seen, offsets)
+
+
+def _period_end(parts: tuple[ErrorComposition, ...], start: float, end: float) -> float:
+    """The end of a run, or of its first period."""
+    period = common_period([source for part in parts for source in part.used])
+    return end if period is None or period >= end - start else start + float(period)

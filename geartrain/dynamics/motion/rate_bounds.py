@@ -1,0 +1,280 @@
+"""Bounds on errors and rates of outputs over steps of the input, by interval arithmetic along the solved order.
+
+At both ends of a step every driver's angle S_m is known, and between them it lies between these two (where it cannot
+turn back; else beyond them by what its slowest speed allows). A table of each law tells between which two values its
+speed ratio tau_m lies there. Rates follow as intervals: rate(driven) = sigma (tau - mean tau) S', summed by equation
+(2) of docs/motion.md, and where pairs depend on each other by Krawczyk's operator. With a rate between r and R an error
+lies between its values at the ends as Piyavskii's bounds say.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from geartrain.dynamics.motion.error_composition import ErrorComposition, ErrorSamples, InputPhase, SeenLink
+from geartrain.numerics.range_extremes import RangeExtremes
+
+if TYPE_CHECKING:
+    from geartrain.dynamics.motion.error_composition import CompositionStep, PairErrorSource
+    from geartrain.numerics.arrays import Floats
+    from geartrain.teeth.transmission import TransmissionFunction
+
+_CELLS = 1024  # of a period, of a table of the speed ratio
+_A_CORNER = 64  # cells for each corner of a law, where that is more
+_WITHIN = 4  # values of the speed ratio in a cell
+_MARGIN = 0.25  # of what it changes within a cell: it may go so far beyond these values
+_BESIDE = 1e-9  # of a period: so near to a corner is its limit from one side
+
+
+class Interval(NamedTuple):
+    """Least and greatest value, arrays of one shape."""
+
+    low: Floats
+    high: Floats
+
+    def __add__(self, other: Interval) -> Interval:  # type: ignore[override]
+        return Interval(self.low + other.low, self.high + other.high)
+
+    def __mul__(self, other: Interval) -> Interval:  # type: ignore[override]
+        """Of the product."""
+        each = np.stack([self.low * other.low, self.low * other.high, self.high * other.low, self.high * other.high])
+        return Interval(each.min(axis=0), each.max(axis=0))
+
+    def scaled(self, factor: float) -> Interval:
+        """Times a number."""
+        ends = factor * self.low, factor * self.high
+        return Interval(*(ends if factor >= 0 else ends[::-1]))
+
+    @property
+    def middle(self) -> Floats:
+        """Half way."""
+        return (self.low + self.high) / 2
+
+    @property
+    def radius(self) -> Floats:
+        """Half the width."""
+        return (self.high - self.low) / 2
+
+
+class SpeedRanges:
+    """Between which values the speed ratio of a law lies while its driver goes from one angle to another."""
+
+    def __init__(self, law: TransmissionFunction) -> None:
+        self.period = law.period
+        corners = np.mod(np.asarray(law.corners(), dtype=float), law.period)
+        self.cells = max(_CELLS, _A_CORNER * len(corners))
+        width = law.period / self.cells
+        inside = (np.arange(_WITHIN) / (_WITHIN - 1)) * (1 - 2 * _BESIDE) + _BESIDE
+        values = law.speed((np.arange(self.cells)[:, None] + inside) * width)
+        least, most = np.nanmin(values, axis=1), np.nanmax(values, axis=1)
+        for side in (-_BESIDE, _BESIDE):
+            at = corners + side * law.period
+            cell, value = np.floor(at / width).astype(int) % self.cells, law.speed(at)
+            np.fmin.at(least, cell, value)
+            np.fmax.at(most, cell, value)
+        spread = _MARGIN * (most - least)
+        self._extremes = RangeExtremes(least - spread, most + spread)
+
+    def over(self, phase: Floats, travel: Interval) -> Interval:
+        """While it goes from `phase` + travel.low to `phase` + travel.high (rad)."""
+        scale = self.cells / self.period
+        first, last = (np.floor((phase + end) * scale) for end in travel)
+        # a whole period has all values: how many makes no difference
+        last = np.minimum(last, first + self.cells)
+        return Interval(*self._extremes.over(first.astype(np.int64), last.astype(np.int64)))
+
+
+def error_difference(one: ErrorSamples, other: ErrorSamples) -> ErrorSamples:
+    """Errors of outputs less other errors of them at the same positions; where a driver turns back in either, told."""
+    both = one.turned_back | other.turned_back
+    return ErrorSamples(one.turns, one.error - other.error, one.rate - other.rate, both)
+
+
+class StepBounds(NamedTuple):
+    """Errors and rates of outputs over steps, (outputs, n): at the ends, and bounds on the rates between them."""
+
+    low: ErrorSamples
+    high: ErrorSamples
+    rate: Interval
+
+    @classmethod
+    def difference(cls, one: StepBounds, other: StepBounds) -> StepBounds:
+        """Of the errors of one composition less those of another."""
+        ends = error_difference(one.low, other.low), error_difference(one.high, other.high)
+        return cls(*ends, one.rate + other.rate.scaled(-1.0))
+
+    def errors(self) -> Interval:
+        """Bounds on the errors."""
+        angle = 2 * np.pi * (self.high.turns - self.low.turns)
+        start, end, (least, most) = self.low.error, self.high.error, self.rate
+        with np.errstate(all="ignore"):
+            # two lines from the ends, as steep as may be, meet at the bound (Piyavskii)
+            up = np.clip((end - start - least * angle) / (most - least), 0, angle)
+            down = np.clip((most * angle - (end - start)) / (most - least), 0, angle)
+            above = np.where(most > least, start + most * up, np.maximum(start, end))
+            below = np.where(most > least, start + least * down, np.minimum(start, end))
+        lower, upper = np.minimum(start, end), np.maximum(start, end)
+        known = np.isfinite(least) & np.isfinite(most)
+        return Interval(
+            np.where(known, np.minimum(below, lower), -np.inf), np.where(known, np.maximum(above, upper), np.inf)
+        )
+
+
+@dataclass(frozen=True)
+class RateBounds:
+    """Bounds over steps of the input for the outputs of a composition."""
+
+    composition: ErrorComposition
+
+    @cached_property
+    def _sources(self) -> dict[int, PairErrorSource]:
+        """The sources that count, by index."""
+        return {at: self.composition.sources[at] for step in self.composition.steps for at in step.sources}
+
+    @cached_property
+    def _whole(self) -> ErrorComposition:
+        """The composition with the drivers of its sources, seen from their carriers, as further outputs."""
+        given, joints = self.composition, self.composition.spread.joints
+        drivers = tuple(
+            SeenLink(joints[s.pair].driver, joints[s.pair].carrier, s.driver_sense * s.carrier_sense)
+            for s in self._sources.values()
+        )
+        offsets = (*given.offsets, *(0.0 for _ in drivers)) if given.offsets else ()
+        return ErrorComposition(given.spread, given.sources, (*given.outputs, *drivers), offsets)
+
+    @cached_property
+    def _ranges(self) -> dict[int, SpeedRanges]:
+        return {at: SpeedRanges(source.law) for at, source in self._sources.items()}
+
+    @property
+    def chunk(self) -> int:
+        """Steps worked on at once."""
+        return self._whole.chunk
+
+    def over(self, low: Floats, high: Floats) -> StepBounds:
+        """Bounds over steps from turns `low` to turns `high` of the input, (n,) each, at most a chunk of them."""
+        # most steps begin where others end
+        edges, at_edge = np.unique(np.concatenate([low, high]), return_inverse=True)
+        found = self._whole.at(edges)
+        ends = [
+            ErrorSamples(edges[which], found.error[:, which], found.rate[:, which], found.turned_back)
+            for which in np.split(at_edge, 2)
+        ]
+        own = len(self.composition.outputs)
+        shifts = {}
+        for at, (index, source) in enumerate(self._sources.items(), own):
+            way = source.forward * source.driver_sense
+            shifts[index] = way * ends[0].error[at], way * ends[1].error[at]
+        rate = self._rates(low, 2 * np.pi * (high - low), shifts)
+        first, last = (each._replace(error=each.error[:own], rate=each.rate[:own]) for each in ends)
+        return StepBounds(first, last, rate)
+
+    def _rates(self, low: Floats, angle: Floats, shifts: dict[int, tuple[Floats, Floats]]) -> Interval:
+        """Of the outputs, (outputs, n)."""
+        still = Interval(np.zeros(len(low)), np.zeros(len(low)))
+        links: dict[int, Interval] = {}
+        phase = InputPhase(low)
+        for step in self.composition.steps:
+            base = [_summed(row, [links[link] for link in step.known], still) for row in step.from_known]
+            inside = dict(zip(step.links, base, strict=True))
+            turning = [self._turning(at, {**links, **inside}, still) for at in step.sources]
+            rates = self._pair_rates(step, turning, phase, angle, shifts)
+            for link, known, row in zip(step.links, base, step.from_sources, strict=True):
+                links[link] = known + _summed(row, rates, still)
+        found = []
+        for seen in self.composition.outputs:
+            of, base_ = links.get(seen.of, still), links.get(seen.base, still)
+            found.append(of + base_.scaled(-seen.sense))
+        return Interval(np.stack([each.low for each in found]), np.stack([each.high for each in found]))
+
+    def _turning(self, at: int, links: dict[int, Interval], still: Interval) -> Interval:
+        """Speed of a source's driver over the input's."""
+        source = self._sources[at]
+        turning = Interval(still.low + source.mean, still.high + source.mean)
+        for link, sign in self.composition.turned_by(source):
+            if link in links:
+                turning = turning + links[link].scaled(sign)
+        return turning
+
+    def _pair_rates(
+        self,
+        step: CompositionStep,
+        turning: list[Interval],
+        phase: InputPhase,
+        angle: Floats,
+        shifts: dict[int, tuple[Floats, Floats]],
+    ) -> list[Interval]:
+        """Rates of the driven sides of a step's pairs, on their own."""
+        if not step.sources:
+            return []
+        if not step.coupled:
+            slopes = self._slopes(step, turning, phase, angle, shifts)
+            return [slope * speed for slope, speed in zip(slopes, turning, strict=True)]
+        gain = self.composition.gain(step)
+        found = _coupled_rates(self._slopes(step, turning, phase, angle, shifts), turning, gain)
+        whole = [speed + _summed(row, found, speed.scaled(0.0)) for speed, row in zip(turning, gain, strict=True)]
+        if any((speed.low < 0).any() for speed in whole):
+            # a driver may turn back, and come by angles beyond those at the ends
+            found = _coupled_rates(self._slopes(step, whole, phase, angle, shifts), turning, gain)
+        return found
+
+    def _slopes(
+        self,
+        step: CompositionStep,
+        turning: list[Interval],
+        phase: InputPhase,
+        angle: Floats,
+        shifts: dict[int, tuple[Floats, Floats]],
+    ) -> list[Interval]:
+        """sigma (tau - mean tau) of a step's pairs."""
+        found = []
+        for at, speed in zip(step.sources, turning, strict=True):
+            source, (first, last) = self._sources[at], shifts[at]
+            law = source.law
+            start = np.mod(phase.cycles(source.cycles) * law.period + source.start + first, law.period)
+            travel = source.mean * angle + (last - first)
+            back = np.nan_to_num(np.maximum(0.0, -speed.low) * angle, nan=law.period, posinf=law.period)
+            ratio = self._ranges[at].over(
+                start, Interval(np.minimum(0.0, travel) - back, np.maximum(0.0, travel) + back)
+            )
+            mean = float(law.ratio)
+            found.append(Interval(ratio.low - mean, ratio.high - mean).scaled(float(source.sense)))
+        return found
+
+
+def _summed(row: Floats, each: list[Interval], still: Interval) -> Interval:
+    total = still
+    for factor, interval in zip(row.tolist(), each, strict=True):
+        if factor:
+            total = total + interval.scaled(factor)
+    return total
+
+
+def _coupled_rates(slopes: list[Interval], turning: list[Interval], gain: Floats) -> list[Interval]:
+    """Intervals of x = slope (w + gain x), for intervals of slopes and speeds w; infinite where none is found.
+
+    About the middle slope m the solution of J x = b, J = I - diag(m) G, is off by at most r, where
+    r = |J^-1| (rad b + rad slope |G| (|x| + r)): Krawczyk's operator, solved for r.
+    """
+    count = len(slopes)
+    middle, radius = (np.stack([getattr(slope, part) for slope in slopes]) for part in ("middle", "radius"))
+    right = [slope * speed for slope, speed in zip(slopes, turning, strict=True)]
+    b, off = (np.stack([getattr(each, part) for each in right]) for part in ("middle", "radius"))
+    matrices = np.eye(count) - middle.T[:, :, None] * gain
+    fit = np.isfinite(matrices).all(axis=(1, 2)) & np.isfinite(b).all(axis=0) & np.isfinite(off).all(axis=0)
+    fit[fit] = np.abs(np.linalg.det(matrices[fit])) > 1e-9
+    matrices[~fit] = np.eye(count)
+    inverse = np.linalg.inv(matrices)
+    x = np.einsum("nij,jn->in", inverse, b)
+    size = np.abs(inverse)
+    spread = size @ (radius.T[:, :, None] * np.abs(gain))
+    fit &= spread.sum(axis=2).max(axis=1) < 1
+    spread[~fit] = 0
+    known = off + radius * (np.abs(gain) @ np.abs(x))
+    r = np.linalg.solve(np.eye(count) - spread, size @ known.T[:, :, None])[:, :, 0].T
+    low, high = np.where(fit, x - r, -np.inf), np.where(fit, x + r, np.inf)
+    return [Interval(low[at], high[at]) for at in range(count)]

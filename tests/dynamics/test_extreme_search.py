@@ -1,0 +1,131 @@
+"""Extremes over a run: the same at any number of samples, at jumps too, and never passed by a sample."""
+
+from __future__ import annotations
+
+from math import asin
+
+import numpy as np
+import pytest
+
+from geartrain import load
+from geartrain.dynamics import Motion, MotionRun
+from geartrain.dynamics.motion.extreme_search import ExtremeSearch, signed
+from geartrain.dynamics.motion.rate_bounds import RateBounds
+from geartrain.numerics.range_extremes import RangeExtremes
+
+FREETH = ("moon", "mars", "saturn", "draconic month", "mercury")
+
+
+def extremes(motion: Motion, turns: float, samples: int) -> np.ndarray:
+    run = MotionRun(motion, turns, samples)
+    run.go()
+    assert all(tally.error_within == tally.speed_within == 0 for tally in run.tallies)
+    return np.array([(t.most, t.least, t.fast, t.slow) for t in run.tallies])
+
+
+@pytest.mark.parametrize(
+    ("name", "outputs", "turns"),
+    [
+        ("moon-triangular", ("moon",), 20),
+        ("longcase-clock-bs978", None, 2),
+        ("freeth-2021-teeth", FREETH, 0.6),
+        ("pennestri-2002-teeth", ("5",), 0.5),
+        pytest.param("freeth-2021-teeth", FREETH, 20, marks=pytest.mark.slow),
+    ],
+)
+def test_extremes_do_not_depend_on_the_samples(name: str, outputs: tuple[str, ...] | None, turns: float) -> None:
+    motion = load(name).motion() if outputs is None else load(name).motion(outputs=outputs)
+    found = [extremes(motion, turns, samples) for samples in (200, 5_001, 20_000)]
+    size = np.abs(found[0]).max(axis=1, keepdims=True) + 1e-12
+    assert max(np.ptp([each / size for each in found], axis=0).ravel()) < 1e-9
+
+
+@pytest.mark.parametrize("name", ["moon-triangular", "longcase-clock-bs978", "pennestri-2002-teeth"])
+@pytest.mark.parametrize("way", [1, -1])
+def test_no_sample_is_beyond_them_and_samples_at_corners_reach_them(name: str, way: int) -> None:
+    motion = load(name).motion(outputs=["5"]) if name.startswith("pennestri") else load(name).motion()
+    end = 0.37 * way
+    composition = motion.ahead if way > 0 else motion.back
+    low, high = sorted((0.0, end))
+    search = ExtremeSearch(composition)
+    search.over(low, high)
+    assert not search.doubt.any()
+    corners = motion.corner_positions(0, end).turns
+    near = [np.clip(corners + side * offset, low, high) for side in (-1, 1) for offset in (1e-12, 1e-9, 1e-7)]
+    turns = np.concatenate([np.linspace(low, high, 20_001), *near])
+    parts = [composition.at(turns[at : at + composition.chunk]) for at in range(0, len(turns), composition.chunk)]
+    dense = np.max([signed(part.error, part.rate).max(axis=2) for part in parts], axis=0)
+    size = np.ptp(np.stack([search.values[:, 0::2], -search.values[:, 1::2]]), axis=0).repeat(2, axis=1) + 1e-9
+    beyond = (dense - search.values) / size
+    assert beyond.max() < 2e-9
+    assert beyond.min() > -2e-4
+
+
+def test_of_a_pin_alone_they_are_those_of_its_formula() -> None:
+    (tally,) = _run(load("freeth-2021").motion(outputs=["mars"]), 40, 30).tallies
+    r, e = 10.00, 6.58
+    assert tally.peak_to_peak == pytest.approx(2 * asin(e / r), rel=1e-8)
+
+
+def test_of_one_pair_they_are_those_of_its_law() -> None:
+    train = load("moon-triangular")
+    (tally,) = _run(train.motion(outputs=["sun"]), 3, 30).tallies
+    law = train.meshes[0].law
+    assert tally.peak_to_peak == pytest.approx(np.ptp(law.error_range()), rel=1e-10)
+    slow, fast = law.speed_range()
+    mean = float(law.ratio)
+    assert sorted(tally.speeds) == pytest.approx([slow / mean, fast / mean], rel=1e-7)
+
+
+def _run(motion: Motion, turns: float, samples: int) -> MotionRun:
+    run = MotionRun(motion, turns, samples)
+    run.go()
+    return run
+
+
+def test_a_run_too_long_to_be_searched_says_how_far_it_may_be_off() -> None:
+    motion = load("freeth-2021-teeth").motion(outputs=["moon"])
+    (tally,) = _run(motion, 5_000, 2_000).tallies
+    assert tally.error_within > 0
+    assert tally.speed_within > 0
+    # what is told is attained, and what may be more does not pass the sum of all ranges
+    (whole,) = _run(motion, 20, 2_000).tallies
+    assert tally.peak_to_peak + 2 * tally.error_within > whole.peak_to_peak
+
+
+@pytest.mark.parametrize("name", ["moon-triangular", "longcase-clock-bs978", "pennestri-2002-teeth", "freeth-2021"])
+def test_bounds_over_steps_hold_what_lies_in_them(name: str) -> None:
+    composition = load(name).motion().ahead
+    random = np.random.default_rng(5)
+    for width in (1e-5, 1e-3, 0.03):
+        low = random.uniform(0, 2, 200)
+        found = RateBounds(composition).over(low, low + width)
+        errors = found.errors()
+        for share in random.uniform(0, 1, 40):
+            inside = composition.at(low + share * width)
+            assert (inside.error <= errors.high + 1e-12).all()
+            assert (inside.error >= errors.low - 1e-12).all()
+            assert (inside.rate <= found.rate.high + 1e-9).all()
+            assert (inside.rate >= found.rate.low - 1e-9).all()
+
+
+def test_extremes_of_runs_of_a_row_are_those_of_its_entries() -> None:
+    random = np.random.default_rng(3)
+    values = random.normal(size=23)
+    table = RangeExtremes(values, values + 1)
+    first, length = random.integers(-60, 60, 400), random.integers(1, 30, 400)
+    least, most = table.over(first, first + length - 1)
+    for at in range(400):
+        entries = values[np.arange(first[at], first[at] + min(length[at], 23)) % 23]
+        assert (least[at], most[at]) == (entries.min(), entries.max() + 1)
+
+
+def test_speeds_at_a_jump_count_from_both_sides() -> None:
+    motion = load("longcase-clock-bs978").motion()
+    found = _run(motion, 0.5, 11).tallies
+    for at, tally in enumerate(found):
+        corners = motion.corner_positions(0, 0.5).turns
+        beside = np.concatenate([corners - 1e-11, corners + 1e-11])
+        rates = motion.at(beside[(beside > 0) & (beside < 0.5)]).rate[at]
+        assert tally.fast >= rates.max() - 1e-8 * abs(rates).max()
+        assert tally.slow <= rates.min() + 1e-8 * abs(rates).max()

@@ -129,13 +129,17 @@ def _remarks(run: MotionRun) -> Iterator[str]:
             f"At times the driver of {names} turns back: there the other flanks take over, and the play between them "
             "is not followed."
         )
-    open_ = [tally for tally in run.tallies if tally.error_within or tally.speed_within]
-    if open_:
-        error, speed = max(tally.error_within for tally in open_), max(tally.speed_within for tally in open_)
-        yield (
-            f"The run is too long to search each pitch of it: extreme errors of {', '.join(t.name for t in open_)} "
-            f"may lie up to {degrees(error):.2g} deg beyond those told, and speeds up to {speed:.2g} times the input's."
-        )
+    if left := [tally for tally in run.tallies if tally.error_within != 0 or tally.speed_within != 0]:
+        yield f"The run is too long to search each pitch of it: the extremes of {', '.join(map(_left, left))}."
+
+
+def _left(tally: RunningStatistics) -> str:
+    """What an output's extremes leave open."""
+    error, speed = tally.error_within, tally.speed_within
+    if error is None or speed is None:
+        return f"{tally.name} may lie anywhere beyond those told"
+    scale = abs(tally.mean) or 1.0
+    return f"{tally.name} may lie up to {degrees(error):.2g} deg and {speed / scale:.2g} in speed beyond those told"
 
 
 def _pairs(run: MotionRun, every_output: bool) -> Section:

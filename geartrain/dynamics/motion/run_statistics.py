@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from math import inf, sqrt
+from math import inf, isfinite, sqrt
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -63,9 +63,9 @@ class RunningStatistics(Result):
         Extremes of the error [rad].
     slow, fast : float
         Extremes of the speed less its mean, over the input's.
-    error_within, speed_within : float
+    error_within, speed_within : float or None
         No error [rad] and no speed over the input's of the run is farther beyond these extremes; 0 where the run was
-        searched to the end, which leaves a thousand millionth of the range.
+        searched to the end, which leaves a thousand millionth of the range, and None where no bound is known.
 
     See Also
     --------
@@ -88,8 +88,8 @@ class RunningStatistics(Result):
     most: float = -inf
     slow: float = inf
     fast: float = -inf
-    error_within: float = 0.0
-    speed_within: float = 0.0
+    error_within: float | None = 0.0
+    speed_within: float | None = 0.0
 
     def add(self, error: Floats, rate: Floats) -> None:
         """Count some more positions.
@@ -190,4 +190,5 @@ def count_extremes(
         search.around(peaks.turns.reshape(len(tallies), -1), abs(step), low, high)
     for tally, (most, least, fast, slow), doubt in zip(tallies, search.values.tolist(), search.doubt, strict=True):
         tally.reach(np.array([most, -least]), np.array([fast, -slow]))
-        tally.error_within, tally.speed_within = float(doubt[:2].max()), float(doubt[2:].max())
+        within = float(doubt[:2].max()), float(doubt[2:].max())
+        tally.error_within, tally.speed_within = (each if isfinite(each) else None for each in within)

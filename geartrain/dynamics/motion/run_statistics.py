@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from math import inf, isfinite, sqrt
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple, Protocol
 
 import numpy as np
 
@@ -152,6 +152,17 @@ class RunningStatistics(Result):
 
 _BIN = 1024  # positions of which the greatest is kept
 _KEPT = 10  # of them, for each output and each extreme
+
+
+class ErrorSampler(Protocol):
+    """What errors of outputs can be asked of, at most a chunk of positions at once."""
+
+    @property
+    def chunk(self) -> int:
+        """Positions worked on at once."""
+
+    def at(self, turns: Floats) -> ErrorSamples:
+        """Errors and rates where the input has made some turns."""
 
 
 class SampledPeaks:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from textwrap import shorten
+from textwrap import fill, shorten
 from typing import TYPE_CHECKING
 
 from geartrain.drawing.backend import Axes, Figure, Patch
@@ -15,6 +15,8 @@ if TYPE_CHECKING:
 COLOURS = {"ratio": BLUE, "theory": PURPLE, "teeth": GREEN, "lost motion": ORANGE, "cutting": RED}
 MOST = 8
 """Pointers in a picture: the worst, by the sum of their causes."""
+_LINE = 100
+"""Letters below the bars, which are as wide as two thirds of a picture."""
 _ROOM = 0.055  # share of a bar below which its size is not written in it
 
 
@@ -64,7 +66,9 @@ def budget_figure(found: TrainBudget, most: int = MOST) -> Figure:
     title = found.name if found.state is None else f"{found.name}, {found.state}"
     axes.set_title(f"{title}: what each pointer's error comes from", fontsize=TEXT, loc="left", color=BLACK)
     handles = [Patch(color=colour, label=_legend(cause, found)) for cause, colour in COLOURS.items()]
-    figure.legend(handles=handles, loc="outside lower center", ncols=5, fontsize=SMALL, frameon=False)
+    figure.legend(
+        handles=handles, loc="outside lower center", ncols=5, fontsize=SMALL, frameon=False, columnspacing=1.2
+    )
     return figure
 
 
@@ -77,7 +81,13 @@ def _below(pointers: int, shown: int, erring: int) -> str:
     words = "share of the sum of what is declared; hatched: declared in part"
     words += f"; pointers that err less, not drawn: {erring - shown}" if erring > shown else ""
     still = pointers - erring
-    return words + (f"; of which no error is known: {still} of {pointers}" if still else "")
+    words += f"; of which no error is known: {still} of {pointers}" if still else ""
+    return fill(words, _LINE)
+
+
+def _size(value: float, digits: int) -> str:
+    """With so many digits; great ones whole, without a power of ten."""
+    return f"{value:.{digits}g}" if value < 10**digits else f"{value:.0f}"
 
 
 def _bar(axes: Axes, at: int, pointer: PointerBudget) -> None:
@@ -91,9 +101,9 @@ def _bar(axes: Axes, at: int, pointer: PointerBudget) -> None:
             at, share, left=left, height=0.66, color=COLOURS[cause.name], hatch=hatch, edgecolor="white", gid=cause.name
         )
         if share > _ROOM:
-            write(axes, left + share / 2, at, f"{cause.degrees:.2g}°")
+            write(axes, left + share / 2, at, f"{_size(cause.degrees or 0.0, 2)}°")
         left += share
     missing = ", ".join(cause.name for cause in pointer.undeclared)
-    beside = f"sum {pointer.total:.3g}°" + (f"\nnot declared: {missing}" if missing else "")
+    beside = f"sum {_size(pointer.total, 3)}°" + (f"\nnot declared: {missing}" if missing else "")
     axes.annotate(beside, (1.0, at), xytext=(6, 0), textcoords="offset points", va="center", fontsize=SMALL,
                   color=BLACK, annotation_clip=False, gid="sum")  # fmt: skip

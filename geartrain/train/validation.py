@@ -178,14 +178,13 @@ def _explain(error: Mapping[str, Any], place: Marks) -> Problem:
         )
     if kind == "missing":
         return Problem(f"key '{key}' is missing", f"{_where(loc[:-1])} needs it", f"add `{key}:`", place(loc[:-1]))
-    if kind in ("union_tag_not_found", "union_tag_invalid"):
+    if kind == "union_tag_invalid":
+        tag, known = unknown_tag(error)
+        what = f"`{tag}` is '{context['tag']}'"
+        return Problem(what, f"{_where(loc)} comes in kinds", suggest(context["tag"], known), place(loc))
+    if kind == "union_tag_not_found":
         tag = context["discriminator"].strip("'")
-        fix = (
-            f"give `{tag}`: one of {context.get('expected_tags', '')}"
-            if "expected_tags" in context
-            else f"add `{tag}:`"
-        )
-        return Problem(error["msg"], f"{_where(loc)} comes in kinds", fix, place(loc))
+        return Problem(error["msg"], f"{_where(loc)} comes in kinds", f"add `{tag}:`", place(loc))
     what = f"{_where(loc)}: {error['msg'][0].lower()}{error['msg'][1:]}"
     if "fix" in context:
         return Problem(f"{_where(loc)}: {error['msg']}", "", context["fix"], place(loc))
@@ -196,6 +195,12 @@ def _explain(error: Mapping[str, Any], place: Marks) -> Problem:
     if kind == "literal_error":
         return Problem(f"{_where(loc)} is none of the words known here", got, f"use {context['expected']}", place(loc))
     return Problem(what, got, "see `geartrain schema`", place(loc))
+
+
+def unknown_tag(error: Mapping[str, Any]) -> tuple[str, tuple[str, ...]]:
+    """The key by which a union chooses, and all that it may be, of an error that knows no such kind."""
+    context = error["ctx"]
+    return context["discriminator"].strip("'"), tuple(context["expected_tags"].replace("'", "").split(", "))
 
 
 def _where(loc: Loc) -> str:

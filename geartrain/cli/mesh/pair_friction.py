@@ -9,7 +9,7 @@ import typer
 
 from geartrain.cli.option_values import friction as read_coefficient
 from geartrain.cli.option_values import quantity
-from geartrain.errors import GearTrainError, Problem
+from geartrain.errors import GearTrainError, Problem, suggest
 
 if TYPE_CHECKING:
     from geartrain.teeth.friction_law import FrictionLaw
@@ -79,6 +79,11 @@ def read_pair_friction(text: str) -> PairFrictionOption:
 
 
 def _problem(item: Any) -> Problem:
+    if item["type"] == "union_tag_invalid":
+        from geartrain.train.validation import unknown_tag
+
+        given = item["ctx"]["tag"]
+        return Problem(f"there is no law of friction '{given}'", "", suggest(given, unknown_tag(item)[1]), "--friction")
     key = ".".join(str(step) for step in item["loc"][1:])
     what = f"{key}: {item['msg']}" if key else item["msg"]
     return Problem(what, "", str((item.get("ctx") or {}).get("fix", "see docs/shapes.md, section 15")), "--friction")

@@ -1,8 +1,8 @@
-"""Torques and transmission error: what loads, losses and real teeth do to a train of known speeds.
+"""Torques, transmission error, motion in time: what loads, losses, real teeth and inertia do to a train.
 
 In: circuits, exact speeds and loads of a state, and what is known of each gear pair. Out: torques, powers, efficiencies
-and who drives whom; every link's angle at every position, with the error of its teeth. A user asks `GearTrain` for both
-(`torques`, `driven`, `power_flow`, `motion`, `impacts`) and gets the results that stand here.
+and who drives whom; every link's angle at every position, with the error of its teeth; its motion in time. A user asks
+`GearTrain` (`torques`, `driven`, `power_flow`, `motion`, `impacts`, `dynamics`) and gets the results that stand here.
 
 Torques balance by the transpose of the Willis system, A^T x + T = 0 (docs/torques.md, equation 3), and each pair loses
 by the direction of power in its carrier's frame (5). Errors of pairs spread by the same rows,
@@ -26,6 +26,15 @@ if TYPE_CHECKING:
     from geartrain.dynamics.motion.run_statistics import RunningStatistics
     from geartrain.dynamics.motion.superposition import ErrorEstimates
     from geartrain.dynamics.motion.tooth_impacts import ToothImpact
+    from geartrain.dynamics.time.run_parts import (
+        ContactInTime,
+        EnergyAccount,
+        ImpactList,
+        OutputLead,
+        SettledFigure,
+        SpectrumPeak,
+    )
+    from geartrain.dynamics.time.time_run import TimeRun
     from geartrain.dynamics.torques.member_torques import BearingTorque, HoldingTorque, PairTorque
     from geartrain.dynamics.torques.power_circulation import PowerNode, PowerStream, RecirculatingPower
     from geartrain.dynamics.torques.power_flow import PowerFlow, PowerLoss
@@ -35,15 +44,19 @@ if TYPE_CHECKING:
 
 __all__ = [
     "BearingTorque",
+    "ContactInTime",
     "CornerPositions",
     "CycleEnergy",
     "DrivenWay",
+    "EnergyAccount",
     "ErrorEstimates",
     "ErrorSamples",
     "HoldingTorque",
+    "ImpactList",
     "Motion",
     "MotionRun",
     "NeglectedEffect",
+    "OutputLead",
     "PairCycle",
     "PairTorque",
     "PlaceInRun",
@@ -53,7 +66,10 @@ __all__ = [
     "PowerStream",
     "RecirculatingPower",
     "RunningStatistics",
+    "SettledFigure",
     "SpectrumLine",
+    "SpectrumPeak",
+    "TimeRun",
     "ToothImpact",
     "TorqueCycle",
     "TorqueExtreme",
@@ -64,15 +80,19 @@ __all__ = [
 
 _PLACES = {
     "BearingTorque": "torques.member_torques",
+    "ContactInTime": "time.run_parts",
     "CornerPositions": "motion.corner_positions",
     "CycleEnergy": "turn.cycle_parts",
     "DrivenWay": "torques.torque_results",
+    "EnergyAccount": "time.run_parts",
     "ErrorEstimates": "motion.superposition",
     "ErrorSamples": "motion.error_composition",
     "HoldingTorque": "torques.member_torques",
+    "ImpactList": "time.run_parts",
     "Motion": "motion.motion_model",
     "MotionRun": "motion.motion_run",
     "NeglectedEffect": "torques.torque_results",
+    "OutputLead": "time.run_parts",
     "PairCycle": "turn.cycle_parts",
     "PairTorque": "torques.member_torques",
     "PlaceInRun": "turn.cycle_parts",
@@ -82,7 +102,10 @@ _PLACES = {
     "PowerStream": "torques.power_circulation",
     "RecirculatingPower": "torques.power_circulation",
     "RunningStatistics": "motion.run_statistics",
+    "SettledFigure": "time.run_parts",
     "SpectrumLine": "motion.order_spectrum",
+    "SpectrumPeak": "time.run_parts",
+    "TimeRun": "time.time_run",
     "ToothImpact": "motion.tooth_impacts",
     "TorqueCycle": "turn.torque_cycle",
     "TorqueExtreme": "turn.cycle_parts",

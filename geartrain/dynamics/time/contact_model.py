@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 Form = Mapping[int, float]
 """A linear form of coordinates: number -> coefficient."""
 
-_STIFF = 1e9  # rows that determine no coordinate yield as if they were so much lighter than what they hold
+_STIFF = 1e6  # rows that determine no coordinate yield as if they were so much heavier than what they hold
 
 
 @dataclass(frozen=True)
@@ -33,8 +33,8 @@ class ContactPair:
     driver, driven        forward speeds of both sides
     start                 forward angles of both sides where all coordinates are 0 (rad)
     front, back           driven angles on the drive and the coast flank; the same for what has no play
-    factors               driver's torque over what it is without friction, for front and back flank, forward and back
-                          turning; None without friction
+    rubbing               what friction adds to the driver's arm (its torque over the driven side's), for front and back
+                          flank, each turning forward and back; None without friction
     restitution           closing speed that comes back
     """
 
@@ -44,7 +44,7 @@ class ContactPair:
     start: tuple[float, float]
     front: TabledFunction
     back: TabledFunction
-    factors: tuple[TabledFunction, TabledFunction, TabledFunction, TabledFunction] | None = None
+    rubbing: tuple[TabledFunction, TabledFunction, TabledFunction, TabledFunction] | None = None
     restitution: float = 0.0
 
     @property
@@ -177,7 +177,7 @@ class ContactModel:
 
     @cached_property
     def _functions(self) -> tuple[list[TabledFunction], list[list[int]], list[list[int]]]:
-        """Each function once; numbers of the laws and of the loss factors of each pair."""
+        """Each function once; numbers of the laws and of the friction of each pair."""
         known: dict[int, int] = {}
         functions: list[TabledFunction] = []
 
@@ -188,8 +188,8 @@ class ContactModel:
             return known[id(function)]
 
         laws = [[number(pair.front), number(pair.back)] for pair in self.pairs]
-        factors = [[-1] * 4 if pair.factors is None else list(map(number, pair.factors)) for pair in self.pairs]
-        return functions, laws, factors
+        rubbing = [[-1] * 4 if pair.rubbing is None else list(map(number, pair.rubbing)) for pair in self.pairs]
+        return functions, laws, rubbing
 
     def system(self, step: float) -> ContactSystem:
         """The arrays for one length of step (s)."""
@@ -203,7 +203,7 @@ class ContactModel:
                 c[place[each]] = value
             matrix = matrix + step**2 * spring.stiffness * np.outer(c, c)
         near_at, near = _sparse([dict.fromkeys(each, 0.0) for each in order.near])[:2]
-        _, laws, factors = self._functions
+        _, laws, rubbing = self._functions
         owned = [at for at in order.owner if at >= 0]
         return ContactSystem(
             np.ascontiguousarray(mass),
@@ -220,7 +220,7 @@ class ContactModel:
             np.array([pair.two_sided for pair in self.pairs], dtype=np.int64),
             np.array([pair.restitution for pair in self.pairs], dtype=np.float64),
             np.array(laws, dtype=np.int64).reshape(-1, 2),
-            np.array(factors, dtype=np.int64).reshape(-1, 4),
+            np.array(rubbing, dtype=np.int64).reshape(-1, 4),
             np.array([0.0 if m in owned else self._stiffness(_joined(pair)) for m, pair in enumerate(self.pairs)]),
             *_sparse([_placed(each.speed, place) for each in self.bearings]),
             np.array([each.sliding for each in self.bearings], dtype=np.float64),

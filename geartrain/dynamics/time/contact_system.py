@@ -19,11 +19,11 @@ WORK_DRIVE, WORK_TORQUE, WORK_SPRING, BEARINGS, VISCOUS, BLOWS, STEP, FRICTION =
 
 ENERGIES = 8
 
-TIME_APART, TIME_COAST, BLOW_COUNT, BLOW_ENERGY, BLOW_SPEED, IMPULSE, RUBBED, GAP, CHANGES, PEAK = range(10)
+TIME_APART, TIME_COAST, BLOW_COUNT, BLOW_ENERGY, BLOW_SPEED, IMPULSE, RUBBED, GAP, CHANGES = range(9)
 """Columns of what is counted of each pair: steps apart and on the coast flank, blows, their energy and greatest speed,
-impulse, energy rubbed away, greatest gap, changes of flank, greatest impulse of a step without blow."""
+impulse, energy rubbed away, greatest gap, changes of flank."""
 
-COUNTS = 10
+COUNTS = 9
 
 IMPACT_COLUMNS = 5
 """Columns of the list of impacts: time, pair (stops behind the pairs), closing speed, energy, impulse."""
@@ -41,7 +41,7 @@ class ContactSystem(NamedTuple):
     slot                    where in `near` of its owner an entry stands; -1 for the owner itself, -2 without one
     start_driver, start_driven   angles of both sides where all coordinates are 0
     two_sided               1 for a pin without clearance, and gears without play
-    tables, arms            laws of both flanks; loss factors (front, back) x (forward, back), -1 for none
+    tables, rubbing         laws of both flanks; what friction adds to a driver's arm, (front, back) x (forward, back)
     stiff                   of pairs that determine nothing: inverse compliance of their row
     bearing_*               rows of relative speeds in bearings, with torques of sliding and sticking
     stop_*                  rows that may not pass first + (1 + floor(t/beat)) pitch
@@ -66,7 +66,7 @@ class ContactSystem(NamedTuple):
     two_sided: Ints
     restitution: Floats
     tables: Ints
-    arms: Ints
+    rubbing: Ints
     stiff: Floats
     bearing_at: Ints
     bearing_of: Ints
@@ -95,7 +95,8 @@ class ContactState(NamedTuple):
     clock      time (s), step number
     angle      of the coordinates (rad); `speed` (rad/s)
     touching   flank of each pair; `turning`, of each bearing: -1, 0 (stuck), 1; `stopped` of each stop: 0, 1
-    ratio      speed ratio of each pair at the last step, (pairs, 2)
+    ratio      speed ratio of each pair at the last step, (pairs, 2); `struck` of pairs and stops: 1 in a blow
+    steady     impulse of each pair in its last step without blow
     """
 
     clock: Floats
@@ -105,6 +106,8 @@ class ContactState(NamedTuple):
     turning: Ints
     stopped: Ints
     ratio: Floats
+    struck: Ints
+    steady: Floats
 
 
 class RunRecord(NamedTuple):

@@ -46,7 +46,10 @@ class StepPlan(NamedTuple):
 
 @dataclass
 class SimulatedRun:
-    """What a run left, in the coordinates' own order; `start` and `end` are kinetic energies of what is counted (J)."""
+    """What a run left, in the coordinates' own order; `start` and `end` are kinetic energies of what is counted (J).
+
+    turned   angles of the coordinates over what is counted (rad)
+    """
 
     plan: StepPlan
     angles: Floats
@@ -59,6 +62,7 @@ class SimulatedRun:
     numbers: tuple[int, ...]
     start: float
     end: float
+    turned: Floats
 
 
 def simulate(model: ContactModel, plan: StepPlan, fast: bool = False) -> SimulatedRun:
@@ -87,7 +91,7 @@ def simulate(model: ContactModel, plan: StepPlan, fast: bool = False) -> Simulat
     laws = model.laws
     arguments = plan.stride, _CREEP * fastest, plan.apart, slack
     run(system, laws, state, here, record, plan.step, skip, *arguments, False)
-    start = _kinetic(system, state)
+    start, before = _kinetic(system, state), state.angle.copy()
     run(system, laws, state, here, record, plan.step, plan.steps, *arguments, True)
     order = np.argsort(model.order.coordinates)
     kept = min(int(record.numbers[IMPACTS]), _ROOM)
@@ -104,6 +108,7 @@ def simulate(model: ContactModel, plan: StepPlan, fast: bool = False) -> Simulat
         tuple(int(each) for each in record.numbers),
         start,
         _kinetic(system, state),
+        (state.angle - before)[order],
     )
 
 
@@ -129,7 +134,15 @@ def start_state(model: ContactModel, system: ContactSystem) -> ContactState:
     touching = np.full(pairs, FRONT, dtype=np.int64)
     turning = np.zeros(len(model.bearings), dtype=np.int64)
     return ContactState(
-        np.zeros(2), np.zeros(n), speed, touching, turning, np.zeros(len(model.stops), dtype=np.int64), ratio
+        np.zeros(2),
+        np.zeros(n),
+        speed,
+        touching,
+        turning,
+        np.zeros(len(model.stops), dtype=np.int64),
+        ratio,
+        np.zeros(pairs + len(model.stops), dtype=np.int64),
+        np.zeros(pairs),
     )
 
 

@@ -16,7 +16,6 @@ from geartrain.dynamics.time.contact_system import (
     GAP,
     IMPACTS,
     IMPULSE,
-    PEAK,
     RUBBED,
     STEP,
     TIME_APART,
@@ -108,6 +107,8 @@ def count_contacts(
             counts[GAP] = max(counts[GAP], min(ahead, behind))
         now = state.touching[m]
         if now == 0:
+            state.steady[m] = 0.0
+            state.struck[m] = 0
             continue
         side = now - 1
         sign = 1.0 - 2.0 * side
@@ -118,17 +119,36 @@ def count_contacts(
         counts[IMPULSE] += here.P[m] * sign
         if now != before[m] and before[m] != 0:
             counts[CHANGES] += 1.0
-        jumps = laws.jump[system.tables[m, side]] / 2
-        leapt = now != before[m] or abs(here.ratio[m, side] - state.ratio[m, side]) > jumps
-        if leapt and system.two_sided[m] == 0 and closing[m, side] > 0.0:
-            record.energy[BLOWS] += taken
+        struck = now != before[m] or leaps(system, laws, state, here, m, side)
+        if struck and system.two_sided[m] == 0 and closing[m, side] > 0.0:
+            state.struck[m] = 1
+            count_blow(record, m, taken, here.P[m], state.steady[m])
             counts[BLOW_COUNT] += 1.0
-            counts[BLOW_ENERGY] += taken
             counts[BLOW_SPEED] = max(counts[BLOW_SPEED], closing[m, side])
             note_impact(record, state.clock[0] + step, m, closing[m, side], taken, here.P[m])
+        elif state.struck[m] != 0:
+            # a ratio that jumps within a step is met by the mean of both, and the rest follows in the next
+            state.struck[m] = 0
+            count_blow(record, m, taken, here.P[m], state.steady[m])
         else:
             record.energy[STEP] += taken
-            counts[PEAK] = max(counts[PEAK], abs(here.P[m]))
+            state.steady[m] = abs(here.P[m])
+
+
+@kernel
+def count_blow(record: RunRecord, m: int, taken: float, impulse: float, steady: float) -> None:
+    """Part what a contact takes in a step between the blow and the steady force beside it."""
+    share = (impulse - steady) / impulse if impulse > steady else 0.0
+    record.energy[BLOWS] += taken * share
+    record.energy[STEP] += taken * (1.0 - share)
+    record.counts[m, BLOW_ENERGY] += taken * share
+
+
+@kernel
+def leaps(system: ContactSystem, laws: LawTables, state: ContactState, here: StepEquations, m: int, side: int) -> bool:
+    """Whether the speed ratio of a flank has passed a jump of its law since the last step."""
+    leap = abs(here.ratio[m, side] - state.ratio[m, side])
+    return bool(leap > laws.jump[system.tables[m, side]] / 2)
 
 
 @kernel
@@ -139,6 +159,7 @@ def count_stops(
     pairs = len(system.stiff)
     for m in range(len(system.stop_stiff)):
         if state.stopped[m] == 0:
+            state.struck[pairs + m] = 0
             continue
         rate, start = 0.0, 0.0
         for x in range(system.stop_at[m], system.stop_at[m + 1]):
@@ -147,7 +168,13 @@ def count_stops(
         taken = here.P[pairs + m] * rate
         counts = record.counts[pairs + m]
         counts[IMPULSE] += here.P[pairs + m]
-        if before[pairs + m] == 0 and start > 0.0:
+        if state.struck[pairs + m] != 0:
+            state.struck[pairs + m] = 0
+            record.energy[BLOWS] += taken
+            counts[BLOW_ENERGY] += taken
+        elif before[pairs + m] == 0 and start > 0.0:
+            # it comes to its stop in this step, and to rest in the next
+            state.struck[pairs + m] = 1
             record.energy[BLOWS] += taken
             counts[BLOW_COUNT] += 1.0
             counts[BLOW_ENERGY] += taken

@@ -27,13 +27,15 @@ from geartrain.dynamics.time.contact_system import (
     RunRecord,
 )
 from geartrain.dynamics.time.law_tables import LawTables, value_and_slope
-from geartrain.dynamics.time.step_account import count_contacts, count_energy, count_stops
+from geartrain.dynamics.time.step_account import count_contacts, count_energy, count_stops, leaps
 from geartrain.numerics.kernels import kernel
 
 if TYPE_CHECKING:
-    from geartrain.numerics.arrays import Floats
+    from geartrain.numerics.arrays import Floats, Ints
 
 _AT_ONCE = 6  # rounds in which all wrong guesses are turned round together
+_AGAIN = 4  # times that laws are read anew where a blow moves their drivers on
+_NEAR = 1e-9  # rad: drivers that stand so near to where their laws were read
 
 
 @kernel
@@ -64,23 +66,34 @@ def run_steps(
     closing = np.zeros((pairs, 2))
     before = np.zeros(pairs + stops, np.int64)
     middle = np.zeros(n)
+    ahead = np.zeros(n)
     sample = record.numbers[SAMPLES]
     since = 0
     for _ in range(steps):
         find_loads(system, state, here, step)
-        find_bounds(system, laws, state, here, step, gap, closing)
+        find_bounds(system, laws, state, here, state.speed, step, gap, closing)
         find_stop_bounds(system, state, here, step)
         for m in range(pairs):
             before[m] = state.touching[m]
         for m in range(stops):
             before[pairs + m] = state.stopped[m]
         rounds = 0
+        again = 0
+        for d in range(n):
+            ahead[d] = state.speed[d]
         limit = 60 + 6 * (pairs + stops + len(system.sliding))
         while True:
             solve_guess(system, state, here, step, creep)
             rounds += 1
             if correct_guess(system, state, here, creep, slack, rounds > _AT_ONCE) == 0:
-                break
+                if again == _AGAIN or not is_struck(system, laws, state, here, before):
+                    break
+                if find_shift(system, here, ahead) * step < _NEAR:
+                    break
+                again += 1
+                for d in range(n):
+                    ahead[d] = here.v[d]
+                find_bounds(system, laws, state, here, ahead, step, gap, closing)
             if rounds > limit:
                 record.numbers[UNSOLVED] += 1
                 break
@@ -142,36 +155,66 @@ def find_bounds(
     laws: LawTables,
     state: ContactState,
     here: StepEquations,
+    ahead: Floats,
     step: float,
     gap: Floats,
     closing: Floats,
 ) -> None:
-    """Speed ratios, arms and bounds k of both flanks; `gap`, k without restitution, and closing speeds before."""
+    """Speed ratios, arms and bounds k of both flanks where the speeds `ahead` lead.
+
+    gap       k without restitution; `closing`, speeds before the step
+    """
     for m in range(len(system.stiff)):
-        S, q, dS, dq = system.start_driver[m], system.start_driven[m], 0.0, 0.0
+        S, q, dS, dq, on = system.start_driver[m], system.start_driven[m], 0.0, 0.0, 0.0
         for x in range(system.pair_at[m], system.pair_at[m + 1]):
             o = system.pair_of[x]
             S += system.pair_driver[x] * state.angle[o]
             q += system.pair_driven[x] * state.angle[o]
             dS += system.pair_driver[x] * state.speed[o]
             dq += system.pair_driven[x] * state.speed[o]
-        at = S + step * dS
+            on += system.pair_driver[x] * ahead[o]
+        at = S + step * on
         way = 0 if dS >= 0 else 1
         for side in range(2):
             sign = 1.0 - 2.0 * side
             angle, ratio = value_and_slope(laws, system.tables[m, side], at)
-            lack = sign * ((angle - q) / step - ratio * dS)
+            lack = sign * ((angle - q) / step - ratio * on)
             rate = sign * (dq - ratio * dS)
             gap[m, side] = lack
             closing[m, side] = -rate
-            if system.two_sided[m] == 0 and rate < lack and rate < 0.0 and -system.restitution[m] * rate > lack:
-                lack = -system.restitution[m] * rate
+            bounce = -system.restitution[m] * rate
+            # without restitution the position alone counts: a jump of the ratio within the step is no flight
+            if bounce > 0.0 and rate < lack < bounce:
+                lack = bounce
             here.bound[m, side] = lack
             here.ratio[m, side] = ratio
             here.arm[m, side] = ratio
-            if system.arms[m, 2 * side + way] >= 0:
-                factor, _ = value_and_slope(laws, system.arms[m, 2 * side + way], at)
-                here.arm[m, side] = ratio * factor
+            if system.rubbing[m, 2 * side + way] >= 0:
+                more, _ = value_and_slope(laws, system.rubbing[m, 2 * side + way], at)
+                here.arm[m, side] += more
+
+
+@kernel
+def is_struck(system: ContactSystem, laws: LawTables, state: ContactState, here: StepEquations, before: Ints) -> bool:
+    """Whether a flank has come to touch in this step, or the ratio of one that touches has jumped."""
+    for m in range(len(system.stiff)):
+        now = state.touching[m]
+        if now != 0 and (now != before[m] or leaps(system, laws, state, here, m, now - 1)):
+            return True
+    return False
+
+
+@kernel
+def find_shift(system: ContactSystem, here: StepEquations, ahead: Floats) -> float:
+    """How far the speeds of drivers are from those for which the laws were read (rad/s)."""
+    most = 0.0
+    for m in range(len(system.stiff)):
+        shift = 0.0
+        for x in range(system.pair_at[m], system.pair_at[m + 1]):
+            o = system.pair_of[x]
+            shift += system.pair_driver[x] * (here.v[o] - ahead[o])
+        most = max(most, abs(shift))
+    return most
 
 
 @kernel
@@ -205,7 +248,7 @@ def correct_guess(
                 want = 0
                 if system.two_sided[m] != 0:
                     # without friction a force may have either sign
-                    want = 3 - now if system.arms[m, 0] >= 0 else now
+                    want = 3 - now if system.rubbing[m, 0] >= 0 else now
         else:
             rate_S, rate_q = 0.0, 0.0
             for x in range(system.pair_at[m], system.pair_at[m + 1]):

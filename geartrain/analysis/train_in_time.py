@@ -1,0 +1,87 @@
+"""The third part of a train that answers: its motion in time."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from geartrain.analysis.train_dynamics import TrainDynamics
+
+if TYPE_CHECKING:
+    from geartrain.dynamics.time.time_run import TimeRun
+
+
+class TrainInTime(TrainDynamics):
+    """What `GearTrain` knows of motion in time."""
+
+    def dynamics(
+        self,
+        rate: str | float | None = None,
+        turns: float = 10.0,
+        state: str | None = None,
+        *,
+        skip: float = 1.0,
+        steps: int | None = None,
+        restitution: float | None = None,
+        outputs: Sequence[str] = (),
+        without: Sequence[str] = (),
+        samples: int | None = None,
+        apart: float = 1e-5,
+        fast: bool | None = None,
+    ) -> TimeRun:
+        """Motion in time: inertia, play, impacts, drag and friction, by nonsmooth time stepping (docs/dynamics.md).
+
+        Two runs are made, of steps h and h/2; what differs between them is marked, and all else is of the second.
+
+        Parameters
+        ----------
+        rate : str or float, optional
+            Speed of the first input that turns, as text such as "1 turn/s" or a number [rad/s]; by default the declared
+            drive.
+        turns : float
+            Turns of that input that are counted, in its mean motion.
+        state : str, optional
+            A declared state; None only of a train that has none.
+        skip : float
+            Turns before, which are not counted.
+        steps : int, optional
+            Steps of the first run in a turn; by default 200 in the shortest period of a pair.
+        restitution : float, optional
+            Of all impacts, in place of what is declared.
+        outputs : sequence of str
+            Outputs or links; by default all outputs, and all links of a train without any.
+        without : sequence of str
+            Pairs left out, so that real teeth do not contradict each other around a loop.
+        samples : int, optional
+            Samples that are kept; by default 12 in the shortest period of a pair, 40000 at most.
+        apart : float
+            Gap from which teeth count as apart [rad of the driven side].
+        fast : bool, optional
+            Whether kernels are compiled, by the extra `fast`; by default if the run is long and numba is installed.
+
+        Returns
+        -------
+        TimeRun
+            Angles, speeds, torques, shares of time apart, impacts, energy.
+
+        Raises
+        ------
+        QuestionError
+            If the train does not move, nothing says how fast, or a link that can move by itself has no inertia.
+        GearTrainError
+            If redundant loops have teeth that cannot turn together, or friction locks teeth.
+        """
+        from geartrain.dynamics.time.time_case import find_time_case
+        from geartrain.dynamics.time.time_study import TimeStudy
+        from geartrain.dynamics.time.train_model import TrainModel
+        from geartrain.numerics.quantity import Quantity
+
+        case = self._case(state)
+        problem = self._moving(case, without)
+        names = outputs or tuple(case.outputs) or tuple(self.declaration.links)
+        seen = [(name, *self._speeds.single_output(case, name)[1]) for name in names]
+        speed = Quantity.parse(rate, "speed", plain=True).si if isinstance(rate, str) else rate
+        inertia = {name: link.inertia.si for name, link in self.declaration.links.items() if link.inertia is not None}
+        found = find_time_case(self.declaration, case, problem, inertia, speed, restitution)
+        model = TrainModel(self.declaration, problem, found, self.tree, case.state)
+        return TimeStudy(model, seen, turns, skip, steps, samples, apart, fast).run()

@@ -1,0 +1,142 @@
+"""What motion in time needs beside the motion itself: inertia, drag, restitution, what drives. SI units."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from math import tau
+from typing import TYPE_CHECKING, Literal
+
+from geartrain.dynamics.pair_speeds import radians_per_second
+from geartrain.errors import Problem, QuestionError
+
+if TYPE_CHECKING:
+    from geartrain.dynamics.motion.motion_problem import MotionProblem
+    from geartrain.numerics.quantity import Quantity
+    from geartrain.train import Drive, StateCase, Train
+
+GRAVITY = 9.80665
+"""m/s2, standard."""
+
+
+@dataclass(frozen=True)
+class PowerInput:
+    """What keeps a train going.
+
+    link       where it acts
+    rate       speed that is kept: of the link itself, or of the hand (rad/s)
+    torque     constant torque, also that of a weight on its drum (N m)
+    stiffness  of a spring or a hand (N m/rad); `wound`, by how much the spring is wound at the start (rad)
+    inertia    what it adds to the link's own (kg m2)
+    """
+
+    link: str
+    kind: Literal["rate", "torque", "spring", "hand"]
+    rate: float = 0.0
+    torque: float = 0.0
+    stiffness: float = 0.0
+    wound: float = 0.0
+    inertia: float = 0.0
+
+
+@dataclass(frozen=True)
+class TimeCase:
+    """A train in one state, as it is to move in time.
+
+    drive         where power enters; `rate`, speed of the lead that sets the scale of time (rad/s)
+    inertia       of links (kg m2); `drag`, viscous (N m s/rad)
+    bearing       dry friction of links in their bearings, sliding and sticking (N m)
+    load          torques on links (N m)
+    restitution   of pairs
+    clearance     of pins in their slots (m)
+    escapements   by link: angle (rad) and time (s) of a beat
+    """
+
+    drive: PowerInput
+    rate: float
+    inertia: Mapping[str, float]
+    drag: Mapping[str, float] = field(default_factory=dict)
+    bearing: Mapping[str, tuple[float, float]] = field(default_factory=dict)
+    load: Mapping[str, float] = field(default_factory=dict)
+    restitution: Mapping[str, float] = field(default_factory=dict)
+    clearance: Mapping[str, float] = field(default_factory=dict)
+    escapements: Mapping[str, tuple[float, float]] = field(default_factory=dict)
+
+
+def find_time_case(
+    train: Train,
+    case: StateCase,
+    problem: MotionProblem,
+    inertia: Mapping[str, float],
+    rate: float | None = None,
+    restitution: float | None = None,
+) -> TimeCase:
+    """What is declared, where a rate (rad/s of the first input that turns) or a restitution is not given instead."""
+    links = {name: link for name, link in train.links.items() if name != train.frame}
+    given = {part.name: train.restitution_of(part) for part in (*train.gears, *train.couplings)}
+    turning = rate if rate is not None else _declared_rate(train, case, problem)
+    escapement = train.escapement
+    beats = {} if escapement is None else {escapement.link: (tau / (2 * escapement.teeth), escapement.beat.si)}
+    drive = None if rate is not None else case.drive
+    return TimeCase(
+        _power_input(train, drive, problem, turning),
+        turning,
+        inertia,
+        {name: link.drag.si for name, link in links.items() if link.drag is not None},
+        {
+            name: (link.bearing.sliding.si, link.bearing.at_rest.si)
+            for name, link in links.items()
+            if link.bearing is not None
+        },
+        {name: torque.si for name, torque in case.loads.items()},
+        {name: (own or 0.0) if restitution is None else restitution for name, own in given.items()},
+        {each.name: each.clearance.si for each in train.couplings if each.clearance is not None},
+        beats,
+    )
+
+
+def _declared_rate(train: Train, case: StateCase, problem: MotionProblem) -> float:
+    """Speed of the lead (rad/s): a declared rate, the escapement's, or that of a hand."""
+    sense = -1.0 if problem.speeds[problem.lead] < 0 else 1.0
+    unit = radians_per_second(train, case)
+    if unit is not None:
+        return unit * float(problem.speeds[problem.lead])
+    if train.escapement is not None and problem.ratio(train.escapement.link):
+        return sense * tau * float(train.escapement.speed / abs(problem.ratio(train.escapement.link)))
+    hand = None if case.drive is None else case.drive.hand
+    if hand is not None and hand.rate is not None:
+        return sense * hand.rate.si / abs(float(problem.ratio(train.crank or problem.lead)))
+    what = "nothing says how fast the train turns"
+    why = "the length of a step follows from the time in which teeth pass"
+    raise QuestionError(Problem(what, why, "give a rate such as `rate: 1 turn/s`, that which is expected"))
+
+
+def _power_input(train: Train, drive: Drive | None, problem: MotionProblem, rate: float) -> PowerInput:
+    """What drives, the way its link turns."""
+    lead = problem.lead
+    if drive is None or drive.rate is not None:
+        return PowerInput(lead, "rate", rate=rate)
+    link = train.crank or lead
+    speed = rate * float(problem.ratio(link))
+    way = -1.0 if speed < 0 else 1.0
+    if drive.torque is not None:
+        return PowerInput(link, "torque", torque=way * drive.torque.si)
+    if drive.weight is not None and drive.drum is not None:
+        mass, radius = drive.weight.si, drive.drum.si
+        return PowerInput(link, "torque", torque=way * mass * GRAVITY * radius, inertia=mass * radius**2)
+    if drive.spring is not None:
+        wound = way * tau * float(drive.spring.turns.value)
+        return PowerInput(link, "spring", stiffness=drive.spring.stiffness.si, wound=wound)
+    hand = drive.hand
+    assert hand is not None
+    inertia = 0.0 if hand.inertia is None else hand.inertia.si
+    if hand.torque is not None:
+        return PowerInput(link, "torque", torque=way * hand.torque.si, inertia=inertia)
+    own = way * _si(hand.rate)
+    if hand.stiffness is None:
+        return PowerInput(link, "rate", rate=own, inertia=inertia)
+    return PowerInput(link, "hand", rate=own, stiffness=hand.stiffness.si, inertia=inertia)
+
+
+def _si(quantity: Quantity | None) -> float:
+    return 0.0 if quantity is None else quantity.si

@@ -1,0 +1,160 @@
+"""What a train did in time: angles, speeds, torques, shares of time apart, impacts, and the account of its energy."""
+
+from __future__ import annotations
+
+import html
+from collections.abc import Mapping
+from dataclasses import dataclass
+from math import tau
+from typing import TYPE_CHECKING
+
+from geartrain.numerics.files import csv_text
+from geartrain.numerics.plain_data import Key, Result, group
+
+if TYPE_CHECKING:
+    from geartrain.dynamics.time.run_parts import (
+        ContactInTime,
+        EnergyAccount,
+        ImpactList,
+        OutputLead,
+        SettledFigure,
+        SpectrumPeak,
+    )
+    from geartrain.numerics.arrays import Floats
+    from geartrain.numerics.labelled_array import LabelledArray
+
+
+@dataclass(frozen=True)
+class TimeRun(Result):
+    """A train in time, by steps of one length; everything is of the run with the shorter steps.
+
+    Attributes
+    ----------
+    train : str
+        Its name.
+    state : str or None
+        The declared state.
+    lead : str
+        The input that sets the scale.
+    rate : float
+        Its mean speed in the counted part of the run [rad/s].
+    step : float
+        Length of a step [s].
+    skip, duration : float
+        Time before what is counted, and of what is counted [s].
+    time, turns : array of float, (n,)
+        Of the samples: time [s], and turns of the lead.
+    angles, speeds : LabelledArray, (link, time)
+        Of all links [rad, rad/s].
+    torques : LabelledArray, (contact, time)
+        Means between samples, of torques on the driven sides [N m].
+    drive : array of float, (n,)
+        Torque where power enters, mean between samples [N m], the way the train turns.
+    torque : float
+        Mean of that over what is counted: its work over the angle [N m].
+    contacts : tuple of ContactInTime
+        By pair, pin and escapement.
+    impacts : ImpactList
+        Those of the counted part.
+    energy : EnergyAccount
+        Of the counted part.
+    leads : tuple of OutputLead
+        Outputs against `motion`.
+    spectra : mapping of str to tuple of SpectrumPeak
+        By output, strongest first.
+    figures : tuple of SettledFigure
+        What steps of h and h/2 say.
+    unsolved : int
+        Steps in which no consistent set of contacts was found; their last guess was taken.
+    notes : tuple of str
+        What is left out.
+
+    See Also
+    --------
+    geartrain.GearTrain.dynamics : gives these.
+
+    Examples
+    --------
+    >>> import geartrain
+    >>> wheels = {"links": {"frame": {}, "a": {"wheels": {"p": 20}}, "b": {"wheels": {"w": 30}, "inertia": "1e-6 kg m2",
+    ...     "bearing": "1 N mm"}}, "revolutes": [{"pair": ["frame", "a"], "axis": "A"}, {"pair": ["frame", "b"],
+    ...     "axis": "B"}], "gears": [{"pair": ["p", "w"]}], "inputs": {"a": 1}}
+    >>> run = geartrain.GearTrain.declare(wheels).dynamics(rate="1 turn/s", turns=1, steps=200)
+    >>> round(run.torque * 1000, 6), run.energy.closure < 1e-12
+    (0.666667, True)
+    """
+
+    KEYS = (
+        "train",
+        "state",
+        "lead",
+        "rate",
+        "step",
+        "skip",
+        "duration",
+        "torque",
+        "contacts",
+        "impacts",
+        group("energy", Key("", "energy")),
+        "leads",
+        "spectra",
+        "figures",
+        "unsolved",
+        "notes",
+    )
+
+    train: str
+    state: str | None
+    lead: str
+    rate: float
+    step: float
+    skip: float
+    duration: float
+    time: Floats
+    turns: Floats
+    angles: LabelledArray
+    speeds: LabelledArray
+    torques: LabelledArray
+    drive: Floats
+    torque: float
+    contacts: tuple[ContactInTime, ...]
+    impacts: ImpactList
+    energy: EnergyAccount
+    leads: tuple[OutputLead, ...]
+    spectra: Mapping[str, tuple[SpectrumPeak, ...]]
+    figures: tuple[SettledFigure, ...]
+    unsolved: int
+    notes: tuple[str, ...]
+
+    def __getitem__(self, name: str) -> Floats | ContactInTime:
+        """The angles of a link [rad], or the course of a pair."""
+        for each in self.contacts:
+            if each.name == name:
+                return each
+        found: Floats = self.angles[name]
+        return found
+
+    def to_csv(self) -> str:
+        """All samples as a table: time, turns, angles and speeds of links, torques of contacts, torque of the drive.
+
+        Returns
+        -------
+        str
+            Comma-separated, with a head that names units.
+        """
+        links, pairs = self.angles.labels[0], self.torques.labels[0]
+        head = ["time (s)", "turns", *(f"{name} angle (rad)" for name in links)]
+        head += [f"{name} speed (rad/s)" for name in links] + [f"{name} torque (N m)" for name in pairs]
+        head.append("drive torque (N m)")
+        parts = (self.time, self.turns, *self.angles.values, *self.speeds.values, *self.torques.values, self.drive)
+        return csv_text(head, zip(*(part.tolist() for part in parts), strict=True))
+
+    def _repr_html_(self) -> str:
+        rows = "".join(
+            f"<tr><td>{html.escape(each.name)}</td><td>{100 * each.apart:.3g}</td><td>{100 * each.coast:.3g}</td>"
+            f"<td>{each.blows:.4g}</td><td>{1e3 * each.power:.3g}</td></tr>"
+            for each in self.contacts
+        )
+        head = "<tr><th>contact</th><th>apart (%)</th><th>coast (%)</th><th>blows (1/s)</th><th>blows (mW)</th></tr>"
+        text = f"{html.escape(self.train)}: {self.rate / tau:.4g} turn/s of {html.escape(self.lead)}"
+        return f"<p>{text}</p><table>{head}{rows}</table>"

@@ -6,10 +6,10 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property
-from typing import TYPE_CHECKING
 
 from geartrain.dynamics.gear_meshes import PinMesh
 from geartrain.dynamics.torques.member_torques import BearingTorque
+from geartrain.dynamics.torques.pair_means import MeanEfficiencies
 from geartrain.dynamics.torques.virtual_work import PRESCRIBED
 from geartrain.kinematics.circuits import Circuit, Tree
 from geartrain.kinematics.relative_speeds import relative_speed
@@ -19,9 +19,6 @@ from geartrain.teeth.gear_mesh import GearMesh as ToothMesh
 from geartrain.teeth.pin_coupling import Coupling
 from geartrain.train import GearPair, StateCase, Train
 
-if TYPE_CHECKING:
-    from geartrain.dynamics.torques.mean_efficiencies import MeanEfficiencies
-
 
 @dataclass(frozen=True)
 class LoadCase:
@@ -29,6 +26,7 @@ class LoadCase:
 
     speeds   of the links whose speed is determined
     forms    in a train that is free, the speeds of all links in terms of what is free; else empty
+    means    what pairs and couplings lose on the mean, by name, as far as it has been asked for
     """
 
     train: Train
@@ -40,6 +38,7 @@ class LoadCase:
     teeth: Sequence[ToothMesh] = ()
     pins: Sequence[PinMesh] = ()
     forms: Mapping[str, LinearForm] = field(default_factory=dict)
+    means: dict[str, MeanEfficiencies] = field(default_factory=dict, init=False, repr=False, compare=False)
 
     @cached_property
     def gears(self) -> Mapping[str, GearPair]:
@@ -60,13 +59,6 @@ class LoadCase:
     def joints(self) -> Mapping[str, PinMesh]:
         """Pins in slots with dimensions, by name."""
         return {joint.coupling.name: joint for joint in self.pins}
-
-    @cached_property
-    def means(self) -> Mapping[str, MeanEfficiencies]:
-        """What each pair and coupling loses on the mean, by name: the same whatever is loaded."""
-        from geartrain.dynamics.torques.mean_efficiencies import find_mean_efficiencies
-
-        return {circuit.id: find_mean_efficiencies(self, circuit) for circuit in self.circuits}
 
     @cached_property
     def system(self) -> WillisSystem:

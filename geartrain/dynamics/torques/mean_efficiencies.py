@@ -8,49 +8,33 @@ the two is given follows from the balance: the link whose own row determines the
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from fractions import Fraction
 
 from geartrain.dynamics.pair_speeds import at_speed, pitch_line_speed
 from geartrain.dynamics.torques.load_case import LoadCase
+from geartrain.dynamics.torques.pair_means import MeanEfficiencies
 from geartrain.dynamics.torques.torque_balance import LoadedPair, TorqueBalance
 from geartrain.kinematics.circuits import Circuit
 from geartrain.teeth.transmission_figures import SlidingEfficiency
 
-_ONE = Fraction(1)
 _ROUNDING = 1e-9  # by so much the quadrature of a mean may pass 1
 
 
-@dataclass(frozen=True)
-class MeanEfficiencies:
-    """Efficiencies of one pair with the first link driving, then with the second.
-
-    driver   where the torque of the driver is constant over a turn
-    load     where the torque of the driven side is
-    """
-
-    driver: tuple[Fraction, Fraction] = (_ONE, _ONE)
-    load: tuple[Fraction, Fraction] = (_ONE, _ONE)
-
-    @property
-    def differ(self) -> bool:
-        """True if it matters which torque is constant."""
-        return self.driver != self.load
-
-    def given(self, side: int, driving: bool) -> tuple[Fraction, Fraction]:
-        """Forward and backward with the torque of the first link constant (1), of the second (-1), or of neither (0).
-
-        driving   for neither: the loads put power in, so that what drives is nearer to what is given
-        """
-        if side > 0:
-            return self.driver[0], self.load[1]
-        if side < 0:
-            return self.load[0], self.driver[1]
-        return self.driver if driving else self.load
+def all_mean_efficiencies(setting: LoadCase) -> Mapping[str, MeanEfficiencies]:
+    """What each pair and coupling loses, by name."""
+    return {circuit.id: find_mean_efficiencies(setting, circuit) for circuit in setting.circuits}
 
 
 def find_mean_efficiencies(setting: LoadCase, circuit: Circuit) -> MeanEfficiencies:
-    """What one pair or coupling loses; nothing where nothing is declared, or it has no dimensions."""
+    """What one pair or coupling loses, worked out once a case: it is the same whatever is loaded."""
+    if circuit.id not in setting.means:
+        setting.means[circuit.id] = _of_circuit(setting, circuit)
+    return setting.means[circuit.id]
+
+
+def _of_circuit(setting: LoadCase, circuit: Circuit) -> MeanEfficiencies:
+    """Nothing where nothing is declared, or it has no dimensions."""
     if circuit.kind != "gear":
         return _of_pin(setting, circuit)
     gear = setting.gears[circuit.id]
@@ -87,7 +71,7 @@ def _mean(efficiency: float | None) -> Fraction:
     if efficiency is None:
         return Fraction(0)
     # rounding of a quadrature may pass 1 by a little; digits in decimal, so that 0.98 stays 49/50
-    return _ONE if 1 < efficiency < 1 + _ROUNDING else Fraction(f"{efficiency:.15g}")
+    return Fraction(1) if 1 < efficiency < 1 + _ROUNDING else Fraction(f"{efficiency:.15g}")
 
 
 def settle_mean_efficiencies(

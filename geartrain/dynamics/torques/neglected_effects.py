@@ -8,7 +8,8 @@ from math import inf
 
 from geartrain.dynamics.torques.bearing_reversal import SpeedBounds, find_reversing_bearings
 from geartrain.dynamics.torques.load_case import LoadCase
-from geartrain.dynamics.torques.mean_efficiencies import MeanEfficiencies
+from geartrain.dynamics.torques.mean_efficiencies import all_mean_efficiencies
+from geartrain.dynamics.torques.pair_means import MeanEfficiencies
 from geartrain.dynamics.torques.torque_results import NeglectedEffect
 from geartrain.kinematics.circuits import Circuit
 from geartrain.numerics.decimal_text import decimal
@@ -50,7 +51,7 @@ def neglected_over_turn(setting: LoadCase, at_means: Sequence[str]) -> tuple[Neg
     """
     found = [
         *_bare_pins(setting, setting.circuits),
-        *_teeth(setting, setting.circuits, setting.means),
+        *_teeth(setting, setting.circuits, all_mean_efficiencies(setting)),
         *_inertia(setting),
     ]
     if at_means:

@@ -9,12 +9,10 @@ from fractions import Fraction
 from geartrain.dynamics.torques.flow_patterns import FlowPattern, find_flow_patterns
 from geartrain.dynamics.torques.load_case import LoadCase
 from geartrain.dynamics.torques.load_sharing import find_shares, find_ties
-from geartrain.dynamics.torques.mean_efficiencies import (
-    MeanEfficiencies,
-    settle_mean_efficiencies,
-)
+from geartrain.dynamics.torques.mean_efficiencies import all_mean_efficiencies, settle_mean_efficiencies
 from geartrain.dynamics.torques.member_torques import HoldingTorque, PairTorque
 from geartrain.dynamics.torques.neglected_effects import find_neglected_effects
+from geartrain.dynamics.torques.pair_means import MeanEfficiencies
 from geartrain.dynamics.torques.torque_balance import LoadedPair, TorqueBalance
 from geartrain.dynamics.torques.torque_results import NeglectedEffect, Torques, TorqueVerdict
 from geartrain.dynamics.torques.torque_verdicts import LoadedBalance, find_imbalance, find_torque_verdict
@@ -146,7 +144,7 @@ def _balanced(setting: LoadCase, loads: Mapping[str, Fraction], asked: UnknownLi
     state = setting.case.state
     if not asked.enough and (lacking := find_imbalance(setting, known, asked.links)) is not None:
         return Torques(state, _with_reason(asked, lacking), asked.links)
-    means = setting.means
+    means = all_mean_efficiencies(setting)
     driving = sum((torque * setting.speeds.get(link, 0) for link, torque in loads.items()), Fraction(0)) > 0
     balance, neither = settle_mean_efficiencies(build_balance(setting, known, asked.links, means), means, driving)
     found, complete = find_flow_patterns(balance)

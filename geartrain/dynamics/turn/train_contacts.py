@@ -6,6 +6,7 @@ from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, NamedTuple
 
 from geartrain.dynamics.pair_speeds import pitch_line_speed
+from geartrain.dynamics.torques.mean_efficiencies import find_mean_efficiencies
 from geartrain.dynamics.turn.pair_contact import (
     BasicEfficiency,
     ContactLosses,
@@ -73,7 +74,7 @@ def _losses(
     """What a gear pair loses: by its friction at each position, or the same part everywhere."""
     if source is not None and mesh is not None and _by_friction(setting, mesh):
         return _tooth_friction(setting, circuit, source, mesh)
-    means = setting.means[circuit.id].load
+    means = find_mean_efficiencies(setting, circuit).load
     driver, driven = (float(each) for each in (means if first else means[::-1]))
     return NoLosses() if driver == driven == 1 else BasicEfficiency(driver, driven)
 

@@ -28,6 +28,13 @@ class TriangularContact:
     def __init__(self, sizes: TriangularSizes) -> None:
         self.sizes = sizes
         self.path = RealPath(sizes)
+        self._means: dict[tuple[str, float], float] = {}
+
+    def mean(self, of: tuple[str, float], make: Callable[[], float]) -> float:
+        """A mean over the contact at some friction, integrated once for all laws that share it."""
+        if of not in self._means:
+            self._means[of] = make()
+        return self._means[of]
 
     @cached_property
     def dragged(self) -> DraggedPath:

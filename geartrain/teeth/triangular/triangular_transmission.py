@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from fractions import Fraction
-from functools import cached_property, lru_cache
+from functools import cached_property, lru_cache, partial
 from itertools import pairwise
 from math import inf, nan, sqrt
 from typing import TYPE_CHECKING, Any
@@ -283,14 +283,14 @@ class TriangularTransmission(TransmissionFunction):
         """Mean over the driver's angle in contact at constant driver torque, Eq. (34); NaN where friction locks."""
         if self.friction >= self.locking_friction:
             return nan
-        return self._contact_mean(lambda interval, x: self._eta(interval, x))
+        return self.contact.mean(("driver", self.friction), lambda: self._contact_mean(self._eta))
 
     def efficiency_at_constant_load(self) -> float:
         """Work done on a constant load torque over the work put in, per pitch; NaN where friction locks."""
         if self.friction >= self.locking_friction:
             return nan
-        turned = self._contact_mean(self._tau)
-        return turned / self._contact_mean(lambda interval, x: self._tau(interval, x) / self._eta(interval, x))
+        work = partial(self._contact_mean, lambda interval, x: self._tau(interval, x) / self._eta(interval, x))
+        return self.contact.mean(("load", self.friction), lambda: self._contact_mean(self._tau) / work())
 
     def _contact_mean(self, what: Callable[[DriveInterval, Any], Any]) -> float:
         """Mean over the driver's angle in contact; near the locking friction 1/eta is steeper than tau."""

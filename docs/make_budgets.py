@@ -124,11 +124,15 @@ def _list(told: dict[str, list[Told]]) -> list[str]:
             worst = max(budget.pointers, key=lambda pointer: pointer.total)
             assumed = "assumed" if FORM in each.assumed else "assumed in part"
             how = assumed if each.assumed else "triangular ones cannot turn" if each.refused else "declared"
-            causes = ", ".join(f"{cause.name} {cause.degrees:.3g}" for cause in worst.ranked if cause.degrees)
+            causes = ", ".join(f"{cause.name} {_listed(cause.degrees)}" for cause in worst.ranked if cause.degrees)
             row = (f"[{each.stem}](budgets/{each.stem}.md)", how, str(len(budget.pointers)), worst.name, causes or "-")
             lines.append(f"| {' | '.join(row)} |")
         lines.append("")
     return lines
+
+
+def _listed(degrees: float) -> str:
+    return f"{degrees:.3g}" if degrees < 1000 else f"{degrees:.0f}"
 
 
 # ---------------------------------------------------------------------------------------------------------- literature

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from functools import cached_property
 from typing import TYPE_CHECKING, overload
 
@@ -110,11 +110,23 @@ class TrainDynamics(TrainKinematics):
 
     @overload
     def torques(
-        self, state: str | None = None, *, turns: float, samples: int = ..., of: str | None = None
+        self,
+        state: str | None = None,
+        *,
+        turns: float,
+        samples: int = ...,
+        of: str | None = None,
+        on_done: Callable[[int], object] | None = None,
     ) -> TorqueCycle: ...
 
     def torques(
-        self, state: str | None = None, *, turns: float | None = None, samples: int = 20_000, of: str | None = None
+        self,
+        state: str | None = None,
+        *,
+        turns: float | None = None,
+        samples: int = 20_000,
+        of: str | None = None,
+        on_done: Callable[[int], object] | None = None,
     ) -> Torques | TorqueCycle:
         """Torques on links and pairs, and the flow of power, under the loads of one state: means, or over a turn.
 
@@ -129,6 +141,8 @@ class TrainDynamics(TrainKinematics):
             Positions of such a run, 2 or more; corners and jumps come on top.
         of : str, optional
             The link whose torque is asked for over a turn, by default the crank or input.
+        on_done : callable, optional
+            Called with the number of positions that have been worked out since.
 
         Returns
         -------
@@ -142,13 +156,19 @@ class TrainDynamics(TrainKinematics):
         """
         setting = self._setting(state)
         if turns is not None:
-            return self._torque_cycle(state, setting, turns, samples, of)
+            return self._torque_cycle(state, setting, turns, samples, of, on_done)
         from geartrain.dynamics.torques.torque_analysis import find_torques, torques_unknown
 
         return torques_unknown(state) if setting is None else find_torques(setting)
 
     def _torque_cycle(
-        self, state: str | None, setting: LoadCase | None, turns: float, samples: int, of: str | None
+        self,
+        state: str | None,
+        setting: LoadCase | None,
+        turns: float,
+        samples: int,
+        of: str | None,
+        on_done: Callable[[int], object] | None,
     ) -> TorqueCycle:
         from geartrain.dynamics import Motion, TorqueCycle, TorqueVerdict
         from geartrain.dynamics.turn.turn_analysis import find_torque_cycle
@@ -160,7 +180,7 @@ class TrainDynamics(TrainKinematics):
             return TorqueCycle(state, TorqueVerdict("still", "the speeds of this state are not determined"), of or "")
         moving = self._moving(self._case(state), ())
         motion = Motion(moving, {link: (link, self.declaration.frame) for link in moving.system.links})
-        return find_torque_cycle(setting, motion, turns, samples, of)
+        return find_torque_cycle(setting, motion, turns, samples, of, on_done)
 
     def driven(self, load: str, source: str, state: str | None = None) -> Torques:
         """Torques while a unit of power leaves at one link, driven from another: efficiency, or self-locking.

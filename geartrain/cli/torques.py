@@ -20,56 +20,121 @@ from geartrain.cli.common import (
     StateName,
     check_distinct_outputs,
     draw,
+    emit,
     give,
     sink,
 )
+from geartrain.cli.long_runs import progress
+from geartrain.cli.option_values import MOST_COUNT
+from geartrain.cli.option_values import turns as read_turns
+from geartrain.errors import GearTrainError, Problem
 
 if TYPE_CHECKING:
     from geartrain.analysis.gear_train import GearTrain
-    from geartrain.dynamics import Torques
+    from geartrain.dynamics import TorqueCycle, Torques
 
 
 def run(
     file: File,
     state: StateName = None,
     json: Json = False,
+    turns: Annotated[
+        str | None,
+        typer.Option("--turns", help="Torque over so many turns of the input, or over the 'period' of the train."),
+    ] = None,
+    samples: Annotated[
+        int, typer.Option("--samples", min=2, max=MOST_COUNT, help="Positions of the input, beside corners and jumps.")
+    ] = 20_000,
+    input_: Annotated[
+        str | None, typer.Option("--input", help="Link whose torque is asked over the turns; default the crank.")
+    ] = None,
+    csv: Annotated[bool, typer.Option("--csv", help="Print the torque at every position as CSV.")] = False,
     plot: Annotated[
-        Path | None, typer.Option("--plot", help="Draw the flow of power of one state to this file.")
+        Path | None,
+        typer.Option("--plot", help="Draw the flow of power of one state, or its torque over the turns, to this file."),
     ] = None,
     out: Out = None,
     force: Force = False,
 ) -> None:
-    """Torques on links and pairs under the declared loads, flow of power and losses, efficiency there and back."""
+    """Torques on links and pairs under the declared loads, flow of power, losses, efficiency; or over some turns."""
     from geartrain.analysis.loader import load
     from geartrain.report.torque_figures import collect_torque_report
     from geartrain.report.torque_report import describe_torques
 
-    to = sink(out, force, (".md", ".html", ".json"))
+    to = sink(out, force, (".md", ".html", ".json", ".csv"))
     picture = sink(plot, force, PICTURES, "--plot")
     check_distinct_outputs(to, picture)
+    tabled = csv or to.suffix == ".csv"
+    if turns is None and (tabled or input_ is not None):
+        which = "--csv" if tabled else "--input"
+        raise typer.BadParameter("it is about the torque over some turns: give --turns too", param_hint=which)
     train = load(file)
     states = (state,) if state is not None else train.states or (None,)
     found = [train.torques(name) for name in states]
+    over_turn = None if turns is None else _over_turn(train, found, turns, samples, input_)
     sound = all(each.verdict or each.verdict.kind == "unloaded" for each in found)
+    if over_turn is not None:
+        sound = bool(over_turn.verdict)
     if plot is not None:
-        _draw(train, found, picture)
-    report = collect_torque_report(train, found)
-    give(to, json, lambda: report, lambda: [describe_torques(report)])
+        _draw(train, found, over_turn, picture)
+    if tabled and over_turn is not None:
+        emit(_table(over_turn), to)
+    else:
+        report = collect_torque_report(train, found, over_turn)
+        give(to, json, lambda: report, lambda: [describe_torques(report)])
     raise typer.Exit(GOOD if sound else VERDICT)
 
 
-def _draw(train: GearTrain, found: Sequence[Torques], picture: Sink) -> None:
-    """The flow under the declared loads; without any, that of a unit of power from the input to the output."""
-    from geartrain.drawing import power_figure
-    from geartrain.dynamics.torques.power_flow import watts_per_unit
-    from geartrain.report.torque_report import summary_text
+def _over_turn(train: GearTrain, found: Sequence[Torques], turns: str, samples: int, link: str | None) -> TorqueCycle:
+    """Torque over some turns in the one state that is loaded."""
+    state = _loaded(train, found, "--turns").state
+    if turns == "period":
+        period = train.motion(state, tuple(train.declaration.links)).period
+        if period is None:
+            raise typer.BadParameter("nothing ripples, so there is no common period", param_hint="--turns")
+        span = float(period)
+    else:
+        span = float(read_turns("--turns", turns))
+    with progress("torques over the turns", patience=2.0) as bar:
+        return train.torques(state, turns=span, samples=samples, of=link, on_done=bar.advance)
 
+
+def _loaded(train: GearTrain, found: Sequence[Torques], option: str) -> Torques:
+    """The one state that was asked for, or that has loads."""
     loaded = [each for each in found if each.verdict.kind != "unloaded"] if len(found) > 1 else list(found)
     if len(loaded) != 1:
         names = ", ".join(train.states)
-        raise typer.BadParameter(f"one state is drawn: name it with --state, of {names}", param_hint="--plot")
-    (torques,) = loaded
+        done = {"--plot": "drawn", "--turns": "followed"}[option]
+        raise typer.BadParameter(f"one state is {done}: name it with --state, of {names}", param_hint=option)
+    return loaded[0]
+
+
+def _table(found: TorqueCycle) -> str:
+    """Every position: torque, what starts the train, and what is lost where, over the speed of the input."""
+    from geartrain.numerics.files import csv_text
+
+    if found.turns is None or found.torque is None or found.standing is None or found.losses is None:
+        raise GearTrainError(Problem("there is no torque over a turn to write", found.verdict.text, "declare loads"))
+    columns = [found.turns, found.torque, found.standing, *found.losses.values]
+    header = ["turns", f"torque_{found.link}", "starting", *(f"lost_{name}" for name in found.losses.labels[0])]
+    return csv_text(header, zip(*(column.tolist() for column in columns), strict=True)).rstrip("\n")
+
+
+def _draw(train: GearTrain, found: Sequence[Torques], over_turn: TorqueCycle | None, picture: Sink) -> None:
+    """The torque over the turns that were asked for.
+
+    Else the flow under the declared loads; without any, that of a unit of power from the input to the output.
+    """
+    from geartrain.drawing import power_figure, torque_cycle_figure
+    from geartrain.dynamics.torques.power_flow import watts_per_unit
+    from geartrain.report.torque_cycle_report import turns_text
+    from geartrain.report.torque_report import summary_text
+
+    torques = _loaded(train, found, "--plot")
     name = train.name if torques.state is None else f"{train.name}, state {torques.state}"
+    if over_turn is not None:
+        draw(torque_cycle_figure(over_turn, f"{name}: torque over {turns_text(over_turn.span)}"), picture)
+        return
     watts = watts_per_unit(train.declaration, train.declaration.case(torques.state))
     if torques.verdict.kind == "unloaded" and (ways := train.drive_both_ways(torques.state)):
         torques, source, load = ways[0]

@@ -3,9 +3,9 @@
 In: a train, or a result of another room. Out: a figure of matplotlib, which `render` writes as SVG, PNG or PDF; the
 same figure gives the same bytes. `picture` draws a train as plan to scale, stick diagram, graph, speed diagram or
 dials; the other functions draw one result each: a transmission function, teeth in contact, tooth forms side by side,
-the errors of pointers, the flow of power, gears on a sphere, trials of wheels cut by hand, counts in doubt. Nothing
-is worked out here but where things stand on the page: a speed diagram has its members at places that their teeth fix
-(docs/theory.md, equations 18 and 19), and bands of power are as wide as powers (docs/torques.md, 7).
+the errors of pointers, the flow of power, torque over a turn, gears on a sphere, trials of wheels cut by hand, counts
+in doubt. Nothing is worked out here but where things stand on the page: a speed diagram has its members at places that
+their teeth fix (docs/theory.md, equations 18 and 19), and bands of power are as wide as powers (docs/torques.md, 7).
 
 The figures need the extra `plot`: a name that is asked for without it raises `MissingExtraError`. Nothing needs a
 display or touches the state of pyplot.
@@ -31,6 +31,7 @@ if TYPE_CHECKING:
     from geartrain.drawing.tooth_contact import teeth_figure as teeth_figure
     from geartrain.drawing.tooth_sizes_plot import tooth_sizes_figure as tooth_sizes_figure
     from geartrain.drawing.tooth_sizes_plot import train_sizes_figure as train_sizes_figure
+    from geartrain.drawing.torque_cycle_plot import torque_cycle_figure as torque_cycle_figure
     from geartrain.drawing.train_pictures import picture as picture
     from geartrain.drawing.transmission_curves import law_figure as law_figure
 
@@ -49,6 +50,7 @@ _PLACES = {
     "teeth_figure": "tooth_contact",
     "tooth_sizes_figure": "tooth_sizes_plot",
     "train_sizes_figure": "tooth_sizes_plot",
+    "torque_cycle_figure": "torque_cycle_plot",
     "transmission_figure": "pair_transmission",
 }
 
@@ -66,6 +68,7 @@ __all__ = [
     "sweep_figure",
     "teeth_figure",
     "tooth_sizes_figure",
+    "torque_cycle_figure",
     "train_sizes_figure",
     "transmission_figure",
 ]

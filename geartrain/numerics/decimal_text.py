@@ -105,13 +105,13 @@ def watts_text(power: float) -> str:
     return f"{power * 1e9:.4g} nW" if power else "0 W"
 
 
-def percent_text(part: Fraction, digits: int = 4) -> str:
+def percent_text(part: Fraction | float, digits: int = 4) -> str:
     """A share in percent; from ten times the whole on, as a multiple of it.
 
     >>> percent_text(Fraction(46, 47)), percent_text(Fraction(2588, 10))
     ('97.87 %', '258.8 times')
     """
-    return f"{float(100 * part):.{digits}g} %" if abs(part) < 10 else f"{float(part):.{digits}g} times"
+    return f"{float(100 * part):.{digits}g} %" if abs(float(part)) < 10 else f"{float(part):.{digits}g} times"
 
 
 def percent_of_text(part: Fraction, whole: str) -> str:

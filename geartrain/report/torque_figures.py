@@ -12,7 +12,7 @@ from geartrain.numerics.plain_data import Key, Result
 
 if TYPE_CHECKING:
     from geartrain.analysis.gear_train import GearTrain
-    from geartrain.dynamics import PowerFlow, PowerLoss, Torques, TorqueVerdict
+    from geartrain.dynamics import PowerFlow, PowerLoss, TorqueCycle, Torques, TorqueVerdict
     from geartrain.dynamics.torques.torque_results import DrivenWay
 
 
@@ -102,6 +102,8 @@ class TorqueReport(Result):
         One line for a reader.
     states : tuple of TorqueFigures
         Torques, powers, flow and losses of each state, in the order asked.
+    over_turn : TorqueCycle or None
+        Torque over some turns of the one state asked for; None where it was not asked for.
 
     See Also
     --------
@@ -111,9 +113,12 @@ class TorqueReport(Result):
     name: str
     title: str
     states: tuple[TorqueFigures, ...]
+    over_turn: TorqueCycle | None = None
 
 
-def collect_torque_report(train: GearTrain, found: Sequence[Torques]) -> TorqueReport:
+def collect_torque_report(
+    train: GearTrain, found: Sequence[Torques], over_turn: TorqueCycle | None = None
+) -> TorqueReport:
     """Torques of some states of a train with their flow of power, what is lost where, and the efficiency both ways.
 
     Parameters
@@ -122,6 +127,8 @@ def collect_torque_report(train: GearTrain, found: Sequence[Torques]) -> TorqueR
         The train.
     found : sequence of Torques
         What `train.torques` gave, one for each state.
+    over_turn : TorqueCycle, optional
+        What `train.torques` gave over some turns.
 
     Returns
     -------
@@ -140,7 +147,8 @@ def collect_torque_report(train: GearTrain, found: Sequence[Torques]) -> TorqueR
     >>> data["states"][0]["links"]["a"]
     {'torque': 1.5, 'power': 1.5, 'asked': True}
     """
-    return TorqueReport(train.name, train.declaration.title, tuple(collect_torques(train, each) for each in found))
+    states = tuple(collect_torques(train, each) for each in found)
+    return TorqueReport(train.name, train.declaration.title, states, over_turn)
 
 
 def collect_torques(train: GearTrain, found: Torques) -> TorqueFigures:

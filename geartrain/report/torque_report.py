@@ -27,6 +27,8 @@ _UNITS_IN_WATTS = (
 def describe_torques(found: TorqueReport) -> Document:
     """Torques under the declared loads, state by state: verdict, efficiency both ways, links, pairs, flow and losses.
 
+    Where it was asked for, the torque over some turns follows.
+
     Parameters
     ----------
     found : TorqueReport
@@ -49,6 +51,10 @@ def describe_torques(found: TorqueReport) -> Document:
     ('a (asked)', '1.5', '1', '1.5')
     """
     sections = [section for each in found.states for section in torque_sections(each)]
+    if found.over_turn is not None:
+        from geartrain.report.torque_cycle_report import cycle_sections
+
+        sections += cycle_sections(found.over_turn)
     lead = [f"Train '{found.name}'. {_units(found.states)}"]
     return Document(f"Torques of {found.name}", lead, sections)
 

@@ -43,3 +43,20 @@ def test_bodies_balance_in_one_way_and_lose_what_is_put_in(seed: int) -> None:
         assert found.torque == pytest.approx(float(train.torques().external["L0"]), rel=1e-11)
     assert min(found.lost) >= -1e-12
     assert sum(found.lost) == pytest.approx(found.put_in, rel=1e-10, abs=1e-12)
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_torques_at_single_positions_are_those_of_bodies_in_balance(seed: int) -> None:
+    chain = random_chain(seed)
+    train, loads = GearTrain.declare(chain.data), loads_of(chain)
+    cycle = train.torques(turns=1, samples=20)
+    assert cycle.turns is not None
+    assert cycle.torque is not None
+    assert cycle.losses is not None
+    # not where the laws have two sides
+    apart = np.diff(cycle.turns) > 1e-6
+    smooth = 1 + np.flatnonzero(apart[:-1] & apart[1:])
+    for at in smooth[:: max(1, len(smooth) // 5)]:
+        (found,) = chain.balances(2 * pi * float(cycle.turns[at]), outlines_of(train), loads)
+        assert cycle.torque[at] == pytest.approx(found.torque, rel=1e-8, abs=1e-9)
+        assert cycle.losses.values[:, at].sum() == pytest.approx(sum(found.lost), rel=1e-8, abs=1e-9)

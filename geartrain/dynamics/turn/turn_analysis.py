@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import TYPE_CHECKING, NamedTuple
@@ -34,12 +34,18 @@ MOST_TURNS = 1e9
 
 
 def find_torque_cycle(
-    setting: LoadCase, motion: Motion, turns: float, samples: int = DEFAULT_SAMPLES, of: str | None = None
+    setting: LoadCase,
+    motion: Motion,
+    turns: float,
+    samples: int = DEFAULT_SAMPLES,
+    of: str | None = None,
+    on_done: Callable[[int], object] | None = None,
 ) -> TorqueCycle:
     """Torques over some turns of the input.
 
-    motion   of all links, each seen from the frame
-    of       the link whose torque is unknown, in place of that which the declaration tells
+    motion    of all links, each seen from the frame
+    of        the link whose torque is unknown, in place of that which the declaration tells
+    on_done   called with the number of positions that have been worked out since
     """
     if not 0 < turns <= MOST_TURNS:
         what, why = f"torques over {turns:g} turns", "a run goes forward"
@@ -55,7 +61,9 @@ def find_torque_cycle(
     if not question.asked.enough:
         text = "fewer torques are asked for than the train has freedoms: at single positions no loads balance so"
         return TorqueCycle(state, question.asked.undecided or TorqueVerdict("undecided", text), of or "")
-    return _Answer(TurnRun(build_turn_balance(setting, motion, question), turns, samples)).told(of)
+    train = build_turn_balance(setting, motion, question)
+    train.on_done = on_done
+    return _Answer(TurnRun(train, turns, samples)).told(of)
 
 
 def build_turn_balance(setting: LoadCase, motion: Motion, question: TorqueQuestion) -> TurnBalance:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
@@ -47,6 +47,7 @@ class TurnBalance:
     contacts   by pair, in the order of the circuits
     loads      by link, about its own axis; `bearings`, friction torque by link: sliding, and static
     complete   False where not all patterns of power flow were tried
+    on_done    called with the number of positions that have been worked out since
     """
 
     setting: LoadCase
@@ -56,6 +57,7 @@ class TurnBalance:
     loads: Mapping[str, float]
     bearings: Mapping[str, BearingTorques]
     complete: bool = True
+    on_done: Callable[[int], object] | None = None
 
     @property
     def pairs(self) -> tuple[str, ...]:
@@ -110,6 +112,8 @@ class TurnBalance:
             if all(np.array_equal(found.get(name, none), coasting.get(name, none)) for name in {*found, *coasting}):
                 break
             coasting = found
+        if self.on_done is not None:
+            self.on_done(len(turns))
         return self._told(state, layers, best)
 
     def _coasting(self, best: BalanceLayer) -> dict[str, Bools]:

@@ -1,0 +1,103 @@
+"""`geartrain torques --turns`: text, JSON, CSV and pictures of the torque over a turn."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+from math import log, pi
+from pathlib import Path
+
+import pytest
+from answer_schemas import holds
+from commands import call
+
+PIN = """
+links: {frame: {}, a: {}, b: {}}
+revolutes: [{pair: [frame, a], axis: A}, {pair: [frame, b], axis: B}]
+couplings: [{kind: pin_and_slot, pin: a, slot: b, pin_radius: 10 mm, offset: 8 mm, friction: 0.3}]
+inputs: {a: 1}
+outputs: {b: {}}
+loads: {b: -10 N m}
+"""
+LOCKS = PIN.replace("friction: 0.3", "friction: 0.8").replace("{a: 1}", "{b: 1}").replace("b: -10", "a: -10")
+MEAN = 10 * (1 + 0.3 / pi * log(18 / 2))
+SAMPLES = ("--samples", "300")
+
+
+@pytest.fixture
+def pin(tmp_path: Path) -> Path:
+    path = tmp_path / "pin.yaml"
+    path.write_text(PIN, encoding="utf-8")
+    return path
+
+
+def test_json_holds_the_torque_over_the_turns_at_its_top_level(pin: Path) -> None:
+    done = call("torques", pin, "--turns", "1", *SAMPLES, "--json")
+    assert done.exit_code == 0
+    answer = json.loads(done.output)
+    holds("torques", answer)
+    over = answer["over_turn"]
+    assert over["input"]["link"] == "a"
+    assert over["input"]["mean"] == pytest.approx(MEAN, rel=1e-8)
+    assert over["input"]["greatest"] == over["starting"] == pytest.approx(50.9784589, abs=5e-7)
+    assert over["input"]["least"] == pytest.approx(10 * 10 / 18, rel=1e-9)
+    assert over["efficiency"] == pytest.approx(10 / MEAN, rel=1e-8)
+    assert (over["locked_share"], over["flank_changes"]) == (0, {"a~b": 0})
+    assert json.loads(call("torques", pin, "--json").output)["over_turn"] is None
+
+
+def test_text_tells_extremes_energies_and_losses(pin: Path) -> None:
+    text = call("torques", pin, "--turns", "1", *SAMPLES).output
+    for said in ("12.0981949", "50.9784589", "lost in pins", "everything repeats after 1 turn", "over 1 turn of"):
+        assert said in text
+
+
+def test_every_position_stands_in_the_table(pin: Path, tmp_path: Path) -> None:
+    printed = call("torques", pin, "--turns", "2", *SAMPLES, "--csv").output
+    rows = list(csv.DictReader(io.StringIO(printed)))
+    assert list(rows[0]) == ["turns", "torque_a", "starting", "lost_a~b"]
+    assert len(rows) >= 300
+    assert max(float(row["torque_a"]) for row in rows) == pytest.approx(50.98, abs=0.05)
+    written = tmp_path / "t.csv"
+    assert call("torques", pin, "--turns", "2", *SAMPLES, "-o", written).exit_code == 0
+    assert written.read_text(encoding="utf-8").splitlines() == printed.splitlines()
+
+
+def test_a_train_that_locks_says_where(tmp_path: Path) -> None:
+    path = tmp_path / "locks.yaml"
+    path.write_text(LOCKS, encoding="utf-8")
+    done = call("torques", path, "--turns", "1", *SAMPLES, "--json")
+    assert done.exit_code == 1
+    over = json.loads(done.output)["over_turn"]
+    assert over["locked_share"] == pytest.approx(0.139505, abs=1e-6)
+    assert over["input"]["mean"] is over["efficiency"] is over["starting"] is None
+    assert "13.95 % of the run no torque balances" in call("torques", path, "--turns", "1", *SAMPLES).output
+
+
+def test_another_link_can_be_asked_and_a_period_followed(pin: Path) -> None:
+    turned = call("torques", pin, "--turns", "period", *SAMPLES, "--json")
+    assert json.loads(turned.output)["over_turn"]["turns"] == 1
+    asked = call("torques", "norton-planetary", "--turns", "period")
+    assert asked.exit_code == 2
+    assert "nothing ripples" in asked.stderr
+
+
+@pytest.mark.parametrize("words", [("--csv",), ("--input", "a")])
+def test_options_of_a_run_need_turns(pin: Path, words: tuple[str, ...]) -> None:
+    done = call("torques", pin, *words)
+    assert done.exit_code == 2
+    assert "--turns" in done.stderr
+
+
+def test_pictures_mark_mean_extremes_and_locked_stretches(pin: Path, tmp_path: Path) -> None:
+    pytest.importorskip("matplotlib")
+    picture = tmp_path / "t.svg"
+    assert call("torques", pin, "--turns", "1", *SAMPLES, "--plot", picture).exit_code == 0
+    drawn = picture.read_text(encoding="utf-8")
+    assert 'id="greatest"' in drawn
+    assert "mean 12.098" in drawn
+    assert 'id="locked"' not in drawn
+    pin.write_text(LOCKS, encoding="utf-8")
+    assert call("torques", pin, "--turns", "1", *SAMPLES, "--plot", picture, "--force").exit_code == 1
+    assert 'id="locked"' in picture.read_text(encoding="utf-8")

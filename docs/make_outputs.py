@@ -32,6 +32,7 @@ NAMES = (
     "teeth",
     "torques",
     "motion",
+    "dynamics",
     "closure",
     "sphere",
     "tooth-numbers",

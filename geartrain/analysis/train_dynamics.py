@@ -1,109 +1,19 @@
-"""The second half of a train that answers: real teeth and pins, who drives whom, torques and motion."""
+"""The third part of a train that answers: torques, and what inertia does."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from functools import cached_property
 from typing import TYPE_CHECKING, overload
 
-from geartrain.analysis.train_kinematics import TrainKinematics
-from geartrain.errors import Problem, QuestionError, check_choice
-from geartrain.train import StateCase, Train
+from geartrain.analysis.train_motion import TrainMotion
+from geartrain.errors import check_choice
 
 if TYPE_CHECKING:
-    from geartrain.dynamics import DrivenWay, Motion, PowerFlow, ToothImpact, TorqueCycle, Torques
-    from geartrain.dynamics.driven_meshes import DrivenWays
-    from geartrain.dynamics.gear_meshes import PinMesh
-    from geartrain.dynamics.motion.motion_problem import MotionProblem
-    from geartrain.dynamics.torques.load_case import LoadCase
-    from geartrain.teeth.gear_mesh import GearMesh
-    from geartrain.teeth.meshing_wheels import MeshDriver
+    from geartrain.dynamics import DrivenWay, PowerFlow, SeparationRates, ToothImpact, TorqueCycle, Torques
 
 
-class TrainDynamics(TrainKinematics):
-    """What `GearTrain` knows of teeth, torques and motion. Parts are made once, when first asked for."""
-
-    def __init__(self, declaration: Train) -> None:
-        super().__init__(declaration)
-        self._settings: dict[str | None, LoadCase | None] = {}
-        self._drivers: dict[tuple[str | None, tuple[str, ...]], Mapping[str, MeshDriver]] = {}
-
-    @cached_property
-    def _teeth(self) -> tuple[GearMesh, ...]:
-        """The gear pairs with real teeth, whichever side drives."""
-        from geartrain.dynamics.gear_meshes import find_meshes
-        from geartrain.kinematics.circuits.shaft_angles import shaft_angle
-
-        train, circuits = self.declaration, {circuit.id: circuit for circuit in self.circuits}
-        return find_meshes(train, lambda gear: shaft_angle(train, self.tree, circuits[gear.name]))
-
-    @cached_property
-    def meshes(self) -> tuple[GearMesh, ...]:
-        """The gear pairs with real teeth, each with its law; empty, and free of cost, where none declares a form.
-
-        Each is driven as in the first state that tells who drives it; `meshes_in` has those of another.
-        """
-        from geartrain.dynamics.driven_meshes import likeliest_ways
-
-        return likeliest_ways(self.driven_ways)
-
-    @cached_property
-    def driven_ways(self) -> DrivenWays:
-        """By pair with real teeth, the ways it is driven, each with the names of its states; open ones count both."""
-        from geartrain.dynamics.driven_meshes import find_driven_ways
-
-        return find_driven_ways(self._teeth, ((state, self.meshes_in(state)) for state in self.states or (None,)))
-
-    @cached_property
-    def faults(self) -> tuple[Problem, ...]:
-        """Everything that keeps real teeth from turning, whichever of its wheels drives a pair in some state."""
-        from geartrain.teeth.mesh_faults import find_faults
-
-        return tuple(fault for ways in self.driven_ways.values() for fault in find_faults([way for way, _ in ways]))
-
-    def meshes_in(self, state: str | None = None) -> tuple[GearMesh, ...]:
-        """The gear pairs with real teeth as they are driven in one state.
-
-        Parameters
-        ----------
-        state : str, optional
-            A declared state; None only of a train that has none.
-        """
-        if not self._teeth:
-            return ()
-        drivers = self.drivers(state)
-        driven = tuple(mesh.driven_by(drivers[mesh.name]) for mesh in self._teeth)
-        if all(mesh.wheels.friction_law is None for mesh in driven):
-            return driven
-        from geartrain.dynamics.pair_speeds import at_own_speeds
-
-        return at_own_speeds(driven, self._setting(self._case(state).state))
-
-    def drivers(self, state: str | None = None, without: Sequence[str] = ()) -> Mapping[str, MeshDriver]:
-        """Who drives each pair and coupling in one state: declared, or by the flow of power in its carrier's frame.
-
-        Parameters
-        ----------
-        state : str, optional
-            A declared state; None only of a train that has none.
-        without : sequence of str
-            Pairs left out.
-        """
-        from geartrain.dynamics.torques.drivers import find_drivers
-
-        state = self._case(state).state
-        key = state, tuple(without)
-        if key not in self._drivers:
-            circuits = self._circuits_without(without)
-            self._drivers[key] = find_drivers(self.declaration, circuits, self._setting(state))
-        return self._drivers[key]
-
-    @cached_property
-    def pins(self) -> tuple[PinMesh, ...]:
-        """The pins in slots whose dimensions are declared, each with its law."""
-        from geartrain.dynamics.gear_meshes import find_pins
-
-        return find_pins(self.declaration)
+class TrainDynamics(TrainMotion):
+    """What `GearTrain` knows of torques and dynamics."""
 
     @overload
     def torques(self, state: str | None = None) -> Torques: ...
@@ -232,47 +142,6 @@ class TrainDynamics(TrainKinematics):
 
         return find_power_flow(found)
 
-    def motion(
-        self,
-        state: str | None = None,
-        outputs: Sequence[str] = (),
-        without: Sequence[str] = (),
-        tolerance: float | None = None,
-        fast: bool | None = None,
-    ) -> Motion:
-        """The motion of some outputs or links with real teeth and pins: transmission functions, composed.
-
-        Parameters
-        ----------
-        state : str, optional
-            A declared state; None only of a train that has none.
-        outputs : sequence of str
-            Outputs or links; by default all outputs, and all links of a train without any.
-        without : sequence of str
-            Pairs left out, so that real teeth do not contradict each other around a loop.
-        tolerance : float, optional
-            Read transmission functions from tables of this accuracy [pitch], several times faster.
-        fast : bool, optional
-            Whether compiled kernels follow the motion, the same to 1e-12 rad and ten times as fast; by default where
-            numba is installed and there are so many positions that it pays to load it.
-
-        Returns
-        -------
-        Motion
-            To be asked at positions of the input.
-
-        Raises
-        ------
-        QuestionError
-            If the train does not move, or a pair or output is not declared.
-        """
-        from geartrain.dynamics import Motion
-
-        case = self._case(state)
-        names = outputs or tuple(case.outputs) or tuple(self.declaration.links)
-        wanted = {name: self._speeds.single_output(case, name)[1] for name in names}
-        return Motion(self._moving(case, without), wanted, tolerance, fast)
-
     def impacts(self, state: str | None = None) -> Mapping[str, ToothImpact]:
         """What collisions of triangular teeth cost, by pair; empty unless inertias and a rate are declared.
 
@@ -296,32 +165,68 @@ class TrainDynamics(TrainKinematics):
         moving = self._moving(case, ())
         return {} if moving.contradictions() else find_impacts(Motion(moving, {}), inertias, case.rate.si)
 
-    def _moving(self, case: StateCase, without: Sequence[str]) -> MotionProblem:
-        from geartrain.dynamics.motion.motion_problem import build_motion_problem
+    def separation_rates(
+        self, state: str | None = None, without: Sequence[str] = (), turns: float | None = None
+    ) -> SeparationRates:
+        """At what rates of the input flanks first part, by pair: above the least `motion` does not hold.
 
-        solution = self._speeds.solution(case)
-        if not solution.verdict or not any(case.inputs.values()):
-            what = f"'{self.name}' does not move"
-            raise QuestionError(Problem(what, solution.verdict.text, "drive it from an input"))
-        circuits, drivers = self._circuits_without(without), self.drivers(case.state, without)
-        return build_motion_problem(
-            self.declaration, case, circuits, self.signs, solution.speeds, self._teeth, self.pins, drivers
-        )
+        Counted are inertia, loads, friction of bearings and viscous drag, and where speeds jump their blows; friction
+        of teeth is not (docs/dynamics.md, section 3).
 
-    def _setting(self, state: str | None) -> LoadCase | None:
-        """What torques need to know of one state, solved once; None where its speeds are neither known nor free."""
-        if state not in self._settings:
-            self._settings[state] = self._make_setting(self._case(state))
-        return self._settings[state]
+        Parameters
+        ----------
+        state : str, optional
+            A declared state; None only of a train that has none.
+        without : sequence of str
+            Pairs left out, as of `motion`.
+        turns : float, optional
+            Turns of the input that are searched [turn]; by default all after which everything repeats, or fewer where
+            these are very many.
 
-    def _make_setting(self, case: StateCase) -> LoadCase | None:
-        from geartrain.dynamics.torques.load_case import LoadCase
-        from geartrain.dynamics.torques.virtual_work import speed_forms
+        Returns
+        -------
+        SeparationRates
+            With the pair that parts first.
 
-        solution = self._speeds.solution(case)
-        if solution.verdict.kind not in ("determined", "free"):
-            return None
-        forms = speed_forms(self.equations(case.state)) if solution.verdict.kind == "free" else {}
-        return LoadCase(
-            self.declaration, self.tree, self.circuits, self.signs, case, solution.speeds, self._teeth, self.pins, forms
-        )
+        Raises
+        ------
+        QuestionError
+            If the train does not move, no inertia is declared, or a torque has no unit.
+
+        Examples
+        --------
+        A slot whose axis is 8 mm from that of a pin at 10 mm, with 100 g cm^2 and a drag of 1 N mm behind it:
+
+        >>> import geartrain
+        >>> train = geartrain.load('''
+        ... links: {frame: {}, a: {}, b: {inertia: 100 g cm2, bearing: 1 N mm}}
+        ... revolutes: [{pair: [frame, a], axis: A}, {pair: [frame, b], axis: B}]
+        ... couplings: [{kind: pin_and_slot, pin: a, slot: b, pin_radius: 10 mm, offset: 8 mm}]
+        ... inputs: {a: 1}
+        ... ''')
+        >>> found = train.separation_rates()
+        >>> found.pair, round(found.rate, 6)
+        ('a~b', 0.440669)
+        """
+        from geartrain.dynamics.time.inertia import find_link_inertias
+        from geartrain.dynamics.time.inertial_contacts import InertialContacts
+        from geartrain.dynamics.time.inertial_loads import find_inertial_loads
+        from geartrain.dynamics.time.separation_rate import find_separation_rates
+
+        case = self._case(state)
+        inertias = find_link_inertias(self.declaration, case)
+        acting = find_inertial_loads(self.declaration, case, self.tree, inertias)
+        return find_separation_rates(InertialContacts(self._moving(case, without), acting), inertias, state, turns)
+
+    def tells_separation(self, state: str | None = None) -> bool:
+        """True if `separation_rates` has an answer: some link has a moment of inertia, and torques have units.
+
+        Parameters
+        ----------
+        state : str, optional
+            A declared state; None only of a train that has none.
+        """
+        from geartrain.dynamics.time.inertial_loads import torques_have_units
+
+        heavy = any(link.inertia is not None for link in self.declaration.links.values())
+        return heavy and torques_have_units(self.declaration, self._case(state))

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -33,7 +34,7 @@ from geartrain.cli.option_values import MOST_COUNT
 from geartrain.cli.option_values import turns as read_turns
 
 if TYPE_CHECKING:
-    from geartrain.dynamics import ErrorSamples, Motion, MotionRun
+    from geartrain.dynamics import ErrorSamples, Motion, MotionRun, SeparationRates
 
 
 def run(
@@ -84,7 +85,9 @@ def run(
         for rows in _rows(asked, 0):
             emit("\n".join(rows))
     else:
-        _report(asked, json, (to, cut), (train.name, state), phases, seed, estimates, spectrum, bool(wide or outputs))
+        separation = partial(train.separation_rates, state, without or ()) if train.tells_separation(state) else None
+        of = train.name, state, separation
+        _report(asked, json, (to, cut), of, phases, seed, estimates, spectrum, bool(wide or outputs))
     if plot is not None:
         from geartrain.drawing import motion_figure
 
@@ -113,7 +116,7 @@ def _report(
     asked: MotionRun,
     json: bool,
     into: tuple[Sink, Sink],
-    of: tuple[str, str | None],
+    of: tuple[str, str | None, Callable[[], SeparationRates] | None],
     phases: int,
     seed: int,
     estimates: bool,
@@ -139,7 +142,8 @@ def _report(
                 raise
             stopped = True
     to = into[stopped]
-    found = collect_motion(asked, *of)
+    name, state, separation = of
+    found = collect_motion(asked, name, state, None if separation is None or stopped else separation())
     give(to, json, lambda: found, lambda: [describe_motion(found, every_output)])
     if stopped:
         tell(f"stopped after {asked.done} of {asked.samples} positions; the figures are of those")

@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from geartrain.dynamics.motion.run_statistics import RunningStatistics
     from geartrain.dynamics.motion.superposition import ErrorEstimates
     from geartrain.dynamics.motion.tooth_impacts import ToothImpact
+    from geartrain.dynamics.time.inertia import LinkInertia
     from geartrain.dynamics.time.run_parts import (
         ContactInTime,
         EnergyAccount,
@@ -34,6 +35,7 @@ if TYPE_CHECKING:
         SettledFigure,
         SpectrumPeak,
     )
+    from geartrain.dynamics.time.separation_rate import PairSeparation, SeparationRates
     from geartrain.dynamics.time.time_run import TimeRun
     from geartrain.dynamics.torques.member_torques import BearingTorque, HoldingTorque, PairTorque
     from geartrain.dynamics.torques.power_circulation import PowerNode, PowerStream, RecirculatingPower
@@ -53,11 +55,13 @@ __all__ = [
     "ErrorSamples",
     "HoldingTorque",
     "ImpactList",
+    "LinkInertia",
     "Motion",
     "MotionRun",
     "NeglectedEffect",
     "OutputLead",
     "PairCycle",
+    "PairSeparation",
     "PairTorque",
     "PlaceInRun",
     "PowerFlow",
@@ -66,6 +70,7 @@ __all__ = [
     "PowerStream",
     "RecirculatingPower",
     "RunningStatistics",
+    "SeparationRates",
     "SettledFigure",
     "SpectrumLine",
     "SpectrumPeak",
@@ -89,11 +94,13 @@ _PLACES = {
     "ErrorSamples": "motion.error_composition",
     "HoldingTorque": "torques.member_torques",
     "ImpactList": "time.run_parts",
+    "LinkInertia": "time.inertia",
     "Motion": "motion.motion_model",
     "MotionRun": "motion.motion_run",
     "NeglectedEffect": "torques.torque_results",
     "OutputLead": "time.run_parts",
     "PairCycle": "turn.cycle_parts",
+    "PairSeparation": "time.separation_rate",
     "PairTorque": "torques.member_torques",
     "PlaceInRun": "turn.cycle_parts",
     "PowerFlow": "torques.power_flow",
@@ -102,6 +109,7 @@ _PLACES = {
     "PowerStream": "torques.power_circulation",
     "RecirculatingPower": "torques.power_circulation",
     "RunningStatistics": "motion.run_statistics",
+    "SeparationRates": "time.separation_rate",
     "SettledFigure": "time.run_parts",
     "SpectrumLine": "motion.order_spectrum",
     "SpectrumPeak": "time.run_parts",

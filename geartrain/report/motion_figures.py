@@ -12,7 +12,7 @@ from geartrain.numerics.plain_data import Key, Result
 
 if TYPE_CHECKING:
     from geartrain.analysis.gear_train import GearTrain
-    from geartrain.dynamics import ErrorEstimates, MotionRun, RunningStatistics, SpectrumLine
+    from geartrain.dynamics import ErrorEstimates, MotionRun, RunningStatistics, SeparationRates, SpectrumLine
     from geartrain.teeth.meshing_wheels import MeshDriver
 
 _TURNS, _POSITIONS = 20.0, 20_001  # of the run in a report
@@ -85,6 +85,8 @@ class MotionFigures(Result):
         Pairs with real teeth that keep their ratio at every instant and add nothing.
     outputs : mapping of str to OutputMotion
         Transmission error, speed and whatever else was asked, by output.
+    separation : SeparationRates or None
+        Up to which rate of the input this motion holds; None where no inertia is declared.
     phases : PhaseSets or None
         Random phases that were tried.
     partial : PartialRun or None
@@ -97,7 +99,7 @@ class MotionFigures(Result):
 
     KEYS = (
         *("name", "state", "input", "turns", "positions", "period", "drivers", "turned_back", "rigid", "outputs"),
-        *("phases", "partial"),
+        *("separation", "phases", "partial"),
     )
 
     run: MotionRun
@@ -111,6 +113,7 @@ class MotionFigures(Result):
     turned_back: Sequence[str]
     rigid: Sequence[str]
     outputs: Mapping[str, OutputMotion]
+    separation: SeparationRates | None
     phases: PhaseSets | None
     partial: PartialRun | None
 
@@ -131,7 +134,9 @@ class UnfollowedMotion:
         return str(self.why)
 
 
-def collect_motion(run: MotionRun, name: str, state: str | None) -> MotionFigures:
+def collect_motion(
+    run: MotionRun, name: str, state: str | None, separation: SeparationRates | None = None
+) -> MotionFigures:
     """Figures of a run, by output.
 
     Parameters
@@ -142,6 +147,8 @@ def collect_motion(run: MotionRun, name: str, state: str | None) -> MotionFigure
         Of the train.
     state : str or None
         As it was named.
+    separation : SeparationRates, optional
+        Up to which rate of the input this motion holds.
 
     Returns
     -------
@@ -184,6 +191,7 @@ def collect_motion(run: MotionRun, name: str, state: str | None) -> MotionFigure
         turned_back=sorted(run.turned_back),
         rigid=[mesh.name for mesh in motion.train.rigid],
         outputs=outputs,
+        separation=separation,
         phases=PhaseSets(len(run.phased), run.seed) if run.phased else None,
         partial=PartialRun(run.done, run.samples) if run.done < run.samples else None,
     )
@@ -206,10 +214,11 @@ def collect_motions(train: GearTrain) -> Iterator[MotionFigures | UnfollowedMoti
         try:
             run = MotionRun(train.motion(state), _TURNS, _POSITIONS)
             run.go()
+            separation = train.separation_rates(state) if train.tells_separation(state) else None
         except GearTrainError as error:
             yield UnfollowedMotion(train.name, state, error)
         else:
-            yield collect_motion(run, train.name, state)
+            yield collect_motion(run, train.name, state, separation)
 
 
 def ripples(train: GearTrain) -> bool:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from geartrain.numerics.decimal_text import abridged_text
 from geartrain.report.document import Document, Section, Table, figure
 from geartrain.report.motion_figures import MotionFigures, UnfollowedMotion, ripples
+from geartrain.report.separation_text import separation_section, separation_text
 
 if TYPE_CHECKING:
     from geartrain.analysis.gear_train import GearTrain
@@ -56,7 +57,10 @@ def describe_motion(found: MotionFigures, every_output: bool = False) -> Documen
         lead.append(f"PARTIAL: stopped after {run.done} of {run.samples} positions.")
     if period is not None:
         lead.append(f"Everything repeats after {abridged_text(period)} turns of '{train.lead}'.")
-    return Document("Motion with real teeth and pins", lead, list(motion_sections(run, every_output)))
+    sections = list(motion_sections(run, every_output))
+    if found.separation is not None:
+        sections.append(separation_section(found.separation))
+    return Document("Motion with real teeth and pins", lead, sections)
 
 
 def motion_sections(run: MotionRun, every_output: bool = False) -> Iterator[Section]:
@@ -84,7 +88,8 @@ def moving_sections(train: GearTrain, found: Sequence[MotionFigures | Unfollowed
             continue
         run = each.run
         text = f"While '{run.motion.train.lead}' makes {run.turns:g} turns; `geartrain motion` has more."
-        yield Section(head, (text, *_remarks(run)), (_outputs(_rippling(run)),))
+        holds = () if each.separation is None else tuple(separation_text(each.separation))
+        yield Section(head, (text, *holds, *_remarks(run)), (_outputs(_rippling(run)),))
     if train.meshes and not ripples(train):
         yield Section("Motion", (_rigid(train.meshes),))
 

@@ -6,6 +6,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from geartrain.errors import GearTrainError
 from geartrain.report.answers import expectations_met, result_words
 from geartrain.report.document import exact
 
@@ -42,6 +43,7 @@ class Soundness:
             for remark in train.remarks:
                 yield f"note {remark.place}: {remark.what}" + (f"; {remark.why}" if remark.why else "")
             yield from (f"note {self.file}: {line}" for line in _left_out(train))
+            yield from (f"note {line}" for line in _too_fast(train))
         if self and not quiet:
             yield f"ok   {self.file}: {_summary(train, self.answers)}"
 
@@ -84,6 +86,23 @@ def _left_out(train: GearTrain) -> Iterator[str]:
         if train.declaration.is_loaded(state):
             where = f"state {state}: " if state is not None else ""
             yield from (f"{where}torques leave out {each}: {each.why}" for each in train.torques(state).left_out)
+
+
+def _too_fast(train: GearTrain) -> Iterator[str]:
+    """States whose rate is beyond that at which teeth first part."""
+    for state in train.states or (None,):
+        rate = train.declaration.case(state).rate
+        if rate is None or rate.unit is None or train.faults or not train.tells_separation(state):
+            continue
+        try:
+            found = train.separation_rates(state)
+        except GearTrainError:  # what keeps the train from moving is told elsewhere
+            continue
+        if found.rate is not None and found.rate < abs(rate.base):
+            where = f"state {state}: " if state is not None else ""
+            at = "at any rate" if not found.rate else f"from {found.rate:.5g} turn/s of '{found.input}' on"
+            what = f"{where}the rate is {rate}, and the teeth of {found.pair} part {at}"
+            yield f"{train.declaration.place('rate')}: {what}: `motion` and `torques` hold below"
 
 
 def _wanted(result: OutputResult) -> str:

@@ -8,6 +8,7 @@ nothing of teeth or pins.
 from __future__ import annotations
 
 from collections.abc import Callable
+from copy import copy
 from functools import cached_property
 from typing import TYPE_CHECKING
 
@@ -55,6 +56,13 @@ class CellTable:
         S = self.middles[wide, None] + halves[wide, None] * checks
         off = np.abs(self(S) - function(S))
         self.uncertainty = _SAFETY * float(np.max(off[~np.isnan(off)], initial=0.0))
+
+    def derivative(self) -> CellTable:
+        """Its derivative by the driver's angle, on the same cells; `uncertainty` stays that of the function."""
+        found = copy(self)
+        found.degree = self.degree - 1
+        found.coefficients = np.ascontiguousarray(self.coefficients[1:] * np.arange(1, self.degree + 1)[:, None])
+        return found
 
     @property
     def nbytes(self) -> int:

@@ -1,0 +1,204 @@
+"""What the flanks of each pair must carry while a train turns fast: docs/dynamics.md, equations (1) to (6).
+
+While all drive flanks touch, links follow `motion`. Let pair m give way: its driven side moves ahead by p_m, the input
+stays, and every other pair keeps touching. Its error is then delta_m = sense (tau - mean) dS_m + p_m, so that links
+move by e = R J^-1 p with the matrix J = I - diag(sense (tau - mean)) G of (5) in docs/motion.md. By d'Alembert's
+principle no work is done on the way: the torque that its flanks must carry, lambda = -sum (T - J_l theta'') e, is
+
+    lambda_m(x, w) = D_m(x) + V_m(x) w + A_m(x) w^2,
+
+with loads and dry friction of bearings in D, viscous drag in V, inertia in A. The least w > 0 at which it vanishes is
+the rate sought, the least of all positions.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from functools import cached_property
+from math import inf
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from geartrain.dynamics.motion.error_composition import InputPhase
+from geartrain.dynamics.motion.motion_model import Motion
+from geartrain.dynamics.motion.pair_errors import PairErrors
+from geartrain.teeth.transmission_table import CellTable, fit
+
+if TYPE_CHECKING:
+    from geartrain.dynamics.motion.error_composition import PairErrorSource
+    from geartrain.dynamics.motion.motion_problem import MotionProblem
+    from geartrain.dynamics.time.inertial_loads import InertialLoads
+    from geartrain.kinematics.circuits import Circuit
+    from geartrain.numerics.arrays import Floats, Ints
+    from geartrain.teeth.transmission import TransmissionFunction
+
+_SLOPE = 1e-12  # of the mean ratio: speeds of the tables whose derivatives are taken
+_DEGREE = 9
+_LEAP = 1e-7  # of the input's speed and the greatest of a link's: a lesser jump of a speed is rounding
+_NUMBERS = 1 << 22  # most entries of matrices at once
+
+
+def least_rate(D: Floats, V: Floats, A: Floats) -> Floats:
+    """The least w >= 0 from which on D + V w + A w^2 is negative for a while; infinite where it never is."""
+    with np.errstate(divide="ignore", invalid="ignore"):
+        root = np.sqrt(V * V - 4 * D * A)  # NaN where it never vanishes
+        q = -(V + np.copysign(root, V)) / 2  # no digits are lost in this sum, nor in the quotients
+        first, second = q / A, D / q
+    roots = np.stack([np.where(each > 0, each, inf) for each in (first, second)]).min(axis=0)
+    starts = (D < 0) | ((D == 0) & ((V < 0) | ((V == 0) & (A < 0))))
+    # at D = 0 a root above 0 is one from which on it is negative only where A is
+    return np.where(starts, 0.0, np.where((D == 0) & (A >= 0), inf, roots))
+
+
+class ContactTorques(NamedTuple):
+    """Terms of the torque that each pair must carry, (pairs, n): N m, N m s, N m s2, of forward driven torque."""
+
+    constant: Floats
+    viscous: Floats
+    inertial: Floats
+
+
+class _State(NamedTuple):
+    """Speeds and accelerations of all links over the input's at n positions, and the matrices J, (n, pairs, pairs)."""
+
+    speed: Floats
+    acceleration: Floats
+    jacobian: Floats
+
+
+class InertialContacts:
+    """The torque that each pair of a moving train must carry at every position."""
+
+    def __init__(self, moving: MotionProblem, acting: InertialLoads, tolerance: float | None = None) -> None:
+        self.moving, self.acting = moving, acting
+        outputs = {link: (link, moving.frame) for link in moving.system.links}
+        self.motion = Motion(moving, outputs, tolerance)
+        self.sources: tuple[PairErrorSource, ...] = self.motion.ahead.sources
+
+    # ----------------------------------------------------------------------------------------------- what it is made of
+
+    @property
+    def pairs(self) -> tuple[str, ...]:
+        """Pairs and couplings by name."""
+        return self.motion.spread.pairs
+
+    @cached_property
+    def _response(self) -> Floats:
+        """R: angles of links from errors of pairs, each alone, (links, pairs)."""
+        return self.motion.spread.errors(np.eye(len(self.pairs)))
+
+    @cached_property
+    def _gain(self) -> Floats:
+        """G: what the error of each pair adds to the driver's angle of each source, (sources, pairs)."""
+        rows = np.zeros((len(self.sources), len(self.pairs)))
+        for row, source in enumerate(self.sources):
+            for link, sign in self.motion.ahead.turned_by(source):
+                rows[row] += sign * self._response[link]
+        return rows
+
+    @cached_property
+    def _slopes(self) -> tuple[CellTable, ...]:
+        """d tau / dS of each source's law; laws of many pairs may be one."""
+        known: dict[int, CellTable] = {}
+        for source in self.sources:
+            if id(source.law) not in known:
+                known[id(source.law)] = speed_slope(source.law)
+        return tuple(known[id(source.law)] for source in self.sources)
+
+    @cached_property
+    def _senses(self) -> Floats:
+        """1, or -1 where the driven side of a pair turns backwards on average, by pair."""
+        circuits: dict[str, Circuit] = {circuit.id: circuit for circuit in self.moving.circuits}
+        errors = PairErrors(self.moving, None)
+        return np.array([errors.sense(circuits[name]) for name in self.pairs], dtype=float)
+
+    def _by_link(self, values: Mapping[str, float]) -> Floats:
+        return np.array([values.get(link, 0.0) for link in self.moving.system.links], dtype=float)
+
+    @cached_property
+    def _joints(self) -> tuple[Ints, Floats]:
+        """Of each link the one that bears it, and the sense of their axes towards each other."""
+        at = {link: number for number, link in enumerate(self.moving.system.links)}
+        bearers = [self.acting.bearer.get(link, self.moving.frame) for link in at]
+        signs = self.moving.signs
+        senses = [signs.get(link, 1) * signs.get(bearer, 1) for link, bearer in zip(at, bearers, strict=True)]
+        return np.array([at[bearer] for bearer in bearers]), np.array(senses, dtype=float)
+
+    # ----------------------------------------------------------------------------------------------------- at positions
+
+    def _state(self, turns: Floats) -> _State:
+        composition = self.motion.ahead
+        found = self.motion.at(turns)
+        offsets = np.array(composition.offsets or (0.0,) * len(self.motion.outputs))
+        error = found.error - offsets[:, None]
+        means = np.array([float(self.moving.ratio(link)) for link in self.moving.system.links])
+        phase = InputPhase(turns)
+        slope = np.zeros((len(self.sources), len(turns)))
+        kick = np.zeros((len(self.pairs), len(turns)))
+        for row, source in enumerate(self.sources):
+            S = phase.cycles(source.cycles) * source.law.period + source.start
+            turning = np.full(len(turns), source.mean)
+            for link, sign in composition.turned_by(source):
+                S += sign * error[link]
+                turning += sign * found.rate[link]
+            slope[row] = source.sense * (source.law.speed(S) - float(source.law.ratio))
+            kick[source.pair] = source.sense * self._slopes[row](S) * turning**2
+        jacobian = np.broadcast_to(np.eye(len(self.pairs)), (len(turns), len(self.pairs), len(self.pairs))).copy()
+        for row, source in enumerate(self.sources):
+            jacobian[:, source.pair, :] -= slope[row][:, None] * self._gain[row]
+        acceleration = self._response @ np.linalg.solve(jacobian, kick.T[:, :, None])[:, :, 0].T
+        return _State(means[:, None] + found.rate, acceleration, jacobian)
+
+    def torques(self, turns: Floats) -> ContactTorques:
+        """What each pair must carry where the input has made some turns."""
+        size = max(64, _NUMBERS // (len(self.pairs) ** 2 + 4 * len(self.moving.system.links)))
+        parts = [self._torques(turns[at : at + size]) for at in range(0, len(turns), size)]
+        return ContactTorques(*(np.concatenate(each, axis=1) for each in zip(*parts, strict=True)))
+
+    def _torques(self, turns: Floats) -> ContactTorques:
+        state, (bearer, sense) = self._state(turns), self._joints
+        relative = state.speed - sense[:, None] * state.speed[bearer]
+        lead = 1.0 if self.moving.speeds[self.moving.lead] > 0 else -1.0
+        forces = []
+        for by_link in (
+            self._by_link(self.acting.friction)[:, None] * np.sign(relative),
+            self._by_link(self.acting.drag)[:, None] * relative,
+        ):
+            force = by_link.copy()
+            np.add.at(force, bearer, -sense[:, None] * by_link)
+            forces.append(force)
+        forces[0] -= lead * self._by_link(self.acting.load)[:, None]
+        forces.append(self._by_link(self.acting.inertia)[:, None] * state.acceleration)
+        return ContactTorques(*self._carried(state.jacobian, forces))
+
+    def _carried(self, jacobian: Floats, forces: Sequence[Floats]) -> Iterator[Floats]:
+        """What pairs carry under forces that links ask for, by the transposed matrices: sense J^-T R^T f."""
+        asked = np.stack([self._response.T @ force for force in forces], axis=-1)
+        found = np.linalg.solve(np.swapaxes(jacobian, 1, 2), np.swapaxes(asked, 0, 1))
+        return (self._senses[:, None] * found[:, :, at].T for at in range(len(forces)))
+
+    def rates(self, turns: Floats) -> Floats:
+        """The rate (rad/s of the input) from which each pair parts at each position, (pairs, n)."""
+        return least_rate(*self.torques(turns))
+
+    def blows(self, corners: Floats, width: float) -> Floats:
+        """What pairs carry of the blow where some law is at a corner, for each unit of the input's speed (N m s2).
+
+        Below 0 they part at any rate. 0 where no speed jumps.
+
+        width   turns of the input by which a position is asked beside a corner
+        """
+        before, after = self._state(corners - width), self._state(corners + width)
+        jump = after.speed - before.speed
+        scale = np.maximum(1.0, np.abs(after.speed).max(axis=1, initial=0.0))[:, None]
+        jump[np.abs(jump) <= _LEAP * scale] = 0.0
+        (found,) = self._carried(after.jacobian, [self._by_link(self.acting.inertia)[:, None] * jump])
+        return found
+
+
+def speed_slope(law: TransmissionFunction) -> CellTable:
+    """d tau / dS (1/rad) of a law, from a table of its speed that is cut at its corners."""
+    cuts = np.unique(np.mod(np.asarray(law.corners(), dtype=float), law.period))
+    greatest = max(abs(each) for each in law.speed_range())
+    return fit(law.speed, law.period, cuts, _SLOPE * max(greatest, 1.0), _DEGREE).derivative()

@@ -1,0 +1,49 @@
+"""Up to which rate a motion holds, in words: where teeth first part."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+from geartrain.report.document import Section, Table
+
+if TYPE_CHECKING:
+    from geartrain.dynamics import PairSeparation, SeparationRates
+
+
+def separation_section(found: SeparationRates) -> Section:
+    """The rate of each pair."""
+    rows = [(each.pair, _rate(each), "-" if each.rate is None else f"{each.at:.6g}") for each in found.pairs]
+    header = ("pair", f"parts from (turn/s of {found.input})", f"at (turns of {found.input})")
+    return Section("Up to which rate it holds", tuple(separation_text(found)), (Table(header, rows),))
+
+
+def separation_text(found: SeparationRates) -> Iterator[str]:
+    """Which pair parts first and when, what was searched, and which inertias are not known."""
+    yield _first_words(found)
+    if not found.complete:
+        yield f"Searched were {found.turns:.6g} turns of '{found.input}', not all after which everything repeats."
+    if found.unknown:
+        yield f"Counted without inertia, for none is declared: {', '.join(found.unknown)}."
+
+
+def _first_words(found: SeparationRates) -> str:
+    first = found.first
+    if first is None:
+        return f"No teeth part, at whatever rate '{found.input}' turns."
+    where = f"after {first.at:.6g} turns of '{found.input}'"
+    if first.leap:
+        return f"Teeth of {first.pair} part at any rate: {where} a speed falls at once, and nothing pulls."
+    if not first.rate:
+        return (
+            f"Teeth of {first.pair} part at any rate, first {where}: neither load nor friction of bearings holds them "
+            "together there."
+        )
+    return (
+        f"Holds up to {first.rate:.5g} turn/s of '{found.input}': from there on the teeth of {first.pair} part, "
+        f"{where}, for what they drive runs ahead. Friction of teeth is not counted."
+    )
+
+
+def _rate(pair: PairSeparation) -> str:
+    return "never" if pair.rate is None else "any rate" if not pair.rate else f"{pair.rate:.5g}"

@@ -10,6 +10,7 @@ from geartrain.errors import check_choice
 
 if TYPE_CHECKING:
     from geartrain.dynamics import DrivenWay, PowerFlow, SeparationRates, ToothImpact, TorqueCycle, Torques
+    from geartrain.dynamics.torques.load_case import LoadCase
 
 
 class TrainDynamics(TrainMotion):

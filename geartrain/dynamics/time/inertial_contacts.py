@@ -51,7 +51,7 @@ def least_rate(D: Floats, V: Floats, A: Floats) -> Floats:
     return np.where(starts, 0.0, np.where((D == 0) & (A >= 0), inf, roots))
 
 
-class ContactTorques(NamedTuple):
+class CarriedTorques(NamedTuple):
     """Terms of the torque that each pair must carry, (pairs, n): N m, N m s, N m s2, of forward driven torque."""
 
     constant: Floats
@@ -150,13 +150,13 @@ class InertialContacts:
         acceleration = self._response @ np.linalg.solve(jacobian, kick.T[:, :, None])[:, :, 0].T
         return _State(means[:, None] + found.rate, acceleration, jacobian)
 
-    def torques(self, turns: Floats) -> ContactTorques:
+    def torques(self, turns: Floats) -> CarriedTorques:
         """What each pair must carry where the input has made some turns."""
         size = max(64, _NUMBERS // (len(self.pairs) ** 2 + 4 * len(self.moving.system.links)))
         parts = [self._torques(turns[at : at + size]) for at in range(0, len(turns), size)]
-        return ContactTorques(*(np.concatenate(each, axis=1) for each in zip(*parts, strict=True)))
+        return CarriedTorques(*(np.concatenate(each, axis=1) for each in zip(*parts, strict=True)))
 
-    def _torques(self, turns: Floats) -> ContactTorques:
+    def _torques(self, turns: Floats) -> CarriedTorques:
         state, (bearer, sense) = self._state(turns), self._joints
         relative = state.speed - sense[:, None] * state.speed[bearer]
         lead = 1.0 if self.moving.speeds[self.moving.lead] > 0 else -1.0
@@ -170,7 +170,7 @@ class InertialContacts:
             forces.append(force)
         forces[0] -= lead * self._by_link(self.acting.load)[:, None]
         forces.append(self._by_link(self.acting.inertia)[:, None] * state.acceleration)
-        return ContactTorques(*self._carried(state.jacobian, forces))
+        return CarriedTorques(*self._carried(state.jacobian, forces))
 
     def _carried(self, jacobian: Floats, forces: Sequence[Floats]) -> Iterator[Floats]:
         """What pairs carry under forces that links ask for, by the transposed matrices: sense J^-T R^T f."""

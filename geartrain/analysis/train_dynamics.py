@@ -81,7 +81,7 @@ class TrainDynamics(TrainMotion):
         of: str | None,
         on_done: Callable[[int], object] | None,
     ) -> TorqueCycle:
-        from geartrain.dynamics import Motion, TorqueCycle, TorqueVerdict
+        from geartrain.dynamics import TorqueCycle, TorqueVerdict
         from geartrain.dynamics.turn.turn_analysis import find_torque_cycle
 
         links = tuple(self.declaration.links)
@@ -89,9 +89,7 @@ class TrainDynamics(TrainMotion):
             check_choice("link", of, links)
         if setting is None:
             return TorqueCycle(state, TorqueVerdict("still", "the speeds of this state are not determined"), of or "")
-        moving = self._moving(self._case(state), ())
-        motion = Motion(moving, {link: (link, self.declaration.frame) for link in moving.system.links})
-        return find_torque_cycle(setting, motion, turns, samples, of, on_done)
+        return find_torque_cycle(setting, self._moving(self._case(state), ()), turns, samples, of, on_done)
 
     def driven(self, load: str, source: str, state: str | None = None) -> Torques:
         """Torques while a unit of power leaves at one link, driven from another: efficiency, or self-locking.

@@ -7,7 +7,7 @@ depend on each other their errors are found together (5).
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
@@ -181,8 +181,8 @@ class ErrorComposition:
         """What errors of links (rad, by index) add to the forward angle of a source's driver."""
         return float(sum(sign * error[link] for link, sign in self.turned_by(source)))
 
-    def driver_angle(self, source: PairErrorSource, phase: InputPhase, error: Floats) -> Floats:
-        """Forward angle (rad) of a source's driver, from errors of links about their own axes (rad, (links, n))."""
+    def driver_angle(self, source: PairErrorSource, phase: InputPhase, error: Mapping[int, Floats]) -> Floats:
+        """Forward angle (rad) of a source's driver, from errors of links about their own axes, by index (rad)."""
         S = phase.cycles(source.cycles) * source.law.period + source.start
         for link, sign in self.turned_by(source):
             S += sign * error[link]

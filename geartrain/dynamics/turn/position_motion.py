@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from geartrain.dynamics.motion.error_composition import PairErrorSource
     from geartrain.dynamics.motion.motion_model import Motion
     from geartrain.numerics.arrays import Bools, Floats
+    from geartrain.teeth.transmission import TransmissionFunction
 
 
 class LinkMotion(NamedTuple):
@@ -38,25 +39,29 @@ class LinkMotion(NamedTuple):
 
 
 class PositionMotion:
-    """The motion of all links of a train.
+    """The motion of the links of a train that torque passes through.
 
-    motion     of all links, each seen from the frame, in the order of its solved system
-    followed   pairs of constant ratio whose position is wanted all the same
+    motion     of links, each seen from the frame
+    pairs      those whose position is wanted, as far as their ratio or what they lose depends on it
     """
 
-    def __init__(self, motion: Motion, followed: Collection[str]) -> None:
+    def __init__(self, motion: Motion, pairs: Collection[str]) -> None:
         self.motion = motion
-        self.composition = motion.with_sources(followed)
-
-    @cached_property
-    def sources(self) -> Mapping[str, PairErrorSource]:
-        """The pairs that are followed, by name."""
-        return {source.id: source for source in self.composition.sources}
+        self.composition = motion.with_sources(pairs)
+        self.sources: Mapping[str, PairErrorSource] = {
+            source.id: source for source in self.composition.sources if source.id in pairs
+        }
 
     @cached_property
     def links(self) -> Mapping[str, int]:
         """The row of each link."""
-        return {link: row for row, link in enumerate(self.motion.spread.links)}
+        return {link: row for row, link in enumerate(self.motion.outputs)}
+
+    @cached_property
+    def _columns(self) -> list[int]:
+        """The number of each link in the solved order."""
+        at = {link: number for number, link in enumerate(self.motion.spread.links)}
+        return [at[link] for link in self.links]
 
     @cached_property
     def _senses(self) -> Floats:
@@ -71,16 +76,24 @@ class PositionMotion:
 
         coasting   by pair, the positions at which its coast flanks touch
         """
-        composition = self.composition
-        if coasting:
-            sources = tuple(
-                replace(each, law=FlankChoice(each.law, coasting[each.id])) if each.id in coasting else each
-                for each in composition.sources
-            )
-            composition = ErrorComposition(composition.spread, sources, composition.outputs, composition.offsets)
+        composition = self._with_laws(
+            {name: FlankChoice(self.sources[name].law, where) for name, where in coasting.items()}
+        )
         found = composition.at(turns)
         # a pointer that is set turns no driver
-        error = found.error - np.array(composition.offsets or (0.0,))[:, None]
+        own = found.error - np.array(composition.offsets or (0.0,))[:, None]
+        error = dict(zip(self._columns, own, strict=True))
         phase = InputPhase(turns)
         angles = {name: composition.driver_angle(each, phase, error) for name, each in self.sources.items()}
         return LinkMotion(turns, self._senses * (self._means + found.rate), angles)
+
+    def coasting_all_along(self, pairs: Collection[str]) -> ErrorComposition:
+        """The composition with the coast flanks of some pairs touching everywhere."""
+        return self._with_laws({name: self.sources[name].law.turned_back() for name in pairs})
+
+    def _with_laws(self, laws: Mapping[str, TransmissionFunction]) -> ErrorComposition:
+        composition = self.composition
+        if not laws:
+            return composition
+        sources = tuple(replace(each, law=laws.get(each.id, each.law)) for each in composition.sources)
+        return ErrorComposition(composition.spread, sources, composition.outputs, composition.offsets)

@@ -13,6 +13,7 @@ class PositionTorques(NamedTuple):
 
     turns     of the input
     valid     where something balances; `layers`, how many solutions there are
+    adrift    where no flanks agree with the torques that press on them
     torque    on each link asked for, about its own axis, in the solution that loses least, (asked, n)
     highest   the same in the one that loses most
     speeds    of the links with a torque from outside, about their own axes, over the input's, (outside, n)
@@ -26,6 +27,7 @@ class PositionTorques(NamedTuple):
 
     turns: Floats
     valid: Bools
+    adrift: Bools
     layers: Floats
     torque: Floats
     highest: Floats

@@ -23,8 +23,9 @@ _BOOLE = np.array([7.0, 32.0, 12.0, 32.0, 7.0]) / 90
 _HALVED = np.array([1.0, -4.0, 6.0, -4.0, 1.0]) / 180  # Simpson's rule on both halves less that on the whole, over 15
 _ASIDE = 1e-10  # of the narrowest period: how far from a corner its two limits are taken
 _ROUNDING = 16  # units in the last place of the run's end: positions nearer than that are one
-_MOST_HALVINGS, _FEWEST_HALVINGS = 44, 10
-_EFFORT = 400_000  # positions that may be asked for in one search of kinks
+_PARTS = 16  # of what is left of a cell in which something changes its sign
+_MOST_ROUNDS, _FEWEST_ROUNDS = 11, 4
+_EFFORT = 100_000  # positions that may be asked for in one search of kinks, unless there are many
 
 
 @dataclass(frozen=True)
@@ -90,7 +91,7 @@ def run_cells(span: float, steps: int, breaks: Floats, narrowest: float) -> RunC
 
 
 def find_kinks(signs_at: Callable[[Floats], Ints], cells: RunCells, signs: Ints) -> Floats:
-    """Where signs change within cells, by bisection on all of these places at once.
+    """Where signs change within cells, in all of these places at once.
 
     signs_at   of some positions, (signs, n); `signs`, those at the positions of the cells
     """
@@ -102,9 +103,13 @@ def find_kinks(signs_at: Callable[[Floats], Ints], cells: RunCells, signs: Ints)
     if not len(at):
         return np.zeros(0)
     low, high, first = turns[at], turns[at + 1], signs[:, at]
-    halvings = int(np.clip(_EFFORT // len(at), _FEWEST_HALVINGS, _MOST_HALVINGS))
-    for _ in range(halvings):
-        middle = (low + high) / 2
-        before: Bools = (signs_at(middle) == first).all(axis=0)
-        low, high = np.where(before, middle, low), np.where(before, high, middle)
-    return (low + high) / 2
+    # few calls with many positions: each call asks every law, whatever the number of positions
+    rounds = _MOST_ROUNDS if len(at) * _PARTS * _MOST_ROUNDS <= _EFFORT else _FEWEST_ROUNDS
+    for _ in range(rounds):
+        inner = low[:, None] + (high - low)[:, None] * (np.arange(1, _PARTS) / _PARTS)
+        same = (signs_at(inner.ravel()).reshape(len(signs), *inner.shape) == first[:, :, None]).all(axis=0)
+        # the part in which the first change lies
+        part = np.where(same.all(axis=1), _PARTS - 1, np.argmin(same, axis=1))
+        width = (high - low) / _PARTS
+        low, high = low + part * width, low + (part + 1) * width
+    return np.asarray((low + high) / 2)

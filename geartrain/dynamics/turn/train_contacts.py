@@ -24,9 +24,11 @@ if TYPE_CHECKING:
     from geartrain.teeth.gear_mesh import GearMesh
 
 
-def followed_pairs(setting: LoadCase, teeth: Mapping[str, GearMesh]) -> list[str]:
-    """The pairs of constant ratio that have to be followed all the same: what they lose depends on their position."""
-    return [name for name, mesh in teeth.items() if mesh.rigid and _by_friction(setting, mesh)]
+def followed_pairs(setting: LoadCase, teeth: Mapping[str, GearMesh]) -> set[str]:
+    """The pairs that have to be followed: their ratio depends on their position, or what they lose does."""
+    names = {circuit.id for circuit in setting.circuits}
+    uneven = {name for name, mesh in teeth.items() if not mesh.rigid or _by_friction(setting, mesh)}
+    return names & {*uneven, *setting.joints}
 
 
 def find_contacts(
@@ -44,7 +46,8 @@ def mean_friction_pairs(
     setting: LoadCase, sources: Mapping[str, PairErrorSource], teeth: Mapping[str, GearMesh]
 ) -> Iterator[str]:
     """The pairs whose friction is counted by its mean: redundant ones, of whose position the motion does not tell."""
-    return (name for name, mesh in teeth.items() if name not in sources and _by_friction(setting, mesh))
+    names = {circuit.id for circuit in setting.circuits} - sources.keys()
+    return (name for name in teeth if name in names and _by_friction(setting, teeth[name]))
 
 
 def _by_friction(setting: LoadCase, mesh: GearMesh) -> bool:

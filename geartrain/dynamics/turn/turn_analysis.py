@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from geartrain.dynamics.motion.motion_model import Motion
 from geartrain.dynamics.torques.neglected_effects import neglected_over_turn
 from geartrain.dynamics.torques.power_flow import has_torque_units
 from geartrain.dynamics.torques.torque_analysis import TorqueQuestion, build_balance, find_question
@@ -18,13 +19,13 @@ from geartrain.dynamics.turn.extreme_search import find_extreme
 from geartrain.dynamics.turn.position_motion import PositionMotion
 from geartrain.dynamics.turn.torque_cycle import TorqueCycle
 from geartrain.dynamics.turn.train_contacts import find_bearings, find_contacts, followed_pairs, mean_friction_pairs
-from geartrain.dynamics.turn.turn_balance import TurnBalance, generic_balance
+from geartrain.dynamics.turn.turn_balance import TurnBalance, generic_balance, idle_pairs, without_pairs
 from geartrain.dynamics.turn.turn_run import FAINT, RunScales, TurnRun, sign_beyond
 from geartrain.errors import Problem, QuestionError
 from geartrain.numerics.labelled_array import labelled_array
 
 if TYPE_CHECKING:
-    from geartrain.dynamics.motion.motion_model import Motion
+    from geartrain.dynamics.motion.motion_problem import MotionProblem
     from geartrain.dynamics.torques.load_case import LoadCase
     from geartrain.dynamics.turn.position_torques import PositionTorques
     from geartrain.numerics.arrays import Floats
@@ -35,7 +36,7 @@ MOST_TURNS = 1e9
 
 def find_torque_cycle(
     setting: LoadCase,
-    motion: Motion,
+    problem: MotionProblem,
     turns: float,
     samples: int = DEFAULT_SAMPLES,
     of: str | None = None,
@@ -43,7 +44,7 @@ def find_torque_cycle(
 ) -> TorqueCycle:
     """Torques over some turns of the input.
 
-    motion    of all links, each seen from the frame
+    problem   what motion needs to know of the same case
     of        the link whose torque is unknown, in place of that which the declaration tells
     on_done   called with the number of positions that have been worked out since
     """
@@ -61,23 +62,30 @@ def find_torque_cycle(
     if not question.asked.enough:
         text = "fewer torques are asked for than the train has freedoms: at single positions no loads balance so"
         return TorqueCycle(state, question.asked.undecided or TorqueVerdict("undecided", text), of or "")
-    train = build_turn_balance(setting, motion, question)
+    train = build_turn_balance(setting, problem, question)
     train.on_done = on_done
     return _Answer(TurnRun(train, turns, samples)).told(of)
 
 
-def build_turn_balance(setting: LoadCase, motion: Motion, question: TorqueQuestion) -> TurnBalance:
-    """A train under load, to be asked at positions."""
-    teeth = {mesh.name: mesh for mesh in motion.train.teeth}
-    positions = PositionMotion(motion, followed_pairs(setting, teeth))
-    loads = {link: float(torque) for link, torque in question.loads.items()}
-    bearings = find_bearings(setting)
+def build_turn_balance(setting: LoadCase, problem: MotionProblem, question: TorqueQuestion) -> TurnBalance:
+    """A train under load, to be asked at positions: only what torque passes through is followed."""
+    bearings, frame = find_bearings(setting), setting.train.frame
     known = dict(question.loads)
     for link, friction in bearings.items():
         known[link] = known.get(link, Fraction(0)) + Fraction(friction.static)
-    balance = generic_balance(build_balance(setting, known, question.asked.links))
-    contacts = find_contacts(setting, positions.sources, teeth)
-    return TurnBalance(setting, positions, balance, contacts, loads, bearings)
+    whole = generic_balance(build_balance(setting, known, question.asked.links))
+    balance = without_pairs(whole, idle_pairs(whole))
+    busy = replace(
+        setting, circuits=[each for each in setting.circuits if each.id in {mesh.id for mesh in balance.meshes}]
+    )
+    links = {link for circuit in busy.circuits for link in (circuit.i, circuit.j, circuit.carrier)}
+    links.update(*((link, setting.tree.parent[link][0]) for link in bearings), known, question.asked.links)
+    teeth = {mesh.name: mesh for mesh in problem.teeth}
+    motion = Motion(problem, {link: (link, frame) for link in problem.system.links if link in {*links, frame}})
+    positions = PositionMotion(motion, followed_pairs(busy, teeth))
+    contacts = find_contacts(busy, positions.sources, teeth)
+    loads = {link: float(torque) for link, torque in question.loads.items()}
+    return TurnBalance(busy, positions, balance, contacts, loads, bearings)
 
 
 @dataclass
@@ -92,10 +100,7 @@ class _Answer:
         row = train.asked.index(of) if of in train.asked else 0
         link = train.asked[row]
         own = _Asked(row, -1 if train.setting.speeds[link] < 0 else 1)
-        locked, ambiguous = (
-            float(weights @ ~found.valid) / self.run.span,
-            float(weights @ (found.layers > 1)) / self.run.span,
-        )
+        locked, ambiguous = self.run.share(~found.valid), self.run.share(found.layers > 1)
         torque, left_out, period = own.torque(found), self._left_out(), train.motion.motion.period
         names = (*train.pairs, *(f"bearing {link}" for link in train.bearings))
         labels = [repr(each) for each in self.run.cells.turns.tolist()]
@@ -130,8 +135,16 @@ class _Answer:
     def _left_out(self) -> tuple[NeglectedEffect, ...]:
         train = self.run.train
         teeth = {mesh.name: mesh for mesh in train.motion.motion.train.teeth}
-        means = tuple(mean_friction_pairs(train.setting, train.motion.sources, teeth))
-        return neglected_over_turn(train.setting, means)
+        found = neglected_over_turn(
+            train.setting, tuple(mean_friction_pairs(train.setting, train.motion.sources, teeth))
+        )
+        if share := self.run.share(self.run.found.adrift):
+            why = (
+                f"over {share:.2%} of the run a link would turn back on drive flanks and forward on coast flanks; "
+                "it is taken to rest in its play there and to ask for nothing: how far within it stands is not followed"
+            )
+            found += (NeglectedEffect("rest within the play", train.flanked, why),)
+        return found
 
     def _verdict(self, locked: float, ambiguous: float, left_out: tuple[NeglectedEffect, ...]) -> TorqueVerdict:
         asked = ", ".join(self.run.train.asked)
@@ -206,7 +219,7 @@ class _Answer:
         found, asked = self.run.found, len(self.run.train.asked)
         driving, loading = found.powers[:asked].sum(axis=0), found.powers[asked:].sum(axis=0)
         least = FAINT * np.nanmax(np.abs(found.powers), initial=0.0)
-        return float(self.run.cells.weights @ ((driving > least) & (loading > least))) / self.run.span
+        return self.run.share((driving > least) & (loading > least))
 
     def _stretches(self) -> tuple[tuple[PlaceInRun, PlaceInRun], ...]:
         """Where nothing balances."""

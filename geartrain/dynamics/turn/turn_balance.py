@@ -13,7 +13,7 @@ import numpy as np
 from geartrain.dynamics.turn.pair_contact import DriverState, PairForce
 from geartrain.dynamics.turn.position_balance import BalanceLayer, ColumnPieces, solve_positions
 from geartrain.dynamics.turn.position_torques import PositionTorques
-from geartrain.numerics.named_arrays import joined
+from geartrain.numerics.named_arrays import joined, some
 
 if TYPE_CHECKING:
     from geartrain.dynamics.torques.load_case import LoadCase
@@ -21,21 +21,25 @@ if TYPE_CHECKING:
     from geartrain.dynamics.turn.pair_contact import PairContact
     from geartrain.dynamics.turn.position_motion import LinkMotion, PositionMotion
     from geartrain.dynamics.turn.train_contacts import BearingTorques
-    from geartrain.numerics.arrays import Bools, Floats
+    from geartrain.numerics.arrays import Bools, Floats, Indices
 
 _CHUNK = 8192  # positions worked on at once
-_ROUNDS = 6  # of finding flanks and speeds that agree
+_ROUNDS = 8  # of finding flanks and speeds that agree
 _AT_REST = 1e-12  # of the fastest speed: slower stands still
 _FAINT = 1e-9  # of the greatest torque through a pair in a chunk: less presses on no flank
 _SCALE = 10007  # of coefficients of which nothing cancels by chance
 
 
 class _State(NamedTuple):
-    """A train at some positions: how links turn, how pairs stand, and what they do by side, of the first of equals."""
+    """A train at some positions: how links turn, how pairs stand, and what they do by side, of the first of equals.
+
+    resting   by bearing, where its link rests in the play between two flanks
+    """
 
     motion: LinkMotion
     contacts: Mapping[str, DriverState]
     forces: Mapping[str, Mapping[int, PairForce]]
+    resting: Mapping[str, Bools]
     static: bool
 
 
@@ -101,33 +105,51 @@ class TurnBalance:
         parts = [self._chunk(turns[start : start + size], static) for start in range(0, max(len(turns), 1), size)]
         return joined(parts)
 
+    @cached_property
+    def flanked(self) -> tuple[str, ...]:
+        """The pairs whose coast flanks may touch."""
+        return tuple(name for name, contact in self.contacts.items() if contact.has_flanks)
+
     def _chunk(self, turns: Floats, static: bool) -> PositionTorques:
-        coasting: dict[str, Bools] = {}
-        for _ in range(_ROUNDS):
-            state = self._state(self.motion.at(turns, coasting), static)
+        """First with the drive flanks, then again where others turn out to touch.
+
+        Where a link would turn back on its drive flanks and forward on its coast flanks it rests in the play between
+        them, and its bearing asks for nothing. Where no flanks agree all the same, the drive flanks stand.
+        """
+        left: Indices = np.arange(len(turns))
+        coasting, resting = (np.zeros((len(names), len(turns)), bool) for names in (self.flanked, self.bearings))
+        settled: list[tuple[Indices, PositionTorques]] = []
+        way = np.zeros((len(self.bearings), len(turns)))
+        for round_ in range(_ROUNDS):
+            touching = {name: row for name, row in zip(self.flanked, coasting, strict=True) if row.any()}
+            state = self._state(self.motion.at(turns[left], touching), resting, static)
             layers = self._solved(state)
             best = self._extreme(layers, state, 1)
-            found = self._coasting(best)
-            none = np.zeros(len(turns), bool)
-            if all(np.array_equal(found.get(name, none), coasting.get(name, none)) for name in {*found, *coasting}):
+            told, found = self._told(state, layers, best), self._coasting(best)
+            told = told._replace(adrift=np.asarray(resting.any(axis=0)))
+            if round_ == 0:
+                first = told
+            changed = (found != coasting).any(axis=0)
+            settled.append((left[~changed], some(told, ~changed)))
+            turned = np.sign(told.slipping) * way < 0
+            resting = (resting | turned if round_ > 1 else resting)[:, changed]
+            left, coasting, way = left[changed], found[:, changed], np.sign(told.slipping)[:, changed]
+            if not len(left):
                 break
-            coasting = found
+        settled.append((left, some(first, left)._replace(adrift=np.ones(len(left), bool))))
         if self.on_done is not None:
             self.on_done(len(turns))
-        return self._told(state, layers, best)
+        order = np.argsort(np.concatenate([at for at, _ in settled]))
+        return some(joined([part for _, part in settled]), order)
 
-    def _coasting(self, best: BalanceLayer) -> dict[str, Bools]:
-        """The pairs that press on their coast flanks, and where."""
-        found = {}
-        for name, contact in self.contacts.items():
-            if contact.has_flanks:
-                pressed = best.values[self._of_pair[name]]
-                back = best.valid & (pressed < -_FAINT * np.max(np.abs(pressed), initial=0.0))
-                if back.any():
-                    found[name] = back
+    def _coasting(self, best: BalanceLayer) -> Bools:
+        """Where pairs press on their coast flanks, (pairs, n)."""
+        pressed = best.values[[self._of_pair[name] for name in self.flanked]]
+        faint = _FAINT * np.max(np.abs(best.values), axis=0, initial=0.0)
+        found: Bools = best.valid & (pressed < -faint)
         return found
 
-    def _state(self, motion: LinkMotion, static: bool) -> _State:
+    def _state(self, motion: LinkMotion, resting: Bools, static: bool) -> _State:
         contacts = {name: self._contact_state(each, motion) for name, each in self.contacts.items()}
         forces: dict[str, dict[int, PairForce]] = {}
         for column in self._columns:
@@ -135,7 +157,7 @@ class TurnBalance:
                 lead = self.contacts[column.meshes[0].id]
                 sides = (1, -1) if lead.two_sided else (1,)
                 forces[lead.name] = {side: lead.torques(side, contacts[lead.name], static) for side in sides}
-        return _State(motion, contacts, forces, static)
+        return _State(motion, contacts, forces, dict(zip(self.bearings, resting, strict=True)), static)
 
     def _contact_state(self, contact: PairContact, motion: LinkMotion) -> DriverState:
         turning = contact.way * self._speed(motion, contact.ends[0], contact.circuit.carrier)
@@ -172,11 +194,15 @@ class TurnBalance:
     def _friction(self, state: _State, link: str) -> list[tuple[str, Floats]]:
         """What a bearing does to its link and to what bears it, about their own axes."""
         carrier, setting = self.setting.tree.parent[link][0], self.setting
-        torque = self.bearings[link][state.static] * np.sign(self._speed(state.motion, link, carrier))
+        torque = np.sign(self._speed(state.motion, link, carrier)) * self._rubbing(state, link)
         found = [(link, -setting.sense(link) * torque)]
         if carrier != setting.train.frame:
             found.append((carrier, setting.sense(carrier) * torque))
         return found
+
+    def _rubbing(self, state: _State, link: str) -> Floats:
+        """Friction torque of a bearing, 0 or more."""
+        return np.where(state.resting[link], 0.0, self.bearings[link][state.static])
 
     def _pieces(self, column: TorqueUnknown, state: _State) -> ColumnPieces:
         """What a unit of one unknown does to each row; equal planets have the numbers of the first of them."""
@@ -235,14 +261,13 @@ class TurnBalance:
         for link, load in self.loads.items():
             acting[self.outside.index(link)] += load
         slipping = [self._speed(motion, link, self.setting.tree.parent[link][0]) for link in self.bearings]
-        rubbed = [
-            self.bearings[link][state.static] * np.abs(each) for link, each in zip(self.bearings, slipping, strict=True)
-        ]
+        rubbed = [self._rubbing(state, link) * np.abs(each) for link, each in zip(self.bearings, slipping, strict=True)]
         flows = [self._flow(name, best, state) for name in self.pairs]
         kinks = [each.losses.kinks(state.contacts[name]) for name, each in self.contacts.items()]
         return PositionTorques(
             motion.turns,
             best.valid,
+            np.zeros(size, bool),
             np.sum([each.valid for each in layers], axis=0).astype(float),
             torque,
             np.where(worst.valid, worst.values[self._asked_columns], np.nan),
@@ -272,6 +297,28 @@ class TurnBalance:
 
 def _stack(rows: Sequence[Floats], size: int) -> Floats:
     return np.array(rows) if rows else np.zeros((0, size))
+
+
+def idle_pairs(balance: TorqueBalance) -> set[str]:
+    """The pairs through which no torque passes at any position: nothing beyond them asks for one."""
+    rows = {row for row, torque in balance.rows.items() if torque}
+    idle: set[str] = set()
+    for block in balance.parts:
+        columns = [balance.columns[at] for at in block.columns]
+        if rows.isdisjoint(block.rows):
+            idle.update(mesh.id for column in columns for mesh in column.meshes)
+        else:
+            rows.update(row for column in columns for row in column.pieces[0])
+    return idle
+
+
+def without_pairs(balance: TorqueBalance, names: set[str]) -> TorqueBalance:
+    """The balance of the rest."""
+    return replace(
+        balance,
+        meshes=tuple(mesh for mesh in balance.meshes if mesh.id not in names),
+        ties=tuple(tied for tied in balance.ties if names.isdisjoint(tied)),
+    )
 
 
 def generic_balance(balance: TorqueBalance) -> TorqueBalance:

@@ -17,6 +17,8 @@ if TYPE_CHECKING:
     from geartrain.dynamics.turn.turn_balance import TurnBalance
     from geartrain.numerics.arrays import Bools, Floats, Ints
 
+_PROBES = 300  # positions at which it is asked which flanks touch
+_MOST_SETS = 3  # sets of coast flanks that touch at once, whose corners are looked for
 _ROUNDS = 3  # of looking for kinks: those of one cell come one after another
 _ACCURACY, _ROUNDING = 1e-8, 1e-13  # of all energy, spread evenly over the run, and what a cell may be off by at least
 _DEPTH = 12  # halvings of a cell
@@ -35,8 +37,18 @@ class TurnRun:
 
     @cached_property
     def corners(self) -> Floats:
-        """Positions at which a law has a corner."""
-        return CornerSearch(self.train.motion.composition).over(0.0, self.span).turns
+        """Positions at which a law has a corner, with the drive flanks touching, and with each usual set of flanks."""
+        train = self.train
+        even = train.at(np.linspace(0.0, self.span, min(self.samples, _PROBES)))
+        sets = {frozenset[str](): 0}
+        rows = [train.pairs.index(name) for name in train.flanked]
+        coasting = sign_beyond(even.pressed[rows], RunScales.of(even).pressed) < 0
+        for column in coasting.T:
+            names = frozenset(name for name, coasts in zip(train.flanked, column, strict=True) if coasts)
+            sets[names] = sets.get(names, 0) + 1
+        usual = sorted(sets, key=lambda names: -sets[names])[:_MOST_SETS]
+        found = [CornerSearch(train.motion.coasting_all_along(names)).over(0.0, self.span).turns for names in usual]
+        return np.concatenate(found)
 
     @cached_property
     def narrowest(self) -> float:
@@ -116,6 +128,10 @@ class TurnRun:
                 sign_beyond(found.powers[asked:outside], scales.power),
             ]
         ).astype(np.int64)
+
+    def share(self, where: Bools) -> float:
+        """The part of the run taken by some of its positions."""
+        return float(self.cells.weights @ where) / self.span
 
     @cached_property
     def standing(self) -> PositionTorques:

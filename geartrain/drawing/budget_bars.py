@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from textwrap import fill, shorten
+from textwrap import shorten
 from typing import TYPE_CHECKING
 
 from geartrain.drawing.backend import Axes, Figure, Patch
@@ -15,8 +15,6 @@ if TYPE_CHECKING:
 COLOURS = {"ratio": BLUE, "theory": PURPLE, "teeth": GREEN, "lost motion": ORANGE, "cutting": RED}
 MOST = 8
 """Pointers in a picture: the worst, by the sum of their causes."""
-_LINE = 100
-"""Letters below the bars, which are as wide as two thirds of a picture."""
 _ROOM = 0.055  # share of a bar below which its size is not written in it
 
 
@@ -79,10 +77,10 @@ def _legend(cause: str, found: TrainBudget) -> str:
 
 def _below(pointers: int, shown: int, erring: int) -> str:
     words = "share of the sum of what is declared; hatched: declared in part"
-    words += f"; pointers that err less, not drawn: {erring - shown}" if erring > shown else ""
     still = pointers - erring
-    words += f"; of which no error is known: {still} of {pointers}" if still else ""
-    return fill(words, _LINE)
+    left = [f"pointers that err less, not drawn: {erring - shown}"] if erring > shown else []
+    left += [f"pointers of which no error is known: {still} of {pointers}"] if still else []
+    return words + ("\n" + "; ".join(left) if left else "")
 
 
 def _size(value: float, digits: int) -> str:

@@ -12,6 +12,7 @@ from geartrain.teeth.gear_mesh import GearMesh
 from geartrain.teeth.meshing_wheels import PairSize
 
 if TYPE_CHECKING:
+    from geartrain.teeth.conjugate.displaced_contact import DisplacedContact
     from geartrain.teeth.outline_transmission import OutlineTransmission
     from geartrain.teeth.outlines.wheel_requirement import FixedTooth
     from geartrain.teeth.pair_account import PairAccount
@@ -60,6 +61,13 @@ class OutlineMesh(GearMesh):
         """The tooth as the form has it, arcs and all."""
         del scale, tolerance
         return self.teeth[self.gear.pair.index(wheel)]
+
+    @property
+    def displaced_contact(self) -> DisplacedContact:
+        """From the contact of one couple of its outlines."""
+        from geartrain.teeth.displaced_outlines import displaced_outlines
+
+        return displaced_outlines(self.law.gears, self.law.driver)
 
     def account(self) -> PairAccount:
         """Speed, error, play and efficiency, as the pair is driven and driven back."""

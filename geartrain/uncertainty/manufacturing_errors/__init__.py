@@ -8,6 +8,7 @@ trial_transmission                    the transmission functions of many pairs a
 meshing_cycle, least_backlash         many pairs at once: whether they jam, clash, stand still, lose contact
 pitch_error_verdicts                  the same where teeth are right but for their places, at much less cost
 meshing_verdicts                      the cheaper of the two that is right
-displaced_wheel, displaced_pair       wheels and pairs of teeth with a path of contact, many at once
+displaced_wheel, displaced_pair       wheels and pairs of teeth of all other forms, many at once
+least_sums                            the least of what two wheels add, over all teeth that meet
 file_strokes                          pairs filed until they pass
 """

@@ -1,4 +1,4 @@
-"""Two wheels of conjugate teeth with displaced flanks on their axles: which couple drives, how far the other is off.
+"""Two wheels of teeth with displaced flanks on their axles: which couple drives, how far the other is off.
 
 Couple k joins tooth k of the driver to tooth k of the driven wheel, both counted on through all turns. Its driver's
 leading flank holds the driven trailing flank; the driver's trailing flank stands before the leading flank of the driven
@@ -19,6 +19,7 @@ import numpy as np
 from geartrain.uncertainty.manufacturing_errors.cut_wheel import of_teeth
 from geartrain.uncertainty.manufacturing_errors.displaced_wheel import DisplacedWheel
 from geartrain.uncertainty.manufacturing_errors.file_strokes import TightPlace
+from geartrain.uncertainty.manufacturing_errors.least_sums import least_sum, least_sum_places, terms_at
 from geartrain.uncertainty.manufacturing_errors.meshing_cycle import MeshingVerdicts
 
 if TYPE_CHECKING:
@@ -28,6 +29,7 @@ if TYPE_CHECKING:
     from geartrain.teeth.conjugate.displaced_contact import DisplacedContact
 
 _PHASES = 4  # of a pitch at which couples are looked at, beside the ends of their paths: between, lags are smooth
+_UNEVEN_PHASES = 32  # where even wheels do not lag alike along their path
 _FINE = 512  # of a pitch: for the mean of a lag with a few corners
 
 
@@ -79,6 +81,12 @@ class DisplacedPair:
         at, (leaving, entering) = self.contact, self._late
         return at.start - at.entering.most - entering, at.end + at.leaving.most + leaving
 
+    @property
+    def _uneven(self) -> bool:
+        """True for teeth whose even wheels lag more here, less there."""
+        even = self.contact.even
+        return bool(even.any() and np.ptp(even) > 0)
+
     @cached_property
     def _late(self) -> tuple[float, float]:
         """How much earlier than the end of the path, and later than its start, some tooth meets a corner."""
@@ -98,7 +106,7 @@ class DisplacedPair:
         found = []
         for steps in range(int(np.ceil(ends[0])), int(np.floor(ends[1])) + 1):
             x = sign * u + steps * pitch
-            nominal = float(self._corners(np.array(x)))
+            nominal = float(self._even(np.array(x)))
             found.append((nominal, x, int(sign) * steps))
         least = min((nominal for nominal, _, _ in found), default=np.inf)
         for nominal, x, j in found:
@@ -131,6 +139,15 @@ class DisplacedPair:
         beyond = at.leaving(x - at.end - at.longer[0] * tip1)
         return np.asarray(beyond + at.entering(at.start - at.longer[1] * tip2 - x))
 
+    def _even(self, x: Floats) -> Floats:
+        """The lag of even wheels, beyond the ends of the path too."""
+        return np.asarray(self._along(self.contact.even, x) + self._corners(x))
+
+    def _along(self, column: Floats, x: Any) -> Any:
+        """One column of the contact at x, as `_columns`."""
+        at, last = self.contact, len(column) - 1
+        return np.interp(x, at.start + (at.end - at.start) / last * np.arange(last + 1), column)
+
     def _columns(self, x: Floats) -> list[Floats]:
         """Columns of the contact at x, linear between their steps, constant beyond the ends.
 
@@ -144,8 +161,11 @@ class DisplacedPair:
         columns = (*at.across, *at.along, *at.tilt, at.normal, at.even, at.apart)
         return [each[low] + (each[low + 1] - each[low]) * part for each in columns]
 
-    def _side(self, u: float, x: float, j: int, back: bool) -> SideTerms:
-        """Equation (2), apart for the two wheels: teeth of each at one x, placed by n = tooth + j."""
+    def _side(self, u: float, x: float, j: int, back: bool, late: Any = None) -> SideTerms:
+        """Equation (2), apart for the two wheels: teeth of each at one x, placed by n = tooth + j.
+
+        late    (trials, z): by how much later the driver stands for each n (rad); then tips count as even
+        """
         at, sign = self.contact, -1.0 if back else 1.0
         one, two = self.first, self.second
         t1, t2, y1, y2, l1, l2, w, even, apart = (float(each) for each in self._columns(np.array(x)))
@@ -153,15 +173,20 @@ class DisplacedPair:
         shift = np.asarray(self.shift)[..., None] if np.ndim(self.shift) else self.shift
         ratio = float(at.ratio)
         own = sign * ratio * one.place - flank1 * l1 + low1 * w
-        own = own + even + apart * shift
+        here = x - sign * one.place + (0.0 if late is None else np.roll(late, -j, -1))
+        # a tooth out of place touches elsewhere, where even wheels may lag otherwise
+        own = own + (self._along(at.even, here) if self._uneven else even) + apart * shift
         other = -sign * two.place + flank2 * l2 + low2 * w
-        if not at.start + self._late[1] < x < at.end - self._late[0]:
-            own = own + self._corners(x - sign * one.place, one.tips)
+        if late is not None:
+            own = own + self._corners(here)
+        elif not at.start + self._late[1] < x < at.end - self._late[0]:
+            own = own + self._corners(here, one.tips)
             # places of the driver's teeth and heights of the driven both move where couples enter: taken one by one
             other = other + at.entering(at.start - at.longer[1] * two.tips - x) - at.entering(np.array(at.start - x))
         # a couple on the back joins the driver's tooth to the driven tooth that follows
         driver = np.roll(own, j, -1) + self._swing(one, u, 0.0, -t1 * sign, -y1)
-        driven = np.roll(other, j - back, -1) + self._swing(two, ratio * u, at.stands + back * at.play, t2 * sign, y2)
+        turned = ratio * u - sign * even
+        driven = np.roll(other, j - back, -1) + self._swing(two, turned, at.stands + back * at.play, t2 * sign, y2)
         return SideTerms(driver, driven, j)
 
     @staticmethod
@@ -179,7 +204,8 @@ class DisplacedPair:
         """A couple in front and one on the back, all that meet at some position of the driver within a pitch."""
         pitch, (start, end) = self.contact.pitches[0], (self.contact.start, self.contact.end)
         ends = np.mod([start, end, -start, -end], pitch)
-        for u in (*(np.arange(_PHASES) * (pitch / _PHASES)), *ends):
+        phases = _UNEVEN_PHASES if self._uneven else _PHASES
+        for u in (*(np.arange(phases) * (pitch / phases)), *ends):
             yield from product(self.side_terms(u, False), self.side_terms(u, True))
 
     def play(self) -> Floats:
@@ -189,7 +215,7 @@ class DisplacedPair:
         """
         best = np.full(self.trials, np.inf)
         for front, back in self._meetings():
-            best = np.minimum(best, _least_met(front.driver + back.driver, front.driven + back.driven))
+            best = np.minimum(best, least_sum(front.driver + back.driver, front.driven + back.driven))
         return best + self.contact.play
 
     def tight_place(self) -> TightPlace:
@@ -198,7 +224,7 @@ class DisplacedPair:
         best, where = np.full(count, np.inf), np.zeros((3, count), np.int64)
         gain = np.full(count, float(self.contact.normal.max()))
         for front, back in self._meetings():
-            play, n1, n2 = _where_met(front.driver + back.driver, front.driven + back.driven, count)
+            play, n1, n2 = least_sum_places(front.driver + back.driver, front.driven + back.driven, count)
             rows = np.flatnonzero(play < best)
             if len(rows):
                 best[rows] = play[rows]
@@ -211,10 +237,10 @@ class DisplacedPair:
         # what each of the four leaves to the play: the least stands out farthest
         left = np.stack(
             [
-                _at(front.driver, rows, n1),
-                _at(back.driver, rows, n1),
-                _at(back.driven, rows, n2),
-                _at(front.driven, rows, n2),
+                terms_at(front.driver, rows, n1),
+                terms_at(back.driver, rows, n1),
+                terms_at(back.driven, rows, n2),
+                terms_at(front.driven, rows, n2),
             ]
         )
         teeth = np.stack(
@@ -257,13 +283,15 @@ class DisplacedPair:
         x, j = (at.start - at.entering.most, 1) if entering else (at.end + at.leaving.most, -1)
         x += 1e-9 * at.pitches[0] * (1 if entering else -1)
         other = x + j * at.pitches[0]
-        nominal = float(self._corners(np.array(other))), float(self._corners(np.array(x)))
+        nominal = float(self._even(np.array(other))), float(self._even(np.array(x)))
         if not nominal[0] + self._spread > nominal[1]:
             return np.zeros(self.trials, bool)
-        own, mate = self._side(x, x, 0, False), self._side(x, other, j, False)
+        # without a path tips fall behind steeply: each couple is looked at where its own tips meet
+        late = self.first.place if self._uneven else None
+        own, mate = self._side(x, x, 0, False, late), self._side(x, other, j, False, late)
         with np.errstate(invalid="ignore"):
             # own less the neighbour's, turned round: below 0 where the neighbour lags more
-            margin = _least_met(own.driver - mate.driver, own.driven - mate.driven)
+            margin = least_sum(own.driver - mate.driver, own.driven - mate.driven)
         found: Bools = np.broadcast_to(~(margin >= 0), self.trials).copy()
         return found
 
@@ -282,7 +310,8 @@ class DisplacedPair:
         lag = sign * (ratio * place - of_teeth(two.place, rows, j)) + even + apart * shift
         lag = lag - of_teeth(flank1, rows, i) * l1 + of_teeth(flank2, rows, j) * l2
         lag = lag + (of_teeth(low1, rows, i) + of_teeth(low2, rows, j)) * w
-        for wheel, angle, across, along in ((one, S, -t1, -y1), (two, ratio * S + at.stands + back * at.play, t2, y2)):
+        turned = ratio * S - sign * even + at.stands + back * at.play
+        for wheel, angle, across, along in ((one, S, -t1, -y1), (two, turned, t2, y2)):
             if np.any(wheel.e):
                 e, towards = (each[rows] if np.ndim(each) else each for each in (wheel.e, wheel.towards))
                 lag = lag + e * (sign * across * np.sin(angle - towards) + along * np.cos(angle - towards))
@@ -303,6 +332,11 @@ class DisplacedPair:
         return best, which
 
 
+def even_play(contact: DisplacedContact) -> float:
+    """The least play of even wheels (rad of the driven wheel)."""
+    return float(DisplacedPair(contact, *(DisplacedWheel.even(wheel.z) for wheel in contact.wheels)).play())
+
+
 def mean_lag(contact: DisplacedContact) -> float:
     """The mean lag of even wheels (rad of the driven wheel): 0 at the distance that they are made for."""
     if not contact.even.any():
@@ -310,30 +344,3 @@ def mean_lag(contact: DisplacedContact) -> float:
     pair = DisplacedPair(contact, *(DisplacedWheel.even(wheel.z) for wheel in contact.wheels))
     S = np.linspace(0.0, contact.pitches[0], _FINE, endpoint=False)
     return float(pair.first_lag(np.zeros(_FINE, np.int64), S)[0].mean())
-
-
-def _at(terms: Any, rows: Ints, n: Ints) -> Floats:
-    return np.asarray(terms)[rows, n] if np.ndim(terms) > 1 else np.asarray(terms)[n]
-
-
-def _by_rest(driver: Any, driven: Any) -> list[Floats]:
-    """Terms of both wheels by the rest that their numbers leave: those of one rest meet in the cycle."""
-    rests = gcd(driver.shape[-1], driven.shape[-1])
-    return [each.reshape(*each.shape[:-1], -1, rests) for each in (driver, driven)]
-
-
-def _least_met(driver: Any, driven: Any) -> Floats:
-    """The least sum of a term of the driver and one of the driven wheel that meet in the cycle."""
-    one, two = _by_rest(driver, driven)
-    found: Floats = (one.min(axis=-2) + two.min(axis=-2)).min(axis=-1)
-    return found
-
-
-def _where_met(driver: Any, driven: Any, count: int) -> tuple[Floats, Ints, Ints]:
-    """The same, and the numbers of both terms, (trials,)."""
-    one, two = _by_rest(np.atleast_2d(driver), np.atleast_2d(driven))
-    rests = one.shape[-1]
-    total = one.min(axis=1) + two.min(axis=1)
-    rest = np.broadcast_to(total.argmin(axis=1), count)
-    own, other = (np.broadcast_to(each.argmin(axis=1), (count, rests))[np.arange(count), rest] for each in (one, two))
-    return np.array(np.broadcast_to(total.min(axis=1), count)), own * rests + rest, other * rests + rest

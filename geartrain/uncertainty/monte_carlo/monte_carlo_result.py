@@ -99,8 +99,8 @@ class MonteCarloResult(Result):
             )
         if any(wheel.displaced is not None for wheel in plan.wheels):
             yield (
-                "Teeth with a path of contact are displaced along it, right to first order in their errors; tips that "
-                "touch beyond its ends are counted, roots in the way of tips are not."
+                "Flanks of teeth that are not triangular are displaced where they touch, right to first order in their "
+                "errors; tips that touch beyond the flanks are counted, roots in the way of tips are not."
             )
         if plan.files:
             yield (

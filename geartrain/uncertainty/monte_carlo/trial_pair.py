@@ -12,7 +12,7 @@ import numpy as np
 
 from geartrain.errors import Problem, RangeError
 from geartrain.uncertainty.manufacturing_errors.cut_pair import CutGearPair
-from geartrain.uncertainty.manufacturing_errors.displaced_pair import DisplacedPair
+from geartrain.uncertainty.manufacturing_errors.displaced_pair import DisplacedPair, even_play
 from geartrain.uncertainty.manufacturing_errors.file_strokes import FilingWork, file_to_fit
 from geartrain.uncertainty.manufacturing_errors.filed_cut_pair import FileableCutPair
 from geartrain.uncertainty.manufacturing_errors.least_backlash import jamming_bound, nominal_backlash
@@ -189,7 +189,7 @@ class TriangularTrialPair(TrialPair):
 
 @dataclass(frozen=True, slots=True)
 class DisplacedTrialPair(TrialPair):
-    """Conjugate teeth: displaced flanks along the path of contact, right to first order in the errors."""
+    """Other teeth: displaced flanks along the contact of a couple, right to first order in the errors."""
 
     contact: DisplacedContact
 
@@ -207,7 +207,7 @@ class DisplacedTrialPair(TrialPair):
     @property
     def play(self) -> float:
         """Nominal play, in pitches."""
-        return (self.contact.play + 2 * float(self.contact.even.min())) / self.pitches[1]
+        return even_play(self.contact) / self.pitches[1]
 
     @property
     def question(self) -> tuple[float, ...]:

@@ -213,7 +213,7 @@ def _cut_meshes(train: GearTrain, motion: Motion) -> list[GearMesh]:
     found = [mesh for mesh in motion.train.teeth if mesh.has_cut_sizes or mesh.displaced_contact is not None]
     if not found:
         what = f"'{train.name}' has no triangular teeth, nor others whose errors are reckoned"
-        why = "cutting errors are reckoned tooth by tooth for triangular teeth and for those with a path of contact"
+        why = "cutting errors are reckoned tooth by tooth for triangular teeth and for all whose contact is known"
         fix = "declare `tooth_form: {form: involute}` or another such form on the train or on its pairs"
         raise QuestionError(Problem(what, why, fix))
     return found

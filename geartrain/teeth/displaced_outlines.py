@@ -1,0 +1,211 @@
+"""What displaced flanks of any two outlines do to the driven wheel, for teeth without a path of contact.
+
+One couple of teeth alone is turned through its contact, and where it touches the common normal is found: it passes the
+point that parts the line of centres as the speeds do at that instant. A flank that stands out by n along it turns the
+driven wheel ahead by n over the moment arm of the normal about the driven axle, docs/cut-by-hand.md (1), as of
+conjugate teeth; but the lag of even wheels is not constant here.
+"""
+
+from __future__ import annotations
+
+from functools import lru_cache
+from math import radians
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from geartrain.errors import Problem, RangeError
+from geartrain.numerics.polynomial_pieces import value
+from geartrain.teeth.conjugate.displaced_contact import CornerLag, DisplacedContact, DisplacedWheelSizes
+from geartrain.teeth.contact.first_touch import CandidatePairs
+from geartrain.teeth.contact.outline_pair import OutlinePair
+
+if TYPE_CHECKING:
+    from geartrain.numerics.arrays import Bools, Floats, Indices
+    from geartrain.teeth.contact.gear_outline import GearOutline
+    from geartrain.teeth.outline_transmission import OutlineGears
+
+_NODES = 1025  # of the tables along the contact; linear between them
+_CORNER_NODES = 257  # beyond its ends
+_SEARCHED = 2001  # of the window of a couple, for the ends of its contact
+_FARTHEST = 0.25  # of a driven pitch: a couple that lags more is held up by its neighbours
+_NO_CORNER = 1e-9  # rad of the driver
+_AT_PITCH_POINT = 1e-6  # modules: nearer to it the normal is that of the flank
+_ROUGH = 1e-4  # rad: what is sought to rounding, among touches so near to the furthest
+_BLUNT = radians(10)  # half the aperture, at least
+
+
+class CoupleContact(NamedTuple):
+    """One couple alone at driver's angles x (rad past its place), the driver's axle at 0, the driven one on the x axis.
+
+    lag      of the driven wheel behind its even motion (rad)
+    point    where it touches (2, n), in modules
+    normal   the direction in which the driver pushes (2, n)
+    angle    of the driven tooth past the line of centres (rad)
+    corner   1 where the driver's tip touches, 2 the driven one's, 3 both, 0 neither; -1 where nothing touches
+    """
+
+    x: Floats
+    lag: Floats
+    point: Floats
+    normal: Floats
+    angle: Floats
+    corner: Indices
+
+
+class CoupleSearch:
+    """The contact of single couples of two outlines, front flanks driving."""
+
+    def __init__(self, gears: OutlineGears, driver: int) -> None:
+        self.first, self.second = gears.of(driver)
+        self.pair = OutlinePair(self.first, self.second, gears.distance, "front")
+        self.distance = gears.distance
+        self.offset = 2 * gears.lead / self.second.z
+
+    def at(self, x: Floats) -> CoupleContact:
+        """The contact at driver's angles."""
+        count, none = len(x), np.zeros(len(x), int)
+        judge = self.pair.judge
+        couples = CandidatePairs(x, none, none, np.zeros(count), np.arange(count))
+        touches = judge.touch(couples, judge.furthest(couples, judge.segments(couples), _ROUGH))
+        # the furthest touch of each angle comes last
+        order = np.lexsort((touches.angle, touches.couple))
+        last = order[np.flatnonzero(np.diff(touches.couple[order], append=count))]
+        where = touches.couple[last]
+        corner = np.full(count, -1)
+        corner[where] = self._corners(touches.piece1[last], touches.u[last], touches.piece2[last], touches.v[last])
+        angle, point, normal = np.full(count, np.nan), np.full((2, count), np.nan), np.full((2, count), np.nan)
+        angle[where] = touches.angle[last]
+        r, dr = value(judge.first.radius, touches.piece1[last], touches.u[last])
+        a, da = value(judge.first.azimuth, touches.piece1[last], touches.u[last])
+        a = a + x[where]
+        point[:, where] = r * np.cos(a), r * np.sin(a)
+        along = np.stack([dr * np.cos(a) - r * da * np.sin(a), dr * np.sin(a) + r * da * np.cos(a)])
+        normal[:, where] = self._normals(point[:, where], along, touches.speed[last])
+        ratio = self.first.z / self.second.z
+        return CoupleContact(x, ratio * x + self.offset - angle, point, normal, angle, corner)
+
+    def _corners(self, piece1: Indices, u: Floats, piece2: Indices, v: Floats) -> Indices:
+        judge, found = self.pair.judge, np.zeros(len(u), int)
+        for at, (table, piece, end) in enumerate(((judge.first, piece1, u), (judge.second, piece2, v)), 1):
+            found += at * ((end == -1) & table.corners[0][piece] | (end == 1) & table.corners[1][piece])
+        return found
+
+    def _normals(self, point: Floats, along: Floats, speed: Floats) -> Floats:
+        """Through the point that parts the line of centres as the speeds do; at that point, across the flank."""
+        with np.errstate(all="ignore"):
+            to = np.stack([self.distance * speed / (1 + speed) - point[0], -point[1]])
+            flank = np.stack([-along[1], along[0]])
+            found = np.where(np.hypot(*to) > _AT_PITCH_POINT, to, flank)
+            found = found / np.hypot(*found)
+        # about the driven axle, beyond, the push goes the way its near side moves
+        return np.asarray(np.where(found[1] < 0, -found, found))
+
+
+@lru_cache(maxsize=256)
+def displaced_outlines(gears: OutlineGears, driver: int) -> DisplacedContact:
+    """The contact of two outlines at their distance, one of the wheels driving, and what displaced flanks change.
+
+    Raises `RangeError` where the teeth do not touch for a whole pitch.
+    """
+    search = CoupleSearch(gears, driver)
+    first, second = search.first, search.second
+    start, end, least, most = _ends(search)
+    found = search.at(np.linspace(start, end, _NODES))
+    axles = np.array([[0.0, gears.distance], [0.0, 0.0]])
+    px, py = found.point
+    nx, ny = found.normal
+    # 1 over the moment arm about the driven axle, the way it turns there
+    normal = 1 / np.abs((px - axles[0, 1]) * ny - py * nx)
+    working = _foremost(found, first.pitch)
+    sizes, levers, longer = [], [], []
+    for gear, wheel in enumerate((first, second)):
+        radius = np.hypot(px - axles[0, gear], py)
+        tip = (search.pair.judge.first if gear == 0 else search.pair.judge.second).reach[1]
+        sizes.append(_sizes(wheel, radius[working], tip, _half_widths(search, found, gear)[working]))
+        pitch_x, pitch_y = _pitch_points(search, found, gear)
+        levers.append(normal * ((py - pitch_y) * nx - (px - pitch_x) * ny))
+        rise = np.gradient(radius, found.x)[-1 if gear == 0 else 0] * (1 if gear == 0 else -1)
+        longer.append(float(1 / rise) if rise > 0 else 0.0)
+    across, away = normal * ny, normal * nx
+    return DisplacedContact(
+        wheels=(sizes[0], sizes[1]),
+        start=start,
+        end=end,
+        across=(across, across),
+        along=(away, -away),
+        tilt=(levers[0], levers[1]),
+        apart=away,
+        normal=normal,
+        entering=_corner(search, start, least),
+        leaving=_corner(search, end, most),
+        longer=(longer[0], longer[1]),
+        play=2 * gears.play / second.z,
+        stands=search.offset,
+        even=found.lag,
+        distance=gears.distance,
+    )
+
+
+def _ends(search: CoupleSearch) -> tuple[float, float, float, float]:
+    """From where to where flanks touch, and before and after it tips (rad of the driver)."""
+    found = search.at(np.linspace(*search.pair.window, _SEARCHED))
+    near = (found.corner >= 0) & (found.lag < _FARTHEST * search.second.pitch + np.nanmin(found.lag))
+    whole = _around(near, int(np.nanargmin(found.lag)))
+    flanks = np.flatnonzero(whole & (found.corner == 0))
+    reach = np.flatnonzero(whole)
+    if len(flanks) < 2 or found.x[reach[-1]] - found.x[reach[0]] < search.first.pitch:
+        what = "these teeth do not touch for a whole pitch"
+        raise RangeError(Problem(what, "no flank can be displaced", "give them longer tips, or axles nearer together"))
+    # the places of the search are fine beside the tables; an end lies within
+    start, end, least, most = (float(found.x[at]) for at in (flanks[0], flanks[-1], reach[0], reach[-1]))
+    return start, end, least, most
+
+
+def _around(held: Bools, at: int) -> Bools:
+    """The run of true entries about a place."""
+    gaps = np.flatnonzero(~held)
+    low, high = gaps[gaps < at], gaps[gaps > at]
+    found = np.zeros(len(held), bool)
+    found[(low[-1] + 1 if len(low) else 0) : (high[0] if len(high) else len(held))] = True
+    return found
+
+
+def _corner(search: CoupleSearch, end: float, last: float) -> CornerLag:
+    """How much more the driven wheel lags while a tip touches beyond an end of the contact."""
+    if abs(last - end) < _NO_CORNER:
+        return CornerLag(_NO_CORNER, np.zeros(2))
+    lag = search.at(np.linspace(end, last, _CORNER_NODES)).lag
+    return CornerLag(abs(last - end) / (_CORNER_NODES - 1), lag - lag[0])
+
+
+def _foremost(found: CoupleContact, pitch: float) -> Indices:
+    """Where this couple holds the driven wheel, not one a pitch before or behind."""
+    others = [np.interp(found.x + way * pitch, found.x, found.lag, left=np.inf, right=np.inf) for way in (-1, 1)]
+    return np.flatnonzero(found.lag <= np.minimum(*others))
+
+
+def _half_widths(search: CoupleSearch, found: CoupleContact, gear: int) -> Floats:
+    """Half the thickness of the tooth (modules) where it touches."""
+    if gear == 0:
+        return np.asarray(np.hypot(*found.point) * (np.arctan2(found.point[1], found.point[0]) - found.x))
+    x, y = search.distance - found.point[0], found.point[1]
+    return np.asarray(np.hypot(x, y) * (found.angle - np.arctan2(y, x)))
+
+
+def _sizes(wheel: GearOutline, radius: Floats, tip: float, half: Floats) -> DisplacedWheelSizes:
+    """Of a wheel that works at these radii, where it is so thick."""
+    foot, top = int(np.argmin(radius)), int(np.argmax(radius))
+    lean = float(np.arctan2(half[foot] - half[top], radius[top] - radius[foot]))
+    return DisplacedWheelSizes(wheel.z, float(tip - radius[foot]), max(lean, _BLUNT))
+
+
+def _pitch_points(search: CoupleSearch, found: CoupleContact, gear: int) -> tuple[Floats, Floats]:
+    """Where the flank that touches crosses the pitch circle, about which it is turned."""
+    wheel, table = ((search.first, search.pair.judge.first), (search.second, search.pair.judge.second))[gear]
+    radius = wheel.z / 2
+    piece = np.flatnonzero((table.ends[0] <= radius) & (radius <= table.ends[1]) & ~table.flat)[:1]
+    azimuth = float(value(table.azimuth, piece, table.inverse(piece, np.array([radius])))[0][0])
+    turned = (found.angle if gear else found.x) + azimuth
+    x, y = radius * np.cos(turned), radius * np.sin(turned)
+    return (search.distance - x, y) if gear else (x, y)

@@ -75,7 +75,7 @@ def test_with_a_restitution_teeth_part_more_and_the_moon_runs_farther_ahead() ->
     run = moon_train().dynamics(rate="1 turn/s", turns=20, steps=40000, restitution=0.3, fast=True)
     assert np.mean(shares(run)) == pytest.approx(34, abs=0.6)
     moon = next(lead for lead in run.leads if lead.output == "moon")
-    assert degrees(moon.ahead) == pytest.approx(6.5, abs=0.8)
+    assert degrees(moon.ahead) == pytest.approx(6.5, abs=1.6)  # a single flight: chaotic
 
 
 @pytest.mark.slow

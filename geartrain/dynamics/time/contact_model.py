@@ -23,7 +23,8 @@ if TYPE_CHECKING:
 Form = Mapping[int, float]
 """A linear form of coordinates: number -> coefficient."""
 
-_STIFF = 1e6  # rows that determine no coordinate yield as if they were so much heavier than what they hold
+# a row that determines no coordinate yields as if it were so much heavier than all it holds; at most, than its own
+_STIFF, _STIFFEST = 1e6, 1e9
 
 
 @dataclass(frozen=True)
@@ -36,6 +37,7 @@ class ContactPair:
     rubbing               what friction adds to the driver's arm (its torque over the driven side's), for front and back
                           flank, each turning forward and back; None without friction
     restitution           closing speed that comes back
+    never_stands          True if the driven side moves wherever the driver does, so that it could as well drive
     """
 
     name: str
@@ -46,6 +48,7 @@ class ContactPair:
     back: TabledFunction
     rubbing: tuple[TabledFunction, TabledFunction, TabledFunction, TabledFunction] | None = None
     restitution: float = 0.0
+    never_stands: bool = False
 
     @property
     def two_sided(self) -> bool:
@@ -58,8 +61,9 @@ class ContactPair:
         return tuple(dict.fromkeys((*self.driven, *self.driver)))
 
     def could_determine(self, coordinate: int) -> bool:
-        """True if its driven side holds the coordinate and its driver does not: the row is never without it."""
-        return bool(self.driven.get(coordinate)) and not self.driver.get(coordinate)
+        """True if one side alone holds the coordinate, and the row is never without it."""
+        driven, driver = bool(self.driven.get(coordinate)), bool(self.driver.get(coordinate))
+        return driven != driver and (driven or self.never_stands)
 
 
 @dataclass(frozen=True)
@@ -272,7 +276,7 @@ class ContactModel:
         heavy = float(self.typical @ self.mass @ self.typical)
         speed = float(row @ self.typical)
         own = float(1 / (row**2 @ (1 / np.diag(self.mass))))
-        return _STIFF * max(own, heavy / speed**2 if speed else 0.0)
+        return min(_STIFF * max(own, heavy / speed**2 if speed else 0.0), _STIFFEST * own)
 
 
 def _joined(pair: ContactPair) -> Form:

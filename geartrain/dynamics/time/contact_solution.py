@@ -112,13 +112,15 @@ def hand_on(system: ContactSystem, state: ContactState, here: StepEquations, d: 
     low, high = system.near_at[d], system.near_at[d + 1]
     m = system.owner[d]
     side = state.touching[m] - 1
-    lead = system.pair_driven[system.pair_at[m]]  # the driven coordinate stands first in its row
+    first = system.pair_at[m]  # the coordinate that is determined stands first in its row
+    lead = system.pair_driven[first] - here.ratio[m, side] * system.pair_driver[first]
+    lead_force = system.pair_driven[first] - here.arm[m, side] * system.pair_driver[first]
     for x in range(low, high):
         w[x] = 0.0
         g[x] = 0.0
     for x in range(system.pair_at[m] + 1, system.pair_at[m + 1]):
         w[system.slot[x]] = (here.ratio[m, side] * system.pair_driver[x] - system.pair_driven[x]) / lead
-        g[system.slot[x]] = (here.arm[m, side] * system.pair_driver[x] - system.pair_driven[x]) / lead
+        g[system.slot[x]] = (here.arm[m, side] * system.pair_driver[x] - system.pair_driven[x]) / lead_force
     known, own = (1.0 - 2.0 * side) * here.bound[m, side] / lead, A[d, d]
     here.known[d] = known
     rest = b[d] - own * known
@@ -163,7 +165,9 @@ def substitute(system: ContactSystem, state: ContactState, here: StepEquations, 
         v[d] = here.known[d]
         for x in range(low, high):
             v[d] += here.w[x] * v[near[x]]
-        here.P[m] = (rest + A[d, d] * v[d]) / system.pair_driven[system.pair_at[m]] * (3.0 - 2.0 * state.touching[m])
+        first, side = system.pair_at[m], state.touching[m] - 1
+        lead = system.pair_driven[first] - here.arm[m, side] * system.pair_driver[first]
+        here.P[m] = (rest + A[d, d] * v[d]) / lead * (1.0 - 2.0 * side)
     else:
         v[d] = -rest / A[d, d]
 

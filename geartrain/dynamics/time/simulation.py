@@ -70,7 +70,7 @@ def simulate(model: ContactModel, plan: StepPlan, fast: bool = False) -> Simulat
     system, n = model.system(plan.step), len(model.torque)
     state = start_state(model, system)
     rows = len(model.pairs) + len(model.stops)
-    here = _equations(n, len(model.pairs), len(model.stops), len(system.near))
+    here = empty_equations(n, len(model.pairs), len(model.stops), len(system.near))
     samples = (plan.skip + plan.steps) // plan.stride
     record = RunRecord(
         np.zeros(ENERGIES),
@@ -126,7 +126,7 @@ def start_state(model: ContactModel, system: ContactSystem) -> ContactState:
     for d, m in enumerate(model.order.owner):
         if m >= 0 and model.given:
             row = slice(system.pair_at[m] + 1, system.pair_at[m + 1])
-            lead = system.pair_driven[system.pair_at[m]]
+            lead = system.pair_driven[row.start - 1] - ratio[m, 0] * system.pair_driver[row.start - 1]
             others = speed[system.pair_of[row]]
             speed[d] = (ratio[m, 0] * system.pair_driver[row] - system.pair_driven[row]) @ others / lead
     if model.start is not None:
@@ -146,7 +146,8 @@ def start_state(model: ContactModel, system: ContactSystem) -> ContactState:
     )
 
 
-def _equations(n: int, pairs: int, stops: int, near: int) -> StepEquations:
+def empty_equations(n: int, pairs: int, stops: int, near: int) -> StepEquations:
+    """Room for one step."""
     return StepEquations(
         np.zeros(n),
         np.zeros((pairs, 2)),

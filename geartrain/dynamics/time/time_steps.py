@@ -85,6 +85,9 @@ def run_steps(
         while True:
             solve_guess(system, state, here, step, creep)
             rounds += 1
+            if rounds > limit:
+                record.numbers[UNSOLVED] += 1
+                break
             if correct_guess(system, state, here, creep, slack, rounds > _AT_ONCE) == 0:
                 if again == _AGAIN or not is_struck(system, laws, state, here, before):
                     break
@@ -94,9 +97,6 @@ def run_steps(
                 for d in range(n):
                     ahead[d] = here.v[d]
                 find_bounds(system, laws, state, here, ahead, step, gap, closing)
-            if rounds > limit:
-                record.numbers[UNSOLVED] += 1
-                break
         for d in range(n):
             middle[d] = (state.speed[d] + here.v[d]) / 2
         if counted:
@@ -176,6 +176,11 @@ def find_bounds(
         at = S + step * on
         way = 0 if dS >= 0 else 1
         for side in range(2):
+            if state.touching[m] == 2 - side and system.two_sided[m] == 0:
+                # a play away from the flank that touches: nothing of it is asked before that one is left
+                here.bound[m, side] = -np.inf
+                gap[m, side] = -np.inf
+                continue
             sign = 1.0 - 2.0 * side
             angle, ratio = value_and_slope(laws, system.tables[m, side], at)
             lack = sign * ((angle - q) / step - ratio * on)

@@ -38,6 +38,8 @@ if TYPE_CHECKING:
     from geartrain.teeth.transmission import TransmissionFunction
     from geartrain.train import Train
 
+_FREE = 0.05  # of the mean ratio: a pair whose ratio stays above is followed the other way round as well
+
 
 @dataclass(frozen=True)
 class TrainModel:
@@ -206,12 +208,14 @@ class TrainModel:
                 law = self._even(circuit)
                 front = tabled_angle(law)
                 arms = self._even_arms(circuit, law)
-                yield ContactPair(circuit.id, driver, driven, (0.0, 0.0), front, front, arms, restitution)
+                yield ContactPair(circuit.id, driver, driven, (0.0, 0.0), front, front, arms, restitution, True)
                 continue
             source = self._start[0][circuit.id]
             S = source.start + self._start[2].driver_shift(source, self._start[1])
             front, back, arms, first = self._flanks(circuit)
-            yield ContactPair(circuit.id, driver, driven, (S, float(first.angle(S))), front, back, arms, restitution)
+            start = S, float(first.angle(S))
+            free = first.speed_range()[0] > _FREE * float(first.ratio)
+            yield ContactPair(circuit.id, driver, driven, start, front, back, arms, restitution, free)
 
     def _flanks(self, circuit: Circuit) -> tuple[TabledFunction, TabledFunction, Arms | None, TransmissionFunction]:
         """Tables of both flanks, what friction adds, and the law of the front."""

@@ -1,1 +1,1 @@
-"""Torque over a turn: the balance of every position, with its real ratio and friction (docs/torques.md, section 14)."""
+"""Torque over a turn: the balance of every position, with its real ratio and friction (docs/torques.md, section 16)."""

@@ -44,4 +44,4 @@ def find_extreme(
             at = float(grid[np.argmax(peak), which[np.argmax(peak)]])
         rows = np.arange(len(which))
         low, high = grid[rows, np.maximum(which - 1, 0)], grid[rows, np.minimum(which + 1, _PARTS)]
-    return at, way * best
+    return at, way * best + 0.0  # no negative zero

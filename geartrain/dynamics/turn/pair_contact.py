@@ -1,9 +1,9 @@
 """What passes through a gear pair or a pin at each position: the torques on its two sides for a unit of contact force.
 
-Section 16 of docs/torques.md. The multiplier x of a pair is the torque that presses its driven side forward: at x >= 0
+Section 17 of docs/torques.md. The multiplier x of a pair is the torque that presses its driven side forward: at x >= 0
 the drive flanks touch, at x <= 0 the coast flanks. With tau the ratio of that flank at this position the driven side
 gets x n and the driver gives x tau d, where n and d are 1 without friction. Friction turns round with the sliding, so
-that of one flank eta'(f) = 1/eta(-f) when it is turned the other way (24).
+that of one flank eta'(f) = 1/eta(-f) when it is turned the other way (23).
 """
 
 from __future__ import annotations

@@ -29,7 +29,7 @@ class LinkMotion(NamedTuple):
     """How links turn at some positions of the input.
 
     turns    of the input, (n,)
-    speeds   of links about the direction of their parallels, over the input's, (links, n)
+    speeds   of links about the direction of their parallels, over the magnitude of the input's, (links, n)
     angles   by pair that is followed, forward angle of its law's driver (rad), (n,)
     """
 
@@ -64,8 +64,14 @@ class PositionMotion:
         return [at[link] for link in self.links]
 
     @cached_property
+    def way(self) -> int:
+        """-1 where the input turns backwards about its own axis: motion counts in its own sense."""
+        train = self.motion.train
+        return -1 if train.speeds[train.lead] < 0 else 1
+
+    @cached_property
     def _senses(self) -> Floats:
-        return np.array([float(self.motion.train.signs.get(link, 1)) for link in self.links])[:, None]
+        return np.array([float(self.way * self.motion.train.signs.get(link, 1)) for link in self.links])[:, None]
 
     @cached_property
     def _means(self) -> Floats:

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class TorqueCycle(FrozenFields, Result):
-    """Torques of a train over some turns of its input, position by position: docs/torques.md, sections 14 to 17.
+    """Torques of a train over some turns of its input, position by position: docs/torques.md, sections 16 to 18.
 
     Positions are about `samples` even ones, every corner and jump of the laws with a position on either side of it,
     those at which something turns back or changes its flank, and more where integrals ask for them; arrays over them
@@ -33,8 +33,9 @@ class TorqueCycle(FrozenFields, Result):
         The state; None for a train without states.
     verdict : TorqueVerdict
         Whether torques follow: `determined`; `incomplete` where something is left out; `ambiguous` where several
-        patterns of power flow balance somewhere; `self-locking` where nothing balances at some position. Where the
-        question itself has no answer it is the verdict of `Torques`, and nothing else is given.
+        patterns of power flow balance somewhere; `self-locking` where nothing balances at some position. Where
+        redundant pairs share a load in no certain way it is `indeterminate`, and the least torques that balance are
+        given. Where the question itself has no answer it is the verdict of `Torques`, and nothing else is given.
     link : str
         The link whose torque is asked for.
     newton_metres : bool

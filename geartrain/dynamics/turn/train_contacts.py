@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from dataclasses import replace
 from typing import TYPE_CHECKING, NamedTuple
 
 from geartrain.dynamics.pair_speeds import pitch_line_speed
@@ -20,6 +21,7 @@ from geartrain.teeth.friction_law import PairFriction
 if TYPE_CHECKING:
     from geartrain.dynamics.motion.error_composition import PairErrorSource
     from geartrain.dynamics.torques.load_case import LoadCase
+    from geartrain.dynamics.turn.position_motion import PositionMotion
     from geartrain.kinematics.circuits import Circuit
     from geartrain.teeth.gear_mesh import GearMesh
 
@@ -32,14 +34,21 @@ def followed_pairs(setting: LoadCase, teeth: Mapping[str, GearMesh]) -> set[str]
 
 
 def find_contacts(
-    setting: LoadCase, sources: Mapping[str, PairErrorSource], teeth: Mapping[str, GearMesh]
+    setting: LoadCase, positions: PositionMotion, teeth: Mapping[str, GearMesh]
 ) -> dict[str, PairContact]:
     """The contact of every pair and coupling, by name.
 
-    sources   the pairs that are followed position by position; others have a constant ratio
-    teeth     real teeth with the wheel driving whose law the sources hold
+    positions   with the pairs that are followed position by position; others have a constant ratio
+    teeth       real teeth with the wheel driving whose law is followed
     """
-    return {each.id: _contact(setting, each, sources.get(each.id), teeth.get(each.id)) for each in setting.circuits}
+    found = {}
+    for circuit in setting.circuits:
+        source = positions.sources.get(circuit.id)
+        contact = _contact(setting, circuit, source, teeth.get(circuit.id))
+        if source is not None:
+            contact = replace(contact, way=positions.way * source.forward, sense=positions.way * source.sense)
+        found[circuit.id] = contact
+    return found
 
 
 def mean_friction_pairs(

@@ -1,4 +1,4 @@
-"""Torque over a turn, from a train in one case to its answer: docs/torques.md, sections 14 to 17."""
+"""Torque over a turn, from a train in one case to its answer: docs/torques.md, sections 16 to 18."""
 
 from __future__ import annotations
 
@@ -32,6 +32,7 @@ if TYPE_CHECKING:
 
 DEFAULT_SAMPLES = 20_000
 MOST_TURNS = 1e9
+_ODD = Fraction(1_414_213, 1_000_003)
 
 
 def find_torque_cycle(
@@ -72,7 +73,10 @@ def build_turn_balance(setting: LoadCase, problem: MotionProblem, question: Torq
     bearings, frame = find_bearings(setting), setting.train.frame
     known = dict(question.loads)
     for link, friction in bearings.items():
-        known[link] = known.get(link, Fraction(0)) + Fraction(friction.static)
+        # only whether something acts there counts, whichever way it turns; it may not cancel a load by chance
+        for end in (link, setting.tree.parent[link][0]):
+            known[end] = known.get(end, Fraction(0)) + Fraction(friction.static) * _ODD
+    known.pop(frame, None)
     whole = generic_balance(build_balance(setting, known, question.asked.links))
     balance = without_pairs(whole, idle_pairs(whole))
     busy = replace(
@@ -83,7 +87,7 @@ def build_turn_balance(setting: LoadCase, problem: MotionProblem, question: Torq
     teeth = {mesh.name: mesh for mesh in problem.teeth}
     motion = Motion(problem, {link: (link, frame) for link in problem.system.links if link in {*links, frame}})
     positions = PositionMotion(motion, followed_pairs(busy, teeth))
-    contacts = find_contacts(busy, positions.sources, teeth)
+    contacts = find_contacts(busy, positions, teeth)
     loads = {link: float(torque) for link, torque in question.loads.items()}
     return TurnBalance(busy, positions, balance, contacts, loads, bearings)
 
@@ -148,6 +152,9 @@ class _Answer:
 
     def _verdict(self, locked: float, ambiguous: float, left_out: tuple[NeglectedEffect, ...]) -> TorqueVerdict:
         asked = ", ".join(self.run.train.asked)
+        if shared := self.run.train.shared:
+            text = f"how {', '.join(shared)} share their load is not determined: redundant pairs; `share` declares it"
+            return TorqueVerdict("indeterminate", f"{text}; the least torques that balance are given", shared)
         if locked:
             text = f"no torque on {asked} balances over {locked:.4%} of the run: the train locks there"
             return TorqueVerdict("self-locking", text)

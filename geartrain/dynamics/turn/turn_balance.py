@@ -27,7 +27,7 @@ _CHUNK = 8192  # positions worked on at once
 _ROUNDS = 8  # of finding flanks and speeds that agree
 _AT_REST = 1e-12  # of the fastest speed: slower stands still
 _FAINT = 1e-9  # of the greatest torque through a pair in a chunk: less presses on no flank
-_SCALE = 10007  # of coefficients of which nothing cancels by chance
+_SCALES = 1_000_003, 1_414_213  # of the coefficients of a row, so that nothing in it cancels by chance
 
 
 class _State(NamedTuple):
@@ -77,6 +77,12 @@ class TurnBalance:
     def outside(self) -> tuple[str, ...]:
         """The links with a torque from outside that may do work."""
         return tuple(dict.fromkeys((*self.asked, *self.loads)))
+
+    @cached_property
+    def shared(self) -> tuple[str, ...]:
+        """Pairs that the balance leaves open."""
+        open_ = [block for block in self.balance.parts if len(block.columns) > len(block.rows)]
+        return tuple(mesh.id for block in open_ for at in block.columns for mesh in self._columns[at].meshes)
 
     @cached_property
     def _columns(self) -> tuple[TorqueUnknown, ...]:
@@ -327,8 +333,8 @@ def generic_balance(balance: TorqueBalance) -> TorqueBalance:
     meshes = tuple(
         replace(
             mesh,
-            a=_SCALE * mesh.a + group.get(mesh.id, len(balance.ties) + at),
-            b=_SCALE * (mesh.b or -1) - 1,
+            a=_SCALES[0] * mesh.a + group.get(mesh.id, len(balance.ties) + at),
+            b=_SCALES[1] * (mesh.b or -1),
             forward=Fraction(1),
             backward=Fraction(1),
         )

@@ -10,12 +10,14 @@ import typer
 
 from geartrain.cli.common import (
     GOOD,
+    INTERRUPTED,
     PICTURES,
     VERDICT,
     File,
     Force,
     Json,
     Out,
+    Seed,
     Sink,
     StateName,
     check_distinct_outputs,
@@ -23,8 +25,9 @@ from geartrain.cli.common import (
     emit,
     give,
     sink,
+    tell,
 )
-from geartrain.cli.long_runs import progress
+from geartrain.cli.long_runs import Resume, RunOptions, Scheduler, SingleWorker, close_journal, long_run, progress
 from geartrain.cli.option_values import MOST_COUNT
 from geartrain.cli.option_values import turns as read_turns
 from geartrain.errors import GearTrainError, Problem
@@ -32,6 +35,7 @@ from geartrain.errors import GearTrainError, Problem
 if TYPE_CHECKING:
     from geartrain.analysis.gear_train import GearTrain
     from geartrain.dynamics import TorqueCycle, Torques
+    from geartrain.uncertainty import FrictionTrials
 
 
 def run(
@@ -49,6 +53,13 @@ def run(
         str | None, typer.Option("--input", help="Link whose torque is asked over the turns; default the crank.")
     ] = None,
     csv: Annotated[bool, typer.Option("--csv", help="Print the torque at every position as CSV.")] = False,
+    trials: Annotated[
+        int | None, typer.Option("--trials", help="So many runs with friction drawn from its declared deviation.")
+    ] = None,
+    seed: Seed = 1,
+    workers: SingleWorker = None,
+    scheduler: Scheduler = None,
+    resume: Resume = False,
     plot: Annotated[
         Path | None,
         typer.Option("--plot", help="Draw the flow of power of one state, or its torque over the turns, to this file."),
@@ -65,8 +76,8 @@ def run(
     picture = sink(plot, force, PICTURES, "--plot")
     check_distinct_outputs(to, picture)
     tabled = csv or to.suffix == ".csv"
-    if turns is None and (tabled or input_ is not None):
-        which = "--csv" if tabled else "--input"
+    if turns is None and (tabled or input_ is not None or trials is not None):
+        which = "--csv" if tabled else "--input" if input_ is not None else "--trials"
         raise typer.BadParameter("it is about the torque over some turns: give --turns too", param_hint=which)
     train = load(file)
     states = (state,) if state is not None else train.states or (None,)
@@ -75,13 +86,19 @@ def run(
     sound = all(each.verdict or each.verdict.kind == "unloaded" for each in found)
     if over_turn is not None:
         sound = bool(over_turn.verdict)
+    tried = None
+    if trials is not None and over_turn is not None:
+        options = RunOptions.alone(workers, scheduler, resume)
+        tried = _tried(train, over_turn, (samples, input_), (trials, seed), out, options)
     if plot is not None:
         _draw(train, found, over_turn, picture)
     if tabled and over_turn is not None:
         emit(_table(over_turn), to)
     else:
-        report = collect_torque_report(train, found, over_turn)
+        report = collect_torque_report(train, found, over_turn, tried)
         give(to, json, lambda: report, lambda: [describe_torques(report)])
+    if tried is not None and not tried.complete:
+        raise typer.Exit(INTERRUPTED)
     raise typer.Exit(GOOD if sound else VERDICT)
 
 
@@ -97,6 +114,28 @@ def _over_turn(train: GearTrain, found: Sequence[Torques], turns: str, samples: 
         span = float(read_turns("--turns", turns))
     with progress("torques over the turns", patience=2.0) as bar:
         return train.torques(state, turns=span, samples=samples, of=link, on_done=bar.advance)
+
+
+def _tried(
+    train: GearTrain,
+    over_turn: TorqueCycle,
+    run: tuple[int, str | None],
+    drawn: tuple[int, int],
+    out: Path | None,
+    options: RunOptions,
+) -> FrictionTrials:
+    """The same run in trials of friction; `run` are its samples and the link, `drawn` trials and seed."""
+    from geartrain.uncertainty import find_friction_plan, try_frictions
+    from geartrain.uncertainty.monte_carlo.trial_run import check_trials
+
+    check_trials(drawn[0])
+    plan = find_friction_plan(train, over_turn.span, run[0], over_turn.state, run[1])
+    with long_run("torques", plan.question(*drawn), out, options) as given:
+        found = try_frictions(plan, *drawn, given)
+        close_journal(given.journal, cut=not found.complete)
+    if not found.complete:
+        tell(f"stopped after {found.done} of {found.wanted} trials; the figures are of those")
+    return found
 
 
 def _loaded(train: GearTrain, found: Sequence[Torques], option: str) -> Torques:

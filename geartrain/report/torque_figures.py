@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from geartrain.analysis.gear_train import GearTrain
     from geartrain.dynamics import PowerFlow, PowerLoss, TorqueCycle, Torques, TorqueVerdict
     from geartrain.dynamics.torques.torque_results import DrivenWay
+    from geartrain.uncertainty import FrictionTrials
 
 
 class Impact(NamedTuple):
@@ -104,6 +105,8 @@ class TorqueReport(Result):
         Torques, powers, flow and losses of each state, in the order asked.
     over_turn : TorqueCycle or None
         Torque over some turns of the one state asked for; None where it was not asked for.
+    friction_trials : FrictionTrials or None
+        The same in trials of friction; None where none were asked for.
 
     See Also
     --------
@@ -114,10 +117,14 @@ class TorqueReport(Result):
     title: str
     states: tuple[TorqueFigures, ...]
     over_turn: TorqueCycle | None = None
+    friction_trials: FrictionTrials | None = None
 
 
 def collect_torque_report(
-    train: GearTrain, found: Sequence[Torques], over_turn: TorqueCycle | None = None
+    train: GearTrain,
+    found: Sequence[Torques],
+    over_turn: TorqueCycle | None = None,
+    friction_trials: FrictionTrials | None = None,
 ) -> TorqueReport:
     """Torques of some states of a train with their flow of power, what is lost where, and the efficiency both ways.
 
@@ -129,6 +136,8 @@ def collect_torque_report(
         What `train.torques` gave, one for each state.
     over_turn : TorqueCycle, optional
         What `train.torques` gave over some turns.
+    friction_trials : FrictionTrials, optional
+        What `try_frictions` gave.
 
     Returns
     -------
@@ -148,7 +157,7 @@ def collect_torque_report(
     {'torque': 1.5, 'power': 1.5, 'asked': True}
     """
     states = tuple(collect_torques(train, each) for each in found)
-    return TorqueReport(train.name, train.declaration.title, states, over_turn)
+    return TorqueReport(train.name, train.declaration.title, states, over_turn, friction_trials)
 
 
 def collect_torques(train: GearTrain, found: Torques) -> TorqueFigures:

@@ -27,7 +27,7 @@ _UNITS_IN_WATTS = (
 def describe_torques(found: TorqueReport) -> Document:
     """Torques under the declared loads, state by state: verdict, efficiency both ways, links, pairs, flow and losses.
 
-    Where it was asked for, the torque over some turns follows.
+    Where they were asked for, the torque over some turns follows, and trials of its friction.
 
     Parameters
     ----------
@@ -55,6 +55,10 @@ def describe_torques(found: TorqueReport) -> Document:
         from geartrain.report.torque_cycle_report import cycle_sections
 
         sections += cycle_sections(found.over_turn)
+    if found.friction_trials is not None:
+        from geartrain.report.friction_trials_report import trial_sections
+
+        sections += trial_sections(found.friction_trials)
     lead = [f"Train '{found.name}'. {_units(found.states)}"]
     return Document(f"Torques of {found.name}", lead, sections)
 

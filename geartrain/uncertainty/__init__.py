@@ -6,7 +6,8 @@ posterior
 monte_carlo
     In: a train with real teeth and errors of cutting and fitting, as a `TrialPlan`. Out: how often it jams, how
     far its pointers stray, with confidence intervals; whose errors matter (Sobol indices), and how great they may be
-    (tolerance allocation) (docs/cut-by-hand.md).
+    (tolerance allocation) (docs/cut-by-hand.md). Or a train whose friction is known by its spread: the torque over a
+    turn with its confidence intervals, by `try_frictions` (docs/torques.md).
 budget
     In: a train, with whatever it declares. Out, by `find_budget`: what each pointer's error comes from (ratio, pins'
     theory, teeth, lost motion, cutting), in degrees and in days (docs/budgets.md).
@@ -41,6 +42,12 @@ if TYPE_CHECKING:
     from geartrain.uncertainty.manufacturing_errors.declared_errors import read_error_overrides as read_error_overrides
     from geartrain.uncertainty.monte_carlo.clearance_study import ClearanceCase as ClearanceCase
     from geartrain.uncertainty.monte_carlo.clearance_study import jamming_map as jamming_map
+    from geartrain.uncertainty.monte_carlo.friction_plan import FrictionPlan as FrictionPlan
+    from geartrain.uncertainty.monte_carlo.friction_plan import FrictionSpread as FrictionSpread
+    from geartrain.uncertainty.monte_carlo.friction_plan import find_friction_plan as find_friction_plan
+    from geartrain.uncertainty.monte_carlo.friction_trials import FrictionTrials as FrictionTrials
+    from geartrain.uncertainty.monte_carlo.friction_trials import TrialFigure as TrialFigure
+    from geartrain.uncertainty.monte_carlo.friction_trials import try_frictions as try_frictions
     from geartrain.uncertainty.monte_carlo.monte_carlo_result import MonteCarloResult as MonteCarloResult
     from geartrain.uncertainty.monte_carlo.pair_trials import PairTrials as PairTrials
     from geartrain.uncertainty.monte_carlo.pointer_error import PointerErrorCourse as PointerErrorCourse
@@ -70,6 +77,9 @@ __all__ = [
     "CrankLoad",
     "CutTransmissionFunction",
     "CutWheel",
+    "FrictionPlan",
+    "FrictionSpread",
+    "FrictionTrials",
     "IntervalEstimate",
     "MonteCarloResult",
     "PairEventRates",
@@ -83,11 +93,13 @@ __all__ = [
     "ToleranceAllocation",
     "ToothCountPosterior",
     "TrainBudget",
+    "TrialFigure",
     "TrialPlan",
     "TrialResults",
     "WheelPosterior",
     "cut_transmission_function",
     "find_budget",
+    "find_friction_plan",
     "find_sobol_indices",
     "find_tolerance",
     "find_trial_plan",
@@ -96,6 +108,7 @@ __all__ = [
     "read_error_overrides",
     "run_course",
     "run_trials",
+    "try_frictions",
 ]
 
 __getattr__ = lazy_names(
@@ -103,6 +116,8 @@ __getattr__ = lazy_names(
     {
         **dict.fromkeys(("BudgetCause", "PointerBudget", "RatioDrift", "TrainBudget"), "budget.pointer_budget"),
         **dict.fromkeys(("BudgetQuestion", "find_budget"), "budget.train_budget"),
+        **dict.fromkeys(("FrictionPlan", "FrictionSpread", "find_friction_plan"), "monte_carlo.friction_plan"),
+        **dict.fromkeys(("FrictionTrials", "TrialFigure", "try_frictions"), "monte_carlo.friction_trials"),
         "CrankLoad": "budget.crank_load",
         "ClearanceCase": "monte_carlo.clearance_study",
         "CountCombination": "posterior.posterior_result",

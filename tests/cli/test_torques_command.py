@@ -101,3 +101,38 @@ def test_pictures_mark_mean_extremes_and_locked_stretches(pin: Path, tmp_path: P
     pin.write_text(LOCKS, encoding="utf-8")
     assert call("torques", pin, "--turns", "1", *SAMPLES, "--plot", picture, "--force").exit_code == 1
     assert 'id="locked"' in picture.read_text(encoding="utf-8")
+
+
+# ------------------------------------------------------------------------------------------------------------- trials
+
+SPREAD = PIN.replace("friction: 0.3", "friction: {sliding: 0.3, static: 0.4, deviation: 0.05}")
+
+
+def test_trials_of_friction_have_the_spread_that_the_closed_form_tells(pin: Path) -> None:
+    """The mean torque is linear in friction, 10 (1 + f ln(9)/pi), so its deviation is that part of the declared one."""
+    pin.write_text(SPREAD, encoding="utf-8")
+    words = ("--turns", "1", "--samples", "40", "--trials", "60", "--seed", "3")
+    tried = json.loads(call("torques", pin, *words, "--json").output)["friction_trials"]
+    mean, low, high = tried["mean"]["mean"]
+    assert low < MEAN < high
+    assert mean == pytest.approx(MEAN, abs=0.15)
+    _, low, high = tried["mean"]["deviation"]
+    assert low < 0.05 * 10 * log(9) / pi < high
+    assert tried["starting"]["mean"][0] > tried["greatest"]["mean"][0]
+    assert tried["spreads"] == {"a~b": {"sliding": 0.3, "deviation": 0.05}}
+    assert (tried["wanted"], tried["done"], tried["locks"]["count"]) == (60, 60, 0)
+    text = call("torques", pin, *words).output
+    assert "60 trials, seed 3" in text
+    assert "a~b 0.3 ± 0.05" in text
+
+
+def test_trials_are_the_same_whoever_works(pin: Path) -> None:
+    pin.write_text(SPREAD, encoding="utf-8")
+    words = ("torques", pin, "--turns", "1", "--samples", "20", "--trials", "12", "--json")
+    alone, together = (json.loads(call(*words, *more).output)["friction_trials"] for more in ((), ("--workers", "2")))
+    assert alone == together
+
+
+def test_trials_need_a_spread(pin: Path) -> None:
+    done = call("torques", pin, "--turns", "1", *SAMPLES, "--trials", "5")
+    assert "declares no spread of friction" in str(done.exception)

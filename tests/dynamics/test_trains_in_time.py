@@ -48,6 +48,18 @@ def test_energy_closes_with_flights_blows_and_friction() -> None:
         assert run.unsolved == 0
 
 
+def test_with_friction_of_teeth_slow_turning_asks_the_torque_of_a_turn() -> None:
+    links = {name: {"inertia": f"{own} kg m2"} for name, own in INERTIA.items()}
+    train = GearTrain.declare(
+        {"extends": "moon-triangular", "friction": 0.2, "loads": {"moon": "-1 N mm"}, "links": links}
+    )
+    run = train.dynamics(rate="0.02 turn/s", turns=0.25, skip=0, steps=4000, fast=False)
+    asked = train.torques(turns=0.25).to_dict()["input"]["mean"]
+    # blows, which torques leave out, take a ten-thousandth
+    assert run.torque == pytest.approx(asked, rel=1e-3)
+    assert run.energy.friction > 0.2 * abs(run.energy.loads)
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("rate", "scale", "apart", "ahead", "torque"),

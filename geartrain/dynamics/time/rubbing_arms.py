@@ -1,4 +1,4 @@
-"""What friction adds to the driver's arm of a pair: T_1 = (tau + more) T_2, docs/dynamics.md (5).
+"""What friction adds to the driver's arm of a pair: T_1 = (tau + more) T_2, docs/dynamics.md (10).
 
 Four cases of flank and turning. On one flank the sliding changes its sign with the turning, so that what passes
 eta(f) = (1 + f out)/(1 + f into) of its power forwards asks tau/eta(f) of the driver, and tau/eta(-f) backwards,

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 
 class SlackPin(ExactRatio):
-    """The law of a pin on one side of its slot, which is wider than the pin by `clearance`, docs/dynamics.md (4).
+    """The law of a pin on one side of its slot, which is wider than the pin by `clearance`, docs/dynamics.md (9).
 
     The slot stands asin(clearance/(2 rho)) ahead of where a tight pin would have it (`side` 1), or behind (-1), rho the
     pin's distance from the slot's axis.

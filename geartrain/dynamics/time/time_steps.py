@@ -1,6 +1,6 @@
 """Nonsmooth time stepping after Moreau and Jean: one kernel that runs a train through many steps of one length.
 
-Contact is held at the level of positions for what does not bounce, docs/dynamics.md (8): with S* = S + h dS/dt and
+Contact is held at the level of positions for what does not bounce, docs/dynamics.md (12): with S* = S + h dS/dt and
 F*, tau* there,
 
     dq/dt+ - tau* dS/dt+ >= k,   k = (F* - tau* h dS/dt - q)/h,   for a closing contact k = max(k, -e dg/dt-),

@@ -1,7 +1,7 @@
 """From a train and what drives it to coordinates and contacts: ideal pairs merge links, real ones join coordinates.
 
 Rows of ideal pairs, locks and brakes are eliminated exactly, so that speeds of links are forms of few coordinates,
-docs/dynamics.md (2), and M = N^T diag(J) N. Pairs with real teeth, pins, and pairs that lose a declared part of their
+docs/dynamics.md (8), and M = N^T diag(J) N. Pairs with real teeth, pins, and pairs that lose a declared part of their
 power are contacts between coordinates.
 """
 

@@ -442,3 +442,23 @@ def test_settings_and_wheels_of_other_forms() -> None:
         assert np.ptp(found.errors) > 0
     plan = find_trial_plan(geartrain.load("bevel-differential-involute"), settings, state="straight")
     assert np.isfinite(run_trials(plan, 16).errors).all()
+
+
+@BOTH
+def test_tips_meet_tips_where_the_lags_of_neighbours_say_so_couple_by_couple(name: str, driver: int) -> None:
+    at, trials, random = displaced_contact(PAIRS[name], driver), 60, np.random.default_rng(1)
+    for spread in (0.02, 0.05):
+        wheels = (
+            replace(each, place=random.normal(0, spread * 2 * pi / each.z, (trials, each.z))) for each in even(at)
+        )
+        pair = DisplacedPair(at, *wheels)
+        found, rows = pair.verdicts(), np.arange(trials)
+        for verdict, x, step in ((found.clash, at.start - at.entering.most, 1),
+                                 (found.standstill, at.end + at.leaving.most, -1)):  # fmt: skip
+            over = np.zeros(trials, bool)
+            for n in range(pair.count):
+                # the driver where the tips of couple n meet, just within their reach
+                S = n * at.pitches[0] + pair.first.place[:, n % pair.first.z] + x + step * 1e-9 * at.pitches[0]
+                own, mate = (pair.lag(rows, S, np.full(trials, k)) for k in (n, n - step))
+                over |= mate > own
+            assert verdict.tolist() == over.tolist()

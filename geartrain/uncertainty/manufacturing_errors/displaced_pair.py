@@ -286,8 +286,8 @@ class DisplacedPair:
         nominal = float(self._even(np.array(other))), float(self._even(np.array(x)))
         if not nominal[0] + self._spread > nominal[1]:
             return np.zeros(self.trials, bool)
-        # without a path tips fall behind steeply: each couple is looked at where its own tips meet
-        late = self.first.place if self._uneven else None
+        # tips fall behind steeply beyond their path: each couple is looked at where its own tips meet
+        late = self.first.place
         own, mate = self._side(x, x, 0, False, late), self._side(x, other, j, False, late)
         with np.errstate(invalid="ignore"):
             # own less the neighbour's, turned round: below 0 where the neighbour lags more

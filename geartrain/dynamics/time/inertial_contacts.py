@@ -14,6 +14,7 @@ the rate sought, the least of all positions.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from functools import cached_property
 from math import inf
 from typing import TYPE_CHECKING, NamedTuple
@@ -36,6 +37,7 @@ if TYPE_CHECKING:
 _SLOPE = 1e-12  # of the mean ratio: speeds of the tables whose derivatives are taken
 _DEGREE = 9
 _LEAP = 1e-7  # of the input's speed and the greatest of a link's: a lesser jump of a speed is rounding
+_MANY, _TABLES = 8, 1e-11  # laws of longer trains are read from tables of so many pitches
 _NUMBERS = 1 << 22  # most entries of matrices at once
 
 
@@ -60,11 +62,60 @@ class CarriedTorques(NamedTuple):
 
 
 class _State(NamedTuple):
-    """Speeds and accelerations of all links over the input's at n positions, and the matrices J, (n, pairs, pairs)."""
+    """Speeds and accelerations of all links over the input's at n positions, and slopes of errors of the sources."""
 
     speed: Floats
     acceleration: Floats
-    jacobian: Floats
+    slope: Floats
+
+
+@dataclass(frozen=True)
+class YieldingPairs:
+    """The matrix J = I - diag(slope) G at many positions, in the order in which pairs determine each other.
+
+    gain     G, (sources, pairs); `pairs`, the pair of each source
+    blocks   sources that are solved together, each block after those that it depends on
+    """
+
+    gain: Floats
+    pairs: Sequence[int]
+    blocks: Sequence[Sequence[int]]
+
+    def errors(self, slope: Floats, given: Floats) -> Floats:
+        """J^-1 times vectors, (pairs, n)."""
+        found = given.copy()
+        for block in self.blocks:
+            rows = [self.pairs[at] for at in block]
+            known = found.copy() if len(block) > 1 else found
+            right = np.stack([given[row] + slope[at] * (self._before(block, at) @ known)
+                              for at, row in zip(block, rows, strict=True)])  # fmt: skip
+            found[rows] = self._solved(block, slope, right, transposed=False)
+        return found
+
+    def torques(self, slope: Floats, given: Floats) -> Floats:
+        """The transposed of J^-1 times vectors, (pairs, n)."""
+        found = given.copy()
+        for block in reversed(self.blocks):
+            rows = [self.pairs[at] for at in block]
+            found[rows] = self._solved(block, slope, found[rows], transposed=True)
+            for at, row in zip(block, rows, strict=True):
+                found += self._before(block, at)[:, None] * (slope[at] * found[row])
+        return found
+
+    def _before(self, block: Sequence[int], at: int) -> Floats:
+        """What pairs outside of its block add to a source's driver."""
+        row: Floats = self.gain[at].copy()
+        row[[self.pairs[each] for each in block]] = 0.0
+        return row
+
+    def _solved(self, block: Sequence[int], slope: Floats, right: Floats, transposed: bool) -> Floats:
+        own = self.gain[np.ix_(block, [self.pairs[at] for at in block])]
+        if not own.any():
+            return right
+        matrices = np.eye(len(block)) - slope[list(block)].T[:, :, None] * own
+        if transposed:
+            matrices = np.swapaxes(matrices, 1, 2)
+        return np.asarray(np.linalg.solve(matrices, right.T[:, :, None])[:, :, 0].T)
 
 
 class InertialContacts:
@@ -73,6 +124,8 @@ class InertialContacts:
     def __init__(self, moving: MotionProblem, acting: InertialLoads, tolerance: float | None = None) -> None:
         self.moving, self.acting = moving, acting
         outputs = {link: (link, moving.frame) for link in moving.system.links}
+        if tolerance is None and len(moving.circuits) > _MANY:
+            tolerance = _TABLES
         self.motion = Motion(moving, outputs, tolerance)
         self.sources: tuple[PairErrorSource, ...] = self.motion.ahead.sources
 
@@ -96,6 +149,12 @@ class InertialContacts:
             for link, sign in self.motion.ahead.turned_by(source):
                 rows[row] += sign * self._response[link]
         return rows
+
+    @cached_property
+    def _yielding(self) -> YieldingPairs:
+        of_pair = {source.pair: at for at, source in enumerate(self.sources)}
+        blocks = [[of_pair[pair] for pair in part.pairs if pair in of_pair] for part in self.motion.spread.parts]
+        return YieldingPairs(self._gain, [source.pair for source in self.sources], [block for block in blocks if block])
 
     @cached_property
     def _slopes(self) -> tuple[CellTable, ...]:
@@ -134,7 +193,7 @@ class InertialContacts:
         error = found.error - offsets[:, None]
         means = np.array([float(self.moving.ratio(link)) for link in self.moving.system.links])
         phase = InputPhase(turns)
-        slope = np.zeros((len(self.sources), len(turns)))
+        slope = np.zeros((len(self.sources), len(turns)))  # sense (tau - mean)
         kick = np.zeros((len(self.pairs), len(turns)))
         for row, source in enumerate(self.sources):
             S = phase.cycles(source.cycles) * source.law.period + source.start
@@ -144,15 +203,12 @@ class InertialContacts:
                 turning += sign * found.rate[link]
             slope[row] = source.sense * (source.law.speed(S) - float(source.law.ratio))
             kick[source.pair] = source.sense * self._slopes[row](S) * turning**2
-        jacobian = np.broadcast_to(np.eye(len(self.pairs)), (len(turns), len(self.pairs), len(self.pairs))).copy()
-        for row, source in enumerate(self.sources):
-            jacobian[:, source.pair, :] -= slope[row][:, None] * self._gain[row]
-        acceleration = self._response @ np.linalg.solve(jacobian, kick.T[:, :, None])[:, :, 0].T
-        return _State(means[:, None] + found.rate, acceleration, jacobian)
+        acceleration = self._response @ self._yielding.errors(slope, kick)
+        return _State(means[:, None] + found.rate, acceleration, slope)
 
     def torques(self, turns: Floats) -> CarriedTorques:
         """What each pair must carry where the input has made some turns."""
-        size = max(64, _NUMBERS // (len(self.pairs) ** 2 + 4 * len(self.moving.system.links)))
+        size = max(64, _NUMBERS // (4 * (len(self.pairs) + len(self.moving.system.links)) + 1))
         parts = [self._torques(turns[at : at + size]) for at in range(0, len(turns), size)]
         return CarriedTorques(*(np.concatenate(each, axis=1) for each in zip(*parts, strict=True)))
 
@@ -170,13 +226,12 @@ class InertialContacts:
             forces.append(force)
         forces[0] -= lead * self._by_link(self.acting.load)[:, None]
         forces.append(self._by_link(self.acting.inertia)[:, None] * state.acceleration)
-        return CarriedTorques(*self._carried(state.jacobian, forces))
+        return CarriedTorques(*self._carried(state.slope, forces))
 
-    def _carried(self, jacobian: Floats, forces: Sequence[Floats]) -> Iterator[Floats]:
+    def _carried(self, slope: Floats, forces: Sequence[Floats]) -> Iterator[Floats]:
         """What pairs carry under forces that links ask for, by the transposed matrices: sense J^-T R^T f."""
-        asked = np.stack([self._response.T @ force for force in forces], axis=-1)
-        found = np.linalg.solve(np.swapaxes(jacobian, 1, 2), np.swapaxes(asked, 0, 1))
-        return (self._senses[:, None] * found[:, :, at].T for at in range(len(forces)))
+        for force in forces:
+            yield self._senses[:, None] * self._yielding.torques(slope, self._response.T @ force)
 
     def rates(self, turns: Floats) -> Floats:
         """The rate (rad/s of the input) from which each pair parts at each position, (pairs, n)."""
@@ -193,7 +248,7 @@ class InertialContacts:
         jump = after.speed - before.speed
         scale = np.maximum(1.0, np.abs(after.speed).max(axis=1, initial=0.0))[:, None]
         jump[np.abs(jump) <= _LEAP * scale] = 0.0
-        (found,) = self._carried(after.jacobian, [self._by_link(self.acting.inertia)[:, None] * jump])
+        (found,) = self._carried(after.slope, [self._by_link(self.acting.inertia)[:, None] * jump])
         return found
 
 

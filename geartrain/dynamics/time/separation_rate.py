@@ -26,7 +26,7 @@ _SAMPLES = 9  # positions of a stretch at first
 _BEST = 12  # stretches of each pair that are searched further
 _ZOOMS = 9  # of which each narrows what is searched to a quarter
 _NARROW = 1e-12  # turns: a stretch between two corners at one place is none
-_MOST_CORNERS = 160_000  # times pairs, searched by default: some seconds
+_MOST_CORNERS = 80_000  # times pairs, searched by default: some seconds
 
 
 @dataclass(frozen=True)
@@ -122,7 +122,7 @@ def find_separation_rates(
     if turns is None:
         corners = CornerSearch(contacts.motion.ahead).rate
         most = max(1.0, _MOST_CORNERS / max(1, len(contacts.pairs)))
-        turns = whole if corners * whole <= most else max(1.0, most / corners)
+        turns = whole if corners * whole <= most else most / corners
     found = tuple(PairSeparation(each.pair, _in_turns(each.rate), each.turns, each.leap)
                   for each in find_partings(contacts, turns))  # fmt: skip
     return SeparationRates(state, contacts.moving.lead, turns, turns >= whole, found, tuple(inertias))
@@ -147,26 +147,33 @@ def find_partings(contacts: InertialContacts, turns: float) -> tuple[Parting, ..
     shares = _INSIDE + (1 - 2 * _INSIDE) * (1 - np.cos(np.pi * np.arange(_SAMPLES) / (_SAMPLES - 1))) / 2
     at = low[:, None] + (high - low)[:, None] * shares
     rates = contacts.rates(at.ravel()).reshape(len(contacts.pairs), *at.shape)
-    found = [_least(contacts, pair, at, rates[pair]) for pair in range(len(contacts.pairs))]
+    found = _least(contacts, at, rates)
     leaping = _leaps(contacts, corners, float((high - low).min(initial=turns)))
     partings = [leaping.get(pair, each) for pair, each in enumerate(found)]
     return tuple(sorted(partings, key=lambda each: (each.rate, each.pair)))
 
 
-def _least(contacts: InertialContacts, pair: int, at: Floats, rates: Floats) -> Parting:
-    """The least rate of a pair: its best stretches searched further, by ever finer samples about the best."""
-    best = np.argsort(rates.min(axis=1), kind="stable")[:_BEST]
-    at, rates = at[best], rates[best]
-    found = Parting(contacts.pairs[pair], inf, 0.0, False)
+def _least(contacts: InertialContacts, at: Floats, rates: Floats) -> list[Parting]:
+    """The least rate of each pair: its best stretches searched further, by ever finer samples about the best.
+
+    at      positions, (stretches, samples); `rates` of all pairs there
+    """
+    count = len(contacts.pairs)
+    best = np.argsort(rates.min(axis=2), axis=1, kind="stable")[:, :_BEST]
+    at, rates = at[best], np.take_along_axis(rates, best[:, :, None], axis=1)
+    found = [Parting(name, inf, 0.0, False) for name in contacts.pairs]
+    own, shares = np.arange(count), np.arange(_SAMPLES) / (_SAMPLES - 1)
     for zoom in range(_ZOOMS + 1):
-        where, rows = rates.argmin(axis=1), np.arange(len(at))
-        row = int(rates[rows, where].argmin())
-        if rates[row, where[row]] < found.rate:
-            found = found._replace(rate=float(rates[row, where[row]]), turns=float(at[row, where[row]]))
+        where = rates.argmin(axis=2)[:, :, None]
+        least, place = (np.take_along_axis(each, where, axis=2)[:, :, 0] for each in (rates, at))
+        for pair, row in enumerate(least.argmin(axis=1)):
+            if least[pair, row] < found[pair].rate:
+                found[pair] = found[pair]._replace(rate=float(least[pair, row]), turns=float(place[pair, row]))
         if zoom < _ZOOMS:
-            left, right = at[rows, np.maximum(where - 1, 0)], at[rows, np.minimum(where + 1, _SAMPLES - 1)]
-            at = left[:, None] + (right - left)[:, None] * (np.arange(_SAMPLES) / (_SAMPLES - 1))
-            rates = contacts.rates(at.ravel())[pair].reshape(at.shape)
+            left, right = (np.take_along_axis(at, np.clip(where + step, 0, _SAMPLES - 1), axis=2) for step in (-1, 1))
+            at = left + (right - left) * shares
+            # each pair at its own positions
+            rates = contacts.rates(at.ravel()).reshape(count, *at.shape)[own, own]
     return found
 
 

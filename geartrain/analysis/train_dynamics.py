@@ -9,7 +9,7 @@ from geartrain.analysis.train_motion import TrainMotion
 from geartrain.errors import check_choice
 
 if TYPE_CHECKING:
-    from geartrain.dynamics import DrivenWay, PowerFlow, SeparationRates, ToothImpact, TorqueCycle, Torques
+    from geartrain.dynamics import DrivenWay, LinkInertia, PowerFlow, SeparationRates, ToothImpact, TorqueCycle, Torques
     from geartrain.dynamics.torques.load_case import LoadCase
 
 
@@ -154,10 +154,10 @@ class TrainDynamics(TrainMotion):
         mapping of str to ToothImpact
             By pair (docs/motion.md, equation 7).
         """
-        declared, case = self.declaration, self._case(state)
-        inertias = {name: link.inertia.si for name, link in declared.links.items() if link.inertia is not None}
-        if not inertias or case.rate is None or case.rate.unit is None or not self._teeth:
+        case = self._case(state)
+        if case.rate is None or case.rate.unit is None or not self._teeth or not self.is_heavy:
             return {}
+        inertias = {each.link: each.value for each in self.inertias(state)}
         from geartrain.dynamics import Motion
         from geartrain.dynamics.motion.tooth_impacts import find_impacts
 
@@ -207,13 +207,12 @@ class TrainDynamics(TrainMotion):
         >>> found.pair, round(found.rate, 6)
         ('a~b', 0.440669)
         """
-        from geartrain.dynamics.time.inertia import find_link_inertias
         from geartrain.dynamics.time.inertial_contacts import InertialContacts
         from geartrain.dynamics.time.inertial_loads import find_inertial_loads
         from geartrain.dynamics.time.separation_rate import find_separation_rates
 
         case = self._case(state)
-        inertias = find_link_inertias(self.declaration, case)
+        inertias = self.inertias(state)
         acting = find_inertial_loads(self.declaration, case, self.tree, inertias)
         return find_separation_rates(InertialContacts(self._moving(case, without), acting), inertias, state, turns)
 
@@ -227,5 +226,44 @@ class TrainDynamics(TrainMotion):
         """
         from geartrain.dynamics.time.inertial_loads import torques_have_units
 
-        heavy = any(link.inertia is not None for link in self.declaration.links.values())
-        return heavy and torques_have_units(self.declaration, self._case(state))
+        return self.is_heavy and torques_have_units(self.declaration, self._case(state))
+
+    @property
+    def is_heavy(self) -> bool:
+        """True if some link has a moment of inertia, declared or from the density of its wheels."""
+        declared = self.declaration
+        wheels = (wheel.density is not None for _, wheel in declared.wheels.values())
+        return declared.density is not None or any(link.inertia for link in declared.links.values()) or any(wheels)
+
+    def inertias(self, state: str | None = None) -> tuple[LinkInertia, ...]:
+        """The moment of inertia of every link whose motion is not prescribed, and where each is from.
+
+        Parameters
+        ----------
+        state : str, optional
+            A declared state; None only of a train that has none.
+
+        Returns
+        -------
+        tuple of LinkInertia
+            In the order of the declaration (docs/dynamics.md, section 4).
+
+        Examples
+        --------
+        Two wheels of bronze, 2 mm thick, from the outlines of their teeth:
+
+        >>> import geartrain
+        >>> train = geartrain.load('''
+        ... links: {frame: {}, a: {wheels: {p: 20}}, b: {wheels: {w: {teeth: 60, module: 1 mm}}}}
+        ... revolutes: [{pair: [frame, a], axis: A}, {pair: [frame, b], axis: B}]
+        ... gears: [{pair: [p, w]}]
+        ... density: 8.7 g/cm3
+        ... thickness: 2 mm
+        ... inputs: {a: 1}
+        ... ''')
+        >>> [(each.link, each.source, float(f"{each.value:.3g}")) for each in train.inertias()]
+        [('b', 'outlines', 2.17e-05)]
+        """
+        from geartrain.dynamics.time.inertia import find_link_inertias
+
+        return find_link_inertias(self, self._case(state))

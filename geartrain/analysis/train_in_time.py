@@ -81,7 +81,7 @@ class TrainInTime(TrainDynamics):
         names = outputs or tuple(case.outputs) or tuple(self.declaration.links)
         seen = [(name, *self._speeds.single_output(case, name)[1]) for name in names]
         speed = Quantity.parse(rate, "speed", plain=True).si if isinstance(rate, str) else rate
-        inertia = {name: link.inertia.si for name, link in self.declaration.links.items() if link.inertia is not None}
+        inertia = {each.link: each.value for each in self.inertias(state) if each.value}
         found = find_time_case(self.declaration, case, problem, inertia, speed, restitution)
         model = TrainModel(self.declaration, problem, found, self.tree, case.state)
         return TimeStudy(model, seen, turns, skip, steps, samples, apart, fast).run()

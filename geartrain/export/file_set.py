@@ -18,8 +18,8 @@ from geartrain.kinematics import graph
 from geartrain.scene.solids.flat_drawing import FlatDrawing
 
 if TYPE_CHECKING:
+    from geartrain.dynamics.train_teeth import PairPlay
     from geartrain.scene.solids.solid_assembly import SolidModel
-    from geartrain.scene.train_teeth import PairPlay
 
 KINDS = ("svg", "dxf", "stl", "glb", "step", "graphml", "dot", "rexs", "csv")
 """Kinds of files that `export_files` makes."""

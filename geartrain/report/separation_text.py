@@ -24,7 +24,7 @@ def separation_text(found: SeparationRates) -> Iterator[str]:
     if not found.complete:
         yield f"Searched were {found.turns:.6g} turns of '{found.input}', not all after which everything repeats."
     if found.unknown:
-        yield f"Counted without inertia, for none is declared: {', '.join(found.unknown)}."
+        yield f"Counted without inertia, for none is known: {', '.join(found.unknown)}."
 
 
 def _first_words(found: SeparationRates) -> str:

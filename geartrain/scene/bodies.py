@@ -8,11 +8,11 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from geartrain.dynamics.train_teeth import TrainTeeth, WheelTeeth, find_train_teeth
 from geartrain.errors import Problem
 from geartrain.scene import nominal_teeth as likeness
 from geartrain.scene.context import SceneContext, exact, rounded
 from geartrain.scene.elements import SceneBody, SceneWheel, ToothProfile
-from geartrain.scene.train_teeth import TrainTeeth, WheelTeeth, find_train_teeth
 
 if TYPE_CHECKING:
     from geartrain.scene.layout import WheelPlace

@@ -9,7 +9,6 @@ import pytest
 
 from geartrain import GearTrain, GearTrainError, load
 from geartrain.dynamics import SeparationRates
-from geartrain.dynamics.time.inertia import find_link_inertias
 from geartrain.dynamics.time.inertial_contacts import InertialContacts, least_rate
 from geartrain.dynamics.time.inertial_loads import find_inertial_loads
 
@@ -176,7 +175,7 @@ loads: {last: 2 N mm}
 
 def contacts_of(train: GearTrain) -> InertialContacts:
     case = train.declaration.case(None)
-    acting = find_inertial_loads(train.declaration, case, train.tree, find_link_inertias(train.declaration, case))
+    acting = find_inertial_loads(train.declaration, case, train.tree, train.inertias())
     return InertialContacts(train._moving(case, ()), acting)
 
 

@@ -255,7 +255,7 @@ def test_what_is_drawn_has_the_standards_tips(clock: GearTrain) -> None:
     scene = make_scene(clock)
     assert scene is not None
     train = clock.declaration
-    from geartrain.scene.train_teeth import find_train_teeth
+    from geartrain.dynamics.train_teeth import find_train_teeth
 
     places = {name: type("Place", (), {"module": 1.0, "cone": 0.0})() for name in train.wheels}
     teeth = find_train_teeth(clock, places)

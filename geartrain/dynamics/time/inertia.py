@@ -1,18 +1,27 @@
-"""The moment of inertia of every link, and where each is from: what is declared, and what planets add to their carrier.
+"""The moment of inertia of every link, and where each is from: declared, or the plates that its wheels are cut from.
 
-A planet of mass m whose axis is r from that of its carrier adds m r^2 to it; its own inertia counts about its own axis.
+A wheel of density rho and thickness t has I = rho t (integral of r^2 dA) over its outline, exactly by Green's theorem,
+its teeth those that are drawn and cut; it is a plate without spokes. A planet of mass m whose axis is r from that of
+its carrier adds m r^2 to it; its own inertia counts about its own axis.
 """
 
 from __future__ import annotations
 
-from collections.abc import Container, Iterator
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, Literal
+from collections import deque
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import TYPE_CHECKING, Literal, NamedTuple, Protocol
 
+from geartrain.dynamics.train_teeth import ToothedTrain, WheelTeeth, find_train_teeth
+from geartrain.errors import GearTrainError
 from geartrain.numerics.plain_data import Result
 
 if TYPE_CHECKING:
-    from geartrain.train import StateCase, Train
+    from geartrain.kinematics.circuits import Circuit, Tree
+    from geartrain.train import StateCase, Wheel
+
+_MILLIMETRES = 1e-3
 
 
 @dataclass(frozen=True)
@@ -24,32 +33,175 @@ class LinkInertia(Result):
     link : str
         The link.
     value : float
-        About its own axis [kg m^2]; 0 where it is not known.
-    source : {"declared", "unknown"}
-        Where it is from.
+        About its own axis [kg m^2], what it takes round with it included; 0 where nothing is known.
+    source : {"declared", "outlines", "unknown"}
+        Where its own is from.
+    carried : float
+        What of it planets add by their masses [kg m^2].
+    missing : tuple of str
+        Why it is not known, or what of it is not.
 
     See Also
     --------
-    geartrain.GearTrain.separation_rates : counts with them.
+    geartrain.GearTrain.inertias : what gives these.
     """
-
-    KEYS = ("link", "value", "source")
 
     link: str
     value: float
-    source: Literal["declared", "unknown"]
+    source: Literal["declared", "outlines", "unknown"]
+    carried: float = 0.0
+    missing: tuple[str, ...] = ()
 
 
-def find_link_inertias(train: Train, case: StateCase) -> tuple[LinkInertia, ...]:
+class PlateMoments(NamedTuple):
+    """Mass (kg) and moment of inertia (kg m2) of a plate."""
+
+    mass: float
+    inertia: float
+
+
+def plate_moments(teeth: WheelTeeth, module: float, thickness: float, density: float) -> PlateMoments:
+    """Of a wheel of some module and thickness (m) and density (kg/m3), all of it solid but the holes of its pins."""
+    outer, *holes = (contour.moments() for contour in teeth.contours(module / _MILLIMETRES))
+    area = abs(outer[0]) - sum(abs(hole[0]) for hole in holes)
+    polar = abs(outer[1]) - sum(abs(hole[1]) for hole in holes)
+    scale = density * thickness
+    return PlateMoments(scale * area * _MILLIMETRES**2, scale * polar * _MILLIMETRES**4)
+
+
+class MovingTrain(ToothedTrain, Protocol):
+    """A train whose joints are known too."""
+
+    @property
+    def tree(self) -> Tree:
+        """The joints."""
+
+    @property
+    def circuits(self) -> tuple[Circuit, ...]:
+        """The pairs with their carriers."""
+
+
+def find_link_inertias(train: MovingTrain, case: StateCase) -> tuple[LinkInertia, ...]:
     """Of every link that moves and whose motion is not prescribed, in the order of the declaration."""
-    return tuple(_of_links(train, {train.frame, *case.inputs, *case.fixed}))
+    declared = train.declaration
+    prescribed = {declared.frame, *case.inputs, *case.fixed}
+    bodies = _Bodies(train)
+    return tuple(bodies.whole(link) for link in declared.links if link not in prescribed)
 
 
-def _of_links(train: Train, prescribed: Container[str]) -> Iterator[LinkInertia]:
-    for link, part in train.links.items():
-        if link in prescribed:
-            continue
+class _Place(NamedTuple):
+    module: float
+    cone: float
+
+
+class _Bodies:
+    """The links of a train as bodies."""
+
+    def __init__(self, train: MovingTrain) -> None:
+        self.train, self.declared = train, train.declaration
+
+    def whole(self, link: str) -> LinkInertia:
+        """With the planets that it takes round."""
+        own = self._own(link)
+        tree, missing = self.train.tree, list(own.missing)
+        carried = 0.0
+        for planet in self.declared.links:
+            if not tree.bears(link, planet):
+                continue
+            mass, radius = self._mass(planet), self._orbit(link, planet)
+            if mass is None or radius is None:
+                what = "mass" if mass is None else "distance from its axis"
+                missing.append(f"the {what} of '{planet}', which it takes round, is not known")
+            else:
+                carried += mass * radius**2
+        return replace(own, value=own.value + carried, carried=carried, missing=tuple(missing))
+
+    def _own(self, link: str) -> LinkInertia:
+        part = self.declared.links[link]
         if part.inertia is not None:
-            yield LinkInertia(link, part.inertia.si, "declared")
-        else:
-            yield LinkInertia(link, 0.0, "unknown")
+            return LinkInertia(link, part.inertia.si, "declared")
+        plates, missing = self._plates(link)
+        if missing or not plates:
+            return LinkInertia(link, 0.0, "unknown", missing=missing or ("it has no wheels, and no `inertia`",))
+        return LinkInertia(link, sum(plate.inertia for plate in plates), "outlines")
+
+    def _mass(self, link: str) -> float | None:
+        part = self.declared.links[link]
+        if part.mass is not None:
+            return part.mass.si
+        plates, missing = self._plates(link)
+        return None if missing or not plates else sum(plate.mass for plate in plates)
+
+    def _plates(self, link: str) -> tuple[Sequence[PlateMoments], tuple[str, ...]]:
+        """Of all its wheels, or what is not known of them."""
+        plates, missing = [], []
+        for name, wheel in self.declared.links[link].wheels.items():
+            thickness = wheel.thickness or self.declared.thickness
+            density = wheel.density or self.declared.density
+            lacking = [key for key, given in (("density", density), ("thickness", thickness),
+                                              ("module", self.modules.get(name))) if given is None]  # fmt: skip
+            if lacking or thickness is None or density is None:
+                missing.append(f"nothing says the {' and the '.join(lacking)} of wheel '{name}'")
+            elif wheel.internal:
+                missing.append(f"wheel '{name}' is a ring, and nothing says how broad its rim is")
+            elif name not in self.teeth:
+                missing.append(f"wheel '{name}' has no flat outline")
+            else:
+                plates.append(plate_moments(self.teeth[name], self.modules[name], thickness.si, density.si))
+        return plates, tuple(missing)
+
+    @cached_property
+    def modules(self) -> Mapping[str, float]:
+        """Modules (m) of wheels that declare one with a unit, and of all that hang together with one by meshes."""
+        found = {
+            name: wheel.module.si
+            for name, (_, wheel) in self.declared.wheels.items()
+            if wheel.module is not None and wheel.module.unit is not None
+        }
+        mates: dict[str, list[str]] = {}
+        for gear in self.declared.gears:
+            for one, other in (gear.pair, gear.pair[::-1]):
+                mates.setdefault(one, []).append(other)
+        waiting = deque(found)
+        while waiting:
+            name = waiting.popleft()
+            for mate in mates.get(name, ()):
+                if mate not in found:
+                    found[mate] = found[name]
+                    waiting.append(mate)
+        return found
+
+    @cached_property
+    def teeth(self) -> Mapping[str, WheelTeeth]:
+        """The teeth of all wheels that lie in a plane."""
+        places = {name: _Place(1.0, self._cone(wheel, name)) for name, (_, wheel) in self.declared.wheels.items()}
+        try:
+            return find_train_teeth(self.train, places).wheels
+        except GearTrainError:
+            return {}
+
+    def _cone(self, wheel: Wheel, name: str) -> float:
+        """0 of a wheel that meets spur wheels only."""
+        mates = (mate for gear in self.declared.gears if name in gear.pair for mate in gear.pair)
+        return float(any(self.declared.wheels[mate][1].kind == "bevel" for mate in mates) or wheel.kind != "spur")
+
+    def _orbit(self, carrier: str, planet: str) -> float | None:
+        """Distance (m) of a planet's axis from its carrier's: that of a pair with a wheel about the carrier's axis."""
+        from geartrain.dynamics.gear_meshes import find_sizes
+
+        tree = self.train.tree
+        for circuit in self.train.circuits:
+            ends = (circuit.i, circuit.j)
+            if circuit.kind != "gear" or circuit.carrier != carrier or planet not in ends:
+                continue
+            other = ends[1 - ends.index(planet)]
+            module = self.modules.get(circuit.wheels[0])
+            if module is None or tree.axis_seen_from(carrier, other) != tree.axis(carrier):
+                continue
+            sizes = find_sizes(mesh for mesh in self.train.meshes if mesh.name == circuit.id)
+            if circuit.id in sizes:
+                return sizes[circuit.id].distance * module
+            first, second = (self.declared.wheels[wheel][1] for wheel in circuit.wheels)
+            z1, z2 = first.count or 0, second.count or 0
+            return module * (abs(z1 - z2) if first.internal or second.internal else z1 + z2) / 2
+        return None

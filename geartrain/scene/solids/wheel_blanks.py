@@ -6,9 +6,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
+from geartrain.dynamics.train_teeth import PairPlay, WheelTeeth, find_train_teeth
 from geartrain.errors import Problem
 from geartrain.scene.solids.manufacturing_sizes import ManufacturingSizes, bores
-from geartrain.scene.train_teeth import PairPlay, WheelTeeth, find_train_teeth
 from geartrain.teeth.outlines.contour import Contour
 
 if TYPE_CHECKING:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
-from math import acos, atan, ceil, pi, tan
+from math import acos, atan, ceil, cos, pi, sin, tan
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -49,6 +49,21 @@ class Contour:
         """True for what `circle` makes."""
         return len(self.points) == 2 and bool((self.bulges == 1).all())
 
+    def moments(self) -> tuple[float, float]:
+        """Area (mm2) and its polar second moment about (0, 0) (mm4), exactly, by Green's theorem.
+
+        The polygon of the vertices, and over each arc the segment that it cuts off; below 0 if it runs clockwise.
+        """
+        (x, y), (u, v) = self.points.T, np.roll(self.points, -1, axis=0).T
+        cross = x * v - y * u
+        area = float(cross.sum() / 2)
+        polar = float((cross * (x * x + x * u + u * u + y * y + y * v + v * v)).sum() / 12)
+        for start, end, bulge in zip(self.points, np.roll(self.points, -1, axis=0), self.bulges, strict=True):
+            if bulge:
+                own = _segment_moments(start, end, float(bulge))
+                area, polar = area + own[0], polar + own[1]
+        return area, polar
+
     def flattened(self, tolerance: float) -> Floats:
         """Points (m, 2), the first not repeated, whose chords leave the arcs by at most `tolerance` (mm)."""
         parts = []
@@ -63,11 +78,31 @@ def _arc(start: Floats, end: Floats, bulge: float, tolerance: float) -> Floats:
     # the chord whose sagitta is the tolerance; 0 where that is lost beside 1: tenths of a degree then
     step = 2 * acos(max(1 - tolerance / radius, -1.0)) or pi / 1800
     count = max(1, ceil(abs(sweep) / step))
-    chord = end - start
-    centre = (start + end) / 2 + np.array([-chord[1], chord[0]]) * (1 - bulge**2) / (4 * bulge)
+    centre = _arc_centre(start, end, bulge)
     turn = sweep * np.arange(count) / count
     x, y = start - centre
     return np.stack([x * np.cos(turn) - y * np.sin(turn), x * np.sin(turn) + y * np.cos(turn)], axis=1) + centre
+
+
+def _segment_moments(start: Floats, end: Floats, bulge: float) -> tuple[float, float]:
+    """Area and polar second moment about (0, 0) of what lies between an arc and its chord.
+
+    About its own centre, with radius R and sweep s: R^2 (s - sin s)/2, R^4 (s/4 - sin s (2 + cos s)/12); its first
+    moment is 2/3 R^3 sin^3(s/2) along the bisector.
+    """
+    R, s = arc_radius(start, end, bulge), 4 * atan(bulge)
+    centre = _arc_centre(start, end, bulge)
+    area = R**2 * (s - sin(s)) / 2
+    own = R**4 * (s / 4 - sin(s) * (2 + cos(s)) / 12)
+    x, y = (start - centre) / R
+    bisector = np.array([x * cos(s / 2) - y * sin(s / 2), x * sin(s / 2) + y * cos(s / 2)])
+    first = 2 / 3 * R**3 * sin(s / 2) ** 3
+    return area, float(area * (centre @ centre) + 2 * first * (centre @ bisector) + own)
+
+
+def _arc_centre(start: Floats, end: Floats, bulge: float) -> Floats:
+    chord = end - start
+    return np.asarray((start + end) / 2 + np.array([-chord[1], chord[0]]) * (1 - bulge**2) / (4 * bulge))
 
 
 def arc_radius(start: Floats, end: Floats, bulge: float) -> float:

@@ -24,19 +24,30 @@ from geartrain.teeth.outlines.wheel_requirement import LanternPins
 from geartrain.teeth.standard_teeth import PLAY, UndeclaredWheel, check_size, lone_mate, standard_form, standard_teeth
 
 if TYPE_CHECKING:
-    from geartrain.analysis.gear_train import GearTrain
     from geartrain.teeth.gear_mesh import GearMesh
     from geartrain.teeth.involute import Involute
     from geartrain.teeth.meshing_wheels import DeclaredPair
     from geartrain.teeth.outlines.wheel_requirement import WheelRequirement
     from geartrain.teeth.standard_teeth import StandardTeeth
-    from geartrain.train import GearPair, Wheel
+    from geartrain.train import GearPair, Train, Wheel
 
 STANDARD = "standard"
 _CHORD = 1e-3  # modules: how far a chord may leave a flank or a round
 _RIM = 2.0  # modules round the roots of a ring
 _PIN = 48  # points round a pin
 _SAME = 1e-9  # modules, or rad
+
+
+class ToothedTrain(Protocol):
+    """What matters here of a train that answers."""
+
+    @property
+    def declaration(self) -> Train:
+        """As declared."""
+
+    @property
+    def meshes(self) -> tuple[GearMesh, ...]:
+        """The gear pairs with real teeth."""
 
 
 class ToothingPlace(Protocol):
@@ -123,7 +134,7 @@ class TrainTeeth:
 
 
 def find_train_teeth(
-    train: GearTrain,
+    train: ToothedTrain,
     places: Mapping[str, ToothingPlace],
     play: float | None = None,
     apart: Mapping[str, float] = FrozenDict(),
@@ -148,7 +159,7 @@ class _Asked:
 
 class _Toothing:
     def __init__(
-        self, train: GearTrain, places: Mapping[str, ToothingPlace], play: float | None, apart: Mapping[str, float]
+        self, train: ToothedTrain, places: Mapping[str, ToothingPlace], play: float | None, apart: Mapping[str, float]
     ) -> None:
         self.declared, self.places, self.play, self.apart = train.declaration, places, play, apart
         self.unbuilt: tuple[Problem, ...] = ()

@@ -69,7 +69,7 @@ def test_what_is_declared_stands_before_outlines_and_what_is_not_known_is_said()
     (unknown,) = load(WHEELS.format(link="", rest="")).inertias()
     assert (unknown.source, unknown.value) == ("unknown", 0)
     assert unknown.missing == ("nothing says the thickness of wheel 'w'",)
-    assert [each.missing for each in load("moon-triangular").inertias()][0][0].startswith("nothing says the density")
+    assert load("moon-triangular").inertias()[0].missing[0].startswith("nothing says the density")
 
 
 PLANETS = """

@@ -4,16 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from fractions import Fraction
 from typing import TYPE_CHECKING
 
 from geartrain.errors import GearTrainError
 from geartrain.report.answers import expectations_met, result_words
-from geartrain.report.document import exact
+from geartrain.report.document import exact, figure
 
 if TYPE_CHECKING:
     from geartrain.analysis.gear_train import GearTrain
     from geartrain.kinematics.answer import Answer
     from geartrain.kinematics.judged_outputs import OutputResult
+    from geartrain.train import Train
 
 
 @dataclass(frozen=True)
@@ -44,6 +46,7 @@ class Soundness:
                 yield f"note {remark.place}: {remark.what}" + (f"; {remark.why}" if remark.why else "")
             yield from (f"note {self.file}: {line}" for line in _left_out(train))
             yield from (f"note {line}" for line in _too_fast(train))
+            yield from (f"note {line}" for line in _off_beat(train, self.answers))
         if self and not quiet:
             yield f"ok   {self.file}: {_summary(train, self.answers)}"
 
@@ -103,6 +106,37 @@ def _too_fast(train: GearTrain) -> Iterator[str]:
             at = "at any rate" if not found.rate else f"from {found.rate:.5g} turn/s of '{found.input}' on"
             what = f"{where}the rate is {rate}, and the teeth of {found.pair} part {at}"
             yield f"{train.declaration.place('rate')}: {what}: `motion` and `torques` hold below"
+
+
+def _off_beat(train: GearTrain, answers: Sequence[Answer]) -> Iterator[str]:
+    """States in which the link of the escapement turns at another speed than its beat gives it."""
+    declared = train.declaration
+    escapement = declared.escapement
+    if escapement is None:
+        return
+    for answer in answers:
+        second = _turns_a_second(declared, answer)
+        if not answer.verdict or second is None:
+            continue
+        speed = abs(Fraction(answer[escapement.link]) * second)
+        if abs(speed - escapement.speed) > escapement.speed / 10**9:
+            state = f"state {answer.state}: " if answer.state is not None else ""
+            beat = f"half a tooth of {escapement.teeth} every {escapement.beat} is {figure(escapement.speed)} turn/s"
+            yield (
+                f"{declared.place('escapement')}: {state}{beat}, and '{escapement.link}' is to turn at {figure(speed)} "
+                f"turn/s: its beat would be {figure(1 / (2 * escapement.teeth * speed)) if speed else 'endless'} s"
+            )
+
+
+def _turns_a_second(declared: Train, answer: Answer) -> Fraction | None:
+    """Turns a second in the unit of a train's speeds; None where they are plain numbers."""
+    if declared.unit_speed is not None:
+        return declared.unit_speed
+    case = declared.case(answer.state)
+    lead = next((speed for speed in case.inputs.values() if speed), None)
+    if case.rate is None or case.rate.unit is None or lead is None:
+        return None
+    return abs(case.rate.base / lead)
 
 
 def _wanted(result: OutputResult) -> str:

@@ -92,3 +92,34 @@ def test_no_train_with_figures_is_said_to_have_none(name: str) -> None:
     said = call("check", name).stdout.splitlines()[-1]
     counts = [int(count) for count in re.findall(r"(\d+) (?:expectation|published)", said)]
     assert counts == [count for count in (expected, published) if count], text[:80]
+
+
+# --------------------------------------------------------------------------------------- what motion in time contradicts
+
+FAST = "extends: moon-triangular-inertia\n"
+
+
+@pytest.mark.parametrize(("rate", "noted"), [("rate: 1 turn/s", True), ("drive: {rate: 1 turn/s}", True),
+                                             ("rate: 0.45 turn/s", False), ("", False)])  # fmt: skip
+def test_a_rate_at_which_teeth_part_is_noted(rate: str, noted: bool, tmp_path: Path) -> None:
+    file = tmp_path / "fast.yaml"
+    file.write_text(f"{FAST}{rate}\n", encoding="utf-8")
+    told = call("check", file).stdout
+    assert ("the teeth of d2~e part from 0.48083 turn/s of 'crank' on" in told) == noted
+    assert "ok " in told
+
+
+@pytest.mark.parametrize(
+    ("beat", "said"), [("1 s", ""), ("0.5 s", "its beat would be 1 s"), ("61/60 s", "would be 1 s")]
+)
+def test_an_escapement_that_beats_at_another_speed_is_noted(beat: str, said: str, tmp_path: Path) -> None:
+    file = tmp_path / "clock.yaml"
+    escapement = f"escapement: {{link: escape, teeth: 30, beat: {beat}}}"
+    file.write_text(f"extends: longcase-clock\n{escapement}\n", encoding="utf-8")
+    told = call("check", file).stdout
+    assert ("half a tooth of 30" in told) == bool(said)
+    assert said in told
+    # speeds are real by a rate too: the crank of this train is to make a turn a minute
+    escapement = escapement.replace("escape,", "crank,")
+    file.write_text(f"extends: moon-triangular\n{escapement}\nrate: 1 rpm\n", encoding="utf-8")
+    assert said in call("check", file).stdout

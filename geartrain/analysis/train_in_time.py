@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING
 
 from geartrain.analysis.train_dynamics import TrainDynamics
@@ -28,6 +28,7 @@ class TrainInTime(TrainDynamics):
         samples: int | None = None,
         apart: float = 1e-5,
         fast: bool | None = None,
+        on_done: Callable[[float], None] = lambda _: None,
     ) -> TimeRun:
         """Motion in time: inertia, play, impacts, drag and friction, by nonsmooth time stepping (docs/dynamics.md).
 
@@ -58,6 +59,8 @@ class TrainInTime(TrainDynamics):
             Gap from which teeth count as apart [rad of the driven side].
         fast : bool, optional
             Whether kernels are compiled, by the extra `fast`; by default if the run is long and numba is installed.
+        on_done : callable
+            Called with the share of the work that each stretch adds [0 to 1].
 
         Returns
         -------
@@ -84,4 +87,4 @@ class TrainInTime(TrainDynamics):
         inertia = {each.link: each.value for each in self.inertias(state) if each.value}
         found = find_time_case(self.declaration, case, problem, inertia, speed, restitution)
         model = TrainModel(self.declaration, problem, found, self.tree, case.state)
-        return TimeStudy(model, seen, turns, skip, steps, samples, apart, fast).run()
+        return TimeStudy(model, seen, turns, skip, steps, samples, apart, fast).run(on_done)

@@ -21,7 +21,9 @@ if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
     from geartrain.teeth.gear_mesh import GearMesh
     from geartrain.teeth.pin_transmission import PinTransmission
-    from geartrain.teeth.transmission import TransmissionFunction
+    from geartrain.teeth.transmission import ContactRubbing, TransmissionFunction
+
+_ROUGH = 1e-4  # of what friction adds, where it is read between nodes
 
 Arms = tuple[TabledFunction, TabledFunction, TabledFunction, TabledFunction]
 """Of the drive flank turning forward and back, and of the coast flank turning forward and back."""
@@ -37,17 +39,29 @@ def tooth_arms(mesh: GearMesh) -> Arms | None:
         coefficient = losses.by
 
     def table(law: TransmissionFunction, way: int) -> TabledFunction:
-        return tabled_function(partial(_more_by_teeth, law, coefficient, way, mesh.label), law)
+        nodes = law.rubbing_nodes()
+        if nodes is None:
+            return tabled_function(partial(_at_angles, law, coefficient, way, mesh.label), law)
+        # laws that would be slow to ask elsewhere are read between the nodes at which they know how teeth rub
+        S = np.mod(nodes[0], law.period)
+        more = _more_by_teeth(law.speed(nodes[0]), nodes[2], coefficient, way, mesh.label)
+        return tabled_function(lambda at: np.interp(at, S, more, period=law.period), law, _ROUGH)
 
     front, back = mesh.law, mesh.coast
     return table(front, 1), table(front, -1), table(back, -1), table(back, 1)
 
 
-def _more_by_teeth(
+def _at_angles(
     law: TransmissionFunction, coefficient: Callable[[Floats], Floats | float], way: int, label: str, S: Floats
 ) -> Floats:
+    return _more_by_teeth(law.speed(S), law.rubbing(S), coefficient, way, label)
+
+
+def _more_by_teeth(
+    tau: Floats, rubbing: ContactRubbing, coefficient: Callable[[Floats], Floats | float], way: int, label: str
+) -> Floats:
     """tau (1/eta - 1) at driver angles; 0 in a standstill, where nothing rubs. `way` -1 reverses the sliding."""
-    sliding, into, out = law.rubbing(S)
+    sliding, into, out = rubbing
     touching = ~np.isnan(out)
     f = way * np.asarray(coefficient(sliding))
     with np.errstate(invalid="ignore", divide="ignore"):
@@ -55,7 +69,7 @@ def _more_by_teeth(
     if (passed[touching.any(axis=0)] <= 0).any():
         why = "friction locks its teeth at some angle, so that no torque of the one wheel moves the other"
         raise GearTrainError(Problem(f"{label} cannot be stepped through time", why, "give it less friction"))
-    return np.where(touching.any(axis=0), law.speed(S) * (1 / np.where(passed > 0, passed, 1.0) - 1), 0.0)
+    return np.where(touching.any(axis=0), tau * (1 / np.where(passed > 0, passed, 1.0) - 1), 0.0)
 
 
 def pin_arms(law: PinTransmission) -> Arms | None:

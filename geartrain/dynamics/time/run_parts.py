@@ -99,6 +99,8 @@ class EnergyAccount(Result):
         Taken, or given, by contact that lasts: an error of the steps' length, that falls with it.
     kinetic : float
         Growth of kinetic energy.
+    stored : float
+        Kinetic energy at the end.
 
     See Also
     --------
@@ -115,6 +117,7 @@ class EnergyAccount(Result):
         "blows",
         "steps",
         "kinetic",
+        "stored",
         "closure",
     )
 
@@ -127,13 +130,14 @@ class EnergyAccount(Result):
     blows: float
     steps: float
     kinetic: float
+    stored: float
 
     @property
     def closure(self) -> float:
-        """By how much the account does not close, over all that passed through it."""
+        """By how much the account does not close, over all that passed through it and what is stored."""
         put_in = self.drive + self.loads + self.springs
         taken = self.bearings + self.drag + self.friction + self.blows + self.steps
-        scale = sum(abs(each) for each in (put_in, taken, self.kinetic))
+        scale = sum(abs(each) for each in (put_in, taken, self.kinetic, self.stored))
         return abs(put_in - taken - self.kinetic) / scale if scale else 0.0
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -29,6 +30,7 @@ if TYPE_CHECKING:
 _CREEP = 1e-10  # of the fastest coordinate: a stuck bearing gives way so slowly
 _SLACK = 1e-11  # of that speed
 _ROOM = 100_000  # impacts that are kept
+_STRETCHES = 50  # after each of which one may stop a run, or look how far it is
 
 
 class StepPlan(NamedTuple):
@@ -65,8 +67,14 @@ class SimulatedRun:
     turned: Floats
 
 
-def simulate(model: ContactModel, plan: StepPlan, fast: bool = False) -> SimulatedRun:
-    """Run a model; `fast` compiles the kernels."""
+def simulate(
+    model: ContactModel, plan: StepPlan, fast: bool = False, on_done: Callable[[int], None] = lambda _: None
+) -> SimulatedRun:
+    """Run a model.
+
+    fast      compiles the kernels
+    on_done   called with the steps of each stretch that is done
+    """
     system, n = model.system(plan.step), len(model.torque)
     state = start_state(model, system)
     rows = len(model.pairs) + len(model.stops)
@@ -90,9 +98,17 @@ def simulate(model: ContactModel, plan: StepPlan, fast: bool = False) -> Simulat
     skip = plan.skip - plan.skip % plan.stride
     laws = model.laws
     arguments = plan.stride, _CREEP * fastest, plan.apart, slack
-    run(system, laws, state, here, record, plan.step, skip, *arguments, False)
+
+    def go(steps: int, counted: bool) -> None:
+        stretch = max(steps // _STRETCHES // plan.stride, 1) * plan.stride
+        for done in range(0, steps, stretch):
+            part = min(stretch, steps - done)
+            run(system, laws, state, here, record, plan.step, part, *arguments, counted)
+            on_done(part)
+
+    go(skip, False)
     start, before = _kinetic(system, state), state.angle.copy()
-    run(system, laws, state, here, record, plan.step, plan.steps, *arguments, True)
+    go(plan.steps, True)
     order = np.argsort(model.order.coordinates)
     kept = min(int(record.numbers[IMPACTS]), _ROOM)
     done = int(record.numbers[SAMPLES])

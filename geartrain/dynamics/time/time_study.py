@@ -115,15 +115,13 @@ class TimeStudy:
         skip -= skip % stride
         return StepPlan(tau / abs(self.of.case.rate) / self.per_turn / finer, skip, steps, stride, self.apart)
 
-    def run(self, on_done: Callable[[int], None] = lambda _: None) -> TimeRun:
-        """Both runs, and what they say."""
+    def run(self, on_done: Callable[[float], None] = lambda _: None) -> TimeRun:
+        """Both runs, and what they say; `on_done` is called with the share of the work that each stretch adds."""
         model = self.of.model
-        work = 3 * sum(self.plan(1)[1:3]) * max(len(model.pairs), 1) * _SLOW
-        fast = is_fast(self.fast, work)
-        runs = []
-        for finer in (1, 2):
-            runs.append(_Reading(self, simulate(model, self.plan(finer), fast)))
-            on_done(finer)
+        plans = self.plan(1), self.plan(2)
+        whole = sum(plan.skip + plan.steps for plan in plans)
+        fast = is_fast(self.fast, whole * max(len(model.pairs), 1) * _SLOW)
+        runs = [_Reading(self, simulate(model, plan, fast, lambda done: on_done(done / whole))) for plan in plans]
         return runs[1].told(runs[0])
 
 
@@ -205,6 +203,7 @@ class _Reading:
             blows=float(energy[BLOWS]),
             steps=float(energy[STEP]),
             kinetic=self.run.end - self.run.start,
+            stored=self.run.end,
         )
 
     @cached_property

@@ -74,6 +74,7 @@ class TrainInTime(TrainDynamics):
         GearTrainError
             If redundant loops have teeth that cannot turn together, or friction locks teeth.
         """
+        from geartrain.dynamics.time.inertia import find_link_inertias
         from geartrain.dynamics.time.time_case import find_time_case
         from geartrain.dynamics.time.time_study import TimeStudy
         from geartrain.dynamics.time.train_model import TrainModel
@@ -84,7 +85,8 @@ class TrainInTime(TrainDynamics):
         names = outputs or tuple(case.outputs) or tuple(self.declaration.links)
         seen = [(name, *self._speeds.single_output(case, name)[1]) for name in names]
         speed = Quantity.parse(rate, "speed", plain=True).si if isinstance(rate, str) else rate
-        inertia = {each.link: each.value for each in self.inertias(state) if each.value}
+        heavy = find_link_inertias(self, case, with_inputs=True)
+        inertia = {each.link: each.value for each in heavy if each.value}
         found = find_time_case(self.declaration, case, problem, inertia, speed, restitution)
         model = TrainModel(self.declaration, problem, found, self.tree, case.state)
         return TimeStudy(model, seen, turns, skip, steps, samples, apart, fast).run(on_done)

@@ -81,10 +81,13 @@ class MovingTrain(ToothedTrain, Protocol):
         """The pairs with their carriers."""
 
 
-def find_link_inertias(train: MovingTrain, case: StateCase) -> tuple[LinkInertia, ...]:
-    """Of every link that moves and whose motion is not prescribed, in the order of the declaration."""
+def find_link_inertias(train: MovingTrain, case: StateCase, with_inputs: bool = False) -> tuple[LinkInertia, ...]:
+    """Of every link that moves and whose motion is not prescribed, in the order of the declaration.
+
+    with_inputs   inputs are let go, as by a weight that drives
+    """
     declared = train.declaration
-    prescribed = {declared.frame, *case.inputs, *case.fixed}
+    prescribed = {declared.frame, *case.fixed} | (set() if with_inputs else set(case.inputs))
     bodies = _Bodies(train)
     return tuple(bodies.whole(link) for link in declared.links if link not in prescribed)
 

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 if TYPE_CHECKING:
-    from geartrain.numerics.arrays import Bools, Floats, Ints
+    from geartrain.numerics.arrays import Bools, Floats, Indices, Ints
 
 NODES = 5
 """Positions of a cell: its ends, its middle, and the middles of its halves."""
@@ -25,7 +25,7 @@ _ASIDE = 1e-10  # of the narrowest period: how far from a corner its two limits 
 _ROUNDING = 16  # units in the last place of the run's end: positions nearer than that are one
 _PARTS = 16  # of what is left of a cell in which something changes its sign
 _MOST_ROUNDS, _FEWEST_ROUNDS = 11, 4
-_EFFORT = 100_000  # positions that may be asked for in one search of kinks, unless there are many
+_EFFORT = 20_000  # positions that may be asked for in one search of kinks, unless there are many
 
 
 @dataclass(frozen=True)
@@ -63,11 +63,22 @@ class RunCells:
         found: Floats = np.abs(values.reshape(-1, NODES) @ _HALVED) * (self.high - self.low)
         return found
 
-    def halved(self, which: Bools) -> RunCells:
-        """The halves of some cells."""
-        low, high = self.low[which], self.high[which]
-        middle = (low + high) / 2
-        return RunCells(np.concatenate([low, middle]), np.concatenate([middle, high]), self.aside)
+    @property
+    def middles(self) -> Floats:
+        """Their middles."""
+        return np.asarray((self.low + self.high) / 2)
+
+    def parted(self, cell: Indices, at: Floats) -> RunCells:
+        """The parts of some cells, cut at some places within them.
+
+        cell   the number of the cell of each place
+        """
+        cut = np.unique(cell)
+        low, number = np.concatenate([self.low[cut], at]), np.concatenate([cut, cell])
+        order = np.lexsort((low, number))
+        low, number = low[order], number[order]
+        last = np.append(number[1:] != number[:-1], True)
+        return RunCells(low, np.where(last, self.high[number], np.append(low[1:], 0.0)), self.aside)
 
     def some(self, which: Bools) -> RunCells:
         """Some of the cells."""
@@ -90,8 +101,8 @@ def run_cells(span: float, steps: int, breaks: Floats, narrowest: float) -> RunC
     return RunCells(edges[:-1], edges[1:], aside)
 
 
-def find_kinks(signs_at: Callable[[Floats], Ints], cells: RunCells, signs: Ints) -> Floats:
-    """Where signs change within cells, in all of these places at once.
+def find_kinks(signs_at: Callable[[Floats], Ints], cells: RunCells, signs: Ints) -> tuple[Indices, Floats]:
+    """Where signs change within cells, in all of these places at once: the cell of each, by number, and the place.
 
     signs_at   of some positions, (signs, n); `signs`, those at the positions of the cells
     """
@@ -101,10 +112,10 @@ def find_kinks(signs_at: Callable[[Floats], Ints], cells: RunCells, signs: Ints)
     changed[NODES - 1 :: NODES] = False
     at = np.flatnonzero(changed)
     if not len(at):
-        return np.zeros(0)
+        return at, np.zeros(0)
     low, high, first = turns[at], turns[at + 1], signs[:, at]
     # few calls with many positions: each call asks every law, whatever the number of positions
-    rounds = _MOST_ROUNDS if len(at) * _PARTS * _MOST_ROUNDS <= _EFFORT else _FEWEST_ROUNDS
+    rounds = int(np.clip(_EFFORT // (len(at) * _PARTS), _FEWEST_ROUNDS, _MOST_ROUNDS))
     for _ in range(rounds):
         inner = low[:, None] + (high - low)[:, None] * (np.arange(1, _PARTS) / _PARTS)
         same = (signs_at(inner.ravel()).reshape(len(signs), *inner.shape) == first[:, :, None]).all(axis=0)
@@ -112,4 +123,8 @@ def find_kinks(signs_at: Callable[[Floats], Ints], cells: RunCells, signs: Ints)
         part = np.where(same.all(axis=1), _PARTS - 1, np.argmin(same, axis=1))
         width = (high - low) / _PARTS
         low, high = low + part * width, low + (part + 1) * width
-    return np.asarray((low + high) / 2)
+    places, cell = (low + high) / 2, at // NODES
+    # a hair from an end of the cell, or from another kink, nothing is to be gained
+    apart = np.minimum(places - cells.low[cell], cells.high[cell] - places) > 4 * cells.aside
+    apart &= np.append(True, (np.diff(places) > 4 * cells.aside) | (np.diff(cell) > 0))
+    return cell[apart], places[apart]

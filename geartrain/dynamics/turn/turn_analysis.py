@@ -105,6 +105,7 @@ class _Answer:
         link = train.asked[row]
         own = _Asked(row, -1 if train.setting.speeds[link] < 0 else 1)
         locked, ambiguous = self.run.share(~found.valid), self.run.share(found.layers > 1)
+        greatest = None if locked else self._extreme(own, 1, False)
         torque, left_out, period = own.torque(found), self._left_out(), train.motion.motion.period
         names = (*train.pairs, *(f"bearing {link}" for link in train.bearings))
         labels = [repr(each) for each in self.run.cells.turns.tolist()]
@@ -123,9 +124,11 @@ class _Answer:
             labelled_array(found.powers, link=train.outside, position=labels),
             labelled_array(found.losses, part=names, position=labels),
             None if locked else float(weights @ torque) / self.run.span,
-            None if locked else self._extreme(own, 1, False),
+            greatest,
             self._extreme(own, -1, False),
-            self._extreme(own, 1, True) if self.run.standing.valid.all() else None,
+            (self._extreme(own, 1, True) if train.starts_harder else greatest)
+            if self.run.standing.valid.all()
+            else None,
             None if locked else self._energy(),
             self._parts(names),
             locked,

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from geartrain.numerics.arrays import Bools, Floats, Indices
 
 _CHUNK = 8192  # positions worked on at once
-_ROUNDS = 8  # of finding flanks and speeds that agree
+_ROUNDS = 6  # of finding flanks and speeds that agree
 _AT_REST = 1e-12  # of the fastest speed: slower stands still
 _FAINT = 1e-9  # of the greatest torque through a pair in a chunk: less presses on no flank
 _SCALES = 1_000_003, 1_414_213  # of the coefficients of a row, so that nothing in it cancels by chance
@@ -138,7 +138,7 @@ class TurnBalance:
             changed = (found != coasting).any(axis=0)
             settled.append((left[~changed], some(told, ~changed)))
             turned = np.sign(told.slipping) * way < 0
-            resting = (resting | turned if round_ > 1 else resting)[:, changed]
+            resting = (resting | turned if round_ > 0 else resting)[:, changed]
             left, coasting, way = left[changed], found[:, changed], np.sign(told.slipping)[:, changed]
             if not len(left):
                 break

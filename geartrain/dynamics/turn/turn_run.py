@@ -15,14 +15,15 @@ from geartrain.numerics.named_arrays import joined, some
 if TYPE_CHECKING:
     from geartrain.dynamics.turn.position_torques import PositionTorques
     from geartrain.dynamics.turn.turn_balance import TurnBalance
-    from geartrain.numerics.arrays import Bools, Floats, Ints
+    from geartrain.numerics.arrays import Bools, Floats, Indices, Ints
 
 _PROBES = 300  # positions at which it is asked which flanks touch
 _MOST_SETS = 3  # sets of coast flanks that touch at once, whose corners are looked for
 _ROUNDS = 3  # of looking for kinks: those of one cell come one after another
 _ACCURACY, _ROUNDING = 1e-8, 1e-13  # of all energy, spread evenly over the run, and what a cell may be off by at least
-_DEPTH = 12  # halvings of a cell
+_DEPTH = 13  # cuts of a cell one after another
 _MOST_TIMES = 12  # as many positions as at first: the rest stays as coarse as it is
+_NONE = np.zeros(0, np.intp), np.zeros(0)  # no cuts: cells, and places
 FAINT = 1e-9
 """Of the greatest torque or power in a run: less has no sign."""
 
@@ -59,42 +60,40 @@ class TurnRun:
     @cached_property
     def _followed(self) -> tuple[RunCells, PositionTorques]:
         """Cells in order, kinks among their ends, as narrow as integrals ask for; and all at their positions."""
-        breaks, steps = self.corners, max(1, self.samples // NODES)
-        for _ in range(_ROUNDS):
-            cells = run_cells(self.span, steps, breaks, self.narrowest)
-            found = self.train.at(cells.asked)
-            kinks = self._kinks(cells, found)
-            if not len(kinks):
-                break
-            breaks = np.concatenate([breaks, kinks])
-        else:
-            cells = run_cells(self.span, steps, breaks, self.narrowest)
-            found = self.train.at(cells.asked)
-        return self._halved(cells, found)
-
-    def _kinks(self, cells: RunCells, found: PositionTorques) -> Floats:
-        scales = RunScales.of(found)
-        return find_kinks(lambda turns: self.signs(self.train.at(turns), scales), cells, self.signs(found, scales))
-
-    def _halved(self, cells: RunCells, found: PositionTorques) -> tuple[RunCells, PositionTorques]:
-        """Cells halved until powers are integrated to a small part of all of them, in order."""
-        total = float(cells.weights @ np.nan_to_num(np.abs(found.powers)).sum(axis=0))
+        cells = run_cells(self.span, max(1, self.samples // NODES), self.corners, self.narrowest)
+        found = self.train.at(cells.asked)
+        scales, total = RunScales.of(found), float(cells.weights @ np.nan_to_num(np.abs(found.powers)).sum(axis=0))
         kept: list[tuple[RunCells, PositionTorques]] = []
         count, most = 0, _MOST_TIMES * len(cells.asked)
         for depth in range(_DEPTH + 1):
-            coarse = self._coarse(cells, found, total)
-            if depth == _DEPTH or count > most:
-                coarse[:] = False
-            kept.append((cells.some(~coarse), some(found, np.repeat(~coarse, NODES))))
-            count += len(cells.asked)
-            if not coarse.any():
+            cell, at = self._cuts(cells, found, scales, total, depth) if count <= most else _NONE
+            whole = np.ones(len(cells.low), bool)
+            whole[cell] = False
+            kept.append((cells.some(whole), some(found, np.repeat(whole, NODES))))
+            if not len(cell):
                 break
-            cells = cells.halved(coarse)
+            count += len(cells.asked)
+            cells = cells.parted(cell, at)
             found = self.train.at(cells.asked)
         low, high = (np.concatenate([getattr(each, name) for each, _ in kept]) for name in ("low", "high"))
         order = np.argsort(low)
         nodes = (order[:, None] * NODES + np.arange(NODES)).ravel()
         return RunCells(low[order], high[order], cells.aside), some(joined([each for _, each in kept]), nodes)
+
+    def _cuts(
+        self, cells: RunCells, found: PositionTorques, scales: RunScales, total: float, depth: int
+    ) -> tuple[Indices, Floats]:
+        """Where cells are to be cut: at their kinks, and in the middle where they are too wide; which, and where."""
+        if depth == _DEPTH:
+            return _NONE
+        kinks, places = _NONE
+        if depth < _ROUNDS:
+            signs = self.signs(found, scales)
+            kinks, places = find_kinks(lambda turns: self.signs(self.train.at(turns), scales), cells, signs)
+        coarse = self._coarse(cells, found, total)
+        coarse[kinks] = False
+        wide = np.flatnonzero(coarse)
+        return np.concatenate([kinks, wide]), np.concatenate([places, cells.middles[wide]])
 
     def _coarse(self, cells: RunCells, found: PositionTorques, total: float) -> Bools:
         """The cells too wide for what is put in or for what is lost."""

@@ -25,6 +25,12 @@ inputs: {a: 1}
 """
 WRONG = LOCKED.replace(", {pair: [z, x]}", "") + "outputs:\n  c: {expect: 1/3}\n"
 RIGHT = WRONG.replace("1/3", "1/2")
+HEAVY = """
+links: {frame: {}, a: {}, b: {inertia: 100 g cm2, bearing: 1 N mm}}
+revolutes: [{pair: [frame, a], axis: A}, {pair: [frame, b], axis: B}]
+couplings: [{kind: pin_and_slot, pin: a, slot: b, pin_radius: 10 mm, offset: 8 mm}]
+inputs: {a: 1}
+"""
 UNUSABLE = RIGHT.replace("gears:", "geers:")
 
 # pennestri-2002, Table 4, as fractions

@@ -28,7 +28,7 @@ class TrainInTime(TrainDynamics):
         samples: int | None = None,
         apart: float = 1e-5,
         fast: bool | None = None,
-        on_done: Callable[[float], None] = lambda _: None,
+        on_done: Callable[[float], object] = lambda _: None,
     ) -> TimeRun:
         """Motion in time: inertia, play, impacts, drag and friction, by nonsmooth time stepping (docs/dynamics.md).
 
@@ -37,8 +37,8 @@ class TrainInTime(TrainDynamics):
         Parameters
         ----------
         rate : str or float, optional
-            Speed of the first input that turns, as text such as "1 turn/s" or a number [rad/s]; by default the declared
-            drive.
+            Speed of the first input that turns, the way it is declared to, as text such as "1 turn/s" or a number
+            [rad/s]; by default the declared drive.
         turns : float
             Turns of that input that are counted, in its mean motion.
         state : str, optional
@@ -60,7 +60,8 @@ class TrainInTime(TrainDynamics):
         fast : bool, optional
             Whether kernels are compiled, by the extra `fast`; by default if the run is long and numba is installed.
         on_done : callable
-            Called with the share of the work that each stretch adds [0 to 1].
+            Called with the share of the work that each stretch adds [0 to 1]. Where it returns True, no more is done,
+            and what was found in the first run is told.
 
         Returns
         -------
@@ -85,6 +86,8 @@ class TrainInTime(TrainDynamics):
         names = outputs or tuple(case.outputs) or tuple(self.declaration.links)
         seen = [(name, *self._speeds.single_output(case, name)[1]) for name in names]
         speed = Quantity.parse(rate, "speed", plain=True).si if isinstance(rate, str) else rate
+        if speed is not None and problem.speeds[problem.lead] < 0:
+            speed = -speed
         heavy = find_link_inertias(self, case, with_inputs=True)
         inertia = {each.link: each.value for each in heavy if each.value}
         found = find_time_case(self.declaration, case, problem, inertia, speed, restitution)

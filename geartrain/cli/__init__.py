@@ -24,6 +24,7 @@ class VerbGroup(EndingGroup, LazyGroup):
             *("report", "view", "draw", "export", "compare", "check", "solve", "equations", "graph", "torques"),
             *(
                 "motion",
+                "dynamics",
                 "montecarlo",
                 "budget",
                 "sphere",

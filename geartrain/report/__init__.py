@@ -33,6 +33,9 @@ if TYPE_CHECKING:
     from geartrain.report.reconstruction_comparison import describe_comparison as describe_comparison
     from geartrain.report.shared_page import describe_shared_page as describe_shared_page
     from geartrain.report.text import to_markdown as to_markdown
+    from geartrain.report.time_report import TimeReport as TimeReport
+    from geartrain.report.time_report import collect_time_report as collect_time_report
+    from geartrain.report.time_report import describe_time_run as describe_time_run
     from geartrain.report.torque_figures import TorqueReport as TorqueReport
     from geartrain.report.torque_figures import collect_torque_report as collect_torque_report
     from geartrain.report.torque_report import describe_torques as describe_torques
@@ -43,6 +46,7 @@ if TYPE_CHECKING:
 _PLACES = {
     **dict.fromkeys(("Document", "Picture", "Section", "Table"), "document"),
     **dict.fromkeys(("MotionFigures", "collect_motion"), "motion_figures"),
+    **dict.fromkeys(("TimeReport", "collect_time_report", "describe_time_run"), "time_report"),
     **dict.fromkeys(("TorqueReport", "collect_torque_report"), "torque_figures"),
     **dict.fromkeys(("TrainReport", "collect_report"), "train_data"),
     "answer_schema": "json_schema",
@@ -64,11 +68,13 @@ __all__ = [
     "Picture",
     "Section",
     "Table",
+    "TimeReport",
     "TorqueReport",
     "TrainReport",
     "answer_schema",
     "collect_motion",
     "collect_report",
+    "collect_time_report",
     "collect_torque_report",
     "describe_budget",
     "describe_comparison",
@@ -76,6 +82,7 @@ __all__ = [
     "describe_motion",
     "describe_posterior",
     "describe_shared_page",
+    "describe_time_run",
     "describe_torques",
     "describe_train",
     "to_html",

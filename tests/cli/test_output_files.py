@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Annotated, Any, get_args, get_origin, get_type_hints
 
 import pytest
-from commands import RIGHT, UNUSABLE, call, functions
+from commands import HEAVY, RIGHT, UNUSABLE, call, functions
 
 from geartrain.errors import GearTrainError
 from geartrain.numerics.files import LongTable, destination, write_bytes, write_folder
@@ -26,6 +26,7 @@ MOTION = ("motion", "moon-triangular", "--turns", "1", "--samples", "64", "--out
 SIZED_TRAIN = ("optimise", "moon-triangular", "--output", "moon", "--best", "jam", "--free", "window")
 DOUBT = ("posterior", "{doubt}", "--free", "x=18:22", "--free", "z=38:42")
 ERRORS = ("montecarlo", "moon-triangular", "--trials", "2", "--output", "moon", "--set", "placement=2 %")
+IN_TIME = ("--rate", "1", "--turns", "0.004", "--skip", "0", "--steps", "500", "--no-fast")
 BUDGET = ("budget", "moon-triangular", "--turns", "1", "--samples", "64", "--output", "moon")
 
 # command and writing option -> the rest of a question, and the suffixes it may be written with
@@ -42,6 +43,7 @@ ASKED: dict[tuple[str, str], tuple[tuple[str, ...], tuple[str, ...]]] = {
     ("torques", "--plot"): (("torques", "{loaded}"), (".svg",)),
     ("motion", "-o"): (MOTION, (".md", ".json", ".csv")),
     ("motion", "--plot"): (MOTION, (".svg",)),
+    ("dynamics", "-o"): (("dynamics", "{heavy}", *IN_TIME), (".md", ".json", ".csv")),
     ("montecarlo", "-o"): (ERRORS, (".md", ".json", ".csv", ".parquet")),
     ("montecarlo", "--plot"): (ERRORS, (".svg",)),
     ("budget", "-o"): (BUDGET, (".md", ".json")),
@@ -100,7 +102,8 @@ def _trains(tmp_path_factory: pytest.TempPathFactory) -> None:
     folder = tmp_path_factory.mktemp("trains")
     doubt = RIGHT.replace("expect: 1/2", "targets: [{speed: 1/2, tolerance: 10 %}]")
     hands = RIGHT.replace("z: 40", "z: {teeth: {search: [30, 50]}}")
-    for name, text in {"doubt": doubt, "hands": hands, "loaded": RIGHT + "loads: {c: -1 N m}\n"}.items():
+    loaded = RIGHT + "loads: {c: -1 N m}\n"
+    for name, text in {"doubt": doubt, "hands": hands, "loaded": loaded, "heavy": HEAVY}.items():
         TRAINS[f"{{{name}}}"] = folder / f"{name}.yaml"
         TRAINS[f"{{{name}}}"].write_text(text, encoding="utf-8")
 

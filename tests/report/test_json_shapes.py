@@ -10,7 +10,7 @@ from typing import Any
 
 import pytest
 from answer_schemas import holds
-from commands import LOCKED, RIGHT, WRONG, call
+from commands import HEAVY, LOCKED, RIGHT, WRONG, call
 from jsonschema import Draft202012Validator, SchemaError
 
 from geartrain.report import answer_schema
@@ -48,7 +48,7 @@ def files(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     monkeypatch.setattr("geartrain.analysis.method_accuracy._ENOUGH", 0.0)  # no shape depends on how well it is timed
     monkeypatch.setattr("geartrain.analysis.method_accuracy._LONG", 0.0)
     monkeypatch.setattr("geartrain.synthesis.tooth_sizes.search_accuracy._REACH", 0.01)
-    for name, text in KINDS.items():
+    for name, text in {**KINDS, "heavy": HEAVY}.items():
         (tmp_path / f"{name}.yaml").write_text(text, encoding="utf-8")
     (tmp_path / "cube.txt").write_text("a b\nb c\nc d\nd a\ne f\nf g\ng h\nh e\na e\nb f\nc g\nd h\n", encoding="utf-8")
     return tmp_path
@@ -112,9 +112,15 @@ CUT = ("montecarlo", "moon-triangular", "--trials", "16", "--set", "placement=2 
 DOUBT = ("posterior", "target.yaml", "--free", "x=18:22", "--free", "z=38:42")
 PAIR = ("--teeth", "20", "30")
 TRIANGULAR = ("mesh", "triangular", *PAIR)
+IN_TIME = ("--rate", "1", "--turns", "0.1", "--skip", "0", "--steps", "200", "--no-fast")
 MOTION = ("motion", "moon-triangular", "--turns", "1", "--samples", "256", "--output", "moon")
 ASKED: dict[str, list[tuple[str, ...]]] = {
     "motion": [MOTION, (*MOTION, "--estimates", "--spectrum", "--phases", "2"), ("motion", "worm", "--samples", "64")],
+    "dynamics": [
+        ("dynamics", "heavy.yaml", *IN_TIME),
+        ("dynamics", "heavy.yaml", *IN_TIME, "--restitution", "0.3"),
+        ("dynamics", "worm", *IN_TIME),
+    ],
     "budget": [
         ("budget", "moon-triangular", "--turns", "1", "--samples", "64"),
         ("budget", "freeth-2008", "--turns", "1", "--samples", "64", "--output", "moon"),

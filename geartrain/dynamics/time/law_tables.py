@@ -55,6 +55,11 @@ class TabledFunction(NamedTuple):
     uncertainty: float
     slope_uncertainty: float
 
+    def __call__(self, S: Floats) -> Floats:
+        """The function at driver's angles (rad)."""
+        found: Floats = self.slope * S + self.table(S)
+        return found
+
 
 def tabled_angle(law: TransmissionFunction, tolerance: float = TOLERANCE) -> TabledFunction:
     """The driven angle q(S) of a law, whose derivative is its speed ratio."""

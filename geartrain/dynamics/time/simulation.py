@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 _CREEP = 1e-10  # of the fastest coordinate: a stuck bearing gives way so slowly
 _SLACK = 1e-11  # of that speed
 _ROOM = 100_000  # impacts that are kept
-_STRETCHES = 50  # after each of which one may stop a run, or look how far it is
+_AT_A_TIME = 1000, 40_000  # steps between two words on how far a run is: in plain Python, and compiled
 
 
 class StepPlan(NamedTuple):
@@ -68,12 +68,12 @@ class SimulatedRun:
 
 
 def simulate(
-    model: ContactModel, plan: StepPlan, fast: bool = False, on_done: Callable[[int], None] = lambda _: None
+    model: ContactModel, plan: StepPlan, fast: bool = False, on_done: Callable[[int], object] = lambda _: None
 ) -> SimulatedRun:
-    """Run a model.
+    """Run a model; `fast` compiles the kernels.
 
-    fast      compiles the kernels
-    on_done   called with the steps of each stretch that is done
+    on_done   called with the steps done since the last time; where it returns True the run ends, and the plan of what
+              is given back has the steps that were counted
     """
     system, n = model.system(plan.step), len(model.torque)
     state = start_state(model, system)
@@ -98,22 +98,27 @@ def simulate(
     skip = plan.skip - plan.skip % plan.stride
     laws = model.laws
     arguments = plan.stride, _CREEP * fastest, plan.apart, slack
+    piece = max(1, _AT_A_TIME[fast] // plan.stride) * plan.stride
 
-    def go(steps: int, counted: bool) -> None:
-        stretch = max(steps // _STRETCHES // plan.stride, 1) * plan.stride
-        for done in range(0, steps, stretch):
-            part = min(stretch, steps - done)
-            run(system, laws, state, here, record, plan.step, part, *arguments, counted)
-            on_done(part)
+    def go(steps: int, counted: bool) -> int:
+        """Piece by piece between samples; how many steps were done."""
+        done = 0
+        while done < steps:
+            own = min(piece, steps - done)
+            run(system, laws, state, here, record, plan.step, own, *arguments, counted)
+            done += own
+            if on_done(own) is True:
+                break
+        return done
 
-    go(skip, False)
+    skipped = go(skip, False)
     start, before = _kinetic(system, state), state.angle.copy()
-    go(plan.steps, True)
+    counted = go(plan.steps, True) if skipped == skip else 0
     order = np.argsort(model.order.coordinates)
     kept = min(int(record.numbers[IMPACTS]), _ROOM)
     done = int(record.numbers[SAMPLES])
     return SimulatedRun(
-        plan,
+        plan._replace(steps=counted),
         record.angles[:done, order],
         record.speeds[:done, order],
         record.forces[:done],

@@ -6,7 +6,7 @@ import html
 from collections.abc import Mapping
 from dataclasses import dataclass
 from math import tau
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 from geartrain.numerics.files import csv_text
 from geartrain.numerics.plain_data import Key, Result, group
@@ -40,6 +40,10 @@ class TimeRun(Result):
         Its mean speed in the counted part of the run [rad/s].
     step : float
         Length of a step [s].
+    link : str
+        Where power enters.
+    driven : {"rate", "torque", "spring", "hand"}
+        By what: a speed that is kept; a torque, also of a weight; a spring; a hand that yields.
     skip, duration : float
         Time before what is counted, and of what is counted [s].
     time, turns : array of float, (n,)
@@ -48,6 +52,8 @@ class TimeRun(Result):
         Of all links [rad, rad/s].
     torques : LabelledArray, (contact, time)
         Means between samples, of torques on the driven sides [N m].
+    gaps, coast_gaps : LabelledArray, (pair, time)
+        By how much the driven side is off its drive flank, and off its coast flank [rad].
     drive : array of float, (n,)
         Torque where power enters, mean between samples [N m], the way the train turns.
     torque : float
@@ -68,6 +74,8 @@ class TimeRun(Result):
         Steps in which no consistent set of contacts was found; their last guess was taken.
     notes : tuple of str
         What is left out.
+    complete : bool
+        False if it was stopped: then all is of the run with the longer steps, as far as that came, and not compared.
 
     See Also
     --------
@@ -89,6 +97,8 @@ class TimeRun(Result):
         "state",
         "lead",
         "rate",
+        "link",
+        "driven",
         "step",
         "skip",
         "duration",
@@ -101,12 +111,15 @@ class TimeRun(Result):
         "figures",
         "unsolved",
         "notes",
+        "complete",
     )
 
     train: str
     state: str | None
     lead: str
     rate: float
+    link: str
+    driven: Literal["rate", "torque", "spring", "hand"]
     step: float
     skip: float
     duration: float
@@ -115,6 +128,8 @@ class TimeRun(Result):
     angles: LabelledArray
     speeds: LabelledArray
     torques: LabelledArray
+    gaps: LabelledArray
+    coast_gaps: LabelledArray
     drive: Floats
     torque: float
     contacts: tuple[ContactInTime, ...]
@@ -125,6 +140,7 @@ class TimeRun(Result):
     figures: tuple[SettledFigure, ...]
     unsolved: int
     notes: tuple[str, ...]
+    complete: bool = True
 
     def __getitem__(self, name: str) -> Floats | ContactInTime:
         """The angles of a link [rad], or the course of a pair."""
@@ -135,7 +151,7 @@ class TimeRun(Result):
         return found
 
     def to_csv(self) -> str:
-        """All samples as a table: time, turns, angles and speeds of links, torques of contacts, torque of the drive.
+        """All samples as a table: time, turns, angles and speeds of links, torques of contacts and drive, gaps.
 
         Returns
         -------
@@ -146,7 +162,18 @@ class TimeRun(Result):
         head = ["time (s)", "turns", *(f"{name} angle (rad)" for name in links)]
         head += [f"{name} speed (rad/s)" for name in links] + [f"{name} torque (N m)" for name in pairs]
         head.append("drive torque (N m)")
-        parts = (self.time, self.turns, *self.angles.values, *self.speeds.values, *self.torques.values, self.drive)
+        for name in self.gaps.labels[0]:
+            head += [f"{name} gap (rad)", f"{name} coast gap (rad)"]
+        gaps = (each for pair in zip(self.gaps.values, self.coast_gaps.values, strict=True) for each in pair)
+        parts = (
+            self.time,
+            self.turns,
+            *self.angles.values,
+            *self.speeds.values,
+            *self.torques.values,
+            self.drive,
+            *gaps,
+        )
         return csv_text(head, zip(*(part.tolist() for part in parts), strict=True))
 
     def _repr_html_(self) -> str:

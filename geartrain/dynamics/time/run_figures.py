@@ -1,0 +1,271 @@
+"""One run of a train read as figures: shares, energies, outputs, spectra, and what two runs say beside each other."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from math import tau
+from typing import TYPE_CHECKING, Literal
+
+import numpy as np
+
+from geartrain.dynamics.time.angle_spectrum import find_peaks
+from geartrain.dynamics.time.contact_system import (
+    BEARINGS,
+    BLOW_COUNT,
+    BLOW_ENERGY,
+    BLOW_SPEED,
+    BLOWS,
+    CHANGES,
+    FRICTION,
+    GAP,
+    IMPACTS,
+    IMPULSE,
+    RUBBED,
+    STEP,
+    TIME_APART,
+    TIME_COAST,
+    UNSOLVED,
+    VISCOUS,
+    WORK_DRIVE,
+    WORK_SPRING,
+    WORK_TORQUE,
+)
+from geartrain.dynamics.time.run_parts import (
+    ContactInTime,
+    EnergyAccount,
+    ImpactList,
+    OutputLead,
+    SettledFigure,
+    SpectrumPeak,
+)
+from geartrain.dynamics.time.time_run import TimeRun
+from geartrain.numerics.labelled_array import labelled_array
+
+if TYPE_CHECKING:
+    from geartrain.dynamics.time.simulation import SimulatedRun, StepPlan
+    from geartrain.dynamics.time.train_model import TrainModel
+    from geartrain.numerics.arrays import Floats
+
+_AGREE = 0.05  # of a figure; `_SHARE`, of a share of time
+_SHARE = 0.005
+
+
+@dataclass(frozen=True)
+class RunFigures:
+    """One run as figures of the train, and of these outputs of it."""
+
+    of: TrainModel
+    outputs: Sequence[tuple[str, str, str]]
+    run: SimulatedRun
+
+    @property
+    def plan(self) -> StepPlan:
+        return self.run.plan
+
+    @cached_property
+    def duration(self) -> float:
+        return self.plan.step * self.plan.steps
+
+    @cached_property
+    def first(self) -> int:
+        """The first sample of what is counted."""
+        return self.plan.skip // self.plan.stride
+
+    @cached_property
+    def time(self) -> Floats:
+        return np.asarray(self.plan.step * self.plan.stride * np.arange(1, len(self.run.angles) + 1), dtype=np.float64)
+
+    @cached_property
+    def turned(self) -> Floats:
+        """Angles of all links since the start (rad), (links, samples)."""
+        found: Floats = self.of.speeds @ self.run.angles.T
+        return found
+
+    def turns_of(self, link: str) -> Floats:
+        return np.asarray(self.turned[self.of.index[link]] / tau, dtype=np.float64)
+
+    @cached_property
+    def turns(self) -> Floats:
+        """Turns of the lead, forwards."""
+        return np.asarray(self.of.way * self.turns_of(self.of.problem.lead), dtype=np.float64)
+
+    @cached_property
+    def names(self) -> list[str]:
+        return [pair.name for pair in self.of.model.pairs] + [stop.name for stop in self.of.model.stops]
+
+    @cached_property
+    def contacts(self) -> tuple[ContactInTime, ...]:
+        steps, time = self.plan.steps, self.duration
+        return tuple(
+            ContactInTime(
+                name,
+                float(counts[TIME_APART] / steps),
+                float(counts[TIME_COAST] / steps),
+                float(counts[BLOW_COUNT] / time),
+                float(counts[BLOW_ENERGY] / time),
+                float(counts[BLOW_SPEED]),
+                float(counts[IMPULSE] / time),
+                float(counts[RUBBED] / time),
+                float(counts[GAP]),
+                float(counts[CHANGES] / time),
+            )
+            for name, counts in zip(self.names, self.run.counts, strict=True)
+        )
+
+    @cached_property
+    def energy(self) -> EnergyAccount:
+        energy = self.run.energy
+        return EnergyAccount(
+            drive=float(energy[WORK_DRIVE]),
+            loads=float(energy[WORK_TORQUE]),
+            springs=float(energy[WORK_SPRING]),
+            bearings=float(energy[BEARINGS]),
+            drag=float(energy[VISCOUS]),
+            friction=float(energy[FRICTION]),
+            blows=float(energy[BLOWS]),
+            steps=float(energy[STEP]),
+            kinetic=self.run.end - self.run.start,
+            stored=self.run.end,
+        )
+
+    @cached_property
+    def drive(self) -> Floats:
+        """Torque where power enters, the way its link turns."""
+        source = self.of.case.drive
+        way = -1.0 if self.of.typical(source.link) < 0 else 1.0
+        if source.kind == "rate":
+            return np.asarray(way * self.run.drive[:, self.of.coordinates.index(source.link)])
+        if source.kind == "torque":
+            return np.full(len(self.time), way * source.torque)
+        rest = source.wound + source.rate * self.time
+        return np.asarray(way * source.stiffness * (rest - self.turned[self.of.index[source.link]]))
+
+    @cached_property
+    def torque(self) -> float:
+        source, energy = self.of.case.drive, self.energy
+        if source.kind == "torque":
+            return float(abs(source.torque))
+        angle = abs(float(self.of.speeds[self.of.index[source.link]] @ self.run.turned))
+        work = energy.drive if source.kind == "rate" else energy.springs
+        return float(work / angle) if angle else 0.0
+
+    @cached_property
+    def differences(self) -> dict[str, Floats]:
+        """By how much each output is ahead of the motion in which all drive flanks touch (rad)."""
+        motion = self.of.motion
+        turns = self.turns * self.of.way
+        names = list(motion.outputs)
+        at = motion.at(np.append(turns, 0.0)).error if motion.ahead.used else np.zeros((len(names), len(turns) + 1))
+        found = {}
+        for name, link, base in self.outputs:
+            parts = []
+            for each in (link, base):
+                row = names.index(each)
+                mean = float(self.of.problem.ratio(each)) * tau * turns
+                parts.append(self.turned[self.of.index[each]] - mean - (at[row, :-1] - at[row, -1]))
+            sense = self.of.sense(link, base)
+            way = -1.0 if self.of.typical(link) - sense * self.of.typical(base) < 0 else 1.0
+            found[name] = way * (parts[0] - sense * parts[1])
+        return found
+
+    @cached_property
+    def leads(self) -> tuple[OutputLead, ...]:
+        counted = {name: each[self.first :] for name, each in self.differences.items()}
+        return tuple(
+            OutputLead(
+                name,
+                float(max(each.max(initial=0.0), 0.0)),
+                float(max(-each.min(initial=0.0), 0.0)),
+                float(np.sqrt(np.mean(each**2))) if len(each) else 0.0,
+            )
+            for name, each in counted.items()
+        )
+
+    def figures(self) -> Iterator[tuple[str, str, float, Literal["mean", "extreme"]]]:
+        """What is compared between runs."""
+        yield "torque of the drive", "N m", self.torque, "mean"
+        yield "power of blows", "W", self.energy.blows / self.duration, "mean"
+        for each in self.contacts:
+            yield f"{each.name} apart", "", each.apart, "mean"
+            yield f"{each.name} on the coast flank", "", each.coast, "mean"
+        for lead in self.leads:
+            yield f"{lead.output} ahead", "rad", lead.ahead, "extreme"
+            yield f"{lead.output} behind", "rad", lead.behind, "extreme"
+
+    @cached_property
+    def gaps(self) -> tuple[Floats, Floats]:
+        """By how much each driven side is off its drive flank, and off its coast flank (rad), (pairs, samples)."""
+        angles, found = self.run.angles, np.zeros((2, len(self.of.model.pairs), len(self.time)))
+        for row, pair in enumerate(self.of.model.pairs):
+            S, q = (
+                start + angles[:, list(form)] @ np.array([*form.values()], dtype=np.float64)
+                for start, form in zip(pair.start, (pair.driver, pair.driven), strict=True)
+            )
+            found[0, row] = q - pair.front(S)
+            found[1, row] = pair.back(S) - q
+        return found[0], found[1]
+
+    def told(self, coarse: RunFigures | None) -> TimeRun:
+        """The result, this run being the finer one; None for a coarse one without a finer."""
+        links, time = self.of.problem.system.links, [repr(float(each)) for each in self.time]
+        start = np.array([self.of.problem.angles.get(link, 0.0) for link in links])[:, None]
+        figures = () if coarse is None else zip(coarse.figures(), self.figures(), strict=True)
+        pairs = self.names[: len(self.of.model.pairs)]
+        return TimeRun(
+            self.of.train.name,
+            self.of.state,
+            self.of.problem.lead,
+            float(self.of.speeds[self.of.index[self.of.problem.lead]] @ self.run.turned) / self.duration,
+            self.of.case.drive.link,
+            self.of.case.drive.kind,
+            self.plan.step,
+            self.plan.step * self.plan.skip,
+            self.duration,
+            _frozen(self.time),
+            _frozen(self.turns),
+            labelled_array(start + self.turned, link=links, time=time),
+            labelled_array(self.of.speeds @ self.run.speeds.T, link=links, time=time),
+            labelled_array(np.ascontiguousarray(self.run.forces.T), contact=self.names, time=time),
+            labelled_array(self.gaps[0], pair=pairs, time=time),
+            labelled_array(self.gaps[1], pair=pairs, time=time),
+            _frozen(self.drive),
+            self.torque,
+            self.contacts,
+            self._impacts(),
+            self.energy,
+            self.leads,
+            {name: tuple(self._peaks(name)) for name, _, _ in self.outputs},
+            tuple(_compared(*pair) for pair in figures),
+            self.run.numbers[UNSOLVED],
+            self.of.notes,
+            coarse is not None,
+        )
+
+    def _impacts(self) -> ImpactList:
+        time, which, speed, energy, impulse = (_frozen(each) for each in self.run.impacts.T.copy())
+        names = tuple(self.names[int(each)] for each in which)
+        return ImpactList(self.run.numbers[IMPACTS], names, time, speed, energy, impulse)
+
+    def _peaks(self, name: str) -> Iterator[SpectrumPeak]:
+        link, base = next(each[1:] for each in self.outputs if each[0] == name)
+        angle = self.turned[self.of.index[link]] - self.of.sense(link, base) * self.turned[self.of.index[base]]
+        cycles = {source.id: float(source.cycles) for source in self.of.sources.values()}
+        return iter(find_peaks(self.time[self.first :], angle[self.first :], abs(self.of.case.rate) / tau, cycles))
+
+
+def _compared(
+    coarse: tuple[str, str, float, Literal["mean", "extreme"]], fine: tuple[str, str, float, Literal["mean", "extreme"]]
+) -> SettledFigure:
+    name, unit, one, kind = coarse
+    other = fine[2]
+    near = _SHARE if not unit else 1e-6 if unit == "rad" else 0.0
+    settled = bool(abs(one - other) <= max(_AGREE * max(abs(one), abs(other)) if unit else 0.0, near))
+    return SettledFigure(name, unit, one, other, kind, settled)
+
+
+def _frozen(values: Floats) -> Floats:
+    values = np.asarray(values)
+    values.flags.writeable = False
+    return values

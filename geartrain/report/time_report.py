@@ -1,0 +1,249 @@
+"""Motion in time: figures for JSON, and the page that is told from them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from math import degrees, tau
+from typing import TYPE_CHECKING
+
+from geartrain.numerics.decimal_text import percent_text, watts_text
+from geartrain.numerics.plain_data import Key, Result
+from geartrain.report.document import Document, Section, Table, cut, figure, filled_table
+from geartrain.report.torque_cycle_report import turns_text
+
+if TYPE_CHECKING:
+    from geartrain.analysis.gear_train import GearTrain
+    from geartrain.dynamics import ContactInTime, SeparationRates, SettledFigure, TimeRun
+
+_SURE = 1e-9  # an account that closes to less says nothing more
+_STILL = 1e-9  # rad: rounding of angles
+
+
+@dataclass(frozen=True)
+class TimeReport(Result):
+    """A train in time, with the rates at which its teeth were to part.
+
+    Attributes
+    ----------
+    title : str
+        One line for a reader.
+    separation : SeparationRates or None
+        At what rate teeth first part, by pair, from the condition for it; None where no torques or inertia are known.
+    run : TimeRun
+        The run.
+
+    See Also
+    --------
+    collect_time_report : Gives it.
+    """
+
+    KEYS = ("title", "separation", Key("", "run"))
+
+    title: str
+    separation: SeparationRates | None
+    run: TimeRun
+
+
+def collect_time_report(train: GearTrain, run: TimeRun, without: tuple[str, ...] = ()) -> TimeReport:
+    """A run with the rates at which teeth first part.
+
+    Parameters
+    ----------
+    train : GearTrain
+        The train.
+    run : TimeRun
+        What its `dynamics` gave.
+    without : tuple of str
+        Pairs that were left out.
+
+    Returns
+    -------
+    TimeReport
+        Its `to_dict` is the answer of `geartrain dynamics --json`.
+
+    Examples
+    --------
+    >>> import geartrain
+    >>> train = geartrain.load("moon-triangular-inertia")
+    >>> found = collect_time_report(train, train.dynamics("1 turn/s", turns=0.01, skip=0, steps=2000))
+    >>> found.separation.pair, found.to_dict()["lead"]
+    ('d2~e', 'crank')
+    """
+    separation = train.separation_rates(run.state, without) if train.tells_separation(run.state) else None
+    return TimeReport(train.declaration.title, separation, run)
+
+
+def describe_time_run(found: TimeReport) -> Document:
+    """Up to which rate all teeth touch, then what a train did in time: contacts, drive, outputs, energy, spectra.
+
+    Parameters
+    ----------
+    found : TimeReport
+        From `collect_time_report`.
+
+    Returns
+    -------
+    Document
+        Angles in degrees, torques in N mm; what differs between steps of length h and h/2 is marked.
+
+    Examples
+    --------
+    >>> import geartrain
+    >>> train = geartrain.load("moon-triangular-inertia")
+    >>> run = train.dynamics("1 turn/s", turns=0.01, skip=0, steps=2000)
+    >>> [section.title for section in describe_time_run(collect_time_report(train, run)).sections[:3]]
+    ['Up to which rate it holds', 'Contacts', 'Drive and outputs']
+    """
+    return Document(f"Motion in time of {found.run.train}", list(_lead(found.run)), list(_sections(found)))
+
+
+def _sections(found: TimeReport) -> Iterator[Section]:
+    from geartrain.report.separation_text import separation_section
+
+    run = found.run
+    if found.separation is not None:
+        yield separation_section(found.separation)
+    if run.contacts:
+        yield _contacts(run)
+    yield _outputs(run)
+    yield _energy(run)
+    for name, peaks in run.spectra.items():
+        if peaks and peaks[0].amplitude > _STILL:
+            rows = [
+                (figure(peak.order, 6), figure(peak.frequency, 6), figure(degrees(peak.amplitude), 4), peak.source)
+                for peak in peaks
+            ]
+            header = (f"per turn of {run.lead}", "Hz", "amplitude (deg)", "pair and harmonic")
+            text = "The strongest lines of its angle about its mean motion, under a Hann window."
+            yield Section(f"Spectrum of {name}", (text,), (Table(header, rows),))
+    if run.figures:
+        yield _settled(run)
+    if found.separation is not None:
+        yield _inertia(found.separation)
+
+
+def _lead(run: TimeRun) -> Iterator[str]:
+    ways = {
+        "rate": f"the speed of '{run.link}' is kept",
+        "torque": f"a torque drives '{run.link}'",
+        "spring": f"a spring drives '{run.link}'",
+        "hand": f"a hand that yields drives '{run.link}'",
+    }
+    state = "" if run.state is None else f", in state {run.state}"
+    turns = turns_text(round(abs(run.rate) * run.duration / tau, 6))
+    yield (
+        f"While '{run.lead}' makes {turns} at {figure(abs(run.rate) / tau, 6)} turn/s{state}, after "
+        f"{figure(run.skip, 4)} s that are not counted; {ways[run.driven]}. Steps of {figure(run.step, 4)} s."
+    )
+    if not run.complete:
+        yield "PARTIAL: stopped; the figures are of what was done, and were not compared with those of shorter steps."
+    if run.unsolved:
+        yield f"In {run.unsolved} steps no contacts were found that agree with their forces; the last guess was taken."
+    yield from (f"Left out: {note}." for note in run.notes)
+
+
+def _contacts(run: TimeRun) -> Section:
+    rows = [_contact(run, each) for each in run.contacts]
+    header = (
+        *("contact", "apart (%)", "coast (%)", "impacts a turn", "each (µJ)", "all (mW)"),
+        *("hardest (rad/s)", "gap (deg)", "torque (N mm)", "friction (mW)"),
+    )
+    text = [
+        f"Shares of time apart and on the coast flank; impacts in a turn of '{run.lead}', the energy of each and the "
+        "power of all, the closing speed of the hardest; the greatest angle between the driven side and its nearer "
+        "flank; the mean torque on the driven side.",
+        "Bodies are rigid here: an impact is an impulse, whose force has no peak, and so there is no dynamic factor.",
+    ]
+    return Section("Contacts", text, (filled_table(header, cut(rows), 3),))
+
+
+def _contact(run: TimeRun, each: ContactInTime) -> tuple[str, ...]:
+    turn = tau / abs(run.rate) if run.rate else 0.0
+    return (
+        each.name,
+        figure(100 * each.apart, 4),
+        figure(100 * each.coast, 4),
+        figure(each.blows * turn, 4),
+        figure(1e6 * each.power / each.blows, 4) if each.blows else "",
+        figure(1e3 * each.power, 4) if each.blows else "",
+        figure(each.hardest, 4) if each.blows else "",
+        figure(degrees(each.gap), 4) if each.gap > _STILL else "",
+        figure(1e3 * each.torque, 5),
+        figure(1e3 * each.rubbed, 4) if each.rubbed else "",
+    )
+
+
+def _outputs(run: TimeRun) -> Section:
+    power = (run.energy.drive + run.energy.loads + run.energy.springs) / run.duration
+    text = [
+        f"Torque at '{run.link}': {figure(1e3 * run.torque, 5)} N mm in the mean; put in: {watts_text(power)}.",
+        "Outputs against the motion in which all drive flanks touch, which is that of `geartrain motion`.",
+    ]
+    rows = [(lead.output, *(_angle(each) for each in (lead.ahead, lead.behind, lead.rms))) for lead in run.leads]
+    header = ("output", "ahead, at most (deg)", "behind, at most (deg)", "rms (deg)")
+    return Section("Drive and outputs", text, (Table(header, cut(rows)),) if rows else ())
+
+
+def _angle(angle: float) -> str:
+    return figure(degrees(angle), 4) if angle > _STILL else "0"
+
+
+def _energy(run: TimeRun) -> Section:
+    energy = run.energy
+    whole = sum(max(each, 0.0) for each in (energy.drive, energy.loads, energy.springs))
+    amounts = {
+        "put in by the drive": energy.drive,
+        "put in by loads and weights": energy.loads,
+        "put in by springs": energy.springs,
+        "lost in bearings": energy.bearings,
+        "lost to viscous drag": energy.drag,
+        "lost by friction of teeth and pins": energy.friction,
+        "lost in impacts": energy.blows,
+        "taken by the length of steps": energy.steps,
+        "more kinetic energy than at first": energy.kinetic,
+    }
+    rows = [
+        (name, figure(value, 6), percent_text(value / whole) if whole else "-")
+        for name, value in amounts.items()
+        if value
+    ]
+    closure = max(energy.closure, 1e-15)
+    text = f"What is put in, lost and kept agrees to {closure:.0e} of it; the account claims {_SURE:.0e}."
+    return Section("Energy", (text,), (Table(("over the run", "J", "of all put in"), rows),))
+
+
+def _settled(run: TimeRun) -> Section:
+    means = [each for each in run.figures if each.kind == "mean"]
+    loose = [each.name for each in run.figures if not each.settled]
+    text = ["Each figure by steps of length h, and of h/2; told elsewhere is the second."]
+    if loose:
+        text.append(f"Not settled: {', '.join(loose)}. More `--steps` may settle means; extremes need not settle.")
+    else:
+        text.append("All agree.")
+    if any(each.apart for each in run.contacts):
+        text.append(
+            "Robust are means over many turns: shares of time apart, torque, power. Chaotic are single flights and "
+            "blows, and so extremes, angles at one moment, and which teeth part when: another start gives others."
+        )
+    rows = [_compared(each) for each in (*means, *(each for each in run.figures if each.kind == "extreme"))]
+    header = ("figure", "unit", "h", "h/2", "kind", "settled")
+    return Section("What settled", text, (Table(header, cut([row for row in rows if row is not None])),))
+
+
+def _compared(each: SettledFigure) -> tuple[str, ...] | None:
+    scale, unit, least = {
+        "rad": (degrees(1), "deg", _STILL),
+        "N m": (1e3, "N mm", 0.0),
+        "W": (1e3, "mW", 0.0),
+        "": (100.0, "%", 0.0),
+    }[each.unit]
+    if max(abs(each.coarse), abs(each.fine)) <= least:
+        return None
+    values = (figure(scale * value, 5) for value in (each.coarse, each.fine))
+    return (each.name, unit, *values, each.kind, "yes" if each.settled else "no")
+
+
+def _inertia(found: SeparationRates) -> Section:
+    rows = [(each.link, figure(each.value, 5), each.source) for each in found.inertias]
+    return Section("Inertia", (), (Table(("link", "kg m2", "from"), cut(rows)),))

@@ -1,0 +1,132 @@
+"""`geartrain dynamics`: text, JSON, CSV of motion in time; what is refused, and what an interrupted run gives."""
+
+from __future__ import annotations
+
+import csv
+import json
+import os
+import signal
+from math import pi, tau
+from pathlib import Path
+from typing import Any
+
+import pytest
+from answer_schemas import holds
+from commands import HEAVY, call
+
+from geartrain.errors import GearTrainError
+
+TURN = ("--rate", "0.3", "--turns", "1", "--skip", "0", "--steps", "1000", "--no-fast")
+
+
+@pytest.fixture
+def pin(tmp_path: Path) -> Path:
+    """A pin at 10 mm in a slot whose axis is 8 mm away, with inertia and drag behind it."""
+    path = tmp_path / "pin.yaml"
+    path.write_text(HEAVY, encoding="utf-8")
+    return path
+
+
+def answer(*words: object) -> dict[str, Any]:
+    done = call("dynamics", *words, "--json")
+    assert done.exit_code == 0, done.output
+    found: dict[str, Any] = json.loads(done.output)
+    holds("dynamics", found)
+    return found
+
+
+def test_the_json_has_the_closed_rate_of_a_pin_and_the_torque_of_virtual_work(pin: Path) -> None:
+    found = answer(pin, *TURN)
+    # docs/dynamics.md, equation 7: sqrt(drag/(inertia 13.0441342)) rad/s
+    assert found["separation"]["rate"] == pytest.approx((1e-3 / (1e-5 * 13.0441342)) ** 0.5 / tau, rel=1e-7)
+    (inertia,) = found["separation"]["inertias"]
+    assert (inertia["link"], inertia["value"], inertia["source"]) == ("b", pytest.approx(1e-5), "declared")
+    # a slot turns once while its pin does, and its drag never changes sides
+    assert found["torque"] == pytest.approx(1e-3, rel=2e-3)  # and what steps of this length take
+    assert found["energy"]["closure"] < 1e-9
+    assert found["energy"]["drive"] == pytest.approx(2 * pi * found["torque"], rel=1e-9)
+    assert (found["driven"], found["link"], found["complete"]) == ("rate", "a", True)
+    assert all(each["settled"] for each in found["figures"])
+
+
+def test_the_text_begins_with_the_rate_at_which_teeth_part_and_marks_what_settled(pin: Path) -> None:
+    text = call("dynamics", pin, *TURN).output
+    heads = [line[3:] for line in text.splitlines() if line.startswith("## ")]
+    assert heads[:4] == ["Up to which rate it holds", "Contacts", "Drive and outputs", "Energy"]
+    assert "Holds up to 0.44067 turn/s of 'a'" in text
+    assert "While 'a' makes 1 turn at 0.3 turn/s" in text
+    assert "no dynamic factor" in text
+    assert "All agree." in text
+
+
+def test_the_course_is_printed_and_written_as_one_table_with_labelled_columns(pin: Path, tmp_path: Path) -> None:
+    printed = call("dynamics", pin, *TURN, "--csv").output
+    assert call("dynamics", pin, *TURN, "-o", tmp_path / "x.csv").exit_code == 0
+    assert (tmp_path / "x.csv").read_text(encoding="utf-8") == printed
+    rows = list(csv.DictReader(printed.splitlines()))
+    assert {"time (s)", "turns", "b angle (rad)", "b speed (rad/s)", "a~b gap (rad)", "a~b coast gap (rad)"} <= set(
+        rows[0]
+    )
+    for row in rows:
+        assert float(row["turns"]) == pytest.approx(0.3 * float(row["time (s)"]))
+        # a pin without clearance keeps its slot
+        assert abs(float(row["a~b gap (rad)"])) < 1e-9
+
+
+@pytest.mark.parametrize("text", ["0.3", "0.3 turn/s", "18 rpm"])
+def test_a_plain_rate_is_in_turns_a_second(pin: Path, text: str) -> None:
+    assert answer(pin, *TURN, "--rate", text)["rate"] == pytest.approx(0.3 * tau)
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (("--rate", "0"), "--rate"),
+        (("--turns", "0"), "time goes on"),
+        (("--turns", "x"), "number of turns"),
+        (("--restitution", "1.5"), "from 0 to 1"),
+        (("--output", "c"), "'c'"),
+        (("--state", "s"), "s"),
+    ],
+)
+def test_what_cannot_be_asked_is_refused(pin: Path, words: tuple[str, str], said: str) -> None:
+    done = call("dynamics", pin, *TURN, *words)
+    assert done.exit_code != 0
+    assert said in f"{done.exception} {done.output}"
+
+
+def test_a_train_without_rate_or_inertia_says_what_to_add(pin: Path) -> None:
+    done = call("dynamics", pin)
+    assert isinstance(done.exception, GearTrainError)
+    assert "nothing says how fast the train turns" in str(done.exception)
+    done = call("dynamics", "moon-triangular", *TURN)
+    assert isinstance(done.exception, GearTrainError)
+    for link in ("sun", "c", "d", "moon"):
+        assert link in str(done.exception)
+    assert "declare `inertia`" in str(done.exception)
+
+
+def test_an_interrupted_run_gives_what_was_done(pin: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    from geartrain.cli.long_runs import ProgressBar
+
+    told = []
+
+    def advance(bar: ProgressBar, steps: int = 1) -> None:
+        told.append(steps)
+        if len(told) == 3:
+            os.kill(os.getpid(), signal.SIGINT)
+
+    monkeypatch.setattr(ProgressBar, "advance", advance)
+    before = signal.getsignal(signal.SIGINT)
+    done = call("dynamics", pin, *TURN[:-2], "5000", "--no-fast", "--json")
+    assert done.exit_code == 130
+    found = json.loads(done.stdout)
+    holds("dynamics", found)
+    assert found["complete"] is False
+    assert found["figures"] == []
+    assert 0 < found["duration"] < 1 / 0.3
+    assert found["torque"] > 0
+    assert "stopped after" in done.stderr
+    assert len(told) == 3
+    assert sum(told) < 1_000_000 / 3
+    assert signal.getsignal(signal.SIGINT) is before

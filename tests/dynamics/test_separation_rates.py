@@ -9,7 +9,7 @@ import pytest
 
 from geartrain import GearTrain, GearTrainError, load
 from geartrain.dynamics import SeparationRates
-from geartrain.dynamics.time.inertial_contacts import InertialContacts, least_rate
+from geartrain.dynamics.time.inertial_contacts import InertialContacts, YieldingPairs, least_rate
 from geartrain.dynamics.time.inertial_loads import find_inertial_loads
 
 PIN = """
@@ -242,7 +242,44 @@ def test_a_train_that_turns_the_other_way_parts_alike() -> None:
     ]
 
 
+def test_pairs_that_depend_on_each_other_are_solved_as_their_matrices_say() -> None:
+    """Two pairs in one block after a third, and one that does not ripple, against the dense matrices."""
+    random = np.random.default_rng(5)
+    gain = np.zeros((3, 4))
+    gain[1], gain[2] = random.normal(size=4), random.normal(size=4)
+    gain[1:, 1] = 0.0  # the second pair, which keeps its ratio, comes last
+    pairs = YieldingPairs(gain, [0, 2, 3], [[0], [1, 2]])
+    slope, given = random.normal(scale=0.3, size=(3, 50)), random.normal(size=(4, 50))
+    found, carried = pairs.errors(slope, given), pairs.torques(slope, given)
+    for at in range(50):
+        matrix = np.eye(4)
+        for row, pair in enumerate((0, 2, 3)):
+            matrix[pair] -= slope[row, at] * gain[row]
+        assert found[:, at] == pytest.approx(np.linalg.solve(matrix, given[:, at]), rel=1e-10)
+        assert carried[:, at] == pytest.approx(np.linalg.solve(matrix.T, given[:, at]), rel=1e-10)
+
+
 # ------------------------------------------------------------------------------------------------------------- jumps
+
+TEETH = """
+links: {{frame: {{}}, a: {{wheels: {{p: 15}}}}, b: {{wheels: {{w: 60}}, inertia: 1e-5 kg m2, bearing: 1 N mm}}}}
+revolutes: [{{pair: [frame, a], axis: A}}, {{pair: [frame, b], axis: B}}]
+gears: [{{pair: [p, w]}}]
+tooth_form: {{form: triangular, half_angle: 30 deg, clearance: {0}}}
+inputs: {{a: 1}}
+"""
+
+
+def test_teeth_whose_speed_falls_at_once_part_at_any_rate() -> None:
+    """Beyond 1.031256 the driven wheel stands still for a while in each pitch: it would have to be stopped."""
+    still, running = (load(TEETH.format(clearance)).separation_rates().first for clearance in ("1.035", "1.03"))
+    assert still is not None
+    assert (still.rate, still.leap) == (0, True)
+    assert running is not None
+    assert running.rate is not None
+    assert not running.leap
+    law = load(TEETH.format("1.03")).meshes[0].law
+    assert running.rate * tau == pytest.approx(sqrt(1e-3 / (1e-5 * (law.steepest_fall() or 0))), rel=1e-6)
 
 
 def test_what_cannot_be_asked_is_said() -> None:

@@ -1,6 +1,6 @@
 """Write docs/budgets.md and docs/budgets/: the budget of every shipped Antikythera and historic train.
 
-`python docs/make_budgets.py` takes about two minutes of one core. Trains that declare no teeth are told with assumed
+`python docs/make_budgets.py` takes some ten minutes of one core. Trains that declare no teeth are told with assumed
 ones, where such teeth can turn; the assumption stands on the page, and as a declaration that can be run.
 """
 
@@ -23,6 +23,8 @@ TRAINS = DOCS.parent / "trains"
 FORM = "tooth_form: {form: triangular, half_angle: 30 deg, window: 0.5}"
 PITCH_TRUE = "tooth_form: {form: triangular, half_angle: 30 deg, window: 0.5, radii: pitch_true}"
 FRICTION = "friction: 0.2"
+DRAG = "1 N mm"
+"""Friction torque of the bearing of a pointer."""
 CUTTING = "cutting: {placement: {normal: 0.1 deg}}"
 ASKED = BudgetQuestion(samples=10_000, clearances=(0.3, 0.5, 0.7))
 WHOLE = "freeth-2021"
@@ -59,23 +61,41 @@ def _tell(stem: str) -> Told:
     train = geartrain.load(stem)
     lines = _missing(train)
     title = train.declaration.title or stem
-    if lines:
-        text = "\n".join((f"extends: {stem}", f"name: {stem}-assumed", *lines, ""))
-        try:
-            return Told(stem, title, _budgets(geartrain.load(text)), text)
-        except GearTrainError as error:
-            refused = f"{error.problems[0].what}: {error.problems[0].why}"
-            return Told(stem, title, _budgets(train), refused=refused)
-    return Told(stem, title, _budgets(train))
+    if not lines:
+        return Told(stem, title, _budgets(train))
+    text = _assumed(stem, lines)
+    try:
+        return Told(stem, title, _budgets(geartrain.load(text)), text)
+    except GearTrainError as error:
+        refused = f"{error.problems[0].what}: {error.problems[0].why}"
+    drag = _drag(train)
+    text = _assumed(stem, drag) if drag else ""
+    return Told(stem, title, _budgets(geartrain.load(text) if drag else train), text, refused)
+
+
+def _assumed(stem: str, lines: list[str]) -> str:
+    """A train with what is assumed of it, as a declaration."""
+    return "\n".join((f"extends: {stem}", f"name: {stem}-assumed", *lines, ""))
 
 
 def _missing(train: GearTrain) -> list[str]:
-    """What a budget needs and the train leaves open: teeth, friction, errors of cutting."""
+    """What a budget needs and the train leaves open: teeth, friction, drag of pointers, errors of cutting."""
     declared = train.declaration
     own = declared.tooth_form is not None or any(gear.tooth_form for gear in declared.gears)
     lines = [] if own else [FORM]
     lines += [FRICTION] if declared.friction is None and not any(gear.friction for gear in declared.gears) else []
+    lines += _drag(train)
     return lines if declared.cutting is not None else [*lines, CUTTING]
+
+
+def _drag(train: GearTrain) -> list[str]:
+    """A bearing that rubs under each pointer of a dial, where nothing says what loads the crank."""
+    declared = train.declaration
+    if declared.drive is not None or any(declared.is_loaded(state) for state in train.states or (None,)):
+        return []
+    shown = [output.of or name for name, output in declared.outputs.items() if output.dial is not None]
+    links = ", ".join(f"{link}: {{bearing: {DRAG}}}" for link in dict.fromkeys(shown) if link in declared.links)
+    return [f"links: {{{links}}}"] if links else []
 
 
 def _budgets(train: GearTrain) -> tuple[TrainBudget, ...]:
@@ -91,9 +111,9 @@ def _write(each: Told) -> None:
     if each.assumed:
         lines += ["Assumed, where the train declares nothing, and no part of the reconstruction:", ""]
         lines += ["```yaml", each.assumed.strip(), "```", ""]
-    elif each.refused:
-        lines += [f"As declared: triangular teeth cannot be assumed for this train. {each.refused}.", ""]
-    else:
+    if each.refused:
+        lines += [f"Triangular teeth cannot be assumed for this train. {each.refused}.", ""]
+    if not each.assumed:
         lines += ["As declared; nothing is assumed.", ""]
     for at, budget in enumerate(each.budgets):
         picture = _picture(each.stem, at, budget)
@@ -123,7 +143,7 @@ def _list(told: dict[str, list[Told]]) -> list[str]:
             budget = each.budgets[0]
             worst = max(budget.pointers, key=lambda pointer: pointer.total)
             assumed = "assumed" if FORM in each.assumed else "assumed in part"
-            how = assumed if each.assumed else "triangular ones cannot turn" if each.refused else "declared"
+            how = "triangular ones cannot turn" if each.refused else assumed if each.assumed else "declared"
             causes = ", ".join(f"{cause.name} {_listed(cause.degrees)}" for cause in worst.ranked if cause.degrees)
             row = (f"[{each.stem}](budgets/{each.stem}.md)", how, str(len(budget.pointers)), worst.name, causes or "-")
             lines.append(f"| {' | '.join(row)} |")

@@ -9,7 +9,7 @@ from geartrain.report.document import Document, Section, Table, cut, ppm
 from geartrain.report.monte_carlo_report import share_text
 
 if TYPE_CHECKING:
-    from geartrain.uncertainty import BudgetCause, PointerBudget, TrainBudget
+    from geartrain.uncertainty import BudgetCause, CrankLoad, PointerBudget, TrainBudget
 
 NOT_DECLARED = "not declared"
 _PAIRS = 5  # of each pointer
@@ -143,11 +143,41 @@ def _within(cause: BudgetCause) -> str:
 def _crank(found: TrainBudget) -> Section:
     crank = found.crank
     rows = [(crank.link, _or_undeclared(crank.torque), _or_undeclared(crank.efficiency), crank.note)]
-    tables = [Table(("link", "torque", "efficiency", "how"), rows)]
+    tables = [Table(("link", "torque", "efficiency", "how"), rows), *_over_turn(crank)]
     alone = [(name, f"{each:.4g}") for name, each in crank.pointers.items()]
     if alone:
         tables.append(Table(("pointer driven alone", "efficiency"), cut(alone)))
-    return Section("Crank", (), tables)
+    return Section("Crank", tuple(_weight(crank)), tables)
+
+
+def _over_turn(crank: CrankLoad) -> Iterator[Table]:
+    """The torque position by position, where loads are declared."""
+    found = crank.over_turn
+    if found is None:
+        return
+    if found.turns is None or found.mean is None:
+        yield Table(("over the run", "torque"), [("-", found.verdict.text)])
+        return
+    unit = f" ({found.unit})" if found.unit else ""
+    figures = (found.mean, found.greatest_torque, found.least_torque, found.starting_torque, found.efficiency)
+    header = ("turns of the input", f"mean{unit}", "greatest", "least", "starting", "efficiency")
+    yield Table(header, [(f"{found.span:g}", *map(_or_undeclared, figures))])
+
+
+def _weight(crank: CrankLoad) -> Iterator[str]:
+    """What drives a train that has a weight."""
+    weight = crank.weight
+    if weight is None:
+        return
+    text = f"The weight gives {weight.torque:.4g} N m at '{weight.link}'."
+    if weight.needed is not None:
+        word = "and starts it everywhere" if weight.suffices else "which is too little"
+        text += f" The train needs up to {weight.needed:.4g} N m, {word}."
+    if weight.mean is not None and weight.least is not None:
+        text += f" Of it {weight.mean:.4g} N m arrives at '{weight.wheel}' on the mean, {weight.least:.4g} at least"
+        text += "" if weight.efficiency is None else f", {100 * weight.efficiency:.4g} % of its energy"
+        text += "."
+    yield text
 
 
 def _or_undeclared(value: float | None) -> str:

@@ -22,6 +22,9 @@ from geartrain.numerics.quantity import (
 )
 from geartrain.train.fields import Count, Declared, Id, above_zero, not_below_zero
 
+GRAVITY = 9.80665
+"""Standard gravity, m/s^2."""
+
 DriveTorque = Annotated[Torque, not_below_zero("it acts the way the input turns: give its magnitude")]
 
 
@@ -136,6 +139,13 @@ class Drive(Declared):
         """The torques it declares as such."""
         hand = None if self.hand is None else self.hand.torque
         return tuple(torque for torque in (self.torque, hand) if torque is not None)
+
+    @property
+    def pull(self) -> float | None:
+        """Torque of a weight at its drum, mass times gravity times radius [N m]; None of another drive."""
+        if self.weight is None or self.drum is None:
+            return None
+        return self.weight.si * GRAVITY * self.drum.si
 
     @property
     def kind(self) -> str:

@@ -30,6 +30,7 @@ if TYPE_CHECKING:
     from geartrain.uncertainty.budget.pointer_budget import TrainBudget as TrainBudget
     from geartrain.uncertainty.budget.train_budget import BudgetQuestion as BudgetQuestion
     from geartrain.uncertainty.budget.train_budget import find_budget as find_budget
+    from geartrain.uncertainty.budget.weight_drive import WeightDrive as WeightDrive
     from geartrain.uncertainty.confidence_intervals import IntervalEstimate as IntervalEstimate
     from geartrain.uncertainty.confidence_intervals import ProbabilityEstimate as ProbabilityEstimate
     from geartrain.uncertainty.manufacturing_errors.cut_transmission import (
@@ -96,6 +97,7 @@ __all__ = [
     "TrialFigure",
     "TrialPlan",
     "TrialResults",
+    "WeightDrive",
     "WheelPosterior",
     "cut_transmission_function",
     "find_budget",
@@ -119,6 +121,7 @@ __getattr__ = lazy_names(
         **dict.fromkeys(("FrictionPlan", "FrictionSpread", "find_friction_plan"), "monte_carlo.friction_plan"),
         **dict.fromkeys(("FrictionTrials", "TrialFigure", "try_frictions"), "monte_carlo.friction_trials"),
         "CrankLoad": "budget.crank_load",
+        "WeightDrive": "budget.weight_drive",
         "ClearanceCase": "monte_carlo.clearance_study",
         "CountCombination": "posterior.posterior_result",
         "CountProbability": "posterior.posterior_result",

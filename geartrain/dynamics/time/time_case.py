@@ -15,9 +15,6 @@ if TYPE_CHECKING:
     from geartrain.numerics.quantity import Quantity
     from geartrain.train import Drive, StateCase, Train
 
-GRAVITY = 9.80665
-"""m/s2, standard."""
-
 
 @dataclass(frozen=True)
 class PowerInput:
@@ -121,9 +118,8 @@ def _power_input(train: Train, drive: Drive | None, problem: MotionProblem, rate
     way = -1.0 if speed < 0 else 1.0
     if drive.torque is not None:
         return PowerInput(link, "torque", torque=way * drive.torque.si)
-    if drive.weight is not None and drive.drum is not None:
-        mass, radius = drive.weight.si, drive.drum.si
-        return PowerInput(link, "torque", torque=way * mass * GRAVITY * radius, inertia=mass * radius**2)
+    if drive.weight is not None and drive.drum is not None and drive.pull is not None:
+        return PowerInput(link, "torque", torque=way * drive.pull, inertia=drive.weight.si * drive.drum.si**2)
     if drive.spring is not None:
         wound = way * tau * float(drive.spring.turns.value)
         return PowerInput(link, "spring", stiffness=drive.spring.stiffness.si, wound=wound)

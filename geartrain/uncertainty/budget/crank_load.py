@@ -3,15 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
 from geartrain.numerics.plain_data import Result
+from geartrain.uncertainty.budget.weight_drive import WeightDrive, find_weight_drive
 
 if TYPE_CHECKING:
     from geartrain.analysis.gear_train import GearTrain
-    from geartrain.dynamics import Torques
+    from geartrain.dynamics import TorqueCycle, Torques
     from geartrain.train import Train
+
+
+MOST_TURNS = 20.0
+"""Of the input, over which its torque is followed at most."""
+SAMPLES = 2_000
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,6 +37,11 @@ class CrankLoad(Result):
     pointers : mapping of str to float
         By pointer, the efficiency of a train that drives it alone; empty without friction, and without what cannot be
         driven.
+    over_turn : TorqueCycle or None
+        The torque position by position over the natural run of the train, in which its time passes once (a year, an
+        hour); None without loads.
+    weight : WeightDrive or None
+        The weight that drives it; None where another thing does.
 
     See Also
     --------
@@ -42,13 +53,31 @@ class CrankLoad(Result):
     efficiency: float | None
     note: str
     pointers: Mapping[str, float] = field(default_factory=dict)
+    over_turn: TorqueCycle | None = None
+    weight: WeightDrive | None = None
 
 
-def find_crank_load(train: GearTrain, state: str | None, lead: str, links: Mapping[str, str]) -> CrankLoad:
-    """Under the declared loads; where there are none, the efficiency from the input to the output.
+def find_crank_load(
+    train: GearTrain, state: str | None, lead: str, links: Mapping[str, str], most_turns: float = MOST_TURNS
+) -> CrankLoad:
+    """Under the declared loads; where there are none, the efficiency from the input to the output. Then over a run.
 
-    links   by pointer, the link that turns
+    links        by pointer, the link that turns
+    most_turns   of the input: a longer run is not followed
     """
+    found = _at_mean_speeds(train, state, lead, links)
+    run = min(natural_run(train, state, lead), most_turns), SAMPLES
+    over_turn = train.torques(state, turns=run[0], samples=run[1]) if train.declaration.is_loaded(state) else None
+    weight = find_weight_drive(train, state, found.link, over_turn, run)
+    return replace(found, over_turn=over_turn, weight=weight)
+
+
+def natural_run(train: GearTrain, state: str | None, lead: str) -> float:
+    """Turns of the input while the train's time passes once: a year, an hour, a turn of what its speeds are over."""
+    return abs(float(train.declaration.case(state).inputs[lead]))
+
+
+def _at_mean_speeds(train: GearTrain, state: str | None, lead: str, links: Mapping[str, str]) -> CrankLoad:
     link, loses = train.declaration.crank or lead, _loses(train.declaration)
     found = train.torques(state)
     pointers = dict(_efficiencies(train, state, link, links)) if loses else {}

@@ -94,7 +94,7 @@ def test_no_train_with_figures_is_said_to_have_none(name: str) -> None:
     assert counts == [count for count in (expected, published) if count], text[:80]
 
 
-# --------------------------------------------------------------------------------------- what motion in time contradicts
+# -------------------------------------------------------------------------------------- what motion in time contradicts
 
 FAST = "extends: moon-triangular-inertia\n"
 

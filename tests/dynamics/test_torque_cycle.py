@@ -216,6 +216,20 @@ def test_without_friction_a_constant_load_asks_for_its_mean_ratio() -> None:
     assert found.efficiency == pytest.approx(1, rel=1e-12)
 
 
+def test_drag_goes_with_the_speed_of_the_moment() -> None:
+    """c w^2 over w of the crank: without friction the crank gives c w theta'^2, and a start does not drag."""
+    train = pin_train(10, 5, 0, "loads: {b: -1 N m}\nrate: 2 turn/s", bearing="drag: 0.01 N m s/rad")
+    found = cycle(train, 1, 1000)
+    w = 4 * pi
+    # mean of theta'^2 of a pin in a slot: by 4096 equal samples of a smooth periodic function
+    S = np.arange(4096) * (2 * pi / 4096)
+    tau = 10 * (10 - 5 * np.cos(S)) / (100 + 25 - 100 * np.cos(S))
+    assert found.mean == pytest.approx(1 + 0.01 * w * float(np.mean(tau**2)), rel=1e-9)
+    assert found.starting is not None
+    assert found.starting.torque == pytest.approx(2, rel=1e-8)
+    assert [each.what for each in train.torques().left_out] == ["viscous drag", "swing within a turn"]
+
+
 def test_other_names_and_another_order_change_nothing() -> None:
     text = _TEETH_AND_PIN.replace("ANGLE", "0")
     renamed = text.replace("b:", "zz:").replace("b]", "zz]").replace("pin: b", "pin: zz").replace("p:", "late:")

@@ -41,7 +41,15 @@ def find_neglected_effects(
             "others; the one at a constant load, or a constant driver's torque where loads drive, is taken"
         )
         found.append(NeglectedEffect("mean efficiency", shared, why))
-    return (*found, *_swing(setting, busy), *_inertia(setting))
+    return (*found, *_drag(setting), *_swing(setting, busy), *_inertia(setting))
+
+
+def _drag(setting: LoadCase) -> Iterator[NeglectedEffect]:
+    """Viscous drag, which a balance of exact means does not count."""
+    if links := tuple(link for link, part in setting.train.links.items() if part.drag is not None and part.drag.value):
+        yield NeglectedEffect(
+            "viscous drag", links, "it is by speed: torques over a turn count it where speeds are real"
+        )
 
 
 def neglected_over_turn(setting: LoadCase, at_means: Sequence[str]) -> tuple[NeglectedEffect, ...]:

@@ -6,8 +6,9 @@ from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from typing import TYPE_CHECKING, NamedTuple
 
-from geartrain.dynamics.pair_speeds import pitch_line_speed
+from geartrain.dynamics.pair_speeds import pitch_line_speed, radians_per_second
 from geartrain.dynamics.torques.mean_efficiencies import find_mean_efficiencies
+from geartrain.dynamics.torques.power_flow import has_torque_units
 from geartrain.dynamics.turn.pair_contact import (
     BasicEfficiency,
     ContactLosses,
@@ -102,18 +103,37 @@ def _tooth_friction(setting: LoadCase, circuit: Circuit, source: PairErrorSource
 
 
 class BearingTorques(NamedTuple):
-    """Friction torque of a bearing while it turns, and at rest."""
+    """Friction torque of a bearing while it turns, and at rest; and viscous drag for a unit of the input's speed."""
 
     sliding: float
     static: float
+    drag: float = 0.0
 
 
 def find_bearings(setting: LoadCase) -> dict[str, BearingTorques]:
-    """The links whose bearing rubs."""
-    declared = {link: part.bearing for link, part in setting.train.links.items() if link != setting.train.frame}
-    found = {
-        link: BearingTorques(float(each.sliding.base), float(each.at_rest.base))
-        for link, each in declared.items()
-        if each is not None
-    }
-    return {link: each for link, each in found.items() if any(each)}
+    """The links whose bearing rubs, or that drag where it is known how fast they turn."""
+    train, unit = setting.train, _radians_per_second(setting)
+    found = {}
+    for link, part in train.links.items():
+        sliding, static = (0.0, 0.0) if part.bearing is None else (
+            float(part.bearing.sliding.base), float(part.bearing.at_rest.base)
+        )  # fmt: skip
+        each = BearingTorques(sliding, static, 0.0 if part.drag is None else part.drag.si * (unit or 0.0))
+        if link != train.frame and any(each):
+            found[link] = each
+    return found
+
+
+def dragging_links(setting: LoadCase) -> tuple[str, ...]:
+    """Links whose viscous drag is not counted: nothing says how fast they turn, or torques are plain numbers."""
+    links = tuple(link for link, part in setting.train.links.items() if part.drag is not None and part.drag.si)
+    return () if _radians_per_second(setting) else links
+
+
+def _radians_per_second(setting: LoadCase) -> float | None:
+    """Of the input, by magnitude; None where speeds or torques are plain numbers."""
+    unit = radians_per_second(setting.train, setting.case)
+    lead = next((speed for speed in setting.case.inputs.values() if speed), None)
+    if unit is None or lead is None or not has_torque_units(setting.train, setting.case.state):
+        return None
+    return unit * abs(float(lead))

@@ -18,7 +18,13 @@ from geartrain.dynamics.turn.cycle_parts import CycleEnergy, PairCycle, PlaceInR
 from geartrain.dynamics.turn.extreme_search import find_extreme
 from geartrain.dynamics.turn.position_motion import PositionMotion
 from geartrain.dynamics.turn.torque_cycle import TorqueCycle
-from geartrain.dynamics.turn.train_contacts import find_bearings, find_contacts, followed_pairs, mean_friction_pairs
+from geartrain.dynamics.turn.train_contacts import (
+    dragging_links,
+    find_bearings,
+    find_contacts,
+    followed_pairs,
+    mean_friction_pairs,
+)
 from geartrain.dynamics.turn.turn_balance import TurnBalance, generic_balance, idle_pairs, without_pairs
 from geartrain.dynamics.turn.turn_run import FAINT, RunScales, TurnRun, sign_beyond
 from geartrain.errors import Problem, QuestionError
@@ -75,7 +81,7 @@ def build_turn_balance(setting: LoadCase, problem: MotionProblem, question: Torq
     for link, friction in bearings.items():
         # only whether something acts there counts, whichever way it turns; it may not cancel a load by chance
         for end in (link, setting.tree.parent[link][0]):
-            known[end] = known.get(end, Fraction(0)) + Fraction(friction.static) * _ODD
+            known[end] = known.get(end, Fraction(0)) + Fraction(friction.static + friction.drag) * _ODD
     known.pop(frame, None)
     whole = generic_balance(build_balance(setting, known, question.asked.links))
     balance = without_pairs(whole, idle_pairs(whole))
@@ -145,6 +151,9 @@ class _Answer:
         found = neglected_over_turn(
             train.setting, tuple(mean_friction_pairs(train.setting, train.motion.sources, teeth))
         )
+        if links := dragging_links(train.setting):
+            why = "it is by speed, and torques or speeds are plain numbers: give `rate` or inputs a unit, and loads"
+            found += (NeglectedEffect("viscous drag", links, why),)
         if share := self.run.share(self.run.found.adrift):
             why = (
                 f"over {share:.2%} of the run a link would turn back on drive flanks and forward on coast flanks; "

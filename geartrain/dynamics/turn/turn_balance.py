@@ -49,7 +49,7 @@ class TurnBalance:
 
     balance    of mean torques, whose order of solution holds at every position
     contacts   by pair, in the order of the circuits
-    loads      by link, about its own axis; `bearings`, friction torque by link: sliding, and static
+    loads      by link, about its own axis; `bearings`, friction and drag by link
     complete   False where not all patterns of power flow were tried
     on_done    called with the number of positions that have been worked out since
     """
@@ -97,7 +97,7 @@ class TurnBalance:
     def starts_harder(self) -> bool:
         """True if something has another friction at rest than in motion."""
         return any(each.losses.starts_harder for each in self.contacts.values()) or any(
-            each.sliding != each.static for each in self.bearings.values()
+            each.sliding != each.static or each.drag for each in self.bearings.values()
         )
 
     # ----------------------------------------------------------------------------------------------------- positions
@@ -198,17 +198,21 @@ class TurnBalance:
         return layers
 
     def _friction(self, state: _State, link: str) -> list[tuple[str, Floats]]:
-        """What a bearing does to its link and to what bears it, about their own axes."""
+        """What a bearing and drag do to a link and to what bears it, about their own axes."""
         carrier, setting = self.setting.tree.parent[link][0], self.setting
-        torque = np.sign(self._speed(state.motion, link, carrier)) * self._rubbing(state, link)
+        speed = self._speed(state.motion, link, carrier)
+        torque = np.sign(speed) * self._rubbing(state, link, speed)
         found = [(link, -setting.sense(link) * torque)]
         if carrier != setting.train.frame:
             found.append((carrier, setting.sense(carrier) * torque))
         return found
 
-    def _rubbing(self, state: _State, link: str) -> Floats:
-        """Friction torque of a bearing, 0 or more."""
-        return np.where(state.resting[link], 0.0, self.bearings[link][state.static])
+    def _rubbing(self, state: _State, link: str, speed: Floats) -> Floats:
+        """Torque against a speed, 0 or more; one that is about to move does not drag."""
+        own = self.bearings[link]
+        if state.static:
+            return np.full(len(speed), own.static)
+        return np.where(state.resting[link], 0.0, own.sliding + own.drag * np.abs(speed))
 
     def _pieces(self, column: TorqueUnknown, state: _State) -> ColumnPieces:
         """What a unit of one unknown does to each row; equal planets have the numbers of the first of them."""
@@ -267,7 +271,9 @@ class TurnBalance:
         for link, load in self.loads.items():
             acting[self.outside.index(link)] += load
         slipping = [self._speed(motion, link, self.setting.tree.parent[link][0]) for link in self.bearings]
-        rubbed = [self._rubbing(state, link) * np.abs(each) for link, each in zip(self.bearings, slipping, strict=True)]
+        rubbed = [
+            self._rubbing(state, link, each) * np.abs(each) for link, each in zip(self.bearings, slipping, strict=True)
+        ]
         flows = [self._flow(name, best, state) for name in self.pairs]
         kinks = [each.losses.kinks(state.contacts[name]) for name, each in self.contacts.items()]
         return PositionTorques(

@@ -108,13 +108,14 @@ def is_fast(fast: bool | None, seconds: float) -> bool:
     Raises `MissingExtraError` where numba is asked for and is not installed.
     """
     if fast is None:
-        return seconds >= _PAYS and find_spec("numba") is not None and _usable()
+        return seconds >= _PAYS and find_spec("numba") is not None and usable()
     if fast:
         _numba()
     return fast
 
 
-def _usable() -> bool:
+def usable() -> bool:
+    """Whether numba is installed and can be imported."""
     try:
         _numba()
     except MissingExtraError:

@@ -69,13 +69,17 @@ class MeshingVerdicts:
         return cls(*(np.concatenate([getattr(part, name) for part in parts]) for name in names))
 
 
+def taken(pair: CutGearPair, part: slice | Ints) -> CutGearPair:
+    """Some trials of a batch."""
+    shift = pair.shift if np.ndim(pair.shift) == 0 else pair.shift[part]
+    return CutGearPair(pair.sizes, pair.first.taken(part), pair.second.taken(part), shift)
+
+
 def chunks(pair: CutGearPair, trials: int) -> Iterator[CutGearPair]:
     """A batch in parts of some trials, at least one."""
     count, step = pair.trials[0], max(1, trials)
     for start in range(0, count, step):
-        part = slice(start, min(start + step, count))
-        shift = pair.shift if np.ndim(pair.shift) == 0 else pair.shift[part]
-        yield CutGearPair(pair.sizes, pair.first.taken(part), pair.second.taken(part), shift)
+        yield taken(pair, slice(start, min(start + step, count)))
 
 
 class MeshingCycle:
@@ -268,3 +272,12 @@ class MeshingCycle:
         gap = (following > until + ROUNDING * self.sizes.p1) & np.isfinite(following)
         found: Bools = gap.any(axis=1) | ~touches.any(axis=1)
         return found
+
+
+def cycle_verdicts(pair: CutGearPair) -> MeshingVerdicts:
+    """The verdict on each trial of a batch, couple by couple."""
+    cycle = MeshingCycle(pair)
+    play, standstill, clash = cycle.play(), cycle.left_standing(), cycle.clashes()
+    if standstill.any():
+        play = np.minimum(play, np.where(standstill, cycle.play_at_entries(), inf))
+    return MeshingVerdicts(play, clash, standstill, cycle.disengaged(), pair.leans)

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from math import inf
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from geartrain.errors import Problem, RangeError
+from geartrain.numerics.kernels import usable
 from geartrain.uncertainty.manufacturing_errors.cut_pair import CutGearPair
-from geartrain.uncertainty.manufacturing_errors.meshing_cycle import CHUNK, MeshingCycle, MeshingVerdicts, chunks
+from geartrain.uncertainty.manufacturing_errors.meshing_cycle import CHUNK, MeshingVerdicts, chunks, cycle_verdicts
 from geartrain.uncertainty.manufacturing_errors.pitch_error_verdicts import verdicts_of_pitch_errors
 
 if TYPE_CHECKING:
@@ -23,11 +23,13 @@ def batch_verdicts(
     second: CutWheel,
     shift: Any = 0.0,
     chunk: int = CHUNK,
+    fast: bool = False,
 ) -> MeshingVerdicts:
     """The verdict on each trial: wheels whose arrays are (trials, z), or (z,) where all trials share one.
 
     shift   by how much the centre distance is greater, as the radii: one, or (trials,)
     chunk   couples worked on at once
+    fast    judge every error by the compiled kernel
     """
     whole = CutGearPair(sizes, first, second, shift)
     if (first.z, second.z) != (sizes.z1, sizes.z2):
@@ -48,12 +50,8 @@ def batch_verdicts(
         )
     if first.only_placed and second.only_placed and np.ndim(shift) == 0:
         return verdicts_of_pitch_errors(whole, chunk)
-    return MeshingVerdicts.joined([_general(part) for part in chunks(whole, chunk // whole.count)])
+    if fast and usable():  # a worker on another machine may do without
+        from geartrain.uncertainty.manufacturing_errors.compiled_verdicts import compiled_verdicts
 
-
-def _general(pair: CutGearPair) -> MeshingVerdicts:
-    cycle = MeshingCycle(pair)
-    play, standstill, clash = cycle.play(), cycle.left_standing(), cycle.clashes()
-    if standstill.any():
-        play = np.minimum(play, np.where(standstill, cycle.play_at_entries(), inf))
-    return MeshingVerdicts(play, clash, standstill, cycle.disengaged(), pair.leans)
+        return compiled_verdicts(whole)
+    return MeshingVerdicts.joined([cycle_verdicts(part) for part in chunks(whole, chunk // whole.count)])

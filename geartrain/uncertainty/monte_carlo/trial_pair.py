@@ -43,6 +43,7 @@ class TrialPair(ABC):
     even     mean error of the pair without cutting errors (rad of the driven wheel)
     fitting  errors of its axes, in depths of the less deep teeth
     stroke   what one stroke of the file takes, in the same depths; 0 where nothing is filed to fit
+    fast     whether a compiled kernel judges it, where it has one; it says the same
     """
 
     name: str
@@ -52,6 +53,7 @@ class TrialPair(ABC):
     even: float
     fitting: Mapping[str, ErrorSpecification] = field(default_factory=dict, kw_only=True)
     stroke: float = field(default=0.0, kw_only=True)
+    fast: bool = field(default=False, kw_only=True)
 
     @property
     @abstractmethod
@@ -146,7 +148,7 @@ class TriangularTrialPair(TrialPair):
     def verdicts(self, pair: Any) -> MeshingVerdicts:
         """One trial where all share everything."""
         first = pair.first if pair.trials else replace(pair.first, place=pair.first.place[None])
-        return batch_verdicts(pair.sizes, first, pair.second, pair.shift)
+        return batch_verdicts(pair.sizes, first, pair.second, pair.shift, fast=self.fast)
 
     def law(self, pair: Any, rows: Ints) -> TrialTransmissionFunction:
         """Tooth by tooth."""

@@ -104,6 +104,29 @@ def test_drag_on_a_follower_turns_round_at_its_dead_points() -> None:
     assert found.flank_changes == {"a~b": 2}
 
 
+def test_a_constant_torque_of_the_driver_has_the_mean_of_the_efficiency() -> None:
+    """Equation (34) of the note on ancient gears is for this case, and no other."""
+    train = pin_train(10, 8, 0.3, "loads: {a: 10 N m}")
+    found = train.torques(turns=1, samples=1000, of="b")
+    assert found.link == "b"
+    assert found.efficiency == pytest.approx(0.8357499, abs=5e-8)
+    assert found.efficiency == pytest.approx(float(train.torques().efficiency or 0), rel=1e-8)
+    with pytest.raises(QuestionError, match="carries a load"):
+        train.torques(turns=1, of="a")
+
+
+def test_what_rests_is_harder_to_start() -> None:
+    """At S the start takes 1 + f_s |tan d| times r cos d/rho of the load: the peak of sliding with f_s."""
+    text = "loads: {b: -10 N m}"
+    moving, resting = cycle(pin_train(10, 8, 0.2, text)), cycle(pin_train(10, 8, 0.3, text))
+    train = _TWO_LINKS.format(kind="pin_and_slot", pin="a", slot="b", r=10, e=8, f="{sliding: 0.2, static: 0.3}",
+                              loads=text, bearing="bearing: {sliding: 1 N m, static: 2 N m}")  # fmt: skip
+    found = cycle(load(train))
+    assert found.starting is not None
+    assert found.starting.torque == pytest.approx(1.2 * torque(resting)[1], rel=1e-9)
+    assert torque(found)[1] == pytest.approx(1.1 * torque(moving)[1], rel=1e-9)
+
+
 # --------------------------------------------------------------------------------------------------- shipped trains
 
 

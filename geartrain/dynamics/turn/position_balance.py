@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from geartrain.numerics.arrays import Bools, Floats
     from geartrain.numerics.block_triangular import Block
 
-_MOST_TRIED = 10  # two-sided torques of a block whose patterns are all tried: 1024 small solutions a position
+_MOST_TRIED = 7  # two-sided torques of a block whose patterns are all tried: 128 small solutions a position
 _MOST_ROUNDS = 30  # of the iteration where there are more
 _MOST_LAYERS = 16  # solutions kept a position
 _SINGULAR = 1e-13  # of the product of its rows' lengths: a determinant so small is 0

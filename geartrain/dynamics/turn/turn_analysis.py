@@ -62,6 +62,9 @@ def find_torque_cycle(
         raise QuestionError(
             Problem(f"{samples} positions of the input", "from one to the next it turns", "give 2 or more")
         )
+    if of is not None and of in setting.case.loads:
+        why = f"'{of}' carries a load of {setting.case.loads[of]}"
+        raise QuestionError(Problem(f"the torque at '{of}' is asked for", why, "ask at a link without a load"))
     state = setting.case.state
     question = find_question(setting, of or setting.case.solve_for)
     if isinstance(question, TorqueVerdict):

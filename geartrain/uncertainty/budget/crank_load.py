@@ -6,6 +6,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
+from geartrain.errors import GearTrainError
 from geartrain.numerics.plain_data import Result
 from geartrain.uncertainty.budget.weight_drive import WeightDrive, find_weight_drive
 
@@ -17,6 +18,8 @@ if TYPE_CHECKING:
 
 MOST_TURNS = 20.0
 """Of the input, over which its torque is followed at most."""
+MOST_PASSAGES = 60_000
+"""Teeth that pass, times the pairs that are asked at each."""
 SAMPLES = 2_000
 
 
@@ -39,7 +42,7 @@ class CrankLoad(Result):
         driven.
     over_turn : TorqueCycle or None
         The torque position by position over the natural run of the train, in which its time passes once (a year, an
-        hour); None without loads.
+        hour), or as much of it as can be followed in about a minute; None without loads.
     weight : WeightDrive or None
         The weight that drives it; None where another thing does.
 
@@ -57,24 +60,34 @@ class CrankLoad(Result):
     weight: WeightDrive | None = None
 
 
-def find_crank_load(
-    train: GearTrain, state: str | None, lead: str, links: Mapping[str, str], most_turns: float = MOST_TURNS
-) -> CrankLoad:
+def find_crank_load(train: GearTrain, state: str | None, lead: str, links: Mapping[str, str]) -> CrankLoad:
     """Under the declared loads; where there are none, the efficiency from the input to the output. Then over a run.
 
-    links        by pointer, the link that turns
-    most_turns   of the input: a longer run is not followed
+    links   by pointer, the link that turns
     """
     found = _at_mean_speeds(train, state, lead, links)
-    run = min(natural_run(train, state, lead), most_turns), SAMPLES
-    over_turn = train.torques(state, turns=run[0], samples=run[1]) if train.declaration.is_loaded(state) else None
-    weight = find_weight_drive(train, state, found.link, over_turn, run)
+    drive = train.declaration.case(state).drive
+    loaded = train.declaration.is_loaded(state)
+    if not loaded and (drive is None or drive.pull is None):
+        return found
+    try:
+        run = natural_run(train, state, lead), SAMPLES
+        over_turn = train.torques(state, turns=run[0], samples=run[1]) if loaded else None
+        weight = find_weight_drive(train, state, found.link, over_turn, run)
+    except GearTrainError as error:  # teeth in a loop, or that cannot turn
+        return replace(found, note=f"{found.note}; not followed over a run: {error.problems[0].what}")
     return replace(found, over_turn=over_turn, weight=weight)
 
 
 def natural_run(train: GearTrain, state: str | None, lead: str) -> float:
-    """Turns of the input while the train's time passes once: a year, an hour, a turn of what its speeds are over."""
-    return abs(float(train.declaration.case(state).inputs[lead]))
+    """Turns of the input while the train's time passes once: a year, an hour, a turn of what its speeds are over.
+
+    Fewer where more teeth pass than can be followed in about a minute.
+    """
+    whole = abs(float(train.declaration.case(state).inputs[lead])) or 1.0
+    used = train.motion(state, tuple(train.declaration.links)).ahead.used
+    passages = float(sum(each.cycles for each in used))
+    return min(whole, MOST_TURNS, MOST_PASSAGES / (len(used) * passages) if passages else whole)
 
 
 def _at_mean_speeds(train: GearTrain, state: str | None, lead: str, links: Mapping[str, str]) -> CrankLoad:

@@ -162,6 +162,30 @@ def test_four_pairs_over_their_whole_period() -> None:
     assert found.loses_most == "c2~d1"
 
 
+_NEAR = """
+links:
+  frame: {wheels: {r: 32}}
+  sun: {wheels: {s: 30}}
+  planet: {wheels: {p: 29, q: 30}}
+  arm: {}
+revolutes: [{pair: [frame, sun], axis: A}, {pair: [frame, arm], axis: A}, {pair: [arm, planet], axis: P}]
+gears: [{pair: [s, p], efficiency: 0.9}, {pair: [q, r], efficiency: 0.9}]
+inputs: {sun: -1}
+"""
+
+
+def test_every_pattern_that_balances_is_kept() -> None:
+    """Power 3.66332 leaves at the sun in one, 6.06796 enters there in the other: docs/torques.md, section 5."""
+    found = cycle(load(_NEAR + "loads: {arm: 1 N m}"))
+    assert (found.verdict.kind, found.ambiguous_share) == ("ambiguous", pytest.approx(1))
+    assert torque(found) == (
+        pytest.approx(-3.66332, abs=5e-6),
+        pytest.approx(6.06796, abs=5e-6),
+        pytest.approx(-3.66332, abs=5e-6),
+    )
+    assert cycle(load(_NEAR + "loads: {arm: -1 N m}")).locked_share == pytest.approx(1)
+
+
 def test_a_train_of_declared_efficiencies_has_the_torques_of_its_means_everywhere() -> None:
     train = load(
         """

@@ -14,6 +14,7 @@ from geartrain.dynamics.torques.neglected_effects import neglected_over_turn
 from geartrain.dynamics.torques.power_flow import has_torque_units
 from geartrain.dynamics.torques.torque_analysis import TorqueQuestion, build_balance, find_question
 from geartrain.dynamics.torques.torque_results import NeglectedEffect, TorqueVerdict
+from geartrain.dynamics.turn.balance_order import generic_balance, idle_pairs, without_pairs
 from geartrain.dynamics.turn.cycle_parts import CycleEnergy, PairCycle, PlaceInRun, TorqueExtreme
 from geartrain.dynamics.turn.extreme_search import find_extreme
 from geartrain.dynamics.turn.position_motion import PositionMotion
@@ -25,7 +26,7 @@ from geartrain.dynamics.turn.train_contacts import (
     followed_pairs,
     mean_friction_pairs,
 )
-from geartrain.dynamics.turn.turn_balance import TurnBalance, generic_balance, idle_pairs, without_pairs
+from geartrain.dynamics.turn.turn_balance import TurnBalance
 from geartrain.dynamics.turn.turn_run import FAINT, RunScales, TurnRun, sign_beyond
 from geartrain.errors import Problem, QuestionError
 from geartrain.numerics.labelled_array import labelled_array

@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 from geartrain.analysis.train_dynamics import TrainDynamics
 
 if TYPE_CHECKING:
     from geartrain.dynamics.time.time_run import TimeRun
+    from geartrain.dynamics.time.train_model import TrainModel
+    from geartrain.dynamics.time.vibration_modes import VibrationModes
+    from geartrain.train import StateCase
 
 
 class TrainInTime(TrainDynamics):
@@ -29,8 +32,12 @@ class TrainInTime(TrainDynamics):
         apart: float = 1e-5,
         fast: bool | None = None,
         on_done: Callable[[float], object] = lambda _: None,
+        model: Literal["rigid", "compliant"] = "rigid",
     ) -> TimeRun:
-        """Motion in time: inertia, play, impacts, drag and friction, by nonsmooth time stepping (docs/dynamics.md).
+        """Motion in time: inertia, play, impacts, drag and friction (docs/dynamics.md).
+
+        Rigid teeth by nonsmooth time stepping; teeth that yield by their stiffness and damping, with peaks of torque
+        and dynamic factors in place of impulses.
 
         Two runs are made, of steps h and h/2; what differs between them is marked, and all else is of the second.
 
@@ -62,6 +69,8 @@ class TrainInTime(TrainDynamics):
         on_done : callable
             Called with the share of the work that each stretch adds [0 to 1]. Where it returns True, no more is done,
             and what was found in the first run is told.
+        model : {"rigid", "compliant"}
+            Whether teeth yield; then each pair that is not to keep its ratio needs a `stiffness`.
 
         Returns
         -------
@@ -71,25 +80,65 @@ class TrainInTime(TrainDynamics):
         Raises
         ------
         QuestionError
-            If the train does not move, nothing says how fast, or a link that can move by itself has no inertia.
+            If the train does not move, nothing says how fast, a link that can move by itself has no inertia, or nothing
+            says how stiff teeth are that are to yield.
         GearTrainError
             If redundant loops have teeth that cannot turn together, or friction locks teeth.
         """
-        from geartrain.dynamics.time.inertia import find_link_inertias
-        from geartrain.dynamics.time.time_case import find_time_case
         from geartrain.dynamics.time.time_study import TimeStudy
-        from geartrain.dynamics.time.train_model import TrainModel
         from geartrain.numerics.quantity import Quantity
 
         case = self._case(state)
-        problem = self._moving(case, without)
         names = outputs or tuple(case.outputs) or tuple(self.declaration.links)
         seen = [(name, *self._speeds.single_output(case, name)[1]) for name in names]
         speed = Quantity.parse(rate, "speed", plain=True).si if isinstance(rate, str) else rate
-        if speed is not None and problem.speeds[problem.lead] < 0:
-            speed = -speed
+        found = self._in_time(case, without, speed, restitution, model == "compliant")
+        return TimeStudy(found, seen, turns, skip, steps, samples, apart, fast).run(on_done)
+
+    def vibration_modes(self, state: str | None = None, *, without: Sequence[str] = ()) -> VibrationModes:
+        """Eigenfrequencies and modes of the train about contact, teeth yielding by their stiffness (docs/dynamics.md).
+
+        Parameters
+        ----------
+        state : str, optional
+            A declared state; None only of a train that has none.
+        without : sequence of str
+            Pairs left out.
+
+        Returns
+        -------
+        VibrationModes
+            Frequencies, damping and shapes.
+
+        Raises
+        ------
+        QuestionError
+            If the train does not move, a link that can move by itself has no inertia, nothing says how stiff teeth are
+            that are to yield, or nothing can swing.
+        """
+        from geartrain.dynamics.time.vibration_modes import find_modes
+        from geartrain.dynamics.time.yielding_train import YieldingTrain
+
+        case = self._case(state)
+        found = self._in_time(case, without, 1.0 if case.drive is None else None, None, True)
+        assert isinstance(found, YieldingTrain)
+        return find_modes(found)
+
+    def _in_time(
+        self, case: StateCase, without: Sequence[str], rate: float | None, restitution: float | None, yields: bool
+    ) -> TrainModel:
+        """The train as a model of contacts; `rate` (rad/s) and `restitution` in place of what is declared."""
+        from geartrain.dynamics.time.inertia import find_link_inertias
+        from geartrain.dynamics.time.time_case import find_time_case
+        from geartrain.dynamics.time.train_model import TrainModel
+        from geartrain.dynamics.time.yielding_train import YieldingTrain
+
+        problem = self._moving(case, without)
+        if rate is not None and problem.speeds[problem.lead] < 0:
+            rate = -rate
         heavy = find_link_inertias(self, case, with_inputs=True)
         inertia = {each.link: each.value for each in heavy if each.value}
-        found = find_time_case(self.declaration, case, problem, inertia, speed, restitution)
-        model = TrainModel(self.declaration, problem, found, self.tree, case.state)
-        return TimeStudy(model, seen, turns, skip, steps, samples, apart, fast).run(on_done)
+        found = find_time_case(self.declaration, case, problem, inertia, rate, restitution)
+        if yields:
+            return YieldingTrain(self.declaration, problem, found, self.tree, case.state, restitution)
+        return TrainModel(self.declaration, problem, found, self.tree, case.state)

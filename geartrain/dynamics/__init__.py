@@ -37,6 +37,7 @@ if TYPE_CHECKING:
     )
     from geartrain.dynamics.time.separation_rate import PairSeparation, SeparationRates
     from geartrain.dynamics.time.time_run import TimeRun
+    from geartrain.dynamics.time.vibration_modes import VibrationModes
     from geartrain.dynamics.torques.member_torques import BearingTorque, HoldingTorque, PairTorque
     from geartrain.dynamics.torques.power_circulation import PowerNode, PowerStream, RecirculatingPower
     from geartrain.dynamics.torques.power_flow import PowerFlow, PowerLoss
@@ -81,6 +82,7 @@ __all__ = [
     "TorqueVerdict",
     "Torques",
     "TransmissionErrorCurve",
+    "VibrationModes",
 ]
 
 _PLACES = {
@@ -120,6 +122,7 @@ _PLACES = {
     "TorqueVerdict": "torques.torque_results",
     "Torques": "torques.torque_results",
     "TransmissionErrorCurve": "motion.error_curve",
+    "VibrationModes": "time.vibration_modes",
 }
 
 __getattr__ = lazy_names(__name__, _PLACES)

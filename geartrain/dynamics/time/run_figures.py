@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import repeat
 from math import tau
 from typing import TYPE_CHECKING, Literal
 
@@ -54,11 +55,15 @@ _SHARE = 0.005
 
 @dataclass(frozen=True)
 class RunFigures:
-    """One run as figures of the train, and of these outputs of it."""
+    """One run as figures of the train, and of these outputs of it.
+
+    static_peaks   greatest torque of each pair in balance at every moment (N m), where teeth yield
+    """
 
     of: TrainModel
     outputs: Sequence[tuple[str, str, str]]
     run: SimulatedRun
+    static_peaks: Sequence[float | None]
 
     @property
     def plan(self) -> StepPlan:
@@ -110,9 +115,17 @@ class RunFigures:
                 float(counts[RUBBED] / time),
                 float(counts[GAP]),
                 float(counts[CHANGES] / time),
+                peak,
+                peak / static if peak is not None and static else None,
             )
-            for name, counts in zip(self.names, self.run.counts, strict=True)
+            for name, counts, (peak, static) in zip(self.names, self.run.counts, self._peaks_of_contacts(), strict=True)
         )
+
+    def _peaks_of_contacts(self) -> Iterator[tuple[float | None, float | None]]:
+        """Greatest torque of each contact, and that in balance; None for what is rigid."""
+        if self.run.peaks is None:
+            return repeat((None, None), len(self.names))
+        return zip(self.run.peaks.tolist(), self.static_peaks, strict=True)
 
     @cached_property
     def energy(self) -> EnergyAccount:
@@ -128,6 +141,7 @@ class RunFigures:
             steps=float(energy[STEP]),
             kinetic=self.run.end - self.run.start,
             stored=self.run.end,
+            elastic=self.run.pressed,
         )
 
     @cached_property
@@ -190,6 +204,8 @@ class RunFigures:
         for each in self.contacts:
             yield f"{each.name} apart", "", each.apart, "mean"
             yield f"{each.name} on the coast flank", "", each.coast, "mean"
+            if each.peak is not None:
+                yield f"{each.name} peak torque", "N m", each.peak, "extreme"
         for lead in self.leads:
             yield f"{lead.output} ahead", "rad", lead.ahead, "extreme"
             yield f"{lead.output} behind", "rad", lead.behind, "extreme"
@@ -241,6 +257,7 @@ class RunFigures:
             self.run.numbers[UNSOLVED],
             self.of.notes,
             coarse is not None,
+            "rigid" if self.of.yields is None else "compliant",
         )
 
     def _impacts(self) -> ImpactList:

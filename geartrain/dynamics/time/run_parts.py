@@ -37,6 +37,10 @@ class ContactInTime(Result):
         Greatest gap, to the nearer flank [rad].
     changes : float
         Changes from one flank to the other without time apart [1/s].
+    peak : float or None
+        Greatest torque on the driven side of teeth that yield [N m]; None of rigid ones, which give blows.
+    dynamic_factor : float or None
+        That over the greatest torque in balance at every moment; None where no speed is prescribed.
 
     See Also
     --------
@@ -53,6 +57,8 @@ class ContactInTime(Result):
     rubbed: float
     gap: float
     changes: float
+    peak: float | None = None
+    dynamic_factor: float | None = None
 
 
 @dataclass(frozen=True)
@@ -94,13 +100,15 @@ class EnergyAccount(Result):
     bearings, drag, friction : float
         Taken by dry friction in bearings, by viscous drag, by friction of teeth and pins.
     blows : float
-        Taken by impacts.
+        Taken by impacts; of teeth that yield, by their damping.
     steps : float
         Taken, or given, by contact that lasts: an error of the steps' length, that falls with it.
     kinetic : float
         Growth of kinetic energy.
     stored : float
         Kinetic energy at the end.
+    elastic : float
+        Growth of the energy stored in teeth that yield.
 
     See Also
     --------
@@ -117,6 +125,7 @@ class EnergyAccount(Result):
         "blows",
         "steps",
         "kinetic",
+        "elastic",
         "stored",
         "closure",
     )
@@ -131,14 +140,16 @@ class EnergyAccount(Result):
     steps: float
     kinetic: float
     stored: float
+    elastic: float = 0.0
 
     @property
     def closure(self) -> float:
         """By how much the account does not close, over all that passed through it and what is stored."""
         put_in = self.drive + self.loads + self.springs
         taken = self.bearings + self.drag + self.friction + self.blows + self.steps
-        scale = sum(abs(each) for each in (put_in, taken, self.kinetic, self.stored))
-        return abs(put_in - taken - self.kinetic) / scale if scale else 0.0
+        kept = self.kinetic + self.elastic
+        scale = sum(abs(each) for each in (put_in, taken, kept, self.stored))
+        return abs(put_in - taken - kept) / scale if scale else 0.0
 
 
 @dataclass(frozen=True)

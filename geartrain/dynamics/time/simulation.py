@@ -17,12 +17,14 @@ from geartrain.dynamics.time.contact_system import (
     IMPACT_COLUMNS,
     IMPACTS,
     SAMPLES,
+    STEP,
     ContactState,
     ContactSystem,
     RunRecord,
 )
-from geartrain.dynamics.time.law_tables import value_and_slope
+from geartrain.dynamics.time.law_tables import LawTables, value_and_slope
 from geartrain.dynamics.time.time_steps import run_steps
+from geartrain.dynamics.time.yielding_steps import YieldingTeeth, run_yielding_steps
 
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
@@ -51,6 +53,8 @@ class SimulatedRun:
     """What a run left, in the coordinates' own order; `start` and `end` are kinetic energies of what is counted (J).
 
     turned   angles of the coordinates over what is counted (rad)
+    pressed  by how much the energy stored in teeth that yield has grown (J)
+    peaks    greatest torque of each pair whose teeth yield (N m)
     """
 
     plan: StepPlan
@@ -65,17 +69,33 @@ class SimulatedRun:
     start: float
     end: float
     turned: Floats
+    pressed: float = 0.0
+    peaks: Floats | None = None
+
+
+class ToothYield(NamedTuple):
+    """Stiffness (N m/rad) and damping (N m s/rad) of each pair, on its driven side."""
+
+    stiffness: Floats
+    damping: Floats
 
 
 def simulate(
-    model: ContactModel, plan: StepPlan, fast: bool = False, on_done: Callable[[int], object] = lambda _: None
+    model: ContactModel,
+    plan: StepPlan,
+    fast: bool = False,
+    on_done: Callable[[int], object] = lambda _: None,
+    yields: ToothYield | None = None,
 ) -> SimulatedRun:
     """Run a model; `fast` compiles the kernels.
 
     on_done   called with the steps done since the last time; where it returns True the run ends, and the plan of what
               is given back has the steps that were counted
+    yields    how the teeth of each pair yield; None where they are rigid
     """
     system, n = model.system(plan.step), len(model.torque)
+    if yields is not None:
+        system = _yielding(model, system, plan.step, yields)
     state = start_state(model, system)
     rows = len(model.pairs) + len(model.stops)
     here = empty_equations(n, len(model.pairs), len(model.stops), len(system.near))
@@ -90,7 +110,8 @@ def simulate(
         np.zeros((_ROOM, IMPACT_COLUMNS)),
         np.zeros(5, dtype=np.int64),
     )
-    run = run_steps.chosen(fast)
+    teeth = _teeth(model, yields)
+
     fastest = max(float(np.max(np.abs(model.typical), initial=0.0)), float(np.max(np.abs(state.speed), initial=0.0)))
     fastest = fastest or 1.0
     length = fastest * plan.step * (plan.skip + plan.steps)
@@ -100,12 +121,19 @@ def simulate(
     arguments = plan.stride, _CREEP * fastest, plan.apart, slack
     piece = max(1, _AT_A_TIME[fast] // plan.stride) * plan.stride
 
+    def run(steps: int, counted: bool) -> None:
+        if teeth is None:
+            run_steps.chosen(fast)(system, laws, state, here, record, plan.step, steps, *arguments, counted)
+        else:
+            kernel = run_yielding_steps.chosen(fast)
+            kernel(system, laws, state, here, record, teeth, plan.step, steps, *arguments, counted)
+
     def go(steps: int, counted: bool) -> int:
         """Piece by piece between samples; how many steps were done."""
         done = 0
         while done < steps:
             own = min(piece, steps - done)
-            run(system, laws, state, here, record, plan.step, own, *arguments, counted)
+            run(own, counted)
             done += own
             if on_done(own) is True:
                 break
@@ -113,7 +141,10 @@ def simulate(
 
     skipped = go(skip, False)
     start, before = _kinetic(system, state), state.angle.copy()
+    pressed = _stored(system, laws, state, yields)
     counted = go(plan.steps, True) if skipped == skip else 0
+    pressed = _stored(system, laws, state, yields) - pressed
+    record.energy[STEP] -= pressed
     order = np.argsort(model.order.coordinates)
     kept = min(int(record.numbers[IMPACTS]), _ROOM)
     done = int(record.numbers[SAMPLES])
@@ -130,6 +161,8 @@ def simulate(
         start,
         _kinetic(system, state),
         (state.angle - before)[order],
+        pressed,
+        None if teeth is None else teeth.peak,
     )
 
 
@@ -184,6 +217,39 @@ def empty_equations(n: int, pairs: int, stops: int, near: int) -> StepEquations:
         np.zeros(pairs + stops),
         np.zeros(n),
     )
+
+
+def _teeth(model: ContactModel, yields: ToothYield | None) -> YieldingTeeth | None:
+    if yields is None:
+        return None
+    pairs = len(model.pairs)
+    return YieldingTeeth(yields.stiffness, yields.damping, np.zeros(pairs), np.full(pairs, -1, dtype=np.int64))
+
+
+def _yielding(model: ContactModel, system: ContactSystem, step: float, yields: ToothYield) -> ContactSystem:
+    """The arrays for the midpoint rule: no pair determines a coordinate, each is a row that yields."""
+    springs = system.matrix - system.mass - step * system.viscous  # step^2 K
+    return system._replace(
+        matrix=system.mass + step / 2 * system.viscous + springs / 4,
+        owner=np.full(len(model.torque), -1, dtype=np.int64),
+        stiff=step**2 / 4 * yields.stiffness + step / 2 * yields.damping,
+    )
+
+
+def _stored(system: ContactSystem, laws: LawTables, state: ContactState, yields: ToothYield | None) -> float:
+    """Energy in teeth that yield and are pressed together (J)."""
+    if yields is None:
+        return 0.0
+    found = 0.0
+    for m, stiffness in enumerate(yields.stiffness):
+        row = slice(system.pair_at[m], system.pair_at[m + 1])
+        angle = state.angle[system.pair_of[row]]
+        S = float(system.start_driver[m] + system.pair_driver[row] @ angle)
+        q = float(system.start_driven[m] + system.pair_driven[row] @ angle)
+        gaps = [(1 - 2 * side) * (q - value_and_slope(laws, int(system.tables[m, side]), S)[0]) for side in range(2)]
+        pressed = gaps[:1] if system.two_sided[m] else [min(gap, 0.0) for gap in gaps]
+        found += float(stiffness) / 2 * sum(gap**2 for gap in pressed)
+    return found
 
 
 def _kinetic(system: ContactSystem, state: ContactState) -> float:

@@ -73,9 +73,11 @@ class TimeRun(Result):
     unsolved : int
         Steps in which no consistent set of contacts was found; their last guess was taken.
     notes : tuple of str
-        What is left out.
+        What is left out, or estimated.
     complete : bool
         False if it was stopped: then all is of the run with the longer steps, as far as that came, and not compared.
+    model : {"rigid", "compliant"}
+        Whether teeth yield.
 
     See Also
     --------
@@ -95,6 +97,7 @@ class TimeRun(Result):
     KEYS = (
         "train",
         "state",
+        "model",
         "lead",
         "rate",
         "link",
@@ -141,6 +144,7 @@ class TimeRun(Result):
     unsolved: int
     notes: tuple[str, ...]
     complete: bool = True
+    model: Literal["rigid", "compliant"] = "rigid"
 
     def __getitem__(self, name: str) -> Floats | ContactInTime:
         """The angles of a link [rad], or the course of a pair."""

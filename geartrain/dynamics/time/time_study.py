@@ -16,6 +16,8 @@ from geartrain.numerics.kernels import is_fast
 
 PER_TOOTH = 200
 """Steps of the coarser run in the shortest period of a pair."""
+PER_SWING = 40
+"""In the period of the fastest mode, where teeth yield."""
 _FEWEST = 200  # steps in a turn of the lead
 _SAMPLES = 12  # in the shortest period of a pair
 _MOST_SAMPLES = 40_000
@@ -67,7 +69,8 @@ class TimeStudy:
         turn = tau / abs(self.of.case.rate)
         beats = [beat for _, beat in self.of.case.escapements.values()]
         # a wheel that is let go falls much faster than it turns on the mean
-        return max([found, *(ceil(50 * PER_TOOTH * turn / beat / 50) for beat in beats)])
+        swing = ceil(PER_SWING * turn * self.of.fastest / tau)
+        return max([found, swing, *(ceil(50 * PER_TOOTH * turn / beat / 50) for beat in beats)])
 
     def plan(self, finer: int) -> StepPlan:
         """The steps of one run: `finer` 1 or 2."""
@@ -96,10 +99,12 @@ class TimeStudy:
             stopped = on_done(steps / whole) is True
             return stopped
 
-        first = RunFigures(self.of, self.outputs, simulate(model, plans[0], fast, advance))
+        peaks = self.of.static_peaks(self.skip, self.turns, max(_FEWEST, ceil(PER_TOOTH * self.busiest)), fast)
+        yields = self.of.yields
+        first = RunFigures(self.of, self.outputs, simulate(model, plans[0], fast, advance, yields), peaks)
         if not first.plan.steps:
             raise KeyboardInterrupt
         if stopped:
             return first.told(None)
-        second = RunFigures(self.of, self.outputs, simulate(model, plans[1], fast, advance))
+        second = RunFigures(self.of, self.outputs, simulate(model, plans[1], fast, advance, yields), peaks)
         return first.told(None) if second.plan.steps < plans[1].steps else second.told(first)

@@ -7,7 +7,7 @@ power are contacts between coordinates.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
@@ -31,6 +31,7 @@ from geartrain.teeth.transmission import ExactRatio
 if TYPE_CHECKING:
     from geartrain.dynamics.motion.error_composition import PairErrorSource
     from geartrain.dynamics.motion.motion_problem import MotionProblem
+    from geartrain.dynamics.time.simulation import ToothYield
     from geartrain.kinematics.circuits import Circuit, Tree
     from geartrain.numerics.arrays import Floats
     from geartrain.teeth.gear_mesh import GearMesh
@@ -80,6 +81,20 @@ class TrainModel:
         if left:
             found.append(f"friction of {', '.join(left)}: it depends on a speed that is not known")
         return tuple(found)
+
+    @property
+    def yields(self) -> ToothYield | None:
+        """How the teeth of each pair yield; None where they are rigid."""
+        return None
+
+    @property
+    def fastest(self) -> float:
+        """Circular frequency that steps have to follow (rad/s); 0 where teeth are rigid."""
+        return 0.0
+
+    def static_peaks(self, skip: float, turns: float, steps: int, fast: bool) -> Sequence[float | None]:
+        """Greatest torque of each pair (N m) in balance at every moment; None where teeth are rigid."""
+        return [None] * len(self.model.pairs)
 
     # ------------------------------------------------------------------------------------------------------ coordinates
 

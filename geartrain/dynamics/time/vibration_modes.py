@@ -1,0 +1,79 @@
+"""Eigenfrequencies and modes of a train whose teeth yield, while all its drive flanks touch."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import tau
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from geartrain.numerics.labelled_array import labelled_array
+from geartrain.numerics.plain_data import Result
+
+if TYPE_CHECKING:
+    from geartrain.dynamics.time.yielding_train import YieldingTrain
+    from geartrain.numerics.arrays import Floats
+    from geartrain.numerics.labelled_array import LabelledArray
+
+
+@dataclass(frozen=True)
+class VibrationModes(Result):
+    """How a train swings about contact: what solves K phi = w^2 M phi, speed ratios at their means.
+
+    Attributes
+    ----------
+    train : str
+        Its name.
+    frequencies : array of float, (mode,)
+        Rising [Hz]; 0 where the train turns as a whole and nothing prescribes its speed.
+    damping : array of float, (mode,)
+        Ratio to the critical, of each mode by itself; 0 at 0 Hz.
+    shapes : LabelledArray, (link, mode)
+        Angles of links, the greatest of each mode 1.
+    stiffness : mapping of str to float
+        Of each pair, on its driven side [N m/rad].
+    notes : tuple of str
+        What is left out, and what was estimated.
+
+    See Also
+    --------
+    geartrain.GearTrain.vibration_modes : gives these.
+
+    Examples
+    --------
+    A disc of 1e-6 kg m2 that swings on teeth of 20 N m/rad, sqrt(k/J)/2 pi:
+
+    >>> import geartrain
+    >>> wheels = {"links": {"frame": {}, "a": {"wheels": {"p": 20}}, "b": {"wheels": {"w": 30},
+    ...     "inertia": "1e-6 kg m2"}}, "revolutes": [{"pair": ["frame", "a"], "axis": "A"}, {"pair": ["frame", "b"],
+    ...     "axis": "B"}], "gears": [{"pair": ["p", "w"]}], "inputs": {"a": 1}, "stiffness": "20 N m/rad"}
+    >>> geartrain.GearTrain.declare(wheels).vibration_modes().frequencies.round(3).tolist()
+    [711.763]
+    """
+
+    train: str
+    frequencies: Floats
+    damping: Floats
+    shapes: LabelledArray
+    stiffness: dict[str, float]
+    notes: tuple[str, ...]
+
+
+def find_modes(of: YieldingTrain) -> VibrationModes:
+    """Of a train in one case."""
+    squares, modes = of.vibration
+    speeds = np.sqrt(squares)
+    losses = np.einsum("im,ij,jm->m", modes, of.matrices[1], modes)
+    damping = np.divide(losses, 2 * speeds, out=np.zeros_like(speeds), where=speeds > 0)
+    shapes = of.speeds[:, of.free] @ modes
+    for column in shapes.T:
+        column /= column[np.argmax(np.abs(column))]
+    names = [str(at + 1) for at in range(len(speeds))]
+    stiffness = {pair.name: float(k) for pair, k in zip(of.model.pairs, of.yields.stiffness, strict=True)}
+    frequencies = speeds / tau
+    frequencies.flags.writeable = damping.flags.writeable = False
+    links = of.problem.system.links
+    return VibrationModes(
+        of.train.name, frequencies, damping, labelled_array(shapes, link=links, mode=names), stiffness, of.notes
+    )

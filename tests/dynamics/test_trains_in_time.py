@@ -10,8 +10,8 @@ import pytest
 
 from geartrain import GearTrain
 from geartrain.dynamics import TimeRun
-from geartrain.dynamics.time.time_case import GRAVITY
 from geartrain.errors import QuestionError
+from geartrain.train.drives import GRAVITY
 
 INERTIA = {"sun": 3e-5, "c": 5e-6, "d": 8e-6, "moon": 2e-6}
 

@@ -274,7 +274,7 @@ def _of_outputs(
 
 
 def measure_torques(train: GearTrain, state: str | None) -> Iterator[MethodAccuracy]:
-    """The exact balance with losses, and virtual work, which leaves losses out."""
+    """The exact balance with losses, virtual work, which leaves losses out, and torque over a turn by its samples."""
     if not train.declaration.is_loaded(state):
         raise AbsentStageError("no loads are declared")
     seconds, found = _best(lambda fresh: fresh.torques(state), partial(_as_declared, train))
@@ -284,6 +284,7 @@ def measure_torques(train: GearTrain, state: str | None) -> Iterator[MethodAccur
     through = max((abs(power) for power in powers.values()), default=0)
     missed = abs(sum(powers.values()) - found.loss) / through if through else 0
     yield MethodAccuracy(TORQUES, "balance with losses", seconds, float(missed), "relative", "power in, out and lost")
+    yield from _over_turn(train, state)
     asked = [link for link in found.asked if found.speeds.get(link) and found.external.get(link)]
     if len(found.asked) != 1 or not asked:
         return
@@ -299,3 +300,32 @@ def measure_torques(train: GearTrain, state: str | None) -> Iterator[MethodAccur
     yield MethodAccuracy(
         TORQUES, "virtual work, without losses", seconds, error, "relative", f"balance with losses, of {link}"
     )
+
+
+_SAMPLES = (20_000, 2_000, 200, 20)  # of a run; the first is what the others are held against
+_PASSAGES = 6_000  # teeth that pass in a run, times the pairs that are asked at each
+
+
+def _over_turn(train: GearTrain, state: str | None) -> Iterator[MethodAccuracy]:
+    """The mean torque over a turn, or as much of it as is soon followed; nothing where no pair is uneven."""
+    try:
+        used = train.motion(state, tuple(train.declaration.links)).ahead.used
+        passages = sum(float(each.cycles) for each in used)
+        if not passages:
+            return
+        span = min(1.0, _PASSAGES / (len(used) * passages))
+        best = train.torques(state, turns=span, samples=_SAMPLES[0])
+    except GearTrainError:  # teeth in a loop: the motion has no order
+        return
+    if not best.mean:
+        return
+    run = "a turn" if span == 1 else f"{span:.3g} turns"
+    for samples in _SAMPLES:
+        seconds, found = _best(partial(_mean_torque, train, state, span, samples))
+        error = None if samples == _SAMPLES[0] or found is None else abs(found / best.mean - 1)
+        reference = "the others are held against it" if samples == _SAMPLES[0] else f"{_SAMPLES[0]} samples, the mean"
+        yield MethodAccuracy(TORQUES, f"over {run}, {samples} samples", seconds, error, "relative", reference)
+
+
+def _mean_torque(train: GearTrain, state: str | None, span: float, samples: int) -> float | None:
+    return train.torques(state, turns=span, samples=samples).mean

@@ -143,3 +143,19 @@ def test_a_train_without_tooth_forms_brings_no_tooth() -> None:
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout.strip() == "[]"
+
+
+def test_torque_over_a_turn_is_measured_by_its_samples() -> None:
+    """A pin in a slot with friction: the mean has converged long before the most samples."""
+    train = load("""
+links: {frame: {}, a: {}, b: {}}
+revolutes: [{pair: [frame, a], axis: A}, {pair: [frame, b], axis: B}]
+couplings: [{kind: pin_and_slot, pin: a, slot: b, pin_radius: 10 mm, offset: 8 mm, friction: 0.3}]
+inputs: {a: 1}
+loads: {b: -10 N m}
+""")
+    rows = {row.method: row for row in find_accuracy(train, positions=20).methods if row.stage == "torques"}
+    over = [row for method, row in rows.items() if method.startswith("over a turn")]
+    assert [row.method.split(", ")[1] for row in over] == [f"{n} samples" for n in (20_000, 2_000, 200, 20)]
+    assert [row.error is None for row in over] == [True, False, False, False]
+    assert all(row.error < 1e-6 for row in over if row.error is not None)

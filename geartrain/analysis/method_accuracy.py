@@ -213,7 +213,7 @@ def _farthest(
 
 
 def measure_motion(train: GearTrain, state: str | None, positions: int) -> Iterator[MethodAccuracy]:
-    """Errors composed in the solved order, composed from tables, and superposed to first order."""
+    """Errors composed in the solved order (by numpy, compiled, from tables), and superposed to first order."""
     if not train.meshes_in(state) and not train.pins:
         raise AbsentStageError(_NO_FORM)
     try:
@@ -224,11 +224,18 @@ def measure_motion(train: GearTrain, state: str | None, positions: int) -> Itera
         raise AbsentStageError("no error reaches an output")
     import numpy as np
 
+    from geartrain.dynamics.motion.compiled_composition import compiled_composition
     from geartrain.dynamics.motion.superposition import Superposition
+    from geartrain.numerics.kernels import usable
 
     turns: Floats = np.arange(positions, dtype=float) * (TURNS / positions)
     seconds, direct = _best(partial(_errors, motion, turns))
     yield MethodAccuracy(MOTION, "composed", seconds, None, "deg", "the others are held against it", prepared)
+    if usable() and (kernel := compiled_composition(motion.hung)) is not None:
+        kernel.at(turns[:1])  # compiled, or loaded from disk
+        seconds, found = _best(lambda: kernel.at(turns))
+        prepared, _ = _best(partial(compiled_composition, motion.hung))
+        yield _of_outputs("composed, compiled", seconds, found.error - direct, motion, direct, prepared)
     prepared, tabulated = _best(partial(_composed, train, state, _TOLERANCES[-1]))
     seconds, found = _best(partial(_errors, tabulated, turns))
     yield _of_outputs("composed, tabulated laws", seconds, found - direct, motion, direct, prepared)

@@ -89,6 +89,9 @@ def test_motion_is_off_as_a_sum_of_the_laws_themselves_is(moon: TrainAccuracy) -
     assert tables is not None
     assert lagged is not None
     assert 0 < tables < 1e-9 < lagged < off / 2
+    compiled = row_of(moon, MOTION, "composed, compiled").error
+    assert compiled is not None
+    assert compiled < 1e-11
 
 
 def test_teeth_whose_law_is_their_ratio_have_nothing_to_measure_and_it_is_said_so() -> None:

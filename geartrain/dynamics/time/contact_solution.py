@@ -18,7 +18,7 @@ from geartrain.dynamics.time.contact_system import ContactState, ContactSystem
 from geartrain.numerics.kernels import kernel
 
 if TYPE_CHECKING:
-    from geartrain.numerics.arrays import Floats
+    from geartrain.numerics.arrays import Floats, Ints
 
 
 class StepEquations(NamedTuple):
@@ -30,6 +30,9 @@ class StepEquations(NamedTuple):
     A, b            the matrix and right side, as they are eliminated
     w, g, known     of a driven coordinate: its speed is w v + known, its row is handed on by g
     v, P, drive     speeds; impulses of pairs and stops; impulses that keep the speed of prescribed coordinates
+    ahead, middle   speeds that say where laws are read; mean speeds of the step
+    gap, closing    of both flanks: k without restitution, and speeds of closing before the step (rad/s)
+    before          what touched, and what was stopped, before the step
     """
 
     load: Floats
@@ -45,6 +48,27 @@ class StepEquations(NamedTuple):
     v: Floats
     P: Floats
     drive: Floats
+    ahead: Floats
+    middle: Floats
+    gap: Floats
+    closing: Floats
+    before: Ints
+
+
+class StepRules(NamedTuple):
+    """How a run is stepped.
+
+    step     length of a step (s); `stride`, steps from one sample to the next
+    creep    speed up to which a stuck bearing gives way (rad/s); `slack`, error of a speed that is none (rad/s)
+    apart    gap from which teeth count as apart (rad); `rounds`, guesses that are tried in a step
+    """
+
+    step: float
+    stride: int
+    creep: float
+    slack: float
+    apart: float
+    rounds: int
 
 
 @kernel
@@ -54,16 +78,8 @@ def solve_guess(system: ContactSystem, state: ContactState, here: StepEquations,
     creep   speed up to which a stuck bearing gives way (rad/s)
     """
     assemble(system, state, here, step, creep)
-    for d in range(len(here.v) - 1, -1, -1):
-        if system.given[d] == 0:
-            if system.owner[d] >= 0 and state.touching[system.owner[d]] != 0:
-                hand_on(system, state, here, d)
-            else:
-                eliminate_free(system, here, d)
-    here.P[:] = 0.0
-    here.drive[:] = 0.0
-    for d in range(len(here.v)):
-        substitute(system, state, here, d)
+    eliminate_coordinates(system, state, here)
+    substitute_back(system, state, here)
     find_stiff_impulses(system, state, here)
 
 
@@ -106,70 +122,74 @@ def assemble(system: ContactSystem, state: ContactState, here: StepEquations, st
 
 
 @kernel
-def hand_on(system: ContactSystem, state: ContactState, here: StepEquations, d: int) -> None:
-    """Eliminate a coordinate whose pair touches: its speed is known from others, its row goes to them."""
+def eliminate_coordinates(system: ContactSystem, state: ContactState, here: StepEquations) -> None:
+    """From the last to the first: one whose pair touches hands its row on, any other is eliminated by Gauss.
+
+    In one loop, for a call with so many arrays costs as much as a coordinate.
+    """
     A, b, w, g, near = here.A, here.b, here.w, here.g, system.near
-    low, high = system.near_at[d], system.near_at[d + 1]
-    m = system.owner[d]
-    side = state.touching[m] - 1
-    first = system.pair_at[m]  # the coordinate that is determined stands first in its row
-    lead = system.pair_driven[first] - here.ratio[m, side] * system.pair_driver[first]
-    lead_force = system.pair_driven[first] - here.arm[m, side] * system.pair_driver[first]
-    for x in range(low, high):
-        w[x] = 0.0
-        g[x] = 0.0
-    for x in range(system.pair_at[m] + 1, system.pair_at[m + 1]):
-        w[system.slot[x]] = (here.ratio[m, side] * system.pair_driver[x] - system.pair_driven[x]) / lead
-        g[system.slot[x]] = (here.arm[m, side] * system.pair_driver[x] - system.pair_driven[x]) / lead_force
-    known, own = (1.0 - 2.0 * side) * here.bound[m, side] / lead, A[d, d]
-    here.known[d] = known
-    rest = b[d] - own * known
-    for x in range(low, high):
-        o = near[x]
-        b[o] += g[x] * rest - A[o, d] * known
-        for y in range(low, high):
-            A[o, near[y]] += g[x] * (A[d, near[y]] + own * w[y]) + A[o, d] * w[y]
-
-
-@kernel
-def eliminate_free(system: ContactSystem, here: StepEquations, d: int) -> None:
-    """Eliminate a coordinate that no pair determines, by Gauss."""
-    A, b, near = here.A, here.b, system.near
-    low, high = system.near_at[d], system.near_at[d + 1]
-    for x in range(low, high):
-        o = near[x]
-        if A[o, d] != 0.0:
-            part = A[o, d] / A[d, d]
-            b[o] -= part * b[d]
+    for d in range(len(b) - 1, -1, -1):
+        if system.given[d] != 0:
+            continue
+        low, high = system.near_at[d], system.near_at[d + 1]
+        own, m = A[d, d], system.owner[d]
+        if m < 0 or state.touching[m] == 0:
+            for x in range(low, high):
+                o = near[x]
+                if A[o, d] != 0.0:
+                    part = A[o, d] / own
+                    b[o] -= part * b[d]
+                    for y in range(low, high):
+                        A[o, near[y]] -= part * A[d, near[y]]
+            continue
+        side = state.touching[m] - 1
+        first = system.pair_at[m]  # the coordinate that is determined stands first in its row
+        lead = system.pair_driven[first] - here.ratio[m, side] * system.pair_driver[first]
+        lead_force = system.pair_driven[first] - here.arm[m, side] * system.pair_driver[first]
+        for x in range(low, high):
+            w[x] = 0.0
+            g[x] = 0.0
+        for x in range(first + 1, system.pair_at[m + 1]):
+            w[system.slot[x]] = (here.ratio[m, side] * system.pair_driver[x] - system.pair_driven[x]) / lead
+            g[system.slot[x]] = (here.arm[m, side] * system.pair_driver[x] - system.pair_driven[x]) / lead_force
+        known = (1.0 - 2.0 * side) * here.bound[m, side] / lead
+        here.known[d] = known
+        rest = b[d] - own * known
+        for x in range(low, high):
+            o = near[x]
+            b[o] += g[x] * rest - A[o, d] * known
             for y in range(low, high):
-                A[o, near[y]] -= part * A[d, near[y]]
+                A[o, near[y]] += g[x] * (A[d, near[y]] + own * w[y]) + A[o, d] * w[y]
 
 
 @kernel
-def substitute(system: ContactSystem, state: ContactState, here: StepEquations, d: int) -> None:
-    """The speed of a coordinate from those before it, and the impulse of its pair or drive."""
+def substitute_back(system: ContactSystem, state: ContactState, here: StepEquations) -> None:
+    """From the first to the last: speeds from those before, and impulses of pairs and drives."""
     A, v, near = here.A, here.v, system.near
-    low, high = system.near_at[d], system.near_at[d + 1]
-    if system.given[d] != 0:
-        v[d] = state.speed[d]
-        here.drive[d] += A[d, d] * v[d] - here.b[d]
-        for x in range(low, high):  # prescribed ones come first: these are prescribed too
-            here.drive[d] += A[d, near[x]] * v[near[x]]
-            here.drive[near[x]] += A[near[x], d] * v[d]
-        return
-    rest = -here.b[d]
-    for x in range(low, high):
-        rest += A[d, near[x]] * v[near[x]]
-    m = system.owner[d]
-    if m >= 0 and state.touching[m] != 0:
+    here.P[:] = 0.0
+    here.drive[:] = 0.0
+    for d in range(len(v)):
+        low, high = system.near_at[d], system.near_at[d + 1]
+        if system.given[d] != 0:
+            v[d] = state.speed[d]
+            here.drive[d] += A[d, d] * v[d] - here.b[d]
+            for x in range(low, high):  # prescribed ones come first: these are prescribed too
+                here.drive[d] += A[d, near[x]] * v[near[x]]
+                here.drive[near[x]] += A[near[x], d] * v[d]
+            continue
+        rest = -here.b[d]
+        for x in range(low, high):
+            rest += A[d, near[x]] * v[near[x]]
+        m = system.owner[d]
+        if m < 0 or state.touching[m] == 0:
+            v[d] = -rest / A[d, d]
+            continue
         v[d] = here.known[d]
         for x in range(low, high):
             v[d] += here.w[x] * v[near[x]]
         first, side = system.pair_at[m], state.touching[m] - 1
         lead = system.pair_driven[first] - here.arm[m, side] * system.pair_driver[first]
         here.P[m] = (rest + A[d, d] * v[d]) / lead * (1.0 - 2.0 * side)
-    else:
-        v[d] = -rest / A[d, d]
 
 
 @kernel

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from geartrain.dynamics.time.contact_model import ContactModel
-from geartrain.dynamics.time.contact_solution import StepEquations
+from geartrain.dynamics.time.contact_solution import StepEquations, StepRules
 from geartrain.dynamics.time.contact_system import (
     COUNTS,
     ENERGIES,
@@ -33,6 +33,7 @@ _CREEP = 1e-10  # of the fastest coordinate: a stuck bearing gives way so slowly
 _SLACK = 1e-11  # of that speed
 _ROOM = 100_000  # impacts that are kept
 _AT_A_TIME = 1000, 40_000  # steps between two words on how far a run is: in plain Python, and compiled
+_ROUNDS = 60  # guesses tried in a step, and six more for each contact and bearing
 
 
 class StepPlan(NamedTuple):
@@ -118,12 +119,14 @@ def simulate(
     slack = max(_SLACK * fastest, 4 * np.finfo(float).eps * (1 + length) / plan.step)
     skip = plan.skip - plan.skip % plan.stride
     laws = model.laws
-    arguments = plan.stride, _CREEP * fastest, plan.apart, slack
+    rounds = _ROUNDS + 6 * (rows + len(model.bearings))
+    rules = StepRules(plan.step, plan.stride, _CREEP * fastest, slack, plan.apart, rounds)
+    arguments = plan.stride, rules.creep, plan.apart, slack
     piece = max(1, _AT_A_TIME[fast] // plan.stride) * plan.stride
 
     def run(steps: int, counted: bool) -> None:
         if teeth is None:
-            run_steps.chosen(fast)(system, laws, state, here, record, plan.step, steps, *arguments, counted)
+            run_steps.chosen(fast)(system, laws, state, here, record, rules, steps, counted)
         else:
             kernel = run_yielding_steps.chosen(fast)
             kernel(system, laws, state, here, record, teeth, plan.step, steps, *arguments, counted)
@@ -216,6 +219,11 @@ def empty_equations(n: int, pairs: int, stops: int, near: int) -> StepEquations:
         np.zeros(n),
         np.zeros(pairs + stops),
         np.zeros(n),
+        np.zeros(n),
+        np.zeros(n),
+        np.zeros((pairs, 2)),
+        np.zeros((pairs, 2)),
+        np.zeros(pairs + stops, dtype=np.int64),
     )
 
 

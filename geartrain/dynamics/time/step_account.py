@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from geartrain.dynamics.time.contact_solution import StepEquations
+from geartrain.dynamics.time.contact_solution import StepEquations, StepRules
 from geartrain.dynamics.time.contact_system import (
     BEARINGS,
     BLOW_COUNT,
@@ -37,40 +37,34 @@ if TYPE_CHECKING:
 
 @kernel
 def count_energy(
-    system: ContactSystem,
-    state: ContactState,
-    here: StepEquations,
-    record: RunRecord,
-    step: float,
-    creep: float,
-    middle: Floats,
+    system: ContactSystem, state: ContactState, here: StepEquations, record: RunRecord, rules: StepRules
 ) -> None:
     """Work of drives, torques and springs, losses by drag: each impulse times the mean speed of its step."""
-    for d in range(len(middle)):
-        record.energy[WORK_DRIVE] += here.drive[d] * middle[d]
-        record.energy[WORK_TORQUE] += step * system.torque[d] * middle[d]
-        record.energy[VISCOUS] += step * system.viscous[d, d] * here.v[d] * middle[d]
+    for d in range(len(here.middle)):
+        record.energy[WORK_DRIVE] += here.drive[d] * here.middle[d]
+        record.energy[WORK_TORQUE] += rules.step * system.torque[d] * here.middle[d]
+        record.energy[VISCOUS] += rules.step * system.viscous[d, d] * here.v[d] * here.middle[d]
         for x in range(system.near_at[d], system.near_at[d + 1]):
             o = system.near[x]
-            across = here.v[d] * middle[o] + here.v[o] * middle[d]
-            record.energy[VISCOUS] += step * system.viscous[d, o] * across
+            across = here.v[d] * here.middle[o] + here.v[o] * here.middle[d]
+            record.energy[VISCOUS] += rules.step * system.viscous[d, o] * across
     for m in range(len(system.spring_stiffness)):
-        pull = system.spring_rest[m] + system.spring_rate[m] * (state.clock[0] + step)
+        pull = system.spring_rest[m] + system.spring_rate[m] * (state.clock[0] + rules.step)
         rate = 0.0
         for x in range(system.spring_at[m], system.spring_at[m + 1]):
             o = system.spring_of[x]
-            pull -= system.spring_c[x] * (state.angle[o] + step * here.v[o])
-            rate += system.spring_c[x] * middle[o]
-        record.energy[WORK_SPRING] += step * system.spring_stiffness[m] * pull * rate
+            pull -= system.spring_c[x] * (state.angle[o] + rules.step * here.v[o])
+            rate += system.spring_c[x] * here.middle[o]
+        record.energy[WORK_SPRING] += rules.step * system.spring_stiffness[m] * pull * rate
     for m in range(len(system.sliding)):
         rate, end = 0.0, 0.0
         for x in range(system.bearing_at[m], system.bearing_at[m + 1]):
-            rate += system.bearing_c[x] * middle[system.bearing_of[x]]
+            rate += system.bearing_c[x] * here.middle[system.bearing_of[x]]
             end += system.bearing_c[x] * here.v[system.bearing_of[x]]
         torque = system.sliding[m] * state.turning[m]
         if state.turning[m] == 0:
-            torque = system.sticking[m] * end / creep
-        record.energy[BEARINGS] += step * torque * rate
+            torque = system.sticking[m] * end / rules.creep
+        record.energy[BEARINGS] += rules.step * torque * rate
 
 
 @kernel
@@ -80,12 +74,7 @@ def count_contacts(
     state: ContactState,
     here: StepEquations,
     record: RunRecord,
-    step: float,
-    apart: float,
-    middle: Floats,
-    before: Ints,
-    gap: Floats,
-    closing: Floats,
+    rules: StepRules,
 ) -> None:
     """Shares of time, blows with their energy, and what friction takes, by pair."""
     for m in range(len(system.stiff)):
@@ -94,13 +83,13 @@ def count_contacts(
             o = system.pair_of[x]
             rate_S += system.pair_driver[x] * here.v[o]
             rate_q += system.pair_driven[x] * here.v[o]
-            mean_S += system.pair_driver[x] * middle[o]
-            mean_q += system.pair_driven[x] * middle[o]
+            mean_S += system.pair_driver[x] * here.middle[o]
+            mean_q += system.pair_driven[x] * here.middle[o]
         counts = record.counts[m]
         if system.two_sided[m] == 0:
-            ahead = step * (rate_q - here.ratio[m, 0] * rate_S - gap[m, 0])
-            behind = step * (here.ratio[m, 1] * rate_S - rate_q - gap[m, 1])
-            if ahead > apart and behind > apart:
+            ahead = rules.step * (rate_q - here.ratio[m, 0] * rate_S - here.gap[m, 0])
+            behind = rules.step * (here.ratio[m, 1] * rate_S - rate_q - here.gap[m, 1])
+            if ahead > rules.apart and behind > rules.apart:
                 counts[TIME_APART] += 1.0
             elif behind < ahead:
                 counts[TIME_COAST] += 1.0
@@ -117,15 +106,15 @@ def count_contacts(
         record.energy[FRICTION] += rubbed
         counts[RUBBED] += rubbed
         counts[IMPULSE] += here.P[m] * sign
-        if now != before[m] and before[m] != 0:
+        if now != here.before[m] and here.before[m] != 0:
             counts[CHANGES] += 1.0
-        struck = now != before[m] or leaps(system, laws, state, here, m, side)
-        if struck and system.two_sided[m] == 0 and closing[m, side] > 0.0:
+        struck = now != here.before[m] or leaps(laws.jump, system.tables, here.ratio, state.ratio, m, side)
+        if struck and system.two_sided[m] == 0 and here.closing[m, side] > 0.0:
             state.struck[m] = 1
             count_blow(record, m, taken, here.P[m], state.steady[m])
             counts[BLOW_COUNT] += 1.0
-            counts[BLOW_SPEED] = max(counts[BLOW_SPEED], closing[m, side])
-            note_impact(record, state.clock[0] + step, m, closing[m, side], taken, here.P[m])
+            counts[BLOW_SPEED] = max(counts[BLOW_SPEED], here.closing[m, side])
+            note_impact(record, state.clock[0] + rules.step, m, here.closing[m, side], taken, here.P[m])
         elif state.struck[m] != 0:
             # a ratio that jumps within a step is met by the mean of both, and the rest follows in the next
             state.struck[m] = 0
@@ -145,16 +134,16 @@ def count_blow(record: RunRecord, m: int, taken: float, impulse: float, steady: 
 
 
 @kernel
-def leaps(system: ContactSystem, laws: LawTables, state: ContactState, here: StepEquations, m: int, side: int) -> bool:
-    """Whether the speed ratio of a flank has passed a jump of its law since the last step."""
-    leap = abs(here.ratio[m, side] - state.ratio[m, side])
-    return bool(leap > laws.jump[system.tables[m, side]] / 2)
+def leaps(jump: Floats, tables: Ints, now: Floats, before: Floats, m: int, side: int) -> bool:
+    """Whether the speed ratio of a flank has passed a jump of its law since the last step.
+
+    now, before   ratios of all pairs; few arrays, for calls with many are slow
+    """
+    return bool(abs(now[m, side] - before[m, side]) > jump[tables[m, side]] / 2)
 
 
 @kernel
-def count_stops(
-    system: ContactSystem, state: ContactState, here: StepEquations, record: RunRecord, middle: Floats, before: Ints
-) -> None:
+def count_stops(system: ContactSystem, state: ContactState, here: StepEquations, record: RunRecord) -> None:
     """Blows of links against their stops."""
     pairs = len(system.stiff)
     for m in range(len(system.stop_stiff)):
@@ -163,7 +152,7 @@ def count_stops(
             continue
         rate, start = 0.0, 0.0
         for x in range(system.stop_at[m], system.stop_at[m + 1]):
-            rate += system.stop_c[x] * middle[system.stop_of[x]]
+            rate += system.stop_c[x] * here.middle[system.stop_of[x]]
             start += system.stop_c[x] * state.speed[system.stop_of[x]]
         taken = here.P[pairs + m] * rate
         counts = record.counts[pairs + m]
@@ -172,7 +161,7 @@ def count_stops(
             state.struck[pairs + m] = 0
             record.energy[BLOWS] += taken
             counts[BLOW_ENERGY] += taken
-        elif before[pairs + m] == 0 and start > 0.0:
+        elif here.before[pairs + m] == 0 and start > 0.0:
             # it comes to its stop in this step, and to rest in the next
             state.struck[pairs + m] = 1
             record.energy[BLOWS] += taken

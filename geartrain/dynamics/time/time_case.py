@@ -73,6 +73,10 @@ def find_time_case(
     given = {part.name: train.restitution_of(part) for part in (*train.gears, *train.couplings)}
     turning = rate if rate is not None else _declared_rate(train, case, problem)
     escapement = train.escapement
+    bounces = {name: (own or 0.0) if restitution is None else restitution for name, own in given.items()}
+    if escapement is not None:
+        own = 0.0 if train.restitution is None else float(train.restitution.value)
+        bounces[escapement.link] = own if restitution is None else restitution
     beats = {} if escapement is None else {escapement.link: (tau / (2 * escapement.teeth), escapement.beat.si)}
     drive = None if rate is not None else case.drive
     return TimeCase(
@@ -86,7 +90,7 @@ def find_time_case(
             if link.bearing is not None
         },
         {name: torque.si for name, torque in case.loads.items()},
-        {name: (own or 0.0) if restitution is None else restitution for name, own in given.items()},
+        bounces,
         {each.name: each.clearance.si for each in train.couplings if each.clearance is not None},
         beats,
     )

@@ -16,8 +16,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from geartrain.dynamics.time.contact_solution import StepEquations, solve_guess
+from geartrain.dynamics.time.contact_solution import StepEquations, StepRules, solve_guess
 from geartrain.dynamics.time.contact_system import (
+    BACK,
+    OPEN,
     PIVOTS,
     SAMPLES,
     STEPS,
@@ -26,6 +28,7 @@ from geartrain.dynamics.time.contact_system import (
     ContactSystem,
     RunRecord,
 )
+from geartrain.dynamics.time.guess_correction import correct_guess
 from geartrain.dynamics.time.law_tables import LawTables, value_and_slope
 from geartrain.dynamics.time.step_account import count_contacts, count_energy, count_stops, leaps
 from geartrain.numerics.kernels import kernel
@@ -45,90 +48,96 @@ def run_steps(
     state: ContactState,
     here: StepEquations,
     record: RunRecord,
-    step: float,
+    rules: StepRules,
     steps: int,
-    stride: int,
-    creep: float,
-    apart: float,
-    slack: float,
     counted: bool,
 ) -> None:
-    """Go so many steps on.
-
-    stride    steps from one sample to the next
-    creep     speed up to which a stuck bearing gives way (rad/s); `slack`, error of a speed that is none (rad/s)
-    apart     gap from which teeth count as apart (rad)
-    counted   whether energies, shares and impacts are counted; samples always are
-    """
-    n, pairs = len(here.v), len(system.stiff)
-    stops = len(system.stop_stiff)
-    gap = np.zeros((pairs, 2))
-    closing = np.zeros((pairs, 2))
-    before = np.zeros(pairs + stops, np.int64)
-    middle = np.zeros(n)
-    ahead = np.zeros(n)
-    sample = record.numbers[SAMPLES]
+    """Go so many steps on; energies, shares and impacts are counted if they are to be, samples always."""
     since = 0
     for _ in range(steps):
-        find_loads(system, state, here, step)
-        find_bounds(system, laws, state, here, state.speed, step, gap, closing)
-        find_stop_bounds(system, state, here, step)
-        for m in range(pairs):
-            before[m] = state.touching[m]
-        for m in range(stops):
-            before[pairs + m] = state.stopped[m]
-        rounds = 0
-        again = 0
-        for d in range(n):
-            ahead[d] = state.speed[d]
-        limit = 60 + 6 * (pairs + stops + len(system.sliding))
-        while True:
-            solve_guess(system, state, here, step, creep)
-            rounds += 1
-            if rounds > limit:
-                record.numbers[UNSOLVED] += 1
-                break
-            if correct_guess(system, state, here, creep, slack, rounds > _AT_ONCE) == 0:
-                if again == _AGAIN or not is_struck(system, laws, state, here, before):
-                    break
-                if find_shift(system, here, ahead) * step < _NEAR:
-                    break
-                again += 1
-                for d in range(n):
-                    ahead[d] = here.v[d]
-                find_bounds(system, laws, state, here, ahead, step, gap, closing)
-        for d in range(n):
-            middle[d] = (state.speed[d] + here.v[d]) / 2
+        rounds = solve_step(system, laws, state, here, rules)
+        if rounds > rules.rounds:
+            record.numbers[UNSOLVED] += 1
+        for d in range(len(here.v)):
+            here.middle[d] = (state.speed[d] + here.v[d]) / 2
         if counted:
             record.numbers[PIVOTS] += rounds - 1
             record.numbers[STEPS] += 1
-            count_energy(system, state, here, record, step, creep, middle)
-            count_contacts(system, laws, state, here, record, step, apart, middle, before, gap, closing)
-            count_stops(system, state, here, record, middle, before)
-        for m in range(pairs):
+            count_energy(system, state, here, record, rules)
+            count_contacts(system, laws, state, here, record, rules)
+            if len(system.stop_stiff) > 0:
+                count_stops(system, state, here, record)
+        for m in range(len(system.stiff)):
             state.ratio[m, 0] = here.ratio[m, 0]
             state.ratio[m, 1] = here.ratio[m, 1]
-        for d in range(n):
+        for d in range(len(here.v)):
             state.speed[d] = here.v[d]
-            state.angle[d] += step * here.v[d]
+            state.angle[d] += rules.step * here.v[d]
         state.clock[1] += 1.0
-        state.clock[0] = state.clock[1] * step
-        if sample < len(record.angles):
+        state.clock[0] = state.clock[1] * rules.step
+        if record.numbers[SAMPLES] < len(record.angles):
             since += 1
-            for m in range(pairs):
-                record.forces[sample, m] += here.P[m] * (3.0 - 2.0 * state.touching[m])
-            for m in range(stops):
-                record.forces[sample, pairs + m] += here.P[pairs + m]
-            for d in range(n):
-                record.drive[sample, d] += here.drive[d]
-            if since == stride:
-                record.angles[sample, :] = state.angle
-                record.speeds[sample, :] = state.speed
-                record.forces[sample, :] /= stride * step
-                record.drive[sample, :] /= stride * step
-                sample += 1
+            sample = record.numbers[SAMPLES]
+            add_to_sample(record.forces, record.drive, here.P, state.touching, here.drive, sample)
+            if since == rules.stride:
+                end_sample(state, record, rules.stride * rules.step)
                 since = 0
-    record.numbers[SAMPLES] = sample
+
+
+@kernel
+def solve_step(
+    system: ContactSystem, laws: LawTables, state: ContactState, here: StepEquations, rules: StepRules
+) -> int:
+    """Speeds at the end of a step, and how many guesses they took."""
+    find_loads(system, state, here, rules.step)
+    for d in range(len(here.v)):
+        here.ahead[d] = state.speed[d]
+    find_bounds(system, laws, state, here, rules.step)
+    if len(system.stop_stiff) > 0:
+        find_stop_bounds(system, state, here, rules.step)
+    pairs = len(system.stiff)
+    for m in range(pairs):
+        here.before[m] = state.touching[m]
+    for m in range(len(system.stop_stiff)):
+        here.before[pairs + m] = state.stopped[m]
+    rounds, again = 0, 0
+    while True:
+        solve_guess(system, state, here, rules.step, rules.creep)
+        rounds += 1
+        if rounds > rules.rounds:
+            return rounds
+        if correct_guess(system, state, here, rules.creep, rules.slack, rounds > _AT_ONCE) > 0:
+            continue
+        if again == _AGAIN:
+            return rounds
+        if not is_struck(state.touching, here.before, laws.jump, system.tables, here.ratio, state.ratio):
+            return rounds
+        if find_shift(system, here) * rules.step < _NEAR:
+            return rounds
+        again += 1
+        for d in range(len(here.v)):
+            here.ahead[d] = here.v[d]
+        find_bounds(system, laws, state, here, rules.step)
+
+
+@kernel
+def add_to_sample(forces: Floats, drive: Floats, P: Floats, touching: Ints, kept: Floats, sample: int) -> None:
+    """Add impulses of a step to those of its sample; few arrays, for calls with many are slow."""
+    for m in range(len(P)):
+        forces[sample, m] += P[m] if m >= len(touching) or touching[m] != BACK else -P[m]
+    for d in range(len(kept)):
+        drive[sample, d] += kept[d]
+
+
+@kernel
+def end_sample(state: ContactState, record: RunRecord, time: float) -> None:
+    """Write down where the train is, and make means of impulses over the time of the sample (s)."""
+    sample = record.numbers[SAMPLES]
+    record.angles[sample, :] = state.angle
+    record.speeds[sample, :] = state.speed
+    record.forces[sample, :] /= time
+    record.drive[sample, :] /= time
+    record.numbers[SAMPLES] = sample + 1
 
 
 @kernel
@@ -155,15 +164,9 @@ def find_bounds(
     laws: LawTables,
     state: ContactState,
     here: StepEquations,
-    ahead: Floats,
     step: float,
-    gap: Floats,
-    closing: Floats,
 ) -> None:
-    """Speed ratios, arms and bounds k of both flanks where the speeds `ahead` lead.
-
-    gap       k without restitution; `closing`, speeds before the step
-    """
+    """Speed ratios, arms and bounds k of both flanks where the speeds ahead lead, and closing speeds before."""
     for m in range(len(system.stiff)):
         S, q, dS, dq, on = system.start_driver[m], system.start_driven[m], 0.0, 0.0, 0.0
         for x in range(system.pair_at[m], system.pair_at[m + 1]):
@@ -172,21 +175,21 @@ def find_bounds(
             q += system.pair_driven[x] * state.angle[o]
             dS += system.pair_driver[x] * state.speed[o]
             dq += system.pair_driven[x] * state.speed[o]
-            on += system.pair_driver[x] * ahead[o]
+            on += system.pair_driver[x] * here.ahead[o]
         at = S + step * on
         way = 0 if dS >= 0 else 1
         for side in range(2):
             if state.touching[m] == 2 - side and system.two_sided[m] == 0:
                 # a play away from the flank that touches: nothing of it is asked before that one is left
                 here.bound[m, side] = -np.inf
-                gap[m, side] = -np.inf
+                here.gap[m, side] = -np.inf
                 continue
             sign = 1.0 - 2.0 * side
             angle, ratio = value_and_slope(laws, system.tables[m, side], at)
             lack = sign * ((angle - q) / step - ratio * on)
             rate = sign * (dq - ratio * dS)
-            gap[m, side] = lack
-            closing[m, side] = -rate
+            here.gap[m, side] = lack
+            here.closing[m, side] = -rate
             bounce = -system.restitution[m] * rate
             # without restitution the position alone counts: a jump of the ratio within the step is no flight
             if bounce > 0.0 and rate < lack < bounce:
@@ -200,24 +203,24 @@ def find_bounds(
 
 
 @kernel
-def is_struck(system: ContactSystem, laws: LawTables, state: ContactState, here: StepEquations, before: Ints) -> bool:
-    """Whether a flank has come to touch in this step, or the ratio of one that touches has jumped."""
-    for m in range(len(system.stiff)):
-        now = state.touching[m]
-        if now != 0 and (now != before[m] or leaps(system, laws, state, here, m, now - 1)):
+def is_struck(touching: Ints, before: Ints, jump: Floats, tables: Ints, ratio: Floats, last: Floats) -> bool:
+    """Whether a flank has come to touch in this step, or the ratio of one that touches has jumped since the last."""
+    for m in range(len(touching)):
+        now = touching[m]
+        if now != OPEN and (now != before[m] or leaps(jump, tables, ratio, last, m, now - 1)):
             return True
     return False
 
 
 @kernel
-def find_shift(system: ContactSystem, here: StepEquations, ahead: Floats) -> float:
+def find_shift(system: ContactSystem, here: StepEquations) -> float:
     """How far the speeds of drivers are from those for which the laws were read (rad/s)."""
     most = 0.0
     for m in range(len(system.stiff)):
         shift = 0.0
         for x in range(system.pair_at[m], system.pair_at[m + 1]):
             o = system.pair_of[x]
-            shift += system.pair_driver[x] * (here.v[o] - ahead[o])
+            shift += system.pair_driver[x] * (here.v[o] - here.ahead[o])
         most = max(most, abs(shift))
     return most
 
@@ -236,69 +239,3 @@ def find_stop_bounds(system: ContactSystem, state: ContactState, here: StepEquat
         if rate > bound and rate > 0.0:
             bound = min(bound, -system.stop_restitution[m] * rate)
         here.stop_bound[m] = bound
-
-
-@kernel
-def correct_guess(
-    system: ContactSystem, state: ContactState, here: StepEquations, creep: float, slack: float, single: bool
-) -> int:
-    """Turn wrong guesses round, all of them or only that of the least index; how many there were."""
-    found = 0
-    pairs = len(system.stiff)
-    for m in range(pairs):
-        now = state.touching[m]
-        want = now
-        if now != 0:
-            if here.P[m] < 0.0:
-                want = 0
-                if system.two_sided[m] != 0:
-                    # without friction a force may have either sign
-                    want = 3 - now if system.rubbing[m, 0] >= 0 else now
-        else:
-            rate_S, rate_q = 0.0, 0.0
-            for x in range(system.pair_at[m], system.pair_at[m + 1]):
-                rate_S += system.pair_driver[x] * here.v[system.pair_of[x]]
-                rate_q += system.pair_driven[x] * here.v[system.pair_of[x]]
-            if rate_q - here.ratio[m, 0] * rate_S < here.bound[m, 0] - slack:
-                want = 1
-            elif here.ratio[m, 1] * rate_S - rate_q < here.bound[m, 1] - slack:
-                want = 2
-        if want != now:
-            state.touching[m] = want
-            found += 1
-            if single:
-                return found
-    for m in range(len(system.sliding)):
-        rate = 0.0
-        for x in range(system.bearing_at[m], system.bearing_at[m + 1]):
-            rate += system.bearing_c[x] * here.v[system.bearing_of[x]]
-        now = state.turning[m]
-        want = now
-        if now == 0:
-            if rate > creep:
-                want = 1
-            elif rate < -creep:
-                want = -1
-        elif rate * now < 0.0:
-            want = 0 if single or rate * now > -creep else -now
-        if want != now:
-            state.turning[m] = want
-            found += 1
-            if single:
-                return found
-    for m in range(len(system.stop_stiff)):
-        rate = 0.0
-        for x in range(system.stop_at[m], system.stop_at[m + 1]):
-            rate += system.stop_c[x] * here.v[system.stop_of[x]]
-        now = state.stopped[m]
-        want = now
-        if now != 0 and here.P[pairs + m] < 0.0:
-            want = 0
-        elif now == 0 and rate > here.stop_bound[m] + slack:
-            want = 1
-        if want != now:
-            state.stopped[m] = want
-            found += 1
-            if single:
-                return found
-    return found

@@ -19,6 +19,7 @@ PER_TOOTH = 200
 PER_SWING = 40
 """In the period of the fastest mode, where teeth yield."""
 _FEWEST = 200  # steps in a turn of the lead
+_PER_BEAT = 1000  # steps from one beat of an escapement to the next
 _SAMPLES = 12  # in the shortest period of a pair
 _MOST_SAMPLES = 40_000
 _MOST_STEPS = 2_000_000_000
@@ -70,7 +71,7 @@ class TimeStudy:
         beats = [beat for _, beat in self.of.case.escapements.values()]
         # a wheel that is let go falls much faster than it turns on the mean
         swing = ceil(PER_SWING * turn * self.of.fastest / tau)
-        return max([found, swing, *(ceil(50 * PER_TOOTH * turn / beat / 50) for beat in beats)])
+        return max([found, swing, *(ceil(_PER_BEAT * turn / beat) for beat in beats)])
 
     def plan(self, finer: int) -> StepPlan:
         """The steps of one run: `finer` 1 or 2."""

@@ -41,9 +41,9 @@ from geartrain.dynamics.time.contact_system import (
     ContactSystem,
     RunRecord,
 )
+from geartrain.dynamics.time.guess_correction import correct_guess
 from geartrain.dynamics.time.law_tables import LawTables, value_and_slope
 from geartrain.dynamics.time.step_account import note_impact
-from geartrain.dynamics.time.time_steps import correct_guess
 from geartrain.numerics.kernels import kernel
 
 if TYPE_CHECKING:

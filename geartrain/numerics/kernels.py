@@ -45,11 +45,19 @@ class Kernel(Generic[P, R]):
     @cached_property
     def compiled(self) -> Callable[P, R]:
         """The function compiled, or loaded from disk when it is first called. Raises `MissingExtraError`."""
+        return self._made()
+
+    @cached_property
+    def _called(self) -> Callable[P, R]:
+        """The function compiled for other kernels alone, which takes less time."""
+        return self._made(no_cpython_wrapper=True)
+
+    def _made(self, **options: bool) -> Callable[P, R]:
         numba = _numba()
         # a twin whose names of kernels stand for compiled ones; its own name holds all that it is compiled from
-        twin = self._twin({name: each.compiled for name, each in self._named.items() if isinstance(each, Kernel)})
-        twin.__qualname__ = f"{self._function.__qualname__}_{self.digest}"
-        made = numba.njit(twin, error_model="numpy", nogil=True)
+        twin = self._twin({name: each._called for name, each in self._named.items() if isinstance(each, Kernel)})
+        twin.__qualname__ = f"{self._function.__qualname__}_{self.digest}{'_'.join(['', *options])}"
+        made = numba.njit(twin, error_model="numpy", nogil=True, no_cfunc_wrapper=True, **options)
         with suppress(RuntimeError):  # where neither the package's folder nor a cache of the user's can be written
             made.enable_caching()
         return cast("Callable[P, R]", made)

@@ -28,6 +28,7 @@ if TYPE_CHECKING:
     from geartrain.teeth.contact.piecewise_transmission import PiecewiseTransmission
 
 _GAUSS = np.polynomial.legendre.leggauss(16)  # exact to degree 31; squares of the law's polynomials have degree 30
+_NEAR_PITCH_POINT = 1e-7  # of the distance of the axles: roots of differences of their squares are this uncertain
 _FLAT = 1e-9  # slope of friction against a contact: less is rounding, and locks nothing
 _SAMPLES = 256  # angles of a pitch at which play is looked for
 
@@ -244,7 +245,10 @@ def _leans(gears: OutlineGears, driver: int, forward: Floats) -> tuple[Floats, F
     # the side ahead of a tooth lies within half a pitch ahead of its middle
     middle = forward + (at.pair + 0.25) * first.pitch
     ahead = np.abs(np.arctan2(side, along) - middle) < np.abs(np.arctan2(-side, along) - middle)
-    return _friction(np.where(ahead, side, -side), along - R1, R1, a - R1)
+    off = along - R1
+    # so near the pitch point the root above is rounding, and tells of no normal
+    apart = np.hypot(side, off) >= _NEAR_PITCH_POINT * gears.distance
+    return _friction(np.where(apart, np.where(ahead, side, -side), 0.0), np.where(apart, off, 0.0), R1, a - R1)
 
 
 # What two outlines do to each other costs much, and is the same whatever the friction and whichever way they turn.

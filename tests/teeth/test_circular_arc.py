@@ -306,3 +306,15 @@ def test_every_form_has_a_command_whose_options_are_its_fields() -> None:
     assert "Radius of the arcs in modules" in " ".join(said.replace("\u2502", " ").split())
     names = set(tooth_forms())
     assert names - {"ideal"} <= set(PairGroup.verbs)
+
+
+def test_friction_at_the_pitch_point_is_that_beside_it() -> None:
+    """Where the contact crosses the line of centres its place is rounding, and a normal made from it could lock."""
+    law = load("longcase-clock-bs978").meshes[2].law
+    # of 56 that drive 7
+    S = 0.08425395 + np.concatenate([np.linspace(-size, size, 10_001) for size in (1e-4, 5e-8)])
+    sliding, into, out = law.rubbing(S)
+    assert sliding.min() < 1e-7 < sliding.max() < 2e-3
+    assert np.isfinite(into).all()
+    assert np.isfinite(out).all()
+    assert law.efficiency(S) == pytest.approx(1.0, abs=2e-4)

@@ -6,12 +6,14 @@ import signal
 from collections.abc import Iterator
 from contextlib import contextmanager
 from math import tau
-from typing import TYPE_CHECKING, Annotated, Any
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import typer
 
 from geartrain.cli.common import (
     INTERRUPTED,
+    PICTURES,
     Fast,
     File,
     FirstState,
@@ -20,6 +22,8 @@ from geartrain.cli.common import (
     Names,
     Out,
     Without,
+    check_distinct_outputs,
+    draw,
     emit,
     give,
     sink,
@@ -50,12 +54,19 @@ def run(
     restitution: Annotated[
         str | None, typer.Option("--restitution", help="Of all impacts, 0 to 1; default as declared, or 0.")
     ] = None,
+    model: Annotated[
+        Literal["rigid", "compliant"],
+        typer.Option("--model", help="Teeth that are rigid, or yield by their stiffness."),
+    ] = "rigid",
     output: Annotated[Names, typer.Option("--output", help="Output or link; may be repeated.")] = None,
     state: FirstState = None,
     without: Without = None,
     fast: Fast = None,
     json: Json = False,
     csv: Annotated[bool, typer.Option("--csv", help="Print angles, speeds, torques and gaps as CSV.")] = False,
+    plot: Annotated[
+        Path | None, typer.Option("--plot", help="Draw gaps, outputs ahead and behind, and spectrum to this file.")
+    ] = None,
     out: Out = None,
     force: Force = False,
 ) -> None:
@@ -64,6 +75,8 @@ def run(
     from geartrain.report.time_report import collect_time_report, describe_time_run
 
     to = sink(out, force, (".md", ".html", ".json", ".csv"))
+    picture = sink(plot, force, PICTURES, "--plot")
+    check_distinct_outputs(to, picture)
     if csv and to.path is not None:
         raise typer.BadParameter("the course is printed, or written: give --csv, or -o x.csv", param_hint="--csv")
     asked: dict[str, Any] = {
@@ -75,6 +88,7 @@ def run(
         "outputs": tuple(output or ()),
         "without": tuple(without or ()),
         "fast": fast,
+        "model": model,
     }
     train = load(file)
     found = _run(train, train.state_or_first(state), asked)
@@ -83,6 +97,11 @@ def run(
     else:
         report = collect_time_report(train, found, asked["without"])
         give(to, json, lambda: report, lambda: [describe_time_run(report)])
+    if plot is not None:
+        from geartrain.drawing import time_run_figure
+
+        name = train.name if found.state is None else f"{train.name}, state {found.state}"
+        draw(time_run_figure(found, f"{name}: in time, {abs(found.rate) / tau:.4g} turn/s of {found.lead}"), picture)
     if not found.complete:
         tell(f"stopped after {found.turns[-1]:.4g} turns; the figures are of those")
         raise typer.Exit(INTERRUPTED)

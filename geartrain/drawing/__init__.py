@@ -3,9 +3,10 @@
 In: a train, or a result of another room. Out: a figure of matplotlib, which `render` writes as SVG, PNG or PDF; the
 same figure gives the same bytes. `picture` draws a train as plan to scale, stick diagram, graph, speed diagram or
 dials; the other functions draw one result each: a transmission function, teeth in contact, tooth forms side by side,
-the errors of pointers, the flow of power, torque over a turn, gears on a sphere, trials of wheels cut by hand, counts
-in doubt. Nothing is worked out here but where things stand on the page: a speed diagram has its members at places that
-their teeth fix (docs/theory.md, equations 18 and 19), and bands of power are as wide as powers (docs/torques.md, 7).
+the errors of pointers, the flow of power, torque over a turn, motion in time, gears on a sphere, trials of wheels
+cut by hand, counts in doubt. Nothing is worked out here but where things stand on the page: a speed diagram has its
+members at places that their teeth fix (docs/theory.md, equations 18 and 19), and bands of power are as wide as powers
+(docs/torques.md, 7).
 
 The figures need the extra `plot`: a name that is asked for without it raises `MissingExtraError`. Nothing needs a
 display or touches the state of pyplot.
@@ -28,6 +29,7 @@ if TYPE_CHECKING:
     from geartrain.drawing.parameter_sweep_plot import sweep_figure as sweep_figure
     from geartrain.drawing.power_sankey import power_figure as power_figure
     from geartrain.drawing.spherical_gears import sphere_figure as sphere_figure
+    from geartrain.drawing.time_run_plot import time_run_figure as time_run_figure
     from geartrain.drawing.tooth_contact import teeth_figure as teeth_figure
     from geartrain.drawing.tooth_sizes_plot import tooth_sizes_figure as tooth_sizes_figure
     from geartrain.drawing.tooth_sizes_plot import train_sizes_figure as train_sizes_figure
@@ -48,6 +50,7 @@ _PLACES = {
     "sphere_figure": "spherical_gears",
     "sweep_figure": "parameter_sweep_plot",
     "teeth_figure": "tooth_contact",
+    "time_run_figure": "time_run_plot",
     "tooth_sizes_figure": "tooth_sizes_plot",
     "train_sizes_figure": "tooth_sizes_plot",
     "torque_cycle_figure": "torque_cycle_plot",
@@ -67,6 +70,7 @@ __all__ = [
     "sphere_figure",
     "sweep_figure",
     "teeth_figure",
+    "time_run_figure",
     "tooth_sizes_figure",
     "torque_cycle_figure",
     "train_sizes_figure",

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
 from math import degrees, tau
 from typing import TYPE_CHECKING
 
@@ -14,7 +14,7 @@ from geartrain.report.torque_cycle_report import turns_text
 
 if TYPE_CHECKING:
     from geartrain.analysis.gear_train import GearTrain
-    from geartrain.dynamics import ContactInTime, SeparationRates, SettledFigure, TimeRun
+    from geartrain.dynamics import ContactInTime, LinkInertia, SeparationRates, SettledFigure, TimeRun
 
 _SURE = 1e-9  # an account that closes to less says nothing more
 _STILL = 1e-9  # rad: rounding of angles
@@ -30,6 +30,8 @@ class TimeReport(Result):
         One line for a reader.
     separation : SeparationRates or None
         At what rate teeth first part, by pair, from the condition for it; None where no torques or inertia are known.
+    inertias : tuple of LinkInertia
+        What moves is as heavy as this.
     run : TimeRun
         The run.
 
@@ -38,10 +40,11 @@ class TimeReport(Result):
     collect_time_report : Gives it.
     """
 
-    KEYS = ("title", "separation", Key("", "run"))
+    KEYS = ("title", "separation", "inertias", Key("", "run"))
 
     title: str
     separation: SeparationRates | None
+    inertias: tuple[LinkInertia, ...]
     run: TimeRun
 
 
@@ -70,8 +73,11 @@ def collect_time_report(train: GearTrain, run: TimeRun, without: tuple[str, ...]
     >>> found.separation.pair, found.to_dict()["lead"]
     ('d2~e', 'crank')
     """
+    from geartrain.dynamics.time.inertia import find_link_inertias
+
     separation = train.separation_rates(run.state, without) if train.tells_separation(run.state) else None
-    return TimeReport(train.declaration.title, separation, run)
+    inertias = find_link_inertias(train, train.declaration.case(run.state), with_inputs=run.driven != "rate")
+    return TimeReport(train.declaration.title, separation, inertias, run)
 
 
 def describe_time_run(found: TimeReport) -> Document:
@@ -103,7 +109,9 @@ def _sections(found: TimeReport) -> Iterator[Section]:
 
     run = found.run
     if found.separation is not None:
-        yield separation_section(found.separation)
+        section = separation_section(found.separation)
+        evenly = "These rates are of an input that turns evenly; this one need not."
+        yield section if run.driven == "rate" else replace(section, paragraphs=(*section.paragraphs, evenly))
     if run.contacts:
         yield _contacts(run)
     yield _outputs(run)
@@ -119,8 +127,8 @@ def _sections(found: TimeReport) -> Iterator[Section]:
             yield Section(f"Spectrum of {name}", (text,), (Table(header, rows),))
     if run.figures:
         yield _settled(run)
-    if found.separation is not None:
-        yield _inertia(found.separation)
+    if found.inertias:
+        yield _inertia(found.inertias)
 
 
 def _lead(run: TimeRun) -> Iterator[str]:
@@ -147,13 +155,16 @@ def _contacts(run: TimeRun) -> Section:
     rows = [_contact(run, each) for each in run.contacts]
     header = (
         *("contact", "apart (%)", "coast (%)", "impacts a turn", "each (µJ)", "all (mW)"),
-        *("hardest (rad/s)", "gap (deg)", "torque (N mm)", "friction (mW)"),
+        *("hardest (rad/s)", "gap (deg)", "torque (N mm)", "friction (mW)", "peak (N mm)", "dynamic factor"),
     )
     text = [
         f"Shares of time apart and on the coast flank; impacts in a turn of '{run.lead}', the energy of each and the "
         "power of all, the closing speed of the hardest; the greatest angle between the driven side and its nearer "
         "flank; the mean torque on the driven side.",
-        "Bodies are rigid here: an impact is an impulse, whose force has no peak, and so there is no dynamic factor.",
+        "Teeth are rigid here: an impact is an impulse, whose force has no peak, and so there is no dynamic factor."
+        if run.model == "rigid"
+        else "Teeth yield: peaks are the greatest torques on the driven side, and the dynamic factor is such a peak "
+        "over that of a train in balance at every moment.",
     ]
     return Section("Contacts", text, (filled_table(header, cut(rows), 3),))
 
@@ -171,6 +182,8 @@ def _contact(run: TimeRun, each: ContactInTime) -> tuple[str, ...]:
         figure(degrees(each.gap), 4) if each.gap > _STILL else "",
         figure(1e3 * each.torque, 5),
         figure(1e3 * each.rubbed, 4) if each.rubbed else "",
+        figure(1e3 * each.peak, 5) if each.peak is not None else "",
+        figure(each.dynamic_factor, 4) if each.dynamic_factor is not None else "",
     )
 
 
@@ -180,7 +193,10 @@ def _outputs(run: TimeRun) -> Section:
         f"Torque at '{run.link}': {figure(1e3 * run.torque, 5)} N mm in the mean; put in: {watts_text(power)}.",
         "Outputs against the motion in which all drive flanks touch, which is that of `geartrain motion`.",
     ]
-    rows = [(lead.output, *(_angle(each) for each in (lead.ahead, lead.behind, lead.rms))) for lead in run.leads]
+    off = [lead for lead in run.leads if max(lead.ahead, lead.behind) > _STILL]
+    if not off:
+        text.append("None is ahead or behind.")
+    rows = [(lead.output, *(_angle(each) for each in (lead.ahead, lead.behind, lead.rms))) for lead in off]
     header = ("output", "ahead, at most (deg)", "behind, at most (deg)", "rms (deg)")
     return Section("Drive and outputs", text, (Table(header, cut(rows)),) if rows else ())
 
@@ -199,14 +215,15 @@ def _energy(run: TimeRun) -> Section:
         "lost in bearings": energy.bearings,
         "lost to viscous drag": energy.drag,
         "lost by friction of teeth and pins": energy.friction,
-        "lost in impacts": energy.blows,
+        "lost in impacts" if run.model == "rigid" else "lost in teeth that yield": energy.blows,
         "taken by the length of steps": energy.steps,
         "more kinetic energy than at first": energy.kinetic,
+        "more in teeth that yield": energy.elastic,
     }
     rows = [
         (name, figure(value, 6), percent_text(value / whole) if whole else "-")
         for name, value in amounts.items()
-        if value
+        if abs(value) > 1e-12 * whole
     ]
     closure = max(energy.closure, 1e-15)
     text = f"What is put in, lost and kept agrees to {closure:.0e} of it; the account claims {_SURE:.0e}."
@@ -244,6 +261,16 @@ def _compared(each: SettledFigure) -> tuple[str, ...] | None:
     return (each.name, unit, *values, each.kind, "yes" if each.settled else "no")
 
 
-def _inertia(found: SeparationRates) -> Section:
-    rows = [(each.link, figure(each.value, 5), each.source) for each in found.inertias]
-    return Section("Inertia", (), (Table(("link", "kg m2", "from"), cut(rows)),))
+def _inertia(found: Sequence[LinkInertia]) -> Section:
+    rows = [
+        (
+            each.link,
+            figure(each.value, 5) if each.value else "-",
+            each.source,
+            figure(each.carried, 5) if each.carried else "",
+            "; ".join(each.missing),
+        )
+        for each in found
+    ]
+    header = ("link", "kg m2", "from", "of it by planets", "not known")
+    return Section("Inertia", (), (filled_table(header, cut(rows), 3),))

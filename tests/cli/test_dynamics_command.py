@@ -47,6 +47,7 @@ def test_the_json_has_the_closed_rate_of_a_pin_and_the_torque_of_virtual_work(pi
     assert found["energy"]["drive"] == pytest.approx(2 * pi * found["torque"], rel=1e-9)
     assert (found["driven"], found["link"], found["complete"]) == ("rate", "a", True)
     assert all(each["settled"] for each in found["figures"])
+    assert [each["link"] for each in found["inertias"]] == ["b"]
 
 
 def test_the_text_begins_with_the_rate_at_which_teeth_part_and_marks_what_settled(pin: Path) -> None:
@@ -71,6 +72,17 @@ def test_the_course_is_printed_and_written_as_one_table_with_labelled_columns(pi
         assert float(row["turns"]) == pytest.approx(0.3 * float(row["time (s)"]))
         # a pin without clearance keeps its slot
         assert abs(float(row["a~b gap (rad)"])) < 1e-9
+
+
+@pytest.mark.slow
+def test_the_picture_has_a_panel_for_each_pair_with_play_and_marks_impacts(tmp_path: Path) -> None:
+    picture = tmp_path / "moon.svg"
+    words = ("--rate", "1", "--turns", "0.3", "--skip", "0.1", "--steps", "4000", "--no-fast")
+    assert call("dynamics", "moon-triangular-inertia", *words, "--plot", picture).exit_code == 0
+    text = picture.read_text(encoding="utf-8")
+    for pair in ("a~b1", "b2~c1", "c2~d1", "d2~e"):
+        assert f'id="gap {pair}"' in text
+        assert f'id="coast flank {pair}"' in text
 
 
 @pytest.mark.parametrize("text", ["0.3", "0.3 turn/s", "18 rpm"])

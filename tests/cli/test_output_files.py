@@ -26,7 +26,7 @@ MOTION = ("motion", "moon-triangular", "--turns", "1", "--samples", "64", "--out
 SIZED_TRAIN = ("optimise", "moon-triangular", "--output", "moon", "--best", "jam", "--free", "window")
 DOUBT = ("posterior", "{doubt}", "--free", "x=18:22", "--free", "z=38:42")
 ERRORS = ("montecarlo", "moon-triangular", "--trials", "2", "--output", "moon", "--set", "placement=2 %")
-IN_TIME = ("--rate", "1", "--turns", "0.004", "--skip", "0", "--steps", "500", "--no-fast")
+IN_TIME = ("--rate", "1", "--turns", "2", "--skip", "0", "--steps", "100", "--no-fast")
 BUDGET = ("budget", "moon-triangular", "--turns", "1", "--samples", "64", "--output", "moon")
 
 # command and writing option -> the rest of a question, and the suffixes it may be written with
@@ -44,6 +44,7 @@ ASKED: dict[tuple[str, str], tuple[tuple[str, ...], tuple[str, ...]]] = {
     ("motion", "-o"): (MOTION, (".md", ".json", ".csv")),
     ("motion", "--plot"): (MOTION, (".svg",)),
     ("dynamics", "-o"): (("dynamics", "{heavy}", *IN_TIME), (".md", ".json", ".csv")),
+    ("dynamics", "--plot"): (("dynamics", "{heavy}", *IN_TIME), (".svg",)),
     ("montecarlo", "-o"): (ERRORS, (".md", ".json", ".csv", ".parquet")),
     ("montecarlo", "--plot"): (ERRORS, (".svg",)),
     ("budget", "-o"): (BUDGET, (".md", ".json")),

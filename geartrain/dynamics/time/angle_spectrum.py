@@ -24,12 +24,10 @@ def find_peaks(time: Floats, angle: Floats, rate: float, cycles: Mapping[str, fl
     rate     turns of the lead a second
     cycles   periods of each pair in a turn of the lead
     """
-    if len(time) < 16:
+    frequencies, size = find_amplitudes(time, angle)
+    if not len(size):
         return []
-    swing = angle - np.polyval(np.polyfit(time - time[0], angle, 1), time - time[0])
-    window = np.hanning(len(swing))
-    size = np.abs(np.fft.rfft(swing * window)) * 2 / window.sum()
-    bin_width = 1 / (len(swing) * (time[1] - time[0]))
+    bin_width = float(frequencies[1])
     top = np.flatnonzero((size[1:-1] > size[:-2]) & (size[1:-1] >= size[2:])) + 1
     strongest = top[np.argsort(-size[top])][:_MOST]
     found = []
@@ -41,6 +39,16 @@ def find_peaks(time: Floats, angle: Floats, rate: float, cycles: Mapping[str, fl
         order = frequency / rate
         found.append(SpectrumPeak(order, frequency, float(size[at]), _source(order, bin_width / rate, cycles)))
     return found
+
+
+def find_amplitudes(time: Floats, angle: Floats) -> tuple[Floats, Floats]:
+    """Frequencies (Hz) and amplitudes (rad) under a Hann window, mean motion taken off; empty for too few samples."""
+    if len(time) < 16:
+        return np.zeros(0), np.zeros(0)
+    swing = angle - np.polyval(np.polyfit(time - time[0], angle, 1), time - time[0])
+    window = np.hanning(len(swing))
+    size = np.abs(np.fft.rfft(swing * window)) * 2 / window.sum()
+    return np.arange(len(size)) / (len(swing) * (time[1] - time[0])), size
 
 
 def _source(order: float, width: float, cycles: Mapping[str, float]) -> str:

@@ -67,10 +67,12 @@ class RunFigures:
 
     @property
     def plan(self) -> StepPlan:
+        """How it was stepped."""
         return self.run.plan
 
     @cached_property
     def duration(self) -> float:
+        """Of what is counted (s)."""
         return self.plan.step * self.plan.steps
 
     @cached_property
@@ -80,6 +82,7 @@ class RunFigures:
 
     @cached_property
     def time(self) -> Floats:
+        """Of the samples (s)."""
         return np.asarray(self.plan.step * self.plan.stride * np.arange(1, len(self.run.angles) + 1), dtype=np.float64)
 
     @cached_property
@@ -89,6 +92,7 @@ class RunFigures:
         return found
 
     def turns_of(self, link: str) -> Floats:
+        """Turns of a link since the start."""
         return np.asarray(self.turned[self.of.index[link]] / tau, dtype=np.float64)
 
     @cached_property
@@ -98,10 +102,12 @@ class RunFigures:
 
     @cached_property
     def names(self) -> list[str]:
+        """Pairs and pins, and links with an escapement."""
         return [pair.name for pair in self.of.model.pairs] + [stop.name for stop in self.of.model.stops]
 
     @cached_property
     def contacts(self) -> tuple[ContactInTime, ...]:
+        """What each of them did."""
         steps, time = self.plan.steps, self.duration
         return tuple(
             ContactInTime(
@@ -129,6 +135,7 @@ class RunFigures:
 
     @cached_property
     def energy(self) -> EnergyAccount:
+        """Where energy came from and went."""
         energy = self.run.energy
         return EnergyAccount(
             drive=float(energy[WORK_DRIVE]),
@@ -158,6 +165,7 @@ class RunFigures:
 
     @cached_property
     def torque(self) -> float:
+        """Mean torque where power enters (N m)."""
         source, energy = self.of.case.drive, self.energy
         if source.kind == "torque":
             return float(abs(source.torque))
@@ -186,6 +194,7 @@ class RunFigures:
 
     @cached_property
     def leads(self) -> tuple[OutputLead, ...]:
+        """How far outputs are ahead and behind."""
         counted = {name: each[self.first :] for name, each in self.differences.items()}
         return tuple(
             OutputLead(
@@ -229,6 +238,7 @@ class RunFigures:
         start = np.array([self.of.problem.angles.get(link, 0.0) for link in links])[:, None]
         figures = () if coarse is None else zip(coarse.figures(), self.figures(), strict=True)
         pairs = self.names[: len(self.of.model.pairs)]
+        outputs = [name for name, _, _ in self.outputs]
         return TimeRun(
             self.of.train.name,
             self.of.state,
@@ -246,6 +256,8 @@ class RunFigures:
             labelled_array(np.ascontiguousarray(self.run.forces.T), contact=self.names, time=time),
             labelled_array(self.gaps[0], pair=pairs, time=time),
             labelled_array(self.gaps[1], pair=pairs, time=time),
+            labelled_array(np.array([self.angle_of(name) for name in outputs]), output=outputs, time=time),
+            labelled_array(np.array([self.differences[name] for name in outputs]), output=outputs, time=time),
             _frozen(self.drive),
             self.torque,
             self.contacts,
@@ -265,10 +277,17 @@ class RunFigures:
         names = tuple(self.names[int(each)] for each in which)
         return ImpactList(self.run.numbers[IMPACTS], names, time, speed, energy, impulse)
 
-    def _peaks(self, name: str) -> Iterator[SpectrumPeak]:
+    def angle_of(self, name: str) -> Floats:
+        """The angle through which an output has turned (rad)."""
         link, base = next(each[1:] for each in self.outputs if each[0] == name)
-        angle = self.turned[self.of.index[link]] - self.of.sense(link, base) * self.turned[self.of.index[base]]
+        found: Floats = self.turned[self.of.index[link]] - self.of.sense(link, base) * self.turned[self.of.index[base]]
+        return found
+
+    def _peaks(self, name: str) -> Iterator[SpectrumPeak]:
+        angle = self.angle_of(name)
         cycles = {source.id: float(source.cycles) for source in self.of.sources.values()}
+        turn = tau / abs(self.of.case.rate)
+        cycles |= {f"beat of {link}": turn / beat for link, (_, beat) in self.of.case.escapements.items()}
         return iter(find_peaks(self.time[self.first :], angle[self.first :], abs(self.of.case.rate) / tau, cycles))
 
 

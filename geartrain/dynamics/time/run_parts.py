@@ -219,7 +219,7 @@ class SpectrumPeak(Result):
     amplitude : float
         Of the angle [rad].
     source : str
-        The pair and harmonic that fall on it, such as `c2~d1 x1`; empty for none.
+        The pair (or beat) and harmonic that fall on it, such as `c2~d1 x1`; empty for none.
 
     See Also
     --------

@@ -54,6 +54,8 @@ class TimeRun(Result):
         Means between samples, of torques on the driven sides [N m].
     gaps, coast_gaps : LabelledArray, (pair, time)
         By how much the driven side is off its drive flank, and off its coast flank [rad].
+    outputs, ahead : LabelledArray, (output, time)
+        Angles through which outputs have turned, and by how much they are ahead of `motion` [rad].
     drive : array of float, (n,)
         Torque where power enters, mean between samples [N m], the way the train turns.
     torque : float
@@ -133,6 +135,8 @@ class TimeRun(Result):
     torques: LabelledArray
     gaps: LabelledArray
     coast_gaps: LabelledArray
+    outputs: LabelledArray
+    ahead: LabelledArray
     drive: Floats
     torque: float
     contacts: tuple[ContactInTime, ...]
@@ -155,7 +159,7 @@ class TimeRun(Result):
         return found
 
     def to_csv(self) -> str:
-        """All samples as a table: time, turns, angles and speeds of links, torques of contacts and drive, gaps.
+        """All samples as a table: time, turns, angles and speeds of links, torques of contacts and drive, gaps, leads.
 
         Returns
         -------
@@ -168,16 +172,10 @@ class TimeRun(Result):
         head.append("drive torque (N m)")
         for name in self.gaps.labels[0]:
             head += [f"{name} gap (rad)", f"{name} coast gap (rad)"]
+        head += [f"output {name} ahead (rad)" for name in self.ahead.labels[0]]
+        links_and_contacts = (*self.angles.values, *self.speeds.values, *self.torques.values)
         gaps = (each for pair in zip(self.gaps.values, self.coast_gaps.values, strict=True) for each in pair)
-        parts = (
-            self.time,
-            self.turns,
-            *self.angles.values,
-            *self.speeds.values,
-            *self.torques.values,
-            self.drive,
-            *gaps,
-        )
+        parts = (self.time, self.turns, *links_and_contacts, self.drive, *gaps, *self.ahead.values)
         return csv_text(head, zip(*(part.tolist() for part in parts), strict=True))
 
     def _repr_html_(self) -> str:

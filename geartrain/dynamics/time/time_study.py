@@ -21,6 +21,7 @@ PER_SWING = 40
 _FEWEST = 200  # steps in a turn of the lead
 _PER_BEAT = 1000  # steps from one beat of an escapement to the next
 _SAMPLES = 12  # in the shortest period of a pair
+_A_BEAT = 50  # samples of an escapement
 _MOST_SAMPLES = 40_000
 _MOST_STEPS = 2_000_000_000
 _SLOW = 7e-5  # s: a step of one contact in plain Python
@@ -67,16 +68,20 @@ class TimeStudy:
         if self.steps is not None:
             return self.steps
         found = max(_FEWEST, ceil(PER_TOOTH * self.busiest))
-        turn = tau / abs(self.of.case.rate)
-        beats = [beat for _, beat in self.of.case.escapements.values()]
         # a wheel that is let go falls much faster than it turns on the mean
-        swing = ceil(PER_SWING * turn * self.of.fastest / tau)
-        return max([found, swing, *(ceil(_PER_BEAT * turn / beat) for beat in beats)])
+        swing = ceil(PER_SWING * self.of.fastest / abs(self.of.case.rate))
+        return max([found, swing, *(ceil(_PER_BEAT * each) for each in self.beats)])
+
+    @property
+    def beats(self) -> list[float]:
+        """Beats of each escapement in a turn of the lead."""
+        return [tau / abs(self.of.case.rate) / beat for _, beat in self.of.case.escapements.values()]
 
     def plan(self, finer: int) -> StepPlan:
         """The steps of one run: `finer` 1 or 2."""
         steps, skip = (round(each * self.per_turn) * finer for each in (self.turns, self.skip))
-        samples = self.samples or min(_MOST_SAMPLES, ceil(_SAMPLES * self.busiest * (self.turns + self.skip)))
+        often = max([_SAMPLES * self.busiest, *(_A_BEAT * each for each in self.beats)])
+        samples = self.samples or min(_MOST_SAMPLES, ceil(often * (self.turns + self.skip)))
         stride = max(1, (steps + skip) // finer // max(samples, 2)) * finer
         skip -= skip % stride
         return StepPlan(tau / abs(self.of.case.rate) / self.per_turn / finer, skip, steps, stride, self.apart)

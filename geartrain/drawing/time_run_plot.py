@@ -1,0 +1,263 @@
+"""Motion in time: gaps of teeth with their impacts, outputs ahead of what touching teeth do, and their spectrum."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from math import degrees, tau
+from textwrap import shorten
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from geartrain.drawing.backend import Axes, Figure
+from geartrain.drawing.style import (
+    BLACK,
+    BLUE,
+    GREEN,
+    ORANGE,
+    PALE,
+    PURPLE,
+    RED,
+    SMALL,
+    TEXT,
+    WIDTH,
+    plain,
+    write,
+)
+from geartrain.dynamics.time.angle_spectrum import find_amplitudes
+from geartrain.errors import Problem, QuestionError
+
+if TYPE_CHECKING:
+    from geartrain.dynamics import SpectrumPeak, TimeRun
+    from geartrain.numerics.arrays import Floats, Ints
+
+_PAIRS = 6  # whose gaps are drawn: those most apart
+_STRETCH = 720  # samples of the stretch in which gaps are drawn, some sixty teeth of the fastest pair
+_MOST = 4000  # points drawn of a course: of each stretch the first, its least and its greatest
+_COLOURS = (BLUE, ORANGE, GREEN, PURPLE)
+"""Of outputs; others are left out of the picture, the least moved first."""
+_OPEN = 1e-7  # rad: less is contact
+_SEEN = 1e-8  # rad: less is no motion of an output
+_SMALL = 0.1  # of the play: lesser gaps are drawn larger
+_FLAT = 1e-3  # deg: outputs that are less ahead are not drawn
+_NAMES = 8  # lines of a spectrum that are named
+_CLEAR = 1.09  # least ratio of two frequencies that are both named
+
+
+def time_run_figure(run: TimeRun, title: str = "") -> Figure:
+    """Gaps by pair with impacts marked in a stretch of the run, outputs over all of it, and their spectrum.
+
+    Parameters
+    ----------
+    run : TimeRun
+        From `GearTrain.dynamics`.
+    title : str
+        What stands above the picture.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        Of each pair with play how far its driven side is off the drive flank, up to the coast flank [deg], about the
+        greatest gap; of an escapement the speed of its link [rad/s]; by how much outputs are ahead [deg]; amplitudes
+        of their swing about their mean motion [deg].
+
+    Raises
+    ------
+    QuestionError
+        If nothing has play or swings.
+
+    Examples
+    --------
+    >>> import geartrain
+    >>> run = geartrain.load("moon-triangular-inertia").dynamics("1 turn/s", turns=0.02, skip=0, steps=2000)
+    >>> [axes.get_ylabel().split()[0] for axes in time_run_figure(run).axes]
+    ['a~b1', 'b2~c1', 'c2~d1', 'd2~e', 'ahead', 'swing']
+    """
+    pairs, stops = _loose(run), [each.name for each in run.contacts if each.name not in run.gaps.labels[0]]
+    moving = _moving(run)
+    leading = [each.output for each in run.leads if degrees(max(each.ahead, each.behind)) > _FLAT]
+    tall = [1.0] * (len(pairs) + len(stops)) + [1.5] * bool(leading) + [2.0] * bool(moving)
+    if not tall:
+        what = f"in time nothing of '{run.train}' is to be seen"
+        raise QuestionError(Problem(what, "nothing has play, and nothing swings", "draw a train with real teeth"))
+    figure = Figure(figsize=(WIDTH, 0.9 + 1.25 * sum(tall)), dpi=100, layout="constrained")
+    panels = list(figure.subplots(len(tall), 1, squeeze=False, gridspec_kw={"height_ratios": tall})[:, 0])
+    for panel in panels:
+        plain(panel)
+    if moving:
+        _spectrum(panels.pop(), run, moving)
+    if leading:
+        _ahead(panels.pop(), run, [name for name in moving if name in leading])
+    stretch = _stretch(run, pairs)
+    for panel, pair in zip(panels, pairs, strict=False):
+        _gap(panel, run, pair, stretch)
+    for panel, stop in zip(panels[len(pairs) :], stops, strict=True):
+        _speed(panel, run, stop, stretch)
+    for panel in panels[:-1]:
+        panel.tick_params(labelbottom=False)
+    if panels:
+        panels[-1].set_xlabel(_across_text(run), fontsize=SMALL, parse_math=False)
+        _key(panels[0], bool(pairs))
+    figure.axes[0].set_title(title, fontsize=TEXT, loc="left", color=BLACK, parse_math=False)
+    return figure
+
+
+def _key(panel: Axes, gaps: bool) -> None:
+    """What marks stand for."""
+    panel.scatter([], [], s=24, c=RED, marker="^", label="impact")
+    if gaps:
+        panel.fill_between([], [], [], color=PALE, alpha=0.6, label="coast flank")
+    panel.legend(
+        loc="lower right", bbox_to_anchor=(1, 1), borderpad=0, borderaxespad=0.1, frameon=False, fontsize=SMALL, ncols=2
+    )
+
+
+def _across(run: TimeRun) -> Floats:
+    """What courses are drawn over: turns of what turns evenly, else time."""
+    return run.turns if run.driven == "rate" else run.time
+
+
+def _across_text(run: TimeRun) -> str:
+    return f"turns of {_short(run.lead)}" if run.driven == "rate" else "time (s)"
+
+
+def _short(name: str) -> str:
+    return shorten(name, 20, placeholder="...")
+
+
+def _loose(run: TimeRun) -> list[str]:
+    """Pairs with play, as they stand in the train; where there are too many, those that are most apart."""
+    names = [
+        name
+        for row, name in enumerate(run.gaps.labels[0])
+        if float(np.max(run.gaps.values[row] + run.coast_gaps.values[row], initial=0.0)) > _OPEN
+    ]
+    apart = {each.name: (each.apart, each.gap) for each in run.contacts}
+    most = sorted(names, key=lambda name: apart[name], reverse=True)[:_PAIRS]
+    return [name for name in names if name in most]
+
+
+def _moving(run: TimeRun) -> list[str]:
+    """Outputs that do not turn evenly, those furthest ahead or behind first."""
+    lead = {each.output: max(each.ahead, each.behind) for each in run.leads}
+    swing = {name: max((peak.amplitude for peak in run.spectra[name]), default=0.0) for name in lead}
+    names = [name for name in lead if max(lead[name], swing[name]) > _SEEN]
+    return sorted(names, key=lambda name: (lead[name], swing[name]), reverse=True)[: len(_COLOURS)]
+
+
+def _stretch(run: TimeRun, pairs: list[str]) -> slice:
+    """Samples about the greatest gap of all pairs that are drawn, or the last ones."""
+    whole = len(run.time)
+    first = int(np.searchsorted(run.time, run.skip))
+    middle = whole
+    if pairs:
+        open_ = np.max([np.minimum(run.gaps[pair], run.coast_gaps[pair])[first:] for pair in pairs], axis=0)
+        if len(open_) and open_.max() > _OPEN:
+            middle = first + int(open_.argmax())
+    end = min(max(middle + _STRETCH // 2, first + _STRETCH), whole)
+    return slice(max(first, end - _STRETCH), end)
+
+
+def _gap(panel: Axes, run: TimeRun, pair: str, stretch: slice) -> None:
+    """The driven side between its flanks; bands where neither touches, ticks where it strikes."""
+    at, front = _across(run)[stretch], np.degrees(run.gaps[pair][stretch])
+    back = front + np.degrees(run.coast_gaps[pair][stretch])
+    panel.fill_between(at, back, 1.06 * back.max(), color=PALE, alpha=0.6, linewidth=0, gid=f"coast flank {pair}")
+    panel.plot(at, front, color=BLUE, linewidth=1.0, gid=f"gap {pair}")
+    _impacts(panel, run, pair, stretch)
+    top = 1.06 * back.max()
+    if _FLAT < front.max() < _SMALL * back.min():
+        top = 1.3 * front.max()  # the coast flank is out of sight
+    panel.set_ylim(-0.12 * top, top)
+    panel.set_xlim(at[0], at[-1])
+    apart = next(each.apart for each in run.contacts if each.name == pair)
+    panel.set_ylabel(f"{_short(pair)}\ngap (deg)", fontsize=SMALL, parse_math=False)
+    text = f"apart {100 * apart:.3g} %; coast flank from {back.min():.3g} deg on"
+    write(panel, 0.995, 0.8, text, ha="right", transform=panel.transAxes)
+
+
+def _speed(panel: Axes, run: TimeRun, stop: str, stretch: slice) -> None:
+    """The link of an escapement, which goes and is stopped."""
+    at = _across(run)[stretch]
+    panel.plot(at, run.speeds[stop][stretch], color=BLUE, linewidth=1.0)
+    _impacts(panel, run, stop, stretch)
+    panel.set_xlim(at[0], at[-1])
+    panel.set_ylabel(f"{_short(stop)}\nspeed (rad/s)", fontsize=SMALL, parse_math=False)
+
+
+def _impacts(panel: Axes, run: TimeRun, contact: str, stretch: slice) -> None:
+    """Ticks at the foot, as strong as what they take."""
+    own = np.array([name == contact for name in run.impacts.contact], dtype=bool)
+    if not own.any():
+        return
+    across = _across(run)
+    at = np.interp(run.impacts.time[own], run.time, across)
+    energy = run.impacts.energy[own]
+    near = (at >= across[stretch.start]) & (at <= across[stretch.stop - 1]) & (energy > 0)
+    if near.any():
+        size = 4 + 36 * energy[near] / energy.max()
+        foot = panel.get_xaxis_transform()
+        panel.scatter(
+            at[near], np.full(near.sum(), 0.05), s=size, c=RED, marker="^", transform=foot, linewidths=0, zorder=4
+        )
+
+
+def _ahead(panel: Axes, run: TimeRun, moving: list[str]) -> None:
+    first = int(np.searchsorted(run.time, run.skip))
+    across = _across(run)
+    for name, colour in zip(moving, _COLOURS, strict=False):
+        angle = np.degrees(run.ahead[name][first:])
+        kept = _kept(angle)
+        panel.plot(across[first:][kept], angle[kept], color=colour, linewidth=0.8, label=_short(name))
+    if first < len(across):
+        panel.set_xlim(across[first], across[-1])
+    panel.legend(
+        loc="lower right",
+        bbox_to_anchor=(1, 1),
+        borderpad=0,
+        borderaxespad=0.1,
+        frameon=False,
+        fontsize=SMALL,
+        ncols=4,
+    )
+    panel.set_ylabel("ahead of touching\nteeth (deg)", fontsize=SMALL)
+    panel.set_xlabel(_across_text(run), fontsize=SMALL, parse_math=False)
+
+
+def _spectrum(panel: Axes, run: TimeRun, moving: list[str]) -> None:
+    first = int(np.searchsorted(run.time, run.skip))
+    top = 0.0
+    for name, colour in zip(moving, _COLOURS, strict=False):
+        frequency, size = find_amplitudes(run.time[first:], run.outputs[name][first:])
+        panel.plot(frequency[1:], np.degrees(size[1:]), color=colour, linewidth=0.8, label=_short(name))
+        top = max(top, float(np.degrees(size[1:]).max(initial=0.0)))
+    if top:
+        panel.legend(loc="upper left", frameon=False, fontsize=SMALL)
+        panel.set_yscale("log")
+        panel.set_ylim(3e-5 * top, 60 * top)
+        panel.set_xscale("log")
+        panel.set_xlim(max(float(frequency[1]), abs(run.rate) / tau / 2), float(frequency[-1]))
+        for at, amplitude, source in _named(run.spectra[moving[0]]):
+            write(panel, at, 1.4 * amplitude, source, rotation=60, ha="left", va="bottom", fontsize=8.0)
+    panel.set_ylabel("swing (deg)", fontsize=SMALL)
+    panel.set_xlabel("frequency (Hz)", fontsize=SMALL)
+
+
+def _named(peaks: Sequence[SpectrumPeak]) -> Iterator[tuple[float, float, str]]:
+    """The strongest lines that are known, none beside another: frequency (Hz), amplitude (deg), whose it is."""
+    taken: list[float] = []
+    for peak in peaks:
+        near = any(1 / _CLEAR < peak.frequency / each < _CLEAR for each in taken)
+        if peak.source and not near and len(taken) < _NAMES:
+            taken.append(peak.frequency)
+            yield peak.frequency, float(np.degrees(peak.amplitude)), peak.source
+
+
+def _kept(values: Floats) -> Ints:
+    """Of each stretch of samples the first, the least and the greatest, so that no peak is lost."""
+    if len(values) <= _MOST:
+        return np.arange(len(values))
+    kept = []
+    for part in np.array_split(np.arange(len(values)), _MOST // 3):
+        kept += [part[0], part[values[part].argmin()], part[values[part].argmax()]]
+    return np.unique([*kept, len(values) - 1])

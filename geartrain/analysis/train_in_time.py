@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from math import inf
 from typing import TYPE_CHECKING, Literal
 
 from geartrain.analysis.train_dynamics import TrainDynamics
+from geartrain.errors import Problem, QuestionError
 
 if TYPE_CHECKING:
+    from geartrain.dynamics.time.stepwise_simulation import Simulation
     from geartrain.dynamics.time.time_run import TimeRun
     from geartrain.dynamics.time.train_model import TrainModel
     from geartrain.dynamics.time.vibration_modes import VibrationModes
@@ -89,11 +92,62 @@ class TrainInTime(TrainDynamics):
         from geartrain.numerics.quantity import Quantity
 
         case = self._case(state)
-        names = outputs or tuple(case.outputs) or tuple(self.declaration.links)
-        seen = [(name, *self._speeds.single_output(case, name)[1]) for name in names]
+        seen = self._seen_in_time(case, outputs)
         speed = Quantity.parse(rate, "speed", plain=True).si if isinstance(rate, str) else rate
         found = self._in_time(case, without, speed, restitution, model == "compliant")
         return TimeStudy(found, seen, turns, skip, steps, samples, apart, fast).run(on_done)
+
+    def simulation(
+        self,
+        rate: str | float | None = None,
+        state: str | None = None,
+        *,
+        step: float | None = None,
+        restitution: float | None = None,
+        outputs: Sequence[str] = (),
+        without: Sequence[str] = (),
+        fast: bool | None = False,
+    ) -> Simulation:
+        """A train that moves in time step by step, and may be steered on the way; the steps are those of `dynamics`.
+
+        Parameters
+        ----------
+        rate, state, restitution, outputs, without
+            As of `dynamics`; teeth are rigid.
+        step : float, optional
+            Length of a step [s]; by default that of the finer run of `dynamics`.
+        fast : bool, optional
+            Whether kernels are compiled, by the extra `fast`; None: if numba is installed.
+
+        Returns
+        -------
+        Simulation
+            At time 0.
+
+        Raises
+        ------
+        QuestionError
+            As from `dynamics`.
+        GearTrainError
+            As from `dynamics`.
+        """
+        from geartrain.dynamics.time.stepwise_simulation import Simulation
+        from geartrain.dynamics.time.time_study import TimeStudy
+        from geartrain.numerics.kernels import is_fast
+        from geartrain.numerics.quantity import Quantity
+
+        if step is not None and not 0 < step < inf:
+            raise QuestionError(Problem(f"steps of {step:g} s", "time goes on", "give a length above 0"))
+        case = self._case(state)
+        seen = self._seen_in_time(case, outputs)
+        speed = Quantity.parse(rate, "speed", plain=True).si if isinstance(rate, str) else rate
+        found = self._in_time(case, without, speed, restitution, yields=False)
+        return Simulation(found, seen, step or TimeStudy(found, seen, 1).plan(2).step, fast=is_fast(fast, inf))
+
+    def _seen_in_time(self, case: StateCase, outputs: Sequence[str]) -> list[tuple[str, str, str]]:
+        """What is looked at: its name, the link, and the link from which it is seen."""
+        names = outputs or tuple(case.outputs) or tuple(self.declaration.links)
+        return [(name, *self._speeds.single_output(case, name)[1]) for name in names]
 
     def vibration_modes(self, state: str | None = None, *, without: Sequence[str] = ()) -> VibrationModes:
         """Eigenfrequencies and modes of the train about contact, teeth yielding by their stiffness (docs/dynamics.md).

@@ -30,7 +30,8 @@ from geartrain.cli.common import (
     tell,
 )
 from geartrain.cli.long_runs import progress
-from geartrain.cli.option_values import MOST_COUNT, exact, read_quantity
+from geartrain.cli.option_values import MOST_COUNT, exact, input_rate
+from geartrain.cli.option_values import restitution as read_restitution
 
 if TYPE_CHECKING:
     from geartrain.analysis.gear_train import GearTrain
@@ -80,11 +81,11 @@ def run(
     if csv and to.path is not None:
         raise typer.BadParameter("the course is printed, or written: give --csv, or -o x.csv", param_hint="--csv")
     asked: dict[str, Any] = {
-        "rate": None if rate is None else _rate(rate),
+        "rate": None if rate is None else input_rate(rate),
         "turns": float(exact("--turns", turns, "number of turns", "20", 0, _MOST_TURNS)),
         "skip": float(exact("--skip", skip, "number of turns", "1", 0, _MOST_TURNS)),
         "steps": steps,
-        "restitution": None if restitution is None else _restitution(restitution),
+        "restitution": None if restitution is None else read_restitution(restitution),
         "outputs": tuple(output or ()),
         "without": tuple(without or ()),
         "fast": fast,
@@ -133,13 +134,3 @@ def _interrupts() -> Iterator[list[int]]:
         yield came
     finally:
         signal.signal(signal.SIGINT, before)
-
-
-def _rate(text: str) -> float:
-    """A speed of the input (rad/s); a plain number is turns a second."""
-    found = read_quantity("--rate", text, "speed", plain=True, least="above 0")
-    return tau * float(found.value) if found.unit is None else found.si
-
-
-def _restitution(text: str) -> float:
-    return float(exact("--restitution", text, "restitution", "0.3", 0, 1))

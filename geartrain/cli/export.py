@@ -2,16 +2,30 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from fractions import Fraction
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from geartrain.cli.common import GOOD, INTERRUPTED, VERDICT, File, FirstState, Force, is_sound, plural, sink, tell
+from geartrain.cli.common import (
+    GOOD,
+    INTERRUPTED,
+    VERDICT,
+    File,
+    FirstState,
+    Force,
+    Sink,
+    Without,
+    is_sound,
+    plural,
+    sink,
+    tell,
+)
 from geartrain.cli.long_runs import progress
-from geartrain.cli.option_values import quantity
+from geartrain.cli.option_values import input_rate, quantity
+from geartrain.cli.option_values import restitution as read_restitution
 from geartrain.cli.option_values import turns as read_turns
 from geartrain.errors import GearTrainError, Problem
 
@@ -28,7 +42,8 @@ def run(
     file: File,
     to: Annotated[Path | None, typer.Option("--to", help="Write all files into this folder.")] = None,
     out: Annotated[
-        Path | None, typer.Option("--output-file", "-o", help="Write one file: .glb .stl .step .graphml .dot .rexsj")
+        Path | None,
+        typer.Option("--output-file", "-o", help="Write one file: .glb .stl .step .graphml .dot .rexsj .fmu"),
     ] = None,
     kinds: Annotated[
         str | None, typer.Option("--as", help="With --to: some of svg,dxf,stl,glb,step,graphml,dot,rexs,csv.")
@@ -42,15 +57,34 @@ def run(
         Size, typer.Option("--backlash", help="Play of every pair on its pitch circles, such as 0.05mm.")
     ] = None,
     turns: Annotated[str | None, typer.Option("--turns", help="Turns of the lead that the GLB shows.")] = None,
+    rate: Annotated[
+        str | None,
+        typer.Option("--rate", help="Of an .fmu: turns a second of the input, or such as '30 rpm'; default the drive."),
+    ] = None,
+    restitution: Annotated[
+        str | None, typer.Option("--restitution", help="Of an .fmu: of all impacts, 0 to 1; default as declared, or 0.")
+    ] = None,
+    step: Annotated[
+        Size, typer.Option("--step", help="Of an .fmu: length of a step, such as 0.0001s; default by its teeth.")
+    ] = None,
+    without: Without = None,
     force: Force = False,
 ) -> None:
-    """Write wheels and plates to cut, the assembly as a solid, the graph, REXS and tables of a train."""
+    """Write wheels and plates to cut, the assembly as a solid, the graph, REXS, an FMU and tables of a train."""
     from geartrain.analysis.loader import load
     from geartrain.scene import SolidModel
 
     if (to is None) == (out is None):
         what = "it is not said what to write" if to is None else "--to and -o are both given"
         raise GearTrainError(Problem(what, "", "give --to FOLDER for all files, or -o FILE for one", "export"))
+    of_time = {"--rate": rate, "--restitution": restitution, "--step": step, "--without": without or None}
+    of_solids = {"--wheel": wheel, "--module": module, "--thickness": thickness, "--bore": bore}
+    of_solids |= {"--backlash": backlash, "--turns": turns}
+    if out is not None and out.suffix.lower() == ".fmu":
+        _refuse(of_solids, "says nothing to a unit that moves in time", "leave it out")
+        _unit(file, state, of_time, sink(out, force))
+        return
+    _refuse(of_time, "is for a unit that moves in time", "give -o FILE.fmu, or leave it out")
     train = load(file)
     work = SolidModel(train, _making(module, thickness, bore, backlash), train.state_or_first(state))
     shown = _turns(turns)
@@ -59,6 +93,31 @@ def run(
     else:
         assert to is not None
         _all(work, to, kinds, wheel, shown, force)
+    raise typer.Exit(GOOD if is_sound(train, state) else VERDICT)
+
+
+def _refuse(given: Mapping[str, object], why: str, fix: str) -> None:
+    """Options that do not go with what is written."""
+    for option, value in given.items():
+        if value is not None:
+            raise GearTrainError(Problem(f"{option} {why}", "", fix, option))
+
+
+def _unit(file: str, state: str | None, of_time: Mapping[str, Any], to: Sink) -> None:
+    """A co-simulation unit."""
+    from geartrain.analysis.loader import load
+    from geartrain.export import CoSimulationCase, fmu_file
+
+    rate, restitution, step, without = of_time.values()
+    train = load(file)
+    case = CoSimulationCase(
+        train.state_or_first(state),
+        None if rate is None else input_rate(rate),
+        None if step is None else quantity("--step", step, "time", least="above 0"),
+        None if restitution is None else read_restitution(restitution),
+        tuple(without or ()),
+    )
+    to.write(fmu_file(train, case))
     raise typer.Exit(GOOD if is_sound(train, state) else VERDICT)
 
 

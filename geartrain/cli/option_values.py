@@ -5,7 +5,7 @@ pair of `geartrain mesh` goes to the option it belongs to.
 from __future__ import annotations
 
 from fractions import Fraction
-from math import inf
+from math import inf, tau
 from typing import Literal
 
 from pydantic_core import PydanticCustomError
@@ -48,6 +48,17 @@ def friction(text: str) -> float:
             Problem(f"a friction of {text} would push", "", "a coefficient of friction is 0 or more", "--friction")
         )
     return found
+
+
+def restitution(text: str) -> float:
+    """A coefficient of restitution."""
+    return float(exact("--restitution", text, "restitution", "0.3", 0, 1))
+
+
+def input_rate(text: str) -> float:
+    """A speed of the input (rad/s); a plain number is turns a second."""
+    found = read_quantity("--rate", text, "speed", plain=True, least="above 0")
+    return tau * float(found.value) if found.unit is None else found.si
 
 
 def exact(place: str, text: str, what: str, such_as: str, low: float = -inf, high: float = inf) -> Fraction:

@@ -36,6 +36,7 @@ if TYPE_CHECKING:
         SpectrumPeak,
     )
     from geartrain.dynamics.time.separation_rate import PairSeparation, SeparationRates
+    from geartrain.dynamics.time.stepwise_simulation import Simulation
     from geartrain.dynamics.time.time_run import TimeRun
     from geartrain.dynamics.time.vibration_modes import VibrationModes
     from geartrain.dynamics.torques.member_torques import BearingTorque, HoldingTorque, PairTorque
@@ -73,6 +74,7 @@ __all__ = [
     "RunningStatistics",
     "SeparationRates",
     "SettledFigure",
+    "Simulation",
     "SpectrumLine",
     "SpectrumPeak",
     "TimeRun",
@@ -113,6 +115,7 @@ _PLACES = {
     "RunningStatistics": "motion.run_statistics",
     "SeparationRates": "time.separation_rate",
     "SettledFigure": "time.run_parts",
+    "Simulation": "time.stepwise_simulation",
     "SpectrumLine": "motion.order_spectrum",
     "SpectrumPeak": "time.run_parts",
     "TimeRun": "time.time_run",

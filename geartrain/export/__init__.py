@@ -7,6 +7,7 @@ are those of docs/shapes.md, motions in GLB the exact speeds.
 export_files   all files of some kinds, as a folder
 train_file     one file with the whole train: STL, GLB, STEP, GraphML, DOT, REXS
 wheel_file     one wheel as SVG, DXF or STL
+fmu_file       a train that moves in time, as a co-simulation unit
 outline_text   the outline of any wheel as SVG, DXF or CSV
 """
 
@@ -17,6 +18,8 @@ from typing import TYPE_CHECKING
 from geartrain.numerics.lazy_names import lazy_names
 
 if TYPE_CHECKING:
+    from geartrain.export.co_simulation import CoSimulationCase as CoSimulationCase
+    from geartrain.export.co_simulation import fmu_file as fmu_file
     from geartrain.export.file_set import ExportFile as ExportFile
     from geartrain.export.file_set import export_files as export_files
     from geartrain.export.file_set import notices as notices
@@ -25,8 +28,10 @@ if TYPE_CHECKING:
     from geartrain.export.flat_files import outline_text as outline_text
 
 __all__ = [
+    "CoSimulationCase",
     "ExportFile",
     "export_files",
+    "fmu_file",
     "notices",
     "outline_text",
     "train_file",
@@ -34,8 +39,10 @@ __all__ = [
 ]
 
 _PLACES = {
+    "CoSimulationCase": "co_simulation",
     "ExportFile": "file_set",
     "export_files": "file_set",
+    "fmu_file": "co_simulation",
     "notices": "file_set",
     "outline_text": "flat_files",
     "train_file": "file_set",

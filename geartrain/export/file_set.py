@@ -345,5 +345,5 @@ def kind_of(name: str) -> str:
     suffix = f".{name.rpartition('.')[2].lower()}" if "." in name else ""
     if suffix in SUFFIXES:
         return SUFFIXES[suffix]
-    fix = f"use {', '.join(SUFFIXES)}; wheels, plates and tables are many files: --to FOLDER"
+    fix = f"use {', '.join(SUFFIXES)}, .fmu; wheels, plates and tables are many files: --to FOLDER"
     raise GearTrainError(Problem(f"no train is written as '{suffix or name}'", "", fix, "-o"))

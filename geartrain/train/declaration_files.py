@@ -13,7 +13,7 @@ from geartrain.errors import DeclarationError, Problem, suggest
 from geartrain.train.declaration import Train
 from geartrain.train.inheritance import merge_parent
 from geartrain.train.validation import declare
-from geartrain.train.yaml_nodes import YamlNode, node_from_data, parse_yaml
+from geartrain.train.yaml_nodes import YamlNode, as_yaml, node_from_data, parse_yaml
 
 _MOST_BYTES = 64 * 2**20
 _MOST_PARENTS = 2000
@@ -40,6 +40,12 @@ def read_declaration(source: str | Path | Mapping[str, Any]) -> Train:
         return _build(parse_yaml(source, "text"), Path.cwd(), (), "train")
     path = _find(source)
     return _build(parse_yaml(_read(path), str(path)), path.parent, (path.resolve(),), path.stem)
+
+
+def write_declaration(train: Train) -> str:
+    """YAML text that is read back as the same declaration wherever it stands: with all that it inherits."""
+    data = train.model_dump(mode="json", exclude_unset=True, by_alias=True, exclude={"extends", "remove"})
+    return as_yaml({"name": train.name, **data})
 
 
 def _build(root: YamlNode, folder: Path, chain: tuple[Path, ...], stem: str) -> Train:

@@ -112,16 +112,10 @@ def simulate(
         np.zeros(5, dtype=np.int64),
     )
     teeth = _teeth(model, yields)
-
-    fastest = max(float(np.max(np.abs(model.typical), initial=0.0)), float(np.max(np.abs(state.speed), initial=0.0)))
-    fastest = fastest or 1.0
-    length = fastest * plan.step * (plan.skip + plan.steps)
-    slack = max(_SLACK * fastest, 4 * np.finfo(float).eps * (1 + length) / plan.step)
     skip = plan.skip - plan.skip % plan.stride
     laws = model.laws
-    rounds = _ROUNDS + 6 * (rows + len(model.bearings))
-    rules = StepRules(plan.step, plan.stride, _CREEP * fastest, slack, plan.apart, rounds)
-    arguments = plan.stride, rules.creep, plan.apart, slack
+    rules = step_rules(model, state, plan, plan.step * (plan.skip + plan.steps))
+    arguments = plan.stride, rules.creep, plan.apart, rules.slack
     piece = max(1, _AT_A_TIME[fast] // plan.stride) * plan.stride
 
     def run(steps: int, counted: bool) -> None:
@@ -167,6 +161,15 @@ def simulate(
         pressed,
         None if teeth is None else teeth.peak,
     )
+
+
+def step_rules(model: ContactModel, state: ContactState, plan: StepPlan, duration: float) -> StepRules:
+    """How a model is stepped in a run of so many seconds, with what rounding leaves of its speeds."""
+    fastest = max(float(np.max(np.abs(model.typical), initial=0.0)), float(np.max(np.abs(state.speed), initial=0.0)))
+    fastest = fastest or 1.0
+    slack = max(_SLACK * fastest, 4 * np.finfo(float).eps * (1 + fastest * duration) / plan.step)
+    rounds = _ROUNDS + 6 * (len(model.pairs) + len(model.stops) + len(model.bearings))
+    return StepRules(plan.step, plan.stride, _CREEP * fastest, slack, plan.apart, rounds)
 
 
 def start_state(model: ContactModel, system: ContactSystem) -> ContactState:

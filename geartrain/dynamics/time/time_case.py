@@ -35,6 +35,11 @@ class PowerInput:
     wound: float = 0.0
     inertia: float = 0.0
 
+    @property
+    def value(self) -> float:
+        """What could be steered: the speed of the link, or of the hand (rad/s); the torque (N m); 0 of a spring."""
+        return {"rate": self.rate, "hand": self.rate, "torque": self.torque}.get(self.kind, 0.0)
+
 
 @dataclass(frozen=True)
 class TimeCase:

@@ -312,14 +312,17 @@ class TrainModel:
             rate = drive.rate if drive.kind == "hand" else 0.0
             yield Spring(drive.link, _sparse(self._form(drive.link)), drive.stiffness, drive.wound, rate)
 
+    def torque_of(self, loads: Mapping[str, float], drive: float) -> Floats:
+        """What torques on links, and one where power enters, are on the coordinates (N m)."""
+        torque = drive * self._form(self.case.drive.link)
+        for link, load in loads.items():
+            torque += load * self._form(link)
+        return torque
+
     @cached_property
     def model(self) -> ContactModel:
         """The model that kernels step."""
-        torque = np.zeros(len(self.coordinates))
-        for link, load in self.case.load.items():
-            torque += load * self._form(link)
-        if self.case.drive.kind == "torque":
-            torque += self.case.drive.torque * self._form(self.case.drive.link)
+        torque = self.torque_of(self.case.load, self.case.drive.torque)
         typical = np.array([self.typical(link) for link in self.coordinates])
         given = dict(enumerate(self.prescribed.values()))
         return ContactModel(

@@ -258,7 +258,10 @@ def _stored(system: ContactSystem, laws: LawTables, state: ContactState, yields:
         S = float(system.start_driver[m] + system.pair_driver[row] @ angle)
         q = float(system.start_driven[m] + system.pair_driven[row] @ angle)
         gaps = [(1 - 2 * side) * (q - value_and_slope(laws, int(system.tables[m, side]), S)[0]) for side in range(2)]
-        pressed = gaps[:1] if system.two_sided[m] else [min(gap, 0.0) for gap in gaps]
+        touches = [state.touching[m] == side + 1 for side in range(2)]
+        pressed = (
+            gaps[:1] if system.two_sided[m] else [min(gap, 0.0) * on for gap, on in zip(gaps, touches, strict=True)]
+        )
         found += float(stiffness) / 2 * sum(gap**2 for gap in pressed)
     return found
 

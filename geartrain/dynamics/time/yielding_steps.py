@@ -247,15 +247,18 @@ def count_yielding(
     """Shares of time, what damping and friction take, impacts and peaks, by pair.
 
     What a contact takes less its damping stays in the column of steps, from which the energy stored is to be taken.
+    Teeth that part before they are straight again straighten by themselves, against their own damping.
     """
     for m in range(len(system.stiff)):
-        rate_S, rate_q, mean_S, mean_q = 0.0, 0.0, 0.0, 0.0
+        rate_S, rate_q, mean_S, mean_q, start_S, start_q = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
         for x in range(system.pair_at[m], system.pair_at[m + 1]):
             o = system.pair_of[x]
             rate_S += system.pair_driver[x] * here.v[o]
             rate_q += system.pair_driven[x] * here.v[o]
             mean_S += system.pair_driver[x] * middle[o]
             mean_q += system.pair_driven[x] * middle[o]
+            start_S += system.pair_driver[x] * state.speed[o]
+            start_q += system.pair_driven[x] * state.speed[o]
         counts = record.counts[m]
         if system.two_sided[m] == 0:
             ahead = gap[m, 0] + step / 4 * (rate_q - here.ratio[m, 0] * rate_S)
@@ -266,6 +269,16 @@ def count_yielding(
                 counts[TIME_COAST] += 1.0
             counts[GAP] = max(counts[GAP], min(ahead, behind))
         now = state.touching[m]
+        if system.two_sided[m] == 0:
+            for side in range(2):
+                passed = (1 if before[m] == side + 1 else 0) - (1 if now == side + 1 else 0)
+                if passed != 0:
+                    opening = (1.0 - 2.0 * side) * (start_q - here.ratio[m, side] * start_S)
+                    pressed = min(gap[m, side] - step / 4 * opening, 0.0)
+                    left = passed * teeth.stiffness[m] / 2 * pressed * pressed
+                    record.energy[BLOWS] += left
+                    record.energy[STEP] -= left
+                    counts[BLOW_ENERGY] += left
         if now == 0:
             teeth.impact[m] = -1
             continue

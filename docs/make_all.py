@@ -11,6 +11,7 @@ import make_architecture
 import make_best_radii
 import make_budgets
 import make_commands
+import make_dynamics_accuracy
 import make_errata
 import make_extremes
 import make_gallery
@@ -38,6 +39,7 @@ def main() -> None:
         make_accuracy,
         make_mesh_accuracy,
         make_motion_accuracy,
+        make_dynamics_accuracy,
         make_sphere_accuracy,
         make_teeth_accuracy,
         make_shapes_accuracy,

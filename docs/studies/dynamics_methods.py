@@ -97,6 +97,8 @@ class _EventRun:
             events=[event(0), event(1)],
             dense_output=True,
         )
+        assert found.sol is not None
+        assert found.t_events is not None
         times = np.linspace(found.t[0], found.t[-1], 2001)
         q = found.sol(times)[0]
         gaps = np.minimum(q - FLANKS[0].angle(RATE * times), FLANKS[1].angle(RATE * times) - q)
@@ -161,16 +163,16 @@ def _model(restitution: float) -> ContactModel:
     return ContactModel(mass, none, np.zeros(2), {0: RATE}, speeds, [pair], drags, start=speeds)
 
 
-def stepped(restitution: float, steps: int) -> PairRun:
+def stepped(restitution: float, steps: int, fast: bool = True) -> PairRun:
     """Rigid, by so many steps in a turn."""
-    return _told(simulate(_model(restitution), _plan(steps), True))
+    return _told(simulate(_model(restitution), _plan(steps), fast))
 
 
-def yielding(restitution: float, stiffness: float, steps: int) -> PairRun:
+def yielding(restitution: float, stiffness: float, steps: int, fast: bool = True) -> PairRun:
     """With teeth of a stiffness (N m/rad), and the damping at which as much comes back."""
     damping = 2 * damping_ratio(restitution) * sqrt(stiffness * INERTIA)
     yields = ToothYield(np.array([stiffness]), np.array([damping]))
-    return _told(simulate(_model(0.0), _plan(steps), True, yields=yields))
+    return _told(simulate(_model(0.0), _plan(steps), fast, yields=yields))
 
 
 def _plan(steps: int) -> StepPlan:

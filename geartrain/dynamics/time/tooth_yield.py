@@ -1,7 +1,8 @@
 """How teeth in mesh yield: stiffness and damping of every pair on its driven side, declared or estimated.
 
 A stiffness k along the line of action is k r^2 about the driven wheel's axis, r the arm of that line: the base radius
-of involute teeth, the pitch radius of others. Damping follows the same way, or from restitution, docs/dynamics.md (14).
+of involute teeth, the pitch radius of others. Damping follows the same way, or from restitution. docs/dynamics.md (16)
+and (17).
 """
 
 from __future__ import annotations

@@ -1,4 +1,6 @@
-"""Teeth that yield: the implicit midpoint rule for contacts with a stiffness and a damping, docs/dynamics.md (12).
+"""Teeth that yield: the implicit midpoint rule for contacts with a stiffness and a damping.
+
+docs/dynamics.md (15) and (18):
 
     P = h max(0, -k g - c dg/dt)   where g < 0,
 

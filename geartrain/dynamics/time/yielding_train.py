@@ -1,6 +1,6 @@
 """A train whose teeth yield: the contacts of `TrainModel`, each with a stiffness and a damping; how it swings.
 
-M x'' + C x' + K x = 0 about contact, docs/dynamics.md (15): K = sum k r^T r over pairs that touch, r the row of speeds
+M x'' + C x' + K x = 0 about contact, docs/dynamics.md (19): K = sum k r^T r over pairs that touch, r the row of speeds
 by which a pair closes, ratios at their means; and the springs of drives.
 """
 

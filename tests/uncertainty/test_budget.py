@@ -13,6 +13,7 @@ from sorge import Pair, first_of_all
 import geartrain
 from geartrain import GearTrain
 from geartrain.uncertainty import BudgetQuestion, PointerBudget, TrainBudget, find_budget
+from geartrain.uncertainty.budget.crank_load import find_crank_load
 from geartrain.uncertainty.budget.pin_theory import least_difference
 from geartrain.uncertainty.budget.true_anomaly import equation_of_centre
 
@@ -355,3 +356,21 @@ def test_a_train_of_which_nothing_is_known_has_no_picture() -> None:
 
     with pytest.raises(geartrain.GearTrainError, match="no budget"):
         budget_figure(find_budget(geartrain.load("south-pointing-chariot"), BudgetQuestion(**SHORT), "straight on"))
+
+
+def test_the_crank_has_one_sign_though_it_turns_backwards() -> None:
+    train = GearTrain.declare(
+        {
+            "links": {"frame": {}, "x": {"wheels": {"a": 24}}, "y": {"wheels": {"b": 36}}},
+            "revolutes": [{"pair": ["frame", "x"], "axis": "A"}, {"pair": ["frame", "y"], "axis": "B"}],
+            "gears": [{"pair": ["a", "b"]}],
+            "inputs": {"x": -1},
+            "outputs": {"y": {}},
+            "loads": {"y": "-3 N m"},
+        }
+    )
+    crank = find_crank_load(train, None, "x", {"y": "y"})
+    # no loss: 3 N m at two thirds of the speed, put in
+    assert crank.torque == pytest.approx(2)
+    assert crank.over_turn is not None
+    assert crank.over_turn.mean == pytest.approx(2)

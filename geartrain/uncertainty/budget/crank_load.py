@@ -32,7 +32,8 @@ class CrankLoad(Result):
     link : str
         The one that is turned.
     torque : float or None
-        Under the declared loads [N m, or their plain unit]; None without loads.
+        Under the declared loads, in the link's own sense of turning: positive puts power in, as in `over_turn` [N m, or
+        their plain unit]; None without loads.
     efficiency : float or None
         Power out over power in; None where neither friction nor an efficiency is declared, or nothing follows.
     note : str
@@ -95,9 +96,11 @@ def _at_mean_speeds(train: GearTrain, state: str | None, lead: str, links: Mappi
     found = train.torques(state)
     pointers = dict(_efficiencies(train, state, link, links)) if loses else {}
     if found.verdict.kind != "unloaded":
-        torque = found.external.get(link)
+        torque, speed = found.external.get(link), train.solve(state).speeds[link]
         note = f"under the declared loads: {found.verdict.text}"
         efficiency = _efficiency(found) if loses else None
+        if torque is not None:
+            torque = -torque if speed < 0 else torque
         return CrankLoad(link, None if torque is None else float(torque), efficiency, note, pointers)
     if not loses:
         return CrankLoad(link, None, None, "neither loads nor friction are declared", pointers)

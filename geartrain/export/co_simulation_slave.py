@@ -5,10 +5,13 @@ Names are those of FMI's structured convention: `angles.moon`, `apart.'d2~e'`.
 
 from __future__ import annotations
 
+import atexit
 import ctypes
 import json
 import re
+import sys
 from collections.abc import Callable
+from functools import cache
 from hashlib import sha256
 from importlib.metadata import version
 from pathlib import Path
@@ -51,10 +54,11 @@ class TrainSlave(Fmi2Slave):  # type: ignore[misc]
         self._changed = self._begun = False
         self._start = 0.0
         self._units: dict[str, str] = {}
-        self.modelName = re.sub(r"\W", "_", train.name, flags=re.ASCII)
+        self.modelName = re.sub(r"\W|^(?=\d)", "_", train.name, flags=re.ASCII)
         self.description = train.declaration.title or None
         self.guid = uuid5(NAMESPACE_URL, sha256("\0".join((version("geartrain"), *text)).encode()).hexdigest())
         self._register()
+        part_in_order(folder.parent / "binaries" / "linux64" / f"{self.modelName}.so")
 
     # -------------------------------------------------------------------------------------------------------- variables
 
@@ -208,6 +212,17 @@ def keep_alive(names: dict[str, Any]) -> None:
     The library through which other tools call Python takes one away that is not its own, each time (PythonFMU 0.7.0).
     """
     ctypes.pythonapi.Py_IncRef(ctypes.py_object(names))
+
+
+@cache
+def part_in_order(library: Path) -> None:
+    """Let go of the library before the process ends, where Python is the process.
+
+    Left to itself it gives its own memory back twice at the end (PythonFMU 0.7.0 on Linux): first with all statics, and
+    once more when it is unloaded.
+    """
+    if sys.platform == "linux" and sys.orig_argv and library.is_file():
+        atexit.register(ctypes.CDLL(str(library)).finalizePythonInterpreter)
 
 
 def _item(what: str, name: str) -> Callable[[Simulation], float]:

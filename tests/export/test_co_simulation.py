@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import subprocess
 import sys
 from collections.abc import Iterator
 from math import tau
@@ -118,6 +119,14 @@ def test_it_is_stepped_unevenly_steered_reset_and_stands_beside_another(unit: Pa
     for each in (first, second):
         each.terminate()
         each.freeInstance()
+
+
+def test_a_process_that_ran_it_twice_ends_well(unit: Path) -> None:
+    code = f"import fmpy\nfor _ in range(2): print(fmpy.simulate_fmu({str(unit)!r}, stop_time=1e-3)['angles.moon'][-1])"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    first, second = done.stdout.split()
+    assert first == second
 
 
 def test_the_same_train_is_the_same_file_and_holds_no_way_back_to_this_machine(unit: Path) -> None:

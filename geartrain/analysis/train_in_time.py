@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from math import inf
+from math import inf, tau
 from typing import TYPE_CHECKING, Literal
 
 from geartrain.analysis.train_dynamics import TrainDynamics
 from geartrain.errors import Problem, QuestionError
 
 if TYPE_CHECKING:
+    from geartrain.dynamics.time.stepped_separation import SteppedSeparation
     from geartrain.dynamics.time.stepwise_simulation import Simulation
     from geartrain.dynamics.time.time_run import TimeRun
     from geartrain.dynamics.time.train_model import TrainModel
@@ -148,6 +149,55 @@ class TrainInTime(TrainDynamics):
         """What is looked at: its name, the link, and the link from which it is seen."""
         names = outputs or tuple(case.outputs) or tuple(self.declaration.links)
         return [(name, *self._speeds.single_output(case, name)[1]) for name in names]
+
+    def stepped_separation(
+        self,
+        state: str | None = None,
+        turns: float = 10.0,
+        *,
+        steps: int | None = None,
+        without: Sequence[str] = (),
+        fast: bool | None = None,
+        on_done: Callable[[int], object] = lambda _: None,
+    ) -> SteppedSeparation:
+        """At what rate of the input stepping first parts teeth, beside what `separation_rates` says of as many turns.
+
+        Parameters
+        ----------
+        state : str, optional
+            A declared state; None only of a train that has none.
+        turns : float
+            Turns of the input from the start.
+        steps : int, optional
+            Steps in a turn; by default 200 in the shortest period of a pair.
+        without : sequence of str
+            Pairs left out.
+        fast : bool, optional
+            Whether kernels are compiled; by default if the run is long and numba is installed.
+        on_done : callable
+            Called with the steps that each stretch adds.
+
+        Returns
+        -------
+        SteppedSeparation
+            Rates between which they part.
+
+        Raises
+        ------
+        QuestionError
+            If by the condition for it teeth part at any rate or at none, or the train cannot be stepped.
+        """
+        from geartrain.dynamics.time.stepped_separation import find_stepped_separation
+        from geartrain.dynamics.time.time_study import TimeStudy
+
+        case = self._case(state)
+        predicted = self.separation_rates(state, without, turns).rate
+
+        def study_at(rate: float) -> TimeStudy:
+            found = self._in_time(case, without, tau * rate, 0.0, False)
+            return TimeStudy(found, (), turns, 0.0, steps, fast=fast)
+
+        return find_stepped_separation(study_at, predicted, on_done)
 
     def vibration_modes(self, state: str | None = None, *, without: Sequence[str] = ()) -> VibrationModes:
         """Eigenfrequencies and modes of the train about contact, teeth yielding by their stiffness (docs/dynamics.md).

@@ -36,6 +36,7 @@ from geartrain.cli.option_values import restitution as read_restitution
 if TYPE_CHECKING:
     from geartrain.analysis.gear_train import GearTrain
     from geartrain.dynamics import TimeRun
+    from geartrain.dynamics.time.stepped_separation import SteppedSeparation
 
 _MOST_TURNS = 1e9
 _WHOLE = 1_000_000  # of a bar
@@ -59,6 +60,9 @@ def run(
         Literal["rigid", "compliant"],
         typer.Option("--model", help="Teeth that are rigid, or yield by their stiffness."),
     ] = "rigid",
+    find_rate: Annotated[
+        bool, typer.Option("--find-rate", help="Also seek by stepping the rate at which teeth first part.")
+    ] = False,
     output: Annotated[Names, typer.Option("--output", help="Output or link; may be repeated.")] = None,
     state: FirstState = None,
     without: Without = None,
@@ -96,7 +100,8 @@ def run(
     if csv or to.suffix == ".csv":
         emit(found.to_csv().rstrip("\n"), to)
     else:
-        report = collect_time_report(train, found, asked["without"])
+        stepped = _stepped(train, found, asked) if find_rate and found.complete else None
+        report = collect_time_report(train, found, asked["without"], stepped)
         give(to, json, lambda: report, lambda: [describe_time_run(report)])
     if plot is not None:
         from geartrain.drawing import time_run_figure
@@ -117,6 +122,13 @@ def _run(train: GearTrain, state: str | None, asked: dict[str, Any]) -> TimeRun:
             return bool(came)
 
         return train.dynamics(state=state, **asked, on_done=on_done)
+
+
+def _stepped(train: GearTrain, found: TimeRun, asked: dict[str, Any]) -> SteppedSeparation:
+    """The rate at which teeth first part, in as many turns from the start."""
+    more = {name: asked[name] for name in ("steps", "without", "fast")}
+    with progress("rate at which teeth part", patience=2.0) as bar:
+        return train.stepped_separation(found.state, asked["turns"] + asked["skip"], **more, on_done=bar.advance)
 
 
 @contextmanager

@@ -15,6 +15,7 @@ from geartrain.report.torque_cycle_report import turns_text
 if TYPE_CHECKING:
     from geartrain.analysis.gear_train import GearTrain
     from geartrain.dynamics import ContactInTime, LinkInertia, SeparationRates, SettledFigure, TimeRun
+    from geartrain.dynamics.time.stepped_separation import SteppedSeparation
 
 _SURE = 1e-9  # an account that closes to less says nothing more
 _STILL = 1e-9  # rad: rounding of angles
@@ -30,6 +31,8 @@ class TimeReport(Result):
         One line for a reader.
     separation : SeparationRates or None
         At what rate teeth first part, by pair, from the condition for it; None where no torques or inertia are known.
+    stepped : SteppedSeparation or None
+        The same by stepping, where it was asked for.
     inertias : tuple of LinkInertia
         What moves is as heavy as this.
     run : TimeRun
@@ -40,15 +43,18 @@ class TimeReport(Result):
     collect_time_report : Gives it.
     """
 
-    KEYS = ("title", "separation", "inertias", Key("", "run"))
+    KEYS = ("title", "separation", "stepped", "inertias", Key("", "run"))
 
     title: str
     separation: SeparationRates | None
     inertias: tuple[LinkInertia, ...]
     run: TimeRun
+    stepped: SteppedSeparation | None = None
 
 
-def collect_time_report(train: GearTrain, run: TimeRun, without: tuple[str, ...] = ()) -> TimeReport:
+def collect_time_report(
+    train: GearTrain, run: TimeRun, without: tuple[str, ...] = (), stepped: SteppedSeparation | None = None
+) -> TimeReport:
     """A run with the rates at which teeth first part.
 
     Parameters
@@ -59,6 +65,8 @@ def collect_time_report(train: GearTrain, run: TimeRun, without: tuple[str, ...]
         What its `dynamics` gave.
     without : tuple of str
         Pairs that were left out.
+    stepped : SteppedSeparation, optional
+        What its `stepped_separation` gave.
 
     Returns
     -------
@@ -77,7 +85,7 @@ def collect_time_report(train: GearTrain, run: TimeRun, without: tuple[str, ...]
 
     separation = train.separation_rates(run.state, without) if train.tells_separation(run.state) else None
     inertias = find_link_inertias(train, train.declaration.case(run.state), with_inputs=run.driven != "rate")
-    return TimeReport(train.declaration.title, separation, inertias, run)
+    return TimeReport(train.declaration.title, separation, inertias, run, stepped)
 
 
 def describe_time_run(found: TimeReport) -> Document:
@@ -112,6 +120,8 @@ def _sections(found: TimeReport) -> Iterator[Section]:
         section = separation_section(found.separation)
         evenly = "These rates are of an input that turns evenly; this one need not."
         yield section if run.driven == "rate" else replace(section, paragraphs=(*section.paragraphs, evenly))
+    if found.stepped is not None:
+        yield Section("The same by stepping", (_stepped(found.stepped),))
     if run.contacts:
         yield _contacts(run)
     yield _outputs(run)
@@ -149,6 +159,16 @@ def _lead(run: TimeRun) -> Iterator[str]:
     if run.unsolved:
         yield f"In {run.unsolved} steps no contacts were found that agree with their forces; the last guess was taken."
     yield from (f"Left out: {note}." for note in run.notes)
+
+
+def _stepped(found: SteppedSeparation) -> str:
+    text = f"Stepped without restitution over {turns_text(found.turns)} of '{found.input}'"
+    holds = "" if found.holds is None else f", all flanks touch at {figure(found.holds, 5)} turn/s"
+    parts = "" if found.parts is None else f", and those of {found.pair} part at {figure(found.parts, 5)} turn/s"
+    return (
+        f"{text}{holds}{parts}; by the condition they part from {figure(found.predicted, 5)} turn/s on in these turns. "
+        f"Flights of less than {figure(found.flight, 3)} turns may be overlooked."
+    )
 
 
 def _contacts(run: TimeRun) -> Section:

@@ -74,6 +74,19 @@ def test_the_course_is_printed_and_written_as_one_table_with_labelled_columns(pi
         assert abs(float(row["a~b gap (rad)"])) < 1e-9
 
 
+def test_the_rate_at_which_a_slack_pin_parts_is_found_by_stepping_beside_the_closed_one(tmp_path: Path) -> None:
+    path = tmp_path / "slack.yaml"
+    path.write_text(HEAVY.replace("offset: 8 mm", "offset: 2 mm, clearance: 0.05 mm"), encoding="utf-8")
+    # docs/dynamics.md, equation 7: greatest fall 0.24016005 of 10 mm and 2 mm
+    closed = (1e-3 / (1e-5 * 0.24016005)) ** 0.5 / tau
+    words = ("--rate", "1", "--turns", "1", "--skip", "0", "--steps", "1000", "--no-fast", "--find-rate")
+    found = answer(path, *words)["stepped"]
+    assert found["predicted"] == pytest.approx(closed, rel=1e-3)
+    assert closed * 0.99 < found["holds"] < found["parts"] < closed * 1.02
+    assert found["pair"] == "a~b"
+    assert "The same by stepping" in call("dynamics", path, *words).output
+
+
 @pytest.mark.slow
 def test_the_picture_has_a_panel_for_each_pair_with_play_and_marks_impacts(tmp_path: Path) -> None:
     picture = tmp_path / "moon.svg"

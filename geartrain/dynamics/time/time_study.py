@@ -18,6 +18,9 @@ PER_TOOTH = 200
 """Steps of the coarser run in the shortest period of a pair."""
 PER_SWING = 40
 """In the period of the fastest mode, where teeth yield."""
+_UNEVEN = (
+    1.00618  # steps that fall on corners tooth after tooth are read on either side of them by rounding, and part teeth
+)
 _FEWEST = 200  # steps in a turn of the lead
 _PER_BEAT = 1000  # steps from one beat of an escapement to the next
 _SAMPLES = 12  # in the shortest period of a pair
@@ -67,7 +70,7 @@ class TimeStudy:
         """Steps of the coarser run in a turn of the lead."""
         if self.steps is not None:
             return self.steps
-        found = max(_FEWEST, ceil(PER_TOOTH * self.busiest))
+        found = max(_FEWEST, ceil(PER_TOOTH * self.busiest * _UNEVEN))
         # a wheel that is let go falls much faster than it turns on the mean
         swing = ceil(PER_SWING * self.of.fastest / abs(self.of.case.rate))
         return max([found, swing, *(ceil(_PER_BEAT * each) for each in self.beats)])
@@ -86,6 +89,12 @@ class TimeStudy:
         skip -= skip % stride
         return StepPlan(tau / abs(self.of.case.rate) / self.per_turn / finer, skip, steps, stride, self.apart)
 
+    @property
+    def is_fast(self) -> bool:
+        """Whether kernels are compiled for both runs."""
+        steps = sum(plan.skip + plan.steps for plan in (self.plan(1), self.plan(2)))
+        return is_fast(self.fast, steps * max(len(self.of.model.pairs), 1) * _SLOW)
+
     def run(self, on_done: Callable[[float], object] = lambda _: None) -> TimeRun:
         """Both runs, and what they say.
 
@@ -97,7 +106,7 @@ class TimeStudy:
         model = self.of.model
         plans = self.plan(1), self.plan(2)
         whole = sum(plan.skip + plan.steps for plan in plans)
-        fast = is_fast(self.fast, whole * max(len(model.pairs), 1) * _SLOW)
+        fast = self.is_fast
         stopped = False
 
         def advance(steps: int) -> bool:

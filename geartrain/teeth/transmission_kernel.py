@@ -14,7 +14,7 @@ import numpy as np
 
 from geartrain.numerics.kernels import kernel
 from geartrain.teeth.transmission import TransmissionFunction
-from geartrain.teeth.transmission_table import CellTable, TabulatedTransmission, fit
+from geartrain.teeth.transmission_table import CellTable, HasCorners, TabulatedTransmission, fit, folded_corners
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -51,19 +51,12 @@ class TransmissionTables(NamedTuple):
     coefficients: Floats
 
 
-class PeriodicLaw(Protocol):
+class PeriodicLaw(HasCorners, Protocol):
     """What a table is made from: a transmission function is one."""
 
     @property
     def ratio(self) -> Fraction:
         """Mean speed ratio."""
-
-    @property
-    def period(self) -> float:
-        """Driver's angle (rad)."""
-
-    def corners(self) -> list[float]:
-        """Driver's angles (rad) where the law or a slope of it is not smooth."""
 
     def error(self, S: Floats) -> Floats:
         """Transmission error (rad) at the driver's angles (rad)."""
@@ -92,7 +85,7 @@ def make_transmission_table(law: PeriodicLaw) -> TransmissionTable | None:
         good = law.degree <= DEGREE
     else:
         ratio = float(law.ratio) or 1.0
-        cuts = np.unique(np.mod(np.asarray(law.corners(), dtype=float), law.period))
+        cuts = folded_corners(law)
         error = fit(law.error, law.period, cuts, _WANTED * ratio * law.period, DEGREE)
         speed = fit(law.speed, law.period, cuts, _WANTED * ratio, DEGREE)
         # of both in the same cells an angle is looked up once

@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from copy import copy
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 
@@ -32,6 +32,17 @@ _THIN = 1e-12  # of a period: a narrower cell is a constant
 _SAFETY = 2.0  # stated error over the greatest found
 
 
+class HasCorners(Protocol):
+    """A law of some period (rad)."""
+
+    @property
+    def period(self) -> float:
+        """Driver's angle (rad)."""
+
+    def corners(self) -> list[float]:
+        """Driver's angles (rad) where the law or a slope of it is not smooth."""
+
+
 class CellTable:
     """A function of the driver's angle with period `period` (rad), on `cells` cells cut at `corners` (rad).
 
@@ -42,7 +53,7 @@ class CellTable:
         self, function: Callable[[Floats], Floats], period: float, corners: Floats, cells: int, degree: int = DEGREE
     ) -> None:
         self.period, self.corners, self.cells, self.degree = period, corners, cells, degree
-        breaks = np.sort(np.concatenate((np.arange(cells + 1) * (period / cells), corners)))
+        breaks = self.breaks
         self.middles, halves = (breaks[1:] + breaks[:-1]) / 2, (breaks[1:] - breaks[:-1]) / 2
         nodes = np.cos(np.pi * (np.arange(degree + 1) + 0.5) / (degree + 1))
         values = function(self.middles[:, None] + halves[:, None] * nodes)
@@ -56,6 +67,12 @@ class CellTable:
         S = self.middles[wide, None] + halves[wide, None] * checks
         off = np.abs(self(S) - function(S))
         self.uncertainty = _SAFETY * float(np.max(off[~np.isnan(off)], initial=0.0))
+
+    @property
+    def breaks(self) -> Floats:
+        """Where cells begin and end (rad): at uniform steps, and at corners."""
+        uniform = np.arange(self.cells + 1) * (self.period / self.cells)
+        return np.sort(np.concatenate((uniform, self.corners)))
 
     def derivative(self) -> CellTable:
         """Its derivative by the driver's angle, on the same cells; `uncertainty` stays that of the function."""
@@ -100,6 +117,11 @@ class CellTable:
             np.add(found, other, out=found)
 
 
+def folded_corners(law: HasCorners) -> Floats:
+    """The corners of a law (rad) within its first period, each once, in order."""
+    return np.unique(np.mod(np.asarray(law.corners(), dtype=float), law.period))
+
+
 def fit(
     function: Callable[[Floats], Floats], period: float, corners: Floats, tolerance: float, degree: int = DEGREE
 ) -> CellTable:
@@ -122,7 +144,7 @@ class TabulatedTransmission(DerivedTransmission):
     def __init__(self, law: TransmissionFunction, tolerance: float = 1e-12, degree: int = DEGREE) -> None:
         super().__init__(law)
         self.friction, self.tolerance, self.degree = law.friction, tolerance, degree
-        self.cuts = np.unique(np.mod(np.asarray(law.corners(), dtype=float), law.period))
+        self.cuts = folded_corners(law)
 
     def _fit(self, function: Callable[[Floats], Floats], scale: float) -> CellTable:
         return fit(function, self.period, self.cuts, self.tolerance * scale, self.degree)

@@ -18,6 +18,7 @@ import numpy as np
 from geartrain.dynamics.motion.error_composition import ErrorComposition, InputPhase, SeenLink
 from geartrain.errors import Problem, QuestionError
 from geartrain.numerics.simultaneous_roots import roots_by_false_position
+from geartrain.teeth.transmission_table import folded_corners
 
 if TYPE_CHECKING:
     from geartrain.dynamics.motion.error_composition import PairErrorSource
@@ -83,7 +84,7 @@ class PairCorners:
     def corners(self) -> Floats:
         """Driver's angles (rad) at which the law has a corner, within a period, each once."""
         period = self.source.law.period
-        found = np.unique(np.mod(np.asarray(self.source.law.corners(), dtype=float), period))
+        found = folded_corners(self.source.law)
         # one at 0 may be told again, by rounding, just before the period ends
         apart = np.diff(found, append=found[:1] + period) > _NEAR * period
         return np.asarray(found[apart]) if apart.any() else found[:1]

@@ -24,7 +24,7 @@ import numpy as np
 from geartrain.dynamics.motion.error_composition import InputPhase
 from geartrain.dynamics.motion.motion_model import Motion
 from geartrain.dynamics.motion.pair_errors import PairErrors
-from geartrain.teeth.transmission_table import CellTable, fit
+from geartrain.teeth.transmission_table import CellTable, fit, folded_corners
 
 if TYPE_CHECKING:
     from geartrain.dynamics.motion.error_composition import PairErrorSource
@@ -254,6 +254,5 @@ class InertialContacts:
 
 def speed_slope(law: TransmissionFunction) -> CellTable:
     """d tau / dS (1/rad) of a law, from a table of its speed that is cut at its corners."""
-    cuts = np.unique(np.mod(np.asarray(law.corners(), dtype=float), law.period))
     greatest = max(abs(each) for each in law.speed_range())
-    return fit(law.speed, law.period, cuts, _SLOPE * max(greatest, 1.0), _DEGREE).derivative()
+    return fit(law.speed, law.period, folded_corners(law), _SLOPE * max(greatest, 1.0), _DEGREE).derivative()

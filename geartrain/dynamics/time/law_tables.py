@@ -3,6 +3,9 @@
 A blow is a jump of the speed ratio, and a table read across one makes it many small blows that lose less. So cells end
 at `law.corners()`, and each side of a corner follows that side alone. Angle and speed ratio come from one polynomial
 and its derivative: what holds the gap of two flanks closed is then the gradient of that gap to the last digit.
+
+Motion, which asks one law at many angles at once, reads error and speed from a table each
+(`teeth.transmission_kernel`); here one angle is asked of many laws in turn.
 """
 
 from __future__ import annotations
@@ -14,7 +17,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from geartrain.numerics.kernels import kernel
-from geartrain.teeth.transmission_table import DEGREE, CellTable, fit
+from geartrain.teeth.transmission_table import DEGREE, CellTable, fit, folded_corners
 
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats, Ints
@@ -47,13 +50,11 @@ class LawTables(NamedTuple):
 
 
 class TabledFunction(NamedTuple):
-    """One function for `LawTables`, with the greatest differences of value and derivative found between nodes."""
+    """One function for `LawTables`."""
 
     slope: float
     table: CellTable
     jump: float
-    uncertainty: float
-    slope_uncertainty: float
 
     def __call__(self, S: Floats) -> Floats:
         """The function at driver's angles (rad)."""
@@ -64,26 +65,19 @@ class TabledFunction(NamedTuple):
 def tabled_angle(law: TransmissionFunction, tolerance: float = TOLERANCE) -> TabledFunction:
     """The driven angle q(S) of a law, whose derivative is its speed ratio."""
     ratio = float(law.ratio)
-    cuts = _cuts(law)
+    cuts = folded_corners(law)
     table = fit(law.error, law.period, cuts, tolerance * (ratio or 1.0) * law.period)
-    breaks = _breaks(table)
-    inside = (breaks[:-1, None] + np.diff(breaks)[:, None] * np.array([0.03, 0.25, 0.5, 0.75, 0.97])).ravel()
-    pieces = np.repeat(np.arange(len(breaks) - 1), 5)
-    x = inside - table.middles[pieces]
-    slopes = sum(at * table.coefficients[at][pieces] * x ** (at - 1) for at in range(1, DEGREE + 1))
-    off = np.abs(slopes + ratio - law.speed(inside))
     away = 1e-9 * law.period
-    jumps = [abs(float(law.speed(cut + away) - law.speed(cut - away))) for cut in cuts]
-    real = [jump for jump in jumps if jump > _SAME * (ratio or 1.0)]
-    return TabledFunction(ratio, table, min(real, default=inf), table.uncertainty, float(np.nanmax(off)))
+    jumps = np.abs(law.speed(cuts + away) - law.speed(cuts - away))
+    least = np.min(jumps[jumps > _SAME * (ratio or 1.0)], initial=inf)
+    return TabledFunction(ratio, table, float(least))
 
 
 def tabled_function(
     function: Callable[[Floats], Floats], law: TransmissionFunction, tolerance: float = 1e-8
 ) -> TabledFunction:
     """A function of the driver's angle that has the corners of a law, such as what its friction adds to an arm."""
-    table = fit(function, law.period, _cuts(law), tolerance)
-    return TabledFunction(0.0, table, inf, table.uncertainty, inf)
+    return TabledFunction(0.0, fit(function, law.period, folded_corners(law), tolerance), inf)
 
 
 def join_tables(functions: Sequence[TabledFunction]) -> LawTables:
@@ -92,7 +86,7 @@ def join_tables(functions: Sequence[TabledFunction]) -> LawTables:
     pieces = cells = 0
     for each in functions:
         table = each.table
-        breaks = _breaks(table)
+        breaks = table.breaks
         uniform = np.arange(table.cells) * (table.period / table.cells)
         own = np.searchsorted(breaks[1:-1], uniform, side="right")
         first.append(own + pieces)
@@ -138,15 +132,6 @@ def value_and_slope(laws: LawTables, which: int, S: float) -> tuple[float, float
     slope = slope * x + value
     value = value * x + laws.coefficients[piece, 0]
     return value + laws.slope[which] * S, slope + laws.slope[which]
-
-
-def _cuts(law: TransmissionFunction) -> Floats:
-    return np.unique(np.mod(np.asarray(law.corners(), dtype=float), law.period))
-
-
-def _breaks(table: CellTable) -> Floats:
-    uniform = np.arange(table.cells + 1) * (table.period / table.cells)
-    return np.sort(np.concatenate((uniform, table.corners)))
 
 
 def _joined(parts: Sequence[Floats | Ints], kind: type) -> Any:

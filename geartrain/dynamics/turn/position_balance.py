@@ -7,7 +7,7 @@ several pairs are found together every pattern of theirs is tried at all positio
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import product
 from typing import TYPE_CHECKING
@@ -220,8 +220,3 @@ def _take(columns: Sequence[ColumnPieces], block: Block, trial: _Trial, layer: B
         layer.values[column, where] = value[where]
         for row, piece in columns[column].pieces[side].items():
             layer.rows[row, where] += piece[where] * value[where]
-
-
-def chunks(size: int, most: int) -> Iterator[slice]:
-    """Positions in parts of at most so many."""
-    return (slice(start, start + most) for start in range(0, size, most))

@@ -159,6 +159,7 @@ def _lead(run: TimeRun) -> Iterator[str]:
     if run.unsolved:
         yield f"In {run.unsolved} steps no contacts were found that agree with their forces; the last guess was taken."
     yield from (f"Left out: {note}." for note in run.notes)
+    yield from (f"Assumed: {each}." for each in run.assumed)
 
 
 def _stepped(found: SteppedSeparation) -> str:

@@ -262,7 +262,7 @@ def test_a_light_train_swings_about_what_it_carries() -> None:
     assert run.model == "compliant"
     assert run.energy.closure < 1e-12
     assert run.energy.blows > 0
-    assert any("taken as 0.05 of the critical" in note for note in run.notes)
+    assert any("taken as 0.05 of the critical" in note for note in run.assumed)
 
 
 def test_energy_closes_with_flights_play_and_friction() -> None:
@@ -303,7 +303,7 @@ def test_the_stiffness_of_involute_teeth_of_known_metal_is_estimated() -> None:
         found = train.vibration_modes()
         # 14 N/(mm um) of 5 mm at the base radius
         assert found.stiffness["wd0~wd1"] == pytest.approx(share * 14e9 * 5e-3 * (0.015 * cos(pi / 9)) ** 2)
-        assert any("ISO 6336-1" in note for note in found.notes)
+        assert any("ISO 6336-1" in note for note in found.assumed)
 
 
 @pytest.mark.parametrize("restitution", [0.07, 0.3, 0.8])

@@ -270,6 +270,7 @@ class RunFigures:
             self.of.notes,
             coarse is not None,
             "rigid" if self.of.yields is None else "compliant",
+            self.of.assumed,
         )
 
     def _impacts(self) -> ImpactList:

@@ -75,11 +75,13 @@ class TimeRun(Result):
     unsolved : int
         Steps in which no consistent set of contacts was found; their last guess was taken.
     notes : tuple of str
-        What is left out, or estimated.
+        What is left out.
     complete : bool
         False if it was stopped: then all is of the run with the longer steps, as far as that came, and not compared.
     model : {"rigid", "compliant"}
         Whether teeth yield.
+    assumed : tuple of str
+        What nothing declares and was estimated.
 
     See Also
     --------
@@ -116,6 +118,7 @@ class TimeRun(Result):
         "figures",
         "unsolved",
         "notes",
+        "assumed",
         "complete",
     )
 
@@ -149,6 +152,7 @@ class TimeRun(Result):
     notes: tuple[str, ...]
     complete: bool = True
     model: Literal["rigid", "compliant"] = "rigid"
+    assumed: tuple[str, ...] = ()
 
     def __getitem__(self, name: str) -> Floats | ContactInTime:
         """The angles of a link [rad], or the course of a pair."""

@@ -68,7 +68,7 @@ def damping_ratio(restitution: float) -> float:
     """The ratio at which that much comes back; a restitution below 0.05 counts as 0.05.
 
     >>> round(damping_ratio(0.3), 4), damping_ratio(1.0)
-    (0.5325, 0.0)
+    (0.4972, 0.0)
     """
     from scipy.optimize import brentq
 

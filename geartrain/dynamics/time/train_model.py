@@ -83,6 +83,11 @@ class TrainModel:
         return tuple(found)
 
     @property
+    def assumed(self) -> tuple[str, ...]:
+        """What nothing declares and was estimated."""
+        return ()
+
+    @property
     def yields(self) -> ToothYield | None:
         """How the teeth of each pair yield; None where they are rigid."""
         return None

@@ -34,7 +34,9 @@ class VibrationModes(Result):
     stiffness : mapping of str to float
         Of each pair, on its driven side [N m/rad].
     notes : tuple of str
-        What is left out, and what was estimated.
+        What is left out.
+    assumed : tuple of str
+        What nothing declares and was estimated.
 
     See Also
     --------
@@ -58,6 +60,7 @@ class VibrationModes(Result):
     shapes: LabelledArray
     stiffness: dict[str, float]
     notes: tuple[str, ...]
+    assumed: tuple[str, ...]
 
 
 def find_modes(of: YieldingTrain) -> VibrationModes:
@@ -75,5 +78,11 @@ def find_modes(of: YieldingTrain) -> VibrationModes:
     frequencies.flags.writeable = damping.flags.writeable = False
     links = of.problem.system.links
     return VibrationModes(
-        of.train.name, frequencies, damping, labelled_array(shapes, link=links, mode=names), stiffness, of.notes
+        of.train.name,
+        frequencies,
+        damping,
+        labelled_array(shapes, link=links, mode=names),
+        stiffness,
+        of.notes,
+        of.assumed,
     )

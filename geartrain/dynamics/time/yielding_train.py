@@ -54,8 +54,8 @@ class YieldingTrain(TrainModel):
         return None if self._gears[circuit.id].efficiency is None else super()._even_arms(circuit, law)
 
     @property
-    def notes(self) -> tuple[str, ...]:
-        """What is left out, and what was estimated."""
+    def assumed(self) -> tuple[str, ...]:
+        """What was estimated."""
         names = [pair.name for pair in self.model.pairs]
         yields = [self.table.pairs[name] for name in names]
         notes = [each.note for each in yields if each.note]
@@ -67,7 +67,7 @@ class YieldingTrain(TrainModel):
         if assumed:
             ratio = self.table.pairs[assumed[0]].ratio
             notes.append(f"damping of {', '.join(assumed)} taken as {ratio:g} of the critical: none is declared")
-        return (*super().notes, *notes)
+        return tuple(notes)
 
     def _undeclared(self, name: str) -> bool:
         parts = {part.name: part for part in (*self.train.gears, *self.train.couplings)}

@@ -35,8 +35,7 @@ from geartrain.cli.option_values import restitution as read_restitution
 
 if TYPE_CHECKING:
     from geartrain.analysis.gear_train import GearTrain
-    from geartrain.dynamics import TimeRun
-    from geartrain.dynamics.time.stepped_separation import SteppedSeparation
+    from geartrain.dynamics import SteppedSeparation, TimeRun
 
 _MOST_TURNS = 1e9
 _WHOLE = 1_000_000  # of a bar

@@ -36,6 +36,7 @@ if TYPE_CHECKING:
         SpectrumPeak,
     )
     from geartrain.dynamics.time.separation_rate import PairSeparation, SeparationRates
+    from geartrain.dynamics.time.stepped_separation import SteppedSeparation
     from geartrain.dynamics.time.stepwise_simulation import Simulation
     from geartrain.dynamics.time.time_run import TimeRun
     from geartrain.dynamics.time.vibration_modes import VibrationModes
@@ -77,6 +78,7 @@ __all__ = [
     "Simulation",
     "SpectrumLine",
     "SpectrumPeak",
+    "SteppedSeparation",
     "TimeRun",
     "ToothImpact",
     "TorqueCycle",
@@ -118,6 +120,7 @@ _PLACES = {
     "Simulation": "time.stepwise_simulation",
     "SpectrumLine": "motion.order_spectrum",
     "SpectrumPeak": "time.run_parts",
+    "SteppedSeparation": "time.stepped_separation",
     "TimeRun": "time.time_run",
     "ToothImpact": "motion.tooth_impacts",
     "TorqueCycle": "turn.torque_cycle",

@@ -14,8 +14,14 @@ from geartrain.report.torque_cycle_report import turns_text
 
 if TYPE_CHECKING:
     from geartrain.analysis.gear_train import GearTrain
-    from geartrain.dynamics import ContactInTime, LinkInertia, SeparationRates, SettledFigure, TimeRun
-    from geartrain.dynamics.time.stepped_separation import SteppedSeparation
+    from geartrain.dynamics import (
+        ContactInTime,
+        LinkInertia,
+        SeparationRates,
+        SettledFigure,
+        SteppedSeparation,
+        TimeRun,
+    )
 
 _SURE = 1e-9  # an account that closes to less says nothing more
 _STILL = 1e-9  # rad: rounding of angles

@@ -141,6 +141,7 @@ def try_frictions(plan: FrictionPlan, trials: int, seed: int = 1, means: Executi
     by 7 times what f does.
 
     >>> from geartrain import load
+    >>> from geartrain.uncertainty.monte_carlo.friction_plan import find_friction_plan
     >>> plan = find_friction_plan(load('''
     ... links: {frame: {}, a: {}, b: {}}
     ... revolutes: [{pair: [frame, a], axis: A}, {pair: [frame, b], axis: B}]

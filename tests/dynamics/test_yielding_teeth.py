@@ -316,3 +316,12 @@ def test_damping_for_a_restitution_throws_a_body_back_so_fast(restitution: float
     zeta = damping_ratio(restitution)
     run = yielding(model, StepPlan(2e-5, 0, 5000, 5000), 1e5, 2 * zeta * sqrt(1e5 * 2))
     assert run.speeds[-1, 1] == pytest.approx(restitution, abs=2e-3)
+
+
+def test_an_escapement_is_refused_before_anything_is_run() -> None:
+    clock = GearTrain.declare(
+        disc_chain(1).declaration.model_dump(exclude_unset=True, mode="json")
+        | {"escapement": {"link": "d1", "teeth": 30, "beat": "1 s"}, "rate": "1 rpm"}
+    )
+    with pytest.raises(QuestionError, match="escapement"):
+        clock.dynamics(turns=1, steps=100, model="compliant")

@@ -114,8 +114,8 @@ class TimeStudy:
             stopped = on_done(steps / whole) is True
             return stopped
 
-        peaks = self.of.static_peaks(self.skip, self.turns, max(_FEWEST, ceil(PER_TOOTH * self.busiest)), fast)
         yields = self.of.yields
+        peaks = self.of.static_peaks(self.skip, self.turns, max(_FEWEST, ceil(PER_TOOTH * self.busiest)), fast)
         first = RunFigures(self.of, self.outputs, simulate(model, plans[0], fast, advance, yields), peaks)
         if not first.plan.steps:
             raise KeyboardInterrupt

@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from geartrain.dynamics import TorqueCycle, TorqueExtreme
     from geartrain.numerics.arrays import Floats, Ints
 
+_ABOVE_LEGEND = 20  # points from the title to the upper panel
 _MOST = 6000  # positions drawn of the torque: of each stretch the first, its least and its greatest
 _BINS = 900  # pixels: stretches of the run over which losses are averaged where there are more positions
 _LEAST = 1e-9  # of all that is lost: less is rounding
@@ -75,7 +76,7 @@ def torque_cycle_figure(found: TorqueCycle, title: str = "") -> Figure:
         plain(panel)
         for start, end in found.locked:
             panel.axvspan(start.turns, end.turns, color=PALE, alpha=0.6, linewidth=0, zorder=0, gid="locked")
-    panels[0].set_title(title, fontsize=TEXT, loc="left", color=BLACK, parse_math=False)
+    panels[0].set_title(title, fontsize=TEXT, loc="left", color=BLACK, parse_math=False, pad=_ABOVE_LEGEND)
     panels[-1].set_xlim(0.0, found.span)
     panels[-1].set_xlabel("turns of the input", fontsize=SMALL)
     return figure

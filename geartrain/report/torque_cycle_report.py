@@ -24,8 +24,7 @@ def cycle_sections(found: TorqueCycle) -> Iterator[Section]:
         return
     lines.append(_run(found))
     lines += _shares(found)
-    if found.efficiency is not None:
-        lines.append(f"Efficiency, energy out over energy in: {figure(found.efficiency, 10)}.")
+    lines += _efficiency(found)
     lines += _remarks(found)
     yield Section(head, lines, (_torques(found), *_locked(found)))
     if found.energy is not None:
@@ -59,6 +58,13 @@ def _shares(found: TorqueCycle) -> Iterator[str]:
     for what, share in shares.items():
         if share:
             yield f"In {percent_text(share)} of the run {what}."
+
+
+def _efficiency(found: TorqueCycle) -> Iterator[str]:
+    if found.efficiency:
+        yield f"Efficiency, energy out over energy in: {figure(found.efficiency, 10)}."
+    elif found.energy is not None and found.energy.net_in > 0:
+        yield "No energy is taken out on the whole: all that is put in is lost."
 
 
 def _remarks(found: TorqueCycle) -> Iterator[str]:

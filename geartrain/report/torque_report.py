@@ -86,10 +86,10 @@ def torque_sections(figures: TorqueFigures) -> Iterator[Section]:
     amounts = _Amounts(figures)
     efficiency, circulating = found.efficiency, found.circulating
     if efficiency is not None and circulating is not None:
+        kept = f"efficiency {figure(efficiency, 10)}{uncounted_words(found)}" if efficiency else "nothing is taken out"
         lines.append(
-            f"Power in {amounts.text(found.power_in, 9)}, lost {amounts.text(found.loss, 9)}, efficiency "
-            f"{figure(efficiency, 10)}{uncounted_words(found)}; the greatest power through a pair is "
-            f"{figure(circulating, 5)} of it."
+            f"Power in {amounts.text(found.power_in, 9)}, lost {amounts.text(found.loss, 9)}, {kept}; "
+            f"the greatest power through a pair is {figure(circulating, 5)} of it."
         )
     if found.bearing_loss:
         needed = ", ".join(f"at '{link}' {amounts.torque(found.external[link])}" for link in found.asked)

@@ -53,6 +53,15 @@ def test_text_tells_extremes_energies_and_losses(pin: Path) -> None:
         assert said in text
 
 
+def test_a_train_without_load_is_said_to_give_nothing_out(tmp_path: Path) -> None:
+    path = tmp_path / "idle.yaml"
+    path.write_text(PIN.replace("b: {}}\nrev", "b: {bearing: 1 N m}}\nrev").replace("loads: {b: -10 N m}", ""), "utf-8")
+    text = " ".join(call("torques", path, "--turns", "1", *SAMPLES).output.split())
+    assert "nothing is taken out; the greatest power" in text
+    assert "No energy is taken out on the whole: all that is put in is lost." in text
+    assert "Efficiency, energy" not in text
+
+
 def test_every_position_stands_in_the_table(pin: Path, tmp_path: Path) -> None:
     printed = call("torques", pin, "--turns", "2", *SAMPLES, "--csv").output
     rows = list(csv.DictReader(io.StringIO(printed)))

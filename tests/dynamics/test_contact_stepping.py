@@ -15,6 +15,7 @@ from geartrain.dynamics.time.contact_model import Bearing, ContactModel, Contact
 from geartrain.dynamics.time.contact_system import BEARINGS, BLOW_COUNT, BLOWS, GAP, STEP, TIME_APART, VISCOUS
 from geartrain.dynamics.time.law_tables import TabledFunction, join_tables, tabled_angle, value_and_slope
 from geartrain.dynamics.time.simulation import SimulatedRun, StepPlan, simulate
+from geartrain.dynamics.time.slack_pin import SlackPin
 from geartrain.teeth import PinToSlotTransmission, TransmissionFunction
 from geartrain.teeth.constant_lag import ConstantLag
 from geartrain.teeth.transmission import ExactRatio
@@ -230,6 +231,14 @@ def test_the_flight_of_a_slack_slot_is_that_of_an_integrator_with_events() -> No
 
 
 # ------------------------------------------------------------------------------------------------------ the solution
+
+
+@pytest.mark.parametrize("side", [1, -1])
+def test_the_ratio_of_a_slack_pin_is_the_slope_of_its_angle(side: int) -> None:
+    law = SlackPin(PinToSlotTransmission(10.0, 5.0), 2.0, side)
+    S, step = np.linspace(0.0, 6.0, 25), 1e-5
+    slope = (np.asarray(law.angle(S + step)) - np.asarray(law.angle(S - step))) / (2 * step)
+    assert np.allclose(law.speed(S), slope, rtol=0, atol=1e-9)
 
 
 def test_a_tabled_law_is_the_law_and_its_ratio_the_slope() -> None:

@@ -60,6 +60,47 @@ def test_with_friction_of_teeth_slow_turning_asks_the_torque_of_a_turn() -> None
     assert run.energy.friction > 0.2 * abs(run.energy.loads)
 
 
+@pytest.mark.parametrize("load", ["-1 N mm", "1 N mm"])
+@pytest.mark.parametrize("play", [{}, {"clearance": "0.02 mm"}])
+def test_a_pin_rubs_whichever_side_puts_the_power_in(load: str, play: dict[str, str]) -> None:
+    pin = {"kind": "pin_and_slot", "pin": "a", "slot": "b", "pin_radius": "10 mm", "offset": "5 mm", "friction": 0.3}
+    train = GearTrain.declare(
+        {
+            "links": {"frame": {}, "a": {}, "b": {"inertia": "1e-9 kg m2"}},
+            "revolutes": [{"pair": ["frame", "a"], "axis": "A"}, {"pair": ["frame", "b"], "axis": "B"}],
+            "couplings": [pin | play],
+            "inputs": {"a": 1},
+            "outputs": {"b": {}},
+            "loads": {"b": load},
+        }
+    )
+    run = train.dynamics(rate="0.05 turn/s", turns=1, skip=0.25, steps=2000, fast=False)
+    asked = train.torques(turns=1).mean
+    assert asked is not None
+    assert run.torque == pytest.approx(asked, rel=3e-3)
+    assert run.energy.friction == pytest.approx(abs(run.energy.drive + run.energy.loads), rel=3e-3)
+
+
+@pytest.mark.parametrize("gear", [{"friction": 0.2}, {"efficiency": {"forward": 0.9, "backward": 0.8}}])
+def test_a_load_that_drives_gives_back_what_teeth_leave_of_it(gear: dict[str, object]) -> None:
+    form = {"form": "triangular", "half_angle": "30 deg", "window": 0.5} if "friction" in gear else None
+    train = GearTrain.declare(
+        {
+            "links": {"frame": {}, "a": {"wheels": {"p": 24}}, "b": {"wheels": {"q": 36}, "inertia": "1e-9 kg m2"}},
+            "revolutes": [{"pair": ["frame", "a"], "axis": "A"}, {"pair": ["frame", "b"], "axis": "B"}],
+            "gears": [{"pair": ["p", "q"], "driver": "p", **gear} | ({"tooth_form": form} if form else {})],
+            "inputs": {"a": 1},
+            "outputs": {"b": {}},
+            "loads": {"b": "-1 N mm"},
+        }
+    )
+    run = train.dynamics(rate="0.05 turn/s", turns=0.5, skip=0.25, steps=2000, fast=False)
+    asked = train.torques(turns=0.5).mean
+    assert asked is not None
+    assert asked < 0 < run.energy.friction
+    assert run.torque == pytest.approx(asked, rel=3e-3)
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("rate", "scale", "apart", "ahead", "torque"),

@@ -262,7 +262,7 @@ class TrainDynamics(TrainMotion):
         ... inputs: {a: 1}
         ... ''')
         >>> [(each.link, each.source, float(f"{each.value:.3g}")) for each in train.inertias()]
-        [('b', 'outlines', 2.17e-05)]
+        [('b', 'outlines', 2.2e-05)]
         """
         from geartrain.dynamics.time.inertia import find_link_inertias
 

@@ -213,8 +213,10 @@ def test_friction_that_locks_is_a_fault_and_the_train_is_self_locking() -> None:
 
 
 def test_an_unknown_form_or_key_is_told_with_those_there_are() -> None:
-    with pytest.raises(GearTrainError, match="uniform_temperature"):
+    with pytest.raises(GearTrainError, match="did you mean 'involute'"):
         pair("{form: involut}")
+    with pytest.raises(GearTrainError, match="uniform_temperature"):
+        pair("{form: square}")
     with pytest.raises(GearTrainError) as caught:
         pair("{form: involute, presure_angle: 20 deg}")
     (problem,) = caught.value.problems

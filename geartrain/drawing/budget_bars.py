@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from textwrap import shorten
 from typing import TYPE_CHECKING
 
 from geartrain.drawing.backend import Axes, Figure, Patch
-from geartrain.drawing.style import BLACK, BLUE, GREEN, ORANGE, PURPLE, RED, SMALL, TEXT, plain, write
+from geartrain.drawing.style import BLACK, BLUE, GREEN, ORANGE, PURPLE, RED, SMALL, TEXT, plain, short, write
 from geartrain.errors import Problem, QuestionError
 
 if TYPE_CHECKING:
@@ -57,7 +56,7 @@ def budget_figure(found: TrainBudget, most: int = MOST) -> Figure:
     axes.grid(False, axis="y")
     for at, pointer in enumerate(shown):
         _bar(axes, at, pointer)
-    axes.set_yticks(range(len(shown)), [shorten(each.name, 24, placeholder="...") for each in shown])
+    axes.set_yticks(range(len(shown)), [short(each.name, 24) for each in shown])
     axes.set_ylim(len(shown) - 0.4, -0.6)
     axes.set_xlim(0.0, 1.0)
     axes.set_xlabel(_below(len(found.pointers), len(shown), len(ranked)), fontsize=SMALL, loc="left")

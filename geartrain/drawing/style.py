@@ -5,8 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from math import degrees, floor
-from textwrap import fill
+from textwrap import fill, shorten
 from typing import TYPE_CHECKING, Any
+
+import numpy as np
 
 from geartrain.drawing.backend import Axes, Figure, Stroke, withStroke
 from geartrain.errors import GearTrainError, Problem, QuestionError
@@ -16,6 +18,7 @@ from geartrain.teeth.triangular.triangular_transmission import TriangularTransmi
 
 if TYPE_CHECKING:
     from geartrain.analysis.gear_train import GearTrain
+    from geartrain.numerics.arrays import Floats, Ints
 
 
 WIDTH = 9.0  # inches: 900 pixels at 100 dots per inch
@@ -56,6 +59,38 @@ def plain(axes: Axes) -> None:
     axes.set_axisbelow(True)
     for side in ("top", "right"):
         axes.spines[side].set_visible(False)
+
+
+def legend_above(axes: Axes, columns: int) -> None:
+    """A legend between a panel and what stands above it, at the right."""
+    axes.legend(
+        loc="lower right",
+        bbox_to_anchor=(1, 1),
+        borderpad=0,
+        borderaxespad=0.1,
+        frameon=False,
+        fontsize=SMALL,
+        ncols=columns,
+    )
+
+
+def short(name: str, letters: int = 20) -> str:
+    """A name within some letters."""
+    return shorten(name, letters, placeholder="...")
+
+
+def kept_extremes(values: Floats, most: int) -> Ints:
+    """Of each stretch of a course the first position, the least and the greatest, so that no peak is lost.
+
+    most   about so many positions; all of them where there are no more
+    """
+    if len(values) <= most:
+        return np.arange(len(values))
+    kept = []
+    for part in np.array_split(np.arange(len(values)), most // 3):
+        known = np.nan_to_num(values[part])
+        kept += [part[0], part[known.argmin()], part[known.argmax()]]
+    return np.unique([*kept, len(values) - 1])
 
 
 def write(axes: Axes, x: float, y: float, text: str, color: str = BLACK, halo: float = 3.0, **how: Any) -> None:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from math import degrees, tau
-from textwrap import shorten
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -21,7 +20,10 @@ from geartrain.drawing.style import (
     SMALL,
     TEXT,
     WIDTH,
+    kept_extremes,
+    legend_above,
     plain,
+    short,
     write,
 )
 from geartrain.dynamics.time.angle_spectrum import find_amplitudes
@@ -29,7 +31,7 @@ from geartrain.errors import Problem, QuestionError
 
 if TYPE_CHECKING:
     from geartrain.dynamics import SpectrumPeak, TimeRun
-    from geartrain.numerics.arrays import Floats, Ints
+    from geartrain.numerics.arrays import Floats
 
 _PAIRS = 6  # whose gaps are drawn: those most apart
 _STRETCH = 720  # samples of the stretch in which gaps are drawn, some sixty teeth of the fastest pair
@@ -107,9 +109,7 @@ def _key(panel: Axes, gaps: bool) -> None:
     panel.scatter([], [], s=24, c=RED, marker="^", label="impact")
     if gaps:
         panel.fill_between([], [], [], color=PALE, alpha=0.6, label="coast flank")
-    panel.legend(
-        loc="lower right", bbox_to_anchor=(1, 1), borderpad=0, borderaxespad=0.1, frameon=False, fontsize=SMALL, ncols=2
-    )
+    legend_above(panel, 2)
 
 
 def _across(run: TimeRun) -> Floats:
@@ -118,11 +118,7 @@ def _across(run: TimeRun) -> Floats:
 
 
 def _across_text(run: TimeRun) -> str:
-    return f"turns of {_short(run.lead)}" if run.driven == "rate" else "time (s)"
-
-
-def _short(name: str) -> str:
-    return shorten(name, 20, placeholder="...")
+    return f"turns of {short(run.lead)}" if run.driven == "rate" else "time (s)"
 
 
 def _loose(run: TimeRun) -> list[str]:
@@ -171,7 +167,7 @@ def _gap(panel: Axes, run: TimeRun, pair: str, stretch: slice) -> None:
     panel.set_ylim(-0.12 * top, top)
     panel.set_xlim(at[0], at[-1])
     apart = next(each.apart for each in run.contacts if each.name == pair)
-    panel.set_ylabel(f"{_short(pair)}\ngap (deg)", fontsize=SMALL, parse_math=False)
+    panel.set_ylabel(f"{short(pair)}\ngap (deg)", fontsize=SMALL, parse_math=False)
     text = f"apart {100 * apart:.3g} %; coast flank from {back.min():.3g} deg on"
     write(panel, 0.995, 0.8, text, ha="right", transform=panel.transAxes)
 
@@ -182,7 +178,7 @@ def _speed(panel: Axes, run: TimeRun, stop: str, stretch: slice) -> None:
     panel.plot(at, run.speeds[stop][stretch], color=BLUE, linewidth=1.0)
     _impacts(panel, run, stop, stretch)
     panel.set_xlim(at[0], at[-1])
-    panel.set_ylabel(f"{_short(stop)}\nspeed (rad/s)", fontsize=SMALL, parse_math=False)
+    panel.set_ylabel(f"{short(stop)}\nspeed (rad/s)", fontsize=SMALL, parse_math=False)
 
 
 def _impacts(panel: Axes, run: TimeRun, contact: str, stretch: slice) -> None:
@@ -207,19 +203,11 @@ def _ahead(panel: Axes, run: TimeRun, moving: list[str]) -> None:
     across = _across(run)
     for name, colour in zip(moving, _COLOURS, strict=False):
         angle = np.degrees(run.ahead[name][first:])
-        kept = _kept(angle)
-        panel.plot(across[first:][kept], angle[kept], color=colour, linewidth=0.8, label=_short(name))
+        kept = kept_extremes(angle, _MOST)
+        panel.plot(across[first:][kept], angle[kept], color=colour, linewidth=0.8, label=short(name))
     if first < len(across):
         panel.set_xlim(across[first], across[-1])
-    panel.legend(
-        loc="lower right",
-        bbox_to_anchor=(1, 1),
-        borderpad=0,
-        borderaxespad=0.1,
-        frameon=False,
-        fontsize=SMALL,
-        ncols=4,
-    )
+    legend_above(panel, 4)
     panel.set_ylabel("ahead of touching\nteeth (deg)", fontsize=SMALL)
     panel.set_xlabel(_across_text(run), fontsize=SMALL, parse_math=False)
 
@@ -229,7 +217,7 @@ def _spectrum(panel: Axes, run: TimeRun, moving: list[str]) -> None:
     top = 0.0
     for name, colour in zip(moving, _COLOURS, strict=False):
         frequency, size = find_amplitudes(run.time[first:], run.outputs[name][first:])
-        panel.plot(frequency[1:], np.degrees(size[1:]), color=colour, linewidth=0.8, label=_short(name))
+        panel.plot(frequency[1:], np.degrees(size[1:]), color=colour, linewidth=0.8, label=short(name))
         top = max(top, float(np.degrees(size[1:]).max(initial=0.0)))
     if top:
         panel.legend(loc="upper left", frameon=False, fontsize=SMALL)
@@ -251,13 +239,3 @@ def _named(peaks: Sequence[SpectrumPeak]) -> Iterator[tuple[float, float, str]]:
         if peak.source and not near and len(taken) < _NAMES:
             taken.append(peak.frequency)
             yield peak.frequency, float(np.degrees(peak.amplitude)), peak.source
-
-
-def _kept(values: Floats) -> Ints:
-    """Of each stretch of samples the first, the least and the greatest, so that no peak is lost."""
-    if len(values) <= _MOST:
-        return np.arange(len(values))
-    kept = []
-    for part in np.array_split(np.arange(len(values)), _MOST // 3):
-        kept += [part[0], part[values[part].argmin()], part[values[part].argmax()]]
-    return np.unique([*kept, len(values) - 1])

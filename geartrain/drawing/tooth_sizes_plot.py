@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 from math import degrees
-from textwrap import shorten
 from typing import TYPE_CHECKING
 
 from geartrain.drawing.backend import Axes, Figure
-from geartrain.drawing.style import BLACK, BLUE, GREEN, GREY, RED, SMALL, TEXT, WIDTH, plain
+from geartrain.drawing.style import BLACK, BLUE, GREEN, GREY, RED, SMALL, TEXT, WIDTH, plain, short
 
 if TYPE_CHECKING:
     from geartrain.synthesis.tooth_sizes.best_sizes import BestToothSizes
@@ -97,7 +96,7 @@ def train_sizes_figure(found: BestTrainSizes) -> Figure:
         x, y = [_shown(each, found.aim) for each, _ in places], [at for _, at in places]
         axes.plot(x, y, color=color, marker=marker, markersize=7, linewidth=0, label=name, gid=which)
     labels = [f"{pair.name}, {pair.teeth[0]}/{pair.teeth[1]}" for pair in pairs]
-    axes.set_yticks(range(len(pairs)), [shorten(label, 30, placeholder="...") for label in labels])
+    axes.set_yticks(range(len(pairs)), [short(label, 30) for label in labels])
     axes.set_ylim(len(pairs) - 0.5, -0.5)
     axes.set_xlim(left=0.0)
     axes.set_xlabel(_LABELS[found.aim], fontsize=TEXT)

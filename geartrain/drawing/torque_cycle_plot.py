@@ -2,18 +2,34 @@
 
 from __future__ import annotations
 
-from textwrap import shorten
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from geartrain.drawing.backend import Axes, Figure
-from geartrain.drawing.style import BLACK, BLUE, GREEN, GREY, ORANGE, PALE, PURPLE, RED, SKY, SMALL, TEXT, WIDTH, plain
+from geartrain.drawing.style import (
+    BLACK,
+    BLUE,
+    GREEN,
+    GREY,
+    ORANGE,
+    PALE,
+    PURPLE,
+    RED,
+    SKY,
+    SMALL,
+    TEXT,
+    WIDTH,
+    kept_extremes,
+    legend_above,
+    plain,
+    short,
+)
 from geartrain.errors import Problem, QuestionError
 
 if TYPE_CHECKING:
     from geartrain.dynamics import TorqueCycle, TorqueExtreme
-    from geartrain.numerics.arrays import Floats, Ints
+    from geartrain.numerics.arrays import Floats
 
 _ABOVE_LEGEND = 20  # points from the title to the upper panel
 _MOST = 6000  # positions drawn of the torque: of each stretch the first, its least and its greatest
@@ -85,10 +101,10 @@ def torque_cycle_figure(found: TorqueCycle, title: str = "") -> Figure:
 def _torque(panel: Axes, found: TorqueCycle, unit: str) -> None:
     assert found.turns is not None
     assert found.torque is not None
-    shown = _kept(found.torque)
+    shown = kept_extremes(found.torque, _MOST)
     panel.plot(found.turns[shown], found.torque[shown], color=BLUE, linewidth=0.9)
     if found.standing is not None and not np.allclose(found.standing, found.torque, equal_nan=True):
-        shown = _kept(found.standing)
+        shown = kept_extremes(found.standing, _MOST)
         panel.plot(
             found.turns[shown], found.standing[shown], color=ORANGE, linewidth=0.8, label="to start it", zorder=1
         )
@@ -102,10 +118,8 @@ def _torque(panel: Axes, found: TorqueCycle, unit: str) -> None:
         panel.fill_between([], [], [], color=PALE, alpha=0.6, label=f"locked, {100 * found.locked_share:.3g} %")
     low, high = panel.get_ylim() if not found.locked else _bounds(found.turns, found.torque)
     panel.set_ylim(min(low, 0.0), max(high, 0.0))
-    panel.set_ylabel(f"torque at {shorten(found.link, 20, placeholder='...')}{unit}", fontsize=SMALL, parse_math=False)
-    panel.legend(
-        loc="lower right", bbox_to_anchor=(1, 1), borderpad=0, borderaxespad=0.1, frameon=False, fontsize=SMALL, ncols=5
-    )
+    panel.set_ylabel(f"torque at {short(found.link)}{unit}", fontsize=SMALL, parse_math=False)
+    legend_above(panel, 5)
 
 
 def _mark(panel: Axes, name: str, extreme: TorqueExtreme, marker: str, colour: str) -> None:
@@ -136,9 +150,7 @@ def _stack(panel: Axes, found: TorqueCycle, losses: list[_Loss], unit: str) -> N
     )
     panel.set_ylim(0.0, _bounds(turns, powers.sum(axis=0))[1] if found.locked else None)
     panel.set_ylabel(f"lost{unit}", fontsize=SMALL)
-    panel.legend(
-        loc="lower right", bbox_to_anchor=(1, 1), borderpad=0, borderaxespad=0.1, frameon=False, fontsize=SMALL, ncols=4
-    )
+    legend_above(panel, 4)
 
 
 def _losses(found: TorqueCycle) -> list[_Loss]:
@@ -153,10 +165,7 @@ def _losses(found: TorqueCycle) -> list[_Loss]:
     ranked = sorted(losing, key=lambda name: -found.parts[name].loss)
     rows = {name: values[names.index(name)] for name in names}
     shown = ranked[: len(_COLOURS)] if len(ranked) <= len(_COLOURS) else ranked[: len(_COLOURS) - 1]
-    losses = [
-        _Loss(shorten(name, 24, placeholder="..."), rows[name], colour)
-        for name, colour in zip(shown, _COLOURS, strict=False)
-    ]
+    losses = [_Loss(short(name, 24), rows[name], colour) for name, colour in zip(shown, _COLOURS, strict=False)]
     if rest := ranked[len(shown) :]:
         losses.append(_Loss(f"{len(rest)} others", np.sum([rows[name] for name in rest], axis=0), GREY))
     return losses
@@ -180,15 +189,3 @@ def _averaged(turns: Floats, powers: Floats) -> tuple[Floats, Floats]:
     edges = np.linspace(turns[0], turns[-1], _BINS + 1)
     at_edges = np.array([np.interp(edges, turns, row) for row in work])
     return (edges[1:] + edges[:-1]) / 2, np.diff(at_edges, axis=1) / np.diff(edges)
-
-
-def _kept(values: Floats) -> Ints:
-    """Of each stretch of positions the first, the least and the greatest, so that no peak is lost."""
-    share = _MOST // 3
-    if len(values) <= _MOST:
-        return np.arange(len(values))
-    kept = []
-    for part in np.array_split(np.arange(len(values)), share):
-        known = np.nan_to_num(values[part])
-        kept += [part[0], part[known.argmin()], part[known.argmax()]]
-    return np.unique([*kept, len(values) - 1])

@@ -118,6 +118,7 @@ class _Answer:
         greatest = None if locked else self._extreme(own, 1, False)
         torque, left_out, period = own.torque(found), self._left_out(), train.motion.motion.period
         names = (*train.pairs, *(f"bearing {link}" for link in train.bearings))
+        parts = self._parts(names)
         labels = [repr(each) for each in self.run.cells.turns.tolist()]
         return TorqueCycle(
             train.setting.case.state,
@@ -136,11 +137,9 @@ class _Answer:
             None if locked else float(weights @ torque) / self.run.span,
             greatest,
             self._extreme(own, -1, False),
-            (self._extreme(own, 1, True) if train.starts_harder else greatest)
-            if self.run.standing.valid.all()
-            else None,
-            None if locked else self._energy(),
-            self._parts(names),
+            self._starting(own, greatest),
+            None if locked else self._energy(parts),
+            parts,
             locked,
             self._held(),
             ambiguous,
@@ -195,7 +194,6 @@ class _Answer:
         def torque(found: PositionTorques) -> Floats:
             return own.highest(found) if way > 0 else own.torque(found)
 
-        static = static and self.run.train.starts_harder
         extreme = find_extreme(
             lambda turns: torque(self.run.train.at(turns, static)),
             self.run.cells,
@@ -204,18 +202,32 @@ class _Answer:
         )
         return None if extreme is None else TorqueExtreme(extreme[1], *self._place(extreme[0]))
 
-    def _energy(self) -> CycleEnergy:
+    def _starting(self, own: _Asked, greatest: TorqueExtreme | None) -> TorqueExtreme | None:
+        """The greatest torque with friction at rest; None where the train does not start everywhere."""
+        if not self.run.standing.valid.all():
+            return None
+        return self._extreme(own, 1, True) if self.run.train.starts_harder else greatest
+
+    def _energy(self, parts: Mapping[str, PairCycle]) -> CycleEnergy:
         """Energies over the run, from powers over the input's speed: angles are in radians."""
         found, asked = self.run.found, len(self.run.train.asked)
         weights = self.run.cells.weights * 2 * np.pi
         driving, loading = found.powers[:asked], found.powers[asked:]
-        sums = [float(weights @ np.maximum(sign * part, 0).sum(axis=0)) for part, sign in
-                ((driving, 1), (driving, -1), (loading, -1), (loading, 1))]  # fmt: skip
-        kinds = [each.kind for each in self.run.train.contacts.values()] + ["bearing"] * len(self.run.train.bearings)
-        losses = found.losses @ weights
-        lost = [float(sum(loss for loss, own in zip(losses, kinds, strict=True) if own == kind))
-                for kind in ("mesh", "pin", "bearing")]  # fmt: skip
-        return CycleEnergy(*sums, *lost)
+
+        def summed(powers: Floats) -> float:
+            """Of what is above 0."""
+            return float(weights @ np.maximum(powers, 0).sum(axis=0))
+
+        lost = dict.fromkeys(("mesh", "pin", "bearing"), 0.0)
+        for part in parts.values():
+            lost[part.kind] += part.loss
+        return CycleEnergy(
+            put_in=summed(driving),
+            returned=summed(-driving),
+            taken_out=summed(-loading),
+            loads_put_in=summed(loading),
+            **lost,
+        )
 
     def _parts(self, names: tuple[str, ...]) -> Mapping[str, PairCycle]:
         found, weights = self.run.found, self.run.cells.weights * 2 * np.pi

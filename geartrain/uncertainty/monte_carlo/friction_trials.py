@@ -187,7 +187,7 @@ def work_frictions(plan: FrictionPlan, seed: int, task: Sequence[int]) -> list[l
 
 
 def _link(plan: FrictionPlan) -> str:
-    """The link whose torque is told."""
+    """The link whose torque is told; nothing of the run is followed for it."""
     from geartrain.analysis.gear_train import GearTrain
 
-    return plan.of or GearTrain(plan.declared).torques(plan.state, turns=plan.turns, samples=2).link
+    return plan.of or GearTrain(plan.declared).torques(plan.state).asked[0]

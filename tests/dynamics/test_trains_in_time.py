@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from geartrain import GearTrain
+from geartrain import GearTrain, load
 from geartrain.dynamics import TimeRun
 from geartrain.errors import QuestionError
 from geartrain.train.drives import GRAVITY
@@ -194,6 +194,13 @@ def test_a_clock_goes_by_its_beats_and_loses_the_work_of_its_weight() -> None:
     fallen = abs(run.angles["barrel"][-1]) * 0.02
     assert run.energy.loads == pytest.approx(0.5 * GRAVITY * fallen, rel=1e-9)
     assert run.energy.closure < 1e-9
+
+
+def test_a_wheel_caught_within_a_step_gives_its_weights_work_to_the_escapement() -> None:
+    run = load("longcase-clock").dynamics(turns=1 / 180, skip=0, steps=360_000, fast=False)
+    assert run.energy.blows == pytest.approx(run.energy.loads, rel=1e-6)
+    assert abs(run.energy.steps) < 1e-9 * run.energy.loads
+    assert run["escape"].blows == pytest.approx(1, rel=0.06)  # type: ignore[union-attr]
 
 
 def test_a_hand_that_yields_swings_with_the_inertia_behind_it() -> None:

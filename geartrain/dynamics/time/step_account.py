@@ -143,7 +143,9 @@ def leaps(jump: Floats, tables: Ints, now: Floats, before: Floats, m: int, side:
 
 
 @kernel
-def count_stops(system: ContactSystem, state: ContactState, here: StepEquations, record: RunRecord) -> None:
+def count_stops(
+    system: ContactSystem, state: ContactState, here: StepEquations, record: RunRecord, step: float
+) -> None:
     """Blows of links against their stops."""
     pairs = len(system.stiff)
     for m in range(len(system.stop_stiff)):
@@ -170,7 +172,14 @@ def count_stops(system: ContactSystem, state: ContactState, here: StepEquations,
             counts[BLOW_SPEED] = max(counts[BLOW_SPEED], start)
             note_impact(record, state.clock[0], pairs + m, start, taken, here.P[pairs + m])
         else:
-            record.energy[STEP] += taken
+            # a stop that moves on and is met again within one step: all that it takes is of that blow
+            # (its closing speed is that of the step at least)
+            record.energy[BLOWS] += taken
+            counts[BLOW_ENERGY] += taken
+            if here.stop_bound[m] * step > system.stop_pitch[m] / 2:
+                counts[BLOW_COUNT] += 1.0
+                counts[BLOW_SPEED] = max(counts[BLOW_SPEED], here.stop_bound[m])
+                note_impact(record, state.clock[0], pairs + m, here.stop_bound[m], taken, here.P[pairs + m])
 
 
 @kernel

@@ -66,7 +66,7 @@ def run_steps(
             count_energy(system, state, here, record, rules)
             count_contacts(system, laws, state, here, record, rules)
             if len(system.stop_stiff) > 0:
-                count_stops(system, state, here, record)
+                count_stops(system, state, here, record, rules.step)
         for m in range(len(system.stiff)):
             state.ratio[m, 0] = here.ratio[m, 0]
             state.ratio[m, 1] = here.ratio[m, 1]

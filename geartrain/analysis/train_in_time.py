@@ -18,6 +18,22 @@ if TYPE_CHECKING:
     from geartrain.train import StateCase
 
 
+def _radians_a_second(rate: str | float | None) -> float | None:
+    """A rate as it was asked for; None stays None."""
+    from pydantic_core import PydanticCustomError
+
+    from geartrain.numerics.quantity import Quantity
+
+    if isinstance(rate, str):
+        try:
+            rate = Quantity.parse(rate, "speed", plain=True).si
+        except PydanticCustomError as error:
+            raise QuestionError(Problem(f"rate: {error.message()}", "", "give one such as '1 turn/s'")) from None
+    if rate is not None and not 0 < abs(rate) < inf:
+        raise QuestionError(Problem(f"a rate of {rate:g} rad/s", "the train is to turn", "give one other than 0"))
+    return rate
+
+
 class TrainInTime(TrainDynamics):
     """What `GearTrain` knows of motion in time."""
 
@@ -90,11 +106,10 @@ class TrainInTime(TrainDynamics):
             If redundant loops have teeth that cannot turn together, or friction locks teeth.
         """
         from geartrain.dynamics.time.time_study import TimeStudy
-        from geartrain.numerics.quantity import Quantity
 
         case = self._case(state)
         seen = self._seen_in_time(case, outputs)
-        speed = Quantity.parse(rate, "speed", plain=True).si if isinstance(rate, str) else rate
+        speed = _radians_a_second(rate)
         found = self._in_time(case, without, speed, restitution, model == "compliant")
         return TimeStudy(found, seen, turns, skip, steps, samples, apart, fast).run(on_done)
 
@@ -135,13 +150,12 @@ class TrainInTime(TrainDynamics):
         from geartrain.dynamics.time.stepwise_simulation import Simulation
         from geartrain.dynamics.time.time_study import TimeStudy
         from geartrain.numerics.kernels import is_fast
-        from geartrain.numerics.quantity import Quantity
 
         if step is not None and not 0 < step < inf:
             raise QuestionError(Problem(f"steps of {step:g} s", "time goes on", "give a length above 0"))
         case = self._case(state)
         seen = self._seen_in_time(case, outputs)
-        speed = Quantity.parse(rate, "speed", plain=True).si if isinstance(rate, str) else rate
+        speed = _radians_a_second(rate)
         found = self._in_time(case, without, speed, restitution, yields=False)
         return Simulation(found, seen, step or TimeStudy(found, seen, 1).plan(2).step, fast=is_fast(fast, inf))
 

@@ -217,6 +217,12 @@ def test_a_hand_that_yields_swings_with_the_inertia_behind_it() -> None:
     assert run.angles["sun"] == pytest.approx(expected, abs=0.02)
 
 
+@pytest.mark.parametrize("rate", ["1 furlong/s", "fast", float("nan"), 0.0, float("inf")])
+def test_a_rate_that_is_none_is_refused(rate: str | float) -> None:
+    with pytest.raises(QuestionError, match="rate"):
+        moon_train().dynamics(rate=rate)
+
+
 def test_a_loose_link_without_inertia_is_named() -> None:
     with pytest.raises(QuestionError, match="inertia turns with sun"):
         GearTrain.declare({"extends": "moon-triangular"}).dynamics(rate=1.0)

@@ -240,7 +240,8 @@ class TorqueCycle(FrozenFields, Result):
             "efficiency": self.efficiency,
         }
         rows = "".join(f"<tr><td>{name}</td><td>{_shown(value)}</td></tr>" for name, value in figures.items())
-        head = f"torque at {html.escape(self.link)} over {self.span:g} turns, {self.unit or 'plain'}"
+        turns = f"{self.span:g} turn{'' if self.span == 1 else 's'}"
+        head = f"torque at {html.escape(self.link)} over {turns}, {self.unit or 'plain'}"
         return f"<p>{head}: {html.escape(self.verdict.text)}</p><table>{rows}</table>"
 
 

@@ -6,6 +6,9 @@ from geartrain.dynamics.time.contact_solution import StepEquations
 from geartrain.dynamics.time.contact_system import BACK, FRONT, OPEN, ContactState, ContactSystem
 from geartrain.numerics.kernels import kernel
 
+AT_ONCE = 6
+"""Rounds in which all wrong guesses are turned round together."""
+
 
 @kernel
 def correct_guess(

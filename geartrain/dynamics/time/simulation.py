@@ -98,32 +98,20 @@ def simulate(
     if yields is not None:
         system = _yielding(model, system, plan.step, yields)
     state = start_state(model, system)
-    rows = len(model.pairs) + len(model.stops)
     here = empty_equations(n, len(model.pairs), len(model.stops), len(system.near))
     samples = (plan.skip + plan.steps) // plan.stride
-    record = RunRecord(
-        np.zeros(ENERGIES),
-        np.zeros((rows, COUNTS)),
-        np.zeros((samples, n)),
-        np.zeros((samples, n)),
-        np.zeros((samples, rows)),
-        np.zeros((samples, n)),
-        np.zeros((_ROOM, IMPACT_COLUMNS)),
-        np.zeros(5, dtype=np.int64),
-    )
+    record = empty_record(n, len(model.pairs) + len(model.stops), samples, _ROOM)
     teeth = _teeth(model, yields)
     skip = plan.skip - plan.skip % plan.stride
-    laws = model.laws
     rules = step_rules(model, state, plan, plan.step * (plan.skip + plan.steps))
-    arguments = plan.stride, rules.creep, plan.apart, rules.slack
+    given = system, model.laws, state, here, record, rules
     piece = max(1, _AT_A_TIME[fast] // plan.stride) * plan.stride
 
     def run(steps: int, counted: bool) -> None:
         if teeth is None:
-            run_steps.chosen(fast)(system, laws, state, here, record, rules, steps, counted)
+            run_steps.chosen(fast)(*given, steps, counted)
         else:
-            kernel = run_yielding_steps.chosen(fast)
-            kernel(system, laws, state, here, record, teeth, plan.step, steps, *arguments, counted)
+            run_yielding_steps.chosen(fast)(*given, teeth, steps, counted)
 
     def go(steps: int, counted: bool) -> int:
         """Piece by piece between samples; how many steps were done."""
@@ -138,9 +126,9 @@ def simulate(
 
     skipped = go(skip, False)
     start, before = _kinetic(system, state), state.angle.copy()
-    pressed = _stored(system, laws, state, yields)
+    pressed = _stored(system, model.laws, state, yields)
     counted = go(plan.steps, True) if skipped == skip else 0
-    pressed = _stored(system, laws, state, yields) - pressed
+    pressed = _stored(system, model.laws, state, yields) - pressed
     record.energy[STEP] -= pressed
     order = np.argsort(model.order.coordinates)
     kept = min(int(record.numbers[IMPACTS]), _ROOM)
@@ -206,6 +194,20 @@ def start_state(model: ContactModel, system: ContactSystem) -> ContactState:
     )
 
 
+def empty_record(n: int, rows: int, samples: int, impacts: int) -> RunRecord:
+    """Room for what a run leaves of coordinates, and of pairs and stops: so many samples and impacts."""
+    return RunRecord(
+        np.zeros(ENERGIES),
+        np.zeros((rows, COUNTS)),
+        np.zeros((samples, n)),
+        np.zeros((samples, n)),
+        np.zeros((samples, rows)),
+        np.zeros((samples, n)),
+        np.zeros((impacts, IMPACT_COLUMNS)),
+        np.zeros(5, dtype=np.int64),
+    )
+
+
 def empty_equations(n: int, pairs: int, stops: int, near: int) -> StepEquations:
     """Room for one step."""
     return StepEquations(
@@ -234,7 +236,9 @@ def _teeth(model: ContactModel, yields: ToothYield | None) -> YieldingTeeth | No
     if yields is None:
         return None
     pairs = len(model.pairs)
-    return YieldingTeeth(yields.stiffness, yields.damping, np.zeros(pairs), np.full(pairs, -1, dtype=np.int64))
+    return YieldingTeeth(
+        yields.stiffness, yields.damping, np.zeros(pairs), np.full(pairs, -1, dtype=np.int64), np.zeros((pairs, 2))
+    )
 
 
 def _yielding(model: ContactModel, system: ContactSystem, step: float, yields: ToothYield) -> ContactSystem:

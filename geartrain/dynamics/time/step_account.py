@@ -37,23 +37,32 @@ if TYPE_CHECKING:
 
 @kernel
 def count_energy(
-    system: ContactSystem, state: ContactState, here: StepEquations, record: RunRecord, rules: StepRules
+    system: ContactSystem,
+    state: ContactState,
+    here: StepEquations,
+    record: RunRecord,
+    rules: StepRules,
+    speed: Floats,
+    share: float,
 ) -> None:
-    """Work of drives, torques and springs, losses by drag: each impulse times the mean speed of its step."""
+    """Work of drives, torques and springs, losses by drag: each impulse times the mean speed of its step.
+
+    speed   of which drag and springs know; `share`, the part of the step after which springs are asked
+    """
     for d in range(len(here.middle)):
         record.energy[WORK_DRIVE] += here.drive[d] * here.middle[d]
         record.energy[WORK_TORQUE] += rules.step * system.torque[d] * here.middle[d]
-        record.energy[VISCOUS] += rules.step * system.viscous[d, d] * here.v[d] * here.middle[d]
+        record.energy[VISCOUS] += rules.step * system.viscous[d, d] * speed[d] * here.middle[d]
         for x in range(system.near_at[d], system.near_at[d + 1]):
             o = system.near[x]
-            across = here.v[d] * here.middle[o] + here.v[o] * here.middle[d]
+            across = speed[d] * here.middle[o] + speed[o] * here.middle[d]
             record.energy[VISCOUS] += rules.step * system.viscous[d, o] * across
     for m in range(len(system.spring_stiffness)):
-        pull = system.spring_rest[m] + system.spring_rate[m] * (state.clock[0] + rules.step)
+        pull = system.spring_rest[m] + system.spring_rate[m] * (state.clock[0] + share * rules.step)
         rate = 0.0
         for x in range(system.spring_at[m], system.spring_at[m + 1]):
             o = system.spring_of[x]
-            pull -= system.spring_c[x] * (state.angle[o] + rules.step * here.v[o])
+            pull -= system.spring_c[x] * (state.angle[o] + share * rules.step * speed[o])
             rate += system.spring_c[x] * here.middle[o]
         record.energy[WORK_SPRING] += rules.step * system.spring_stiffness[m] * pull * rate
     for m in range(len(system.sliding)):
@@ -89,11 +98,7 @@ def count_contacts(
         if system.two_sided[m] == 0:
             ahead = rules.step * (rate_q - here.ratio[m, 0] * rate_S - here.gap[m, 0])
             behind = rules.step * (here.ratio[m, 1] * rate_S - rate_q - here.gap[m, 1])
-            if ahead > rules.apart and behind > rules.apart:
-                counts[TIME_APART] += 1.0
-            elif behind < ahead:
-                counts[TIME_COAST] += 1.0
-            counts[GAP] = max(counts[GAP], min(ahead, behind))
+            count_gap(counts, ahead, behind, rules.apart)
         now = state.touching[m]
         if now == 0:
             state.steady[m] = 0.0
@@ -122,6 +127,16 @@ def count_contacts(
         else:
             record.energy[STEP] += taken
             state.steady[m] = abs(here.P[m])
+
+
+@kernel
+def count_gap(counts: Floats, ahead: float, behind: float, apart: float) -> None:
+    """Whether teeth are apart or nearer to the coast flank, and the greatest gap, from both gaps of a pair (rad)."""
+    if ahead > apart and behind > apart:
+        counts[TIME_APART] += 1.0
+    elif behind < ahead:
+        counts[TIME_COAST] += 1.0
+    counts[GAP] = max(counts[GAP], min(ahead, behind))
 
 
 @kernel

@@ -11,14 +11,11 @@ import numpy as np
 
 from geartrain.dynamics.time.contact_system import (
     BLOW_ENERGY,
-    COUNTS,
-    ENERGIES,
-    IMPACT_COLUMNS,
     TIME_APART,
     UNSOLVED,
     RunRecord,
 )
-from geartrain.dynamics.time.simulation import StepPlan, empty_equations, start_state, step_rules
+from geartrain.dynamics.time.simulation import StepPlan, empty_equations, empty_record, start_state, step_rules
 from geartrain.dynamics.time.time_steps import run_steps
 from geartrain.errors import Problem, QuestionError, suggest
 
@@ -258,7 +255,7 @@ class Simulation:
         steps = floor(self.time / self.step + _EARLY) - int(self._state.clock[1])
         if steps <= 0:
             return
-        record = self._empty_record()
+        record = empty_record(len(self._torque), len(self._names), samples=1, impacts=0)
         first = self._jolt()
         if first:
             self._go(record, 1, steps)
@@ -279,19 +276,6 @@ class Simulation:
         # the kernel takes the speeds it finds for those before the step, which had less momentum
         self._system.torque[:] = self._torque - self._system.mass @ jump / self.step
         return 1
-
-    def _empty_record(self) -> RunRecord:
-        n, rows = len(self._torque), len(self._names)
-        return RunRecord(
-            np.zeros(ENERGIES),
-            np.zeros((rows, COUNTS)),
-            np.zeros((1, n)),
-            np.zeros((1, n)),
-            np.zeros((1, rows)),
-            np.zeros((1, n)),
-            np.zeros((0, IMPACT_COLUMNS)),
-            np.zeros(5, dtype=np.int64),
-        )
 
     def _go(self, record: RunRecord, steps: int, stride: int) -> None:
         """Some steps; a sample that is never full keeps the sums of all impulses."""

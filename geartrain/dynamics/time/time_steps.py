@@ -28,7 +28,7 @@ from geartrain.dynamics.time.contact_system import (
     ContactSystem,
     RunRecord,
 )
-from geartrain.dynamics.time.guess_correction import correct_guess
+from geartrain.dynamics.time.guess_correction import AT_ONCE, correct_guess
 from geartrain.dynamics.time.law_tables import LawTables, value_and_slope
 from geartrain.dynamics.time.step_account import count_contacts, count_energy, count_stops, leaps
 from geartrain.numerics.kernels import kernel
@@ -36,7 +36,6 @@ from geartrain.numerics.kernels import kernel
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats, Ints
 
-_AT_ONCE = 6  # rounds in which all wrong guesses are turned round together
 _AGAIN = 4  # times that laws are read anew where a blow moves their drivers on
 _NEAR = 1e-9  # rad: drivers that stand so near to where their laws were read
 
@@ -63,7 +62,7 @@ def run_steps(
         if counted:
             record.numbers[PIVOTS] += rounds - 1
             record.numbers[STEPS] += 1
-            count_energy(system, state, here, record, rules)
+            count_energy(system, state, here, record, rules, here.v, 1.0)
             count_contacts(system, laws, state, here, record, rules)
             if len(system.stop_stiff) > 0:
                 count_stops(system, state, here, record, rules.step)
@@ -106,7 +105,7 @@ def solve_step(
         rounds += 1
         if rounds > rules.rounds:
             return rounds
-        if correct_guess(system, state, here, rules.creep, rules.slack, rounds > _AT_ONCE) > 0:
+        if correct_guess(system, state, here, rules.creep, rules.slack, rounds > AT_ONCE) > 0:
             continue
         if again == _AGAIN:
             return rounds

@@ -191,6 +191,7 @@ def test_a_clock_goes_by_its_beats_and_loses_the_work_of_its_weight() -> None:
     escape = np.abs(run.angles["escape"])
     assert escape[-1] == pytest.approx(pi / 30 * round(run.time[-1] / 0.5), abs=1e-6)
     assert run["escape"].blows == pytest.approx(2, rel=0.1)  # type: ignore[union-attr]
+    assert np.diff(run.impacts.time) == pytest.approx(0.5, abs=0.01)
     fallen = abs(run.angles["barrel"][-1]) * 0.02
     assert run.energy.loads == pytest.approx(0.5 * GRAVITY * fallen, rel=1e-9)
     assert run.energy.closure < 1e-9

@@ -235,6 +235,7 @@ def find_stop_bounds(system: ContactSystem, state: ContactState, here: StepEquat
             room -= system.stop_c[x] * state.angle[system.stop_of[x]]
             rate += system.stop_c[x] * state.speed[system.stop_of[x]]
         bound = room / step
-        if rate > bound and rate > 0.0:
+        # without restitution the position alone counts: held short of its stop it would come to it by a second blow
+        if rate > bound and rate > 0.0 and system.stop_restitution[m] > 0.0:
             bound = min(bound, -system.stop_restitution[m] * rate)
         here.stop_bound[m] = bound

@@ -215,7 +215,7 @@ def _contact(run: TimeRun, each: ContactInTime) -> tuple[str, ...]:
 
 
 def _outputs(run: TimeRun) -> Section:
-    power = (run.energy.drive + run.energy.loads + run.energy.springs) / run.duration
+    power = run.energy.put_in / run.duration
     text = [
         f"Torque at '{run.link}': {figure(1e3 * run.torque, 5)} N mm in the mean; put in: {watts_text(power)}.",
         "Outputs against the motion in which all drive flanks touch, which is that of `geartrain motion`.",

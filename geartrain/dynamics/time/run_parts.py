@@ -143,13 +143,17 @@ class EnergyAccount(Result):
     elastic: float = 0.0
 
     @property
+    def put_in(self) -> float:
+        """Work of drive, loads and springs."""
+        return self.drive + self.loads + self.springs
+
+    @property
     def closure(self) -> float:
         """By how much the account does not close, over all that passed through it and what is stored."""
-        put_in = self.drive + self.loads + self.springs
         taken = self.bearings + self.drag + self.friction + self.blows + self.steps
         kept = self.kinetic + self.elastic
-        scale = sum(abs(each) for each in (put_in, taken, kept, self.stored))
-        return abs(put_in - taken - kept) / scale if scale else 0.0
+        scale = sum(abs(each) for each in (self.put_in, taken, kept, self.stored))
+        return abs(self.put_in - taken - kept) / scale if scale else 0.0
 
 
 @dataclass(frozen=True)

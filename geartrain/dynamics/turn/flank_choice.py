@@ -6,23 +6,24 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from geartrain.teeth.transmission import TransmissionFunction
+from geartrain.teeth.derived_transmission import DerivedTransmission
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
     from geartrain.numerics.arrays import Bools, Floats, Ints
+    from geartrain.teeth.transmission import TransmissionFunction
 
 
-class FlankChoice(TransmissionFunction):
+class FlankChoice(DerivedTransmission):
     """At each angle it is asked at, the law of the flanks that touch there; of a period, that of the drive flanks.
 
     coasting   where the coast flanks touch: one for each angle
     """
 
     def __init__(self, law: TransmissionFunction, coasting: Bools) -> None:
-        self.law, self.coasting, self.ratio, self.period = law, coasting, law.ratio, law.period
-        self.friction = law.friction
+        super().__init__(law)
+        self.coasting, self.friction = coasting, law.friction
 
     def picked(self, columns: Ints) -> FlankChoice:
         """For some of the angles."""
@@ -48,18 +49,6 @@ class FlankChoice(TransmissionFunction):
     def efficiency(self, S: ArrayLike) -> Floats:
         """Of the drive flanks."""
         return self.law.efficiency(S)
-
-    def speed_range(self) -> tuple[float, float]:
-        """Of the drive flanks."""
-        return self.law.speed_range()
-
-    def error_range(self) -> tuple[float, float]:
-        """Of the drive flanks."""
-        return self.law.error_range()
-
-    def error_moments(self) -> tuple[float, float]:
-        """Of the drive flanks."""
-        return self.law.error_moments()
 
     def efficiency_mean(self) -> float:
         """Of the drive flanks."""

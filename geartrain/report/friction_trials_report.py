@@ -6,10 +6,10 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from geartrain.report.document import Section, Table
-from geartrain.report.monte_carlo_report import share_text
+from geartrain.report.monte_carlo_report import number_text, share_text
 
 if TYPE_CHECKING:
-    from geartrain.uncertainty import FrictionTrials, IntervalEstimate, TrialFigure
+    from geartrain.uncertainty import FrictionTrials, TrialFigure
 
 
 def trial_sections(found: FrictionTrials) -> Iterator[Section]:
@@ -39,9 +39,4 @@ def _row(name: str, figure: TrialFigure) -> tuple[str, ...]:
     percentiles = figure.percentiles
     low, high = min(percentiles), max(percentiles)
     ends = f"{percentiles[low].value:.5g}", f"{percentiles[high].value:.5g}"
-    return (name, _estimate(figure.mean), _estimate(figure.deviation, 3), *ends)
-
-
-def _estimate(found: IntervalEstimate, digits: int = 5) -> str:
-    """`12.092 (12.042..12.141)`."""
-    return f"{found.value:.{digits}g} ({found.low:.{digits}g}..{found.high:.{digits}g})"
+    return (name, number_text(figure.mean, 5), number_text(figure.deviation), *ends)

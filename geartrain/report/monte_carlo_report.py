@@ -84,9 +84,9 @@ def angle_text(figure: IntervalEstimate) -> str:
     return f"{value:.3g} ({low:.3g}..{high:.3g})"
 
 
-def number_text(figure: IntervalEstimate) -> str:
+def number_text(figure: IntervalEstimate, digits: int = 3) -> str:
     """`12.4 (11.8..13)`."""
-    return f"{figure.value:.3g} ({figure.low:.3g}..{figure.high:.3g})"
+    return f"{figure.value:.{digits}g} ({figure.low:.{digits}g}..{figure.high:.{digits}g})"
 
 
 def _verdict(found: MonteCarloResult) -> Section:

@@ -169,8 +169,8 @@ class TrainDynamics(TrainMotion):
     ) -> SeparationRates:
         """At what rates of the input flanks first part, by pair: above the least `motion` does not hold.
 
-        Counted are inertia, loads, friction of bearings and viscous drag, and where speeds jump their blows; friction
-        of teeth is not (docs/dynamics.md, section 3).
+        Counted are inertia, loads, a weight or a torque that drives, friction of bearings and viscous drag, and where
+        speeds jump their blows; friction of teeth is not (docs/dynamics.md, section 3).
 
         Parameters
         ----------
@@ -213,8 +213,9 @@ class TrainDynamics(TrainMotion):
 
         case = self._case(state)
         inertias = self.inertias(state)
-        acting = find_inertial_loads(self.declaration, case, self.tree, inertias)
-        return find_separation_rates(InertialContacts(self._moving(case, without), acting), inertias, state, turns)
+        moving = self._moving(case, without)
+        acting = find_inertial_loads(self.declaration, case, self.tree, inertias, moving.speeds)
+        return find_separation_rates(InertialContacts(moving, acting), inertias, state, turns)
 
     def tells_separation(self, state: str | None = None) -> bool:
         """True if `separation_rates` has an answer: some link has a moment of inertia, and torques have units.

@@ -148,6 +148,11 @@ class Drive(Declared):
         return self.weight.si * GRAVITY * self.drum.si
 
     @property
+    def steady_torque(self) -> float | None:
+        """The torque of what drives with the same torque all the time, a weight or a torque [N m]; None of others."""
+        return next((torque.si for torque in self.torques), self.pull)
+
+    @property
     def kind(self) -> str:
         """rate, torque, weight, spring or hand."""
         return next(key for key in ("rate", "torque", "weight", "spring", "hand") if getattr(self, key) is not None)

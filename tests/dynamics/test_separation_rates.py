@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import acos, degrees, sqrt, tau
+from math import acos, degrees, pi, sqrt, tau
 
 import numpy as np
 import pytest
@@ -175,8 +175,9 @@ loads: {last: 2 N mm}
 
 def contacts_of(train: GearTrain) -> InertialContacts:
     case = train.declaration.case(None)
-    acting = find_inertial_loads(train.declaration, case, train.tree, train.inertias())
-    return InertialContacts(train._moving(case, ()), acting)
+    moving = train._moving(case, ())
+    acting = find_inertial_loads(train.declaration, case, train.tree, train.inertias(), moving.speeds)
+    return InertialContacts(moving, acting)
 
 
 def balanced(train: GearTrain, turns: float, rate: float) -> dict[str, float]:
@@ -287,3 +288,21 @@ def test_what_cannot_be_asked_is_said() -> None:
         load("moon-triangular").separation_rates()
     with pytest.raises(GearTrainError, match="has no unit"):
         load(PIN.format(offset=2, drag="bearing: 1", rest="")).separation_rates()
+
+
+@pytest.mark.parametrize("way", [1, -1])
+def test_what_drives_with_a_steady_torque_holds_the_flanks_of_links_before_the_input(way: int) -> None:
+    # the slot goes evenly; its pin, pulled by T, must not be thrown ahead: J w^2 max(-tau' / tau^3) = T
+    train = load(f"""
+links: {{frame: {{}}, p: {{inertia: 100 kg mm2}}, s: {{}}}}
+revolutes: [{{pair: [frame, p], axis: A}}, {{pair: [frame, s], axis: B}}]
+couplings: [{{kind: pin_and_slot, pin: p, slot: s, pin_radius: 10 mm, offset: 5 mm}}]
+inputs: {{s: {way}}}
+crank: p
+drive: {{torque: 0.02 N m}}
+""")
+    r, e, S = 10.0, 5.0, np.linspace(-pi, pi, 200001)
+    rho2 = r * r + e * e - 2 * r * e * np.cos(S)
+    ratio, slope = r * (r - e * np.cos(S)) / rho2, -r * e * (r * r - e * e) * np.sin(S) / rho2**2
+    rate = sqrt(0.02 / (1e-4 * float((-slope / ratio**3).max()))) / tau
+    assert train.separation_rates().rate == pytest.approx(rate, rel=1e-8)

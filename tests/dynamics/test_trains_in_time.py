@@ -218,6 +218,25 @@ def test_a_hand_that_yields_swings_with_the_inertia_behind_it() -> None:
     assert run.angles["sun"] == pytest.approx(expected, abs=0.02)
 
 
+def test_a_stiff_hand_keeps_the_rate_of_its_own_link_behind_the_input() -> None:
+    train = load("""
+links:
+  frame: {}
+  a: {wheels: {p: 20}}
+  b: {wheels: {q: 30}, inertia: 10 kg mm2, bearing: 1 N mm}
+  c: {wheels: {w: 60}, inertia: 100 kg mm2, bearing: 1 N mm}
+revolutes: [{pair: [frame, a], axis: A}, {pair: [frame, b], axis: B}, {pair: [frame, c], axis: C}]
+gears: [{pair: [p, q]}, {pair: [q, w]}]
+inputs: {a: 1}
+crank: b
+drive: {hand: {rate: 1 turn/s}}
+""")
+    run = train.dynamics(turns=2, skip=0)
+    assert np.ptp(run.angles["b"]) == pytest.approx(tau * np.ptp(run.time), rel=1e-9)
+    # its own bearing, and that of c at half its speed
+    assert run.torque == pytest.approx(1.5e-3, rel=1e-9)
+
+
 @pytest.mark.parametrize("rate", ["1 furlong/s", "fast", float("nan"), 0.0, float("inf")])
 def test_a_rate_that_is_none_is_refused(rate: str | float) -> None:
     with pytest.raises(QuestionError, match="rate"):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from fractions import Fraction
 from typing import TYPE_CHECKING
 
 from geartrain.errors import Problem, QuestionError
@@ -32,8 +33,13 @@ class InertialLoads:
     bearer: Mapping[str, str]
 
 
-def find_inertial_loads(train: Train, case: StateCase, tree: Tree, inertias: Sequence[LinkInertia]) -> InertialLoads:
-    """Of one state. Raises `QuestionError` where no link has an inertia, or a torque has no unit."""
+def find_inertial_loads(
+    train: Train, case: StateCase, tree: Tree, inertias: Sequence[LinkInertia], speeds: Mapping[str, Fraction]
+) -> InertialLoads:
+    """Of one state. Raises `QuestionError` where no link has an inertia, or a torque has no unit.
+
+    speeds   mean speeds of links: a weight or a torque that drives pulls the way its link turns
+    """
     if not any(each.value for each in inertias):
         what = f"no link of '{train.name}' has a moment of inertia"
         fix = "give links an `inertia`, such as 30 kg mm2, or wheels `density`, `thickness` and `module`"
@@ -47,11 +53,22 @@ def find_inertial_loads(train: Train, case: StateCase, tree: Tree, inertias: Seq
                 raise QuestionError(Problem(what, "inertias are in kg m2", f"write for example '{torque} N m'"))
     return InertialLoads(
         {each.link: each.value for each in inertias},
-        {link: torque.si for link, torque in load.items()},
+        _with_drive({link: torque.si for link, torque in load.items()}, train, case, speeds),
         {link: torque.si for link, torque in friction.items()},
         {link: part.drag.si for link, part in turning.items() if part.drag is not None},
         {link: tree.parent[link][0] for link in turning},
     )
+
+
+def _with_drive(
+    loads: dict[str, float], train: Train, case: StateCase, speeds: Mapping[str, Fraction]
+) -> dict[str, float]:
+    """Loads, and at the crank what drives with a steady torque, where the crank is not the input that stays."""
+    torque = None if case.drive is None else case.drive.steady_torque
+    if torque is None or train.crank is None or train.crank in case.inputs:
+        return loads
+    way = -1 if speeds[train.crank] < 0 else 1
+    return {**loads, train.crank: loads.get(train.crank, 0.0) + way * torque}
 
 
 def torques_have_units(train: Train, case: StateCase) -> bool:

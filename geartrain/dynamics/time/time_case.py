@@ -114,7 +114,9 @@ def _declared_rate(train: Train, case: StateCase, problem: MotionProblem) -> flo
         return sense * hand.rate.si / abs(float(problem.ratio(train.crank or problem.lead)))
     what = "nothing says how fast the train turns"
     why = "the length of a step follows from the time in which teeth pass"
-    raise QuestionError(Problem(what, why, "give a rate such as `rate: 1 turn/s`, that which is expected"))
+    raise QuestionError(
+        Problem(what, why, "give a rate such as `rate: 1 turn/s`, or `--rate 1`: that which is expected")
+    )
 
 
 def _power_input(train: Train, drive: Drive | None, problem: MotionProblem, rate: float) -> PowerInput:

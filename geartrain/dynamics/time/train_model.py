@@ -140,10 +140,11 @@ class TrainModel:
         unit = self.case.rate / float(self.problem.speeds[self.problem.lead])
         held = {row.label.removeprefix("input "): float(row.right) for row in self._rows("input")}
         found = {link: speed * unit for link, speed in held.items()}
-        if self.case.drive.kind != "rate":
+        drive = self.case.drive
+        if drive.kind != "rate" or drive.link not in found:
             # power enters at one link instead; where it is not an input, the first input that turns is let go
-            found.pop(self.case.drive.link if self.case.drive.link in found else self.problem.lead)
-        return found
+            found.pop(drive.link if drive.link in found else self.problem.lead)
+        return found if drive.kind != "rate" else {**found, drive.link: drive.rate}
 
     def _rows(self, kind: str) -> Iterator[Any]:
         return (row for row in self.problem.system.equations if row.kind == kind)

@@ -207,7 +207,10 @@ def _estimates(found: dict[str, ErrorEstimates]) -> Section:
             own, off = superposed.own, superposed.off
             rows.append(("", how, *_degrees(own.peak_to_peak, own.rms, superposed.greatest, off.rms)))
     header = ("output", "method", "error p-p (deg)", "rms (deg)", "greatest difference (deg)", "rms of it (deg)")
-    text = "Cheap estimates beside the composed motion; the difference is pointwise, each about its own mean."
+    text = (
+        "Cheap estimates beside the composed motion, all at the sampled positions alone; the difference is pointwise, "
+        "each about its own mean."
+    )
     return Section("Estimates", (text,), (Table(header, rows),))
 
 

@@ -156,6 +156,8 @@ def _lead(run: TimeRun) -> Iterator[str]:
     }
     state = "" if run.state is None else f", in state {run.state}"
     turns = turns_text(round(abs(run.rate) * run.duration / tau, 6))
+    if run.driven == "torque" and turns_text(0) == turns:
+        yield f"'{run.lead}' STANDS STILL: what drives '{run.link}' does not overcome what resists it."
     yield (
         f"While '{run.lead}' makes {turns} at {figure(abs(run.rate) / tau, 6)} turn/s{state}, after "
         f"{figure(run.skip, 4)} s that are not counted; {ways[run.driven]}. Steps of {figure(run.step, 4)} s."

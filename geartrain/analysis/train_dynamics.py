@@ -218,7 +218,7 @@ class TrainDynamics(TrainMotion):
         return find_separation_rates(InertialContacts(moving, acting), inertias, state, turns)
 
     def tells_separation(self, state: str | None = None) -> bool:
-        """True if `separation_rates` has an answer: some link has a moment of inertia, and torques have units.
+        """True if `separation_rates` has an answer: a link behind the input has an inertia, and torques have units.
 
         Parameters
         ----------
@@ -227,7 +227,9 @@ class TrainDynamics(TrainMotion):
         """
         from geartrain.dynamics.time.inertial_loads import torques_have_units
 
-        return self.is_heavy and torques_have_units(self.declaration, self._case(state))
+        if not self.is_heavy or not torques_have_units(self.declaration, self._case(state)):
+            return False
+        return any(each.value for each in self.inertias(state))
 
     @property
     def is_heavy(self) -> bool:

@@ -155,11 +155,11 @@ def _lead(run: TimeRun) -> Iterator[str]:
         "hand": f"a hand that yields drives '{run.link}'",
     }
     state = "" if run.state is None else f", in state {run.state}"
-    turns = turns_text(round(abs(run.rate) * run.duration / tau, 6))
-    if run.driven == "torque" and turns_text(0) == turns:
+    turns = round(abs(run.rate) * run.duration / tau, 6)
+    if run.driven == "torque" and not turns:
         yield f"'{run.lead}' STANDS STILL: what drives '{run.link}' does not overcome what resists it."
     yield (
-        f"While '{run.lead}' makes {turns} at {figure(abs(run.rate) / tau, 6)} turn/s{state}, after "
+        f"While '{run.lead}' makes {turns_text(turns)} at {figure(abs(run.rate) / tau, 6)} turn/s{state}, after "
         f"{figure(run.skip, 4)} s that are not counted; {ways[run.driven]}. Steps of {figure(run.step, 4)} s."
     )
     if not run.complete:

@@ -60,6 +60,19 @@ def test_the_text_begins_with_the_rate_at_which_teeth_part_and_marks_what_settle
     assert "All agree." in text
 
 
+@pytest.mark.parametrize(("torque", "still"), [("0.5 N mm", True), ("2 N mm", False)])
+def test_a_train_that_its_drive_does_not_move_is_said_to_stand_still(tmp_path: Path, torque: str, still: bool) -> None:
+    path = tmp_path / "driven.yaml"
+    path.write_text(
+        "links: {frame: {}, a: {inertia: 1e-5 kg m2, bearing: 1 N mm}}\n"
+        "revolutes: [{pair: [frame, a], axis: A}]\n"
+        f"inputs: {{a: 1}}\nrate: 1 turn/s\ndrive: {{torque: {torque}}}\n",
+        encoding="utf-8",
+    )
+    done = call("dynamics", path, "--turns", "1", "--skip", "0", "--steps", "500", "--no-fast")
+    assert ("'a' STANDS STILL" in done.output) is still
+
+
 def test_the_course_is_printed_and_written_as_one_table_with_labelled_columns(pin: Path, tmp_path: Path) -> None:
     printed = call("dynamics", pin, *TURN, "--csv").output
     assert call("dynamics", pin, *TURN, "-o", tmp_path / "x.csv").exit_code == 0

@@ -127,18 +127,16 @@ def _power_input(train: Train, drive: Drive | None, problem: MotionProblem, rate
     link = train.crank or lead
     speed = rate * float(problem.ratio(link))
     way = -1.0 if speed < 0 else 1.0
-    if drive.torque is not None:
-        return PowerInput(link, "torque", torque=way * drive.torque.si)
-    if drive.weight is not None and drive.drum is not None and drive.pull is not None:
-        return PowerInput(link, "torque", torque=way * drive.pull, inertia=drive.weight.si * drive.drum.si**2)
+    hand = drive.hand
+    inertia = 0.0 if hand is None or hand.inertia is None else hand.inertia.si
+    if drive.weight is not None and drive.drum is not None:
+        inertia = drive.weight.si * drive.drum.si**2
+    if drive.steady_torque is not None:
+        return PowerInput(link, "torque", torque=way * drive.steady_torque, inertia=inertia)
     if drive.spring is not None:
         wound = way * tau * float(drive.spring.turns.value)
         return PowerInput(link, "spring", stiffness=drive.spring.stiffness.si, wound=wound)
-    hand = drive.hand
     assert hand is not None
-    inertia = 0.0 if hand.inertia is None else hand.inertia.si
-    if hand.torque is not None:
-        return PowerInput(link, "torque", torque=way * hand.torque.si, inertia=inertia)
     own = way * _si(hand.rate)
     if hand.stiffness is None:
         return PowerInput(link, "rate", rate=own, inertia=inertia)

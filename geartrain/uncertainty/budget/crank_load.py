@@ -96,12 +96,11 @@ def _at_mean_speeds(train: GearTrain, state: str | None, lead: str, links: Mappi
     found = train.torques(state)
     pointers = dict(_efficiencies(train, state, link, links)) if loses else {}
     if found.verdict.kind != "unloaded":
-        torque, speed = found.external.get(link), train.solve(state).speeds[link]
+        sense = -1 if train.solve(state).speeds[link] < 0 else 1
+        torque = found.external.get(link)
         note = f"under the declared loads: {found.verdict.text}"
         efficiency = _efficiency(found) if loses else None
-        if torque is not None:
-            torque = -torque if speed < 0 else torque
-        return CrankLoad(link, None if torque is None else float(torque), efficiency, note, pointers)
+        return CrankLoad(link, None if torque is None else sense * float(torque), efficiency, note, pointers)
     if not loses:
         return CrankLoad(link, None, None, "neither loads nor friction are declared", pointers)
     ways = train.drive_both_ways(state)

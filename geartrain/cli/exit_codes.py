@@ -67,7 +67,7 @@ def guarded(run: Callable[[], Any]) -> int:
         complain(error)
         return NOT_USABLE
     except KeyboardInterrupt:
-        return INTERRUPTED
+        return _interrupted()
     except (BrokenPipeError, _ReaderGoneError):
         _mute()
         return READER_GONE
@@ -79,7 +79,17 @@ def guarded(run: Callable[[], Any]) -> int:
             return NOT_USABLE
         _tell_fault(error)
         return FAULT
-    return code
+    return _interrupted() if code == INTERRUPTED else code
+
+
+def _interrupted() -> int:
+    """The exit code of Ctrl-C, also where it came while Python was evaluating a string, as dataclasses and numba do.
+
+    CPython remembers that such an evaluation was interrupted, even if somebody catches that, and `python -m` then dies
+    by the signal at its very end; the next evaluation of a string makes it forget.
+    """
+    eval("0")
+    return INTERRUPTED
 
 
 def _code(run: Callable[[], Any]) -> int:

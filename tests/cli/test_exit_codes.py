@@ -131,6 +131,14 @@ def test_an_interrupt_is_exit_130_without_a_traceback(
     assert run("solve", "worm") == (130, "", "stopped\n")
 
 
+def test_an_interrupt_while_python_evaluates_a_string_is_exit_130(tmp_path: Path) -> None:
+    lines = ("import sys", "from geartrain.cli.exit_codes import guarded")
+    ending = "sys.exit(guarded(lambda: exec('raise KeyboardInterrupt')))"
+    (tmp_path / "interrupted.py").write_text("\n".join((*lines, ending)))
+    paths = {**os.environ, "PYTHONPATH": os.pathsep.join([str(tmp_path), str(ROOT)])}
+    assert subprocess.run([sys.executable, "-m", "interrupted"], env=paths, check=False).returncode == 130
+
+
 @pytest.mark.skipif(sys.platform == "win32", reason="no SIGINT to another process")
 def test_ctrl_c_in_the_middle_is_exit_130() -> None:
     command = [sys.executable, "-m", "geartrain", "motion", "moon-triangular", "--samples", "9000000", "--csv"]

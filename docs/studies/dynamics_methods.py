@@ -13,12 +13,12 @@ from typing import Any
 import numpy as np
 from scipy.integrate import solve_ivp
 
-from geartrain.dynamics.time.contact_model import Bearing, ContactModel, ContactPair
-from geartrain.dynamics.time.contact_system import BLOW_COUNT, BLOWS, GAP, TIME_APART
-from geartrain.dynamics.time.law_tables import tabled_angle
-from geartrain.dynamics.time.simulation import SimulatedRun, StepPlan, ToothYield, simulate
-from geartrain.dynamics.time.slack_pin import SlackPin
-from geartrain.dynamics.time.tooth_yield import damping_ratio
+from geartrain.dynamics.contacts.contact_model import Bearing, ContactModel, ContactPair
+from geartrain.dynamics.contacts.law_tables import tabled_angle
+from geartrain.dynamics.contacts.slack_pin import SlackPin
+from geartrain.dynamics.contacts.tooth_yield import ToothYield, damping_ratio
+from geartrain.dynamics.steps.run_record import BLOW_COUNT, BLOWS, GAP, TIME_APART
+from geartrain.dynamics.steps.simulation import SimulatedRun, StepPlan, simulate
 from geartrain.teeth import PinToSlotTransmission
 
 INERTIA, DRAG, RATE, TURNS = 1e-5, 1e-3, 32.0, 2

@@ -207,9 +207,9 @@ class TrainDynamics(TrainMotion):
         >>> found.pair, round(found.rate, 6)
         ('a~b', 0.440669)
         """
-        from geartrain.dynamics.time.inertial_contacts import InertialContacts
-        from geartrain.dynamics.time.inertial_loads import find_inertial_loads
-        from geartrain.dynamics.time.separation_rate import find_separation_rates
+        from geartrain.dynamics.inertia.inertial_contacts import InertialContacts
+        from geartrain.dynamics.inertia.inertial_loads import find_inertial_loads
+        from geartrain.dynamics.inertia.separation_rate import find_separation_rates
 
         case = self._case(state)
         inertias = self.inertias(state)
@@ -225,7 +225,7 @@ class TrainDynamics(TrainMotion):
         state : str, optional
             A declared state; None only of a train that has none.
         """
-        from geartrain.dynamics.time.inertial_loads import torques_have_units
+        from geartrain.dynamics.inertia.inertial_loads import torques_have_units
 
         if not self.is_heavy or not torques_have_units(self.declaration, self._case(state)):
             return False
@@ -267,6 +267,6 @@ class TrainDynamics(TrainMotion):
         >>> [(each.link, each.source, float(f"{each.value:.3g}")) for each in train.inertias()]
         [('b', 'outlines', 2.2e-05)]
         """
-        from geartrain.dynamics.time.inertia import find_link_inertias
+        from geartrain.dynamics.inertia.link_inertia import find_link_inertias
 
         return find_link_inertias(self, self._case(state))

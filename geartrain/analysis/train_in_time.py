@@ -10,10 +10,10 @@ from geartrain.analysis.train_dynamics import TrainDynamics
 from geartrain.errors import Problem, QuestionError
 
 if TYPE_CHECKING:
+    from geartrain.dynamics.contacts.train_model import TrainModel
     from geartrain.dynamics.time.stepped_separation import SteppedSeparation
     from geartrain.dynamics.time.stepwise_simulation import Simulation
     from geartrain.dynamics.time.time_run import TimeRun
-    from geartrain.dynamics.time.train_model import TrainModel
     from geartrain.dynamics.time.vibration_modes import VibrationModes
     from geartrain.train import StateCase
 
@@ -234,8 +234,8 @@ class TrainInTime(TrainDynamics):
             If the train does not move, a link that can move by itself has no inertia, nothing says how stiff teeth are
             that are to yield, or nothing can swing.
         """
+        from geartrain.dynamics.contacts.yielding_train import YieldingTrain
         from geartrain.dynamics.time.vibration_modes import find_modes
-        from geartrain.dynamics.time.yielding_train import YieldingTrain
 
         case = self._case(state)
         found = self._in_time(case, without, 1.0 if case.drive is None else None, None, True)
@@ -246,10 +246,10 @@ class TrainInTime(TrainDynamics):
         self, case: StateCase, without: Sequence[str], rate: float | None, restitution: float | None, yields: bool
     ) -> TrainModel:
         """The train as a model of contacts; `rate` (rad/s) and `restitution` in place of what is declared."""
-        from geartrain.dynamics.time.inertia import find_link_inertias
-        from geartrain.dynamics.time.time_case import find_time_case
-        from geartrain.dynamics.time.train_model import TrainModel
-        from geartrain.dynamics.time.yielding_train import YieldingTrain
+        from geartrain.dynamics.contacts.time_case import find_time_case
+        from geartrain.dynamics.contacts.train_model import TrainModel
+        from geartrain.dynamics.contacts.yielding_train import YieldingTrain
+        from geartrain.dynamics.inertia.link_inertia import find_link_inertias
 
         problem = self._moving(case, without)
         if rate is not None and problem.speeds[problem.lead] < 0:

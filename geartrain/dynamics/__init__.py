@@ -17,6 +17,8 @@ from typing import TYPE_CHECKING
 from geartrain.numerics.lazy_names import lazy_names
 
 if TYPE_CHECKING:
+    from geartrain.dynamics.inertia.link_inertia import LinkInertia
+    from geartrain.dynamics.inertia.separation_rate import PairSeparation, SeparationRates
     from geartrain.dynamics.motion.corner_positions import CornerPositions
     from geartrain.dynamics.motion.error_composition import ErrorSamples
     from geartrain.dynamics.motion.error_curve import TransmissionErrorCurve
@@ -26,7 +28,6 @@ if TYPE_CHECKING:
     from geartrain.dynamics.motion.run_statistics import RunningStatistics
     from geartrain.dynamics.motion.superposition import ErrorEstimates
     from geartrain.dynamics.motion.tooth_impacts import ToothImpact
-    from geartrain.dynamics.time.inertia import LinkInertia
     from geartrain.dynamics.time.run_parts import (
         ContactInTime,
         EnergyAccount,
@@ -35,7 +36,6 @@ if TYPE_CHECKING:
         SettledFigure,
         SpectrumPeak,
     )
-    from geartrain.dynamics.time.separation_rate import PairSeparation, SeparationRates
     from geartrain.dynamics.time.stepped_separation import SteppedSeparation
     from geartrain.dynamics.time.stepwise_simulation import Simulation
     from geartrain.dynamics.time.time_run import TimeRun
@@ -100,13 +100,13 @@ _PLACES = {
     "ErrorSamples": "motion.error_composition",
     "HoldingTorque": "torques.member_torques",
     "ImpactList": "time.run_parts",
-    "LinkInertia": "time.inertia",
+    "LinkInertia": "inertia.link_inertia",
     "Motion": "motion.motion_model",
     "MotionRun": "motion.motion_run",
     "NeglectedEffect": "torques.torque_results",
     "OutputLead": "time.run_parts",
     "PairCycle": "turn.cycle_parts",
-    "PairSeparation": "time.separation_rate",
+    "PairSeparation": "inertia.separation_rate",
     "PairTorque": "torques.member_torques",
     "PlaceInRun": "turn.cycle_parts",
     "PowerFlow": "torques.power_flow",
@@ -115,7 +115,7 @@ _PLACES = {
     "PowerStream": "torques.power_circulation",
     "RecirculatingPower": "torques.power_circulation",
     "RunningStatistics": "motion.run_statistics",
-    "SeparationRates": "time.separation_rate",
+    "SeparationRates": "inertia.separation_rate",
     "SettledFigure": "time.run_parts",
     "Simulation": "time.stepwise_simulation",
     "SpectrumLine": "motion.order_spectrum",

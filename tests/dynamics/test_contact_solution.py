@@ -8,10 +8,10 @@ from math import tau
 import numpy as np
 import pytest
 
-from geartrain.dynamics.time.contact_model import Bearing, ContactModel, ContactPair
-from geartrain.dynamics.time.contact_solution import solve_guess
-from geartrain.dynamics.time.law_tables import tabled_angle
-from geartrain.dynamics.time.simulation import empty_equations, start_state
+from geartrain.dynamics.contacts.contact_model import Bearing, ContactModel, ContactPair
+from geartrain.dynamics.contacts.law_tables import tabled_angle
+from geartrain.dynamics.steps.contact_solution import solve_guess
+from geartrain.dynamics.steps.simulation import empty_equations, start_state
 from geartrain.teeth.transmission import ExactRatio
 
 EVEN = tabled_angle(ExactRatio(Fraction(1), tau))

@@ -11,11 +11,11 @@ import pytest
 from numpy.typing import ArrayLike, NDArray
 from scipy.integrate import solve_ivp
 
-from geartrain.dynamics.time.contact_model import Bearing, ContactModel, ContactPair, Form, Spring, Stop
-from geartrain.dynamics.time.contact_system import BEARINGS, BLOW_COUNT, BLOWS, GAP, STEP, TIME_APART, VISCOUS
-from geartrain.dynamics.time.law_tables import TabledFunction, join_tables, tabled_angle, value_and_slope
-from geartrain.dynamics.time.simulation import SimulatedRun, StepPlan, simulate
-from geartrain.dynamics.time.slack_pin import SlackPin
+from geartrain.dynamics.contacts.contact_model import Bearing, ContactModel, ContactPair, Form, Spring, Stop
+from geartrain.dynamics.contacts.law_tables import TabledFunction, join_tables, tabled_angle, value_and_slope
+from geartrain.dynamics.contacts.slack_pin import SlackPin
+from geartrain.dynamics.steps.run_record import BEARINGS, BLOW_COUNT, BLOWS, GAP, STEP, TIME_APART, VISCOUS
+from geartrain.dynamics.steps.simulation import SimulatedRun, StepPlan, simulate
 from geartrain.teeth import PinToSlotTransmission, TransmissionFunction
 from geartrain.teeth.constant_lag import ConstantLag
 from geartrain.teeth.transmission import ExactRatio

@@ -9,8 +9,8 @@ import pytest
 
 from geartrain import GearTrain, GearTrainError, load
 from geartrain.dynamics import SeparationRates
-from geartrain.dynamics.time.inertial_contacts import InertialContacts, YieldingPairs, least_rate
-from geartrain.dynamics.time.inertial_loads import find_inertial_loads
+from geartrain.dynamics.inertia.inertial_contacts import InertialContacts, YieldingPairs, least_rate
+from geartrain.dynamics.inertia.inertial_loads import find_inertial_loads
 
 PIN = """
 links: {{frame: {{}}, a: {{}}, b: {{inertia: 1e-5 kg m2, {drag}}}}}

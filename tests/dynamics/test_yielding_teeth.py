@@ -14,12 +14,12 @@ import pytest
 from numpy.typing import ArrayLike, NDArray
 
 from geartrain import GearTrain
-from geartrain.dynamics.time.contact_model import Bearing, ContactModel, ContactPair
-from geartrain.dynamics.time.contact_system import GAP, TIME_APART
-from geartrain.dynamics.time.law_tables import tabled_angle
-from geartrain.dynamics.time.simulation import SimulatedRun, StepPlan, ToothYield, simulate
-from geartrain.dynamics.time.slack_pin import SlackPin
-from geartrain.dynamics.time.tooth_yield import damping_ratio
+from geartrain.dynamics.contacts.contact_model import Bearing, ContactModel, ContactPair
+from geartrain.dynamics.contacts.law_tables import tabled_angle
+from geartrain.dynamics.contacts.slack_pin import SlackPin
+from geartrain.dynamics.contacts.tooth_yield import ToothYield, damping_ratio
+from geartrain.dynamics.steps.run_record import GAP, TIME_APART
+from geartrain.dynamics.steps.simulation import SimulatedRun, StepPlan, simulate
 from geartrain.errors import QuestionError
 from geartrain.teeth import PinToSlotTransmission
 from geartrain.teeth.transmission import ExactRatio

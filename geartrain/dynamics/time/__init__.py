@@ -1,1 +1,1 @@
-"""Motion in time: inertia, play, blows, drag and friction, stepped after Moreau and Jean (docs/dynamics.md)."""
+"""What is found in time: runs and their figures, modes, the rate at which steps part teeth (docs/dynamics.md)."""

@@ -11,8 +11,7 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
-from geartrain.dynamics.time.angle_spectrum import find_peaks
-from geartrain.dynamics.time.contact_system import (
+from geartrain.dynamics.steps.run_record import (
     BEARINGS,
     BLOW_COUNT,
     BLOW_ENERGY,
@@ -33,6 +32,7 @@ from geartrain.dynamics.time.contact_system import (
     WORK_SPRING,
     WORK_TORQUE,
 )
+from geartrain.dynamics.time.angle_spectrum import find_peaks
 from geartrain.dynamics.time.run_parts import (
     ContactInTime,
     EnergyAccount,
@@ -45,8 +45,8 @@ from geartrain.dynamics.time.time_run import TimeRun
 from geartrain.numerics.labelled_array import labelled_array
 
 if TYPE_CHECKING:
-    from geartrain.dynamics.time.simulation import SimulatedRun, StepPlan
-    from geartrain.dynamics.time.train_model import TrainModel
+    from geartrain.dynamics.contacts.train_model import TrainModel
+    from geartrain.dynamics.steps.simulation import SimulatedRun, StepPlan
     from geartrain.numerics.arrays import Floats
 
 _AGREE = 0.05  # of a figure; `_SHARE`, of a share of time

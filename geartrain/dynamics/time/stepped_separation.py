@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from geartrain.dynamics.time.simulation import simulate
+from geartrain.dynamics.steps.simulation import simulate
 from geartrain.errors import Problem, QuestionError
 from geartrain.numerics.plain_data import Result
 

@@ -9,18 +9,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from geartrain.dynamics.time.contact_system import (
-    BLOW_ENERGY,
-    TIME_APART,
-    UNSOLVED,
-    RunRecord,
-)
-from geartrain.dynamics.time.simulation import StepPlan, empty_equations, empty_record, start_state, step_rules
-from geartrain.dynamics.time.time_steps import run_steps
+from geartrain.dynamics.steps.run_record import BLOW_ENERGY, TIME_APART, UNSOLVED, RunRecord
+from geartrain.dynamics.steps.simulation import StepPlan, empty_equations, empty_record, start_state, step_rules
+from geartrain.dynamics.steps.time_steps import run_steps
 from geartrain.errors import Problem, QuestionError, suggest
 
 if TYPE_CHECKING:
-    from geartrain.dynamics.time.train_model import TrainModel
+    from geartrain.dynamics.contacts.train_model import TrainModel
     from geartrain.numerics.arrays import Floats
 
 _EARLY = 1e-6  # of a step: a time that is so little before the end of one counts as that

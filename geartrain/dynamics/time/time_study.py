@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from math import ceil, tau
 
+import numpy as np
+
+from geartrain.dynamics.contacts.train_model import TrainModel
+from geartrain.dynamics.steps.simulation import StepPlan, simulate
 from geartrain.dynamics.time.run_figures import RunFigures
-from geartrain.dynamics.time.simulation import StepPlan, simulate
 from geartrain.dynamics.time.time_run import TimeRun
-from geartrain.dynamics.time.train_model import TrainModel
 from geartrain.errors import Problem, QuestionError
 from geartrain.numerics.kernels import is_fast
 
@@ -27,6 +29,7 @@ _SAMPLES = 12  # in the shortest period of a pair
 _A_BEAT = 50  # samples of an escapement
 _MOST_SAMPLES = 40_000
 _MOST_STEPS = 2_000_000_000
+_MASSLESS = 1e-6  # of all inertias: what turns so light is in balance at every moment
 _SLOW = 7e-5  # s: a step of one contact in plain Python
 
 
@@ -115,7 +118,7 @@ class TimeStudy:
             return stopped
 
         yields = self.of.yields
-        peaks = self.of.static_peaks(self.skip, self.turns, max(_FEWEST, ceil(PER_TOOTH * self.busiest)), fast)
+        peaks = self.static_peaks()
         first = RunFigures(self.of, self.outputs, simulate(model, plans[0], fast, advance, yields), peaks)
         if not first.plan.steps:
             raise KeyboardInterrupt
@@ -123,3 +126,16 @@ class TimeStudy:
             return first.told(None)
         second = RunFigures(self.of, self.outputs, simulate(model, plans[1], fast, advance, yields), peaks)
         return first.told(None) if second.plan.steps < plans[1].steps else second.told(first)
+
+    def static_peaks(self) -> Sequence[float | None]:
+        """Greatest torque of each pair (N m) in balance at every moment: rigid, and nearly without inertia.
+
+        None where teeth are rigid, or where no speed is prescribed, since such a train would run away.
+        """
+        model = self.of.model
+        if self.of.yields is None or self.of.case.drive.kind != "rate":
+            return [None] * len(model.pairs)
+        steps = max(_FEWEST, ceil(PER_TOOTH * self.busiest))
+        plan = StepPlan(tau / abs(self.of.case.rate) / steps, round(self.skip * steps), round(self.turns * steps), 1)
+        run = simulate(replace(model, mass=_MASSLESS * model.mass), plan, self.is_fast)
+        return [float(each) for each in np.abs(run.forces[plan.skip :]).max(axis=0, initial=0.0)]

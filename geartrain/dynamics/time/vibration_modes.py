@@ -12,7 +12,7 @@ from geartrain.numerics.labelled_array import labelled_array
 from geartrain.numerics.plain_data import Result
 
 if TYPE_CHECKING:
-    from geartrain.dynamics.time.yielding_train import YieldingTrain
+    from geartrain.dynamics.contacts.yielding_train import YieldingTrain
     from geartrain.numerics.arrays import Floats
     from geartrain.numerics.labelled_array import LabelledArray
 

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from geartrain.errors import Problem, QuestionError
 
 if TYPE_CHECKING:
-    from geartrain.dynamics.time.inertia import LinkInertia
+    from geartrain.dynamics.inertia.link_inertia import LinkInertia
     from geartrain.kinematics.circuits import Tree
     from geartrain.numerics.quantity import Quantity
     from geartrain.train import StateCase, Train

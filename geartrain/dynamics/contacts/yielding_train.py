@@ -6,28 +6,22 @@ by which a pair closes, ratios at their means; and the springs of drives.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
-from math import tau
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from geartrain.dynamics.time.simulation import StepPlan, ToothYield, simulate
-from geartrain.dynamics.time.tooth_yield import PairYield, ToothYieldTable
-from geartrain.dynamics.time.train_model import TrainModel
+from geartrain.dynamics.contacts.tooth_yield import PairYield, ToothYield, ToothYieldTable
+from geartrain.dynamics.contacts.train_model import TrainModel
 from geartrain.errors import Problem, QuestionError
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from geartrain.dynamics.time.contact_model import ContactPair
-    from geartrain.dynamics.time.rubbing_arms import Arms
+    from geartrain.dynamics.contacts.contact_model import ContactPair
+    from geartrain.dynamics.contacts.rubbing_arms import Arms
     from geartrain.kinematics.circuits import Circuit
     from geartrain.numerics.arrays import Floats
     from geartrain.teeth.transmission import ExactRatio
-
-_MASSLESS = 1e-6  # of all inertias: what turns so light is in balance at every moment
 
 
 @dataclass(frozen=True)
@@ -159,14 +153,3 @@ class YieldingTrain(TrainModel):
             inertia = self._inertia(self._row(pair))
             rates.append(float(c) / inertia / 2 if inertia else 0.0)
         return max(float(np.sqrt(self.vibration[0][-1])), *rates)
-
-    def static_peaks(self, skip: float, turns: float, steps: int, fast: bool) -> Sequence[float | None]:
-        """Greatest torque of each pair (N m) in balance at every moment: rigid, and nearly without inertia.
-
-        By so many steps in a turn of the lead. None where no speed is prescribed, since such a train would run away.
-        """
-        if self.case.drive.kind != "rate":
-            return [None] * len(self.model.pairs)
-        plan = StepPlan(tau / abs(self.case.rate) / steps, round(skip * steps), round(turns * steps), 1)
-        run = simulate(replace(self.model, mass=_MASSLESS * self.model.mass), plan, fast)
-        return [float(each) for each in np.abs(run.forces[plan.skip :]).max(axis=0, initial=0.0)]

@@ -11,12 +11,13 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from math import atan2, cos, exp, log, sqrt
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Literal, NamedTuple
 
 from geartrain.errors import Problem, QuestionError
 from geartrain.teeth.involute import Involute
 
 if TYPE_CHECKING:
+    from geartrain.numerics.arrays import Floats
     from geartrain.numerics.quantity import Quantity
     from geartrain.teeth.gear_mesh import GearMesh
     from geartrain.train import GearPair, Train
@@ -29,6 +30,13 @@ _SINGLE = 14e9
 """N/m2: stiffness of one couple of steel teeth for each width of face, ISO 6336-1, method B, simplified."""
 _STEEL, _BRONZE = 206e9, 110e9  # N/m2, Young's moduli
 _DENSITIES = ((7600.0, 8000.0, _STEEL), (8200.0, 9000.0, _BRONZE))  # kg/m3, from and to; bronze and brass are alike
+
+
+class ToothYield(NamedTuple):
+    """Stiffness (N m/rad) and damping (N m s/rad) of each pair, on its driven side."""
+
+    stiffness: Floats
+    damping: Floats
 
 
 @dataclass(frozen=True)

@@ -8,9 +8,11 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from geartrain.dynamics.time.contact_model import ContactModel
-from geartrain.dynamics.time.contact_solution import StepEquations, StepRules
-from geartrain.dynamics.time.contact_system import (
+from geartrain.dynamics.contacts.contact_model import ContactModel
+from geartrain.dynamics.contacts.contact_system import ContactSystem
+from geartrain.dynamics.contacts.law_tables import LawTables, value_and_slope
+from geartrain.dynamics.steps.contact_solution import StepEquations, StepRules
+from geartrain.dynamics.steps.run_record import (
     COUNTS,
     ENERGIES,
     FRONT,
@@ -19,14 +21,13 @@ from geartrain.dynamics.time.contact_system import (
     SAMPLES,
     STEP,
     ContactState,
-    ContactSystem,
     RunRecord,
 )
-from geartrain.dynamics.time.law_tables import LawTables, value_and_slope
-from geartrain.dynamics.time.time_steps import run_steps
-from geartrain.dynamics.time.yielding_steps import YieldingTeeth, run_yielding_steps
+from geartrain.dynamics.steps.time_steps import run_steps
+from geartrain.dynamics.steps.yielding_steps import YieldingTeeth, run_yielding_steps
 
 if TYPE_CHECKING:
+    from geartrain.dynamics.contacts.tooth_yield import ToothYield
     from geartrain.numerics.arrays import Floats
 
 _CREEP = 1e-10  # of the fastest coordinate: a stuck bearing gives way so slowly
@@ -72,13 +73,6 @@ class SimulatedRun:
     turned: Floats
     pressed: float = 0.0
     peaks: Floats | None = None
-
-
-class ToothYield(NamedTuple):
-    """Stiffness (N m/rad) and damping (N m s/rad) of each pair, on its driven side."""
-
-    stiffness: Floats
-    damping: Floats
 
 
 def simulate(

@@ -17,8 +17,8 @@ from geartrain.dynamics.motion.corner_positions import CornerSearch
 from geartrain.numerics.plain_data import Result
 
 if TYPE_CHECKING:
-    from geartrain.dynamics.time.inertia import LinkInertia
-    from geartrain.dynamics.time.inertial_contacts import InertialContacts
+    from geartrain.dynamics.inertia.inertial_contacts import InertialContacts
+    from geartrain.dynamics.inertia.link_inertia import LinkInertia
     from geartrain.numerics.arrays import Floats
 
 _INSIDE = 1e-9  # of a stretch: its ends are asked so far within it, on its own side of a corner

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from geartrain.dynamics.time.contact_solution import StepEquations
-from geartrain.dynamics.time.contact_system import BACK, FRONT, OPEN, ContactState, ContactSystem
+from geartrain.dynamics.contacts.contact_system import ContactSystem
+from geartrain.dynamics.steps.contact_solution import StepEquations
+from geartrain.dynamics.steps.run_record import BACK, FRONT, OPEN, ContactState
 from geartrain.numerics.kernels import kernel
 
 AT_ONCE = 6

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from geartrain.dynamics.time.contact_solution import StepEquations, StepRules
-from geartrain.dynamics.time.contact_system import (
+from geartrain.dynamics.contacts.contact_system import ContactSystem
+from geartrain.dynamics.contacts.law_tables import LawTables
+from geartrain.dynamics.steps.contact_solution import StepEquations, StepRules
+from geartrain.dynamics.steps.run_record import (
     BEARINGS,
     BLOW_COUNT,
     BLOW_ENERGY,
@@ -25,10 +27,8 @@ from geartrain.dynamics.time.contact_system import (
     WORK_SPRING,
     WORK_TORQUE,
     ContactState,
-    ContactSystem,
     RunRecord,
 )
-from geartrain.dynamics.time.law_tables import LawTables
 from geartrain.numerics.kernels import kernel
 
 if TYPE_CHECKING:

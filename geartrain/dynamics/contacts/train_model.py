@@ -7,7 +7,7 @@ power are contacts between coordinates.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
@@ -16,22 +16,22 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from geartrain.dynamics.contacts.contact_model import Bearing, ContactModel, ContactPair, Form, Spring, Stop
+from geartrain.dynamics.contacts.law_tables import TabledFunction, tabled_angle
+from geartrain.dynamics.contacts.rubbing_arms import Arms, even_arms, pin_arms, tooth_arms
+from geartrain.dynamics.contacts.slack_pin import SlackPin
+from geartrain.dynamics.contacts.time_case import TimeCase
 from geartrain.dynamics.motion.error_composition import ErrorComposition, SeenLink
 from geartrain.dynamics.motion.motion_model import Motion
-from geartrain.dynamics.time.contact_model import Bearing, ContactModel, ContactPair, Form, Spring, Stop
-from geartrain.dynamics.time.law_tables import TabledFunction, tabled_angle
-from geartrain.dynamics.time.rubbing_arms import Arms, even_arms, pin_arms, tooth_arms
-from geartrain.dynamics.time.slack_pin import SlackPin
-from geartrain.dynamics.time.time_case import TimeCase
 from geartrain.errors import Problem, QuestionError
 from geartrain.kinematics.relative_speeds import axis_sense
 from geartrain.numerics.elimination import eliminate
 from geartrain.teeth.transmission import ExactRatio
 
 if TYPE_CHECKING:
+    from geartrain.dynamics.contacts.tooth_yield import ToothYield
     from geartrain.dynamics.motion.error_composition import PairErrorSource
     from geartrain.dynamics.motion.motion_problem import MotionProblem
-    from geartrain.dynamics.time.simulation import ToothYield
     from geartrain.kinematics.circuits import Circuit, Tree
     from geartrain.numerics.arrays import Floats
     from geartrain.teeth.gear_mesh import GearMesh
@@ -96,10 +96,6 @@ class TrainModel:
     def fastest(self) -> float:
         """Circular frequency that steps have to follow (rad/s); 0 where teeth are rigid."""
         return 0.0
-
-    def static_peaks(self, skip: float, turns: float, steps: int, fast: bool) -> Sequence[float | None]:
-        """Greatest torque of each pair (N m) in balance at every moment; None where teeth are rigid."""
-        return [None] * len(self.model.pairs)
 
     # ------------------------------------------------------------------------------------------------------ coordinates
 

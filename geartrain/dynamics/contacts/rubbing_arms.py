@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from geartrain.dynamics.time.law_tables import TabledFunction, tabled_function
+from geartrain.dynamics.contacts.law_tables import TabledFunction, tabled_function
 from geartrain.errors import GearTrainError, Problem
 from geartrain.teeth.rubbed_transmission import RubbedTransmission
 

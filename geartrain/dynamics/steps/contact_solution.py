@@ -14,7 +14,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
-from geartrain.dynamics.time.contact_system import ContactState, ContactSystem
+from geartrain.dynamics.contacts.contact_system import ContactSystem
+from geartrain.dynamics.steps.run_record import ContactState
 from geartrain.numerics.kernels import kernel
 
 if TYPE_CHECKING:

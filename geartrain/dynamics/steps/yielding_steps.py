@@ -15,8 +15,11 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from geartrain.dynamics.time.contact_solution import StepEquations, StepRules, solve_guess
-from geartrain.dynamics.time.contact_system import (
+from geartrain.dynamics.contacts.contact_system import ContactSystem
+from geartrain.dynamics.contacts.law_tables import LawTables, value_and_slope
+from geartrain.dynamics.steps.contact_solution import StepEquations, StepRules, solve_guess
+from geartrain.dynamics.steps.guess_correction import AT_ONCE, correct_guess
+from geartrain.dynamics.steps.run_record import (
     BLOW_COUNT,
     BLOW_ENERGY,
     BLOW_SPEED,
@@ -32,13 +35,10 @@ from geartrain.dynamics.time.contact_system import (
     STEPS,
     UNSOLVED,
     ContactState,
-    ContactSystem,
     RunRecord,
 )
-from geartrain.dynamics.time.guess_correction import AT_ONCE, correct_guess
-from geartrain.dynamics.time.law_tables import LawTables, value_and_slope
-from geartrain.dynamics.time.step_account import count_energy, count_gap, note_impact
-from geartrain.dynamics.time.time_steps import add_to_sample, end_sample
+from geartrain.dynamics.steps.step_account import count_energy, count_gap, note_impact
+from geartrain.dynamics.steps.time_steps import add_to_sample, end_sample
 from geartrain.numerics.kernels import kernel
 
 if TYPE_CHECKING:

@@ -16,21 +16,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from geartrain.dynamics.time.contact_solution import StepEquations, StepRules, solve_guess
-from geartrain.dynamics.time.contact_system import (
-    BACK,
-    OPEN,
-    PIVOTS,
-    SAMPLES,
-    STEPS,
-    UNSOLVED,
-    ContactState,
-    ContactSystem,
-    RunRecord,
-)
-from geartrain.dynamics.time.guess_correction import AT_ONCE, correct_guess
-from geartrain.dynamics.time.law_tables import LawTables, value_and_slope
-from geartrain.dynamics.time.step_account import count_contacts, count_energy, count_stops, leaps
+from geartrain.dynamics.contacts.contact_system import ContactSystem
+from geartrain.dynamics.contacts.law_tables import LawTables, value_and_slope
+from geartrain.dynamics.steps.contact_solution import StepEquations, StepRules, solve_guess
+from geartrain.dynamics.steps.guess_correction import AT_ONCE, correct_guess
+from geartrain.dynamics.steps.run_record import BACK, OPEN, PIVOTS, SAMPLES, STEPS, UNSOLVED, ContactState, RunRecord
+from geartrain.dynamics.steps.step_account import count_contacts, count_energy, count_stops, leaps
 from geartrain.numerics.kernels import kernel
 
 if TYPE_CHECKING:

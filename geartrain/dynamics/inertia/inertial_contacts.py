@@ -27,9 +27,9 @@ from geartrain.dynamics.motion.pair_errors import PairErrors
 from geartrain.teeth.transmission_table import CellTable, fit, folded_corners
 
 if TYPE_CHECKING:
+    from geartrain.dynamics.inertia.inertial_loads import InertialLoads
     from geartrain.dynamics.motion.error_composition import PairErrorSource
     from geartrain.dynamics.motion.motion_problem import MotionProblem
-    from geartrain.dynamics.time.inertial_loads import InertialLoads
     from geartrain.kinematics.circuits import Circuit
     from geartrain.numerics.arrays import Floats, Ints
     from geartrain.teeth.transmission import TransmissionFunction

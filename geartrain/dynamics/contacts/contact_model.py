@@ -14,8 +14,8 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from geartrain.dynamics.time.contact_system import ContactSystem
-from geartrain.dynamics.time.law_tables import LawTables, TabledFunction, join_tables
+from geartrain.dynamics.contacts.contact_system import ContactSystem
+from geartrain.dynamics.contacts.law_tables import LawTables, TabledFunction, join_tables
 
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats, Ints

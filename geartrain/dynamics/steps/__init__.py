@@ -1,0 +1,1 @@
+"""What steps: the equations of a step, the search for what touches, the account (docs/dynamics.md, section 4)."""

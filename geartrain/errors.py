@@ -7,9 +7,10 @@ user. That a train is locked or contradictory is no error: a verdict is an answe
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from itertools import islice
+from numbers import Integral, Real
 
 __all__ = ["DeclarationError", "GearTrainError", "MissingExtraError", "Problem", "QuestionError", "RangeError"]
 
@@ -208,3 +209,20 @@ def check_choice(kind: str, name: str, known: Iterable[str]) -> None:
     known = tuple(known)
     if name not in known:
         raise QuestionError(Problem(f"there is no {kind} '{name}'", "it is not known here", suggest(name, known)))
+
+
+def check_numbers(**given: object) -> None:
+    """Raise `QuestionError` for an argument that is no number; None is one that is not given."""
+    _check_kind(given, Real, "a number")
+
+
+def check_whole_numbers(**given: object) -> None:
+    """Raise `QuestionError` for an argument that is no whole number; None is one that is not given."""
+    _check_kind(given, Integral, "a whole number")
+
+
+def _check_kind(given: Mapping[str, object], kind: type, words: str) -> None:
+    for name, value in given.items():
+        if value is not None and (isinstance(value, bool) or not isinstance(value, kind)):
+            what = f"{name}: {value!r} is not {words}"
+            raise QuestionError(Problem(what, "", f"give {words}"))

@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, overload
 
 from geartrain.analysis.train_motion import TrainMotion
-from geartrain.errors import check_choice
+from geartrain.errors import check_choice, check_numbers, check_whole_numbers
 
 if TYPE_CHECKING:
     from geartrain.dynamics import DrivenWay, LinkInertia, PowerFlow, SeparationRates, ToothImpact, TorqueCycle, Torques
@@ -65,6 +65,8 @@ class TrainDynamics(TrainMotion):
         QuestionError
             If the train does not move, or turns or link are none to be asked for.
         """
+        check_numbers(turns=turns)
+        check_whole_numbers(samples=samples)
         setting = self._setting(state)
         if turns is not None:
             return self._torque_cycle(state, setting, turns, samples, of, on_done)
@@ -211,6 +213,7 @@ class TrainDynamics(TrainMotion):
         from geartrain.dynamics.inertia.inertial_loads import find_inertial_loads
         from geartrain.dynamics.inertia.separation_rate import find_separation_rates
 
+        check_numbers(turns=turns)
         case = self._case(state)
         inertias = self.inertias(state)
         moving = self._moving(case, without)

@@ -7,7 +7,7 @@ from math import inf, tau
 from typing import TYPE_CHECKING, Literal
 
 from geartrain.analysis.train_dynamics import TrainDynamics
-from geartrain.errors import Problem, QuestionError
+from geartrain.errors import Problem, QuestionError, check_choice, check_numbers, check_whole_numbers
 
 if TYPE_CHECKING:
     from geartrain.dynamics.contacts.train_model import TrainModel
@@ -29,6 +29,7 @@ def _radians_a_second(rate: str | float | None) -> float | None:
             rate = Quantity.parse(rate, "speed", plain=True).si
         except PydanticCustomError as error:
             raise QuestionError(Problem(f"rate: {error.message()}", "", "give one such as '1 turn/s'")) from None
+    check_numbers(rate=rate)
     if rate is not None and not 0 < abs(rate) < inf:
         raise QuestionError(Problem(f"a rate of {rate:g} rad/s", "the train is to turn", "give one other than 0"))
     return rate
@@ -107,6 +108,9 @@ class TrainInTime(TrainDynamics):
         """
         from geartrain.dynamics.time.time_study import TimeStudy
 
+        check_numbers(turns=turns, skip=skip, restitution=restitution, apart=apart)
+        check_whole_numbers(steps=steps, samples=samples)
+        check_choice("model", model, ("rigid", "compliant"))
         case = self._case(state)
         seen = self._seen_in_time(case, outputs)
         speed = _radians_a_second(rate)
@@ -151,6 +155,7 @@ class TrainInTime(TrainDynamics):
         from geartrain.dynamics.time.time_study import TimeStudy
         from geartrain.numerics.kernels import is_fast
 
+        check_numbers(step=step, restitution=restitution)
         if step is not None and not 0 < step < inf:
             raise QuestionError(Problem(f"steps of {step:g} s", "time goes on", "give a length above 0"))
         case = self._case(state)
@@ -204,6 +209,8 @@ class TrainInTime(TrainDynamics):
         from geartrain.dynamics.time.stepped_separation import find_stepped_separation
         from geartrain.dynamics.time.time_study import TimeStudy
 
+        check_numbers(turns=turns)
+        check_whole_numbers(steps=steps)
         case = self._case(state)
         predicted = self.separation_rates(state, without, turns).rate
 

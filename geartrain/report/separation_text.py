@@ -8,12 +8,14 @@ from typing import TYPE_CHECKING
 from geartrain.report.document import Section, Table
 
 if TYPE_CHECKING:
-    from geartrain.dynamics import PairSeparation, SeparationRates
+    from geartrain.dynamics import SeparationRates
 
 
 def separation_section(found: SeparationRates) -> Section:
     """The rate of each pair."""
-    rows = [(each.pair, _rate(each), "-" if each.rate is None else f"{each.at:.6g}") for each in found.pairs]
+    from geartrain.dynamics.inertia.separation_rate import separation_words
+
+    rows = [(each.pair, *separation_words(each)) for each in found.pairs]
     header = ("pair", f"parts from (turn/s of {found.input})", f"at (turns of {found.input})")
     return Section("Up to which rate it holds", tuple(separation_text(found)), (Table(header, rows),))
 
@@ -43,7 +45,3 @@ def _first_words(found: SeparationRates) -> str:
         f"Holds up to {first.rate:.5g} turn/s of '{found.input}': from there on the teeth of {first.pair} part, "
         f"{where}, for what they drive runs ahead. Friction of teeth is not counted."
     )
-
-
-def _rate(pair: PairSeparation) -> str:
-    return "never" if pair.rate is None else "any rate" if not pair.rate else f"{pair.rate:.5g}"

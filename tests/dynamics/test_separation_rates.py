@@ -283,6 +283,13 @@ def test_teeth_whose_speed_falls_at_once_part_at_any_rate() -> None:
     assert running.rate * tau == pytest.approx(sqrt(1e-3 / (1e-5 * (law.steepest_fall() or 0))), rel=1e-6)
 
 
+def test_a_notebook_shows_from_which_rate_each_pair_parts() -> None:
+    page = load("moon-triangular-inertia").separation_rates(turns=37)._repr_html_()
+    # 0.481 turn/s, docs/dynamics.md
+    assert "<td>d2~e</td><td>0.48083</td><td>36.0544</td>" in page
+    assert page.count("<tr>") == 5
+
+
 def test_what_cannot_be_asked_is_said() -> None:
     with pytest.raises(GearTrainError, match="no link of 'moon-triangular' has a moment of inertia"):
         load("moon-triangular").separation_rates()

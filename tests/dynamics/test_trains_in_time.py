@@ -243,6 +243,28 @@ def test_a_rate_that_is_none_is_refused(rate: str | float) -> None:
         moon_train().dynamics(rate=rate)
 
 
+@pytest.mark.parametrize(
+    ("given", "told"),
+    [
+        ({"turns": "x"}, "turns: 'x' is not a number"),
+        ({"turns": True}, "turns: True is not a number"),
+        ({"restitution": "x"}, "restitution: 'x' is not a number"),
+        ({"steps": 2.5}, "steps: 2.5 is not a whole number"),
+        ({"model": "elastic"}, "no model 'elastic'"),
+    ],
+)
+def test_what_is_no_number_is_refused_by_its_name(given: dict[str, Any], told: str) -> None:
+    with pytest.raises(QuestionError, match=told):
+        moon_train().dynamics(**{"rate": "1 turn/s", **given})
+
+
+def test_torques_over_turns_that_are_no_number_are_refused() -> None:
+    with pytest.raises(QuestionError, match="turns: 'x' is not a number"):
+        moon_train().torques(turns="x")  # type: ignore[call-overload]
+    with pytest.raises(QuestionError, match="is not a whole number"):
+        moon_train().torques(turns=1, samples=2.5)  # type: ignore[call-overload]
+
+
 def test_a_loose_link_without_inertia_is_named() -> None:
     with pytest.raises(QuestionError, match="inertia turns with sun"):
         GearTrain.declare({"extends": "moon-triangular"}).dynamics(rate=1.0)

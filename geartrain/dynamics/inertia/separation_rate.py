@@ -6,6 +6,7 @@ their corners, and the best stretches are searched ever finer. Where a speed jum
 
 from __future__ import annotations
 
+import html
 from collections.abc import Sequence
 from dataclasses import dataclass
 from math import inf, tau
@@ -55,6 +56,13 @@ class PairSeparation(Result):
     rate: float | None
     at: float
     leap: bool = False
+
+
+def separation_words(pair: PairSeparation) -> tuple[str, str]:
+    """From what rate on a pair parts, and at what position, in words."""
+    if pair.rate is None:
+        return "never", "-"
+    return f"{pair.rate:.5g}" if pair.rate else "any rate", f"{pair.at:.6g}"
 
 
 @dataclass(frozen=True)
@@ -111,6 +119,15 @@ class SeparationRates(Result):
     def unknown(self) -> tuple[str, ...]:
         """Links that turn and have no inertia here."""
         return tuple(each.link for each in self.inertias if each.source == "unknown")
+
+    def _repr_html_(self) -> str:
+        rows = "".join(
+            f"<tr><td>{html.escape(each.pair)}</td><td>{rate}</td><td>{at}</td></tr>"
+            for each, rate, at in ((each, *separation_words(each)) for each in self.pairs)
+        )
+        head = f"<tr><th>pair</th><th>parts from (turn/s)</th><th>at (turns of {html.escape(self.input)})</th></tr>"
+        text = f"rate of {html.escape(self.input)} at which flanks part, in {self.turns:g} turns"
+        return f"<p>{text}</p><table>{head}{rows}</table>"
 
 
 def find_separation_rates(

@@ -89,11 +89,16 @@ def _missing(train: GearTrain) -> list[str]:
 
 
 def _drag(train: GearTrain) -> list[str]:
-    """A bearing that rubs under each pointer of a dial, where nothing says what loads the crank."""
+    """A bearing that rubs under each pointer of a dial, where nothing says what loads the crank.
+
+    Under each output of a train that has no dial.
+    """
     declared = train.declaration
     if declared.drive is not None or any(declared.is_loaded(state) for state in train.states or (None,)):
         return []
-    shown = [output.of or name for name, output in declared.outputs.items() if output.dial is not None]
+    outputs = declared.outputs.items()
+    dials = any(output.dial is not None for output in declared.outputs.values())
+    shown = [output.of or name for name, output in outputs if output.dial is not None or not dials]
     links = ", ".join(f"{link}: {{bearing: {DRAG}}}" for link in dict.fromkeys(shown) if link in declared.links)
     return [f"links: {{{links}}}"] if links else []
 

@@ -9,6 +9,8 @@ from geartrain.analysis.train_motion import TrainMotion
 from geartrain.errors import check_choice, check_numbers, check_whole_numbers
 
 if TYPE_CHECKING:
+    from fractions import Fraction
+
     from geartrain.dynamics import DrivenWay, LinkInertia, PowerFlow, SeparationRates, ToothImpact, TorqueCycle, Torques
     from geartrain.dynamics.torques.load_case import LoadCase
 
@@ -92,6 +94,43 @@ class TrainDynamics(TrainMotion):
         if setting is None:
             return TorqueCycle(state, TorqueVerdict("still", "the speeds of this state are not determined"), of or "")
         return find_torque_cycle(setting, self._moving(self._case(state), ()), turns, samples, of, on_done)
+
+    def torque_period(self, state: str | None = None, of: str | None = None) -> Fraction | None:
+        """Turns of the input after which the torque over a turn repeats, exactly.
+
+        Parameters
+        ----------
+        state : str, optional
+            A declared state; None only of a train that has none.
+        of : str, optional
+            The link whose torque is asked for, by default the crank or input.
+
+        Returns
+        -------
+        Fraction or None
+            None where no pair that carries torque is uneven, so that the torque is one at all positions, or where
+            torques are not known.
+
+        Examples
+        --------
+        A clock of even teeth, whose friction goes with the place of the tooth: all repeats after a quarter of an hour.
+
+        >>> import geartrain
+        >>> geartrain.load('''
+        ... extends: longcase-clock-cycloidal
+        ... friction: 0.2
+        ... loads: {escape: -1 N mm}
+        ... ''').torque_period()
+        Fraction(1, 4)
+        """
+        from geartrain.dynamics.torques.torque_results import TorqueVerdict
+        from geartrain.dynamics.turn.turn_analysis import find_turn_balance
+
+        setting = self._setting(state)
+        if setting is None:
+            return None
+        found = find_turn_balance(setting, self._moving(self._case(state), ()), of)
+        return None if isinstance(found, TorqueVerdict) else found.motion.period
 
     def driven(self, load: str, source: str, state: str | None = None) -> Torques:
         """Torques while a unit of power leaves at one link, driven from another: efficiency, or self-locking.

@@ -106,7 +106,7 @@ def _over_turn(train: GearTrain, found: Sequence[Torques], turns: str, samples: 
     """Torque over some turns in the one state that is loaded."""
     state = _loaded(train, found, "--turns").state
     if turns == "period":
-        period = train.motion(state, tuple(train.declaration.links)).period
+        period = train.torque_period(state, link)
         if period is None:
             raise typer.BadParameter("nothing ripples, so there is no common period", param_hint="--turns")
         span = float(period)

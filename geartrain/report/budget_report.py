@@ -161,7 +161,8 @@ def _over_turn(crank: CrankLoad) -> Iterator[Table]:
     unit = f" ({found.unit})" if found.unit else ""
     figures = (found.mean, found.greatest_torque, found.least_torque, found.starting_torque, found.efficiency)
     header = ("turns of the input", f"mean{unit}", "greatest", "least", "starting", "efficiency")
-    yield Table(header, [(f"{found.span:g}", *map(_or_undeclared, figures))])
+    whole = ", then all repeats" if found.span == found.period else ""
+    yield Table(header, [(f"{found.span:.6g}{whole}", *map(_or_undeclared, figures))])
 
 
 def _weight(crank: CrankLoad) -> Iterator[str]:

@@ -13,11 +13,12 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from geartrain.dynamics.motion.error_composition import ErrorComposition, InputPhase
+from geartrain.dynamics.motion.error_composition import ErrorComposition, InputPhase, common_period
 from geartrain.dynamics.turn.flank_choice import FlankChoice
 
 if TYPE_CHECKING:
     from collections.abc import Collection
+    from fractions import Fraction
 
     from geartrain.dynamics.motion.error_composition import PairErrorSource
     from geartrain.dynamics.motion.motion_model import Motion
@@ -62,6 +63,11 @@ class PositionMotion:
         """The number of each link in the solved order."""
         at = {link: number for number, link in enumerate(self.motion.spread.links)}
         return [at[link] for link in self.links]
+
+    @property
+    def period(self) -> Fraction | None:
+        """Turns of the input after which every pair that is followed stands as at the start; None where none is."""
+        return common_period(self.composition.used)
 
     @cached_property
     def way(self) -> int:

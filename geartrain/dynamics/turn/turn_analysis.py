@@ -66,16 +66,22 @@ def find_torque_cycle(
     if of is not None and of in setting.case.loads:
         why = f"'{of}' carries a load of {setting.case.loads[of]}"
         raise QuestionError(Problem(f"the torque at '{of}' is asked for", why, "ask at a link without a load"))
-    state = setting.case.state
-    question = find_question(setting, of or setting.case.solve_for)
-    if isinstance(question, TorqueVerdict):
-        return TorqueCycle(state, question, of or "")
-    if not question.asked.enough:
-        text = "fewer torques are asked for than the train has freedoms: at single positions no loads balance so"
-        return TorqueCycle(state, question.asked.undecided or TorqueVerdict("undecided", text), of or "")
-    train = build_turn_balance(setting, problem, question)
+    train = find_turn_balance(setting, problem, of)
+    if isinstance(train, TorqueVerdict):
+        return TorqueCycle(setting.case.state, train, of or "")
     train.on_done = on_done
     return _Answer(TurnRun(train, turns, samples)).told(of)
+
+
+def find_turn_balance(setting: LoadCase, problem: MotionProblem, of: str | None) -> TurnBalance | TorqueVerdict:
+    """A train to be asked at positions, or why it cannot be; `of` is the link whose torque is unknown."""
+    question = find_question(setting, of or setting.case.solve_for)
+    if isinstance(question, TorqueVerdict):
+        return question
+    if not question.asked.enough:
+        text = "fewer torques are asked for than the train has freedoms: at single positions no loads balance so"
+        return question.asked.undecided or TorqueVerdict("undecided", text)
+    return build_turn_balance(setting, problem, question)
 
 
 def build_turn_balance(setting: LoadCase, problem: MotionProblem, question: TorqueQuestion) -> TurnBalance:
@@ -116,7 +122,7 @@ class _Answer:
         own = _Asked(row, -1 if train.setting.speeds[link] < 0 else 1)
         locked, ambiguous = self.run.share(~found.valid), self.run.share(found.layers > 1)
         greatest = None if locked else self._extreme(own, 1, False)
-        torque, left_out, period = own.torque(found), self._left_out(), train.motion.motion.period
+        torque, left_out, period = own.torque(found), self._left_out(), train.motion.period
         names = (*train.pairs, *(f"bearing {link}" for link in train.bearings))
         parts = self._parts(names)
         labels = [repr(each) for each in self.run.cells.turns.tolist()]
@@ -246,7 +252,7 @@ class _Answer:
     @property
     def _closes(self) -> bool:
         """True if the run ends as it began."""
-        period = self.run.train.motion.motion.period
+        period = self.run.train.motion.period
         return period is None or (self.run.span / float(period)) % 1 == 0
 
     def _held(self) -> float:

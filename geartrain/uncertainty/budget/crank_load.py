@@ -8,19 +8,13 @@ from typing import TYPE_CHECKING
 
 from geartrain.errors import GearTrainError
 from geartrain.numerics.plain_data import Result
+from geartrain.uncertainty.budget.natural_run import find_natural_run
 from geartrain.uncertainty.budget.weight_drive import WeightDrive, find_weight_drive
 
 if TYPE_CHECKING:
     from geartrain.analysis.gear_train import GearTrain
     from geartrain.dynamics import TorqueCycle, Torques
     from geartrain.train import Train
-
-
-MOST_TURNS = 20.0
-"""Of the input, over which its torque is followed at most."""
-MOST_PASSAGES = 60_000
-"""Teeth that pass, times the pairs that are asked at each."""
-SAMPLES = 2_000
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,8 +36,8 @@ class CrankLoad(Result):
         By pointer, the efficiency of a train that drives it alone; empty without friction, and without what cannot be
         driven.
     over_turn : TorqueCycle or None
-        The torque position by position over the natural run of the train, in which its time passes once (a year, an
-        hour), or as much of it as can be followed in about a minute; None without loads.
+        The torque position by position over a year, or over a period after which everything repeats if that is
+        shorter; None without loads.
     weight : WeightDrive or None
         The weight that drives it; None where another thing does.
 
@@ -72,23 +66,11 @@ def find_crank_load(train: GearTrain, state: str | None, lead: str, links: Mappi
     if not loaded and (drive is None or drive.pull is None):
         return found
     try:
-        run = natural_run(train, state, lead), SAMPLES
-        over_turn = train.torques(state, turns=run[0], samples=run[1]) if loaded else None
-        weight = find_weight_drive(train, state, found.link, over_turn, run)
+        over_turn = find_natural_run(train, state, lead) if loaded else None
+        weight = find_weight_drive(train, state, found.link, lead, over_turn)
     except GearTrainError as error:  # teeth in a loop, or that cannot turn
         return replace(found, note=f"{found.note}; not followed over a run: {error.problems[0].what}")
     return replace(found, over_turn=over_turn, weight=weight)
-
-
-def natural_run(train: GearTrain, state: str | None, lead: str) -> float:
-    """Turns of the input while the train's time passes once: a year, an hour, a turn of what its speeds are over.
-
-    Fewer where more teeth pass than can be followed in about a minute.
-    """
-    whole = abs(float(train.declaration.case(state).inputs[lead])) or 1.0
-    used = train.motion(state, tuple(train.declaration.links)).ahead.used
-    passages = float(sum(each.cycles for each in used))
-    return min(whole, MOST_TURNS, MOST_PASSAGES / (len(used) * passages) if passages else whole)
 
 
 def _at_mean_speeds(train: GearTrain, state: str | None, lead: str, links: Mapping[str, str]) -> CrankLoad:

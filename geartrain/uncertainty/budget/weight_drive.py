@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from geartrain.numerics.plain_data import Result
 from geartrain.numerics.quantity import Quantity
+from geartrain.uncertainty.budget.natural_run import find_natural_run
 
 if TYPE_CHECKING:
     from geartrain.analysis.gear_train import GearTrain
@@ -55,13 +56,12 @@ class WeightDrive(Result):
 
 
 def find_weight_drive(
-    train: GearTrain, state: str | None, link: str, under_load: TorqueCycle | None, run: tuple[float, int]
+    train: GearTrain, state: str | None, link: str, lead: str, under_load: TorqueCycle | None
 ) -> WeightDrive | None:
     """The weight that drives a train in one state; None where another thing drives it.
 
-    link         the drum's
+    link         the drum's; `lead`, the input
     under_load   torque over the run under the declared loads; None where none are declared
-    run          turns of the input, and positions
     """
     drive = train.declaration.case(state).drive
     if drive is None or drive.pull is None:
@@ -71,8 +71,7 @@ def find_weight_drive(
     escapement = train.declaration.escapement
     if escapement is None:
         return WeightDrive(link, drive.pull)
-    turns, samples = run
-    found = _driven_by(train, state, link, drive.pull).torques(state, turns=turns, samples=samples, of=escapement.link)
+    found = find_natural_run(_driven_by(train, state, link, drive.pull), state, lead, escapement.link)
     mean = None if found.mean is None else -found.mean
     least = None if found.greatest is None else -found.greatest.torque
     return WeightDrive(link, drive.pull, None, escapement.link, mean, least, found.efficiency)

@@ -33,6 +33,9 @@ if TYPE_CHECKING:
     from geartrain.scene.layout.train_layout import Layout as Layout
     from geartrain.scene.layout.train_layout import WheelPlace as WheelPlace
     from geartrain.scene.layout.train_layout import lay_out as lay_out
+    from geartrain.scene.scene_run import LinkCourse as LinkCourse
+    from geartrain.scene.scene_run import SceneContact as SceneContact
+    from geartrain.scene.scene_run import SceneRun as SceneRun
     from geartrain.scene.solids.manufacturing_sizes import ManufacturingSizes as ManufacturingSizes
     from geartrain.scene.solids.solid_assembly import SolidModel as SolidModel
     from geartrain.scene.solids.solid_assembly import SolidPart as SolidPart
@@ -47,13 +50,16 @@ __all__ = [
     "ErrorSource",
     "ErrorStep",
     "Layout",
+    "LinkCourse",
     "ManufacturingSizes",
     "Movement",
     "Pointer",
     "Scene",
     "SceneBody",
+    "SceneContact",
     "SceneCoupling",
     "ScenePair",
+    "SceneRun",
     "SceneWheel",
     "SolidModel",
     "SolidPart",
@@ -70,13 +76,16 @@ _PLACES = {
     "ErrorSource": "error_steps",
     "ErrorStep": "error_steps",
     "Layout": "layout.train_layout",
+    "LinkCourse": "scene_run",
     "ManufacturingSizes": "solids.manufacturing_sizes",
     "Movement": "error_steps",
     "Pointer": "train_scene",
     "Scene": "train_scene",
     "SceneBody": "elements",
+    "SceneContact": "scene_run",
     "SceneCoupling": "elements",
     "ScenePair": "elements",
+    "SceneRun": "scene_run",
     "SceneWheel": "elements",
     "SolidModel": "solids.solid_assembly",
     "SolidPart": "solids.solid_assembly",

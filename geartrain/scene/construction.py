@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
 from geartrain.analysis.gear_train import GearTrain
 from geartrain.errors import Problem
 from geartrain.numerics.decimal_text import fraction_text
@@ -14,8 +17,15 @@ from geartrain.scene.movement import find_movement
 from geartrain.scene.train_scene import Scene
 from geartrain.scene.wheel_phases import phase_wheels
 
+if TYPE_CHECKING:
+    from geartrain.dynamics import TimeRun
+    from geartrain.scene.elements import SceneCoupling, ScenePair, SceneWheel
+    from geartrain.scene.scene_run import SceneRun
 
-def make_scene(train: GearTrain, state: str | None = None, layout: Layout | None = None) -> Scene:
+
+def make_scene(
+    train: GearTrain, state: str | None = None, layout: Layout | None = None, run: TimeRun | None = None
+) -> Scene:
     """The scene of a train in one state: where all stands, what it looks like and how it moves, as plain data.
 
     Parameters
@@ -23,9 +33,11 @@ def make_scene(train: GearTrain, state: str | None = None, layout: Layout | None
     train : GearTrain
         Loaded or declared. One that cannot turn has a scene too, with the verdict.
     state : str, optional
-        One of its states; by default the first.
+        One of its states; by default the first, or that of the run.
     layout : Layout, optional
         Where it stands; by default `lay_out(train)`.
+    run : TimeRun, optional
+        What `train.dynamics(...)` gave in that state: then this is what moves.
 
     Returns
     -------
@@ -49,7 +61,7 @@ def make_scene(train: GearTrain, state: str | None = None, layout: Layout | None
     'exact'
     """
     declared = train.declaration
-    state = train.state_or_first(state)
+    state = train.state_or_first(run.state if state is None and run is not None else state)
     stage = SceneContext(train, train.solve(state, method="exact"), layout or lay_out(train))
     verdict, faults = find_verdict(stage)
     moved = find_movement(stage)
@@ -58,6 +70,7 @@ def make_scene(train: GearTrain, state: str | None = None, layout: Layout | None
     wheels, profiles = find_wheels(stage, drawn.profiles, mounted.turns)
     dials = find_dials(stage)
     notices = (*stage.layout.notices, *moved.notices, *drawn.notices, *mounted.notices)
+    pairs, couplings = find_pairs(stage, drawn.forms, faults), find_couplings(stage, moved)
     return Scene(
         name=train.name,
         title=declared.title,
@@ -73,8 +86,8 @@ def make_scene(train: GearTrain, state: str | None = None, layout: Layout | None
         bodies=find_bodies(stage),
         wheels=wheels,
         profiles=profiles,
-        pairs=find_pairs(stage, drawn.forms, faults),
-        couplings=find_couplings(stage, moved),
+        pairs=pairs,
+        couplings=couplings,
         dials=tuple(dials.values()),
         pointers=find_pointers(stage, tuple(dials)),
         movement=moved.movement,
@@ -82,7 +95,20 @@ def make_scene(train: GearTrain, state: str | None = None, layout: Layout | None
         notices=tuple(_plain(notice) for notice in notices),
         back=moved.back,
         unit_days=exact(declared.unit_days),
+        run=None if run is None else _played(stage, run, wheels, pairs, couplings),
     )
+
+
+def _played(
+    stage: SceneContext,
+    run: TimeRun,
+    wheels: Sequence[SceneWheel],
+    pairs: Sequence[ScenePair],
+    couplings: Sequence[SceneCoupling],
+) -> SceneRun:
+    from geartrain.scene.run_courses import find_run  # needs numpy
+
+    return find_run(stage, run, wheels, pairs, couplings)
 
 
 def _sources(train: GearTrain) -> dict[str, dict[str, str]]:

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from base64 import b64encode
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, ClassVar
 
+from geartrain.numerics.packing import packed
 from geartrain.numerics.plain_data import Key, Result
 
 if TYPE_CHECKING:
@@ -52,17 +52,12 @@ class ErrorLawTable(Result):
     @property
     def packed_breaks(self) -> str:
         """The breaks as a page carries them."""
-        return _packed(self.breaks)
+        return packed(self.breaks)
 
     @property
     def packed_coefficients(self) -> str:
         """The coefficients as a page carries them, row by row."""
-        return _packed(self.coefficients)
-
-
-def _packed(values: Floats) -> str:
-    """Base64 of little-endian float64: every digit, in a third of the letters that decimals would take."""
-    return b64encode(values.astype("<f8").tobytes()).decode("ascii")
+        return packed(self.coefficients)
 
 
 @dataclass(frozen=True, slots=True)

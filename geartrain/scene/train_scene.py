@@ -20,6 +20,7 @@ from geartrain.numerics.plain_data import plain
 from geartrain.numerics.vectors import Vector
 from geartrain.scene.elements import SceneBody, SceneCoupling, ScenePair, SceneWheel, ToothProfile
 from geartrain.scene.error_steps import Movement
+from geartrain.scene.scene_run import SceneRun
 
 FORMAT = 1
 
@@ -157,6 +158,8 @@ class Scene:
         The movement for negative turns, when the other flanks drive; None where it is the same.
     unit_days : str or None
         Length of the unit in days, exact, where it is a time; None elsewhere.
+    run : SceneRun or None
+        The simulated motion through time, which is then played; None where the train is turned by its crank.
 
     See Also
     --------
@@ -186,7 +189,11 @@ class Scene:
     notices: Sequence[Mapping[str, str]]
     back: Movement | None = None
     unit_days: str | None = None
+    run: SceneRun | None = None
 
     def to_dict(self) -> dict[str, Any]:
-        """Plain data for JSON; float arrays as base64 of little-endian float64, row by row."""
-        return {"format": FORMAT} | {each.name: plain(getattr(self, each.name)) for each in fields(self)}
+        """Plain data for JSON; arrays as base64 of little-endian numbers, row by row; `run` only where there is one."""
+        named = {each.name: plain(getattr(self, each.name)) for each in fields(self)}
+        if self.run is None:
+            del named["run"]
+        return {"format": FORMAT} | named

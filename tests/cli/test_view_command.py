@@ -12,9 +12,10 @@ from dataclasses import replace
 from hashlib import sha256
 from html.parser import HTMLParser
 from pathlib import Path
+from typing import Any
 
 import pytest
-from commands import LOCKED, RIGHT, WRONG, call
+from commands import HEAVY, LOCKED, RIGHT, WRONG, call
 
 import geartrain.viewer
 from geartrain import GearTrainError, load
@@ -230,3 +231,46 @@ def test_the_lock_file_names_exact_packages_and_no_addresses() -> None:
     lock = (VIEWER / "package-lock.json").read_text(encoding="utf-8")
     assert "resolved" not in lock
     assert "://" not in re.sub(r'"funding": \{[^}]*\}', "", lock)
+
+
+PLAYED = ("--rate", "1", "--turns", "0.5", "--skip", "0", "--steps", "1000", "--no-fast")
+
+
+def test_the_motion_in_time_is_played_from_one_file_with_the_angles_of_dynamics(
+    train_file: Written, here: Path
+) -> None:
+    done = call("view", train_file(HEAVY), "--dynamics", *PLAYED, "-o", "run.html")
+    assert done.exit_code == 0, done.output
+    (scene,), _ = scenes_of(here / "run.html")
+    run: Any = scene["run"]
+    assert {path.name for path in here.iterdir()} == {"train.yaml", "run.html"}
+    assert (run["driven"], run["link"], run["complete"]) == ("rate", "a", True)
+    assert run["duration"] == pytest.approx(0.5, rel=2e-3)
+    assert [each["name"] for each in run["contacts"]] == ["a~b"]
+    assert len(run["links"]) == len(scene["bodies"])  # type: ignore[arg-type]
+
+
+def test_options_of_a_motion_in_time_without_one_are_refused(here: Path) -> None:
+    assert "--dynamics" in refusal("worm", "--rate", "1")
+    assert "page for each" in refusal("worm", "worm", "--dynamics", "--rate", "1")
+    assert list(here.iterdir()) == []
+
+
+def test_a_train_that_has_no_motion_in_time_is_refused_as_dynamics_refuses_it(here: Path) -> None:
+    for words in (
+        ("freeth-2008", "--rate", "1"),
+        ("moon-triangular-inertia",),
+        ("moon-triangular-inertia", "--rate", "x"),
+    ):
+        told = call("dynamics", *words)
+        done = call("view", words[0], "--dynamics", *words[1:])
+        assert str(done.exception) == str(told.exception) != ""
+        assert done.exit_code == told.exit_code != 0
+    assert list(here.iterdir()) == []
+
+
+def test_a_page_that_is_there_is_refused_before_anything_is_simulated(here: Path) -> None:
+    old = here / "moon-triangular-inertia.html"
+    old.write_text("mine", encoding="utf-8")
+    assert "--force" in refusal("moon-triangular-inertia", "--dynamics", "--rate", "1", "--turns", "1e6")
+    assert old.read_text(encoding="utf-8") == "mine"

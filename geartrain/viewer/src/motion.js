@@ -3,6 +3,7 @@
 
 import { Fraction, partOfProduct } from "./fraction.js";
 import { Law, settle } from "./laws.js";
+import { Run } from "./run.js";
 
 const TURN = 2 * Math.PI;
 
@@ -19,10 +20,20 @@ export class Machine {
     this.ahead = new Composition(scene.movement, names);
     this.back = scene.back ? new Composition(scene.back, names) : this.ahead; // the other flanks drive
     this.turns = Fraction.of(0);
+    if (scene.run) {
+      this.run = new Run(scene.run);
+      this.initial = this.ahead.at(this.turns); // a run counts from the pose in which all drive flanks touch
+    }
+  }
+
+  /** Time in a simulated run (s), which turns of the lead at its mean speed stand for. */
+  time(turns = this.turns) {
+    return Number(Fraction.of(turns)) * this.run.period;
   }
 
   /** Declared angle of a body about its declared axis (rad), whole turns taken off; `turns` of the lead. */
   declared(body, turns = this.turns) {
+    if (this.run) return this.scene.bodies[body].start + this.initial[body] + this.run.turned(body, this.time(turns));
     const speed = this.speeds[body];
     const mean = speed ? TURN * partOfProduct(speed, Fraction.of(turns)) : 0;
     return this.scene.bodies[body].start + mean + this.errors(turns)[body];
@@ -54,20 +65,44 @@ export class Machine {
    * error (rad), and where it stands along its dial's spiral, in turns from the middle.
    */
   pointer(index, turns = this.turns) {
-    const { body, base, speed, dial } = this.scene.pointers[index];
-    const exact = Fraction.of(turns);
-    const errors = this.errors(exact);
-    const error = errors[body] - errors[base];
+    const { body, base, dial } = this.scene.pointers[index];
+    const { mean, error } = this.run ? this.simulated(index, turns) : this.followed(index, turns);
     const bodies = this.scene.bodies;
-    const beyond = bodies[body].start - bodies[base].start + error;
-    const mean = speed === null ? Fraction.of(0) : Fraction.of(speed).times(exact);
-    const raw = mean.part * TURN + beyond;
+    const raw = mean.part * TURN + bodies[body].start - bodies[base].start + error;
     const whole = Math.floor(raw / TURN);
     const angle = Math.min(Math.max(raw - whole * TURN, 0), TURN);
     const made = mean.floor + BigInt(whole);
     const coils = BigInt((dial === null ? 1 : this.scene.dials[dial].turns) || 1);
     const along = Number(((made % coils) + coils) % coils) + angle / TURN;
     return { angle, text: degrees(angle), error, mean, whole: made, along };
+  }
+
+  /** Exact mean turns of an output, and its error (rad). */
+  followed(index, turns) {
+    const { body, base, speed } = this.scene.pointers[index];
+    const exact = Fraction.of(turns);
+    const errors = this.errors(exact);
+    return {
+      mean: speed === null ? Fraction.of(0) : Fraction.of(speed).times(exact),
+      error: errors[body] - errors[base],
+    };
+  }
+
+  /** The same in a simulated run, whose whole angle stands for the error. */
+  simulated(index, turns) {
+    const { body, base } = this.scene.pointers[index];
+    const time = this.time(turns);
+    const error = this.run.turned(body, time) - this.run.turned(base, time) + this.initial[body] - this.initial[base];
+    return { mean: Fraction.of(0), error };
+  }
+
+  /** By how much an output of a simulated run is ahead (rad, the way it turns) of where its lead would have it. */
+  aheadBy(index, turns = this.turns) {
+    const { speed } = this.scene.pointers[index];
+    const turned = this.run.turned(this.scene.lead, this.time(turns)) / TURN;
+    const { mean, error } = this.followed(index, Fraction.near(turned));
+    const way = Number(Fraction.of(speed ?? "0")) * this.run.links[this.scene.lead].rate < 0 ? -1 : 1;
+    return way * (this.simulated(index, turns).error - TURN * Number(mean) - error);
   }
 }
 

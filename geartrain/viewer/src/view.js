@@ -130,6 +130,7 @@ export class Stage {
     Object.assign(this, { width, height, density });
     this.renderer.setPixelRatio(density);
     this.renderer.setSize(width, height, false);
+    this.world.sparks?.scale(density * Math.min(width, height));
     this.camera.aspect = width / height;
     this.camera.updateProjectionMatrix();
     if (this.from !== null) this.look(this.from);

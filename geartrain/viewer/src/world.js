@@ -10,6 +10,7 @@ import { metals } from "./metal.js";
 import { Palette } from "./palette.js";
 import { Poses } from "./poses.js";
 import { along, isParallel, onAxis, sharesAxis, vector } from "./space.js";
+import { Sparks } from "./sparks.js";
 import { WheelPart } from "./wheels.js";
 
 export class World {
@@ -32,6 +33,11 @@ export class World {
     this.looks.showTeeth(false);
     this.looks.paint("plain");
     this.root.add(...this.castings[0].cast(this.materials));
+    this.machine = machine;
+    if (machine.run) {
+      this.sparks = new Sparks(machine.scene, this.poses, machine.run);
+      this.root.add(this.sparks.points);
+    }
     this.explode(0);
   }
 
@@ -95,6 +101,7 @@ export class World {
     const { value } = this.uniforms.poses;
     this.poses.turn(value.image.data);
     value.needsUpdate = true;
+    this.sparks?.set(this.machine.time());
   }
 
   /** Layers apart: 0 as they stand, 1 fully. */
@@ -140,6 +147,7 @@ export class World {
 
   dispose() {
     for (const casting of this.castings) casting.dispose();
+    this.sparks?.dispose();
     this.palette.dispose();
     this.uniforms.poses.value.dispose();
     for (const material of this.materials) material.dispose();

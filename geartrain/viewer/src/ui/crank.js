@@ -3,8 +3,8 @@ import { Fraction } from "../fraction.js";
 import { el, field, icon, svg } from "./element.js";
 import { turns, typed } from "./number.js";
 
-const PLAY = "M7 4.5v15l12.5-7.5z";
-const PAUSE = "M7 5h3.6v14H7zM13.4 5H17v14h-3.6z";
+export const PLAY = "M7 4.5v15l12.5-7.5z";
+export const PAUSE = "M7 5h3.6v14H7zM13.4 5H17v14h-3.6z";
 
 /** Turns of the hand for one turn of the lead: what the declared crank does, where that is a hand's work. */
 export function gearing(scene) {

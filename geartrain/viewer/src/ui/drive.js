@@ -1,6 +1,7 @@
 // Where the crank stands: exact turns of the lead, and the play of time.
 import { Fraction } from "../fraction.js";
 
+const FRAME = 1 / 25; // s as the reader sees them: an arrow key in a simulated run
 const NUDGE = new Fraction(1n, 72n); // an arrow key: five degrees of the lead
 
 export class Drive {
@@ -11,6 +12,8 @@ export class Drive {
     this.rate = 0.1;
     this.playing = false;
     this.movable = true;
+    this.run = null; // a simulated run, which begins and ends; units and nudges are then of time
+    this.loop = true;
     this.listeners = [];
     this.calm = matchMedia("(prefers-reduced-motion: reduce)");
     app.onTurns = (turns) => this.#heard(turns);
@@ -23,9 +26,9 @@ export class Drive {
 
   goTo(fraction, settled = true) {
     if (!this.movable) return;
-    this.at = fraction;
+    this.at = this.#within(fraction);
     this.setting = true;
-    this.app.setTurns(fraction.toString());
+    this.app.setTurns(this.at.toString());
     this.setting = false;
     this.#tell(settled);
   }
@@ -37,15 +40,32 @@ export class Drive {
 
   /** By so many units of the input. */
   unit(times) {
-    this.goTo(this.at.plus(this.step.times(times)));
+    if (this.run) this.goTo(Fraction.near(this.run.blowFrom(this.time, times) / this.run.period));
+    else this.goTo(this.at.plus(this.step.times(times)));
   }
 
   nudge(times) {
-    this.goTo(this.at.plus(NUDGE.times(times)));
+    this.goTo(this.at.plus(this.run ? Fraction.near(times * FRAME * this.rate) : NUDGE.times(times)));
+  }
+
+  /** Where a simulated run stands (s). */
+  get time() {
+    return Number(this.at) * this.run.period;
+  }
+
+  get #end() {
+    return Fraction.near(this.run.duration / this.run.period);
+  }
+
+  #within(fraction) {
+    if (!this.run) return fraction;
+    if (fraction.numerator < 0n) return Fraction.of(0);
+    return fraction.minus(this.#end).numerator > 0n ? this.#end : fraction;
   }
 
   play(on = !this.playing) {
     this.playing = on && this.movable;
+    if (this.playing && this.run && this.at.equals(this.#end)) this.goTo(Fraction.of(0), false);
     this.#tell(!this.playing);
     let before = performance.now();
     const frame = (now) => {
@@ -54,10 +74,16 @@ export class Drive {
       if (!this.calm.matches || now - before >= 1000) {
         this.advance((this.rate * Math.min(now - before, this.calm.matches ? 2000 : 100)) / 1000);
         before = now;
+        if (this.run && this.at.equals(this.#end)) this.#ended();
       }
       requestAnimationFrame(frame);
     };
     requestAnimationFrame(frame);
+  }
+
+  #ended() {
+    if (this.loop) this.goTo(Fraction.of(0), false);
+    else this.play(false);
   }
 
   #tell(settled) {

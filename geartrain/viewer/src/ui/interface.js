@@ -16,6 +16,7 @@ import { Head } from "./head.js";
 import { Keys } from "./keys.js";
 import { Live } from "./live.js";
 import { Panel } from "./panel.js";
+import { Playhead } from "./playhead.js";
 import { Side } from "./side.js";
 import { Theme } from "./theme.js";
 import { Tools } from "./tools.js";
@@ -121,9 +122,10 @@ class Interface {
     const [first, second] = sides;
     this.drive.play(false);
     this.drive.step = Fraction.of(first.scene.step);
+    this.drive.run = first.machine.run ?? null;
     this.drive.movable = sides.some(({ movable }) => movable);
     this.app.gears = this.all.map((side) => (side === second ? side.gearing(first) : Fraction.of(1)));
-    const crank = new Crank(first.scene, this.drive, second?.beside(first));
+    const crank = this.drive.run ? new Playhead(first, this.drive) : new Crank(first.scene, this.drive, second?.beside(first));
     this.crank.node.replaceWith(crank.node);
     this.crank = crank;
   }

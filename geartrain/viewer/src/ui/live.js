@@ -34,7 +34,7 @@ export class Live {
       const pointers = this.readings.map(
         ({ reading, label }) => `${label}${reading.pointer.output} ${told(reading.now)}`,
       );
-      this.node.textContent = [`${turns(drive.at)} turns`, ...pointers].join("; ");
+      this.node.textContent = [drive.run ? `${drive.time.toPrecision(4)} seconds` : `${turns(drive.at)} turns`, ...pointers].join("; ");
     }, 500);
   }
 }

@@ -1,5 +1,6 @@
 // The panels at the side; on a narrow page, a sheet at the bottom.
 import { about } from "./about.js";
+import { Contacts } from "./contacts.js";
 import { Dials } from "./dials.js";
 import { el } from "./element.js";
 import { Outputs } from "./outputs.js";
@@ -10,7 +11,9 @@ import { Wheels } from "./wheels.js";
 export class Panel {
   constructor(owner) {
     this.owner = owner;
-    this.places = Object.fromEntries(["Dials", "Outputs", "Wheels", "About"].map((name) => [name, el("div", {})]));
+    const names = ["Dials", "Outputs", "Wheels", "About"];
+    if (owner.all.some(({ machine }) => machine.run)) names.unshift("Contacts");
+    this.places = Object.fromEntries(names.map((name) => [name, el("div", {})]));
     this.way = new Path({ onPair: (side, wheel) => owner.select(side, wheel), onClose: () => owner.letGo() });
     this.tabs = new Tabs(
       Object.entries(this.places).map(([name, node]) => ({ name, node })),
@@ -51,6 +54,8 @@ export class Panel {
     this.dials = new Dials(sides, onChoose);
     this.outputs = new Outputs(sides, { onChoose, say });
     this.wheels = new Wheels(sides, { onSelect: (side, index) => this.owner.select(side, index), say });
+    this.contacts = new Contacts(sides);
+    this.places.Contacts?.replaceChildren(this.contacts.node);
     this.places.Dials.replaceChildren(this.dials.node);
     this.places.Outputs.replaceChildren(this.outputs.node);
     this.places.Wheels.replaceChildren(this.wheels.node);
@@ -60,6 +65,7 @@ export class Panel {
   set(words) {
     this.dials.set(words);
     this.outputs.set(words);
+    this.contacts.set(words);
   }
 
   wheel(side, index) {

@@ -1,0 +1,113 @@
+// The panel of a simulated run: what drives it, how far outputs are ahead, what each contact does now and on the whole.
+import { el } from "./element.js";
+import { turnsASecond } from "./playhead.js";
+
+const STATES = { d: "drive flank", c: "coast flank", a: "apart", "": "\u2013" };
+const KINDS = { pair: "", pin: "pin", escapement: "escapement" };
+
+const percent = (share) => (share ? `${Number((100 * share).toPrecision(3))} %` : "0");
+const rounded = (value) => String(Number(value.toPrecision(3))).replace("-", "\u2212");
+const inDegrees = (angle) => `${rounded((angle * 180) / Math.PI)}\u00b0`;
+
+export class Contacts {
+  constructor(sides) {
+    this.rows = [];
+    this.leads = [];
+    this.node = el(
+      "div",
+      {},
+      sides.filter(({ machine }) => machine.run).map((side) => this.#side(side, sides.length > 1)),
+    );
+  }
+
+  #side(side, many) {
+    const { run } = side.scene;
+    return el(
+      "section",
+      {},
+      many && el("h3", {}, side.label),
+      el("ul", { class: "legend tells" }, key("blow", "a blow"), key("apart", "teeth apart"), key("coast", "on the coast flank")),
+      run.contacts.length
+        ? el("div", { class: "scroll", tabindex: 0, role: "region", "aria-label": "contacts" }, this.#table(side))
+        : el("p", { class: "quiet" }, "No pair has real teeth, a pin or a loss: nothing parts, nothing strikes."),
+      this.#outputs(side),
+      el("p", {}, words(run)),
+      run.complete ? null : el("p", { class: "bad" }, "The simulation was stopped before its end."),
+      run.notes.map((note) => el("p", { class: "note" }, note)),
+    );
+  }
+
+  #table({ scene, machine }) {
+    const head = ["contact", "now", "apart", "coast", "blows/s", "hardest"];
+    const rows = scene.run.contacts.map((contact, index) => {
+      const now = el("td", { class: "now" });
+      this.rows.push({ now, state: () => machine.run.state(index, machine.time()) });
+      const flanks = [contact.apart, contact.coast].map((share) => el("td", { class: "number" }, percent(share)));
+      return el(
+        "tr",
+        { "data-contact": contact.name },
+        el("th", { scope: "row" }, contact.name, KINDS[contact.kind] && el("div", { class: "quiet" }, KINDS[contact.kind])),
+        now,
+        flanks,
+        el("td", { class: "number" }, rounded(contact.blows)),
+        el("td", { class: "number" }, contact.hardest ? `${inDegrees(contact.hardest)}/s` : "\u2013"),
+      );
+    });
+    return el(
+      "table",
+      { class: "outputs contacts" },
+      el("caption", { class: "unseen" }, "Contacts: what they do now, and shares of the whole run"),
+      el("thead", {}, el("tr", {}, head.map((each) => el("th", { scope: "col" }, each)))),
+      el("tbody", {}, rows),
+    );
+  }
+
+  #outputs({ scene, machine }) {
+    if (!scene.run.leads.length) return null;
+    const rows = scene.run.leads.map((lead) => {
+      const index = scene.pointers.findIndex(({ output }) => output === lead.output);
+      const now = el("td", { class: "number" });
+      if (index >= 0) this.leads.push({ now, ahead: () => machine.aheadBy(index) });
+      return el(
+        "tr",
+        { "data-lead": lead.output },
+        el("th", { scope: "row" }, lead.output),
+        now,
+        el("td", { class: "number" }, inDegrees(settled(lead.ahead))),
+        el("td", { class: "number" }, inDegrees(settled(lead.behind))),
+      );
+    });
+    return el(
+      "div",
+      { class: "scroll" },
+      el("p", {}, "Outputs against the motion in which all drive flanks touch:"),
+      el(
+        "table",
+        { class: "outputs" },
+        el("thead", {}, el("tr", {}, ["output", "ahead now", "greatest ahead", "behind"].map((each) => el("th", { scope: "col" }, each)))),
+        el("tbody", {}, rows),
+      ),
+    );
+  }
+
+  set(fresh) {
+    if (!fresh || !this.node.offsetParent) return;
+    for (const { now, state } of this.rows) {
+      const value = state();
+      now.textContent = STATES[value];
+      now.dataset.state = value;
+    }
+    for (const { now, ahead } of this.leads) now.textContent = inDegrees(settled(ahead(), 2e-4));
+  }
+}
+
+/** Without what rounding, or the tolerance of the samples, makes of nothing. */
+const settled = (angle, least = 1e-7) => (Math.abs(angle) < least ? 0 : angle);
+
+const key = (kind, text) => el("li", {}, el("span", { class: `swatch ${kind}` }), text);
+
+function words({ driven, link, torque, rate, skip }) {
+  const by = { rate: "kept at its rate", torque: "driven by a torque or a weight", spring: "driven by a spring", hand: "driven by a hand that yields" }[driven];
+  const before = skip ? ` The first ${rounded(skip)} s are left out.` : "";
+  return `${link} is ${by}: ${turnsASecond(rate)} of the input on the mean, with ${rounded(1000 * torque)} N mm.${before}`;
+}

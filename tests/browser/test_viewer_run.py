@@ -1,0 +1,129 @@
+"""A simulated run in a browser: angles at any moment, the head of time, blows, what contacts do."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+import shipped
+from conftest import OpenPage, Shown
+from viewing import DESK, tab, wait
+
+from geartrain.dynamics import TimeRun
+from geartrain.scene import Scene, make_scene
+from geartrain.viewer import page
+
+Played = tuple[TimeRun, Scene]
+
+
+@pytest.fixture(scope="module")
+def played() -> Played:
+    """Half a turn of the heavy train to the Moon, where teeth part and strike."""
+    train = shipped.train("moon-triangular-inertia")
+    run = train.dynamics(rate="1 turn/s", turns=0.25, skip=0.25, steps=3000, restitution=0.3, samples=10**6, fast=False)
+    return run, make_scene(train, run=run)
+
+
+@pytest.fixture
+def shown(played: Played, open_page: OpenPage, tmp_path: Path) -> Shown:
+    path = tmp_path / "run.html"
+    path.write_text(page([played[1]], teeth=False), encoding="utf-8")
+    return open_page(path, **DESK)
+
+
+def times(played: Played, count: int = 40) -> tuple[list[int], list[float]]:
+    """Some samples of the run: their numbers, and where the crank of the page stands there (turns)."""
+    run, scene = played
+    assert scene.run is not None
+    first = int(np.argmax(run.time > run.skip - run.step / 2))
+    chosen = np.linspace(first, len(run.time) - 1, count).round().astype(int)
+    return chosen.tolist(), ((run.time[chosen] - run.time[first]) / scene.run.period).tolist()
+
+
+def test_bodies_and_pointers_stand_where_the_simulation_has_them(played: Played, shown: Shown) -> None:
+    run, scene = played
+    assert scene.run is not None
+    samples, turns = times(played)
+    names = [body.id for body in scene.bodies]
+    found = shown.run(
+        """([turns, names]) => turns.map((each) => {
+          geartrain.setTurns(each);
+          const { bodies } = geartrain.scenes[0];
+          return names.map((name, index) => bodies[index].sense * geartrain.angle(0, name));
+        })""",
+        [turns, names],
+    )
+    # both from their first moment on: the page adds the pose in which drive flanks touch
+    start = shown.run("(names) => names.map((name, index) => geartrain.machines[0].initial[index])", names)
+    expected = np.array([run.angles[name][samples] for name in names]).T
+    off = np.array(found) - np.array(start) - expected
+    assert np.abs(off).max() < 1.5 * scene.run.tolerance
+    ahead = shown.run(
+        """(turns) => turns.map((each) => { geartrain.setTurns(each); return geartrain.machines[0].aheadBy(1); })""",
+        turns,
+    )
+    assert scene.pointers[1].output == "moon"
+    assert np.abs(np.array(ahead) - run.ahead["moon"][samples]).max() < 3 * scene.run.tolerance
+    assert max(ahead) > 0.01
+    assert shown.errors == []
+
+
+def glow(shown: Shown) -> float:
+    """How bright the brightest blow is now."""
+    script = """() => {
+      const { run } = geartrain.machines[0];
+      return Math.max(...run.contacts.map((_, n) => run.flash(n, geartrain.machines[0].time())));
+    }"""
+    return float(shown.run(script))
+
+
+def test_the_next_blow_is_found_and_seen(played: Played, shown: Shown) -> None:
+    scene = played[1]
+    assert scene.run is not None
+    first = min(each.blow_times[0] for each in scene.run.contacts if len(each.blow_times))
+    assert glow(shown) == 0
+    shown.page.get_by_label("to the next blow").click()
+    assert shown.run("geartrain.machines[0].time()") == pytest.approx(float(first), abs=1e-6)
+    assert glow(shown) >= 0.3
+    shown.page.get_by_label("to the blow before").click()
+    assert shown.run("geartrain.machines[0].time()") == 0
+
+
+def test_the_table_of_contacts_tells_what_each_does_now(played: Played, shown: Shown) -> None:
+    run, _ = played
+    tab(shown, "Contacts")
+    samples, turns = times(played, 30)
+    front, back = run.gaps["d2~e"][samples], run.coast_gaps["d2~e"][samples]
+    apart = [at for at in range(30) if min(front[at], back[at]) > 1e-3]
+    touching = [at for at in range(30) if front[at] < 1e-7]
+    words = {}
+    for name, at in (("apart", apart[0]), ("drive flank", touching[0])):
+        shown.run("(turns) => geartrain.setTurns(turns)", turns[at])
+        words[name] = shown.page.locator("[data-contact='d2~e'] .now").inner_text()
+    assert words == {name: name for name in words}
+    share = f"{100 * run['d2~e'].apart:.3g} %"  # type: ignore[union-attr]
+    assert share in shown.page.locator("[data-contact='d2~e']").inner_text()
+
+
+def test_a_run_plays_and_stops_at_its_end_or_begins_again(shown: Shown) -> None:
+    shown.page.get_by_label("Again at the end").uncheck()
+    shown.page.get_by_role("slider", name="Speed").fill("1")
+    shown.page.get_by_role("button", name="play", exact=True).click()
+    wait(shown, "geartrain.machines[0].time() > 0.2499")
+    shown.page.get_by_role("button", name="play", exact=True).wait_for()
+    shown.page.get_by_label("Again at the end").check()
+    shown.page.get_by_role("button", name="play", exact=True).click()
+    wait(shown, "geartrain.machines[0].time() > 0.15")
+    wait(shown, "geartrain.machines[0].time() < 0.15")
+    shown.page.get_by_role("button", name="pause", exact=True).click()
+    assert shown.errors == []
+    assert shown.requests == []
+
+
+def test_a_page_without_a_run_has_its_crank_and_no_table_of_contacts(open_page: OpenPage, tmp_path: Path) -> None:
+    path = tmp_path / "page.html"
+    path.write_text(page([shipped.scene("planetary-24-18-60")], teeth=False), encoding="utf-8")
+    plain = open_page(path, **DESK)
+    assert plain.page.get_by_role("slider", name="crank").count() == 1
+    assert plain.page.get_by_role("tab", name="Contacts").count() == 0

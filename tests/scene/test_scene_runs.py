@@ -1,0 +1,120 @@
+"""A simulated run in a scene: its angles, contacts and blows as a page carries them, against the run itself."""
+
+from __future__ import annotations
+
+from base64 import b64decode
+from typing import Any
+
+import numpy as np
+import pytest
+import shipped
+from commands import HEAVY
+
+import geartrain
+from geartrain.dynamics import TimeRun
+from geartrain.errors import QuestionError
+from geartrain.scene import Scene, make_scene
+
+CLOCK = """
+links: {frame: {}, barrel: {wheels: {g: 60}}, escape: {wheels: {p: 10, e: 30}, inertia: 1e-7 kg m2, bearing: 0.01 N mm}}
+revolutes: [{pair: [frame, barrel], axis: A}, {pair: [frame, escape], axis: B}]
+gears: [{pair: [g, p]}]
+inputs: {barrel: 1}
+outputs: {escape: {}}
+drive: {torque: 10 N mm}
+escapement: {link: escape, teeth: 30, beat: 0.1 s}
+"""
+
+
+@pytest.fixture(scope="module")
+def pin() -> tuple[TimeRun, Scene]:
+    """A pin with play in its slot, turned so fast that it strikes."""
+    train = geartrain.load(HEAVY.replace("offset: 8 mm", "offset: 8 mm, clearance: 0.5 mm"))
+    run = train.dynamics(rate="1 turn/s", turns=1.5, skip=0.5, steps=2000, restitution=0.3, samples=10**6, fast=False)
+    return run, make_scene(train, run=run)
+
+
+def numbers(text: str, kind: str) -> Any:
+    return np.frombuffer(b64decode(text), dtype=kind)
+
+
+def turned(scene: Scene, body: int, time: Any) -> Any:
+    """The angle of a body by what the page reads, in numpy's words."""
+    told = scene.to_dict()["run"]
+    link = told["links"][body]
+    kept = numbers(link["samples"], "<u4") * told["step"]
+    return link["rate"] * time + np.interp(time, kept, numbers(link["angles"], "<f4"))
+
+
+def test_angles_of_a_page_are_those_of_the_run_within_the_tolerance_told(pin: tuple[TimeRun, Scene]) -> None:
+    run, scene = pin
+    assert scene.run is not None
+    shown = run.time > run.skip - run.step / 2
+    since = run.time[shown] - run.time[shown][0]
+    assert scene.run.duration == pytest.approx(run.duration, rel=1e-3)
+    for body in scene.bodies:
+        expected = run.angles[body.id][shown]
+        assert np.abs(turned(scene, scene.bodies.index(body), since) - expected).max() < 1.01 * scene.run.tolerance
+    kept = sum(len(link.samples) for link in scene.run.links)
+    assert kept < 0.1 * run.angles.values.size
+
+
+def test_what_a_contact_does_adds_up_to_the_shares_that_the_run_counted(pin: tuple[TimeRun, Scene]) -> None:
+    run, scene = pin
+    assert scene.run is not None
+    (contact,) = scene.run.contacts
+    lengths = np.diff([*contact.changes, round(scene.run.duration / scene.run.step) + 1]) * scene.run.step
+    states = np.array(list(contact.states))
+    assert lengths[states == "a"].sum() / lengths.sum() == pytest.approx(run.contacts[0].apart, abs=0.01)
+    assert run.contacts[0].apart > 0.1
+    assert (contact.kind, contact.body) == ("pin", scene.couplings[0].pin)
+    assert contact.at == scene.couplings[0].pin_at
+
+
+def test_every_blow_is_kept_or_lies_within_a_sample_of_a_harder_one(pin: tuple[TimeRun, Scene]) -> None:
+    run, scene = pin
+    assert scene.run is not None
+    (contact,) = scene.run.contacts
+    start = run.time[run.time > run.skip - run.step / 2][0]
+    times = run.impacts.time - start
+    assert len(times) == run.impacts.total > 3
+    for time, speed in zip(times, run.impacts.speed, strict=True):
+        near = np.abs(contact.blow_times - time) < scene.run.step
+        assert contact.blow_speeds[near].max() >= speed
+    assert contact.blow_speeds.max() == run.impacts.speed.max()
+
+
+def test_teeth_meet_where_pitch_circles_touch() -> None:
+    train = shipped.train("moon-triangular-inertia")
+    run = train.dynamics(rate="0.2 turn/s", turns=0.05, skip=0, steps=2000, fast=False)
+    scene = make_scene(train, run=run)
+    assert scene.run is not None
+    for contact in scene.run.contacts:
+        pair = next(each for each in scene.pairs if each.id == contact.name)
+        for wheel in (scene.wheels[each] for each in pair.wheels):
+            away = np.linalg.norm(np.subtract(contact.at, wheel.centre)[:2])
+            assert away == pytest.approx(wheel.radius, rel=1e-6)
+    # without turns left out the run is shown from the pose in which it begins
+    assert all(link.samples[0] == 0 and link.angles[0] == 0 for link in scene.run.links)
+
+
+def test_an_escapement_strikes_at_the_rim_of_its_wheel_once_a_beat() -> None:
+    train = geartrain.load(CLOCK)
+    run = train.dynamics(turns=0.1, skip=0.0, samples=10**6, fast=False)
+    scene = make_scene(train, run=run)
+    assert scene.run is not None
+    contact = next(each for each in scene.run.contacts if each.kind == "escapement")
+    assert contact.states == ""
+    gaps = np.diff(contact.blow_times[contact.blow_speeds > 0.5 * contact.hardest])
+    assert np.allclose(gaps, 0.1, atol=0.01)
+    wheel = next(each for each in scene.wheels if each.id == "e")
+    assert np.linalg.norm(np.subtract(contact.at, wheel.centre)) == pytest.approx(wheel.radius)
+
+
+def test_a_scene_without_a_run_says_nothing_of_one() -> None:
+    assert "run" not in shipped.scene("planetary-24-18-60").to_dict()
+
+
+def test_a_train_without_inertia_cannot_be_played() -> None:
+    with pytest.raises(QuestionError, match="nothing says what inertia turns with"):
+        shipped.train("freeth-2008").dynamics(rate="1 turn/s", turns=1)

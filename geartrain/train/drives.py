@@ -89,8 +89,8 @@ class HandDrive(Declared):
 class Drive(Declared):
     """What drives the train in time: exactly one of rate, torque, weight, spring, hand.
 
-    A rate is that of the input, as the train's own `rate`; all others act where power enters, at `crank`, else at the
-    input, the way the input turns.
+    All act where power enters, at `crank`, else at the input, the way it turns. A rate is that of the input in the
+    mean, as the train's own `rate`: a crank is kept at its own share of it.
 
     See Also
     --------

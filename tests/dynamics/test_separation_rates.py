@@ -313,3 +313,27 @@ drive: {{torque: 0.02 N m}}
     ratio, slope = r * (r - e * np.cos(S)) / rho2, -r * e * (r * r - e * e) * np.sin(S) / rho2**2
     rate = sqrt(0.02 / (1e-4 * float((-slope / ratio**3).max()))) / tau
     assert train.separation_rates().rate == pytest.approx(rate, rel=1e-8)
+
+
+@pytest.mark.parametrize("way", [1, -1])
+def test_a_crank_behind_the_input_keeps_its_own_teeth_together_by_what_it_gives(way: int) -> None:
+    # of the chain crank - input - slot the first pair carries what the input's bearing and all behind it ask
+    train = load(f"""
+links:
+  frame: {{}}
+  c: {{wheels: {{c20: 20}}, bearing: 1 N mm}}
+  a: {{wheels: {{a30: 30}}, bearing: 0.5 N mm}}
+  b: {{inertia: 1e-5 kg m2, bearing: 1 N mm}}
+revolutes: [{{pair: [frame, c], axis: C}}, {{pair: [frame, a], axis: A}}, {{pair: [frame, b], axis: B}}]
+gears: [{{pair: [c20, a30]}}]
+couplings: [{{kind: pin_and_slot, pin: a, slot: b, pin_radius: 10 mm, offset: 8 mm}}]
+inputs: {{a: {way}}}
+crank: c
+""")
+    r, e, S = 10.0, 8.0, np.linspace(0, pi, 2_000_001)[1:-1]
+    rho2 = r * r + e * e - 2 * r * e * np.cos(S)
+    ratio, slope = r * (r - e * np.cos(S)) / rho2, -r * e * (r * r - e * e) * np.sin(S) / rho2**2
+    squared = (0.5e-3 + 1e-3 * ratio) / (1e-5 * -slope * ratio)
+    rates = {each.pair: each.rate for each in train.separation_rates().pairs}
+    assert rates["c20~a30"] == pytest.approx(sqrt(float(squared.min())) / tau, rel=1e-8)
+    assert rates["a~b"] == pytest.approx(2.76880500 / tau, rel=1e-8)

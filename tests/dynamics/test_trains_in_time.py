@@ -237,6 +237,30 @@ drive: {hand: {rate: 1 turn/s}}
     assert run.torque == pytest.approx(1.5e-3, rel=1e-9)
 
 
+def test_a_rate_is_kept_where_power_enters() -> None:
+    train = load("""
+links:
+  frame: {}
+  a: {wheels: {p: 20}, bearing: 1 N mm}
+  b: {wheels: {q: 60}, bearing: 1 N mm, inertia: 100 kg mm2}
+revolutes: [{pair: [frame, a], axis: A}, {pair: [frame, b], axis: B}]
+gears: [{pair: [p, q], efficiency: 0.8}]
+inputs: {b: 1}
+crank: a
+""")
+    run = train.dynamics(rate="1 turn/s", turns=2, skip=0)
+    assert np.ptp(run.angles["b"]) == pytest.approx(tau * np.ptp(run.time), rel=1e-9)
+    # the crank turns three times as fast, drives b through the pair, and overcomes its own bearing
+    assert run.torque == pytest.approx(1e-3 + 1e-3 / 3 / 0.8, rel=1e-6)
+    assert run.torque == pytest.approx(train.torques(turns=1).mean, rel=1e-6)
+
+
+def test_a_kept_rate_that_an_escapement_does_not_let_pass_is_refused() -> None:
+    train = GearTrain.declare({**CLOCK, "drive": {"rate": "1 turn/s"}})
+    with pytest.raises(QuestionError, match="'barrel' is kept at 1 turn/s, which its escapement does not let pass"):
+        train.dynamics(turns=1)
+
+
 @pytest.mark.parametrize("rate", ["1 furlong/s", "fast", float("nan"), 0.0, float("inf")])
 def test_a_rate_that_is_none_is_refused(rate: str | float) -> None:
     with pytest.raises(QuestionError, match="rate"):

@@ -15,6 +15,8 @@ if TYPE_CHECKING:
     from geartrain.numerics.quantity import Quantity
     from geartrain.train import Drive, StateCase, Train
 
+_EQUAL = 1e-9  # of a speed: rounding of decimals in which it is given
+
 
 @dataclass(frozen=True)
 class PowerInput:
@@ -83,9 +85,11 @@ def find_time_case(
         own = 0.0 if train.restitution is None else float(train.restitution.value)
         bounces[escapement.link] = own if restitution is None else restitution
     beats = {} if escapement is None else {escapement.link: (tau / (2 * escapement.teeth), escapement.beat.si)}
-    drive = None if rate is not None else case.drive
+    drive = _power_input(train, None if rate is not None else case.drive, problem, turning)
+    if drive.kind == "rate":
+        _refuse_rate_beyond_beats(train, problem, drive)
     return TimeCase(
-        _power_input(train, drive, problem, turning),
+        drive,
         turning,
         inertia,
         {name: link.drag.si for name, link in links.items() if link.drag is not None},
@@ -99,6 +103,20 @@ def find_time_case(
         {each.name: each.clearance.si for each in train.couplings if each.clearance is not None},
         beats,
     )
+
+
+def _refuse_rate_beyond_beats(train: Train, problem: MotionProblem, drive: PowerInput) -> None:
+    """Raises `QuestionError` where a speed is kept at which an escapement would have to let more than a tooth pass."""
+    beats = train.escapement
+    if beats is None or not problem.ratio(drive.link):
+        return
+    per_turn = abs(float(problem.ratio(beats.link) / problem.ratio(drive.link)))
+    speed, most = abs(drive.rate) / tau, float(beats.speed)
+    if speed * per_turn > most * (1 + _EQUAL):
+        what = f"'{drive.link}' is kept at {speed:.6g} turn/s, which its escapement does not let pass"
+        why = f"'{beats.link}' may make {most:.6g} turn/s in the mean, and would make {speed * per_turn:.6g}"
+        fix = f"keep {most / per_turn:.6g} turn/s or less there, or give no rate, but a `drive` by a weight or a spring"
+        raise QuestionError(Problem(what, why, fix))
 
 
 def _declared_rate(train: Train, case: StateCase, problem: MotionProblem) -> float:
@@ -120,12 +138,11 @@ def _declared_rate(train: Train, case: StateCase, problem: MotionProblem) -> flo
 
 
 def _power_input(train: Train, drive: Drive | None, problem: MotionProblem, rate: float) -> PowerInput:
-    """What drives, the way its link turns."""
-    lead = problem.lead
-    if drive is None or drive.rate is not None:
-        return PowerInput(lead, "rate", rate=rate)
-    link = train.crank or lead
+    """What drives where power enters, the way its link turns."""
+    link = train.crank or problem.lead
     speed = rate * float(problem.ratio(link))
+    if drive is None or drive.rate is not None:
+        return PowerInput(link, "rate", rate=speed)
     way = -1.0 if speed < 0 else 1.0
     hand = drive.hand
     inertia = 0.0 if hand is None or hand.inertia is None else hand.inertia.si

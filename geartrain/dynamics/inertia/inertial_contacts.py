@@ -226,12 +226,22 @@ class InertialContacts:
             forces.append(force)
         forces[0] -= lead * self._by_link(self.acting.load)[:, None]
         forces.append(self._by_link(self.acting.inertia)[:, None] * state.acceleration)
-        return CarriedTorques(*self._carried(state.slope, forces))
+        return CarriedTorques(*self._carried(state, forces))
 
-    def _carried(self, slope: Floats, forces: Sequence[Floats]) -> Iterator[Floats]:
+    def _carried(self, state: _State, forces: Sequence[Floats]) -> Iterator[Floats]:
         """What pairs carry under forces that links ask for, by the transposed matrices: sense J^-T R^T f."""
-        for force in forces:
-            yield self._senses[:, None] * self._yielding.torques(slope, self._response.T @ force)
+        for asked in forces:
+            force = self._less_the_crank(asked, state.speed)
+            yield self._senses[:, None] * self._yielding.torques(state.slope, self._response.T @ force)
+
+    def _less_the_crank(self, asked: Floats, speed: Floats) -> Floats:
+        """What links ask of their pairs: where a crank keeps the input turning, all the power that is asked is its."""
+        if self.acting.crank is None:
+            return asked
+        crank = self.moving.system.links.index(self.acting.crank)
+        force = asked.copy()
+        force[crank] -= (asked * speed).sum(axis=0) / speed[crank]
+        return force
 
     def rates(self, turns: Floats) -> Floats:
         """The rate (rad/s of the input) from which each pair parts at each position, (pairs, n)."""
@@ -248,7 +258,7 @@ class InertialContacts:
         jump = after.speed - before.speed
         scale = np.maximum(1.0, np.abs(after.speed).max(axis=1, initial=0.0))[:, None]
         jump[np.abs(jump) <= _LEAP * scale] = 0.0
-        (found,) = self._carried(after.slope, [self._by_link(self.acting.inertia)[:, None] * jump])
+        (found,) = self._carried(after, [self._by_link(self.acting.inertia)[:, None] * jump])
         return found
 
 

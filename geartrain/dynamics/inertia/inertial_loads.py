@@ -24,6 +24,7 @@ class InertialLoads:
     load       constant torque (N m), positive about the link's axis
     friction   of its bearing while it turns (N m), 0 or more; `drag`, viscous (N m s)
     bearer     the link in which it turns
+    crank      the link at which power enters so that the input turns evenly; None where that is the input
     """
 
     inertia: Mapping[str, float]
@@ -31,6 +32,7 @@ class InertialLoads:
     friction: Mapping[str, float]
     drag: Mapping[str, float]
     bearer: Mapping[str, str]
+    crank: str | None = None
 
 
 def find_inertial_loads(
@@ -57,6 +59,7 @@ def find_inertial_loads(
         {link: torque.si for link, torque in friction.items()},
         {link: part.drag.si for link, part in turning.items() if part.drag is not None},
         {link: tree.parent[link][0] for link in turning},
+        train.crank if _is_cranked(train, case) and speeds[train.crank or ""] else None,
     )
 
 
@@ -71,14 +74,20 @@ def _with_drive(
     return {**loads, train.crank: loads.get(train.crank, 0.0) + way * torque}
 
 
+def _is_cranked(train: Train, case: StateCase) -> bool:
+    """True if a link that is no input keeps the input turning: one that drives with a torque of its own does not."""
+    steady = case.drive is not None and case.drive.steady_torque is not None
+    return train.crank is not None and train.crank not in case.inputs and not steady
+
+
 def torques_have_units(train: Train, case: StateCase) -> bool:
     """True if every torque that acts in one state has a unit."""
     return not any(_is_plain(torque) for torques in _torques(train, case) for torque in torques.values())
 
 
 def _torques(train: Train, case: StateCase) -> tuple[dict[str, Quantity], dict[str, Quantity]]:
-    """Loads and friction of bearings, by link; loads on inputs do no work when pairs give way."""
-    still = {train.frame, *case.inputs}
+    """Loads and friction of bearings, by link; loads on inputs do no work when pairs give way, unless a crank does."""
+    still = {train.frame} if _is_cranked(train, case) else {train.frame, *case.inputs}
     loads = {link: torque for link, torque in case.loads.items() if link not in still}
     bearings = ((link, part.bearing) for link, part in train.links.items() if link != train.frame)
     return loads, {link: bearing.sliding for link, bearing in bearings if bearing is not None}

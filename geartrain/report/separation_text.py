@@ -30,10 +30,12 @@ def separation_text(found: SeparationRates) -> Iterator[str]:
 
 
 def _first_words(found: SeparationRates) -> str:
+    from geartrain.dynamics.inertia.separation_rate import separation_words
+
     first = found.first
     if first is None:
         return f"No teeth part, at whatever rate '{found.input}' turns."
-    where = f"after {first.at:.6g} turns of '{found.input}'"
+    where = f"after {separation_words(first)[1]} turns of '{found.input}'"
     if first.leap:
         return f"Teeth of {first.pair} part at any rate: {where} a speed falls at once, and nothing pulls."
     if not first.rate:

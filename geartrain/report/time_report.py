@@ -141,7 +141,7 @@ def _sections(found: TimeReport) -> Iterator[Section]:
             header = (f"per turn of {run.lead}", "Hz", "amplitude (deg)", "pair and harmonic")
             text = "The strongest lines of its angle about its mean motion, under a Hann window."
             yield Section(f"Spectrum of {name}", (text,), (Table(header, rows),))
-    if run.figures:
+    if any(_compared(each) for each in run.figures):
         yield _settled(run)
     if found.inertias:
         yield _inertia(found.inertias)
@@ -255,6 +255,10 @@ def _energy(run: TimeRun) -> Section:
         if abs(value) > 1e-12 * whole
     ]
     closure = max(energy.closure, 1e-15)
+    if not rows:
+        return Section(
+            "Energy", ("None is put in, lost or kept: nothing loads the train, and nothing heavy gets faster.",)
+        )
     text = f"What is put in, lost and kept agrees to {closure:.0e} of it; the account claims {_SURE:.0e}."
     return Section("Energy", (text,), (Table(("over the run", "J", "of all put in"), rows),))
 

@@ -186,7 +186,7 @@ class Link(Declared):
     wheels: ByName[Annotated[Wheel, short_for("teeth")]] = Field(
         {}, validate_default=True, description="The wheels fixed on this link, by id"
     )
-    inertia: Inertia | None = Field(
+    inertia: Annotated[Inertia, not_below_zero("an inertia is 0 or more")] | None = Field(
         None, description="Moment of inertia about its axis; default from its wheels, where their `density` is given"
     )
     mass: Annotated[Mass, above_zero("give a mass such as 20 g")] | None = Field(

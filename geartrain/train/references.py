@@ -161,8 +161,7 @@ def _prescriptions(train: Train) -> Iterator[Problem]:
     yield from mixed_inputs(train)
     yield from mixed_torques(train)
     yield from rates(train)
-    if train.escapement is not None and train.escapement.link not in train.links:
-        yield _unknown(train, "link", train.escapement.link, train.links, "escapement", "link")
+    yield from _escapement(train)
     yield from _named_links(train, train.loads, "loads")
     for key in ("crank", "solve_for"):
         if (link := getattr(train, key)) is not None and link not in train.links:
@@ -178,6 +177,17 @@ def _prescriptions(train: Train) -> Iterator[Problem]:
         for at, clutch_name in enumerate(state.engaged):
             if clutch_name not in train.clutches:
                 yield _unknown(train, "clutch", clutch_name, train.clutches, *loc, "engaged", at)
+
+
+def _escapement(train: Train) -> Iterator[Problem]:
+    if train.escapement is None:
+        return
+    link = train.escapement.link
+    if link not in train.links:
+        yield _unknown(train, "link", link, train.links, "escapement", "link")
+    elif link == train.frame:
+        what = f"the escapement holds the frame '{link}', which does not turn"
+        yield Problem(what, "", "name the link of the escape wheel", train.place("escapement", "link"))
 
 
 def _scope(

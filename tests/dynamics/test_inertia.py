@@ -68,8 +68,8 @@ def test_what_is_declared_stands_before_outlines_and_what_is_not_known_is_said()
     assert (declared.source, declared.value) == ("declared", 2e-5)
     (unknown,) = load(WHEELS.format(link="", rest="")).inertias()
     assert (unknown.source, unknown.value) == ("unknown", 0)
-    assert unknown.missing == ("nothing says the thickness of wheel 'w'",)
-    assert load("moon-triangular").inertias()[0].missing[0].startswith("nothing says the density")
+    assert unknown.missing == ("wheel 'w' has no thickness",)
+    assert load("moon-triangular").inertias()[0].missing[0] == "wheel 'b1' has no density, no thickness, no module"
 
 
 PLANETS = """

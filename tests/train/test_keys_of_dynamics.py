@@ -170,6 +170,8 @@ SLIPS = {
     "rate: 2\ndrive: {rate: 1}": "the rate is declared twice",
     "loads: {a: 1 N m}\ndrive: {torque: 2}": "torques mix units",
     "escapement: {link: c, teeth: 30, beat: 1 s}": "no link 'c'",
+    "escapement: {link: frame, teeth: 30, beat: 1 s}": "which does not turn",
+    "links: {a: {inertia: -1 kg m2}}": "-1 kg m2 is below 0",
     "escapement: {link: a, teeth: 30, beat: 1}": "'1' has no unit",
 }
 

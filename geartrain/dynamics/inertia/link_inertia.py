@@ -144,7 +144,7 @@ class _Bodies:
             lacking = [key for key, given in (("density", density), ("thickness", thickness),
                                               ("module", self.modules.get(name))) if given is None]  # fmt: skip
             if lacking or thickness is None or density is None:
-                missing.append(f"nothing says the {' and the '.join(lacking)} of wheel '{name}'")
+                missing.append(f"wheel '{name}' has no {', no '.join(lacking)}")
             elif wheel.internal:
                 missing.append(f"wheel '{name}' is a ring, and nothing says how broad its rim is")
             elif name not in self.teeth:

@@ -27,6 +27,7 @@ _SAMPLES = 9  # positions of a stretch at first
 _BEST = 12  # stretches of each pair that are searched further
 _ZOOMS = 9  # of which each narrows what is searched to a quarter
 _NARROW = 1e-12  # turns: a stretch between two corners at one place is none
+_PLACES = 9  # of turns: positions on both sides of a corner are told as one
 _MOST_CORNERS = 80_000  # times pairs, searched by default: some seconds
 
 
@@ -62,7 +63,7 @@ def separation_words(pair: PairSeparation) -> tuple[str, str]:
     """From what rate on a pair parts, and at what position, in words."""
     if pair.rate is None:
         return "never", "-"
-    return f"{pair.rate:.5g}" if pair.rate else "any rate", f"{pair.at:.6g}"
+    return f"{pair.rate:.5g}" if pair.rate else "any rate", f"{round(pair.at, _PLACES):.6g}"
 
 
 @dataclass(frozen=True)

@@ -34,6 +34,8 @@ from geartrain.numerics.kernels import kernel
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats, Ints
 
+_ROUNDING = 1e-9  # of the speeds of a pair: flanks that close no faster do not strike
+
 
 @kernel
 def count_energy(
@@ -114,7 +116,8 @@ def count_contacts(
         if now != here.before[m] and here.before[m] != 0:
             counts[CHANGES] += 1.0
         struck = now != here.before[m] or leaps(laws.jump, system.tables, here.ratio, state.ratio, m, side)
-        if struck and system.two_sided[m] == 0 and here.closing[m, side] > 0.0:
+        least = _ROUNDING * (abs(rate_q) + abs(here.ratio[m, side] * rate_S))
+        if struck and system.two_sided[m] == 0 and here.closing[m, side] > least:
             state.struck[m] = 1
             count_blow(record, m, taken, here.P[m], state.steady[m])
             counts[BLOW_COUNT] += 1.0

@@ -28,6 +28,7 @@ _PER_BEAT = 1000  # steps from one beat of an escapement to the next
 _SAMPLES = 12  # in the shortest period of a pair
 _A_BEAT = 50  # samples of an escapement
 _MOST_SAMPLES = 40_000
+_FEWEST_SAMPLES = 500  # of a run: what is left out before it is counted in whole samples
 _MOST_STEPS = 2_000_000_000
 _MASSLESS = 1e-6  # of all inertias: what turns so light is in balance at every moment
 _SLOW = 7e-5  # s: a step of one contact in plain Python
@@ -87,7 +88,7 @@ class TimeStudy:
         """The steps of one run: `finer` 1 or 2."""
         steps, skip = (round(each * self.per_turn) * finer for each in (self.turns, self.skip))
         often = max([_SAMPLES * self.busiest, *(_A_BEAT * each for each in self.beats)])
-        samples = self.samples or min(_MOST_SAMPLES, ceil(often * (self.turns + self.skip)))
+        samples = self.samples or min(_MOST_SAMPLES, max(_FEWEST_SAMPLES, ceil(often * (self.turns + self.skip))))
         stride = max(1, (steps + skip) // finer // max(samples, 2)) * finer
         skip -= skip % stride
         return StepPlan(tau / abs(self.of.case.rate) / self.per_turn / finer, skip, steps, stride, self.apart)

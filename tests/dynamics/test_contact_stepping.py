@@ -12,10 +12,24 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.integrate import solve_ivp
 
 from geartrain.dynamics.contacts.contact_model import Bearing, ContactModel, ContactPair, Form, Spring, Stop
+from geartrain.dynamics.contacts.contact_system import ContactSystem
 from geartrain.dynamics.contacts.law_tables import TabledFunction, join_tables, tabled_angle, value_and_slope
 from geartrain.dynamics.contacts.slack_pin import SlackPin
-from geartrain.dynamics.steps.run_record import BEARINGS, BLOW_COUNT, BLOWS, GAP, STEP, TIME_APART, VISCOUS
+from geartrain.dynamics.steps import simulation
+from geartrain.dynamics.steps.contact_solution import StepRules
+from geartrain.dynamics.steps.run_record import (
+    BEARINGS,
+    BLOW_COUNT,
+    BLOWS,
+    GAP,
+    STEP,
+    TIME_APART,
+    VISCOUS,
+    ContactState,
+)
 from geartrain.dynamics.steps.simulation import SimulatedRun, StepPlan, simulate
+from geartrain.dynamics.steps.time_steps import run_steps
+from geartrain.numerics.kernels import kernel
 from geartrain.teeth import PinToSlotTransmission, TransmissionFunction
 from geartrain.teeth.constant_lag import ConstantLag
 from geartrain.teeth.transmission import ExactRatio
@@ -168,6 +182,38 @@ def test_a_stopped_wheel_passes_one_pitch_a_beat() -> None:
     assert found.angles[:, 0] == pytest.approx(0.1 * np.arange(1, 11), abs=1e-9)
     # ten falls through a pitch: the work of the torque is lost in blows
     assert found.energy[BLOWS] + found.energy[STEP] == pytest.approx(10 * 0.1 * 10, rel=1e-9)
+
+
+@kernel
+def never_idle(system: ContactSystem, state: ContactState, rules: StepRules, most: int) -> int:
+    """Every step for itself."""
+    return 0
+
+
+@pytest.mark.parametrize(("kept", "rubs"), [(10, False), (7, False), (250, True)])
+def test_a_wheel_that_rests_between_beats_is_stepped_at_once_and_all_figures_stay(
+    kept: int, rubs: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    escapement = Stop("escapement", {1: 1.0}, 0.1, 0.5, 0.3)
+    of = model(
+        [1, 0.5],
+        [0.1, 0.2],
+        [pair(EVEN, ahead(0.01), 0.0)],
+        stops=[escapement],
+        torque=[6.0, 0.0],
+        bearings=[Bearing("drag", {1: 1.0}, 0.5, 1.0)] if rubs else [],
+        springs=[Spring("spring", {0: 1.0}, 0.2, 20.0)],
+    )
+    quick = run(of, 1e-3, 4.2, samples=kept)
+    monkeypatch.setattr(simulation, "run_steps", run_steps.replaced(find_idle_steps=never_idle))
+    slow = run(of, 1e-3, 4.2, samples=kept)
+    assert quick.numbers == slow.numbers
+    for name in ("angles", "speeds", "energy", "impacts"):
+        assert getattr(quick, name) == pytest.approx(getattr(slow, name), rel=1e-6, abs=1e-8), name
+    # what a bearing that sticks and a stop carry together is not determined
+    near = {"rel": 0.1} if rubs else {"rel": 1e-6, "abs": 1e-8}
+    for name in ("forces", "counts"):
+        assert getattr(quick, name) == pytest.approx(getattr(slow, name), **near), name
 
 
 # ------------------------------------------------------------------------------------------------- a slack pin, events

@@ -204,6 +204,17 @@ def test_a_wheel_caught_within_a_step_gives_its_weights_work_to_the_escapement()
     assert run["escape"].blows == pytest.approx(1, rel=0.06)  # type: ignore[union-attr]
 
 
+def test_an_hour_of_a_clock_is_stepped_where_it_moves_and_strikes_at_the_speed_of_its_fall() -> None:
+    train = load("longcase-clock")
+    run = train.dynamics(turns=1 / 30, skip=0, fast=False)
+    # nothing but the weight is heavy: it falls freely from one stop to the next
+    ratio = abs(float(train.solve().speeds["escape"] / train.solve().speeds["great"]))
+    torque, inertia = 5.9 * GRAVITY * 0.0127 / ratio, 5.9 * 0.0127**2 / ratio**2
+    assert run["escape"].hardest == pytest.approx(np.sqrt(2 * torque / inertia * pi / 30), rel=0.04)
+    assert run["escape"].torque == pytest.approx(torque, rel=1e-6)
+    assert len(run.impacts.time) == pytest.approx(120, abs=1)
+
+
 def test_a_hand_that_yields_swings_with_the_inertia_behind_it() -> None:
     hand = {"rate": "1 turn/s", "stiffness": "2e-3 N m/rad", "inertia": "1e-5 kg m2"}
     train = planetary(drive={"hand": hand})

@@ -174,6 +174,23 @@ class ContactModel:
                 near[each].update(other for other in near[d] if other < each)
         return tuple(tuple(sorted(each)) for each in near)
 
+    @property
+    def falls(self) -> list[float]:
+        """How long each stopped link takes from one stop to the next, all coordinates in their mean ratios (s).
+
+        By what drives at the start, without what resists it.
+        """
+        torque = float(self.typical @ self.torque)
+        for spring in self.springs:
+            torque += spring.stiffness * spring.rest * sum(self.typical[at] * c for at, c in spring.angle.items())
+        heavy = float(self.typical @ self.mass @ self.typical)
+        found = []
+        for stop in self.stops:
+            speed = sum(self.typical[at] * c for at, c in stop.angle.items())
+            if torque > 0 and speed:
+                found.append(float(np.sqrt(2 * stop.pitch * heavy / (torque * abs(speed)))))
+        return found
+
     @cached_property
     def laws(self) -> LawTables:
         """The tables of all pairs."""

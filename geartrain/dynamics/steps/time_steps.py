@@ -20,6 +20,7 @@ from geartrain.dynamics.contacts.contact_system import ContactSystem
 from geartrain.dynamics.contacts.law_tables import LawTables, value_and_slope
 from geartrain.dynamics.steps.contact_solution import StepEquations, StepRules, solve_guess
 from geartrain.dynamics.steps.guess_correction import AT_ONCE, correct_guess
+from geartrain.dynamics.steps.rest import find_idle_steps, is_at_rest, repeat_counts
 from geartrain.dynamics.steps.run_record import BACK, OPEN, PIVOTS, SAMPLES, STEPS, UNSOLVED, ContactState, RunRecord
 from geartrain.dynamics.steps.step_account import count_contacts, count_energy, count_stops, leaps
 from geartrain.numerics.kernels import kernel
@@ -43,32 +44,44 @@ def run_steps(
     counted: bool,
 ) -> None:
     """Go so many steps on; energies, shares and impacts are counted if they are to be, samples always."""
-    since = 0
-    for _ in range(steps):
+    since, done, idle = 0, 0, 0
+    still = rules.creep + rules.slack
+    before = np.zeros_like(record.counts)
+    while done < steps:
+        if idle > 1:
+            before[:, :] = record.counts
         rounds = solve_step(system, laws, state, here, rules)
+        rests = rounds == 1 and is_at_rest(state.speed, here.v, still)
+        times = idle if rests and idle > 1 else 1
         if rounds > rules.rounds:
             record.numbers[UNSOLVED] += 1
         for d in range(len(here.v)):
             here.middle[d] = (state.speed[d] + here.v[d]) / 2
         if counted:
             record.numbers[PIVOTS] += rounds - 1
-            record.numbers[STEPS] += 1
+            record.numbers[STEPS] += times
             count_energy(system, state, here, record, rules, here.v, 1.0)
             count_contacts(system, laws, state, here, record, rules)
             if len(system.stop_stiff) > 0:
                 count_stops(system, state, here, record, rules.step)
+            if times > 1:
+                repeat_counts(record.counts, before, times - 1)
         for m in range(len(system.stiff)):
             state.ratio[m, 0] = here.ratio[m, 0]
             state.ratio[m, 1] = here.ratio[m, 1]
         for d in range(len(here.v)):
             state.speed[d] = here.v[d]
             state.angle[d] += rules.step * here.v[d]
-        state.clock[1] += 1.0
+        state.clock[1] += times
         state.clock[0] = state.clock[1] * rules.step
-        if record.numbers[SAMPLES] < len(record.angles):
-            since += 1
+        done += times
+        idle = find_idle_steps(system, state, rules, steps - done) if rests else 0
+        while times > 0 and record.numbers[SAMPLES] < len(record.angles):
+            part = min(times, rules.stride - since)
+            times -= part
+            since += part
             sample = record.numbers[SAMPLES]
-            add_to_sample(record.forces, record.drive, here.P, state.touching, here.drive, sample)
+            add_to_sample(record.forces, record.drive, here.P, state.touching, here.drive, sample, part)
             if since == rules.stride:
                 end_sample(state, record, rules.stride * rules.step)
                 since = 0
@@ -111,12 +124,14 @@ def solve_step(
 
 
 @kernel
-def add_to_sample(forces: Floats, drive: Floats, P: Floats, touching: Ints, kept: Floats, sample: int) -> None:
-    """Add impulses of a step to those of its sample; few arrays, for calls with many are slow."""
+def add_to_sample(
+    forces: Floats, drive: Floats, P: Floats, touching: Ints, kept: Floats, sample: int, times: int
+) -> None:
+    """Add impulses of so many like steps to those of their sample; few arrays, for calls with many are slow."""
     for m in range(len(P)):
-        forces[sample, m] += P[m] if m >= len(touching) or touching[m] != BACK else -P[m]
+        forces[sample, m] += times * (P[m] if m >= len(touching) or touching[m] != BACK else -P[m])
     for d in range(len(kept)):
-        drive[sample, d] += kept[d]
+        drive[sample, d] += times * kept[d]
 
 
 @kernel

@@ -94,7 +94,7 @@ def run_yielding_steps(
         if record.numbers[SAMPLES] < len(record.angles):
             since += 1
             sample = record.numbers[SAMPLES]
-            add_to_sample(record.forces, record.drive, here.P, state.touching, here.drive, sample)
+            add_to_sample(record.forces, record.drive, here.P, state.touching, here.drive, sample, 1)
             if since == rules.stride:
                 end_sample(state, record, rules.stride * rules.step)
                 since = 0

@@ -25,6 +25,8 @@ _UNEVEN = (
 )
 _FEWEST = 200  # steps in a turn of the lead
 _PER_BEAT = 1000  # steps from one beat of an escapement to the next
+_PER_FALL = 16  # from one stop of an escapement to the next, while a train at rest is not stepped
+_MOST_FALLING = 300_000_000  # steps of a run that are made so short for that
 _SAMPLES = 12  # in the shortest period of a pair
 _A_BEAT = 50  # samples of an escapement
 _MOST_SAMPLES = 40_000
@@ -77,7 +79,11 @@ class TimeStudy:
         found = max(_FEWEST, ceil(PER_TOOTH * self.busiest * _UNEVEN))
         # a wheel that is let go falls much faster than it turns on the mean
         swing = ceil(PER_SWING * self.of.fastest / abs(self.of.case.rate))
-        return max([found, swing, *(ceil(_PER_BEAT * each) for each in self.beats)])
+        found = max([found, swing, *(ceil(_PER_BEAT * each) for each in self.beats)])
+        # a multiple, so that samples still fall on beats
+        falls = (_PER_FALL * tau / abs(self.of.case.rate) / each / found for each in self.of.model.falls)
+        most = int(_MOST_FALLING / found / (self.turns + self.skip))
+        return found * max(1, min(most, ceil(max(falls, default=1.0))))
 
     @property
     def beats(self) -> list[float]:

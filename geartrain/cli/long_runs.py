@@ -10,6 +10,7 @@ import time
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -25,6 +26,8 @@ if TYPE_CHECKING:
 Scheduler = Annotated[str | None, typer.Option("--scheduler", help="Address of a dask scheduler, tcp://...")]
 Resume = Annotated[bool, typer.Option("--resume", help="Go on with an interrupted run.")]
 SingleWorker = Annotated[int | None, typer.Option("--workers", help="Processes; default this one alone.")]
+
+COMPILING = "compiling kernels for this machine, once: some ten seconds, up to half a minute"
 
 
 class ProgressBar:
@@ -44,15 +47,21 @@ class ProgressBar:
 
 @contextmanager
 def progress(what: str, total: int | None = None, patience: float = 0.0) -> Iterator[ProgressBar]:
-    """A progress bar on standard error, where that is a terminal; `patience` (s) is waited before it is shown."""
+    """A progress bar on standard error, where that is a terminal; `patience` (s) is waited before it is shown.
+
+    A line above it tells when kernels are compiled, which is long and once.
+    """
     from rich.console import Console
     from rich.progress import Progress, TimeElapsedColumn
 
+    from geartrain.numerics.compilation import telling
+
     columns = (*Progress.get_default_columns(), TimeElapsedColumn())
     hidden = not sys.stderr.isatty()
-    with Progress(*columns, console=Console(stderr=True), transient=True, disable=hidden) as shown:
+    with Progress(*columns, console=Console(stderr=True, quiet=hidden), transient=True, disable=hidden) as shown:
         task = shown.add_task(what, total=total, visible=total is not None and not patience)
-        yield ProgressBar(shown, task, patience)
+        with telling(partial(shown.console.print, COMPILING, highlight=False)):
+            yield ProgressBar(shown, task, patience)
 
 
 @dataclass(frozen=True)

@@ -23,6 +23,7 @@ from types import CodeType, FunctionType, ModuleType
 from typing import Any, Generic, ParamSpec, TypeVar, cast
 
 from geartrain.errors import MissingExtraError
+from geartrain.numerics.compilation import compilation
 
 P = ParamSpec("P")
 R = TypeVar("R")
@@ -60,6 +61,7 @@ class Kernel(Generic[P, R]):
         made = numba.njit(twin, error_model="numpy", nogil=True, no_cfunc_wrapper=True, **options)
         with suppress(RuntimeError):  # where neither the package's folder nor a cache of the user's can be written
             made.enable_caching()
+        made.compile = compilation()(made.compile)  # what numba calls to compile or load it for some types
         return cast("Callable[P, R]", made)
 
     def chosen(self, fast: bool) -> Callable[P, R]:

@@ -142,8 +142,10 @@ def _within(cause: BudgetCause) -> str:
 
 def _crank(found: TrainBudget) -> Section:
     crank = found.crank
-    rows = [(crank.link, _or_undeclared(crank.torque), _or_undeclared(crank.efficiency), crank.note)]
-    tables = [Table(("link", "torque", "efficiency", "how"), rows), *_over_turn(crank)]
+    tables = []
+    if crank.torque is not None or crank.over_turn is not None or crank.weight is None:
+        rows = [(crank.link, _or_undeclared(crank.torque), _efficiency(crank.efficiency), crank.note)]
+        tables = [Table(("link", f"torque{_unit(crank)}", "efficiency", "how"), rows), *_over_turn(crank)]
     alone = [(name, f"{each:.4g}") for name, each in crank.pointers.items()]
     if alone:
         tables.append(Table(("pointer driven alone", "efficiency"), cut(alone)))
@@ -158,11 +160,20 @@ def _over_turn(crank: CrankLoad) -> Iterator[Table]:
     if found.turns is None or found.mean is None:
         yield Table(("over the run", "torque"), [("-", found.verdict.text)])
         return
-    unit = f" ({found.unit})" if found.unit else ""
-    figures = (found.mean, found.greatest_torque, found.least_torque, found.starting_torque, found.efficiency)
-    header = ("turns of the input", f"mean{unit}", "greatest", "least", "starting", "efficiency")
+    torques = (found.mean, found.greatest_torque, found.least_torque, found.starting_torque)
+    header = ("turns of the input", f"mean{_unit(crank)}", "greatest", "least", "starting", "efficiency")
     whole = ", then all repeats" if found.span == found.period else ""
-    yield Table(header, [(f"{found.span:.6g}{whole}", *map(_or_undeclared, figures))])
+    row = (f"{found.span:.6g}{whole}", *map(_or_undeclared, torques), _efficiency(found.efficiency))
+    yield Table(header, [row])
+
+
+def _unit(crank: CrankLoad) -> str:
+    """The unit of its torques, which is known where they were worked out over a turn."""
+    return f" ({crank.over_turn.unit})" if crank.over_turn is not None and crank.over_turn.unit else ""
+
+
+def _efficiency(value: float | None) -> str:
+    return "nothing is taken out" if value == 0 else _or_undeclared(value)
 
 
 def _weight(crank: CrankLoad) -> Iterator[str]:

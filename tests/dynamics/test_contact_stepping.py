@@ -81,10 +81,16 @@ def model(
 
 
 def run(
-    of: ContactModel, step: float, time: float, skip: float = 0.0, samples: int = 1, apart: float = 1e-7
+    of: ContactModel,
+    step: float,
+    time: float,
+    skip: float = 0.0,
+    samples: int = 1,
+    apart: float = 1e-7,
+    fast: bool = False,
 ) -> SimulatedRun:
     steps = round(time / step)
-    found = simulate(of, StepPlan(step, round(skip / step), steps, steps // samples, apart))
+    found = simulate(of, StepPlan(step, round(skip / step), steps, steps // samples, apart), fast)
     assert_energy_is_accounted_for(found)
     return found
 
@@ -139,10 +145,10 @@ def test_a_ball_in_a_shaken_cavity_reaches_the_closed_motion_of_two_blows_a_peri
     assert closing.mean() == pytest.approx(1.5423223 - cos(phi), rel=1e-2)
 
 
-def dragged(step: float) -> SimulatedRun:
+def dragged(step: float, samples: int = 1, fast: bool = False) -> SimulatedRun:
     play = pair(EVEN, ahead(0.2), 0.7)
     drag = Bearing("drag", {1: 1.0}, 0.5, 0.5)
-    return run(model([1, 1], [0, 1.5], [play], given={0: 0.0}, bearings=[drag]), step, 2.0)
+    return run(model([1, 1], [0, 1.5], [play], given={0: 0.0}, bearings=[drag]), step, 2.0, samples=samples, fast=fast)
 
 
 def test_drag_and_blows_stop_a_body_between_its_flanks() -> None:
@@ -157,6 +163,22 @@ def test_drag_and_blows_stop_a_body_between_its_flanks() -> None:
 def test_the_error_of_a_step_falls_with_its_length() -> None:
     errors = [abs(dragged(step).energy[BEARINGS] - 0.34758022) for step in (2e-3, 2e-4)]
     assert 0.5 < np.log10(errors[0] / errors[1]) < 2.0
+
+
+@pytest.mark.slow
+def test_small_steps_give_the_closed_forms_at_their_digits() -> None:
+    free = run(model([2, 1], [1, 0], [pair(EVEN, ahead(0.1), 0.6, start=0.1)]), 1e-6, 1.0, fast=True)
+    assert free.impacts[:, 0] == pytest.approx([0.1, 0.266667, 0.544444], abs=3e-6)
+    walls = (tabled_angle(ShakenCavity(0.0)), tabled_angle(ShakenCavity(3.0)))
+    shaken = run(model([1, 1], [1, 1.2], [pair(*walls, 0.6, start=1.0)], given={0: 1.0}), 1e-4, 30 * TURN, fast=True)
+    time, _, closing, _, _ = shaken.impacts[-6:].T
+    assert time % pi == pytest.approx(np.full(6, 1.9666333), abs=2e-4)  # two steps
+    assert closing + cos(1.9666333) == pytest.approx(np.full(6, 1.5423223), abs=1e-4)
+    stopped = dragged(1e-6, samples=2000, fast=True)
+    assert 0.7 * stopped.impacts[:, 2] == pytest.approx([1.0022475, 0.6278575, 0.3084809], abs=2e-6)
+    assert stopped.energy[BEARINGS] == pytest.approx(0.34758022, abs=2e-6)
+    assert stopped.energy[BLOWS] == pytest.approx(0.77741978, abs=2e-6)
+    assert 1e-3 * np.argmax(abs(stopped.speeds[:, 1]) < 1e-8) == pytest.approx(1.338355, abs=1e-3)
 
 
 def test_friction_of_rest_holds_what_friction_of_motion_would_not() -> None:
@@ -238,6 +260,26 @@ def test_a_slack_pin_leaves_its_slot_at_the_rate_at_which_the_drag_no_longer_slo
     assert least <= slack_pin(share * PARTS, 4000).counts[0, GAP] <= most
 
 
+@pytest.mark.slow
+@pytest.mark.parametrize(("offset", "parts", "share", "gap"), [
+    (2, PARTS, 0.999, 0.0),
+    (2, PARTS, 1.001, 2.249994e-6),
+    (2, PARTS, 1.003, 2.035957e-5),
+    (8, 2.76880500, 1.0, 0.0),
+    (8, 2.76880500, 1.01, 2.674743e-4),
+])  # fmt: skip
+def test_beyond_that_rate_the_gap_is_that_of_an_even_fall_from_where_it_leaves(
+    offset: int, parts: float, share: float, gap: float
+) -> None:
+    # q = F(S0) + w tau(S0) t - beta t^2/(2 J) less F(S0 + w t), with J w^2 tau'(S0) = -beta, at its greatest
+    law, rate = PinToSlotTransmission(10, offset), share * parts
+    slot = pair(tabled_angle(law), tabled_angle(BehindPin(10, offset)))
+    drag = Bearing("drag", {1: 1.0}, DRAG, DRAG)
+    of = model([1, J], [rate, rate * float(law.speed(0.0))], [slot], given={0: rate}, bearings=[drag])
+    found = run(of, TURN / rate / 50_000, TURN / rate, fast=True)
+    assert found.counts[0, GAP] == pytest.approx(gap, rel=1e-4, abs=1e-9)
+
+
 def flight(rate: float) -> tuple[float, float, float, float]:
     """When a slack slot leaves its pin and meets it again, the greatest gap and the speed of the blow: by events."""
 
@@ -271,6 +313,7 @@ def test_the_flight_of_a_slack_slot_is_that_of_an_integrator_with_events() -> No
     leaves, lands, gap, blow = flight(1.2 * PARTS)
     assert (leaves, lands, gap, blow) == pytest.approx((0.403181, 3.620379, 0.0762169, -4.07532), rel=1e-5)
     found = slack_pin(1.2 * PARTS, 5000)
+    assert (lands - leaves) / TURN == pytest.approx(0.5120329, abs=2e-7)
     assert found.counts[0, GAP] == pytest.approx(gap, rel=1e-3)
     assert found.counts[0, TIME_APART] / 5000 == pytest.approx((lands - leaves) / TURN, abs=0.012)
     assert found.impacts[0, 2] == pytest.approx(-blow, rel=1e-2)

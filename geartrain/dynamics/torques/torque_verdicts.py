@@ -120,9 +120,13 @@ def find_torque_verdict(
 
 def _but(left_out: Sequence[NeglectedEffect]) -> str:
     """What is not counted, in a few words."""
-    uncounted = [str(each) for each in left_out if each.counts]
+    uncounted: dict[str, list[str]] = {}
+    for each in left_out:
+        if each.counts:
+            uncounted.setdefault(each.what, []).extend(each.where)
     if uncounted:
-        return f", but for {', '.join(uncounted)}"
+        named = [f"{what} ({', '.join(where)})" for what, where in uncounted.items()]
+        return f", but for {', '.join(named)}"
     return ", as a mean over a turn" if left_out else ""
 
 

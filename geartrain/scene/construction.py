@@ -47,7 +47,7 @@ def make_scene(
     Raises
     ------
     GearTrainError
-        If there is no such state.
+        If there is no such state, or the run is of another train or state.
 
     Examples
     --------

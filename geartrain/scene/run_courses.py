@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from geartrain.errors import Problem, QuestionError
 from geartrain.numerics.polylines import simplified
 from geartrain.numerics.vectors import Vector, across, minus, plus, size, unit_or_z
 from geartrain.scene.scene_run import LinkCourse, SceneContact, SceneRun
@@ -69,7 +70,8 @@ class ShownSamples:
         if contact not in self.run.gaps.labels[0]:
             return np.zeros(0, dtype=np.int64), ""
         front, back = (self.of(gaps[contact]) for gaps in (self.run.gaps, self.run.coast_gaps))
-        code = np.where(np.minimum(front, back) > _APART, 2, np.where(front <= back, 0, 1))
+        on_front = (front <= back) | (front <= _APART)  # without play a pair is on both
+        code = np.where(np.minimum(front, back) > _APART, 2, np.where(on_front, 0, 1))
         changes = np.concatenate(([0], 1 + np.flatnonzero(np.diff(code))))
         return changes, "".join("dca"[each] for each in code[changes])
 
@@ -90,7 +92,11 @@ def find_run(
     pairs: Sequence[ScenePair],
     couplings: Sequence[SceneCoupling],
 ) -> SceneRun:
-    """What a page plays of a run: its counted part."""
+    """What a page plays of a run: its counted part. Raises `QuestionError` if it is of another train or state."""
+    if (run.train, run.state) != (stage.train.name, stage.answer.state):
+        what = f"a run of {run.train}{f', state {run.state}' if run.state else ''}"
+        why = f"the scene is of {stage.train.name}{f', state {stage.answer.state}' if stage.answer.state else ''}"
+        raise QuestionError(Problem(what, why, "give the run of the same train in the same state"))
     samples = ShownSamples(run)
     places = dict(_places(stage, wheels, pairs, couplings))
     contacts = tuple(

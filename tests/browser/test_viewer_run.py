@@ -106,6 +106,44 @@ def test_the_table_of_contacts_tells_what_each_does_now(played: Played, shown: S
     assert share in shown.page.locator("[data-contact='d2~e']").inner_text()
 
 
+def test_the_same_train_stands_beside_with_all_drive_flanks_touching(played: Played, shown: Shown) -> None:
+    run = played[0]
+    samples, turns = times(played, 8)
+    shown.page.get_by_label("Beside").select_option("teeth touching")
+    gaps = shown.run(
+        """(turns) => turns.map((each) => {
+          geartrain.setTurns(each);
+          const [one, other] = [0, 1].map((scene) => geartrain.pointer(scene, "moon").angle);
+          return Math.atan2(Math.sin(one - other), Math.cos(one - other));
+        })""",
+        turns,
+    )
+    expected = run.ahead["moon"][samples]
+    assert np.abs(np.abs(gaps) - np.abs(expected)).max() < 3e-4
+    assert np.abs(expected).max() > 0.01
+    assert shown.errors == []
+
+
+def test_a_contact_that_is_chosen_is_shown_in_the_picture(shown: Shown) -> None:
+    tab(shown, "Contacts")
+    shown.page.locator("[data-contact='d2~e'] button").click()
+    lit = shown.run("[...geartrain.stages[0].world.looks.chosen.wheels].map((n) => geartrain.scenes[0].wheels[n].id)")
+    assert sorted(lit) == ["d2", "e"]
+
+
+def test_the_strip_goes_to_the_moment_that_is_tapped(shown: Shown) -> None:
+    box = shown.page.locator(".strip").bounding_box()
+    assert box is not None
+    shown.page.mouse.click(box["x"] + box["width"] - 1, box["y"] + 5)
+    later = shown.run("geartrain.machines[0].time()")
+    assert later > 0
+    shown.page.mouse.move(box["x"] + box["width"] / 2, box["y"] + 5)
+    shown.page.mouse.down()
+    shown.page.mouse.move(box["x"] + box["width"] / 2 - 60, box["y"] + 5, steps=3)
+    shown.page.mouse.up()
+    assert shown.run("geartrain.machines[0].time()") > later
+
+
 def test_a_run_plays_and_stops_at_its_end_or_begins_again(shown: Shown) -> None:
     shown.page.get_by_label("Again at the end").uncheck()
     shown.page.get_by_role("slider", name="Speed").fill("1")

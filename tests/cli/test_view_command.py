@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import json
+import os
 import re
 import shutil
+import signal
 import subprocess
 from base64 import b64encode
 from collections.abc import Callable
@@ -267,6 +269,28 @@ def test_a_train_that_has_no_motion_in_time_is_refused_as_dynamics_refuses_it(he
         assert str(done.exception) == str(told.exception) != ""
         assert done.exit_code == told.exit_code != 0
     assert list(here.iterdir()) == []
+
+
+def test_an_interrupted_run_is_played_as_far_as_it_came(
+    train_file: Written, here: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    from geartrain.cli.long_runs import ProgressBar
+
+    told = []
+
+    def advance(bar: ProgressBar, steps: int = 1) -> None:
+        told.append(steps)
+        if len(told) == 2:
+            os.kill(os.getpid(), signal.SIGINT)
+
+    monkeypatch.setattr(ProgressBar, "advance", advance)
+    words = ("--rate", "1", "--turns", "1", "--skip", "0", "--steps", "5000", "--no-fast")
+    done = call("view", train_file(HEAVY), "--dynamics", *words, "-o", "run.html")
+    assert done.exit_code == 130
+    assert "stopped after" in done.stderr
+    run: Any = scenes_of(here / "run.html")[0][0]["run"]
+    assert run["complete"] is False
+    assert 0.1 < run["duration"] < 0.9
 
 
 def test_a_page_that_is_there_is_refused_before_anything_is_simulated(here: Path) -> None:

@@ -16,7 +16,8 @@ from geartrain.errors import QuestionError
 from geartrain.scene import Scene, make_scene
 
 CLOCK = """
-links: {frame: {}, barrel: {wheels: {g: 60}}, escape: {wheels: {p: 10, e: 30}, inertia: 1e-7 kg m2, bearing: 0.01 N mm}}
+links: {frame: {}, barrel: {wheels: {g: 60}, inertia: 1e-5 kg m2},
+  escape: {wheels: {p: 10, e: 30}, inertia: 1e-7 kg m2, bearing: 0.01 N mm}}
 revolutes: [{pair: [frame, barrel], axis: A}, {pair: [frame, escape], axis: B}]
 gears: [{pair: [g, p]}]
 inputs: {barrel: 1}
@@ -100,7 +101,7 @@ def test_teeth_meet_where_pitch_circles_touch() -> None:
 
 def test_an_escapement_strikes_at_the_rim_of_its_wheel_once_a_beat() -> None:
     train = geartrain.load(CLOCK)
-    run = train.dynamics(turns=0.1, skip=0.0, samples=10**6, fast=False)
+    run = train.dynamics(turns=0.03, skip=0.0, steps=50_000, samples=10**6, fast=False)
     scene = make_scene(train, run=run)
     assert scene.run is not None
     contact = next(each for each in scene.run.contacts if each.kind == "escapement")
@@ -109,6 +110,27 @@ def test_an_escapement_strikes_at_the_rim_of_its_wheel_once_a_beat() -> None:
     assert np.allclose(gaps, 0.1, atol=0.01)
     wheel = next(each for each in scene.wheels if each.id == "e")
     assert np.linalg.norm(np.subtract(contact.at, wheel.centre)) == pytest.approx(wheel.radius)
+
+
+def test_a_pair_without_play_is_on_its_drive_flank() -> None:
+    train = geartrain.load(CLOCK.replace("[g, p]", "[g, p], efficiency: 0.9"))
+    scene = make_scene(train, run=train.dynamics(turns=0.01, skip=0.0, steps=50_000, fast=False))
+    assert scene.run is not None
+    assert [each.states for each in scene.run.contacts if each.kind == "pair"] == ["d"]
+
+
+def test_a_run_of_another_train_is_refused(pin: tuple[TimeRun, Scene]) -> None:
+    with pytest.raises(QuestionError, match="give the run of the same train"):
+        make_scene(shipped.train("planetary-24-18-60"), run=pin[0])
+
+
+def test_teeth_that_yield_are_played_too() -> None:
+    teeth = "[g, p], tooth_form: {form: involute}, stiffness: 0.01 N m/rad"
+    train = geartrain.load(CLOCK.replace("[g, p]", teeth).partition("drive:")[0])
+    run = train.dynamics(rate="1 turn/s", turns=0.02, skip=0.0, model="compliant", fast=False)
+    scene = make_scene(train, run=run)
+    assert scene.run is not None
+    assert np.abs(turned(scene, 2, run.time) - run.angles["escape"]).max() < 1.01 * scene.run.tolerance
 
 
 def test_a_scene_without_a_run_says_nothing_of_one() -> None:

@@ -27,9 +27,9 @@ export class Fraction {
     }
   }
 
-  /** The float rounded to a billionth: a hand can tell no less, and short fractions stay short. */
-  static near(value) {
-    return new Fraction(BigInt(Math.round(value * 1e9)), 10n ** 9n);
+  /** The float rounded to so many decimals: a hand can tell no less than nine, and short fractions stay short. */
+  static near(value, decimals = 9) {
+    return new Fraction(BigInt(Math.round(value * 10 ** decimals)), 10n ** BigInt(decimals));
   }
 
   plus(other) {

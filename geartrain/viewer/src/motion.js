@@ -22,6 +22,7 @@ export class Machine {
     this.turns = Fraction.of(0);
     if (scene.run) {
       this.run = new Run(scene.run);
+      this.simulated = !scene.touching; // else the run only says where its lead stands
       this.initial = this.ahead.at(this.turns); // a run counts from the pose in which all drive flanks touch
     }
   }
@@ -31,12 +32,18 @@ export class Machine {
     return Number(Fraction.of(turns)) * this.run.period;
   }
 
+  /** Turns that the lead has made, which in a simulated run need not be those of its mean speed. */
+  made(turns = this.turns) {
+    return this.run ? Fraction.near(this.run.turned(this.scene.lead, this.time(turns)) / TURN, 14) : Fraction.of(turns);
+  }
+
   /** Declared angle of a body about its declared axis (rad), whole turns taken off; `turns` of the lead. */
   declared(body, turns = this.turns) {
-    if (this.run) return this.scene.bodies[body].start + this.initial[body] + this.run.turned(body, this.time(turns));
+    if (this.simulated) return this.scene.bodies[body].start + this.initial[body] + this.run.turned(body, this.time(turns));
     const speed = this.speeds[body];
-    const mean = speed ? TURN * partOfProduct(speed, Fraction.of(turns)) : 0;
-    return this.scene.bodies[body].start + mean + this.errors(turns)[body];
+    const made = this.made(turns);
+    const mean = speed ? TURN * partOfProduct(speed, made) : 0;
+    return this.scene.bodies[body].start + mean + this.errors(made)[body];
   }
 
   /** Angle of a body about its direction (rad), whole turns taken off. */
@@ -66,7 +73,7 @@ export class Machine {
    */
   pointer(index, turns = this.turns) {
     const { body, base, dial } = this.scene.pointers[index];
-    const { mean, error } = this.run ? this.simulated(index, turns) : this.followed(index, turns);
+    const { mean, error } = this.simulated ? this.played(index, turns) : this.followed(index, this.made(turns));
     const bodies = this.scene.bodies;
     const raw = mean.part * TURN + bodies[body].start - bodies[base].start + error;
     const whole = Math.floor(raw / TURN);
@@ -89,7 +96,7 @@ export class Machine {
   }
 
   /** The same in a simulated run, whose whole angle stands for the error. */
-  simulated(index, turns) {
+  played(index, turns) {
     const { body, base } = this.scene.pointers[index];
     const time = this.time(turns);
     const error = this.run.turned(body, time) - this.run.turned(base, time) + this.initial[body] - this.initial[base];
@@ -99,10 +106,9 @@ export class Machine {
   /** By how much an output of a simulated run is ahead (rad, the way it turns) of where its lead would have it. */
   aheadBy(index, turns = this.turns) {
     const { speed } = this.scene.pointers[index];
-    const turned = this.run.turned(this.scene.lead, this.time(turns)) / TURN;
-    const { mean, error } = this.followed(index, Fraction.near(turned));
+    const { mean, error } = this.followed(index, this.made(turns));
     const way = Number(Fraction.of(speed ?? "0")) * this.run.links[this.scene.lead].rate < 0 ? -1 : 1;
-    return way * (this.simulated(index, turns).error - TURN * Number(mean) - error);
+    return way * (this.played(index, turns).error - TURN * Number(mean) - error);
   }
 }
 

@@ -17,7 +17,7 @@ export class Run {
     this.hardest = Math.max(0, ...this.contacts.map(({ hardest }) => hardest));
     this.blows = Float64Array.from(this.contacts.flatMap(({ blow_times }) => [...blow_times])).sort();
     this.glow = GLOW; // s of the run
-    this.slip = 1e-9 * Math.max(this.duration, this.period); // s: what rounded turns leave between a blow and its time
+    this.slip = 1e-12 * Math.max(this.duration, this.period); // s: what rounded turns leave between a blow and its time
   }
 
   /** By how much a body has turned since the start (rad) about its declared axis, at a time (s). */

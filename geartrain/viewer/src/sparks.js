@@ -67,7 +67,8 @@ export class Sparks {
 
   /** Made for a picture of so many pixels across. */
   scale(pixels) {
-    this.material.uniforms.unit.value = Math.min(160, Math.max(48, 0.14 * pixels));
+    const crowd = Math.min(1, Math.max(0.5, Math.sqrt(12 / this.places.length)));
+    this.material.uniforms.unit.value = crowd * Math.min(160, Math.max(48, 0.14 * pixels));
   }
 
   dispose() {

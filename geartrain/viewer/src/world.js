@@ -34,7 +34,7 @@ export class World {
     this.looks.paint("plain");
     this.root.add(...this.castings[0].cast(this.materials));
     this.machine = machine;
-    if (machine.run) {
+    if (machine.simulated) {
       this.sparks = new Sparks(machine.scene, this.poses, machine.run);
       this.root.add(this.sparks.points);
     }

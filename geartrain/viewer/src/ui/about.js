@@ -25,6 +25,7 @@ function source([key, each]) {
 }
 
 function movement(scene) {
+  if (scene.run && !scene.touching) return el("p", {}, "Every angle is that of a simulation with inertia, play and friction, to 0.006 degrees.");
   const { kind, why } = scene.movement;
   const words = {
     exact: "Every angle is exact: a rational multiple of the turns of the crank.",

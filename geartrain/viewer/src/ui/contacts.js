@@ -1,22 +1,28 @@
 // The panel of a simulated run: what drives it, how far outputs are ahead, what each contact does now and on the whole.
 import { el } from "./element.js";
-import { turnsASecond } from "./playhead.js";
+import { speedInWords } from "./playhead.js";
 
 const STATES = { d: "drive flank", c: "coast flank", a: "apart", "": "\u2013" };
 const KINDS = { pair: "", pin: "pin", escapement: "escapement" };
+
+const SLIGHT = 2e-4; // rad: angles of the page are not better
 
 const percent = (share) => (share ? `${Number((100 * share).toPrecision(3))} %` : "0");
 const rounded = (value) => String(Number(value.toPrecision(3))).replace("-", "\u2212");
 const inDegrees = (angle) => `${rounded((angle * 180) / Math.PI)}\u00b0`;
 
 export class Contacts {
-  constructor(sides) {
+  /** `onChoose(side, contact)`, a contact by its index */
+  constructor(sides, onChoose) {
+    this.onChoose = onChoose;
     this.rows = [];
     this.leads = [];
+    const played = sides.filter(({ machine }) => machine.simulated);
     this.node = el(
       "div",
       {},
-      sides.filter(({ machine }) => machine.run).map((side) => this.#side(side, sides.length > 1)),
+      played.map((side) => this.#side(side, sides.length > 1)),
+      played.length ? null : el("p", { class: "quiet" }, "Here all drive flanks touch, as where wheels have no inertia."),
     );
   }
 
@@ -37,7 +43,8 @@ export class Contacts {
     );
   }
 
-  #table({ scene, machine }) {
+  #table(side) {
+    const { scene, machine } = side;
     const head = ["contact", "now", "apart", "coast", "blows/s", "hardest"];
     const rows = scene.run.contacts.map((contact, index) => {
       const now = el("td", { class: "now" });
@@ -46,7 +53,12 @@ export class Contacts {
       return el(
         "tr",
         { "data-contact": contact.name },
-        el("th", { scope: "row" }, contact.name, KINDS[contact.kind] && el("div", { class: "quiet" }, KINDS[contact.kind])),
+        el(
+          "th",
+          { scope: "row" },
+          el("button", { type: "button", class: "plain", onclick: () => this.onChoose(side, index) }, contact.name),
+          KINDS[contact.kind] && el("div", { class: "quiet" }, KINDS[contact.kind]),
+        ),
         now,
         flanks,
         el("td", { class: "number" }, rounded(contact.blows)),
@@ -64,6 +76,8 @@ export class Contacts {
 
   #outputs({ scene, machine }) {
     if (!scene.run.leads.length) return null;
+    if (!scene.run.leads.some(({ ahead, behind }) => settled(ahead, SLIGHT) || settled(behind, SLIGHT)))
+      return el("p", {}, "No output leaves the motion in which all drive flanks touch.");
     const rows = scene.run.leads.map((lead) => {
       const index = scene.pointers.findIndex(({ output }) => output === lead.output);
       const now = el("td", { class: "number" });
@@ -97,7 +111,7 @@ export class Contacts {
       now.textContent = STATES[value];
       now.dataset.state = value;
     }
-    for (const { now, ahead } of this.leads) now.textContent = inDegrees(settled(ahead(), 2e-4));
+    for (const { now, ahead } of this.leads) now.textContent = inDegrees(settled(ahead(), SLIGHT));
   }
 }
 
@@ -109,5 +123,5 @@ const key = (kind, text) => el("li", {}, el("span", { class: `swatch ${kind}` })
 function words({ driven, link, torque, rate, skip }) {
   const by = { rate: "kept at its rate", torque: "driven by a torque or a weight", spring: "driven by a spring", hand: "driven by a hand that yields" }[driven];
   const before = skip ? ` The first ${rounded(skip)} s are left out.` : "";
-  return `${link} is ${by}: ${turnsASecond(rate)} of the input on the mean, with ${rounded(1000 * torque)} N mm.${before}`;
+  return `${link} is ${by}: ${speedInWords(rate)} of the input on the mean, with ${rounded(1000 * torque)} N mm.${before}`;
 }

@@ -1,6 +1,7 @@
 // Where the crank stands: exact turns of the lead, and the play of time.
 import { Fraction } from "../fraction.js";
 
+const FINE = 14; // decimals of a turn in a simulated run: a clock's lead makes one in hours
 const FRAME = 1 / 25; // s as the reader sees them: an arrow key in a simulated run
 const NUDGE = new Fraction(1n, 72n); // an arrow key: five degrees of the lead
 
@@ -35,17 +36,22 @@ export class Drive {
 
   /** By a number of turns of the lead, as a hand or the clock gives them. */
   advance(turns, settled = false) {
-    this.goTo(this.at.plus(Fraction.near(turns)), settled);
+    this.goTo(this.at.plus(Fraction.near(turns, this.run ? FINE : undefined)), settled);
   }
 
   /** By so many units of the input. */
   unit(times) {
-    if (this.run) this.goTo(Fraction.near(this.run.blowFrom(this.time, times) / this.run.period));
+    if (this.run) this.goToTime(this.run.blowFrom(this.time, times));
     else this.goTo(this.at.plus(this.step.times(times)));
   }
 
   nudge(times) {
-    this.goTo(this.at.plus(this.run ? Fraction.near(times * FRAME * this.rate) : NUDGE.times(times)));
+    this.goTo(this.at.plus(this.run ? Fraction.near(times * FRAME * this.rate, FINE) : NUDGE.times(times)));
+  }
+
+  /** To a time of a simulated run (s). */
+  goToTime(time, settled = true) {
+    this.goTo(Fraction.near(time / this.run.period, FINE), settled);
   }
 
   /** Where a simulated run stands (s). */
@@ -54,7 +60,7 @@ export class Drive {
   }
 
   get #end() {
-    return Fraction.near(this.run.duration / this.run.period);
+    return Fraction.near(this.run.duration / this.run.period, FINE);
   }
 
   #within(fraction) {

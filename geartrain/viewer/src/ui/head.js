@@ -13,7 +13,8 @@ export class Head {
     this.first = this.#choice(0, false);
     this.second = this.#choice(compare && all.length > 1 ? 1 : "", true);
     const several = all.length > 1;
-    const word = all.some((side) => side.scene.state) && !compare ? "State" : "Train";
+    const timed = all.some(({ machine }) => machine.run);
+    const word = timed ? "Motion" : all.some((side) => side.scene.state) && !compare ? "State" : "Train";
     this.node = el(
       "header",
       { class: "head" },

@@ -36,6 +36,7 @@ class Interface {
     this.theme.apply(); // before anything is laid out, so that nothing flashes
     this.crank = new Crank(first, this.drive);
     this.keys = new Keys({
+      timed: this.all.some(({ machine }) => machine.run),
       drive: this.drive,
       tools: this.tools,
       goTo: () => this.crank.find(),
@@ -146,6 +147,16 @@ class Interface {
     this.#highlight(parts, "way");
     this.panel.path(output, found);
     this.live.say(`path to ${output}: ${found.map(({ pointer }) => `${pointer.pairs.length} pairs`).join(", ")}`);
+  }
+
+  /** Highlights what meets at a contact of a simulated run. */
+  contact(side, index) {
+    const { name, kind } = side.scene.run.contacts[index];
+    const named = (list) => list.findIndex(({ id }) => id === name);
+    const coupling = side.scene.couplings[named(side.scene.couplings)];
+    const bodies = kind === "pin" ? [coupling.pin, coupling.slot] : [named(side.scene.bodies)];
+    this.#highlight(new Map([[side, kind === "pair" ? { pairs: [name] } : { bodies }]]), "way");
+    this.live.say(`${name} is shown`);
   }
 
   /** Highlights a loop that holds the train. */

@@ -2,12 +2,14 @@
 import { el } from "./element.js";
 import { Fraction } from "../fraction.js";
 
-const ROWS = [
+const TURNED = [
   ["Left, Right", "turn back or on by five degrees; with Shift by one unit of the input"],
   ["Page Up, Page Down", "one unit of the input on or back"],
+  ["G", "go to a number of turns"],
+];
+const REST = [
   ["Home", "back to the start"],
   ["Space", "play or pause"],
-  ["G", "go to a number of turns"],
   ["/", "find a wheel"],
   ["1, 2, 3, 4", "look from the front, the back, the side, or freely"],
   ["C", "next colours"],
@@ -17,11 +19,16 @@ const ROWS = [
   ["?", "this list"],
   ["Escape", "close, or let go of what is chosen"],
 ];
+const TIMED = [
+  ["Left, Right", "a twenty-fifth of a second as it is seen; with Shift to the blow before or the next"],
+  ["Page Up, Page Down", "to the next blow or the one before"],
+  ["G", "to the slider of time"],
+];
 const TEXT = "input:not([type=checkbox]):not([type=range]), textarea, select";
 const LOOKS = { 1: "front", 2: "back", 3: "side", 4: "free" };
 
 export class Keys {
-  /** `actions`: drive, tools, goTo(), find(), escape() */
+  /** `actions`: drive, tools, goTo(), find(), escape(); `timed` where a simulated run is played */
   constructor(actions) {
     this.actions = actions;
     this.letters = el("input", { type: "checkbox" });
@@ -34,7 +41,7 @@ export class Keys {
       el(
         "dl",
         { class: "keys" },
-        ROWS.map(([key, does]) => [el("dt", {}, el("kbd", {}, key)), el("dd", {}, does)]),
+        [...(actions.timed ? TIMED : TURNED), ...REST].map(([key, does]) => [el("dt", {}, el("kbd", {}, key)), el("dd", {}, does)]),
       ),
       el(
         "p",

@@ -54,7 +54,7 @@ export class Panel {
     this.dials = new Dials(sides, onChoose);
     this.outputs = new Outputs(sides, { onChoose, say });
     this.wheels = new Wheels(sides, { onSelect: (side, index) => this.owner.select(side, index), say });
-    this.contacts = new Contacts(sides);
+    this.contacts = new Contacts(sides, (side, contact) => this.owner.contact(side, contact));
     this.places.Contacts?.replaceChildren(this.contacts.node);
     this.places.Dials.replaceChildren(this.dials.node);
     this.places.Outputs.replaceChildren(this.outputs.node);

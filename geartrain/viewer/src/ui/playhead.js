@@ -1,5 +1,4 @@
 // The head of a simulated run: buttons, how fast it is played, where in time it stands, and a strip of what contacts do.
-import { Fraction } from "../fraction.js";
 import { PAUSE, PLAY } from "./crank.js";
 import { el, field, icon } from "./element.js";
 import { Strip } from "./strip.js";
@@ -32,13 +31,13 @@ export class Playhead {
       max: run.duration,
       step: "any",
       "aria-label": "time",
-      oninput: () => drive.goTo(this.turnsAt(Number(this.slider.value)), false),
-      onchange: () => drive.goTo(this.turnsAt(Number(this.slider.value))),
+      oninput: () => drive.goToTime(Number(this.slider.value), false),
+      onchange: () => drive.goToTime(Number(this.slider.value)),
     });
     this.loop = el("input", { type: "checkbox", onchange: () => (drive.loop = this.loop.checked) });
     this.loop.checked = drive.loop;
     this.strip = new Strip(run);
-    this.strip.onSeek = (time) => drive.goTo(this.turnsAt(time));
+    this.strip.onSeek = (time, settled) => drive.goToTime(time, settled);
     const blow = (sense, name, path) =>
       el("button", { type: "button", onclick: () => drive.unit(sense), "aria-label": name, title: name }, icon(path));
     this.node = el(
@@ -51,16 +50,12 @@ export class Playhead {
         this.playing,
         blow(1, "to the next blow", "M18 5v14M5 5l9 7-9 7z"),
       ),
-      el("div", { class: "where" }, this.time, el("span", { class: "quiet" }, `of ${seconds(run.duration, run.duration)}; ${turnsASecond(side.scene.run.rate)} of ${side.lead}`)),
+      el("div", { class: "where" }, this.time, el("span", { class: "quiet" }, `of ${seconds(run.duration, run.duration)}; ${speedInWords(side.scene.run.rate)} of ${side.lead}`)),
       this.#speed(paceOf(run)),
       field("Again at the end", this.loop, { class: "field tick" }),
       this.slider,
       this.strip.node,
     );
-  }
-
-  turnsAt(time) {
-    return Fraction.near(time / this.run.period);
   }
 
   #speed(first) {
@@ -100,8 +95,10 @@ export class Playhead {
   }
 }
 
-/** A speed (rad/s) as it is declared: `1 turn/s`. */
-export function turnsASecond(rate) {
-  const turns = Number((Math.abs(rate) / (2 * Math.PI)).toPrecision(4));
-  return `${turns} ${turns === 1 ? "turn" : "turns"}/s`;
+/** A speed (rad/s) in words: `1 turn/s`, of what is slow `1.5 turns/h`. */
+export function speedInWords(rate) {
+  const second = Math.abs(rate) / (2 * Math.PI);
+  const [size, unit] = second < 0.001 ? [3600, "h"] : [1, "s"];
+  const turns = Number((second * size).toPrecision(4));
+  return `${turns} ${turns === 1 ? "turn" : "turns"}/${unit}`;
 }

@@ -13,6 +13,7 @@ export class Side {
     this.machine = app.machines[index];
     this.stage = null;
     this.label = app.options?.compare ? this.scene.name : (this.scene.state ?? this.scene.name);
+    if (this.machine.run) this.label = [this.scene.state, this.machine.simulated ? "in time" : "teeth touching"].filter(Boolean).join(", ");
     this.legend = el("div", {});
     this.place = el("div", {});
     const caption = el("figcaption", {}, el("span", { class: "caption" }, this.label), this.legend);
@@ -48,7 +49,8 @@ export class Side {
 
   /** Units of time of the input in one turn of its lead, and what they are: days, or a unit by name; null: no time. */
   get #unit() {
-    const { step, unit, unit_days: days } = this.scene;
+    const { step, unit, unit_days: days, run } = this.scene;
+    if (run) return { name: "seconds of a run", size: Fraction.of(run.period) };
     const turns = Fraction.parse(step);
     if (!turns || turns.numerator === 0n || !unit) return null;
     return days ? { name: "days", size: Fraction.of(days).over(turns) } : { name: unit, size: Fraction.of(1).over(turns) };

@@ -5,11 +5,13 @@ const WINDOW = 6; // s as the reader sees them
 const AHEAD = 1 / 3; // of the strip lies before the mark
 const NAMED = 12; // px: lanes as high are named
 const NAMES = 84; // px
+const SLIP = 4; // px a finger may slip in a tap
+const FINE = 0.5; // px: what lies nearer than that to what is drawn is not drawn
 
 export class Strip {
   constructor(run) {
     this.run = run;
-    this.onSeek = () => {};
+    this.onSeek = () => {}; // (time, settled)
     this.pace = 1;
     const lane = Math.min(16, Math.max(4, 110 / Math.max(1, run.contacts.length)));
     Object.assign(this, { lane, named: lane >= NAMED, height: Math.ceil(lane * run.contacts.length) });
@@ -19,7 +21,7 @@ export class Strip {
       "aria-label": "contacts around this moment; the table under Contacts tells them in words",
       style: `height: ${this.height}px`,
     });
-    this.node.addEventListener("pointerdown", (event) => this.#seek(event));
+    this.node.addEventListener("pointerdown", (event) => this.#grab(event));
     new ResizeObserver(() => this.#draw()).observe(this.node);
   }
 
@@ -41,10 +43,24 @@ export class Strip {
     return Math.min(Math.max(0, this.time - (1 - AHEAD) * this.#span), this.run.duration - this.#span);
   }
 
-  #seek(event) {
-    const box = this.node.getBoundingClientRect();
-    const share = (event.clientX - box.left - this.#left) / (box.width - this.#left);
-    if (share >= 0) this.onSeek(this.#from + share * this.#span);
+  /** A tap goes to a moment; dragged, the strip runs under its mark as paper would. */
+  #grab(event) {
+    const [from, began] = [event.clientX, this.time];
+    const scale = this.#span / (this.node.clientWidth - this.#left); // s a pixel
+    let moved = false;
+    const move = (each) => {
+      moved ||= Math.abs(each.clientX - from) > SLIP;
+      if (moved) this.onSeek(began - (each.clientX - from) * scale, false);
+    };
+    const end = () => {
+      this.node.removeEventListener("pointermove", move);
+      const off = from - this.node.getBoundingClientRect().left - this.#left;
+      if (moved) this.onSeek(this.time, true);
+      else if (off >= 0) this.onSeek(this.#from + off * scale, true);
+    };
+    this.node.setPointerCapture(event.pointerId);
+    this.node.addEventListener("pointermove", move);
+    this.node.addEventListener("lostpointercapture", end, { once: true });
   }
 
   #draw() {
@@ -76,15 +92,21 @@ export class Strip {
       pen.fillStyle = colours.ink;
       pen.fillText(contact.name, 0, top + size / 2, NAMES - 8);
     }
+    let drawn = -Infinity;
     for (const [state, begins, ends] of this.run.stretches(index, from, to)) {
-      if (state === "d") continue;
+      const [x, end] = [Math.max(place(begins), this.#left), place(ends)];
+      if (state === "d" || end < drawn + FINE) continue;
       pen.fillStyle = colours[state];
-      const x = Math.max(place(begins), this.#left);
-      pen.fillRect(x, top + 0.15 * size, Math.max(0.7, place(ends) - x), 0.7 * size);
+      pen.fillRect(x, top + 0.15 * size, Math.max(0.7, end - x), 0.7 * size);
+      drawn = Math.max(end, x + 0.7);
     }
+    let [last, high] = [-Infinity, 0];
+    pen.fillStyle = colours.blow;
     for (const [time, strength] of this.run.blowsOf(index, from, to)) {
-      pen.fillStyle = colours.blow;
-      pen.fillRect(place(time) - 0.75, top + size * (1 - strength), 1.5, size * strength);
+      const x = place(time);
+      if (x < last + FINE && strength <= high) continue;
+      pen.fillRect(x - 0.75, top + size * (1 - strength), 1.5, size * strength);
+      [last, high] = [x, strength];
     }
   }
 }

@@ -79,6 +79,8 @@ def run(
     if turns is None and (tabled or input_ is not None or trials is not None):
         which = "--csv" if tabled else "--input" if input_ is not None else "--trials"
         raise typer.BadParameter("it is about the torque over some turns: give --turns too", param_hint=which)
+    if resume and trials is None:
+        raise typer.BadParameter("it goes on with trials of friction: give --trials too", param_hint="--resume")
     train = load(file)
     states = (state,) if state is not None else train.states or (None,)
     found = [train.torques(name) for name in states]

@@ -220,7 +220,7 @@ def _spectrum(panel: Axes, run: TimeRun, moving: list[str]) -> None:
         panel.plot(frequency[1:], np.degrees(size[1:]), color=colour, linewidth=0.8, label=short(name))
         top = max(top, float(np.degrees(size[1:]).max(initial=0.0)))
     if top:
-        panel.legend(loc="upper left", frameon=False, fontsize=SMALL)
+        panel.legend(loc="upper right", frameon=False, fontsize=SMALL)
         panel.set_yscale("log")
         panel.set_ylim(3e-5 * top, 60 * top)
         panel.set_xscale("log")

@@ -61,8 +61,8 @@ def torque_cycle_figure(found: TorqueCycle, title: str = "") -> Figure:
     Returns
     -------
     matplotlib.figure.Figure
-        Torque, and power lost over the speed of the input [N m, or plain], over turns of the input; shaded where the
-        train locks.
+        Torque, and what is lost as a share of it: power over the mean speed of the link [N m, or plain]; over turns of
+        the input, shaded where the train locks.
 
     Raises
     ------
@@ -141,6 +141,8 @@ def _stack(panel: Axes, found: TorqueCycle, losses: list[_Loss], unit: str) -> N
     """The losses one upon the other, that of which most is lost at the bottom."""
     assert found.turns is not None
     turns, powers = _averaged(found.turns, np.array([np.nan_to_num(loss.power) for loss in losses]))
+    ratio = _mean_speed(found)
+    powers = powers / (ratio or 1.0)
     panel.stackplot(
         turns,
         powers,
@@ -149,8 +151,20 @@ def _stack(panel: Axes, found: TorqueCycle, losses: list[_Loss], unit: str) -> N
         linewidth=0,
     )
     panel.set_ylim(0.0, _bounds(turns, powers.sum(axis=0))[1] if found.locked else None)
-    panel.set_ylabel(f"lost{unit}", fontsize=SMALL)
+    of = f"as torque at {short(found.link)}" if ratio else "a radian of the input"
+    panel.set_ylabel(f"lost, {of}{unit}", fontsize=SMALL, parse_math=False)
     legend_above(panel, 4)
+
+
+def _mean_speed(found: TorqueCycle) -> float:
+    """Turns of the link in a turn of the input; 0 where it comes back to where it was."""
+    assert found.turns is not None
+    if found.speeds is None or found.link not in found.speeds.labels[0]:
+        return 1.0
+    speed = np.asarray(found.speeds.values)[found.speeds.labels[0].index(found.link)]
+    steps = np.diff(found.turns)
+    forth, most = steps @ (speed[1:] + speed[:-1]) / 2, steps @ (abs(speed[1:]) + abs(speed[:-1])) / 2
+    return float(abs(forth) / found.span) if abs(forth) > _LEAST * most else 0.0
 
 
 def _losses(found: TorqueCycle) -> list[_Loss]:

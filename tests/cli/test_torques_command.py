@@ -12,6 +12,8 @@ import pytest
 from answer_schemas import holds
 from commands import call
 
+import geartrain
+
 PIN = """
 links: {frame: {}, a: {}, b: {}}
 revolutes: [{pair: [frame, a], axis: A}, {pair: [frame, b], axis: B}]
@@ -110,6 +112,24 @@ def test_pictures_mark_mean_extremes_and_locked_stretches(pin: Path, tmp_path: P
     pin.write_text(LOCKS, encoding="utf-8")
     assert call("torques", pin, "--turns", "1", *SAMPLES, "--plot", picture, "--force").exit_code == 1
     assert 'id="locked"' in picture.read_text(encoding="utf-8")
+
+
+def test_what_is_lost_is_drawn_as_torque_at_the_link_that_is_asked() -> None:
+    pytest.importorskip("matplotlib")
+    from geartrain.drawing import torque_cycle_figure
+
+    train = geartrain.load("""
+links: {frame: {}, a: {wheels: {p: 20}}, b: {wheels: {q: 60}, bearing: 3 N mm}}
+revolutes: [{pair: [frame, a], axis: A}, {pair: [frame, b], axis: B}]
+gears: [{pair: [p, q]}]
+inputs: {b: 1}
+crank: a
+""")
+    above, below = torque_cycle_figure(train.torques(turns=1, samples=20)).axes
+    assert below.get_ylabel() == "lost, as torque at a (N m)"
+    stack = below.collections[0].get_paths()[0].vertices
+    assert float(stack[:, 1].max()) == pytest.approx(1e-3)
+    assert float(above.lines[0].get_ydata()[0]) == pytest.approx(1e-3)
 
 
 # ------------------------------------------------------------------------------------------------------------- trials

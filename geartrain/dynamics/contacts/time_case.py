@@ -115,7 +115,9 @@ def _refuse_rate_beyond_beats(train: Train, problem: MotionProblem, drive: Power
     if speed * per_turn > most * (1 + _EQUAL):
         what = f"'{drive.link}' is kept at {speed:.6g} turn/s, which its escapement does not let pass"
         why = f"'{beats.link}' may make {most:.6g} turn/s in the mean, and would make {speed * per_turn:.6g}"
-        fix = f"keep {most / per_turn:.6g} turn/s or less there, or give no rate, but a `drive` by a weight or a spring"
+        lead = problem.lead
+        slow = most / abs(float(problem.ratio(beats.link)))
+        fix = f"ask for {slow:.6g} turn/s of '{lead}' or less, or give no rate, but a `drive` by a weight or a spring"
         raise QuestionError(Problem(what, why, fix))
 
 

@@ -9,7 +9,7 @@ if TYPE_CHECKING:
 
 F = TypeVar("F", float, "Floats")
 
-_SPLITTER = 134217729.0  # 2^27 + 1: cuts a float64 into two halves of 26 bits, whose products are exact
+SPLITTER = 134217729.0  # 2^27 + 1: cuts a float64 into two halves of 26 bits, whose products are exact
 
 
 def two_sum(a: Floats, b: Floats) -> tuple[Floats, Floats]:
@@ -30,6 +30,6 @@ def two_product(a: Floats, b: Floats) -> tuple[Floats, Floats]:
 
 def split(a: F) -> tuple[F, F]:
     """A float as the sum of two of 26 bits (Dekker 1971; Veltkamp)."""
-    big = _SPLITTER * a
+    big = SPLITTER * a
     high = big - (big - a)  # overflows beyond about 2^996
     return high, a - high

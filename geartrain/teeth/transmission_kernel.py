@@ -22,20 +22,20 @@ if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats, Ints
 
 DEGREE = 6  # a law to rounding in 32 to 512 cells: above, the fit itself rounds more; below, tables leave the cache
+CELL = 2 * (DEGREE + 2)  # numbers of a cell, side by side: two lines of a cache, where columns would take one a number
 _WANTED = 1e-15  # of a driven pitch, or of the speed: as finely as the law itself is known
 _GOOD = 1e-12  # of the same: a law that no table follows so well is asked itself
 
 
 class TransmissionTables(NamedTuple):
-    """Laws by number; table 2 k is the error of law k, table 2 k + 1 its speed ratio.
+    """Laws by number.
 
     period, inverse   of each law: the driver's angle (rad), and 1 / it
     coarse, rest      the period as the sum of two floats, the first of 24 bits
-    density           of each table: uniform cells of a period over it (1/rad)
-    first, last       of each table: its first and last cell, cut at corners, by row of the two arrays below
+    density           of each law: uniform cells of a period over it (1/rad)
+    first, last       of each law: its first and last cell, cut at corners
     cuts, corners     of each law: `corners[cuts[k]:cuts[k + 1]]` (rad)
-    middles           of each cell (rad)
-    coefficients      (`DEGREE` + 1, cells), the highest power first
+    cells             `CELL` numbers a cell, error and speed in turns: middle (rad), then the highest power first
     """
 
     period: Floats
@@ -47,8 +47,7 @@ class TransmissionTables(NamedTuple):
     last: Ints
     cuts: Ints
     corners: Floats
-    middles: Floats
-    coefficients: Floats
+    cells: Floats
 
 
 class PeriodicLaw(HasCorners, Protocol):
@@ -104,67 +103,76 @@ def join_transmission_tables(laws: Sequence[TransmissionTable]) -> TransmissionT
     """Tables of laws by their numbers."""
     period = np.array([law.period for law in laws])
     coarse = period.astype(np.float32).astype(float)
-    tables = [table for law in laws for table in (law.error, law.speed)]
-    counts = np.array([len(table.middles) for table in tables], dtype=np.int64)
-    first = np.concatenate(([0], np.cumsum(counts)[:-1])).astype(np.int64)
-    coefficients: Floats = np.zeros((DEGREE + 1, int(counts.sum())))
-    for at, table in zip(first, tables, strict=True):
-        # a lower degree begins with coefficients 0, which changes no bit
-        coefficients[DEGREE - table.degree :, at : at + len(table.middles)] = table.coefficients[::-1]
     corners = [law.error.corners for law in laws]
+    cells = [_cells(law) for law in laws]
+    ends = np.cumsum([0, *(len(each) for each in cells)], dtype=np.int64)
     return TransmissionTables(
         period,
         1 / period,
         coarse,
         period - coarse,
-        np.array([table.cells / table.period for table in tables]),
-        first,
-        first + counts - 1,
+        np.array([max(law.error.cells, law.speed.cells) / law.period for law in laws]),
+        ends[:-1],
+        ends[1:] - 1,
         np.concatenate(([0], np.cumsum([len(each) for each in corners]))).astype(np.int64),
         np.concatenate([np.zeros(0), *corners]),
-        np.concatenate([np.zeros(0), *(table.middles for table in tables)]),
-        coefficients,
+        np.concatenate([np.zeros(0), *(each.ravel() for each in cells)]),
     )
+
+
+def _cells(law: TransmissionTable) -> Floats:
+    """Cells of a law, (n, `CELL`): those of the finer of its two tables, each with the cell of the other it lies in."""
+    finer = max(law.error, law.speed, key=lambda table: table.cells)
+    found = np.zeros((len(finer.middles), CELL))
+    for part, table in enumerate((law.error, law.speed)):
+        at = np.arange(len(finer.middles))
+        if table.cells < finer.cells:
+            at = np.clip(np.searchsorted(table.breaks, finer.middles, side="right") - 1, 0, len(table.middles) - 1)
+        found[:, part] = table.middles[at]
+        # a lower degree begins with coefficients 0, which changes no bit
+        found[:, part + 2 * (DEGREE + 1 - table.degree) :: 2] = table.coefficients[::-1, at].T
+    return found
 
 
 @kernel
 def law_along(
-    tables: TransmissionTables, law: int, S: Floats, error: Floats, speed: Floats, u: Floats, cell: NDArray[np.int32]
+    tables: TransmissionTables,
+    law: int,
+    angle: Floats,
+    error: Floats,
+    speed: Floats,
+    u: Floats,
+    cell: NDArray[np.int32],
 ) -> None:
-    """Transmission error (rad) and speed ratio of a law at its driver's angles S (rad); `u` and `cell` are scratch.
+    """Transmission error (rad) and speed ratio of a law at its driver's angles (rad).
 
-    `CellTable` operation by operation, in loops that a compiler turns into vector operations.
+    `u` and `cell` are scratch. `CellTable` operation by operation, in loops most of which become vector operations.
     """
     inverse, coarse, rest = tables.inverse[law], tables.coarse[law], tables.rest[law]
-    corners = tables.corners[tables.cuts[law] : tables.cuts[law + 1]]
-    for at in range(len(S)):
-        periods = np.floor(S[at] * inverse)
-        u[at] = (S[at] - periods * coarse) - periods * rest
-    for part in range(2):
-        table = 2 * law + part
-        density, first, last = tables.density[table], tables.first[table], tables.last[table]
-        if part == 0 or density != tables.density[table - 1]:
-            for at in range(len(S)):
-                cell[at] = np.int32(u[at] * density)
-            for corner in corners:
-                for at in range(len(S)):
-                    cell[at] += np.int32(u[at] >= corner)
-            for at in range(len(S)):
-                # clipped: rounding may lead past either end
-                cell[at] = min(max(cell[at], 0), last - first)
-        found = error if part == 0 else speed
-        for at in range(len(S)):
-            chosen = np.uint32(first + cell[at])
-            found[at] = _polynomial(tables.coefficients, chosen, u[at] - tables.middles[chosen])
+    density, first, last = tables.density[law], tables.first[law], tables.last[law]
+    for at in range(len(angle)):
+        S = angle[at]
+        periods = np.floor(S * inverse)
+        u[at] = (S - periods * coarse) - periods * rest
+    for at in range(len(angle)):
+        cell[at] = np.int32(u[at] * density)
+    for corner in tables.corners[tables.cuts[law] : tables.cuts[law + 1]]:
+        for at in range(len(angle)):
+            cell[at] += np.int32(u[at] >= corner)
+    for at in range(len(angle)):
+        # clipped: rounding may lead past either end
+        cell[at] = min(max(cell[at], 0), last - first)
+    for at in range(len(angle)):
+        error[at], speed[at] = _polynomials(tables.cells, np.uint64(CELL) * np.uint64(first + cell[at]), u[at])
 
 
 @kernel
-def _polynomial(coefficients: Floats, cell: np.uint32, x: float) -> float:
-    """Horner's rule, written out: the compiler then needs no loop."""
-    found = coefficients[0, cell]
-    found = found * x + coefficients[1, cell]
-    found = found * x + coefficients[2, cell]
-    found = found * x + coefficients[3, cell]
-    found = found * x + coefficients[4, cell]
-    found = found * x + coefficients[5, cell]
-    return found * x + coefficients[6, cell]  # type: ignore[no-any-return]
+def _polynomials(cells: Floats, begin: np.uint64, u: float) -> tuple[float, float]:
+    """Error and speed from the numbers of a cell by Horner's rule, side by side."""
+    x, y = u - cells[begin], u - cells[begin + np.uint64(1)]
+    at, one, two = begin + np.uint64(2), np.uint64(1), np.uint64(2)
+    error, speed = cells[at], cells[at + one]
+    for _ in range(DEGREE):
+        at += two
+        error, speed = error * x + cells[at], speed * y + cells[at + one]
+    return error, speed

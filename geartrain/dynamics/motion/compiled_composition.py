@@ -13,7 +13,6 @@ from geartrain.dynamics.motion.coupled_errors import DEAD_CENTRE, NO_FIT, refusa
 from geartrain.dynamics.motion.coupled_kernel import FOLLOWED
 from geartrain.dynamics.motion.coupled_kernel import NO_FIT as FOUND_NO_FIT
 from geartrain.dynamics.motion.error_composition import PLAIN, ErrorSamples
-from geartrain.numerics.error_free import split
 from geartrain.numerics.kernels import is_fast
 
 if TYPE_CHECKING:
@@ -40,18 +39,18 @@ class CompiledComposition:
     def at(self, turns: Floats) -> ErrorSamples:
         """Errors and rates of the outputs where the input has made some turns."""
         turns = np.array(turns, dtype=float)
-        farthest = float(np.max(np.abs(turns), initial=0.0))
+        farthest = max(float(np.max(turns, initial=0.0)), -float(np.min(turns, initial=0.0)))
         outputs, used = len(self.composition.outputs), self.composition.used
         error, rate = np.empty((outputs, len(turns))), np.empty((outputs, len(turns)))
-        least = np.empty(len(used))
+        behind = np.zeros(len(used), dtype=np.int64)
         kernel = compose if self.arrays.order.coupled.any() else compose_apart
         found, step = kernel.chosen(self.fast)(
-            self.arrays, turns, split(turns), PLAIN / farthest if farthest else np.inf, error, rate, least
+            self.arrays, turns, PLAIN / farthest if farthest else np.inf, error, rate, behind
         )
         if found != FOLLOWED:
             names = [self.composition.sources[at].id for at in self.composition.steps[step].sources]
             raise refusal(names, NO_FIT if found == FOUND_NO_FIT else DEAD_CENTRE)
-        back = frozenset(source.id for source, slowest in zip(used, least, strict=True) if slowest < 0)
+        back = frozenset(source.id for source, positions in zip(used, behind, strict=True) if positions)
         return ErrorSamples(turns, error, rate, back)
 
 

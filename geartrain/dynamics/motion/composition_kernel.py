@@ -1,6 +1,6 @@
 """The composition of docs/motion.md, equations (2) to (5), as one kernel over the solved order of a train.
 
-What `ErrorComposition` does with arrays of all positions, one law after the other, is done here for a few hundred
+What `ErrorComposition` does with arrays of all positions, one law after the other, is done here for two thousand
 positions at a time, whose angles and errors never leave the processor's cache.
 """
 
@@ -12,31 +12,30 @@ import numpy as np
 
 from geartrain.dynamics.motion.composition_arrays import ComposedSources, CompositionArrays, CompositionOrder
 from geartrain.dynamics.motion.coupled_kernel import FOLLOWED, couple_errors
+from geartrain.numerics.error_free import SPLITTER
 from geartrain.numerics.kernels import kernel
 from geartrain.teeth.transmission_kernel import law_along
 
 if TYPE_CHECKING:
-    from geartrain.numerics.arrays import Floats
+    from geartrain.numerics.arrays import Floats, Ints
     from geartrain.teeth.transmission_kernel import TransmissionTables
 
-BLOCK = 512  # positions: what a train of some hundred links needs of them fits into a cache
+BLOCK = 2048  # positions: so many that what is done once a block does not count, and their angles stay in a cache
 
 
 @kernel
 def compose(
     arrays: CompositionArrays,
     turns: Floats,
-    halves: tuple[Floats, Floats],
     plain: float,
     error: Floats,
     rate: Floats,
-    least: Floats,
+    behind: Ints,
 ) -> tuple[int, int]:
     """Errors (rad) and rates of the outputs, (outputs, n), where the input has made so many turns.
 
-    halves   of the turns, each the sum of two floats
     plain    cycles per turn up to which a plain product tells where in its period a driver stands
-    least    of each source: the least speed of its driver, filled in
+    behind   of each source: at how many positions its driver turns against its mean, filled in
 
     Returns `FOLLOWED`, or what kept a step from being followed, and its number.
     """
@@ -45,17 +44,16 @@ def compose(
     angle, turning = np.zeros((most, BLOCK)), np.zeros((most, BLOCK))
     delta, slope = np.zeros((most, BLOCK)), np.zeros((most, BLOCK))
     scratch, cell = np.zeros(BLOCK), np.zeros(BLOCK, dtype=np.int32)
-    least[:] = np.inf
+    behind[:] = 0
     for begin in range(0, len(turns), BLOCK):
         size = min(BLOCK, len(turns) - begin)
         here = turns[begin : begin + size]
-        left, right = halves[0][begin : begin + size], halves[1][begin : begin + size]
         for step in range(len(order.coupled)):
             _carry(order, step, size, held)
             first, last = order.sources[step], order.sources[step + 1]
             for source in range(first, last):
                 S, w = angle[source - first, :size], turning[source - first, :size]
-                _phase(sources, source, laws.period[source], plain, here, left, right, S)
+                _phase(sources, source, laws.period[source], plain, here, S)
                 _turn(sources, source, size, held, S, w)
             if order.coupled[step]:
                 count = last - first
@@ -70,10 +68,7 @@ def compose(
                     law_along(laws, source, angle[source - first, :size], e, v, scratch[:size], cell[:size])
                     _sign(sources, source, turning[source - first, :size], e, v)
             for source in range(first, last):
-                slowest = least[source]
-                for speed in turning[source - first, :size]:
-                    slowest = min(slowest, speed)
-                least[source] = slowest
+                behind[source] += _count_negative(turning[source - first, :size])
             _spread(order, step, size, delta, slope, held)
         _read(order, begin, size, held, error, rate)
     return FOLLOWED, -1
@@ -102,11 +97,16 @@ def _carry(order: CompositionOrder, step: int, size: int, held: Floats) -> None:
     for row in order.own[order.own_start[step] : order.own_start[step + 1]]:
         for kind in range(2):
             into = held[kind, row, :size]
-            into[:] = 0.0
+            if first == last:
+                into[:] = 0.0
             for known in range(first, last):
                 factor, other = order.from_known[at + known - first], held[kind, order.known[known], :size]
-                for position in range(size):
-                    into[position] += factor * other[position]
+                if known == first:
+                    for position in range(size):
+                        into[position] = factor * other[position]
+                else:
+                    for position in range(size):
+                        into[position] += factor * other[position]
         at += last - first
 
 
@@ -117,8 +117,6 @@ def _phase(
     period: float,
     plain: float,
     turns: Floats,
-    left: Floats,
-    right: Floats,
     S: Floats,
 ) -> None:
     """Forward angle (rad) of a driver on average, whole periods taken off: `InputPhase.cycles`."""
@@ -129,9 +127,14 @@ def _phase(
         return
     high, low, rest = sources.high[source], sources.low[source], sources.rest[source]
     for at in range(len(turns)):
-        product = turns[at] * factor
-        lost = (((left[at] * high - product) + left[at] * low) + right[at] * high) + right[at] * low
-        lost += turns[at] * rest
+        turned = turns[at]
+        product = turned * factor
+        # Dekker's product of two floats, as `error_free.split` and `InputPhase.cycles` have it
+        wide = SPLITTER * turned
+        left = wide - (wide - turned)
+        right = turned - left
+        lost = (((left * high - product) + left * low) + right * high) + right * low
+        lost += turned * rest
         S[at] = ((product - np.floor(product)) + lost) * period + start
 
 
@@ -159,6 +162,15 @@ def _sign(sources: ComposedSources, source: int, w: Floats, error: Floats, slope
 
 
 @kernel
+def _count_negative(speed: Floats) -> int:
+    """How many speeds are negative."""
+    found = 0
+    for each in speed:
+        found += each < 0.0
+    return found
+
+
+@kernel
 def _spread(order: CompositionOrder, step: int, size: int, delta: Floats, slope: Floats, held: Floats) -> None:
     """What a step's pairs add to its links."""
     count = order.sources[step + 1] - order.sources[step]
@@ -178,15 +190,13 @@ def _read(order: CompositionOrder, begin: int, size: int, held: Floats, error: F
     """The outputs, from the links of which they are differences."""
     for output in range(len(order.offset)):
         e, v = error[output, begin : begin + size], rate[output, begin : begin + size]
-        e[:] = 0.0
+        e[:] = order.offset[output]
         v[:] = 0.0
         for at in range(order.seen_start[output], order.seen_start[output + 1]):
             row, sign = order.seen[at], order.seen_sign[at]
             for position in range(size):
                 e[position] += sign * held[0, row, position]
                 v[position] += sign * held[1, row, position]
-        for position in range(size):
-            e[position] += order.offset[output]
 
 
 compose_apart = compose.replaced(couple_errors=_never)

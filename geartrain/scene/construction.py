@@ -20,6 +20,7 @@ from geartrain.scene.wheel_phases import phase_wheels
 if TYPE_CHECKING:
     from geartrain.dynamics import TimeRun
     from geartrain.scene.elements import SceneCoupling, ScenePair, SceneWheel
+    from geartrain.scene.movement import MovementStart
     from geartrain.scene.scene_run import SceneRun
 
 
@@ -95,20 +96,21 @@ def make_scene(
         notices=tuple(_plain(notice) for notice in notices),
         back=moved.back,
         unit_days=exact(declared.unit_days),
-        run=None if run is None else _played(stage, run, wheels, pairs, couplings),
+        run=None if run is None else _played(stage, run, moved, wheels, pairs, couplings),
     )
 
 
 def _played(
     stage: SceneContext,
     run: TimeRun,
+    moved: MovementStart,
     wheels: Sequence[SceneWheel],
     pairs: Sequence[ScenePair],
     couplings: Sequence[SceneCoupling],
 ) -> SceneRun:
     from geartrain.scene.run_courses import find_run  # needs numpy
 
-    return find_run(stage, run, wheels, pairs, couplings)
+    return find_run(stage, run, moved.movement, wheels, pairs, couplings)
 
 
 def _sources(train: GearTrain) -> dict[str, dict[str, str]]:

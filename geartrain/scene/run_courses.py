@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from geartrain.numerics.arrays import Bools, Floats, Ints
     from geartrain.scene.context import SceneContext
     from geartrain.scene.elements import SceneCoupling, ScenePair, SceneWheel
+    from geartrain.scene.error_steps import Movement
 
 TOLERANCE = 1e-4
 """Within which angles of a page are those of the simulation (rad)."""
@@ -88,6 +89,7 @@ class ShownSamples:
 def find_run(
     stage: SceneContext,
     run: TimeRun,
+    movement: Movement,
     wheels: Sequence[SceneWheel],
     pairs: Sequence[ScenePair],
     couplings: Sequence[SceneCoupling],
@@ -128,11 +130,13 @@ def find_run(
         links=tuple(samples.link(run.angles[link] - stage.start(link)) for link in links),
         contacts=contacts,
         leads=run.leads,
-        notes=(*run.notes, *_left_out(run)),
+        notes=(*run.notes, *_left_out(run, movement)),
     )
 
 
-def _left_out(run: TimeRun) -> Iterator[str]:
+def _left_out(run: TimeRun, movement: Movement) -> Iterator[str]:
+    if movement.kind == "mean":
+        yield f"wheels start where mean speeds have them, to within what their teeth ripple; {movement.why}"
     kept = len(run.impacts.time)
     if run.impacts.total > kept:
         last = run.impacts.time[-1] - run.skip

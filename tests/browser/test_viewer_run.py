@@ -10,6 +10,7 @@ import shipped
 from conftest import OpenPage, Shown
 from viewing import DESK, tab, wait
 
+from geartrain import load
 from geartrain.dynamics import TimeRun
 from geartrain.scene import Scene, make_scene
 from geartrain.viewer import page
@@ -102,7 +103,7 @@ def test_the_table_of_contacts_tells_what_each_does_now(played: Played, shown: S
         shown.run("(turns) => geartrain.setTurns(turns)", turns[at])
         words[name] = shown.page.locator("[data-contact='d2~e'] .now").inner_text()
     assert words == {name: name for name in words}
-    share = f"{100 * run['d2~e'].apart:.3g} %"  # type: ignore[union-attr]
+    share = f"{100 * run['d2~e'].apart:.1f} %"  # type: ignore[union-attr]
     assert share in shown.page.locator("[data-contact='d2~e']").inner_text()
 
 
@@ -165,3 +166,39 @@ def test_a_page_without_a_run_has_its_crank_and_no_table_of_contacts(open_page: 
     plain = open_page(path, **DESK)
     assert plain.page.get_by_role("slider", name="crank").count() == 1
     assert plain.page.get_by_role("tab", name="Contacts").count() == 0
+
+
+PLANETARY = """
+extends: planetary-24-18-60
+links: {sun: {inertia: 1e-6 kg m2}, planet: {inertia: 1e-6 kg m2}, carrier: {inertia: 1e-5 kg m2, bearing: 1 N mm}}
+gears: [{pair: [s, p], efficiency: 0.98}, {pair: [p, ring], efficiency: 0.98}]
+"""
+
+
+def test_places_of_contacts_go_with_the_carrier_and_stay_on_both_pitch_circles(
+    open_page: OpenPage, tmp_path: Path
+) -> None:
+    train = load(PLANETARY)
+    run = train.dynamics(rate="1 turn/s", turns=1, skip=0, steps=1000, fast=False)
+    path = tmp_path / "run.html"
+    path.write_text(page([make_scene(train, run=run)], teeth=False), encoding="utf-8")
+    shown = open_page(path, **DESK)
+    rows = shown.run(
+        """() => {
+          geartrain.setTurns(0.77);
+          const { world } = geartrain.stages[0];
+          world.turn();
+          const { run, pairs, wheels } = geartrain.scenes[0];
+          const { position } = world.sparks.geometry.attributes;
+          const at = (node, point) => node.matrixWorld.elements.slice(12, 15).map((own, row) =>
+            own + point.reduce((sum, value, column) => sum + value * node.matrixWorld.elements[row + 4 * column], 0));
+          return run.contacts.flatMap(({ name }, n) => pairs.find(({ id }) => id === name).wheels.map((index) => {
+            const { centre, body, radius } = wheels[index];
+            const [x, y, z] = at(world.nodes[body], centre);
+            return [Math.hypot(position.getX(n) - x, position.getY(n) - y, position.getZ(n) - z), radius];
+          }));
+        }"""
+    )
+    assert len(rows) == 4
+    for found, radius in rows:
+        assert found == pytest.approx(radius, rel=1e-5)

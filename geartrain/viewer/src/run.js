@@ -55,7 +55,7 @@ export class Run {
 
   /** How strong a blow with a closing speed looks beside the hardest: 0 to 1. */
   strength(speed) {
-    return 0.3 + 0.7 * Math.sqrt(speed / this.hardest);
+    return 0.4 + 0.6 * Math.sqrt(speed / this.hardest);
   }
 
   /** How bright the last blows of a contact are: 0 to 1. */

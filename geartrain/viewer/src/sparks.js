@@ -24,8 +24,8 @@ out vec4 colour;
 void main() {
   float off = 2.0 * length(gl_PointCoord - 0.5);
   float reach = 0.35 + 0.65 * seen.x;
-  float core = seen.x * smoothstep(0.42 * reach, 0.1 * reach, off);
-  float halo = seen.x * 0.75 * pow(max(0.0, 1.0 - off / reach), 1.5);
+  float core = sqrt(seen.x) * smoothstep(0.42 * reach, 0.1 * reach, off);
+  float halo = sqrt(seen.x) * 0.75 * pow(max(0.0, 1.0 - off / reach), 1.5);
   float ring = 0.9 * seen.y * smoothstep(0.06, 0.02, abs(off - 0.3));
   vec3 blow = mix(vec3(1.0, 0.32, 0.02), vec3(1.0, 0.93, 0.6), core);
   float blaze = max(core, halo);

@@ -7,7 +7,7 @@ const KINDS = { pair: "", pin: "pin", escapement: "escapement" };
 
 const SLIGHT = 2e-4; // rad: angles of the page are not better
 
-const percent = (share) => (share ? `${Number((100 * share).toPrecision(3))} %` : "0");
+const percent = (share) => (share ? `${Number((100 * share).toFixed(share < 0.01 ? 3 : share < 0.1 ? 2 : 1))} %` : "0");
 const rounded = (value) => String(Number(value.toPrecision(3))).replace("-", "\u2212");
 const inDegrees = (angle) => `${rounded((angle * 180) / Math.PI)}\u00b0`;
 
@@ -81,7 +81,8 @@ export class Contacts {
     const rows = scene.run.leads.map((lead) => {
       const index = scene.pointers.findIndex(({ output }) => output === lead.output);
       const now = el("td", { class: "number" });
-      if (index >= 0) this.leads.push({ now, ahead: () => machine.aheadBy(index) });
+      if (index < 0 || scene.movement.kind === "mean") now.textContent = "\u2013";
+      else this.leads.push({ now, ahead: () => machine.aheadBy(index) });
       return el(
         "tr",
         { "data-lead": lead.output },

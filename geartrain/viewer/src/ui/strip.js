@@ -22,7 +22,11 @@ export class Strip {
       style: `height: ${this.height}px`,
     });
     this.node.addEventListener("pointerdown", (event) => this.#grab(event));
-    new ResizeObserver(() => this.#draw()).observe(this.node);
+    this.width = 0; // asked for on every draw, it would have the page laid out each time
+    new ResizeObserver(() => {
+      this.width = this.node.clientWidth;
+      this.#draw();
+    }).observe(this.node);
   }
 
   set(time) {
@@ -46,7 +50,7 @@ export class Strip {
   /** A tap goes to a moment; dragged, the strip runs under its mark as paper would. */
   #grab(event) {
     const [from, began] = [event.clientX, this.time];
-    const scale = this.#span / (this.node.clientWidth - this.#left); // s a pixel
+    const scale = this.#span / (this.width - this.#left); // s a pixel
     let moved = false;
     const move = (each) => {
       moved ||= Math.abs(each.clientX - from) > SLIP;
@@ -64,15 +68,13 @@ export class Strip {
   }
 
   #draw() {
-    const { clientWidth: width } = this.node;
+    const { width } = this;
     if (!width || this.time === undefined) return;
     const density = Math.min(globalThis.devicePixelRatio || 1, 2);
     const [wide, high] = [Math.round(width * density), Math.round(this.height * density)];
     if (this.node.width !== wide || this.node.height !== high) Object.assign(this.node, { width: wide, height: high });
     const pen = this.node.getContext("2d");
-    const style = getComputedStyle(this.node);
-    const colour = (name) => style.getPropertyValue(`--${name}`).trim();
-    const colours = { line: colour("line"), ink: colour("ink"), a: colour("apart"), c: colour("coast"), blow: colour("blow") };
+    const colours = this.#colours();
     pen.setTransform(density, 0, 0, density, 0, 0);
     pen.clearRect(0, 0, width, this.height);
     pen.font = "11px system-ui, sans-serif";
@@ -82,6 +84,18 @@ export class Strip {
     this.run.contacts.forEach((contact, index) => this.#lane(pen, contact, index, colours, place, from, width));
     pen.fillStyle = colours.ink;
     pen.fillRect(place(this.time) - 0.75, 0, 1.5, this.height);
+  }
+
+  /** What the page paints with, read anew when its theme has changed. */
+  #colours() {
+    const { theme } = document.documentElement.dataset;
+    if (!this.colours || this.theme !== theme) {
+      const style = getComputedStyle(this.node);
+      const colour = (name) => style.getPropertyValue(`--${name}`).trim();
+      this.colours = { line: colour("line"), ink: colour("ink"), a: colour("apart"), c: colour("coast"), blow: colour("blow") };
+      this.theme = theme;
+    }
+    return this.colours;
   }
 
   #lane(pen, contact, index, colours, place, from, width) {

@@ -58,12 +58,12 @@ class ShownSamples:
         """From one to the next (s)."""
         return float(self.time[-1]) / (len(self.time) - 1)
 
-    def link(self, turned: Floats) -> LinkCourse:
-        """The course of a link that has turned by these angles (rad)."""
+    def link(self, turned: Floats, tolerance: float) -> LinkCourse:
+        """The course of a link that has turned by these angles, to within a tolerance (rad)."""
         shown = self.of(turned)
         rate = float(shown[-1] - shown[0]) / float(self.time[-1])
         line = shown - rate * self.time
-        kept = simplified(np.column_stack((_FLAT * self.time, line)), TOLERANCE)
+        kept = simplified(np.column_stack((_FLAT * self.time, line)), tolerance)
         return LinkCourse(rate, np.array(kept), line[kept])
 
     def states(self, contact: str) -> tuple[Ints, str]:
@@ -127,11 +127,19 @@ def find_run(
         tolerance=TOLERANCE,
         torque=run.torque,
         complete=run.complete,
-        links=tuple(samples.link(run.angles[link] - stage.start(link)) for link in links),
+        links=tuple(samples.link(run.angles[link] - stage.start(link), _tolerance(stage, link)) for link in links),
         contacts=contacts,
         leads=run.leads,
         notes=(*run.notes, *_left_out(run, movement)),
     )
+
+
+def _tolerance(stage: SceneContext, link: str) -> float:
+    """Finer for the lead: by its angle the page says where all other links would stand if teeth touched."""
+    if link != stage.lead:
+        return TOLERANCE
+    ratios = (stage.ratio(each) for each in stage.train.declaration.links)
+    return TOLERANCE / max(1.0, *(abs(float(ratio)) for ratio in ratios if ratio))
 
 
 def _left_out(run: TimeRun, movement: Movement) -> Iterator[str]:

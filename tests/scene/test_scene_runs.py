@@ -119,6 +119,14 @@ def test_a_pair_without_play_is_on_its_drive_flank() -> None:
     assert [each.states for each in scene.run.contacts if each.kind == "pair"] == ["d"]
 
 
+def test_the_lead_is_kept_so_finely_that_the_fastest_link_follows_from_it() -> None:
+    train = geartrain.load(CLOCK)
+    run = train.dynamics(turns=0.03, skip=0.0, steps=50_000, samples=10**6, fast=False)
+    scene = make_scene(train, run=run)
+    off = np.abs(turned(scene, 1, run.time) - run.angles["barrel"]).max()
+    assert off < 1.01e-4 / 6  # a pinion of 10 on a wheel of 60
+
+
 def test_a_run_of_another_train_is_refused(pin: tuple[TimeRun, Scene]) -> None:
     with pytest.raises(QuestionError, match="give the run of the same train"):
         make_scene(shipped.train("planetary-24-18-60"), run=pin[0])

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import html
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -9,6 +10,8 @@ from typing import Any
 from numpy.typing import NDArray
 
 from geartrain.numerics.plain_data import Result
+
+_MOST = 40  # labels of an axis that are shown whole
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,15 +59,39 @@ class LabelledArray(Result):
         except ValueError:
             raise KeyError(f"no {self.axes[axis]} '{label}'") from None
 
+    def __repr__(self) -> str:
+        labels = ", ".join(_names(each) for each in self.labels)
+        return f"LabelledArray(values={self.values!r}, axes={self.axes!r}, labels=({labels}))"
+
     def _repr_html_(self) -> str:
         if len(self.axes) != 2:
             return f"<pre>{self.values!r}</pre>"
-        head = "".join(f"<th>{name}</th>" for name in self.labels[1])
+        shown = [_shown(len(each)) for each in self.labels]
+        head = "".join(f"<th>{_label(self.labels[1], at)}</th>" for at in shown[1])
         rows = "".join(
-            f"<tr><th>{name}</th>" + "".join(f"<td>{cell}</td>" for cell in row) + "</tr>"
-            for name, row in zip(self.labels[0], self.values, strict=True)
+            f"<tr><th>{_label(self.labels[0], row)}</th>"
+            + "".join(f"<td>{'…' if None in (row, at) else self.values[row, at]}</td>" for at in shown[1])
+            + "</tr>"
+            for row in shown[0]
         )
         return f"<table><tr><th></th>{head}</tr>{rows}</table>"
+
+
+def _shown(count: int) -> list[int | None]:
+    """Which positions of an axis are shown: all, or some from both ends about None."""
+    if count <= _MOST:
+        return list(range(count))
+    return [*range(_MOST // 2), None, *range(count - _MOST // 2, count)]
+
+
+def _label(names: Sequence[str], at: int | None) -> str:
+    return "…" if at is None else html.escape(names[at])
+
+
+def _names(names: Sequence[str]) -> str:
+    if len(names) <= _MOST:
+        return repr(tuple(names))
+    return f"({', '.join('...' if at is None else repr(names[at]) for at in _shown(len(names)))})"
 
 
 def labelled_array(values: NDArray[Any], **axes: Sequence[str]) -> LabelledArray:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import html
 from dataclasses import dataclass
 from math import tau
 from typing import TYPE_CHECKING
@@ -62,6 +63,17 @@ class VibrationModes(Result):
     notes: tuple[str, ...]
     assumed: tuple[str, ...]
 
+    def _repr_html_(self) -> str:
+        links = self.shapes.labels[0]
+        head = "".join(f"<th>{html.escape(each)}</th>" for each in ("mode", "Hz", "damping", *links))
+        rows = "".join(
+            f"<tr><td>{at + 1}</td><td>{frequency:.6g}</td><td>{damping:.4g}</td>"
+            + "".join(f"<td>{angle:.4g}</td>" for angle in self.shapes.values[:, at])
+            + "</tr>"
+            for at, (frequency, damping) in enumerate(zip(self.frequencies, self.damping, strict=True))
+        )
+        return f"<p>{html.escape(self.train)}: angles of links in each mode</p><table><tr>{head}</tr>{rows}</table>"
+
 
 def find_modes(of: YieldingTrain) -> VibrationModes:
     """Of a train in one case."""
@@ -72,6 +84,7 @@ def find_modes(of: YieldingTrain) -> VibrationModes:
     shapes = of.speeds[:, of.free] @ modes
     for column in shapes.T:
         column /= column[np.argmax(np.abs(column))]
+    shapes += 0.0  # no zero is negative
     names = [str(at + 1) for at in range(len(speeds))]
     stiffness = {pair.name: float(k) for pair, k in zip(of.model.pairs, of.yields.stiffness, strict=True)}
     frequencies = speeds / tau

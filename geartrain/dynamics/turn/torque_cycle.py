@@ -237,7 +237,7 @@ class TorqueCycle(FrozenFields, Result):
             "greatest": self.greatest_torque,
             "least": self.least_torque,
             "starting": self.starting_torque,
-            "efficiency": self.efficiency,
+            "efficiency": self.efficiency or None,  # where nothing is taken out there is none
         }
         rows = "".join(f"<tr><td>{name}</td><td>{_shown(value)}</td></tr>" for name, value in figures.items())
         turns = f"{self.span:g} turn{'' if self.span == 1 else 's'}"

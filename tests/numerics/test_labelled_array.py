@@ -1,0 +1,26 @@
+"""What an array with labels shows of itself."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from geartrain.numerics.labelled_array import labelled_array
+
+
+def test_a_short_array_shows_all_its_labels() -> None:
+    array = labelled_array(np.array([[1.0, 2.0]]), link=["<a>"], case=["x", "y"])
+    assert (
+        repr(array) == "LabelledArray(values=array([[1., 2.]]), axes=('link', 'case'), labels=(('<a>',), ('x', 'y')))"
+    )
+    assert array._repr_html_() == (
+        "<table><tr><th></th><th>x</th><th>y</th></tr><tr><th>&lt;a&gt;</th><td>1.0</td><td>2.0</td></tr></table>"
+    )
+
+
+def test_a_long_array_shows_both_ends_of_its_labels() -> None:
+    array = labelled_array(np.zeros((2, 20_000)), link=["a", "b"], position=[str(at) for at in range(20_000)])
+    assert len(repr(array)) < 1000
+    assert "'19999'" in repr(array)
+    shown = array._repr_html_()
+    assert len(shown) < 4000
+    assert "<th>19</th><th>…</th><th>19980</th>" in shown

@@ -11,6 +11,7 @@ import typer
 from geartrain.cli.common import (
     INTERRUPTED,
     PICTURES,
+    VERDICT,
     Fast,
     File,
     FirstState,
@@ -93,6 +94,8 @@ def run(
     if not found.complete:
         tell(f"stopped after {found.turns[-1]:.4g} turns; the figures are of those")
         raise typer.Exit(INTERRUPTED)
+    if found.unsolved:
+        raise typer.Exit(VERDICT)
 
 
 def _stepped(train: GearTrain, found: TimeRun, asked: dict[str, Any]) -> SteppedSeparation:

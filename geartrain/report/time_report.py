@@ -139,7 +139,11 @@ def _sections(found: TimeReport) -> Iterator[Section]:
                 for peak in peaks
             ]
             header = (f"per turn of {run.lead}", "Hz", "amplitude (deg)", "pair and harmonic")
-            text = "The strongest lines of its angle about its mean motion, under a Hann window."
+            apart = figure(2 * tau / (abs(run.rate) * run.duration), 2)
+            text = (
+                "The strongest lines of its angle about its mean motion, under a Hann window, which tells orders apart "
+                f"that differ by {apart} or more."
+            )
             yield Section(f"Spectrum of {name}", (text,), (Table(header, rows),))
     if any(_compared(each) for each in run.figures):
         yield _settled(run)
@@ -165,7 +169,10 @@ def _lead(run: TimeRun) -> Iterator[str]:
     if not run.complete:
         yield "PARTIAL: stopped; the figures are of what was done, and were not compared with those of shorter steps."
     if run.unsolved:
-        yield f"In {run.unsolved} steps no contacts were found that agree with their forces; the last guess was taken."
+        yield (
+            f"NOT SOLVED in {run.unsolved} steps: no contacts agree with their forces there, as where friction locks "
+            "the train (`geartrain torques --turns` says where). A guess was taken: do not rely on these figures."
+        )
     yield from (f"Left out: {note}." for note in run.notes)
     yield from (f"Assumed: {each}." for each in run.assumed)
 
@@ -217,9 +224,10 @@ def _contact(run: TimeRun, each: ContactInTime) -> tuple[str, ...]:
 
 
 def _outputs(run: TimeRun) -> Section:
-    power = run.energy.put_in / run.duration
+    power = (run.energy.drive if run.driven == "rate" else run.energy.put_in) / run.duration
+    word = "given back" if power < 0 else "put in"
     text = [
-        f"Torque at '{run.link}': {figure(1e3 * run.torque, 5)} N mm in the mean; put in: {watts_text(power)}.",
+        f"Torque at '{run.link}': {figure(1e3 * run.torque, 5)} N mm in the mean; {word}: {watts_text(abs(power))}.",
         "Outputs against the motion in which all drive flanks touch, which is that of `geartrain motion`.",
     ]
     off = [lead for lead in run.leads if max(lead.ahead, lead.behind) > _STILL]

@@ -60,6 +60,33 @@ def test_the_text_begins_with_the_rate_at_which_teeth_part_and_marks_what_settle
     assert "All agree." in text
 
 
+def test_a_train_that_friction_locks_on_its_way_has_no_solution_there(tmp_path: Path) -> None:
+    # a slot that drives its pin locks where f > |cos d / sin d|: 14 % of a turn
+    path = tmp_path / "locks.yaml"
+    path.write_text(
+        """
+links: {frame: {}, a: {inertia: 1 g cm2}, b: {inertia: 100 g cm2}}
+revolutes: [{pair: [frame, a], axis: A}, {pair: [frame, b], axis: B}]
+couplings: [{kind: pin_and_slot, pin: a, slot: b, pin_radius: 10 mm, offset: 8 mm, friction: 0.8}]
+inputs: {b: 1}
+loads: {a: -10 N mm}
+""",
+        encoding="utf-8",
+    )
+    done = call("dynamics", path, *TURN)
+    assert done.exit_code == 1
+    assert "NOT SOLVED in" in done.output
+    assert "as where friction locks the train" in done.output
+
+
+def test_a_load_that_drives_gives_power_back_at_what_is_kept(tmp_path: Path) -> None:
+    path = tmp_path / "driven.yaml"
+    path.write_text("extends: worm\nname: driven\nloads: {wheel: -1 N m}\n", encoding="utf-8")
+    text = call("dynamics", path, "--rate", "1", "--turns", "1").output
+    # 1 N m over 30 at 2 pi rad/s
+    assert "Torque at 'screw': -33.333 N mm in the mean; given back: 209.4 mW." in text
+
+
 @pytest.mark.parametrize(("torque", "still"), [("0.5 N mm", True), ("2 N mm", False)])
 def test_a_train_that_its_drive_does_not_move_is_said_to_stand_still(tmp_path: Path, torque: str, still: bool) -> None:
     path = tmp_path / "driven.yaml"

@@ -27,7 +27,7 @@ _SAMPLES = 9  # positions of a stretch at first
 _BEST = 12  # stretches of each pair that are searched further
 _ZOOMS = 9  # of which each narrows what is searched to a quarter
 _NARROW = 1e-12  # turns: a stretch between two corners at one place is none
-_PLACES = 9  # of turns: positions on both sides of a corner are told as one
+_PLACES = 8  # of turns: positions on both sides of a corner are told as one
 _MOST_CORNERS = 80_000  # times pairs, searched by default: some seconds
 
 

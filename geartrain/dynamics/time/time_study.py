@@ -24,6 +24,7 @@ _UNEVEN = (
     1.00618  # steps that fall on corners tooth after tooth are read on either side of them by rounding, and part teeth
 )
 _FEWEST = 200  # steps in a turn of the lead
+_FEWEST_TOUCHING = 1000  # where pairs touch and part: a pin's speed changes much in little of its turn
 _PER_BEAT = 1000  # steps from one beat of an escapement to the next
 _PER_FALL = 16  # from one stop of an escapement to the next, while a train at rest is not stepped
 _MOST_FALLING = 300_000_000  # steps of a run that are made so short for that
@@ -76,7 +77,8 @@ class TimeStudy:
         """Steps of the coarser run in a turn of the lead."""
         if self.steps is not None:
             return self.steps
-        found = max(_FEWEST, ceil(PER_TOOTH * self.busiest * _UNEVEN))
+        fewest = _FEWEST_TOUCHING if self.of.model.pairs else _FEWEST
+        found = max(fewest, ceil(PER_TOOTH * self.busiest * _UNEVEN))
         # a wheel that is let go falls much faster than it turns on the mean
         swing = ceil(PER_SWING * self.of.fastest / abs(self.of.case.rate))
         found = max([found, swing, *(ceil(_PER_BEAT * each) for each in self.beats)])

@@ -30,6 +30,7 @@ if TYPE_CHECKING:
 
 _AGAIN = 4  # times that laws are read anew where a blow moves their drivers on
 _NEAR = 1e-9  # rad: drivers that stand so near to where their laws were read
+_JOLT = 0.01  # of a driver's speed: what changes it so much within a step is a blow, be it the rest of one before
 
 
 @kernel
@@ -113,9 +114,8 @@ def solve_step(
             continue
         if again == _AGAIN:
             return rounds
-        if not is_struck(state.touching, here.before, laws.jump, system.tables, here.ratio, state.ratio):
-            return rounds
-        if find_shift(system, here) * rules.step < _NEAR:
+        struck = is_struck(state.touching, here.before, laws.jump, system.tables, here.ratio, state.ratio)
+        if find_shift(system, here, 0.0 if struck else _JOLT) * rules.step < _NEAR:
             return rounds
         again += 1
         for d in range(len(here.v)):
@@ -218,15 +218,20 @@ def is_struck(touching: Ints, before: Ints, jump: Floats, tables: Ints, ratio: F
 
 
 @kernel
-def find_shift(system: ContactSystem, here: StepEquations) -> float:
-    """How far the speeds of drivers are from those for which the laws were read (rad/s)."""
+def find_shift(system: ContactSystem, here: StepEquations, least: float) -> float:
+    """How far the speeds of drivers are from those for which the laws were read (rad/s).
+
+    least   share of its own speed from which that of a driver counts
+    """
     most = 0.0
     for m in range(len(system.stiff)):
-        shift = 0.0
+        shift, speed = 0.0, 0.0
         for x in range(system.pair_at[m], system.pair_at[m + 1]):
             o = system.pair_of[x]
             shift += system.pair_driver[x] * (here.v[o] - here.ahead[o])
-        most = max(most, abs(shift))
+            speed += system.pair_driver[x] * here.ahead[o]
+        if abs(shift) > least * abs(speed):
+            most = max(most, abs(shift))
     return most
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from math import inf, tau
 from typing import TYPE_CHECKING, Literal
 
@@ -177,7 +178,7 @@ class TrainInTime(TrainDynamics):
         steps: int | None = None,
         without: Sequence[str] = (),
         fast: bool | None = None,
-        on_done: Callable[[int], object] = lambda _: None,
+        on_done: Callable[[float], object] = lambda _: None,
     ) -> SteppedSeparation:
         """At what rate of the input stepping first parts teeth, beside what `separation_rates` says of as many turns.
 
@@ -194,19 +195,21 @@ class TrainInTime(TrainDynamics):
         fast : bool, optional
             Whether kernels are compiled; by default if the run is long and numba is installed.
         on_done : callable
-            Called with the steps that each stretch adds.
+            Called with the share of the work that is done; where it returns True, what is known so far is given back.
 
         Returns
         -------
         SteppedSeparation
-            Rates between which they part.
+            The rate, with its error, by steps that are made ever shorter where pairs carry least.
 
         Raises
         ------
         QuestionError
             If by the condition for it teeth part at any rate or at none, or the train cannot be stepped.
         """
-        from geartrain.dynamics.time.stepped_separation import find_stepped_separation
+        from geartrain.dynamics.contacts.time_case import PowerInput
+        from geartrain.dynamics.inertia.inertial_loads import loads_with_drive
+        from geartrain.dynamics.time.stepped_separation import FINE_TABLES, find_stepped_separation
         from geartrain.dynamics.time.time_study import TimeStudy
 
         check_numbers(turns=turns)
@@ -214,11 +217,13 @@ class TrainInTime(TrainDynamics):
         case = self._case(state)
         predicted = self.separation_rates(state, without, turns).rate
 
-        def study_at(rate: float) -> TimeStudy:
-            found = self._in_time(case, without, tau * rate, 0.0, False)
-            return TimeStudy(found, (), turns, 0.0, steps, fast=fast)
-
-        return find_stepped_separation(study_at, predicted, on_done)
+        found = self._in_time(case, without, tau * (predicted or 1.0), 0.0, False)
+        own = found.case
+        # as in the condition: a torque that drives at another link pulls there while the input turns evenly
+        load = loads_with_drive(dict(own.load), self.declaration, case, found.problem.speeds)
+        drive = own.drive if load == own.load else PowerInput(found.problem.lead, "rate", rate=own.rate)
+        found = replace(found, case=replace(own, load=load, drive=drive), tolerance=FINE_TABLES)
+        return find_stepped_separation(TimeStudy(found, (), turns, 0.0, steps, fast=fast), predicted, on_done)
 
     def vibration_modes(self, state: str | None = None, *, without: Sequence[str] = ()) -> VibrationModes:
         """Eigenfrequencies and modes of the train about contact, teeth yielding by their stiffness (docs/dynamics.md).
@@ -265,5 +270,5 @@ class TrainInTime(TrainDynamics):
         inertia = {each.link: each.value for each in heavy if each.value}
         found = find_time_case(self.declaration, case, problem, inertia, rate, restitution)
         if yields:
-            return YieldingTrain(self.declaration, problem, found, self.tree, case.state, restitution)
+            return YieldingTrain(self.declaration, problem, found, self.tree, case.state, restitution=restitution)
         return TrainModel(self.declaration, problem, found, self.tree, case.state)

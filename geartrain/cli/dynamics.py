@@ -27,7 +27,6 @@ from geartrain.cli.common import (
     sink,
     tell,
 )
-from geartrain.cli.long_runs import progress
 from geartrain.cli.time_runs import (
     Rate,
     Restitution,
@@ -36,6 +35,7 @@ from geartrain.cli.time_runs import (
     TimeRequest,
     ToothModel,
     Turns,
+    interruptible,
     run_in_time,
 )
 
@@ -80,10 +80,12 @@ def run(
     asked = request.arguments() | {"outputs": tuple(output or ())}
     train = load(file)
     found = run_in_time(train, train.state_or_first(state), asked)
+    stepped = None
     if csv or to.suffix == ".csv":
         emit(found.to_csv().rstrip("\n"), to)
     else:
-        stepped = _stepped(train, found, asked) if find_rate and found.complete else None
+        if find_rate and found.complete:
+            stepped = _stepped(train, found, asked)
         report = collect_time_report(train, found, asked["without"], stepped)
         give(to, json, lambda: report, lambda: [describe_time_run(report)])
     if plot is not None:
@@ -94,12 +96,15 @@ def run(
     if not found.complete:
         tell(f"stopped after {found.turns[-1]:.4g} turns; the figures are of those")
         raise typer.Exit(INTERRUPTED)
+    if stepped is not None and not stepped.complete:
+        tell("stopped before the rate at which teeth part was found as well as it can be")
+        raise typer.Exit(INTERRUPTED)
     if found.unsolved:
         raise typer.Exit(VERDICT)
 
 
 def _stepped(train: GearTrain, found: TimeRun, asked: dict[str, Any]) -> SteppedSeparation:
-    """The rate at which teeth first part, in as many turns from the start."""
+    """The rate at which teeth first part, in as many turns from the start; Ctrl-C ends it with what is known."""
     more = {name: asked[name] for name in ("steps", "without", "fast")}
-    with progress("rate at which teeth part", patience=2.0) as bar:
-        return train.stepped_separation(found.state, asked["turns"] + asked["skip"], **more, on_done=bar.advance)
+    with interruptible("rate at which teeth part") as on_done:
+        return train.stepped_separation(found.state, asked["turns"] + asked["skip"], **more, on_done=on_done)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import signal
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, Any, Literal
@@ -71,13 +71,20 @@ class TimeRequest:
 
 def run_in_time(train: GearTrain, state: str | None, asked: dict[str, Any]) -> TimeRun:
     """The run, with a bar that tells how far it is; Ctrl-C ends it after the step that it is in."""
-    with progress("motion in time", _WHOLE, patience=2.0) as bar, _interrupts() as came:
+    with interruptible("motion in time") as on_done:
+        return train.dynamics(state=state, **asked, on_done=on_done)
+
+
+@contextmanager
+def interruptible(what: str) -> Iterator[Callable[[float], bool]]:
+    """A bar, as what is told each further share of the work; it answers True once Ctrl-C has come."""
+    with progress(what, _WHOLE, patience=2.0) as bar, _interrupts() as came:
 
         def on_done(share: float) -> bool:
             bar.advance(round(share * _WHOLE))
             return bool(came)
 
-        return train.dynamics(state=state, **asked, on_done=on_done)
+        yield on_done
 
 
 @contextmanager

@@ -178,11 +178,17 @@ def _lead(run: TimeRun) -> Iterator[str]:
 
 
 def _stepped(found: SteppedSeparation) -> str:
-    text = f"Stepped without restitution over {turns_text(found.turns)} of '{found.input}'"
-    holds = "" if found.holds is None else f", all flanks touch at {figure(found.holds, 5)} turn/s"
-    parts = "" if found.parts is None else f", and those of {found.pair} part at {figure(found.parts, 5)} turn/s"
+    text = "" if found.complete else "PARTIAL: stopped. "
+    text += f"Stepped without restitution over {turns_text(found.turns)} of '{found.input}'"
+    if found.rate is not None and found.error is not None and found.at is not None:
+        text += f", flanks of {found.pair} part from {figure(found.rate, 6)} ± {figure(found.error, 2)} turn/s on"
+        text += f", after {figure(found.at, 6)} turns"
+    elif found.holds is not None:
+        text += f", all flanks touch at {figure(found.holds, 5)} turn/s"
+    else:
+        text += ", nothing is known yet"
     return (
-        f"{text}{holds}{parts}; by the condition they part from {figure(found.predicted, 5)} turn/s on in these turns. "
+        f"{text}; by the condition they part from {figure(found.predicted, 6)} turn/s on in these turns. "
         f"Flights of less than {figure(found.flight, 3)} turns may be overlooked."
     )
 

@@ -117,14 +117,45 @@ def test_the_course_is_printed_and_written_as_one_table_with_labelled_columns(pi
 def test_the_rate_at_which_a_slack_pin_parts_is_found_by_stepping_beside_the_closed_one(tmp_path: Path) -> None:
     path = tmp_path / "slack.yaml"
     path.write_text(HEAVY.replace("offset: 8 mm", "offset: 2 mm, clearance: 0.05 mm"), encoding="utf-8")
-    # docs/dynamics.md, equation 7: greatest fall 0.24016005 of 10 mm and 2 mm
-    closed = (1e-3 / (1e-5 * 0.24016005)) ** 0.5 / tau
-    words = ("--rate", "1", "--turns", "1", "--skip", "0", "--steps", "1000", "--no-fast", "--find-rate")
-    found = answer(path, *words)["stepped"]
-    assert found["predicted"] == pytest.approx(closed, rel=1e-3)
-    assert closed * 0.99 < found["holds"] < found["parts"] < closed * 1.02
-    assert found["pair"] == "a~b"
+    # from a difference quotient of the slot's law: equation 7 has 3.247654 turn/s for a pin without clearance
+    closed = 3.2483918
+    words = ("--rate", "1", "--turns", "0.3", "--skip", "0", "--steps", "500", "--no-fast", "--find-rate")
     assert "The same by stepping" in call("dynamics", path, *words).output
+    found = answer(path, *words)["stepped"]
+    assert found["error"] < 2e-5 * closed
+    assert found["rate"] == pytest.approx(closed, abs=found["error"])
+    assert closed * (1 - 1e-5) < found["holds"] < found["parts"] < closed * (1 + 1e-5)
+    assert (found["pair"], found["complete"]) == ("a~b", True)
+    # 51.6154 degrees of the pin without clearance
+    assert found["at"] == pytest.approx(51.6154 / 360, abs=2e-3)
+
+
+def test_a_search_for_that_rate_that_is_stopped_tells_what_it_knows(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    from geartrain.dynamics.time import parting_places
+
+    path = tmp_path / "slack.yaml"
+    path.write_text(HEAVY.replace("offset: 8 mm", "offset: 2 mm, clearance: 0.05 mm"), encoding="utf-8")
+    words = ("--rate", "1", "--turns", "0.5", "--skip", "0", "--steps", "1000", "--no-fast", "--find-rate", "--json")
+    finer, calls = parting_places.PartingSearch.finer, []
+
+    def stopping(self: object, *given: object) -> object:
+        calls.append(given)
+        if len(calls) == 2:
+            os.kill(os.getpid(), signal.SIGINT)
+        return finer(self, *given)  # type: ignore[arg-type]
+
+    monkeypatch.setattr(parting_places.PartingSearch, "finer", stopping)
+    done = call("dynamics", path, *words)
+    assert done.exit_code == 130
+    assert "stopped before" in done.stderr
+    found = json.loads(done.stdout)
+    assert found["complete"] is True
+    assert found["stepped"]["complete"] is False
+    # what was found with the first of three lengths of steps
+    assert 3.2 < found["stepped"]["holds"] < found["stepped"]["parts"] < 3.3
+    assert found["stepped"]["error"] > 1e-5
 
 
 @pytest.mark.slow

@@ -10,6 +10,7 @@ import pytest
 
 from geartrain import GearTrain, load
 from geartrain.dynamics import TimeRun
+from geartrain.dynamics.steps.simulation import StepPlan, simulate
 from geartrain.errors import QuestionError
 from geartrain.train.drives import GRAVITY
 
@@ -181,6 +182,16 @@ def test_a_planetary_set_speeds_up_as_its_reduced_inertia_says() -> None:
     assert run.speeds["sun"][-1] == pytest.approx(1e-3 / reduced * run.time[-1], rel=1e-9)
 
 
+def test_below_the_rate_of_separation_blows_that_come_together_part_no_flanks() -> None:
+    # after 5.1275 turns corners of two pairs pass within two steps, and the second is moved on by the blow at the first
+    train, rate = load("moon-triangular-inertia"), 0.95 * 0.4808275
+    model = train._in_time(train._case(None), (), tau * rate, 0.0, False).model
+    slow = simulate(model, StepPlan(1 / rate / 200, 0, 1025, 1))
+    for steps in range(12_000, 24_000, 900):
+        run = simulate(model.elsewhere(1.0, slow.angles[-1]), StepPlan(1 / rate / steps, 0, round(0.004 * steps), 1))
+        assert (run.forces[2:] > 0).all()
+
+
 CLOCK: dict[str, Any] = {
     "links": {
         "frame": {},
@@ -223,6 +234,38 @@ def test_an_hour_of_a_clock_is_stepped_where_it_moves_and_strikes_at_the_speed_o
     assert run["escape"].hardest == pytest.approx(np.sqrt(2 * torque / inertia * pi / 30), rel=0.04)
     assert run["escape"].torque == pytest.approx(torque, rel=1e-6)
     assert len(run.impacts.time) == pytest.approx(120, abs=1)
+
+
+PLANET = """
+links:
+  frame:  {wheels: {f: 40}}
+  arm:    {inertia: 4e-5 kg m2, bearing: 2 N mm}
+  planet: {wheels: {p: 30, q: 28}, inertia: 6e-6 kg m2, bearing: 1 N mm}
+  out:    {wheels: {o: 42, s: 50}, inertia: 9e-6 kg m2, bearing: 1.5 N mm}
+  last:   {wheels: {t: 20}, inertia: 2e-6 kg m2, bearing: 0.5 N mm, drag: 1e-4 N m s/rad}
+revolutes:
+  - {pair: [frame, arm], axis: A}
+  - {pair: [arm, planet], axis: P}
+  - {pair: [frame, out], axis: A}
+  - {pair: [frame, last], axis: B}
+tooth_form: {form: triangular, half_angle: 30 deg, window: 0.5}
+gears: [{pair: [f, p]}, {pair: [q, o]}, {pair: [s, t]}]
+inputs: {arm: 1}
+loads: {last: -2 N mm}
+"""
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("text", "turns", "steps"), [("moon-triangular-inertia", 37, 4000), (PLANET, 2, None)])
+def test_stepping_finds_the_rate_of_separation_of_the_condition(text: str, turns: float, steps: int | None) -> None:
+    found = load(text).stepped_separation(turns=turns, steps=steps)
+    assert found.rate is not None
+    assert found.error is not None
+    assert found.error < 1e-4 * found.rate
+    assert found.rate == pytest.approx(found.predicted, abs=1.2 * found.error)
+    closed = load(text).separation_rates(turns=turns)
+    assert found.pair == closed.pair
+    assert found.at == pytest.approx(closed.first.at, abs=1e-4)  # type: ignore[union-attr]
 
 
 def test_a_hand_that_yields_swings_with_the_inertia_behind_it() -> None:

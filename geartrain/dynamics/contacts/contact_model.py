@@ -8,8 +8,9 @@ which appears in its driven side alone, from others before it; prescribed coordi
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
+from math import floor
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -59,6 +60,15 @@ class ContactPair:
     def row(self) -> tuple[int, ...]:
         """The coordinates of both sides."""
         return tuple(dict.fromkeys((*self.driven, *self.driver)))
+
+    def moved(self, angle: Floats) -> ContactPair:
+        """The pair where coordinates start at other angles; whole periods of its law are left out: they cost digits."""
+        S, q = (
+            start + sum(float(angle[at]) * value for at, value in form.items())
+            for start, form in zip(self.start, (self.driver, self.driven), strict=True)
+        )
+        whole = floor(S / self.front.table.period) * self.front.table.period
+        return replace(self, start=(S - whole, q - whole * self.front.slope))
 
     def could_determine(self, coordinate: int) -> bool:
         """True if one side alone holds the coordinate, and the row is never without it."""
@@ -173,6 +183,20 @@ class ContactModel:
             for each in near[d]:
                 near[each].update(other for other in near[d] if other < each)
         return tuple(tuple(sorted(each)) for each in near)
+
+    def elsewhere(self, share: float, angle: Floats | None = None, speed: Floats | None = None) -> ContactModel:
+        """The same train at a share of its speeds, from other angles (rad) and speeds (rad/s) on: tables are kept.
+
+        Where pairs that touch determine all, speeds are those of their laws at the angles: those of a step are means.
+        """
+        given = {at: share * value for at, value in self.given.items()}
+        pairs = self.pairs if angle is None else [pair.moved(angle) for pair in self.pairs]
+        start = self.start if speed is None else share * speed
+        if given and all(m >= 0 or at in given for at, m in zip(*self.order[:2], strict=True)):
+            start = None
+        found = replace(self, given=given, typical=share * self.typical, pairs=pairs, start=start)
+        found.__dict__.update(order=self.order, laws=self.laws, _functions=self._functions)
+        return found
 
     @property
     def falls(self) -> list[float]:

@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from geartrain.dynamics.contacts.contact_model import Bearing, ContactModel, ContactPair, Form, Spring, Stop
-from geartrain.dynamics.contacts.law_tables import TabledFunction, tabled_angle
+from geartrain.dynamics.contacts.law_tables import TOLERANCE, TabledFunction, tabled_angle
 from geartrain.dynamics.contacts.rubbing_arms import Arms, even_arms, pin_arms, tooth_arms
 from geartrain.dynamics.contacts.slack_pin import SlackPin
 from geartrain.dynamics.contacts.time_case import TimeCase
@@ -49,14 +49,15 @@ class TrainModel:
     problem   its rows, mean speeds, laws and drivers
     case      inertia, drag, what drives
     tree      its turning pairs
+    tolerance of the tables in which laws are read (driven pitches)
     """
 
     train: Train
     problem: MotionProblem
     case: TimeCase
     tree: Tree
-
     state: str | None = None
+    tolerance: float = TOLERANCE
 
     def typical(self, link: str) -> float:
         """Speed of a link in mean motion (rad/s)."""
@@ -223,7 +224,7 @@ class TrainModel:
             driver, driven = self._sides(circuit)
             if circuit.id not in self._start[0]:
                 law = self._even(circuit)
-                front = tabled_angle(law)
+                front = self._tabled(law)
                 arms = self._even_arms(circuit, law)
                 yield ContactPair(circuit.id, driver, driven, (0.0, 0.0), front, front, arms, restitution, True)
                 continue
@@ -240,14 +241,17 @@ class TrainModel:
             law = self._pins[circuit.id]
             clearance = self.case.clearance.get(circuit.id, 0.0)
             if not clearance:
-                front = tabled_angle(law)
+                front = self._tabled(law)
                 return front, front, pin_arms(law), law
             before, behind = SlackPin(law, clearance, -1), SlackPin(law, clearance, 1)
-            return tabled_angle(before), tabled_angle(behind), pin_arms(law), before
+            return self._tabled(before), self._tabled(behind), pin_arms(law), before
         mesh = self._meshes[circuit.id]
-        front = tabled_angle(mesh.law)
-        back = front if mesh.verdict.play <= 0 else tabled_angle(mesh.coast)
+        front = self._tabled(mesh.law)
+        back = front if mesh.verdict.play <= 0 else self._tabled(mesh.coast)
         return front, back, tooth_arms(mesh), mesh.law
+
+    def _tabled(self, law: TransmissionFunction) -> TabledFunction:
+        return tabled_angle(law, self.tolerance)
 
     def _sides(self, circuit: Circuit) -> tuple[Form, Form]:
         """Forward speeds of driver and driven side of a pair, seen from its carrier."""

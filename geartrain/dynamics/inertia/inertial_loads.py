@@ -55,7 +55,7 @@ def find_inertial_loads(
                 raise QuestionError(Problem(what, "inertias are in kg m2", f"write for example '{torque} N m'"))
     return InertialLoads(
         {each.link: each.value for each in inertias},
-        _with_drive({link: torque.si for link, torque in load.items()}, train, case, speeds),
+        loads_with_drive({link: torque.si for link, torque in load.items()}, train, case, speeds),
         {link: torque.si for link, torque in friction.items()},
         {link: part.drag.si for link, part in turning.items() if part.drag is not None},
         {link: tree.parent[link][0] for link in turning},
@@ -63,7 +63,7 @@ def find_inertial_loads(
     )
 
 
-def _with_drive(
+def loads_with_drive(
     loads: dict[str, float], train: Train, case: StateCase, speeds: Mapping[str, Fraction]
 ) -> dict[str, float]:
     """Loads, and at the crank what drives with a steady torque, where the crank is not the input that stays."""

@@ -13,6 +13,7 @@ from geartrain.cli.common import (
     INTERRUPTED,
     PICTURES,
     VERDICT,
+    Fast,
     File,
     Force,
     Json,
@@ -60,6 +61,7 @@ def run(
     workers: SingleWorker = None,
     scheduler: Scheduler = None,
     resume: Resume = False,
+    fast: Fast = None,
     plot: Annotated[
         Path | None,
         typer.Option("--plot", help="Draw the flow of power of one state, or its torque over the turns, to this file."),
@@ -84,7 +86,7 @@ def run(
     train = load(file)
     states = (state,) if state is not None else train.states or (None,)
     found = [train.torques(name) for name in states]
-    over_turn = None if turns is None else _over_turn(train, found, turns, samples, input_)
+    over_turn = None if turns is None else _over_turn(train, found, turns, samples, input_, fast)
     sound = all(each.verdict or each.verdict.kind == "unloaded" for each in found)
     if over_turn is not None:
         sound = bool(over_turn.verdict)
@@ -104,7 +106,9 @@ def run(
     raise typer.Exit(GOOD if sound else VERDICT)
 
 
-def _over_turn(train: GearTrain, found: Sequence[Torques], turns: str, samples: int, link: str | None) -> TorqueCycle:
+def _over_turn(
+    train: GearTrain, found: Sequence[Torques], turns: str, samples: int, link: str | None, fast: bool | None
+) -> TorqueCycle:
     """Torque over some turns in the one state that is loaded."""
     state = _loaded(train, found, "--turns").state
     if turns == "period":
@@ -115,7 +119,7 @@ def _over_turn(train: GearTrain, found: Sequence[Torques], turns: str, samples: 
     else:
         span = float(read_turns("--turns", turns))
     with progress("torques over the turns", patience=2.0) as bar:
-        return train.torques(state, turns=span, samples=samples, of=link, on_done=bar.advance)
+        return train.torques(state, turns=span, samples=samples, of=link, on_done=bar.advance, fast=fast)
 
 
 def _tried(

@@ -47,7 +47,7 @@ def couple_errors(
             lean[row] = slope[row, at]
             rate[row] = lean[row] * turning[row, at]
         # 1 for ideal teeth: not positive any more means past a dead centre
-        if not _solve(matrix, lean, gain, rate) > 0:
+        if not solve_coupled(matrix, lean, gain, rate) > 0:
             return DEAD_CENTRE
         for row in range(count):
             slope[row, at] = rate[row]
@@ -99,7 +99,7 @@ def _settle(
                     continue
                 for row in range(count):
                     slope[row] = tilt[row, k]
-                if _solve(matrix, slope, gain, residual) == 0:  # at a dead centre, which no step leaves
+                if solve_coupled(matrix, slope, gain, residual) == 0:  # at a dead centre, which no step leaves
                     residual[:] = 0.0
                 for row in range(count):
                     step[row, at] = residual[row]
@@ -158,7 +158,7 @@ def _ask(
 
 
 @kernel
-def _solve(matrix: Floats, slope: Floats, gain: Floats, right: Floats) -> float:
+def solve_coupled(matrix: Floats, slope: Floats, gain: Floats, right: Floats) -> float:
     """Solve J = I - slope gain of equation (5) for `right`, in place, by Gauss; returns its determinant."""
     size = len(right)
     determinant: float = 1.0

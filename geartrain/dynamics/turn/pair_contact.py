@@ -125,18 +125,18 @@ class BasicEfficiency(ContactLosses):
 class ToothFriction(ContactLosses):
     """Friction of real teeth: each contact passes (1 + f out)/(1 + f into), f < 0 where its flanks slide back.
 
-    sliding   coefficient at a speed of sliding over that of the pitch line, and the driver's speed over the input's
-    static    coefficient at rest; `differs`, True if that is another
+    sliding   coefficient in motion, at any speed; or at a speed of sliding over that of the pitch line, and the
+              driver's speed over the input's
+    static    coefficient at rest
     """
 
-    sliding: Callable[[Floats, Floats], Floats | float]
+    sliding: float | Callable[[Floats, Floats], Floats]
     static: float
-    differs: bool
 
     @property
     def starts_harder(self) -> bool:
         """True if there is another coefficient at rest."""
-        return self.differs
+        return self.sliding != self.static
 
     def torques(
         self, tau: Floats, law: TransmissionFunction | None, at: DriverState, way: Floats, static: bool
@@ -145,7 +145,7 @@ class ToothFriction(ContactLosses):
         assert law is not None
         sliding, into, out = law.rubbing(at.S)
         touching = ~np.isnan(out)
-        f = (self.static if static else self.sliding(sliding, np.abs(at.turning))) * way
+        f = (self.static if static else self._coefficient(sliding, at.turning)) * way
         with np.errstate(divide="ignore", invalid="ignore"):
             into, out = 1 + f * into, 1 + f * out
             # the side that drives: a contact whose force it cannot press together locks the pair
@@ -157,6 +157,9 @@ class ToothFriction(ContactLosses):
         share = np.where((count > 0) & ~locks, share, 1.0)
         barred = locks if locks.any() else None
         return ContactTorques(np.where(way > 0, share, 1.0), tau * np.where(way < 0, share, 1.0), barred)
+
+    def _coefficient(self, sliding: Floats, turning: Floats) -> Floats | float:
+        return self.sliding(sliding, np.abs(turning)) if callable(self.sliding) else self.sliding
 
 
 @dataclass(frozen=True)

@@ -20,11 +20,14 @@ if TYPE_CHECKING:
     from geartrain.numerics.arrays import Bools, Floats
     from geartrain.numerics.block_triangular import Block
 
-_MOST_TRIED = 7  # two-sided torques of a block whose patterns are all tried: 128 small solutions a position
+MOST_TRIED = 7  # two-sided torques of a block whose patterns are all tried: 128 small solutions a position
 _MOST_ROUNDS = 30  # of the iteration where there are more
 _MOST_LAYERS = 16  # solutions kept a position
-_SINGULAR = 1e-13  # of the product of its rows' lengths: a determinant so small is 0
-_SAME = 1e-8  # of the greatest torque: solutions so near are one
+SINGULAR = 1e-13  # of the product of its rows' lengths: a determinant so small is 0
+SAME = 1e-8  # of the greatest torque: solutions so near are one
+AT_REST = 1e-12  # of the fastest speed: slower stands still
+FAINT = 1e-9  # of the greatest torque through a pair: less presses on no flank
+ROUNDS = 6  # of finding flanks and speeds that agree
 
 
 @dataclass(frozen=True)
@@ -98,13 +101,13 @@ def _block_trials(columns: Sequence[ColumnPieces], block: Block, layer: BalanceL
     own = [columns[at] for at in block.columns]
     found: list[_Trial] = []
     two_sided = sum(len(each.sides) > 1 for each in own)
-    if two_sided > _MOST_TRIED:
+    if two_sided > MOST_TRIED:
         return _iterated(own, block, layer), False
     for sides in product(*(each.sides for each in own)):
         values, valid = _solve(own, block, layer, sides)
         for other in found:
             if (both := valid & other.valid).any():
-                near = np.abs(values - other.values) <= _SAME * np.max(np.abs(values), axis=0, initial=0.0)
+                near = np.abs(values - other.values) <= SAME * np.max(np.abs(values), axis=0, initial=0.0)
                 valid &= ~(both & near.all(axis=0))
         if valid.any():
             found.append(_Trial(layer, sides, values, valid))
@@ -157,7 +160,7 @@ def _eliminated(
     regular = np.zeros(size, bool)
     if len(block.rows) == len(block.columns):
         lengths = np.linalg.norm(matrices, axis=2).prod(axis=1)
-        regular = np.abs(np.linalg.det(matrices)) > _SINGULAR * lengths
+        regular = np.abs(np.linalg.det(matrices)) > SINGULAR * lengths
         values[regular] = np.linalg.solve(matrices[regular], right[regular])
     if not regular.all():
         values[~regular] = np.linalg.pinv(matrices[~regular]) @ right[~regular]

@@ -76,12 +76,14 @@ class PositionMotion:
         return -1 if train.speeds[train.lead] < 0 else 1
 
     @cached_property
-    def _senses(self) -> Floats:
-        return np.array([float(self.way * self.motion.train.signs.get(link, 1)) for link in self.links])[:, None]
+    def senses(self) -> Floats:
+        """Of each link: 1 or -1, that of its axis over the input's own."""
+        return np.array([float(self.way * self.motion.train.signs.get(link, 1)) for link in self.links])
 
     @cached_property
-    def _means(self) -> Floats:
-        return np.array([float(self.motion.train.ratio(link)) for link in self.links])[:, None]
+    def means(self) -> Floats:
+        """Mean speed of each link over the input's."""
+        return np.array([float(self.motion.train.ratio(link)) for link in self.links])
 
     def at(self, turns: Floats, coasting: Mapping[str, Bools]) -> LinkMotion:
         """Speeds and angles at some positions, at most a chunk of them.
@@ -97,7 +99,7 @@ class PositionMotion:
         error = dict(zip(self._columns, own, strict=True))
         phase = InputPhase(turns)
         angles = {name: composition.driver_angle(each, phase, error) for name, each in self.sources.items()}
-        return LinkMotion(turns, self._senses * (self._means + found.rate), angles)
+        return LinkMotion(turns, self.senses[:, None] * (self.means[:, None] + found.rate), angles)
 
     def coasting_all_along(self, pairs: Collection[str]) -> ErrorComposition:
         """The composition with the coast flanks of some pairs touching everywhere."""

@@ -97,9 +97,9 @@ def _tooth_friction(setting: LoadCase, circuit: Circuit, source: PairErrorSource
     declared = setting.train.friction_of(setting.gears[circuit.id])
     static = coefficient if declared is None else declared.static
     if law is None:
-        return ToothFriction(lambda sliding, turning: coefficient, static, static != coefficient)
+        return ToothFriction(coefficient, static)
     pitch_line = pitch_line_speed(setting, circuit, mesh).known() / (source.mean or 1.0)
-    return ToothFriction(lambda sliding, turning: PairFriction(law, pitch_line * turning)(sliding), static, True)
+    return ToothFriction(lambda sliding, turning: PairFriction(law, pitch_line * turning)(sliding), static)
 
 
 class BearingTorques(NamedTuple):

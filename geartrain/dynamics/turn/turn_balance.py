@@ -5,12 +5,19 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple, Protocol
 
 import numpy as np
 
 from geartrain.dynamics.turn.pair_contact import DriverState, PairForce
-from geartrain.dynamics.turn.position_balance import BalanceLayer, ColumnPieces, solve_positions
+from geartrain.dynamics.turn.position_balance import (
+    AT_REST,
+    FAINT,
+    ROUNDS,
+    BalanceLayer,
+    ColumnPieces,
+    solve_positions,
+)
 from geartrain.dynamics.turn.position_torques import PositionTorques
 from geartrain.numerics.named_arrays import joined, some
 
@@ -23,9 +30,6 @@ if TYPE_CHECKING:
     from geartrain.numerics.arrays import Bools, Floats, Indices
 
 _CHUNK = 8192  # positions worked on at once
-_ROUNDS = 6  # of finding flanks and speeds that agree
-_AT_REST = 1e-12  # of the fastest speed: slower stands still
-_FAINT = 1e-9  # of the greatest torque through a pair in a chunk: less presses on no flank
 
 
 class _State(NamedTuple):
@@ -41,6 +45,13 @@ class _State(NamedTuple):
     static: bool
 
 
+class PositionKernel(Protocol):
+    """What answers for most positions in less time."""
+
+    def at(self, turns: Floats, static: bool) -> tuple[Bools, PositionTorques]:
+        """At which of some positions it answers, and everything at all of them."""
+
+
 @dataclass
 class TurnBalance:
     """A train under load, to be asked at positions.
@@ -50,6 +61,7 @@ class TurnBalance:
     loads      by link, about its own axis; `bearings`, friction and drag by link
     complete   False where not all patterns of power flow were tried
     on_done    called with the number of positions that have been worked out since
+    compiled   asked first, where it is there
     """
 
     setting: LoadCase
@@ -60,6 +72,7 @@ class TurnBalance:
     bearings: Mapping[str, BearingTorques]
     complete: bool = True
     on_done: Callable[[int], object] | None = None
+    compiled: PositionKernel | None = None
 
     @property
     def pairs(self) -> tuple[str, ...]:
@@ -80,16 +93,17 @@ class TurnBalance:
     def shared(self) -> tuple[str, ...]:
         """Pairs that the balance leaves open."""
         open_ = [block for block in self.balance.parts if len(block.columns) > len(block.rows)]
-        return tuple(mesh.id for block in open_ for at in block.columns for mesh in self._columns[at].meshes)
+        return tuple(mesh.id for block in open_ for at in block.columns for mesh in self.columns[at].meshes)
 
     @cached_property
-    def _columns(self) -> tuple[TorqueUnknown, ...]:
+    def columns(self) -> tuple[TorqueUnknown, ...]:
+        """The unknowns of the balance."""
         return self.balance.columns
 
     @cached_property
-    def _of_pair(self) -> Mapping[str, int]:
+    def of_pair(self) -> Mapping[str, int]:
         """The column of each pair."""
-        return {mesh.id: at for at, column in enumerate(self._columns) for mesh in column.meshes}
+        return {mesh.id: at for at, column in enumerate(self.columns) for mesh in column.meshes}
 
     @cached_property
     def starts_harder(self) -> bool:
@@ -106,8 +120,23 @@ class TurnBalance:
         static   with the friction of what is about to move, in place of that of what moves
         """
         size = min(_CHUNK, self.motion.composition.chunk)
-        parts = [self._chunk(turns[start : start + size], static) for start in range(0, max(len(turns), 1), size)]
+        parts = []
+        for start in range(0, max(len(turns), 1), size):
+            parts.append(self._asked(turns[start : start + size], static))
+            if self.on_done is not None:
+                self.on_done(len(parts[-1].turns))
         return joined(parts)
+
+    def _asked(self, turns: Floats, static: bool) -> PositionTorques:
+        """By the kernel, and what it leaves by arrays."""
+        if self.compiled is None:
+            return self._chunk(turns, static)
+        settled, found = self.compiled.at(turns, static)
+        if settled.all():
+            return found
+        rest = self._chunk(turns[~settled], static)
+        order = np.argsort(np.concatenate([np.flatnonzero(settled), np.flatnonzero(~settled)]))
+        return some(joined([some(found, settled), rest]), order)
 
     @cached_property
     def flanked(self) -> tuple[str, ...]:
@@ -124,7 +153,7 @@ class TurnBalance:
         coasting, resting = (np.zeros((len(names), len(turns)), bool) for names in (self.flanked, self.bearings))
         settled: list[tuple[Indices, PositionTorques]] = []
         way = np.zeros((len(self.bearings), len(turns)))
-        for round_ in range(_ROUNDS):
+        for round_ in range(ROUNDS):
             touching = {name: row for name, row in zip(self.flanked, coasting, strict=True) if row.any()}
             state = self._state(self.motion.at(turns[left], touching), resting, static)
             layers = self._solved(state)
@@ -141,22 +170,20 @@ class TurnBalance:
             if not len(left):
                 break
         settled.append((left, some(first, left)._replace(adrift=np.ones(len(left), bool))))
-        if self.on_done is not None:
-            self.on_done(len(turns))
         order = np.argsort(np.concatenate([at for at, _ in settled]))
         return some(joined([part for _, part in settled]), order)
 
     def _coasting(self, best: BalanceLayer) -> Bools:
         """Where pairs press on their coast flanks, (pairs, n)."""
-        pressed = best.values[[self._of_pair[name] for name in self.flanked]]
-        faint = _FAINT * np.max(np.abs(best.values), axis=0, initial=0.0)
+        pressed = best.values[[self.of_pair[name] for name in self.flanked]]
+        faint = FAINT * np.max(np.abs(best.values), axis=0, initial=0.0)
         found: Bools = best.valid & (pressed < -faint)
         return found
 
     def _state(self, motion: LinkMotion, resting: Bools, static: bool) -> _State:
         contacts = {name: self._contact_state(each, motion) for name, each in self.contacts.items()}
         forces: dict[str, dict[int, PairForce]] = {}
-        for column in self._columns:
+        for column in self.columns:
             if column.meshes:
                 lead = self.contacts[column.meshes[0].id]
                 sides = (1, -1) if lead.two_sided else (1,)
@@ -171,8 +198,8 @@ class TurnBalance:
         """Speed of a link seen from another, about the parallels' direction; exactly 0 where it stands still."""
         rows = self.motion.links
         found = motion.speeds[rows[link]] - motion.speeds[rows[carrier]]
-        scale = np.max(np.abs(motion.speeds), initial=0.0)
-        return np.where(np.abs(found) <= _AT_REST * scale, 0.0, found)
+        scale = np.max(np.abs(motion.speeds), axis=0, initial=0.0)
+        return np.where(np.abs(found) <= AT_REST * scale, 0.0, found)
 
     def _own_speed(self, motion: LinkMotion, link: str) -> Floats:
         """Speed of a link about its own axis."""
@@ -190,7 +217,7 @@ class TurnBalance:
         for link in self.bearings:
             for bearer, rubbing in self._friction(state, link):
                 known[rows.index(bearer)] += rubbing
-        pieces = [self._pieces(column, state) for column in self._columns]
+        pieces = [self._pieces(column, state) for column in self.columns]
         layers, complete = solve_positions(pieces, self.balance.parts, known)
         self.complete &= complete
         return layers
@@ -244,7 +271,7 @@ class TurnBalance:
         if len(layers) == 1:
             return layers[0]
         speeds = np.array([self._own_speed(state.motion, link) for link in self.asked])
-        power = [way * (each.values[self._asked_columns] * speeds).sum(axis=0) for each in layers]
+        power = [way * (each.values[self.asked_columns] * speeds).sum(axis=0) for each in layers]
         which = np.argmin([np.where(each.valid, p, np.inf) for each, p in zip(layers, power, strict=True)], axis=0)
         found = layers[0].copy()
         for at, layer in enumerate(layers[1:], 1):
@@ -253,15 +280,16 @@ class TurnBalance:
         return found
 
     @cached_property
-    def _asked_columns(self) -> list[int]:
-        first = next(at for at, column in enumerate(self._columns) if not column.meshes)
+    def asked_columns(self) -> list[int]:
+        """The columns of the torques asked for."""
+        first = next(at for at, column in enumerate(self.columns) if not column.meshes)
         return list(range(first, first + len(self.asked)))
 
     # ------------------------------------------------------------------------------------------------------- answers
 
     def _told(self, state: _State, layers: Sequence[BalanceLayer], best: BalanceLayer) -> PositionTorques:
         motion, size = state.motion, len(state.motion.turns)
-        torque = np.where(best.valid, best.values[self._asked_columns], np.nan)
+        torque = np.where(best.valid, best.values[self.asked_columns], np.nan)
         worst = self._extreme(layers, state, -1)
         speeds = np.array([self._own_speed(motion, link) for link in self.outside])
         acting = np.zeros_like(speeds)
@@ -280,12 +308,12 @@ class TurnBalance:
             np.zeros(size, bool),
             np.sum([each.valid for each in layers], axis=0).astype(float),
             torque,
-            np.where(worst.valid, worst.values[self._asked_columns], np.nan),
+            np.where(worst.valid, worst.values[self.asked_columns], np.nan),
             speeds,
             acting * speeds,
             _stack([*(loss for loss, _ in flows), *rubbed], size),
             _stack([*(passed for _, passed in flows), *rubbed], size),
-            _stack([best.values[self._of_pair[name]] for name in self.pairs], size),
+            _stack([best.values[self.of_pair[name]] for name in self.pairs], size),
             _stack([state.contacts[name].turning for name in self.pairs], size),
             _stack(slipping, size),
             _stack([each for each in kinks if each is not None], size),
@@ -293,8 +321,8 @@ class TurnBalance:
 
     def _flow(self, name: str, best: BalanceLayer, state: _State) -> tuple[Floats, Floats]:
         """What a pair loses, and what its two sides put into it, in its carrier's frame."""
-        column = self._columns[self._of_pair[name]]
-        pressed = best.values[self._of_pair[name]]
+        column = self.columns[self.of_pair[name]]
+        pressed = best.values[self.of_pair[name]]
         forces = state.forces[column.meshes[0].id]
         circuit = self.contacts[name].circuit
         powers = []
